@@ -1,0 +1,74 @@
+#include "knead/spline/spline.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace knead {
+namespace {
+
+template <int D>
+std::array<int, D> net_of(const std::array<KnotVector, D>& knots) {
+  std::array<int, D> net;
+  for (std::size_t d = 0; d < D; ++d) net[d] = knots[d].count();
+  return net;
+}
+
+/// "control point 17" on a curve, "control point (3, 4)" on a surface.
+template <int D>
+std::string name_of(int index, const std::array<int, D>& net) {
+  std::string text;
+  for (int d = D - 1; d >= 0; --d) {
+    const int n = net[static_cast<std::size_t>(d)];
+    text = std::to_string(index % n) + (text.empty() ? "" : ", ") + text;
+    index /= n;
+  }
+  return D == 1 ? "control point " + text : "control point (" + text + ")";
+}
+
+}  // namespace
+
+template <int D>
+Expected<Spline<D>> Spline<D>::create(std::array<KnotVector, D> knots, Points control_points,
+                                      std::vector<double> weights) {
+  const std::array<int, D> net = net_of<D>(knots);
+  Eigen::Index expected = 1;
+  for (int n : net) expected *= n;
+  if (control_points.rows() != expected) {
+    return input_error(fmt::format("{} control points do not fit the knots", control_points.rows()), {},
+                       fmt::format("the knots ask for {}", expected));
+  }
+  for (Eigen::Index i = 0; i < expected; ++i) {
+    if (!control_points.row(i).allFinite()) {
+      return input_error("a coordinate is not a finite number", name_of<D>(static_cast<int>(i), net));
+    }
+  }
+  if (!weights.empty()) {
+    if (static_cast<Eigen::Index>(weights.size()) != expected) {
+      return input_error(fmt::format("{} weights do not fit {} control points", weights.size(), expected));
+    }
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (!std::isfinite(weights[i])) {
+        return input_error(fmt::format("the weight {} is not a finite number", weights[i]),
+                           name_of<D>(static_cast<int>(i), net));
+      }
+    }
+  }
+  return Spline(std::move(knots), std::move(control_points), std::move(weights));
+}
+
+template <int D>
+std::array<int, D> Spline<D>::net() const {
+  return net_of<D>(knots_);
+}
+
+template <int D>
+Expected<Spline<D>> Spline<D>::with_control_points(Points control_points) const {
+  return create(knots_, std::move(control_points), weights_);
+}
+
+template class Spline<1>;
+template class Spline<2>;
+template class Spline<3>;
+
+}  // namespace knead
