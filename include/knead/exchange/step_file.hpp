@@ -1,0 +1,121 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "knead/base/error.hpp"
+#include "knead/spline/spline.hpp"
+
+namespace knead {
+
+/// One B-spline surface entity of a STEP file.
+struct StepSurface {
+  std::string id;    ///< "#123"
+  std::string name;  ///< decoded label of the representation item; empty if it has none
+  std::string unit;  ///< length unit of its coordinates as in `StepLengthUnit::name`; "unknown" if undecidable
+
+  /// u is the outer list of control points (slow), v the inner one (fast). Numbers are the correctly rounded doubles of
+  /// the file's decimals, in the file's units and in the frame of the surface's own representation.
+  Surface surface;
+
+  /// Geometrically closed in u, in v: S(a, ·) and S(b, ·) are the same curve. The two boundary isocurves are split at
+  /// their ends into control points (and weights) by the basis at the first and last parameter; they are the same curve
+  /// where these agree to 1e-9 of the net's bounding-box diagonal, and do not all agree along one point. The file's own
+  /// u_closed and v_closed flags are often wrong and not used.
+  std::array<bool, 2> closed = {false, false};
+
+  /// Some face on this surface has a boundary edge that leaves the four boundary isocurves of the surface, or its edges
+  /// leave part of the natural boundary out (see trimming.hpp for the test and its tolerance). Without faces: false.
+  bool trimmed = false;
+};
+
+/// A B-spline surface entity that could not be made a `Surface`; the rest of the file is usable all the same.
+struct StepUnreadableSurface {
+  std::string id;
+  Error reason;
+};
+
+/// AXIS2_PLACEMENT_3D as the file gives it: directions are not normalised; an omitted axis is (0, 0, 1) and an omitted
+/// reference direction (1, 0, 0) (ISO 10303-42, 4.3.10).
+struct StepPlacement {
+  Point origin = Point::Zero();
+  Point axis = Point::UnitZ();
+  Point ref_direction = Point::UnitX();
+};
+
+/// One placement of a component in an assembly: a NEXT_ASSEMBLY_USAGE_OCCURRENCE with its
+/// CONTEXT_DEPENDENT_SHAPE_REPRESENTATION, or a MAPPED_ITEM. The component is moved so that `frame` (given in the
+/// child) comes to lie on `placement` (given in the parent). Nothing is applied to the surfaces.
+struct StepInstance {
+  std::string id;                          ///< "#123", of the NEXT_ASSEMBLY_USAGE_OCCURRENCE or MAPPED_ITEM
+  std::string name;                        ///< its label
+  std::string parent;                      ///< product name of the assembly; empty if the file does not lead to one
+  std::string child;                       ///< product name of the component; empty likewise
+  std::optional<StepPlacement> placement;  ///< where the component's frame goes, in the parent; none if not given
+  std::optional<StepPlacement> frame;      ///< the component's own frame
+};
+
+/// The length unit of one representation context.
+struct StepLengthUnit {
+  std::string context;  ///< "#123" of the GLOBAL_UNIT_ASSIGNED_CONTEXT
+  std::string name;     ///< SI: "m", "mm", "um", …; conversion based: its name in lower case, "inch", "foot", …
+  double metres = 0;    ///< length of one unit in metres; 0 if the file does not say
+};
+
+/// New control points of one surface, in the order of `Surface::control_points`.
+struct StepEdit {
+  std::string id;  ///< "#123"
+  Points control_points;
+};
+
+/// A STEP file (ISO 10303-21 exchange structure) whose records remember their bytes, and its B-spline surfaces.
+///
+/// Reading changes nothing: the bytes are kept. Writing is surgical: only what must differ does (docs/step.md).
+/// Immutable; copies share the data; const access is thread-safe. Cost of reading: linear in the size of the file.
+class StepFile {
+ public:
+  /// Reads and parses a file. Errors (input): it cannot be read; it is not an exchange structure, with line and entity.
+  [[nodiscard]] static Expected<StepFile> read(const std::filesystem::path& path);
+  /// Parses bytes; `name` stands for the file in errors.
+  [[nodiscard]] static Expected<StepFile> parse(std::string bytes, std::string name);
+
+  [[nodiscard]] const std::string& name() const;
+  /// The input, byte for byte.
+  [[nodiscard]] const std::string& bytes() const;
+  /// The first FILE_SCHEMA name, as in "AUTOMOTIVE_DESIGN"; empty if the header has none.
+  [[nodiscard]] const std::string& schema() const;
+
+  /// In the order of the file.
+  [[nodiscard]] const std::vector<StepSurface>& surfaces() const;
+  [[nodiscard]] const std::vector<StepUnreadableSurface>& unreadable_surfaces() const;
+  [[nodiscard]] const std::vector<StepInstance>& instances() const;
+  /// One per context that assigns a length unit, in the order of the file.
+  [[nodiscard]] const std::vector<StepLengthUnit>& length_units() const;
+  /// The distinct names of `length_units`, joined by ", " (nearly always one name); "unknown" where there is none.
+  [[nodiscard]] std::string length_unit() const;
+  /// The surface with this id, or null.
+  [[nodiscard]] const StepSurface* find_surface(const std::string& id) const;
+
+  /// The bytes of this file with the control points of some surfaces replaced and every other byte as it was.
+  ///
+  /// A coordinate is rewritten, to 17 significant digits, only if its bits change. A point that anything but this
+  /// surface refers to keeps its record and the surface refers to a new one; references shared within the surface are
+  /// split only if their positions come to differ. The result is parsed again and compared bit for bit before it is
+  /// returned. No edits, or edits that change nothing, give the input bytes.
+  /// Errors: unknown or repeated id, wrong number of control points, a coordinate that is not finite (input); the
+  /// self-check fails (numerical).
+  [[nodiscard]] Expected<std::string> with_control_points(std::span<const StepEdit> edits) const;
+
+  struct Data;  ///< private to the exchange room
+
+ private:
+  explicit StepFile(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace knead
