@@ -1,0 +1,44 @@
+# Knead's front door. Every target does all its own set-up; a second call does nothing twice.
+# The work is done by CMake presets (CMakePresets.json) and the scripts in scripts/.
+
+.DEFAULT_GOAL := help
+.PHONY: help setup build run test asan noexcept format format-check lint check-long bench clean
+
+help: ## Show this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+setup: ## Install the Debian packages that building and testing need
+	@scripts/setup.sh test
+
+build: ## Build the command line: build/release/knead
+	@scripts/build.sh
+
+run: ## Sculpt the sample bonnet and write the result to out/
+	@scripts/run.sh
+
+test: ## Build everything and run all tests
+	@scripts/test.sh release
+
+asan: ## Run all tests under the address and undefined-behaviour sanitizers
+	@scripts/test.sh asan
+
+noexcept: ## Build the core without exceptions and link a program against it
+	@scripts/noexcept.sh
+
+format: ## Format all C++ sources in place
+	@scripts/format.sh
+
+format-check: ## Fail where a C++ source is not formatted
+	@scripts/format.sh --check
+
+lint: ## Run clang-tidy 19 over the library and the command line
+	@scripts/lint.sh
+
+check-long: ## The checks that take longer than CI should
+	@scripts/check_long.sh
+
+bench: ## Build and run the benchmarks
+	@scripts/bench.sh
+
+clean: ## Remove build/ and out/
+	@rm -rf build out

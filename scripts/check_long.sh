@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# The checks that take longer than CI should: all tests, repeated in random order with and without sanitizers.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+export GTEST_SHUFFLE=1 GTEST_REPEAT=3
+scripts/test.sh release
+scripts/test.sh asan
+scripts/noexcept.sh
+scripts/lint.sh

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Installs the Debian packages a goal needs, and only those that are missing.
+#   scripts/setup.sh build | test | bench | format | lint
+set -euo pipefail
+
+build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev)
+# The benchmarks are built with the tests, so that they keep compiling. OCCT is the oracle the tests compare STEP files
+# with; the product does not use it.
+tests=(libgtest-dev libbenchmark-dev libocct-data-exchange-dev)
+
+case "${1:-}" in
+  build) needed=("${build[@]}") ;;
+  test) needed=("${build[@]}" "${tests[@]}") ;;
+  bench) needed=("${build[@]}" libbenchmark-dev) ;;
+  format) needed=(clang-format) ;;
+  lint) needed=("${build[@]}" "${tests[@]}" clang-tidy-19) ;;
+  *) echo "usage: scripts/setup.sh build|test|bench|format|lint" >&2; exit 2 ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "setup: this is no Debian system; these packages, by Debian's names, must be there: ${needed[*]}" >&2
+  exit 0
+fi
+
+missing=()
+for package in "${needed[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+install=(apt-get install -y --no-install-recommends "${missing[@]}")
+if [ "$(id -u)" -eq 0 ]; then
+  as_root=()
+elif command -v sudo >/dev/null && { sudo -n true 2>/dev/null || [ -t 0 ]; }; then
+  as_root=(sudo)
+else
+  echo "setup: packages are missing and this user can neither be root nor use sudo. As root, run:" >&2
+  echo "  ${install[*]}" >&2
+  exit 1
+fi
+
+echo "setup: installing ${missing[*]}"
+# Package lists are fetched only where the present ones do not lead to every package.
+if ! apt-get install -s --no-install-recommends "${missing[@]}" >/dev/null 2>&1; then
+  "${as_root[@]}" apt-get update -q
+fi
+install_now() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}" </dev/null; }
+# Lists may be old enough to name versions that the mirror no longer holds.
+install_now || { "${as_root[@]}" apt-get update -q && install_now; }

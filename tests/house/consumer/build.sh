@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Installs a build of Knead into a directory of its own, builds the outside project against it and runs it.
+#   build.sh BUILD_DIR WORK_DIR [COMPILER_FLAGS...]
+set -euo pipefail
+
+source_dir=$(dirname "$(realpath "$0")")
+build_dir=$(realpath "$1")
+work_dir=$(realpath -m "$2")
+shift 2
+rm -rf "$work_dir"
+cmake --install "$build_dir" --prefix "$work_dir/prefix" >/dev/null
+cmake -S "$source_dir" -B "$work_dir/build" -G Ninja -DCMAKE_PREFIX_PATH="$work_dir/prefix" -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_CXX_FLAGS="$*" >/dev/null
+cmake --build "$work_dir/build"
+"$work_dir/build/consumer"

@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "house/rules.hpp"
+
+namespace knead::house {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(House, KeepsItsRules) {
+  for (const std::string& violation : violations(KNEAD_SOURCE_DIR)) ADD_FAILURE() << violation;
+}
+
+TEST(House, IsReallyInspected) { EXPECT_TRUE(fs::exists(fs::path(KNEAD_SOURCE_DIR) / "include/knead/base/error.hpp")); }
+
+/// A small tree of sources that is written, inspected and removed.
+class Tree : public testing::Test {
+ protected:
+  Tree() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::temp_directory_path() / ("knead-house-" + std::to_string(getpid()) + "-" + test->name());
+    fs::remove_all(root_);
+    write("include/knead/base/error.hpp", "#pragma once\n");
+    write("include/knead/spline/basis.hpp", "// Why.\n#pragma once\n#include \"knead/base/error.hpp\"\n");
+    write("src/spline/basis.cpp", "#include \"knead/spline/basis.hpp\"\n\n#include \"detail.hpp\"\n");
+    write("src/spline/detail.hpp", "#pragma once\n// No throw here, nor a \"try\".\nconst char* s = \"catch\";\n");
+  }
+  ~Tree() override { fs::remove_all(root_); }
+
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((root_ / name).parent_path());
+    std::ofstream(root_ / name) << text;
+  }
+
+  /// Expects exactly one violation, and that it is this one.
+  void expect_only(const std::string& expected) {
+    const auto found = violations(root_);
+    ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
+    EXPECT_EQ(found.front(), expected);
+  }
+
+  fs::path root_;
+};
+
+TEST_F(Tree, InOrderIsAccepted) { EXPECT_EQ(violations(root_), std::vector<std::string>{}); }
+
+TEST_F(Tree, RoomThatIncludesARoomBuiltOnItIsFound) {
+  write("src/base/error.cpp", "#include \"knead/base/error.hpp\"\n#include \"knead/spline/basis.hpp\"\n");
+  expect_only("src/base/error.cpp:2: the room base must not include the room spline, which is built on it");
+}
+
+TEST_F(Tree, HeaderThatIncludesARoomBuiltOnItIsFound) {
+  write("include/knead/base/error.hpp", "#pragma once\n#  include \"knead/spline/basis.hpp\"\n");
+  expect_only("include/knead/base/error.hpp:2: the room base must not include the room spline, which is built on it");
+}
+
+TEST_F(Tree, UnknownRoomIsFound) {
+  write("include/knead/attic/box.hpp", "#pragma once\n");
+  expect_only("include/knead/attic: there is no room of this name");
+}
+
+TEST_F(Tree, FileOutsideOfEveryRoomIsFound) {
+  write("src/stray.cpp", "\n");
+  expect_only("src/stray.cpp: the file stands outside of every room");
+}
+
+TEST_F(Tree, IncludeOfAnApplicationIsFound) {
+  write("src/spline/detail.hpp", "#pragma once\n#include \"../../apps/knead/options.hpp\"\n");
+  write("apps/knead/options.hpp", "#pragma once\n");
+  expect_only("src/spline/detail.hpp:2: \"../../apps/knead/options.hpp\" is no file of this room");
+}
+
+TEST_F(Tree, IncludeOfAnOracleIsFound) {
+  write("src/spline/detail.hpp", "#pragma once\n#include <Geom_BSplineSurface.hxx>\n");
+  expect_only("src/spline/detail.hpp:2: <Geom_BSplineSurface.hxx> belongs to the programs on top, not to a room");
+}
+
+TEST_F(Tree, IncludeThatDoesNotExistIsFound) {
+  write("src/spline/detail.hpp", "#pragma once\n#include \"knead/base/missing.hpp\"\n");
+  expect_only("src/spline/detail.hpp:2: \"knead/base/missing.hpp\" does not exist");
+}
+
+TEST_F(Tree, SourceThatIncludesItsHeaderLateIsFound) {
+  write("src/spline/basis.cpp", "#include <vector>\n#include \"knead/spline/basis.hpp\"\n");
+  expect_only("src/spline/basis.cpp:1: the first include is not the file's own header");
+}
+
+TEST_F(Tree, ThrowInTheCoreIsFound) {
+  write("src/spline/detail.hpp", "#pragma once\n/* throw\n*/ inline void f() { throw 1; }\n");
+  expect_only("src/spline/detail.hpp:3: the core must not throw");
+}
+
+TEST_F(Tree, ThrowOutsideOfTheCoreIsAllowed) {
+  write("apps/knead/main.cpp", "int main() { throw 1; }\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+}
+
+TEST_F(Tree, HeaderWithoutPragmaOnceIsFound) {
+  write("tests/support/help.hpp", "#ifndef A\n#define A\n#endif\n");
+  expect_only("tests/support/help.hpp:1: the header does not begin with #pragma once");
+}
+
+TEST_F(Tree, LongFileIsFoundAndTheLongestAllowedIsNot) {
+  std::string text;
+  for (int i = 0; i < 400; ++i) text += "\n";
+  write("tests/base/long_test.cpp", text);
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+  write("tests/base/long_test.cpp", text + "\n");
+  expect_only("tests/base/long_test.cpp: 401 lines; 400 are allowed");
+}
+
+}  // namespace
+}  // namespace knead::house

@@ -1,0 +1,178 @@
+#include "house/rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <optional>
+#include <regex>
+#include <sstream>
+
+namespace knead::house {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 8> rooms = {"base",  "spline", "gramian",  "energy",
+                                                   "solve", "sculpt", "exchange", "session"};
+constexpr int longest_file = 400;
+
+std::optional<std::size_t> floor_of(std::string_view room) {
+  const auto at = std::ranges::find(rooms, room);
+  if (at == rooms.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - rooms.begin());
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+bool is_source(const fs::path& file) {
+  const auto extension = file.extension();
+  return extension == ".hpp" || extension == ".cpp" || extension == ".h" || extension == ".ts";
+}
+
+std::vector<fs::path> sources_below(const fs::path& directory) {
+  std::vector<fs::path> files;
+  if (!fs::exists(directory)) return files;
+  for (auto entry = fs::recursive_directory_iterator(directory); entry != fs::recursive_directory_iterator(); ++entry) {
+    if (entry->is_directory() && entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+    if (entry->is_regular_file() && is_source(entry->path())) files.push_back(entry->path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+/// The line without comments, string literals and character literals; `in_comment` carries over block comments.
+std::string code_of(const std::string& line, bool& in_comment) {
+  std::string code;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (in_comment) {
+      if (line.compare(i, 2, "*/") == 0) in_comment = false, ++i;
+    } else if (line.compare(i, 2, "//") == 0) {
+      break;
+    } else if (line.compare(i, 2, "/*") == 0) {
+      in_comment = true;
+      ++i;
+    } else if (line[i] == '"' ||
+               (line[i] == '\'' && (i == 0 || !std::isalnum(static_cast<unsigned char>(line[i - 1]))))) {
+      const char quote = line[i];
+      for (++i; i < line.size() && line[i] != quote; ++i) {
+        if (line[i] == '\\') ++i;
+      }
+    } else {
+      code += line[i];
+    }
+  }
+  return code;
+}
+
+class Inspection {
+ public:
+  explicit Inspection(fs::path root) : root_(std::move(root)) {}
+
+  std::vector<std::string> run() {
+    for (const char* part : {"include/knead", "src"}) inspect_rooms(root_ / part);
+    for (const char* part : {"include", "src", "apps", "bindings", "tests", "bench", "examples", "web/src"}) {
+      for (const fs::path& file : sources_below(root_ / part)) inspect_form(file);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void report(const fs::path& file, std::size_t line, const std::string& what) {
+    std::ostringstream text;
+    text << fs::relative(file, root_).generic_string();
+    if (line > 0) text << ":" << line;
+    text << ": " << what;
+    found_.push_back(text.str());
+  }
+
+  void inspect_rooms(const fs::path& part) {
+    if (!fs::exists(part)) return;
+    for (const auto& entry : fs::directory_iterator(part)) {
+      const std::string name = entry.path().filename().string();
+      if (!entry.is_directory()) {
+        report(entry.path(), 0, "the file stands outside of every room");
+      } else if (const auto floor = floor_of(name)) {
+        for (const fs::path& file : sources_below(entry.path())) inspect_core(file, name, *floor);
+      } else {
+        report(entry.path(), 0, "there is no room of this name");
+      }
+    }
+  }
+
+  void inspect_core(const fs::path& file, const std::string& room, std::size_t floor) {
+    static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+    static const std::regex exception(R"(\b(throw|try|catch)\b)");
+    bool in_comment = false;
+    std::string first_include;
+    const auto lines = lines_of(file);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      std::smatch match;
+      if (!in_comment && std::regex_search(lines[i], match, include)) {
+        if (first_include.empty()) first_include = match[2];
+        inspect_include(file, i + 1, room, floor, match[1] == "<", match[2]);
+        continue;
+      }
+      const std::string code = code_of(lines[i], in_comment);
+      if (std::regex_search(code, match, exception)) report(file, i + 1, "the core must not " + match[1].str());
+    }
+    const fs::path own = root_ / "include/knead" / room / file.stem().concat(".hpp");
+    if (file.extension() == ".cpp" && fs::exists(own) &&
+        first_include != "knead/" + room + "/" + file.stem().string() + ".hpp") {
+      report(file, 1, "the first include is not the file's own header");
+    }
+  }
+
+  void inspect_include(const fs::path& file, std::size_t line, const std::string& room, std::size_t floor, bool angled,
+                       const std::string& name) {
+    if (angled) {
+      const bool on_top = name.starts_with("CLI/") || name.ends_with(".hxx") || name.starts_with("emscripten");
+      if (on_top) report(file, line, "<" + name + "> belongs to the programs on top, not to a room");
+      if (name.starts_with("knead/")) report(file, line, "<" + name + "> must be written with quotes");
+      return;
+    }
+    if (!name.starts_with("knead/")) {
+      if (!fs::exists(file.parent_path() / name) || name.find("..") != std::string::npos) {
+        report(file, line, "\"" + name + "\" is no file of this room");
+      }
+      return;
+    }
+    const std::string other = name.substr(6, name.find('/', 6) - 6);
+    const auto other_floor = floor_of(other);
+    if (!other_floor) {
+      report(file, line, "\"" + name + "\": there is no room " + other);
+    } else if (*other_floor > floor) {
+      report(file, line, "the room " + room + " must not include the room " + other + ", which is built on it");
+    } else if (!fs::exists(root_ / "include" / name)) {
+      report(file, line, "\"" + name + "\" does not exist");
+    }
+  }
+
+  void inspect_form(const fs::path& file) {
+    const auto lines = lines_of(file);
+    if (lines.size() > static_cast<std::size_t>(longest_file)) {
+      report(file, 0, std::to_string(lines.size()) + " lines; " + std::to_string(longest_file) + " are allowed");
+    }
+    if (file.extension() != ".hpp") return;
+    bool in_comment = false;
+    for (const std::string& line : lines) {
+      const std::string code = code_of(line, in_comment);
+      if (code.find_first_not_of(" \t\r") == std::string::npos) continue;
+      if (!code.starts_with("#pragma once")) report(file, 1, "the header does not begin with #pragma once");
+      return;
+    }
+  }
+
+  fs::path root_;
+  std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> violations(const fs::path& root) { return Inspection(root).run(); }
+
+}  // namespace knead::house
