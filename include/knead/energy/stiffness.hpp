@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+
+#include "knead/energy/energy.hpp"
+#include "knead/gramian/gramian.hpp"
+
+namespace knead {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// How `Stiffness` is integrated.
+struct StiffnessOptions {
+  GramianMethod method = GramianMethod::gauss;
+  /// Gauss points per span and direction on rational splines; 0 means degree + 8, which integrates the basis of a
+  /// quarter circle to about 1e-9.
+  int rational_gauss_points = 0;
+};
+
+/// The symmetric operator K that a quadratic energy defines on the control points: E(S) = Σ_xyz Pᵀ K P
+/// (thesis Eqs. 4.14, 4.15; the mass matrix is the same thing for `mass_energy`).
+///
+/// Polynomial splines: K = Σ_terms c · G^{a_0 b_0} ⊗ … ⊗ G^{a_{D−1} b_{D−1}}, exact up to rounding. It is kept as those
+/// one-dimensional factors and can be applied without ever being assembled.
+/// Rational splines: the derivatives are those of the rational basis, integrated by Gauss points span by span; K is
+/// then kept assembled. Weights are never ignored. Unknowns are numbered as control points: last direction fastest.
+template <int D>
+class Stiffness {
+ public:
+  /// Errors: a derivative order above 2 (usage); a rational denominator that is not positive (numerical).
+  [[nodiscard]] static Expected<Stiffness> create(const Spline<D>& spline, const Energy<D>& energy,
+                                                  const StiffnessOptions& options = {});
+
+  /// For a polynomial spline the knots are enough.
+  [[nodiscard]] static Expected<Stiffness> create(const std::array<KnotVector, D>& knots, const Energy<D>& energy,
+                                                  const StiffnessOptions& options = {});
+
+  [[nodiscard]] int size() const { return size_; }
+
+  /// K X for N × 3 coordinates. Cost: O(N p) per term and direction; nothing is assembled for polynomial splines.
+  [[nodiscard]] Points apply(const Points& x) const;
+
+  /// Σ_xyz Xᵀ K X.
+  [[nodiscard]] double energy(const Points& x) const;
+
+  /// K as a sparse matrix with every entry of the tensor-product band stored, zero or not, columns sorted:
+  /// Π_d (n_d (2 p_d + 1) − p_d (p_d + 1)) entries, so that matrices of different energies share their pattern.
+  [[nodiscard]] SparseMatrix assemble() const;
+
+ private:
+  struct Term {
+    double coefficient;
+    std::array<int, D> factor;  // index into factors_[d]
+  };
+
+  Stiffness() = default;
+
+  std::array<int, D> net_{}, degree_{};
+  int size_ = 0;
+  std::array<std::vector<BandMatrix>, D> factors_;  // distinct one-dimensional Gramians per direction
+  std::vector<Term> terms_;
+  std::shared_ptr<const SparseMatrix> assembled_;  // rational splines
+};
+
+}  // namespace knead

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+
+#include "knead/spline/spline.hpp"
+
+namespace knead {
+
+/// Where a function of a surface is largest, and its value there.
+struct SurfaceMaximum {
+  double value = 0;
+  std::array<double, 2> parameters{};
+};
+
+/// max |S(u, v)| over the whole domain: for a displacement field, the largest displacement.
+///
+/// The surface is sampled p + 3 times per span and direction, span ends from both sides included; the best local maxima
+/// of the samples are refined by projected Newton steps and a compass search. Accuracy: 1e-9 relative, provided that
+/// the samples see the highest peak (a peak narrower than a third of a span can be missed). Cost: one grid evaluation.
+[[nodiscard]] SurfaceMaximum largest_norm(const Surface& surface);
+
+/// The axis-parallel box of the surface itself, not of its control points.
+struct BoundingBox {
+  Point lower = Point::Zero(), upper = Point::Zero();
+  [[nodiscard]] double diagonal() const { return (upper - lower).norm(); }
+  [[nodiscard]] Point centre() const { return lower + 0.5 * (upper - lower); }
+};
+
+/// Found like `largest_norm`, coordinate by coordinate; accuracy 1e-9 of the diagonal under the same proviso.
+[[nodiscard]] BoundingBox bounding_box(const Surface& surface);
+
+}  // namespace knead
