@@ -83,13 +83,10 @@ class Analytic {
     double c[2 * order_limit] = {1};
     int q = p_;
     for (int d = 1; d <= b; ++d, --q) {
-      double before = 0;
-      for (int k = 0; k < d; ++k) {
-        const double length = x(j + k + q) - x(j + k), quotient = length > 0 ? q * c[k] / length : 0;
-        c[k] = quotient - before;
-        before = quotient;
+      for (int k = d; k >= 0; --k) {
+        const double length = x(j + k + q) - x(j + k);
+        c[k] = length > 0 ? q * (c[k] - (k > 0 ? c[k - 1] : 0)) / length : 0;
       }
-      c[d] = -before;
     }
     // Thm 5.2 once per integration: ∫ Σ c_k N_{k,q} = Σ_k (Σ_{i<=k} c_i d(i,q+1)/(q+1)) N_{k,q+1}. Only k <= span
     // counts at u.
