@@ -48,18 +48,25 @@ template <int D>
 [[nodiscard]] Expected<Evaluation<D>> evaluate(const Spline<D>& spline, const Parameters<D>& parameters, int order = 0,
                                                Side side = Side::right);
 
-/// The same on the grid of all combinations of the given parameters, last direction fastest: on a surface, the value at
-/// (u_k, v_l) is row k · (number of v) + l. The net is contracted one direction at a time, so that a grid costs about
-/// one (p + 1)-term sum per point. Errors as above; the parameter is named by direction and index.
+/// The same, bit for bit, on the grid of all combinations of the given parameters, last direction fastest: on a
+/// surface, the value at (u_k, v_l) is row k · (number of v) + l. The net is contracted one direction at a time, so
+/// that a grid costs about one (p + 1)-term sum per point. Errors as above; the parameter is named by direction and
+/// index.
 template <int D>
 [[nodiscard]] Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline,
                                                     const std::array<std::span<const double>, D>& parameters,
                                                     int order = 0, Side side = Side::right);
 
-/// The grid form for bases that were tabulated before (to `order` at least): the form for repeated use.
+/// The grid form for bases that were tabulated before (to `order` at least).
 template <int D>
 [[nodiscard]] Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline,
                                                     const std::array<const BasisTable*, D>& tables, int order = 0);
+
+/// The form for repeated use: memory that `result` holds is used again (fresh pages cost more than the arithmetic on
+/// large grids). After a failure the content of `result` is unspecified.
+template <int D>
+[[nodiscard]] Expected<void> evaluate_grid(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables,
+                                           int order, Evaluation<D>& result);
 
 /// One point, S(u).
 template <int D>

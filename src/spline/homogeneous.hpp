@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "knead/spline/evaluate.hpp"
+
+namespace knead::detail {
+
+/// The control net as evaluation reads it: rows of `width` numbers, (x, y, z) or with weights (wx, wy, wz, w).
+/// It refers to the spline, which must outlive it.
+template <int D>
+class HomogeneousNet {
+ public:
+  explicit HomogeneousNet(const Spline<D>& spline);
+  HomogeneousNet(const HomogeneousNet&) = delete;
+  HomogeneousNet& operator=(const HomogeneousNet&) = delete;
+
+  [[nodiscard]] std::size_t width() const { return width_; }
+  /// Distance in memory of neighbours in `direction`.
+  [[nodiscard]] std::size_t stride(std::size_t direction) const { return stride_[direction]; }
+  [[nodiscard]] const double* data() const { return data_; }
+
+ private:
+  std::size_t width_;
+  std::array<std::size_t, D> stride_{};
+  std::vector<double> premultiplied_;
+  const double* data_;
+};
+
+/// Cartesian derivatives from homogeneous ones by the quotient rule (The NURBS Book, Eq. 4.20):
+/// ∂^a S = (∂^a A − Σ_{0 < b <= a} binom(a, b) ∂^b w ∂^{a−b} S) / w. Its terms are listed once for all points.
+template <int D>
+class QuotientRule {
+ public:
+  explicit QuotientRule(int order);
+
+  /// \param homogeneous (wx, wy, wz, w) of multi-index k at homogeneous + k · stride
+  /// \param row         row of `out[k]` that is written, for every k
+  /// False, with nothing written, where w is not positive.
+  bool apply(const double* homogeneous, std::size_t stride, Eigen::Index row, std::vector<Points>& out) const;
+
+ private:
+  struct Term {
+    std::size_t weight;  ///< position of b
+    std::size_t lower;   ///< position of a − b
+    double factor;       ///< binom(a, b)
+  };
+  std::vector<std::vector<Term>> terms_;  ///< for each multi-index a
+};
+
+/// The denominator at the parameters numbered `at` is not positive.
+template <int D>
+[[nodiscard]] std::unexpected<Error> denominator_error(const std::array<std::size_t, D>& at);
+
+}  // namespace knead::detail
