@@ -1,0 +1,71 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "knead/exchange/part21.hpp"
+#include "part21_lexer.hpp"
+
+namespace knead {
+
+/// Recursive descent over the grammar of ISO 10303-21, annex A, filling a `Part21File`.
+///
+/// Functions return false after `fail` has kept the first error.
+class Part21Parser {
+ public:
+  explicit Part21Parser(Part21File& file) : file_(file), lexer_(file.bytes_) {}
+
+  [[nodiscard]] Expected<void> parse();
+
+ private:
+  using Kind = Part21Token::Kind;
+
+  bool file_structure();
+  bool header_section();
+  bool data_section();
+  bool anchor_section();
+  bool reference_section();
+  bool signature_section();
+  bool after_the_end();
+
+  bool instance(std::uint32_t scope);
+  bool scope(std::uint32_t owner);
+  bool export_list();
+  bool record(std::uint32_t owner);
+  bool typed(int depth);
+  bool parameter(int depth);
+  bool parameter_list(int depth);
+  bool define(const Part21Token& name, std::uint32_t index);
+  bool resolve();
+  bool resolve_range(std::uint32_t first, std::uint32_t last, std::uint32_t owner);
+
+  void advance() { token_ = lexer_.next(); }
+  [[nodiscard]] std::string_view text() const { return file_.text({token_.begin, token_.end}); }
+  [[nodiscard]] bool at_symbol(char c) const { return token_.kind == Kind::symbol && file_.bytes_[token_.begin] == c; }
+  [[nodiscard]] bool at_keyword(std::string_view keyword) const;
+  bool expect_symbol(char c, const char* after);
+  bool expect_keyword(std::string_view keyword, const char* remedy);
+
+  bool fail(std::string what, std::string remedy = {}) {
+    return fail_at(token_.begin, std::move(what), std::move(remedy));
+  }
+  bool fail_at(std::uint32_t byte, std::string what, std::string remedy = {});
+  // "found X" for the present token.
+  bool fail_expected(const std::string& expected);
+  [[nodiscard]] std::string place() const;
+
+  std::uint32_t push(Part21Kind kind, ByteRange bytes);
+  void close(std::uint32_t value, std::uint32_t end);
+
+  Part21File& file_;
+  Part21Lexer lexer_;
+  Part21Token token_;
+  std::string section_ = "exchange structure";
+  std::uint32_t current_ = no_instance;  // instance being read, for errors
+  std::vector<ByteRange> anchors_;       // ranges of values that belong to no instance
+  Error error_;
+  bool failed_ = false;
+};
+
+}  // namespace knead

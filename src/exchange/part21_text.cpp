@@ -1,0 +1,235 @@
+#include "part21_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+
+#include "iso8859.hpp"
+
+namespace knead {
+namespace {
+
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  c = upper(c);
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+void append_utf8(std::string& out, char32_t code) {
+  if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) code = 0xFFFD;
+  const auto byte = [&out](char32_t value) { out += static_cast<char>(static_cast<unsigned char>(value)); };
+  if (code < 0x80) {
+    byte(code);
+  } else if (code < 0x800) {
+    byte(0xC0 | (code >> 6));
+    byte(0x80 | (code & 0x3F));
+  } else if (code < 0x10000) {
+    byte(0xE0 | (code >> 12));
+    byte(0x80 | ((code >> 6) & 0x3F));
+    byte(0x80 | (code & 0x3F));
+  } else {
+    byte(0xF0 | (code >> 18));
+    byte(0x80 | ((code >> 12) & 0x3F));
+    byte(0x80 | ((code >> 6) & 0x3F));
+    byte(0x80 | (code & 0x3F));
+  }
+}
+
+// Length of the well-formed UTF-8 sequence at k, 0 if there is none (Unicode Standard, table 3-7).
+std::size_t utf8_length(std::string_view text, std::size_t k) {
+  const auto at = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const auto lead = at(k);
+  const std::size_t length = lead < 0x80   ? 1
+                             : lead < 0xC2 ? 0
+                             : lead < 0xE0 ? 2
+                             : lead < 0xF0 ? 3
+                             : lead < 0xF5 ? 4
+                                           : 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((at(k + i) & 0xC0) != 0x80) return 0;
+  }
+  const auto second = at(k + 1);
+  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
+      (lead == 0xF4 && second > 0x8F)) {
+    return 0;
+  }
+  return length;
+}
+
+// Of an unsigned number that is not zero: the power of ten just above it, as far as that is needed to tell a number
+// that is too large for a double from one that is too small.
+std::int64_t decimal_magnitude(std::string_view text) {
+  const auto mark = std::min(text.find_first_of("eE"), text.size());
+  const auto mantissa = text.substr(0, mark);
+  const auto point = static_cast<std::int64_t>(std::min(mantissa.find('.'), mantissa.size()));
+  const auto lead = static_cast<std::int64_t>(mantissa.find_first_of("123456789"));
+  std::int64_t exponent = 0;
+  if (mark < text.size()) {
+    auto digits = text.substr(mark + 1);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec != std::errc()) {
+      return digits.starts_with('-') ? -1 : 1;
+    }
+    exponent = std::clamp(exponent, std::int64_t{-1} << 40, std::int64_t{1} << 40);
+  }
+  return exponent + point - lead;
+}
+
+// One string literal on its way to UTF-8.
+class Decoder {
+ public:
+  explicit Decoder(std::string_view text) : text_(text) {
+    for (std::size_t k = 0; k < text.size() && utf8_;) {
+      const auto length = utf8_length(text, k);
+      utf8_ = length > 0;
+      k += length;
+    }
+  }
+
+  std::string decode() {
+    while (k_ < text_.size()) step();
+    return std::move(out_);
+  }
+
+ private:
+  void step() {
+    const char c = text_[k_];
+    if (c == '\r' || c == '\n') {
+      ++k_;
+    } else if (c == '\'') {
+      out_ += c;
+      k_ += text_.substr(k_).starts_with("''") ? 2 : 1;
+    } else if (c == '\\') {
+      directive();
+    } else {
+      if (utf8_ || static_cast<unsigned char>(c) < 0x80) {
+        out_ += c;
+      } else {
+        append_utf8(out_, static_cast<unsigned char>(c));
+      }
+      ++k_;
+    }
+  }
+
+  void directive() {
+    const auto rest = text_.substr(k_);
+    if (rest.starts_with("\\\\")) {
+      out_ += '\\';
+      k_ += 2;
+    } else if (rest.starts_with("\\X2\\")) {
+      extended(4);
+    } else if (rest.starts_with("\\X4\\")) {
+      extended(8);
+    } else if (rest.starts_with("\\X\\") && rest.size() >= 5 && hex_digit(rest[3]) >= 0 && hex_digit(rest[4]) >= 0) {
+      append_utf8(out_, static_cast<char32_t>(16 * hex_digit(rest[3]) + hex_digit(rest[4])));
+      k_ += 5;
+    } else if (rest.starts_with("\\S\\") && rest.size() >= 4) {
+      shifted(rest[3]);
+      k_ += 4;
+    } else if (rest.size() >= 4 && rest[1] == 'P' && rest[2] >= 'A' && rest[2] <= 'I' && rest[3] == '\\') {
+      alphabet_ = static_cast<std::size_t>(rest[2] - 'A');
+      k_ += 4;
+    } else if (rest.starts_with("\\N\\") || rest.starts_with("\\F\\")) {
+      k_ += 3;
+    } else {
+      out_ += '\\';  // not a directive; a path of a careless writer
+      ++k_;
+    }
+  }
+
+  void shifted(char c) {
+    const auto code = (static_cast<unsigned char>(c) & 0x7FU) + 0x80U;
+    if (alphabet_ == 0 || code < 0xA0) return append_utf8(out_, code);
+    const auto unicode = iso8859[alphabet_ - 1][code - 0xA0];
+    append_utf8(out_, unicode == 0 ? 0xFFFD : unicode);
+  }
+
+  // \X2\hhhhhhhh…\X0\: 4 (UTF-16, surrogate pairs as writers use them) or 8 digits per character.
+  void extended(std::size_t digits) {
+    k_ += 4;
+    char32_t high = 0;
+    for (;;) {
+      while (k_ < text_.size() && (text_[k_] == '\r' || text_[k_] == '\n')) ++k_;
+      char32_t code = 0;
+      std::size_t n = 0;
+      for (; n < digits && k_ + n < text_.size() && hex_digit(text_[k_ + n]) >= 0; ++n) {
+        code = 16 * code + static_cast<char32_t>(hex_digit(text_[k_ + n]));
+      }
+      k_ += n;
+      if (n < digits) break;
+      if (high != 0 && code >= 0xDC00 && code < 0xE000) {
+        append_utf8(out_, 0x10000 + ((high - 0xD800) << 10) + (code - 0xDC00));
+        high = 0;
+        continue;
+      }
+      if (high != 0) append_utf8(out_, 0xFFFD);
+      high = digits == 4 && code >= 0xD800 && code < 0xDC00 ? code : 0;
+      if (high == 0) append_utf8(out_, code);
+    }
+    if (high != 0) append_utf8(out_, 0xFFFD);
+    if (text_.substr(k_).starts_with("\\X0\\")) k_ += 4;
+  }
+
+  std::string_view text_;
+  std::size_t k_ = 0;
+  std::size_t alphabet_ = 0;
+  bool utf8_ = true;
+  std::string out_;
+};
+
+}  // namespace
+
+bool same_keyword(std::string_view a, std::string_view b) {
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return upper(x) == upper(y); });
+}
+
+std::optional<std::uint64_t> parse_instance_name(std::string_view text) {
+  std::uint64_t id = 0;
+  const auto* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data() + 1, end, id);
+  if (error != std::errc() || last != end || id > std::numeric_limits<std::int64_t>::max()) return std::nullopt;
+  return id;
+}
+
+std::optional<double> parse_real(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  std::string copy;
+  if (text.find_first_of("dD") != std::string_view::npos) {
+    copy = text;
+    std::replace_if(
+        copy.begin(), copy.end(), [](char c) { return c == 'd' || c == 'D'; }, 'E');
+    text = copy;
+  }
+  double value = 0;
+  const auto* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, value);
+  if (last != end || error == std::errc::invalid_argument) return std::nullopt;
+  if (error == std::errc::result_out_of_range) {
+    if (decimal_magnitude(text) > 0) return std::nullopt;
+    value = 0;
+  }
+  return negative ? -value : value;
+}
+
+std::string format_real(double value) {
+  std::array<char, 32> buffer{};
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::scientific, 16);
+  std::string text(buffer.data(), error == std::errc() ? end : buffer.data());
+  std::replace(text.begin(), text.end(), 'e', 'E');
+  return text;
+}
+
+std::string decode_string(std::string_view literal) {
+  if (literal.size() >= 2 && literal.front() == '\'' && literal.back() == '\'') {
+    literal = literal.substr(1, literal.size() - 2);
+  }
+  return Decoder(literal).decode();
+}
+
+}  // namespace knead

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "knead/exchange/part21.hpp"
+#include "knead/exchange/step_file.hpp"
+
+namespace knead {
+
+/// What a `StepFile` holds.
+struct StepFile::Data {
+  explicit Data(Part21File parsed) : records(std::move(parsed)) {}
+
+  Part21File records;
+  std::string schema;
+  std::vector<StepSurface> surfaces;
+  std::vector<std::uint32_t> surface_instances;                // of each of `surfaces`
+  std::vector<std::vector<std::uint32_t>> control_point_refs;  // of each: the values that refer to its control points
+  std::unordered_map<std::string, std::size_t> surface_index;  // by id
+  std::vector<StepUnreadableSurface> unreadable;
+  std::vector<StepInstance> instances;
+  std::vector<StepLengthUnit> units;
+};
+
+}  // namespace knead

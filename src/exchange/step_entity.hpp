@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "knead/base/error.hpp"
+#include "knead/exchange/part21.hpp"
+#include "knead/spline/spline.hpp"
+
+namespace knead {
+
+/// Reads the attributes of entities: the layer between parameters (part21.hpp) and geometry.
+///
+/// An entity type is found by name in a simple record and in the parts of a complex one alike. In a simple record the
+/// attributes of the supertypes come first (ISO 10303-21, 10.2.5.2); so an attribute is given by the entity that
+/// declares it, by the number of inherited attributes before those, and by its place among them.
+class StepReader {
+ public:
+  explicit StepReader(const Part21File& file) : file_(&file) {}
+
+  [[nodiscard]] const Part21File& file() const { return *file_; }
+
+  /// "#12 CARTESIAN_POINT"
+  [[nodiscard]] std::string label(std::uint32_t instance) const;
+  /// Some part of the instance has this name.
+  [[nodiscard]] bool is(std::uint32_t instance, std::string_view entity) const {
+    return part(instance, entity).has_value();
+  }
+
+  /// The attributes that `entity` itself declares: in a complex instance the parameters of that part; in a simple one
+  /// those behind the first `inherited` ones. Empty if there are fewer than `count`.
+  [[nodiscard]] std::vector<std::uint32_t> attributes(std::uint32_t instance, std::string_view entity,
+                                                      std::size_t inherited, std::size_t count) const;
+  /// All parameters of a simple instance; of a complex one those of the part with this name.
+  [[nodiscard]] std::vector<std::uint32_t> parameters(std::uint32_t instance, std::string_view entity) const {
+    return attributes(instance, entity, 0, 0);
+  }
+
+  [[nodiscard]] std::optional<double> real(std::uint32_t value) const;
+  [[nodiscard]] std::optional<int> integer(std::uint32_t value) const;
+  /// Index of the instance referred to; none for anything but a reference within the file.
+  [[nodiscard]] std::optional<std::uint32_t> reference(std::uint32_t value) const;
+  /// The instances of a list of references, others left out.
+  [[nodiscard]] std::vector<std::uint32_t> references(std::uint32_t list) const;
+  [[nodiscard]] std::string string(std::uint32_t value) const;            ///< decoded; empty for $
+  [[nodiscard]] std::string_view enumeration(std::uint32_t value) const;  ///< without its points
+  [[nodiscard]] bool is_list(std::uint32_t value) const { return file_->value(value).kind == Part21Kind::list; }
+
+  /// Label of a REPRESENTATION_ITEM: the first parameter of a simple record.
+  [[nodiscard]] std::string item_name(std::uint32_t instance) const;
+
+  /// The values of the coordinates of a CARTESIAN_POINT with three of them.
+  [[nodiscard]] Expected<std::array<std::uint32_t, 3>> coordinate_values(std::uint32_t instance) const;
+  [[nodiscard]] Expected<Point> point(std::uint32_t instance) const;
+  [[nodiscard]] std::optional<Point> direction(std::uint32_t instance) const;
+
+  /// An input error at an instance.
+  [[nodiscard]] std::unexpected<Error> error(std::uint32_t instance, std::string what, std::string remedy = {}) const;
+
+ private:
+  [[nodiscard]] std::optional<std::uint32_t> part(std::uint32_t instance, std::string_view entity) const;
+
+  const Part21File* file_;
+};
+
+}  // namespace knead

@@ -1,0 +1,109 @@
+#include "knead/exchange/step_file.hpp"
+
+#include <algorithm>
+
+#include "knead/exchange/file_io.hpp"
+#include "part21_text.hpp"
+#include "step_data.hpp"
+#include "step_entity.hpp"
+#include "step_instances.hpp"
+#include "step_surfaces.hpp"
+#include "step_trimming.hpp"
+#include "step_units.hpp"
+
+namespace knead {
+namespace {
+
+std::string schema_of(const Part21File& file) {
+  const StepReader reader(file);
+  for (const auto record : file.header()) {
+    if (!same_keyword(file.keyword(record), "FILE_SCHEMA")) continue;
+    const auto parameters = file.children(record);
+    if (parameters.empty() || !reader.is_list(parameters[0])) return {};
+    const auto names = file.children(parameters[0]);
+    if (names.empty()) return {};
+    // "AUTOMOTIVE_DESIGN { 1 0 10303 214 … }": the object identifier is not part of the name.
+    const auto name = reader.string(names[0]);
+    return name.substr(0, name.find_first_of(" {"));
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<StepFile> StepFile::read(const std::filesystem::path& path) {
+  auto bytes = read_file(path);
+  if (!bytes) return std::unexpected(std::move(bytes.error()));
+  return parse(*std::move(bytes), path.string());
+}
+
+Expected<StepFile> StepFile::parse(std::string bytes, std::string name) {
+  auto records = Part21File::parse(std::move(bytes), std::move(name));
+  if (!records) return std::unexpected(std::move(records.error()));
+  auto data = std::make_shared<Data>(*std::move(records));
+  const StepReader reader(data->records);
+  data->schema = schema_of(data->records);
+
+  std::vector<ReadSurface> read;
+  for (std::uint32_t k = 0; k < data->records.instances().size(); ++k) {
+    if (!is_b_spline_surface(reader, k)) continue;
+    if (auto surface = read_b_spline_surface(reader, k)) {
+      data->surface_instances.push_back(k);
+      read.push_back(*std::move(surface));
+    } else {
+      data->unreadable.push_back({"#" + std::to_string(data->records.instance(k).id), std::move(surface.error())});
+    }
+  }
+
+  const auto contexts = read_unit_contexts(reader);
+  for (const auto& context : contexts) data->units.push_back(context.unit);
+  const auto context_of = contexts_of(reader, contexts, data->surface_instances);
+  std::vector<double> uncertainty;
+  for (const int context : context_of) {
+    uncertainty.push_back(context < 0 ? 0 : contexts[static_cast<std::size_t>(context)].uncertainty);
+  }
+  const auto trimmed = trimmed_surfaces(reader, read, uncertainty);
+  const bool one_unit = std::all_of(contexts.begin(), contexts.end(), [&](const UnitContext& context) {
+    return context.unit.name == contexts.front().unit.name;
+  });
+  for (std::size_t k = 0; k < read.size(); ++k) {
+    const auto id = "#" + std::to_string(data->records.instance(read[k].instance).id);
+    const auto closed = closed_directions(read[k].surface);
+    // A surface that no representation leads to still has the file's unit if there is only one.
+    std::string unit = "unknown";
+    if (context_of[k] >= 0) unit = contexts[static_cast<std::size_t>(context_of[k])].unit.name;
+    if (context_of[k] < 0 && !contexts.empty() && one_unit) unit = contexts.front().unit.name;
+    data->surface_index.emplace(id, k);
+    data->control_point_refs.push_back(std::move(read[k].references));
+    data->surfaces.push_back(
+        {id, reader.item_name(read[k].instance), std::move(unit), std::move(read[k].surface), closed, trimmed[k]});
+  }
+  data->instances = read_instances(reader);
+  return StepFile(std::move(data));
+}
+
+const std::string& StepFile::name() const { return data_->records.name(); }
+const std::string& StepFile::bytes() const { return data_->records.bytes(); }
+const std::string& StepFile::schema() const { return data_->schema; }
+const std::vector<StepSurface>& StepFile::surfaces() const { return data_->surfaces; }
+const std::vector<StepUnreadableSurface>& StepFile::unreadable_surfaces() const { return data_->unreadable; }
+const std::vector<StepInstance>& StepFile::instances() const { return data_->instances; }
+const std::vector<StepLengthUnit>& StepFile::length_units() const { return data_->units; }
+
+std::string StepFile::length_unit() const {
+  std::vector<std::string> names;
+  for (const auto& unit : data_->units) {
+    if (std::find(names.begin(), names.end(), unit.name) == names.end()) names.push_back(unit.name);
+  }
+  if (names.empty()) return "unknown";
+  std::string result = names.front();
+  for (std::size_t k = 1; k < names.size(); ++k) result += ", " + names[k];
+  return result;
+}
+
+const StepSurface* StepFile::find_surface(const std::string& id) const {
+  const auto found = data_->surface_index.find(id);
+  return found == data_->surface_index.end() ? nullptr : &data_->surfaces[found->second];
+}
+
+}  // namespace knead

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "knead/spline/knot_vector.hpp"
+#include "step_entity.hpp"
+
+namespace knead {
+
+/// Which knots an entity without a knot list implies (ISO 10303-42, default_b_spline_knots and
+/// default_b_spline_knot_mult): spaced by 1, beginning
+///   uniform:       at -p, each once (n + p + 1 knots, unclamped, domain [0, n - p]);
+///   quasi-uniform: at 0, p + 1 times at the ends, once inside;
+///   Bézier:        at 0, p + 1 times at the ends, p times inside (n - 1 a multiple of p).
+enum class ImpliedKnots { uniform, quasi_uniform, bezier };
+
+/// The implied knots of degree p for n control points.
+[[nodiscard]] Expected<KnotVector> implied_knots(ImpliedKnots form, int degree, int count);
+
+/// Knots listed as multiplicities and values. Equal neighbouring values are accepted and their multiplicities add up.
+/// \param direction for errors: "u", "v", or "" on a curve.
+[[nodiscard]] Expected<KnotVector> read_knots(const StepReader& reader, std::uint32_t instance, int degree, int count,
+                                              std::uint32_t multiplicities, std::uint32_t values,
+                                              const std::string& direction);
+
+}  // namespace knead

@@ -1,0 +1,205 @@
+#include "step_surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "knead/spline/basis.hpp"
+#include "step_knots.hpp"
+
+namespace knead {
+namespace {
+
+constexpr std::array<std::string_view, 6> forms = {
+    "B_SPLINE_SURFACE_WITH_KNOTS", "BEZIER_SURFACE",  "UNIFORM_SURFACE", "QUASI_UNIFORM_SURFACE",
+    "RATIONAL_B_SPLINE_SURFACE",   "B_SPLINE_SURFACE"};
+
+// The number of attributes of B_SPLINE_SURFACE with the name it inherits.
+constexpr std::size_t attributes_of_surface = 8;
+
+struct Net {
+  int rows = 0;
+  int columns = 0;
+  std::vector<std::uint32_t> values;  // row by row
+};
+
+// A rectangular list of lists.
+Expected<Net> read_net(const StepReader& reader, std::uint32_t instance, std::uint32_t list, const std::string& what) {
+  if (!reader.is_list(list)) return reader.error(instance, "its " + what + " are not a list of lists");
+  Net net;
+  for (const auto row : reader.file().children(list)) {
+    if (!reader.is_list(row)) return reader.error(instance, "its " + what + " are not a list of lists");
+    const auto values = reader.file().children(row);
+    if (net.rows > 0 && static_cast<int>(values.size()) != net.columns) {
+      return reader.error(instance, "row " + std::to_string(net.rows) + " of its " + what + " has " +
+                                        std::to_string(values.size()) + " entries and the rows before it " +
+                                        std::to_string(net.columns));
+    }
+    net.columns = static_cast<int>(values.size());
+    ++net.rows;
+    net.values.insert(net.values.end(), values.begin(), values.end());
+  }
+  if (net.values.empty()) return reader.error(instance, "its " + what + " are empty");
+  return net;
+}
+
+std::optional<ImpliedKnots> implied_form(const StepReader& reader, std::uint32_t instance) {
+  if (reader.is(instance, "BEZIER_SURFACE")) return ImpliedKnots::bezier;
+  if (reader.is(instance, "QUASI_UNIFORM_SURFACE")) return ImpliedKnots::quasi_uniform;
+  if (reader.is(instance, "UNIFORM_SURFACE")) return ImpliedKnots::uniform;
+  return std::nullopt;
+}
+
+Expected<std::array<KnotVector, 2>> surface_knots(const StepReader& reader, std::uint32_t instance,
+                                                  std::array<int, 2> degree, std::array<int, 2> count) {
+  constexpr std::array<const char*, 2> names = {"u", "v"};
+  std::vector<KnotVector> knots;
+  const auto listed = reader.is(instance, "B_SPLINE_SURFACE_WITH_KNOTS")
+                          ? reader.attributes(instance, "B_SPLINE_SURFACE_WITH_KNOTS", attributes_of_surface, 4)
+                          : std::vector<std::uint32_t>{};
+  const auto form = implied_form(reader, instance);
+  if (listed.empty() && !form) {
+    return reader.error(instance, "it has no knots",
+                        "write it as B_SPLINE_SURFACE_WITH_KNOTS, with multiplicities and knots");
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (listed.empty()) {
+      auto implied = implied_knots(*form, degree[k], count[k]);
+      if (!implied)
+        return reader.error(instance, std::string(names[k]) + ": " + implied.error().what, implied.error().remedy);
+      knots.push_back(*std::move(implied));
+    } else {
+      auto read = read_knots(reader, instance, degree[k], count[k], listed[k], listed[k + 2], names[k]);
+      if (!read) return std::unexpected(std::move(read.error()));
+      knots.push_back(*std::move(read));
+    }
+  }
+  return std::array<KnotVector, 2>{std::move(knots[0]), std::move(knots[1])};
+}
+
+Expected<std::vector<double>> surface_weights(const StepReader& reader, std::uint32_t instance, const Net& points) {
+  std::vector<double> weights;
+  if (!reader.is(instance, "RATIONAL_B_SPLINE_SURFACE")) return weights;
+  const auto own = reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_surface, 1);
+  if (own.empty()) return reader.error(instance, "it is rational and has no weights");
+  const auto net = read_net(reader, instance, own[0], "weights");
+  if (!net) return std::unexpected(net.error());
+  if (net->rows != points.rows || net->columns != points.columns) {
+    return reader.error(instance, std::to_string(net->rows) + " x " + std::to_string(net->columns) + " weights for " +
+                                      std::to_string(points.rows) + " x " + std::to_string(points.columns) +
+                                      " control points");
+  }
+  for (std::size_t k = 0; k < net->values.size(); ++k) {
+    const auto weight = reader.real(net->values[k]);
+    if (!weight) return reader.error(instance, "weight " + std::to_string(k) + " is not a number a double can hold");
+    weights.push_back(*weight);
+  }
+  return weights;
+}
+
+}  // namespace
+
+bool is_b_spline_surface(const StepReader& reader, std::uint32_t instance) {
+  return std::any_of(forms.begin(), forms.end(), [&](std::string_view form) { return reader.is(instance, form); });
+}
+
+Expected<ReadSurface> read_b_spline_surface(const StepReader& reader, std::uint32_t instance) {
+  const auto own = reader.attributes(instance, "B_SPLINE_SURFACE", 1, 3);
+  if (own.empty()) return reader.error(instance, "it lacks degrees and control points");
+  const auto p = reader.integer(own[0]);
+  const auto q = reader.integer(own[1]);
+  if (!p || !q) return reader.error(instance, "its degrees are not integers");
+  if (*p < 1 || *p > max_degree || *q < 1 || *q > max_degree) {
+    return reader.error(instance, "its degrees are " + std::to_string(*p) + " x " + std::to_string(*q),
+                        "degrees 1 to " + std::to_string(max_degree) + " can be read");
+  }
+  const auto net = read_net(reader, instance, own[2], "control points");
+  if (!net) return std::unexpected(net.error());
+  auto knots = surface_knots(reader, instance, {*p, *q}, {net->rows, net->columns});
+  if (!knots) return std::unexpected(std::move(knots.error()));
+  auto weights = surface_weights(reader, instance, *net);
+  if (!weights) return std::unexpected(std::move(weights.error()));
+
+  Points points(static_cast<Eigen::Index>(net->values.size()), 3);
+  for (std::size_t k = 0; k < net->values.size(); ++k) {
+    const auto target = reader.reference(net->values[k]);
+    if (!target) {
+      return reader.error(instance, "control point " + std::to_string(k) + " does not refer to an entity of this file");
+    }
+    const auto point = reader.point(*target);
+    if (!point) return std::unexpected(point.error());
+    points.row(static_cast<Eigen::Index>(k)) = point->transpose();
+  }
+  auto surface = Surface::create(*std::move(knots), std::move(points), *std::move(weights));
+  if (!surface) return reader.error(instance, surface.error().what, surface.error().remedy);
+  return ReadSurface{instance, *std::move(surface), net->values};
+}
+
+Expected<Curve> boundary_curve(const Surface& surface, int direction, int end) {
+  const auto& across = surface.knots(direction);
+  const auto& along = surface.knots(1 - direction);
+  const double at = end == 0 ? across.domain().lower : across.domain().upper;
+  const int span = across.find_span(at, end == 0 ? Side::right : Side::left);
+  std::array<double, max_degree + 1> basis{};
+  basis_values(across, span, at, basis.data());
+
+  const auto net = surface.net();
+  const Eigen::Index step_across = direction == 0 ? net[1] : 1;
+  const Eigen::Index step_along = direction == 0 ? 1 : net[1];
+  Points points = Points::Zero(along.count(), 3);
+  std::vector<double> weights(surface.rational() ? static_cast<std::size_t>(along.count()) : 0, 0.0);
+  for (int j = 0; j < along.count(); ++j) {
+    double denominator = 0;
+    for (int r = 0; r <= across.degree(); ++r) {
+      const Eigen::Index k = (span - across.degree() + r) * step_across + j * step_along;
+      const double factor = basis[static_cast<std::size_t>(r)] *
+                            (surface.rational() ? surface.weights()[static_cast<std::size_t>(k)] : 1.0);
+      points.row(j) += factor * surface.control_points().row(k);
+      denominator += factor;
+    }
+    if (!surface.rational()) continue;
+    weights[static_cast<std::size_t>(j)] = denominator;
+    points.row(j) =
+        denominator == 0 ? Points::RowXpr::PlainObject::Zero().eval() : (points.row(j) / denominator).eval();
+  }
+  return Curve::create({along}, std::move(points), std::move(weights));
+}
+
+double net_diagonal(const Points& points) {
+  return points.rows() == 0 ? 0.0 : (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+std::array<bool, 2> closed_directions(const Surface& surface) {
+  constexpr double relative = 1e-9;
+  const double tolerance = relative * net_diagonal(surface.control_points());
+  std::array<bool, 2> closed = {false, false};
+  for (int direction = 0; direction < 2; ++direction) {
+    const auto first = boundary_curve(surface, direction, 0);
+    const auto last = boundary_curve(surface, direction, 1);
+    if (!first || !last) continue;
+    bool same = (first->control_points() - last->control_points()).rowwise().norm().maxCoeff() <= tolerance;
+    // Weights say the same curve up to a common factor.
+    if (surface.rational()) {
+      const auto a = first->weights();
+      const auto b = last->weights();
+      const auto largest =
+          std::max_element(a.begin(), a.end(), [](double x, double y) { return std::abs(x) < std::abs(y); });
+      const double w_a = *largest;
+      const double w_b = b[static_cast<std::size_t>(largest - a.begin())];
+      for (std::size_t k = 0; k < a.size(); ++k) same = same && std::abs(a[k] / w_a - b[k] / w_b) <= relative;
+    }
+    // A net collapsed all along this direction has no inside to close around.
+    const auto net = surface.net();
+    const Eigen::Index step = direction == 0 ? net[1] : 1;
+    bool collapsed = true;
+    for (Eigen::Index k = 0; k < surface.size() && collapsed; ++k) {
+      const auto position = direction == 0 ? k / net[1] : k % net[1];
+      if (position == 0) continue;
+      collapsed = (surface.control_points().row(k) - surface.control_points().row(k - step)).norm() <= tolerance;
+    }
+    closed[static_cast<std::size_t>(direction)] = same && !collapsed;
+  }
+  return closed;
+}
+
+}  // namespace knead

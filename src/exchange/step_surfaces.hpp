@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "knead/spline/spline.hpp"
+#include "step_entity.hpp"
+
+namespace knead {
+
+/// A surface with the parameters its control points come from.
+struct ReadSurface {
+  std::uint32_t instance = no_instance;
+  Surface surface;
+  std::vector<std::uint32_t> references;  ///< values of kind `reference`, in the order of the control points
+};
+
+/// B_SPLINE_SURFACE in any of its forms, simple or as part of a complex instance.
+[[nodiscard]] bool is_b_spline_surface(const StepReader& reader, std::uint32_t instance);
+
+/// Reads one (ISO 10303-42, b_spline_surface and its subtypes). Errors (input) with entity and line.
+[[nodiscard]] Expected<ReadSurface> read_b_spline_surface(const StepReader& reader, std::uint32_t instance);
+
+/// `StepSurface::closed`.
+[[nodiscard]] std::array<bool, 2> closed_directions(const Surface& surface);
+
+/// The boundary isocurve on which `direction` has its first (end = 0) or last (end = 1) parameter, over the knots of
+/// the other direction: the net is contracted by the basis at that parameter. Rational where the surface is; a control
+/// point whose weight comes out zero is given weight zero at the origin.
+[[nodiscard]] Expected<Curve> boundary_curve(const Surface& surface, int direction, int end);
+
+/// Diagonal of the bounding box of the control points.
+[[nodiscard]] double net_diagonal(const Points& control_points);
+
+}  // namespace knead

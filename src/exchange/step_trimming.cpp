@@ -1,0 +1,185 @@
+#include "step_trimming.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#include "knead/spline/evaluate.hpp"
+#include "step_curves.hpp"
+
+namespace knead {
+namespace {
+
+// One of the four boundary isocurves, and how much of it the edges of a face cover.
+struct BoundarySide {
+  CurveTable table;
+  bool required = false;  // to be covered: neither a seam nor a single point
+  bool closed = false;
+  std::vector<Interval> covered = {};
+};
+
+class NaturalBoundary {
+ public:
+  static std::optional<NaturalBoundary> create(const Surface& surface, double tolerance) {
+    NaturalBoundary result;
+    result.tolerance_ = tolerance;
+    for (int direction = 0; direction < 2; ++direction) {
+      for (int end = 0; end < 2; ++end) {
+        auto curve = boundary_curve(surface, direction, end);
+        auto table =
+            curve ? CurveTable::create(*std::move(curve)) : Expected<CurveTable>(std::unexpected(curve.error()));
+        if (!table) return std::nullopt;
+        BoundarySide side{*std::move(table)};
+        side.required = net_diagonal(side.table.points()) > tolerance;
+        side.closed = side.table.closed(tolerance);
+        result.sides_.push_back(std::move(side));
+      }
+      auto& first = result.sides_[result.sides_.size() - 2];
+      auto& last = result.sides_.back();
+      if ((first.table.points() - last.table.points()).rowwise().norm().maxCoeff() <= tolerance) {
+        first.required = last.required = false;  // a seam
+      }
+    }
+    return result;
+  }
+
+  void begin_face() {
+    for (auto& side : sides_) side.covered.clear();
+  }
+
+  // False if some point lies off the boundary.
+  bool add(const Points& edge) {
+    std::vector<std::optional<double>> before(sides_.size());
+    for (Eigen::Index k = 0; k < edge.rows(); ++k) {
+      bool on = false;
+      for (std::size_t s = 0; s < sides_.size(); ++s) {
+        const auto foot = sides_[s].table.closest(edge.row(k).transpose());
+        const auto now = foot.distance <= tolerance_ ? std::optional(foot.parameter) : std::nullopt;
+        on = on || now.has_value();
+        if (now && before[s]) cover(sides_[s], *before[s], *now);
+        before[s] = now;
+      }
+      if (!on) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool covered() const {
+    return std::all_of(sides_.begin(), sides_.end(),
+                       [this](const BoundarySide& side) { return !side.required || full(side); });
+  }
+
+ private:
+  static void cover(BoundarySide& side, double from, double to) {
+    const auto domain = side.table.curve().knots(0).domain();
+    const auto [lower, upper] = std::minmax(from, to);
+    if (side.closed && upper - lower > domain.length() / 2) {
+      // Over the point where the closed curve begins.
+      side.covered.push_back({upper, domain.upper});
+      side.covered.push_back({domain.lower, lower});
+    } else {
+      side.covered.push_back({lower, upper});
+    }
+  }
+
+  // Gaps may be as long as vertices may be off: twice the tolerance at each end.
+  [[nodiscard]] bool full(const BoundarySide& side) const {
+    const auto domain = side.table.curve().knots(0).domain();
+    auto covered = side.covered;
+    std::sort(covered.begin(), covered.end(), [](const Interval& a, const Interval& b) { return a.lower < b.lower; });
+    covered.push_back({domain.upper, domain.upper});
+    double reached = domain.lower;
+    for (const auto& interval : covered) {
+      if (interval.lower > reached) {
+        const auto a = evaluate_point<1>(side.table.curve(), {reached});
+        const auto b = evaluate_point<1>(side.table.curve(), {interval.lower});
+        if (!a || !b || (*a - *b).norm() > 4 * tolerance_) return false;
+      }
+      reached = std::max(reached, interval.upper);
+    }
+    return true;
+  }
+
+  std::vector<BoundarySide> sides_;
+  double tolerance_ = 0;
+};
+
+// The bounds of one face; false where they leave the boundary or are of an unknown form.
+bool add_bounds(const StepReader& reader, std::uint32_t bounds, NaturalBoundary& boundary) {
+  for (const auto bound : reader.references(bounds)) {
+    const auto own = reader.attributes(bound, "FACE_BOUND", 1, 1);
+    const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
+    if (!loop) return false;
+    if (reader.is(*loop, "VERTEX_LOOP")) continue;  // a pole, or a mark that bounds nothing
+    if (!reader.is(*loop, "EDGE_LOOP")) return false;
+    const auto path = reader.attributes(*loop, "PATH", 1, 1);
+    if (path.empty()) return false;
+    for (const auto oriented : reader.references(path[0])) {
+      const auto parts = reader.attributes(oriented, "ORIENTED_EDGE", 3, 1);
+      const auto edge = parts.empty() ? std::nullopt : reader.reference(parts[0]);
+      const auto points = edge ? sample_edge(reader, *edge) : std::nullopt;
+      if (!points || !boundary.add(*points)) return false;
+    }
+  }
+  return true;
+}
+
+// RECTANGULAR_TRIMMED_SURFACE and CURVE_BOUNDED_SURFACE that cut their basis surface.
+std::optional<std::uint32_t> cut_surface(const StepReader& reader, std::uint32_t instance,
+                                         const std::unordered_map<std::uint32_t, std::size_t>& index,
+                                         const std::vector<ReadSurface>& surfaces) {
+  if (reader.is(instance, "CURVE_BOUNDED_SURFACE")) {
+    const auto own = reader.attributes(instance, "CURVE_BOUNDED_SURFACE", 1, 3);
+    const bool whole = !own.empty() && reader.references(own[1]).empty() && reader.enumeration(own[2]) == "T";
+    return own.empty() || whole ? std::nullopt : reader.reference(own[0]);
+  }
+  if (!reader.is(instance, "RECTANGULAR_TRIMMED_SURFACE")) return std::nullopt;
+  const auto own = reader.attributes(instance, "RECTANGULAR_TRIMMED_SURFACE", 1, 5);
+  const auto basis = own.empty() ? std::nullopt : reader.reference(own[0]);
+  const auto found = basis ? index.find(*basis) : index.end();
+  if (found == index.end()) return std::nullopt;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto domain = surfaces[found->second].surface.knots(static_cast<int>(k / 2)).domain();
+    const auto bound = reader.real(own[k + 1]);
+    const double end = k % 2 == 0 ? domain.lower : domain.upper;
+    if (!bound || std::abs(*bound - end) > 1e-9 * domain.length()) return basis;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<bool> trimmed_surfaces(const StepReader& reader, const std::vector<ReadSurface>& surfaces,
+                                   const std::vector<double>& uncertainty) {
+  std::vector<bool> trimmed(surfaces.size(), false);
+  std::unordered_map<std::uint32_t, std::size_t> index;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) index.emplace(surfaces[k].instance, k);
+  std::unordered_map<std::size_t, std::optional<NaturalBoundary>> boundaries;
+  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
+    if (const auto cut = cut_surface(reader, k, index, surfaces)) {
+      if (const auto found = index.find(*cut); found != index.end()) trimmed[found->second] = true;
+    }
+    if (!reader.is(k, "ADVANCED_FACE") && !reader.is(k, "FACE_SURFACE")) continue;
+    const auto bounds = reader.attributes(k, "FACE", 1, 1);
+    const auto geometry = reader.attributes(k, "FACE_SURFACE", 2, 1);
+    const auto target = geometry.empty() ? std::nullopt : reader.reference(geometry[0]);
+    const auto found = target ? index.find(*target) : index.end();
+    if (found == index.end() || bounds.empty() || trimmed[found->second]) continue;
+    const auto s = found->second;
+    const auto& surface = surfaces[s].surface;
+    const double diagonal = net_diagonal(surface.control_points());
+    const double tolerance = std::clamp(uncertainty[s], 1e-6 * diagonal, 1e-4 * diagonal);
+    auto [slot, fresh] = boundaries.try_emplace(s);
+    if (fresh) slot->second = NaturalBoundary::create(surface, tolerance);
+    if (!slot->second) {
+      trimmed[s] = true;  // its boundary cannot be evaluated
+      continue;
+    }
+    slot->second->begin_face();
+    trimmed[s] = !add_bounds(reader, bounds[0], *slot->second) || !slot->second->covered();
+  }
+  return trimmed;
+}
+
+}  // namespace knead

@@ -1,0 +1,199 @@
+#include "step_units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "part21_text.hpp"
+
+namespace knead {
+namespace {
+
+struct Prefix {
+  std::string_view name;
+  const char* symbol;
+  double factor;
+};
+
+// ISO 10303-41, si_prefix.
+constexpr std::array<Prefix, 16> prefixes = {{{"EXA", "E", 1e18},
+                                              {"PETA", "P", 1e15},
+                                              {"TERA", "T", 1e12},
+                                              {"GIGA", "G", 1e9},
+                                              {"MEGA", "M", 1e6},
+                                              {"KILO", "k", 1e3},
+                                              {"HECTO", "h", 1e2},
+                                              {"DECA", "da", 1e1},
+                                              {"DECI", "d", 1e-1},
+                                              {"CENTI", "c", 1e-2},
+                                              {"MILLI", "m", 1e-3},
+                                              {"MICRO", "u", 1e-6},
+                                              {"NANO", "n", 1e-9},
+                                              {"PICO", "p", 1e-12},
+                                              {"FEMTO", "f", 1e-15},
+                                              {"ATTO", "a", 1e-18}}};
+
+constexpr int max_conversions = 8;  // inch of cm of m; more is a loop
+
+std::optional<StepLengthUnit> si_unit(const StepReader& reader, std::uint32_t unit) {
+  // SI_UNIT(prefix, name); in a simple record NAMED_UNIT's derived dimensions come first.
+  const auto own = reader.attributes(unit, "SI_UNIT", 1, 2);
+  if (own.empty() || !same_keyword(reader.enumeration(own[1]), "METRE")) return std::nullopt;
+  const auto prefix = reader.enumeration(own[0]);
+  if (prefix.empty()) return StepLengthUnit{{}, "m", 1};
+  for (const auto& known : prefixes) {
+    if (same_keyword(prefix, known.name)) return StepLengthUnit{{}, std::string(known.symbol) + "m", known.factor};
+  }
+  return std::nullopt;
+}
+
+// The number of a MEASURE_WITH_UNIT, LENGTH_MEASURE(25.4), and the unit it counts.
+struct Measure {
+  double value = 0;
+  std::uint32_t unit = no_instance;
+};
+
+std::optional<Measure> measure(const StepReader& reader, const std::vector<std::uint32_t>& attributes) {
+  if (attributes.size() < 2 || reader.file().value(attributes[0]).kind != Part21Kind::typed) return std::nullopt;
+  const auto number = reader.file().children(attributes[0]);
+  const auto unit = reader.reference(attributes[1]);
+  if (number.size() != 1 || !unit) return std::nullopt;
+  const auto value = reader.real(number[0]);
+  if (!value) return std::nullopt;
+  return Measure{*value, *unit};
+}
+
+std::optional<Measure> measure_with_unit(const StepReader& reader, std::uint32_t instance) {
+  // LENGTH_MEASURE_WITH_UNIT and the others add nothing to MEASURE_WITH_UNIT.
+  return measure(reader, reader.attributes(instance, "MEASURE_WITH_UNIT", 0, 2));
+}
+
+std::optional<StepLengthUnit> length_unit(const StepReader& reader, std::uint32_t unit, int depth = 0) {
+  if (reader.is(unit, "SI_UNIT")) return si_unit(reader, unit);
+  if (!reader.is(unit, "CONVERSION_BASED_UNIT") || !reader.is(unit, "LENGTH_UNIT")) return std::nullopt;
+  const auto own = reader.attributes(unit, "CONVERSION_BASED_UNIT", 1, 1);
+  if (own.empty()) return std::nullopt;
+  StepLengthUnit result{{}, reader.string(own[0]), 0};
+  std::transform(result.name.begin(), result.name.end(), result.name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto factor = own.size() > 1 ? reader.reference(own[1]) : std::nullopt;
+  const auto conversion = factor ? measure_with_unit(reader, *factor) : std::nullopt;
+  if (conversion && depth < max_conversions) {
+    if (const auto base = length_unit(reader, conversion->unit, depth + 1)) {
+      result.metres = conversion->value * base->metres;
+    }
+  }
+  return result;
+}
+
+double uncertainty(const StepReader& reader, std::uint32_t context, const StepLengthUnit& unit) {
+  double largest = 0;
+  const auto own = reader.attributes(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT", 0, 1);
+  if (!reader.is(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT") || own.empty()) return 0;
+  for (const auto instance : reader.references(own[0])) {
+    const auto given = measure(reader, reader.attributes(instance, "UNCERTAINTY_MEASURE_WITH_UNIT", 0, 2));
+    const auto own_unit = given ? length_unit(reader, given->unit) : std::nullopt;
+    if (!own_unit) continue;
+    const double scale = own_unit->metres > 0 && unit.metres > 0 ? own_unit->metres / unit.metres : 1.0;
+    if (std::isfinite(given->value * scale)) largest = std::max(largest, given->value * scale);
+  }
+  return largest;
+}
+
+bool is_unit_context(const StepReader& reader, std::uint32_t instance) {
+  return reader.is(instance, "GLOBAL_UNIT_ASSIGNED_CONTEXT");
+}
+
+// Marks what the items of one representation lead to.
+class Reach {
+ public:
+  Reach(const StepReader& reader, const std::vector<bool>& representation)
+      : reader_(&reader), representation_(&representation), mark_(reader.file().instances().size(), -1) {}
+
+  void follow(std::uint32_t from, int context) {
+    stack_.assign(1, from);
+    while (!stack_.empty()) {
+      const auto instance = stack_.back();
+      stack_.pop_back();
+      const auto& record = reader_->file().instance(instance);
+      for (auto k = record.first; k < record.last; ++k) {
+        const auto target = reader_->reference(k);
+        if (!target || (*representation_)[*target] || mark_[*target] == context) continue;
+        mark_[*target] = context;
+        visited_.emplace_back(*target, context);
+        stack_.push_back(*target);
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<std::pair<std::uint32_t, int>>& visited() const { return visited_; }
+
+ private:
+  const StepReader* reader_;
+  const std::vector<bool>* representation_;
+  std::vector<int> mark_;
+  std::vector<std::uint32_t> stack_;
+  std::vector<std::pair<std::uint32_t, int>> visited_;
+};
+
+}  // namespace
+
+std::vector<UnitContext> read_unit_contexts(const StepReader& reader) {
+  std::vector<UnitContext> result;
+  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
+    if (!is_unit_context(reader, k)) continue;
+    const auto own = reader.attributes(k, "GLOBAL_UNIT_ASSIGNED_CONTEXT", 0, 1);
+    if (own.empty()) continue;
+    for (const auto unit : reader.references(own[0])) {
+      auto length = length_unit(reader, unit);
+      if (!length) continue;
+      length->context = "#" + std::to_string(reader.file().instance(k).id);
+      const double gap = uncertainty(reader, k, *length);
+      result.push_back({k, *std::move(length), gap});
+      break;
+    }
+  }
+  return result;
+}
+
+std::vector<int> contexts_of(const StepReader& reader, const std::vector<UnitContext>& contexts,
+                             const std::vector<std::uint32_t>& instances) {
+  std::vector<int> result(instances.size(), contexts.size() == 1 ? 0 : -1);
+  if (contexts.size() < 2 || instances.empty()) return result;
+  const auto count = reader.file().instances().size();
+  std::vector<int> context_at(count, -1);
+  for (std::size_t c = 0; c < contexts.size(); ++c) context_at[contexts[c].instance] = static_cast<int>(c);
+  std::vector<bool> representation(count, false);
+  std::vector<std::vector<std::uint32_t>> of_context(contexts.size());
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const auto& record = reader.file().instance(k);
+    for (auto value = record.first; value < record.last; ++value) {
+      const auto target = reader.reference(value);
+      if (!target || context_at[*target] < 0) continue;
+      representation[k] = true;
+      of_context[static_cast<std::size_t>(context_at[*target])].push_back(k);
+    }
+  }
+  std::vector<int> found(count, -1);
+  std::vector<bool> ambiguous(count, false);
+  Reach reach(reader, representation);
+  for (std::size_t c = 0; c < contexts.size(); ++c) {
+    for (const auto from : of_context[c]) reach.follow(from, static_cast<int>(c));
+  }
+  for (const auto& [instance, context] : reach.visited()) {
+    const auto same_unit = [&](int a, int b) {
+      return contexts[static_cast<std::size_t>(a)].unit.name == contexts[static_cast<std::size_t>(b)].unit.name;
+    };
+    if (found[instance] >= 0 && !same_unit(found[instance], context)) ambiguous[instance] = true;
+    if (found[instance] < 0) found[instance] = context;
+  }
+  for (std::size_t k = 0; k < instances.size(); ++k) {
+    if (!ambiguous[instances[k]]) result[k] = found[instances[k]];
+  }
+  return result;
+}
+
+}  // namespace knead
