@@ -14,7 +14,7 @@ struct GaussRule {
 inline constexpr int max_gauss_points = 64;
 
 /// The rule with n points, 1 <= n <= max_gauss_points (asserted). Abscissae and weights are the correctly computed
-/// values rounded to double: Newton's iteration on P_n in extended precision; error below 1 ulp.
+/// values rounded to double: Newton's iteration on P_n, finished in quadruple precision; error below 1 ulp.
 /// Cost: a table look-up; all rules are computed once, on first use, thread-safely.
 [[nodiscard]] GaussRule gauss_legendre(int n);
 

@@ -1,0 +1,93 @@
+#include "knead/spline/spline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/knot_families.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+const KnotVector linear = testing::make_knots(1, {0, 0, 1, 1});
+const KnotVector quadratic = testing::make_knots(2, {0, 0, 0, 1, 2, 2, 2});
+
+Points counted(int rows) {
+  Points points(rows, 3);
+  for (int i = 0; i < rows; ++i) points.row(i) << i, 0.1 * i, -i;
+  return points;
+}
+
+TEST(Spline, NetHasOneEntryPerFunctionAndDirection) {
+  const auto curve = Curve::create({quadratic}, counted(4));
+  const auto surface = Surface::create({linear, quadratic}, counted(8));
+  const auto volume = Volume::create({linear, quadratic, linear}, counted(16));
+  ASSERT_TRUE(curve && surface && volume);
+  EXPECT_EQ(curve->net(), (std::array{4}));
+  EXPECT_EQ(surface->net(), (std::array{2, 4}));
+  EXPECT_EQ(volume->net(), (std::array{2, 4, 2}));
+  EXPECT_EQ(volume->size(), 16);
+}
+
+TEST(Spline, KeepsControlPointsAndWeightsToTheLastBit) {
+  Points points = counted(4);
+  points(2, 1) = -0.0;
+  points(3, 2) = 5e-324;
+  const std::vector<double> weights = {1, 0.1, 1e-300, 3};
+  const auto curve = Curve::create({quadratic}, points, weights);
+  ASSERT_TRUE(curve);
+  EXPECT_TRUE((curve->control_points().array() == points.array()).all());
+  EXPECT_TRUE(std::signbit(curve->control_points()(2, 1)));
+  EXPECT_TRUE(std::ranges::equal(curve->weights(), weights));
+  EXPECT_TRUE(curve->rational());
+  EXPECT_FALSE(Curve::create({quadratic}, points)->rational());
+}
+
+TEST(Spline, NetThatDoesNotFitTheKnotsIsRefused) {
+  const auto surface = Surface::create({linear, quadratic}, counted(7));
+  ASSERT_FALSE(surface);
+  EXPECT_EQ(surface.error().what, "7 control points do not fit the knots");
+  EXPECT_EQ(surface.error().remedy, "the knots ask for 8");
+}
+
+TEST(Spline, ControlPointThatIsNoNumberIsNamedByItsIndices) {
+  Points points = counted(16);
+  points(7, 2) = nan;
+  EXPECT_EQ(Volume::create({linear, quadratic, linear}, points).error().where, "control point (0, 3, 1)");
+  EXPECT_EQ(Surface::create({linear, quadratic}, points.topRows(8)).error().where, "control point (1, 3)");
+  points(1, 0) = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(Curve::create({quadratic}, points.topRows(4)).error().where, "control point 1");
+}
+
+TEST(Spline, WeightsThatDoNotFitAreRefused) {
+  const auto few = Curve::create({quadratic}, counted(4), {1, 1, 1});
+  ASSERT_FALSE(few);
+  EXPECT_EQ(few.error().what, "3 weights do not fit 4 control points");
+  const auto bad = Surface::create({linear, linear}, counted(4), {1, 1, nan, 1});
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().where, "control point (1, 0)");
+}
+
+TEST(Spline, NegativeAndZeroWeightsAreKept) {
+  const auto curve = Curve::create({quadratic}, counted(4), {1, -0.5, 0, 1});
+  ASSERT_TRUE(curve);
+  EXPECT_EQ(curve->weights()[1], -0.5);
+  EXPECT_EQ(curve->weights()[2], 0);
+}
+
+TEST(Spline, OtherControlPointsKeepKnotsAndWeights) {
+  const std::vector<double> weights = {1, 2, 3, 4};
+  const auto curve = Curve::create({quadratic}, counted(4), weights);
+  const auto moved = curve->with_control_points(2 * counted(4));
+  ASSERT_TRUE(moved);
+  EXPECT_EQ(moved->knots(0), quadratic);
+  EXPECT_TRUE(std::ranges::equal(moved->weights(), weights));
+  EXPECT_EQ(moved->control_points()(3, 0), 6);
+  EXPECT_EQ(curve->control_points()(3, 0), 3);
+  EXPECT_FALSE(curve->with_control_points(counted(5)));
+}
+
+}  // namespace
+}  // namespace knead
