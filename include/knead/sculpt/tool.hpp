@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+
+#include "knead/spline/spline.hpp"
+
+namespace knead {
+
+/// A sphere: the shape of a tool.
+struct Sphere {
+  Point centre = Point::Zero();
+  double radius = 1;
+
+  friend bool operator==(const Sphere&, const Sphere&) = default;
+};
+
+/// How a tool acts on the surface (thesis 4.3 and 6.4).
+enum class ToolMode {
+  proximity,  ///< the surface is drawn to the tool's surface from either side, within `range`
+  collision,  ///< what has entered the tool is pushed out; nothing else is touched
+};
+
+/// A shaped tool: Hookean springs between the surface and the tool (thesis Eq. 4.25).
+struct Tool {
+  std::string name = "tool";
+  Sphere shape;
+  ToolMode mode = ToolMode::collision;
+  double stiffness = 50;  ///< k: force per length and parameter area
+  double range = 0.5;     ///< proximity: no force at this distance and beyond; unused by collision
+
+  friend bool operator==(const Tool&, const Tool&) = default;
+};
+
+/// Checks radius > 0, stiffness >= 0, range > 0 where it is used, all finite; the error names the field.
+[[nodiscard]] Expected<Tool> validated(const Tool& tool);
+
+/// What a tool does to one point x: a potential ψ whose negative gradient is the force of the springs, and a positive
+/// semi-definite model of its Hessian, normal · n nᵀ + tangential · (I − n nᵀ).
+///
+/// With φ the signed distance of x to the tool (negative inside) and n its gradient:
+/// collision  ψ = k/2 min(φ, 0)², force −k φ n inside;
+/// proximity  ψ = k r²/6 (1 − (1 − φ²/r²)³) within the range r, force −k φ (1 − φ²/r²)² n, which is k φ near the
+///            tool and falls to zero with two derivatives at the range's end.
+/// At the very centre of a sphere no direction is nearest and the force is zero.
+struct ToolAction {
+  double potential = 0;
+  Point force = Point::Zero();
+  double normal = 0, tangential = 0;
+  Point direction = Point::Zero();  ///< n
+
+  [[nodiscard]] bool active() const { return normal != 0 || tangential != 0; }
+};
+
+[[nodiscard]] ToolAction tool_action(const Tool& tool, const Point& x);
+
+}  // namespace knead

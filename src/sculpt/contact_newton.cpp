@@ -1,0 +1,126 @@
+#include "contact_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knead {
+namespace {
+
+constexpr int max_newton_iterations = 60;
+constexpr int max_cg_iterations = 400;
+// The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step; relative to the largest one met.
+constexpr double relative_tolerance = 1e-11;
+constexpr double absolute_tolerance = 1e-15;
+constexpr double sufficient_decrease = 1e-4;
+
+double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
+
+/// The minimised function Φ and its gradient, X measured from X₀ (the matrix A = K + λW is kept, W is not needed):
+/// Φ = ½ YᵀAY + YᵀKX₀ + Ψ(X₀ + Y) + const, ∇Φ = A Y + K X₀ − F(X₀ + Y).
+struct Objective {
+  const ImplicitEuler& euler;
+  const SurfaceLoad& load;
+  std::span<const Tool> tools;
+  Points start;  // control points at X₀
+  Points kx0;
+
+  struct At {
+    Points y, ay;
+    SurfaceLoad::State state;
+    double quadratic = 0;
+    [[nodiscard]] double value() const { return quadratic + state.potential(); }
+  };
+
+  [[nodiscard]] At at(Points y, Points ay) const {
+    SurfaceLoad::State state = load.evaluate(start + y, tools);
+    At here{std::move(y), std::move(ay), std::move(state), 0};
+    here.quadratic = 0.5 * dot(here.y, here.ay) + dot(here.y, kx0);
+    return here;
+  }
+
+  [[nodiscard]] Points gradient(const At& here) const {
+    Points g = here.ay + kx0 - here.state.force();
+    for (int i = 0; i < euler.partition().size(); ++i) {
+      if (!euler.partition().is_free(i)) g.row(i).setZero();
+    }
+    return g;
+  }
+};
+
+/// (A + H) d = −g by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
+/// `z` = A⁻¹ g is known already.
+Points newton_direction(const Objective& objective, const SurfaceLoad::State& state, const Points& g, const Points& z,
+                        double tolerance, Points& a_direction, int& solves) {
+  const SparseMatrix& a = objective.euler.system();
+  const Partition& partition = objective.euler.partition();
+  Points d = Points::Zero(g.rows(), 3), ad = d;
+  Points r = -g, s = -z, p = s;
+  double rs = dot(r, s);
+  const double target = tolerance * tolerance * rs;
+  for (int iteration = 0; iteration < max_cg_iterations && rs > target && rs > 0; ++iteration) {
+    Points ap = a * p;
+    Points hp = ap + objective.load.apply_hessian(state, p);
+    for (int i = 0; i < partition.size(); ++i) {
+      if (!partition.is_free(i)) hp.row(i).setZero();
+    }
+    const double step = rs / dot(p, hp);
+    d += step * p;
+    ad += step * ap;
+    r -= step * hp;
+    s = objective.euler.solve(r);
+    ++solves;
+    const double next = dot(r, s);
+    p = s + (next / rs) * p;
+    rs = next;
+  }
+  a_direction = std::move(ad);
+  return d;
+}
+
+}  // namespace
+
+ContactSummary minimise_step(const ImplicitEuler& euler, const SurfaceLoad& load, std::span<const Tool> tools,
+                             const Points& origin, Points& x) {
+  ContactSummary summary;
+  const Points x0 = x;
+  const Objective objective{euler, load, tools, origin + x0, euler.k() * x0};
+  Objective::At here = objective.at(Points::Zero(x.rows(), 3), Points::Zero(x.rows(), 3));
+  double largest = 0;
+  while (true) {
+    const Points g = objective.gradient(here);
+    const Points z = euler.solve(g);
+    ++summary.solves;
+    const double decrement = std::sqrt(std::max(0.0, dot(g, z)));
+    largest = std::max(largest, decrement);
+    if (decrement <= relative_tolerance * largest + absolute_tolerance || !std::isfinite(decrement)) {
+      summary.converged = std::isfinite(decrement);
+      break;
+    }
+    if (summary.iterations == max_newton_iterations) break;
+    ++summary.iterations;
+
+    Points d, ad;
+    if (here.state.contacts() == 0) {
+      d = -z;
+      ad = euler.system() * d;
+    } else {
+      // Loose while far away, tight near the end, where a step must not undo what the one before it gained.
+      const double tolerance = std::clamp(0.1 * decrement / largest, 1e-8, 1e-2);
+      d = newton_direction(objective, here.state, g, z, tolerance, ad, summary.solves);
+    }
+    const double slope = dot(g, d);
+    double t = 1;
+    Objective::At next = objective.at(here.y + d, here.ay + ad);
+    // Differences below the rounding of Φ decide nothing: the full step is taken.
+    const double rounding = 1e-14 * (std::abs(here.quadratic) + here.state.potential());
+    while (next.value() > here.value() + sufficient_decrease * t * slope + rounding && t > 1e-10) {
+      t /= 2;
+      next = objective.at(here.y + t * d, here.ay + t * ad);
+    }
+    here = std::move(next);
+  }
+  x = x0 + here.y;
+  return summary;
+}
+
+}  // namespace knead

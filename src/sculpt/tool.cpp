@@ -1,0 +1,50 @@
+#include "knead/sculpt/tool.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace knead {
+
+Expected<Tool> validated(const Tool& tool) {
+  if (!tool.shape.centre.allFinite()) return input_error("a coordinate is not a finite number", "position");
+  if (!std::isfinite(tool.shape.radius) || tool.shape.radius <= 0) {
+    return input_error(fmt::format("{} is not a radius", tool.shape.radius), "radius", "use a number > 0");
+  }
+  if (!std::isfinite(tool.stiffness) || tool.stiffness < 0) {
+    return input_error(fmt::format("{} is not a stiffness", tool.stiffness), "stiffness", "use a number >= 0");
+  }
+  if (!std::isfinite(tool.range) || (tool.mode == ToolMode::proximity && tool.range <= 0)) {
+    return input_error(fmt::format("{} is not a range", tool.range), "range", "use a number > 0");
+  }
+  return tool;
+}
+
+ToolAction tool_action(const Tool& tool, const Point& x) {
+  ToolAction action;
+  const Point offset = x - tool.shape.centre;
+  const double distance = offset.norm(), phi = distance - tool.shape.radius, k = tool.stiffness;
+  double slope = 0;  // ψ'(φ) / φ
+  if (tool.mode == ToolMode::collision) {
+    if (phi >= 0) return action;
+    action.potential = 0.5 * k * phi * phi;
+    slope = k;
+  } else {
+    const double r2 = tool.range * tool.range, s = 1 - phi * phi / r2;
+    if (s <= 0) {
+      action.potential = k * r2 / 6;
+      return action;
+    }
+    action.potential = k * r2 / 6 * (1 - s * s * s);
+    slope = k * s * s;
+  }
+  if (distance == 0) return action;
+  action.direction = offset / distance;
+  action.force = -slope * phi * action.direction;
+  action.normal = slope;
+  action.tangential = std::max(0.0, slope * phi / distance);
+  return action;
+}
+
+}  // namespace knead
