@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "quad_reference.hpp"
 #include "support/knot_families.hpp"
 #include "support/quad_gramian.hpp"
 
@@ -22,28 +23,6 @@ std::vector<double> parameters_of(const KnotVector& knots, int s) {
   std::vector<double> result = {a, std::nextafter(a, b), std::nextafter(b, a), b};
   for (const double t : {0.1, 0.25, 0.5, 0.7, 0.95}) result.push_back(std::clamp(a + t * (b - a), a, b));
   return result;
-}
-
-/// Σ of the magnitudes of the terms that `quad_span_basis` sums: what rounding errors are relative to.
-std::vector<Quad> term_magnitudes(const KnotVector& x, int p, int d, int s, Quad u) {
-  std::vector<Quad> level(static_cast<std::size_t>(p) + 1, Quad(0));
-  if (d > p) return level;
-  level[0] = 1;
-  for (int q = 1; q <= p; ++q) {
-    Quad before = 0;
-    for (int r = 0; r <= q; ++r) {
-      const auto at = static_cast<std::size_t>(r);
-      Quad here = 0, after = 0;
-      if (r < q) {
-        const Quad lower = Quad(x[s + 1 - q + r]), upper = Quad(x[s + 1 + r]), quotient = level[at] / (upper - lower);
-        here = q > p - d ? q * quotient : (upper - u) * quotient;
-        after = q > p - d ? q * quotient : (u - lower) * quotient;
-      }
-      level[at] = here + before;
-      before = after;
-    }
-  }
-  return level;
 }
 
 class Basis : public ::testing::TestWithParam<int> {
@@ -101,7 +80,7 @@ TEST_P(Basis, DerivativesOfEveryOrderAreExactToRounding) {
     basis_derivatives(knots, s, u, order, got.data());
     for (int d = 0; d <= order; ++d) {
       const auto exact = testing::quad_span_basis(knots, p, d, s, u);
-      const auto size = term_magnitudes(knots, p, d, s, u);
+      const auto size = testing::term_magnitudes(knots, p, d, s, u);
       for (int r = 0; r <= p; ++r) {
         const auto at = static_cast<std::size_t>(r);
         const double error =
@@ -148,8 +127,8 @@ TEST_P(Basis, SmoothnessAtAKnotIsDegreeMinusMultiplicity) {
       basis_derivatives(knots, left, u, p, before.data());
       basis_derivatives(knots, right, u, p, after.data());
       for (int d = 0; d <= std::min(p, p - m + 1); ++d) {
-        const auto size_left = term_magnitudes(knots, p, d, left, u),
-                   size_right = term_magnitudes(knots, p, d, right, u);
+        const auto size_left = testing::term_magnitudes(knots, p, d, left, u),
+                   size_right = testing::term_magnitudes(knots, p, d, right, u);
         double jump = 0;
         for (int i = left - p; i <= right; ++i) {
           const bool in_left = i <= left, in_right = i >= right - p;
