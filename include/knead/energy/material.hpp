@@ -13,7 +13,7 @@ namespace knead {
 /// α resists stretch, β resists bending. Units: those of the equation; see `DomainScaling` for the normalised ones.
 struct Material {
   std::array<double, 3> alpha = {1, 0, 1};
-  std::array<double, 3> beta = {0.1, 0.1, 0.1};
+  std::array<double, 3> beta = {0.01, 0.01, 0.01};
 
   friend bool operator==(const Material&, const Material&) = default;
 };

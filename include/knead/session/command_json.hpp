@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "knead/session/command.hpp"
+
+namespace knead {
+
+/// One command from its JSON form. Errors (input) name the field; an unknown command or field lists the known ones.
+[[nodiscard]] Expected<Command> parse_command(std::string_view json);
+
+/// The JSON form of a command, every field written out, numbers to 17 significant digits; parsing it gives the same
+/// command back.
+[[nodiscard]] std::string to_json(const Command& command);
+
+/// The commands of a script {"knead": 1, "commands": [...]}. `name` stands for the file in errors, which give the line
+/// of a syntax error, or the path of a wrong value ("commands[2].radius").
+[[nodiscard]] Expected<std::vector<Command>> parse_script(std::string_view json, const std::string& name);
+
+/// A script of these commands, one per line.
+[[nodiscard]] std::string script_json(const std::vector<Command>& commands);
+
+/// A table of all commands, their fields and defaults, for help texts.
+[[nodiscard]] std::string command_help();
+
+}  // namespace knead
