@@ -15,7 +15,7 @@ namespace {
 #if LDBL_MANT_DIG >= 113
 using Wide = long double;
 #else
-__extension__ typedef __float128 Wide;
+__extension__ typedef __float128 Wide;  // NOLINT(modernize-use-using): __extension__ takes a typedef only
 #endif
 
 template <class Real>
@@ -41,11 +41,11 @@ Node node(int n, int k) {
   double guess = std::cos(std::numbers::pi * (n - 1 - k + 0.75) / (n + 0.5));
   if (2 * k == n - 1) guess = 0;
   for (int iteration = 0; iteration < 8; ++iteration) {
-    double value, derivative;
+    double value = 0, derivative = 0;
     legendre(n, guess, value, derivative);
     if (2 * k != n - 1) guess -= value / derivative;
   }
-  Wide x = guess, value, derivative;
+  Wide x = guess, value = 0, derivative = 0;
   legendre(n, x, value, derivative);
   const Wide step = 2 * k == n - 1 ? Wide(0) : -value / derivative;
   // P' moves along: Legendre's equation gives P''.

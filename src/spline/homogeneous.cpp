@@ -15,15 +15,14 @@ double binomial(int n, int k) {
 
 template <int D>
 HomogeneousNet<D>::HomogeneousNet(const Spline<D>& spline)
-    : width_(spline.rational() ? 4 : 3), data_(spline.control_points().data()) {
+    : width_(spline.rational() ? 4 : 3), cartesian_(spline.control_points().data()) {
   if (spline.rational()) {
     const auto weights = spline.weights();
     premultiplied_.resize(weights.size() * width_);
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c) premultiplied_[i * 4 + c] = weights[i] * data_[i * 3 + c];
+      for (std::size_t c = 0; c < 3; ++c) premultiplied_[i * 4 + c] = weights[i] * cartesian_[i * 3 + c];
       premultiplied_[i * 4 + 3] = weights[i];
     }
-    data_ = premultiplied_.data();
   }
   std::size_t block = width_;
   for (std::size_t d = D; d-- > 0;) {

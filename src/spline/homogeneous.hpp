@@ -13,19 +13,17 @@ template <int D>
 class HomogeneousNet {
  public:
   explicit HomogeneousNet(const Spline<D>& spline);
-  HomogeneousNet(const HomogeneousNet&) = delete;
-  HomogeneousNet& operator=(const HomogeneousNet&) = delete;
 
   [[nodiscard]] std::size_t width() const { return width_; }
   /// Distance in memory of neighbours in `direction`.
   [[nodiscard]] std::size_t stride(std::size_t direction) const { return stride_[direction]; }
-  [[nodiscard]] const double* data() const { return data_; }
+  [[nodiscard]] const double* data() const { return premultiplied_.empty() ? cartesian_ : premultiplied_.data(); }
 
  private:
   std::size_t width_;
-  std::array<std::size_t, D> stride_{};
+  const double* cartesian_;
   std::vector<double> premultiplied_;
-  const double* data_;
+  std::array<std::size_t, D> stride_{};
 };
 
 /// Cartesian derivatives from homogeneous ones by the quotient rule (The NURBS Book, Eq. 4.20):

@@ -20,7 +20,7 @@ std::string name_of(int index, const std::array<int, D>& net) {
   std::string text;
   for (int d = D - 1; d >= 0; --d) {
     const int n = net[static_cast<std::size_t>(d)];
-    text = std::to_string(index % n) + (text.empty() ? "" : ", ") + text;
+    text.insert(0, std::to_string(index % n) + (text.empty() ? "" : ", "));
     index /= n;
   }
   return D == 1 ? "control point " + text : "control point (" + text + ")";
