@@ -1,5 +1,6 @@
 #include "step_curves.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -171,6 +171,8 @@ std::optional<StepPlacement> read_placement(const StepReader& reader, std::uint3
   if (const auto axis = attribute(reader, instance, "AXIS2_PLACEMENT_3D", inherited, 0)) {
     result.axis = reader.direction(*axis).value_or(result.axis);
   }
+  // ISO 10303-42, first_proj_axis: the x axis, or the y axis where the first is along the axis itself.
+  if (result.axis.tail<2>().norm() <= 1e-12 * result.axis.norm()) result.ref_direction = Point::UnitY();
   if (const auto x = attribute(reader, instance, "AXIS2_PLACEMENT_3D", inherited, 1)) {
     result.ref_direction = reader.direction(*x).value_or(result.ref_direction);
   }

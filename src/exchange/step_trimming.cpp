@@ -83,7 +83,19 @@ class NaturalBoundary {
     }
   }
 
-  // Gaps may be as long as vertices may be off: twice the tolerance at each end.
+  // Gaps may be as long as vertices may be off: twice the tolerance at each end. Not by the chord alone: a whole closed
+  // curve has none.
+  [[nodiscard]] bool short_arc(const Curve& curve, double from, double to) const {
+    constexpr int pieces = 8;
+    for (int k = 1; k <= pieces; ++k) {
+      const double t = from + (to - from) * k / pieces;
+      const auto a = evaluate_point<1>(curve, {from});
+      const auto b = evaluate_point<1>(curve, {std::min(t, to)});
+      if (!a || !b || (*a - *b).norm() > 4 * tolerance_) return false;
+    }
+    return true;
+  }
+
   [[nodiscard]] bool full(const BoundarySide& side) const {
     const auto domain = side.table.curve().knots(0).domain();
     auto covered = side.covered;
@@ -91,11 +103,7 @@ class NaturalBoundary {
     covered.push_back({domain.upper, domain.upper});
     double reached = domain.lower;
     for (const auto& interval : covered) {
-      if (interval.lower > reached) {
-        const auto a = evaluate_point<1>(side.table.curve(), {reached});
-        const auto b = evaluate_point<1>(side.table.curve(), {interval.lower});
-        if (!a || !b || (*a - *b).norm() > 4 * tolerance_) return false;
-      }
+      if (interval.lower > reached && !short_arc(side.table.curve(), reached, interval.lower)) return false;
       reached = std::max(reached, interval.upper);
     }
     return true;
@@ -169,7 +177,7 @@ std::vector<bool> trimmed_surfaces(const StepReader& reader, const std::vector<R
     const auto s = found->second;
     const auto& surface = surfaces[s].surface;
     const double diagonal = net_diagonal(surface.control_points());
-    const double tolerance = std::clamp(uncertainty[s], 1e-6 * diagonal, 1e-4 * diagonal);
+    const double tolerance = std::clamp(uncertainty[s], 1e-5 * diagonal, 1e-4 * diagonal);
     auto [slot, fresh] = boundaries.try_emplace(s);
     if (fresh) slot->second = NaturalBoundary::create(surface, tolerance);
     if (!slot->second) {

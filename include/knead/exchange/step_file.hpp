@@ -31,7 +31,7 @@ struct StepSurface {
 
   /// Some face on this surface is not the whole of it: an edge of its bounds leaves the four boundary isocurves of the
   /// surface, or its edges together leave out part of a boundary isocurve that is neither a seam nor a single point.
-  /// Decided by points sampled on the edges, to the uncertainty the file states, but no less than 1e-6 and no more than
+  /// Decided by points sampled on the edges, to the uncertainty the file states, but no less than 1e-5 and no more than
   /// 1e-4 of the net's bounding-box diagonal. Where the form of an edge's curve is not known (docs/step.md) the face
   /// counts as trimmed. A surface that no face uses is untrimmed, unless a RECTANGULAR_TRIMMED_SURFACE or
   /// CURVE_BOUNDED_SURFACE cuts it.
@@ -45,7 +45,7 @@ struct StepUnreadableSurface {
 };
 
 /// AXIS2_PLACEMENT_3D as the file gives it: directions are not normalised; an omitted axis is (0, 0, 1) and an omitted
-/// reference direction (1, 0, 0) (ISO 10303-42, 4.3.10).
+/// reference direction (1, 0, 0), or (0, 1, 0) where the axis is along x (ISO 10303-42, first_proj_axis).
 struct StepPlacement {
   Point origin = Point::Zero();
   Point axis = Point::UnitZ();

@@ -1,0 +1,159 @@
+// Damaged files are errors or files, and never a crash. Deterministic; KNEAD_LONG=1 makes it long.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "exchange/support.hpp"
+#include "knead/exchange/file_io.hpp"
+
+namespace knead {
+namespace {
+
+class Damage {
+ public:
+  explicit Damage(std::uint32_t seed) : random_(seed) {}
+
+  std::string operator()(std::string bytes) {
+    const auto times = 1 + below(4);
+    for (std::size_t k = 0; k < times && !bytes.empty(); ++k) once(bytes);
+    return bytes;
+  }
+
+ private:
+  std::size_t below(std::size_t n) { return random_() % n; }
+
+  void once(std::string& bytes) {
+    static const std::string characters = "()',;=#$*./&!@<>{}:\"\\0123456789EX-+ \n\rA_\x80\xFF";
+    static const std::vector<std::string> pieces = {"/*",       "*/",
+                                                    "''",       "&SCOPE",
+                                                    "ENDSCOPE", "ENDSEC;",
+                                                    "DATA;",    "END-ISO-10303-21;",
+                                                    "#1",       "#99999999999999999999",
+                                                    "1.E999",   "-1.E-999",
+                                                    "0",        "((((((((",
+                                                    "\\X2\\",   "\\X0\\",
+                                                    "\\S\\",    "*",
+                                                    "$",        "CARTESIAN_POINT",
+                                                    "99999999", "-2147483648",
+                                                    ".T."};
+    const auto at = below(bytes.size());
+    switch (below(8)) {
+      case 0:
+        bytes[at] = characters[below(characters.size())];
+        break;
+      case 1:
+        bytes[at] = static_cast<char>(random_());
+        break;
+      case 2:
+        bytes.erase(at, 1 + below(20));
+        break;
+      case 3:
+        bytes.insert(at, pieces[below(pieces.size())]);
+        break;
+      case 4:
+        bytes.resize(at);
+        break;
+      case 5:
+        bytes.insert(below(bytes.size()), bytes.substr(at, below(200)));
+        break;
+      case 6: {
+        // One name becomes another: wrong kinds of entities, loops.
+        const auto from = bytes.find('#', at);
+        const auto to = bytes.find('#', below(bytes.size()));
+        if (from == std::string::npos || to == std::string::npos) break;
+        const auto length = [&](std::size_t k) { return bytes.find_first_not_of("0123456789", k + 1) - k; };
+        bytes.replace(from, length(from), bytes.substr(to, length(to)));
+        break;
+      }
+      default:
+        // One digit becomes another: counts, degrees, multiplicities.
+        if (const auto digit = bytes.find_first_of("0123456789", at); digit != std::string::npos) {
+          bytes[digit] = static_cast<char>('0' + below(10));
+        }
+    }
+  }
+
+  std::mt19937 random_;
+};
+
+// Reads, and where that succeeds moves every surface and writes.
+bool survives(const std::string& bytes) {
+  const auto file = StepFile::parse(bytes, "damaged.step");
+  if (!file) {
+    EXPECT_FALSE(file.error().what.empty());
+    EXPECT_EQ(file.error().kind, ErrorKind::input);
+    return false;
+  }
+  EXPECT_EQ(file->with_control_points({}), bytes);
+  std::vector<StepEdit> edits;
+  for (const auto& surface : file->surfaces()) {
+    edits.push_back({surface.id, surface.surface.control_points()});
+    edits.back().control_points.array() += 0.125;
+  }
+  const auto written = file->with_control_points(edits);
+  EXPECT_TRUE(written) << written.error().message() << "\n" << bytes;
+  return true;
+}
+
+void damage(const std::string& whole, int times) {
+  ASSERT_TRUE(survives(whole));
+  int readable = 0;
+  for (int k = 0; k < times; ++k) readable += survives(Damage(static_cast<std::uint32_t>(k))(whole)) ? 1 : 0;
+  EXPECT_GT(readable, 0) << "no damaged file was read: the test does not reach what lies behind the parser";
+}
+
+int times(int in_short) { return std::getenv("KNEAD_LONG") != nullptr ? 50 * in_short : in_short; }
+
+const std::string everything = testing::step_text(
+    testing::unit_square_points() + testing::bilinear_patch() +
+    "#5=&SCOPE #6=CARTESIAN_POINT('\\X2\\00E9\\X0\\',(2.,0.,0.5)); ENDSCOPE /#6/ VERTEX_POINT('',#6);\n"
+    "#11=(BOUNDED_SURFACE()B_SPLINE_SURFACE(1,2,((#1,#3,#1),(#2,#4,#6)),.UNSPECIFIED.,.F.,.F.,.F.)BEZIER_SURFACE()"
+    "GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(((1.,.5,1.),(1.,2.,1.)))REPRESENTATION_ITEM('r')SURFACE()"
+    ");\n"
+    "#12=QUASI_UNIFORM_SURFACE('q',1,1,((#1,#2),(#1,#4)),.UNSPECIFIED.,.F.,.F.,.F.);\n"
+    "#20=VERTEX_POINT('',#1);\n#21=VERTEX_POINT('',#3);\n#22=DIRECTION('',(1.,0.,0.));\n#23=VECTOR('',#22,1.);\n#24="
+    "LINE('',#1,#23);\n"
+    "#25=EDGE_CURVE('',#20,#21,#24,.T.);\n#26=ORIENTED_EDGE('',*,*,#25,.T.);\n"
+    "#27=B_SPLINE_CURVE_WITH_KNOTS('',2,(#1,#2,#3),.UNSPECIFIED.,.F.,.F.,(3,3),(0.,1.),.UNSPECIFIED.);\n"
+    "#28=EDGE_CURVE('',#20,#21,#27,.F.);\n#29=ORIENTED_EDGE('',*,*,#28,.F.);\n#30=AXIS2_PLACEMENT_3D('',#1,$,#22);\n#"
+    "31=CIRCLE('',#30,2.);\n"
+    "#32=EDGE_CURVE('',#20,#20,#31,.T.);\n#33=ORIENTED_EDGE('',*,*,#32,.T.);\n#34=EDGE_LOOP('',(#26,#29,#33));\n"
+    "#35=FACE_OUTER_BOUND('',#34,.T.);\n#36=ADVANCED_FACE('',(#35),#10,.T.);\n#37=ADVANCED_FACE('',(#35),#11,.T.);\n"
+    "#40=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n#41=(CONVERSION_BASED_UNIT('INCH',#42)LENGTH_UNIT()"
+    "NAMED_UNIT(*));\n"
+    "#42=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#40);\n#43=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-3),#"
+    "40,'','');\n"
+    "#44=(GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#43))GLOBAL_UNIT_ASSIGNED_CONTEXT((#41))REPRESENTATION_CONTEXT('',''));"
+    "\n"
+    "#45=(GLOBAL_UNIT_ASSIGNED_CONTEXT((#40))REPRESENTATION_CONTEXT('',''));\n#46=SHAPE_REPRESENTATION('',(#36,#30),#"
+    "44);\n"
+    "#47=SHAPE_REPRESENTATION('',(#37,#53),#45);\n#50=PRODUCT('p','P','',());\n#51=PRODUCT_DEFINITION_FORMATION('','',#"
+    "50);\n"
+    "#52=REPRESENTATION_MAP(#30,#46);\n#53=MAPPED_ITEM('m',#52,#30);\n#54=PRODUCT_DEFINITION('','',#51,$);\n"
+    "#55=NEXT_ASSEMBLY_USAGE_OCCURRENCE('1','n','',#54,#54,$);\n#56=PRODUCT_DEFINITION_SHAPE('','',#55);\n"
+    "#57=ITEM_DEFINED_TRANSFORMATION('','',#30,#30);\n"
+    "#58=(REPRESENTATION_RELATIONSHIP('','',#46,#47)REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#57)SHAPE_"
+    "REPRESENTATION_RELATIONSHIP());\n"
+    "#59=CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#58,#56);\n#60=RECTANGULAR_TRIMMED_SURFACE('',#12,0.,1.,0.,1.,.T.,.T.);"
+    "\n");
+
+TEST(StepFuzz, DamagedTextsOfEveryKindOfEntity) { damage(everything, times(4000)); }
+
+TEST(StepFuzz, DamagedFilesOfTheCollection) {
+  if (!std::filesystem::exists(testing::collection())) GTEST_SKIP() << "no collection of CAD files beside the project";
+  for (const auto* name :
+       {"ap203_part21_scope.stp", "ap214_repeated_distinct_surface_knots.stp", "ap214_vertex_loop_spline_pole.stp"}) {
+    damage(*read_file(testing::collection() / name), times(800));
+  }
+  for (const auto* name : {"simple_wing.stp", "test_pipe.step", "ap203_periodic_bspline_triangular_cap.stp"}) {
+    damage(*read_file(testing::collection() / name), times(100));
+  }
+}
+
+TEST(StepFuzz, DamagedSamples) {
+  for (const auto& path : testing::step_files_in(testing::samples())) damage(*read_file(path), times(20));
+}
+
+}  // namespace
+}  // namespace knead

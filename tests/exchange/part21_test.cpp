@@ -1,0 +1,185 @@
+#include "knead/exchange/part21.hpp"
+
+#include <gtest/gtest.h>
+
+#include "exchange/support.hpp"
+
+namespace knead {
+namespace {
+
+using testing::step_text;
+
+Part21File read(const std::string& bytes) {
+  auto file = Part21File::parse(bytes, "test.step");
+  if (!file) {
+    ADD_FAILURE() << file.error().message();
+    std::abort();
+  }
+  return *std::move(file);
+}
+
+Error error_of(const std::string& bytes) {
+  const auto file = Part21File::parse(bytes, "test.step");
+  EXPECT_FALSE(file) << bytes;
+  return file ? Error{} : file.error();
+}
+
+TEST(Part21, RecordsAndParametersRememberTheirBytes) {
+  const auto file = read(step_text("#5 = THING ( 'a', (1, 2.5E+1 , #5), $,*, .T., \"0FF\", REAL_MEASURE(3.) ) ;\n"));
+  ASSERT_EQ(file.instances().size(), 1U);
+  const auto& instance = file.instance(0);
+  EXPECT_EQ(file.text(instance.bytes), "#5 = THING ( 'a', (1, 2.5E+1 , #5), $,*, .T., \"0FF\", REAL_MEASURE(3.) ) ;");
+  EXPECT_EQ(file.text(instance.record), "THING ( 'a', (1, 2.5E+1 , #5), $,*, .T., \"0FF\", REAL_MEASURE(3.) )");
+  EXPECT_EQ(file.keyword(instance.first), "THING");
+  const auto parameters = file.children(instance.first);
+  std::vector<std::string> texts;
+  for (const auto k : parameters) texts.emplace_back(file.text(k));
+  EXPECT_EQ(texts,
+            (std::vector<std::string>{"'a'", "(1, 2.5E+1 , #5)", "$", "*", ".T.", "\"0FF\"", "REAL_MEASURE(3.)"}));
+  std::vector<Part21Kind> kinds;
+  for (const auto k : parameters) kinds.push_back(file.value(k).kind);
+  EXPECT_EQ(kinds,
+            (std::vector<Part21Kind>{Part21Kind::string, Part21Kind::list, Part21Kind::unset, Part21Kind::derived,
+                                     Part21Kind::enumeration, Part21Kind::binary, Part21Kind::typed}));
+  const auto list = file.children(parameters[1]);
+  ASSERT_EQ(list.size(), 3U);
+  EXPECT_EQ(file.value(list[0]).kind, Part21Kind::integer);
+  EXPECT_EQ(file.value(list[1]).kind, Part21Kind::real);
+  EXPECT_EQ(file.value(list[2]).target, 0U);
+  EXPECT_EQ(instance.uses, 1U);
+}
+
+TEST(Part21, CommentsAndLineBreaksStandBetweenAnyTwoTokens) {
+  const auto spread =
+      read(step_text("#1\r\n/* ; ' */=\n/**/A/***/(\r'x;y'/*)*/,\\N\\(\n#1/*,*/\n)\\F\\)\n/* #2=B(); */;\n"));
+  ASSERT_EQ(spread.instances().size(), 1U);
+  EXPECT_EQ(spread.children(spread.instance(0).first).size(), 2U);
+  const auto tight = read("ISO-10303-21;HEADER;ENDSEC;DATA;#1=A('x;y',(#1));ENDSEC;END-ISO-10303-21;");
+  EXPECT_EQ(tight.instances().size(), 1U);
+}
+
+TEST(Part21, ComplexInstancesHaveParts) {
+  const auto file = read(step_text("#1=(A('n')B()C(#1,(1)));\n"));
+  const auto& instance = file.instance(0);
+  EXPECT_TRUE(instance.complex);
+  std::vector<std::string> parts;
+  for (auto k = instance.first; k < instance.last; k = file.value(k).next) parts.emplace_back(file.keyword(k));
+  EXPECT_EQ(parts, (std::vector<std::string>{"A", "B", "C"}));
+}
+
+TEST(Part21, ScopesNestAndExport) {
+  const auto file = read(
+      step_text("#9=&SCOPE\n#1=A();\n#5=&SCOPE #2=B(#1); ENDSCOPE C(#2);\nENDSCOPE /#1,#5/\nD(#5);\n#10=E(#9,#1);\n"));
+  ASSERT_EQ(file.instances().size(), 5U);
+  const auto owner = *file.find(9);
+  const auto inner = *file.find(5);
+  EXPECT_EQ(file.instance(*file.find(1)).scope, owner);
+  EXPECT_EQ(file.instance(*file.find(2)).scope, inner);
+  EXPECT_EQ(file.instance(inner).scope, owner);
+  EXPECT_EQ(file.instance(*file.find(10)).scope, no_instance);
+  EXPECT_EQ(file.keyword(file.instance(owner).first), "D");
+  EXPECT_EQ(file.text(file.instance(owner).record), "D(#5)");
+  EXPECT_EQ(file.instance(*file.find(1)).uses, 2U) << "the export list does not count";
+}
+
+TEST(Part21, SectionsOfTheLaterEditions) {
+  const auto file = read(
+      "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('S'));\nENDSEC;\nANCHOR;\n<here>=#1{tag:'v'};\n<there>=$;\nENDSEC;\n"
+      "REFERENCE;\n#7=<other.stp#x>;\n@8=<v>;\nENDSEC;\nDATA('one',('S'));\n#1=A(#7,@8,#PI);\nENDSEC;\nDATA;\n#2=B(#1);"
+      "\nENDSEC;\n"
+      "END-ISO-10303-21;\nSIGNATURE;\nMIIB+/=='('\nENDSEC;\n");
+  EXPECT_EQ(file.instances().size(), 2U);
+  EXPECT_EQ(file.instance(0).uses, 2U) << "an anchor counts";
+  EXPECT_TRUE(file.taken(7));
+  EXPECT_FALSE(file.find(7));
+  EXPECT_EQ(file.largest_id(), 7U);
+}
+
+TEST(Part21, CommonDeviationsPass) {
+  EXPECT_EQ(read("\xEF\xBB\xBF" + step_text("#1=A();\n")).instances().size(), 1U);
+  EXPECT_EQ(read(step_text("#1=a(b(1.));\n")).instances().size(), 1U);
+  EXPECT_EQ(read(step_text("#1=A('caf\xE9');\n")).instances().size(), 1U);
+  EXPECT_EQ(read(step_text("#1=A();\n") + std::string("\x1A\0\0", 3)).instances().size(), 1U);
+}
+
+TEST(Part21, ABrokenFileIsAnErrorWithLineAndEntity) {
+  // The DATA section begins in line 8.
+  const auto error = error_of(step_text("#1=A();\n#2=B((1,2);\n#3=C();\n"));
+  EXPECT_EQ(error.kind, ErrorKind::input);
+  EXPECT_EQ(error.file, "test.step");
+  EXPECT_EQ(error.line, 9);
+  EXPECT_EQ(error.where, "#2 B");
+  EXPECT_EQ(error.message().find('\n'), std::string::npos);
+
+  const struct {
+    const char* data;
+    int line;
+    const char* where;
+    const char* what;
+  } cases[] = {
+      {"#1=A('x);\n", 8, "#1 A", "string is not closed"},
+      {"#1=A();\n#2=B(/* x);\n", 9, "#2 B", "comment is not closed"},
+      {"#1=A(\"12);\n", 8, "#1 A", "binary is not closed"},
+      {"#1=A(.T);\n", 8, "#1 A", "enumeration is not closed"},
+      {"#1=A();\n#1=B();\n", 9, "#1", "defined twice, first in line 8"},
+      {"#1=A(#2);\n", 8, "#1 A", "refers to #2"},
+      {"#1=A(\n\n#2);\n", 10, "#1 A", "refers to #2"},
+      {"#99999999999999999999=A();\n", 8, "#0", "above 2^63"},
+      {"#1=A(#99999999999999999999);\n", 8, "#1 A", "refers to"},
+      {"#1=A(1.5.2);\n", 8, "#1 A", "runs into"},
+      {"#1=A(1.E);\n", 8, "#1 A", "exponent"},
+      {"#1=A(-);\n", 8, "#1 A", "without digits"},
+      {"#1=A(1 2);\n", 8, "#1 A", "'2' has no place"},
+      {"#1=A(,);\n", 8, "#1 A", "',' has no place"},
+      {"#1=A()\n#2=B();\n", 9, "#1 A", "'#2' has no place"},
+      {"#1=A\n", 9, "#1 A", "'ENDSEC' has no place"},
+      {"#1=();\n", 8, "#1", "')' has no place"},
+      {"#1=&SCOPE\n#2=A();\n", 10, "#1", "&SCOPE is not closed"},
+      {"A();\n", 8, "DATA section", "'A' has no place"},
+      {"#1=A(\x01);\n", 8, "#1 A", "no place here"},
+  };
+  for (const auto& broken : cases) {
+    const auto found = error_of(step_text(broken.data));
+    EXPECT_EQ(found.line, broken.line) << broken.data << found.message();
+    EXPECT_EQ(found.where, broken.where) << broken.data << found.message();
+    EXPECT_NE(found.what.find(broken.what), std::string::npos) << broken.data << found.message();
+  }
+}
+
+TEST(Part21, ABrokenFrameIsAnError) {
+  EXPECT_NE(error_of("").what.find("not a STEP file"), std::string::npos);
+  EXPECT_NE(error_of("solid cube\n").what.find("not a STEP file"), std::string::npos);
+  const auto whole = step_text("#1=A();\n");
+  for (std::size_t size = 0; size + 2 < whole.size(); ++size) error_of(whole.substr(0, size));
+  EXPECT_NE(error_of(whole + "#2=B();\n").what.find("after END-ISO"), std::string::npos);
+  auto open = whole;
+  open.erase(open.rfind("ENDSEC;\n"), 8);
+  EXPECT_NE(error_of(open).what.find("DATA section is not closed"), std::string::npos);
+  open = whole;
+  open.erase(open.find("ENDSEC;\n"), 8);
+  EXPECT_NE(error_of(open).what.find("HEADER section is not closed"), std::string::npos);
+}
+
+TEST(Part21, DeepNestingIsAnErrorAndNotACrash) {
+  const auto nested = [](std::size_t depth) {
+    return step_text("#1=A(" + std::string(depth, '(') + std::string(depth, ')') + ");\n");
+  };
+  EXPECT_TRUE(Part21File::parse(nested(150), ""));
+  EXPECT_NE(error_of(nested(1'000'000)).what.find("too deeply"), std::string::npos);
+  std::string typed;
+  for (int k = 0; k < 100'000; ++k) typed += "T(";
+  EXPECT_NE(error_of(step_text("#1=" + typed)).what.find("too deeply"), std::string::npos);
+  std::string scopes;
+  for (int k = 1; k < 100'000; ++k) scopes += "#" + std::to_string(k) + "=&SCOPE ";
+  EXPECT_NE(error_of(step_text(scopes)).what.find("too deeply"), std::string::npos);
+}
+
+TEST(Part21, LinesAreCountedWhateverEndsThem) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string text = "ISO-10303-21;" + end + "HEADER;" + end + "ENDSEC;" + end + "DATA;" + end + "#1=A(#2);" + end;
+    EXPECT_EQ(error_of(text + "ENDSEC;END-ISO-10303-21;").line, 5);
+  }
+}
+
+}  // namespace
+}  // namespace knead

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "knead/exchange/step_file.hpp"
+
+namespace knead::testing {
+
+/// An exchange structure around the entities of one DATA section.
+inline std::string step_text(const std::string& data) {
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+         "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n" +
+         data + "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+/// Four points #1 … #4 in the corners of the unit square, and a bilinear patch #10 on them.
+inline std::string unit_square_points() {
+  return "#1=CARTESIAN_POINT('',(0.,0.,0.));\n#2=CARTESIAN_POINT('',(0.,1.,0.));\n"
+         "#3=CARTESIAN_POINT('',(1.,0.,0.));\n#4=CARTESIAN_POINT('',(1.,1.,0.));\n";
+}
+inline std::string bilinear_patch(const std::string& net = "((#1,#2),(#3,#4))") {
+  return "#10=B_SPLINE_SURFACE_WITH_KNOTS('patch',1,1," + net +
+         ",.UNSPECIFIED.,.F.,.F.,.F.,(2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.);\n";
+}
+
+inline StepFile parse_or_die(const std::string& bytes) {
+  auto file = StepFile::parse(bytes, "test.step");
+  if (!file) {
+    ADD_FAILURE() << file.error().message();
+    std::abort();
+  }
+  return *std::move(file);
+}
+
+/// STEP files of the project, and of the collection beside it where there is one.
+inline std::vector<std::filesystem::path> step_files_in(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  if (!std::filesystem::exists(directory)) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".stp" || extension == ".step") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+inline std::filesystem::path collection() { return std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad"; }
+inline std::filesystem::path samples() { return std::filesystem::path(KNEAD_SOURCE_DIR) / "samples"; }
+
+/// Equal to the last bit: tells 0 from -0.
+inline bool same_bits(const Points& a, const Points& b) {
+  return a.rows() == b.rows() &&
+         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+}  // namespace knead::testing
