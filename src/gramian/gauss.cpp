@@ -1,4 +1,8 @@
+#include <cmath>
+
+#include "kernel_call.hpp"
 #include "methods.hpp"
+#include "simd/select.hpp"
 #include "span_basis.hpp"
 #include "unit_gauss.hpp"
 
@@ -24,6 +28,27 @@ BandMatrix gauss_gramian(const KnotVector& knots, int a, int b) {
     }
   }
   return result;
+}
+
+void gauss_gramians(const KnotVector& knots, InstructionSet instructions, GramianSet& set) {
+  constexpr int highest_kernel = 7;
+  const int p = knots.degree();
+  if (p > highest_kernel || !within_kernel_range(knots)) {
+    set = {gauss_gramian(knots, 0, 0), gauss_gramian(knots, 1, 1), gauss_gramian(knots, 2, 2),
+           gauss_gramian(knots, 1, 0)};
+    return;
+  }
+  resize(set, knots);
+  GaussPoints points;
+  const UnitGaussRule rule = unit_gauss(p + 1);
+  for (std::size_t g = 0; g < rule.t.size(); ++g) {
+    points.t[g] = rule.t[g];
+    points.complement[g] = rule.complement[g];
+    points.root_weight[g] = std::sqrt(rule.weights[g]);
+  }
+  const KernelCall call(knots, set);
+  kernels_of(instructions).gauss(call.knots(), p, points, call.output());
+  cut_to_domain(knots, set);
 }
 
 }  // namespace knead::detail

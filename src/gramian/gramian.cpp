@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "methods.hpp"
 
 namespace knead {
@@ -9,23 +11,23 @@ namespace {
 
 constexpr int max_order = 2;
 
-BandMatrix compute(const KnotVector& knots, int a, int b, GramianMethod method) {
-  switch (method) {
-    case GramianMethod::gauss:
-      return detail::gauss_gramian(knots, a, b);
-    case GramianMethod::analytic:
-      return detail::analytic_gramian(knots, a, b);
-  }
-  return BandMatrix();
+constexpr GramianMethod methods[] = {GramianMethod::gauss, GramianMethod::analytic, GramianMethod::recurrence};
+
+/// One of the four terms that the kernels compute together.
+BandMatrix by_kernel(const KnotVector& knots, int a, int b, GramianMethod method) {
+  GramianSet set;
+  recompute_gramians(knots, method, set);
+  if (a != b) return b == 0 ? std::move(set.g10) : set.g10.transposed();
+  return a == 0 ? std::move(set.g00) : a == 1 ? std::move(set.g11) : std::move(set.g22);
 }
 
 }  // namespace
 
 Expected<GramianMethod> gramian_method(std::string_view wanted) {
-  for (const GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic}) {
+  for (const GramianMethod method : methods) {
     if (name(method) == wanted) return method;
   }
-  return usage_error(fmt::format("there is no Gramian method \"{}\"", wanted), {}, "use gauss or analytic");
+  return usage_error(fmt::format("there is no Gramian method \"{}\"", wanted), {}, "use gauss, analytic or recurrence");
 }
 
 std::string_view name(GramianMethod method) {
@@ -34,6 +36,8 @@ std::string_view name(GramianMethod method) {
       return "gauss";
     case GramianMethod::analytic:
       return "analytic";
+    case GramianMethod::recurrence:
+      return "recurrence";
   }
   return {};
 }
@@ -43,12 +47,27 @@ Expected<BandMatrix> gramian(const KnotVector& knots, int a, int b, GramianMetho
     return usage_error(fmt::format("there is no Gramian of orders {} and {}", a, b), {},
                        fmt::format("use derivative orders 0 to {}", max_order));
   }
-  return compute(knots, a, b, method);
+  if (method == GramianMethod::analytic) return detail::analytic_gramian(knots, a, b);
+  if (a == b || a + b == 1) return by_kernel(knots, a, b, method);
+  return detail::gauss_gramian(knots, a, b);
 }
 
 Expected<GramianSet> gramians(const KnotVector& knots, GramianMethod method) {
-  return GramianSet{compute(knots, 0, 0, method), compute(knots, 1, 1, method), compute(knots, 2, 2, method),
-                    compute(knots, 1, 0, method)};
+  GramianSet set;
+  recompute_gramians(knots, method, set);
+  return set;
+}
+
+void recompute_gramians(const KnotVector& knots, GramianMethod method, GramianSet& set, InstructionSet instructions) {
+  switch (method) {
+    case GramianMethod::gauss:
+      return detail::gauss_gramians(knots, instructions, set);
+    case GramianMethod::recurrence:
+      return detail::recurrence_gramians(knots, instructions, set);
+    case GramianMethod::analytic:
+      set = {detail::analytic_gramian(knots, 0, 0), detail::analytic_gramian(knots, 1, 1),
+             detail::analytic_gramian(knots, 2, 2), detail::analytic_gramian(knots, 1, 0)};
+  }
 }
 
 }  // namespace knead

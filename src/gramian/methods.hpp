@@ -1,6 +1,7 @@
 #pragma once
 
 #include "knead/gramian/gramian.hpp"
+#include "knead/gramian/instruction_set.hpp"
 
 namespace knead::detail {
 
@@ -9,6 +10,19 @@ namespace knead::detail {
 
 /// G^ab for any a, b >= 0 from jumps and repeated integrals (thesis Alg. 5.5, corrected).
 [[nodiscard]] BandMatrix analytic_gramian(const KnotVector& knots, int a, int b);
+
+/// All four terms by Gauss points, into matrices of any size.
+void gauss_gramians(const KnotVector& knots, InstructionSet instructions, GramianSet& set);
+
+/// Entries of functions whose common support leaves the domain, integrated again over the spans of the domain alone: at
+/// most p(p + 1)/2 entries at either end, none where the knots are clamped.
+void cut_to_domain(const KnotVector& knots, GramianSet& set);
+
+/// False where distances of knots are so extreme that products of two of them could leave the range of doubles.
+[[nodiscard]] bool within_kernel_range(const KnotVector& knots);
+
+/// All four terms by the positive recurrence, into matrices of any size.
+void recurrence_gramians(const KnotVector& knots, InstructionSet instructions, GramianSet& set);
 
 [[nodiscard]] inline BandSymmetry symmetry_of(int a, int b) {
   return a == b ? BandSymmetry::symmetric : BandSymmetry::general;

@@ -44,6 +44,18 @@ TEST_P(OfDegree, gauss_is_right_to_1e_14_of_the_absolute_integral_on_every_famil
 }
 
 // The formula is exact; what is lost is lost in rounding, about a digit per degree beside the largest entry.
+TEST_P(OfDegree, recurrence_is_as_exact_as_promised_on_every_family) {
+  const int p = GetParam();
+  const double bound = p <= 7 ? 1e-14 : p <= 10 ? 3e-14 : 1e-13;
+  for (const auto& [name, knots] : testing::knot_families(p)) {
+    const GramianSet set = *gramians(knots, GramianMethod::recurrence);
+    EXPECT_LE(worst_error(set.g00, testing::quad_gramian(knots, 0, 0)), 1e-14) << name << ", G00";
+    EXPECT_LE(worst_error(set.g11, testing::quad_gramian(knots, 1, 1)), bound) << name << ", G11";
+    EXPECT_LE(worst_error(set.g22, testing::quad_gramian(knots, 2, 2)), bound) << name << ", G22";
+    EXPECT_LE(worst_error(set.g10, testing::quad_gramian(knots, 1, 0)), 1e-14) << name << ", G10";
+  }
+}
+
 // From degree 8 on rounding leaves too little to be told from a wrong formula.
 class OfLowDegree : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Degrees, OfLowDegree, ::testing::Range(1, 8));

@@ -4,19 +4,22 @@
 
 #include "knead/base/error.hpp"
 #include "knead/gramian/band_matrix.hpp"
+#include "knead/gramian/instruction_set.hpp"
 #include "knead/spline/knot_vector.hpp"
 
 namespace knead {
 
 /// How a Gramian is computed; docs/gramians compares them.
 enum class GramianMethod {
-  gauss,     ///< p + 1 Gauss–Legendre points per span (thesis Alg. 5.1): the accurate all-rounder, every order.
-  analytic,  ///< the thesis' Dirac weights (Alg. 5.5), with the jumps of every order that repeated knots need.
+  gauss,       ///< p + 1 Gauss–Legendre points per span (thesis Alg. 5.1): the accurate all-rounder, every order.
+  analytic,    ///< the thesis' Dirac weights (Alg. 5.5), with the jumps of every order that repeated knots need.
+  recurrence,  ///< a recurrence of non-negative terms: exact to the last digits and the fastest. Orders other than 00,
+               ///< 10, 01, 11 and 22 are taken by gauss.
 };
 
-inline constexpr GramianMethod default_gramian_method = GramianMethod::gauss;
+inline constexpr GramianMethod default_gramian_method = GramianMethod::recurrence;
 
-/// The method of that name ("gauss", "analytic"); a usage error lists the known ones.
+/// The method of that name ("gauss", "analytic", "recurrence"); a usage error lists the known ones.
 [[nodiscard]] Expected<GramianMethod> gramian_method(std::string_view name);
 [[nodiscard]] std::string_view name(GramianMethod method);
 
@@ -39,5 +42,10 @@ struct GramianSet {
 
 /// 00, 11, 22 and 10 at once, which costs less than one at a time.
 [[nodiscard]] Expected<GramianSet> gramians(const KnotVector& knots, GramianMethod method = default_gramian_method);
+
+/// The same into storage that is there already: matrices of the right shape are overwritten, others replaced. With the
+/// instruction set to use (recurrence and gauss; the result does not depend on it).
+void recompute_gramians(const KnotVector& knots, GramianMethod method, GramianSet& set,
+                        InstructionSet instructions = best_instruction_set());
 
 }  // namespace knead

@@ -1,0 +1,98 @@
+// The Gramian methods side by side: every round times each of them once, in turn, so that whatever the machine does
+// meets all of them; ratios are taken within a round. Prints medians and the 10th and 90th percentiles.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "knead/gramian/gramian.hpp"
+
+namespace {
+
+using namespace knead;
+
+enum class Family { uniform_lengths, exponential_lengths, equal_lengths };
+
+KnotVector make_knots(int p, int count, Family family) {
+  std::mt19937_64 random(12345 + static_cast<unsigned>(p));
+  std::uniform_real_distribution<double> uniform(0.5, 1.5);
+  std::exponential_distribution<double> exponential(1);
+  std::vector<double> knots(static_cast<std::size_t>(p + 1), 0.0);
+  double x = 0;
+  for (int k = 0; k < count - p; ++k) {
+    x += family == Family::equal_lengths     ? 1
+         : family == Family::uniform_lengths ? uniform(random)
+                                             : exponential(random);
+    knots.push_back(x);
+  }
+  knots.insert(knots.end(), static_cast<std::size_t>(p), x);
+  return *KnotVector::create(p, std::move(knots));
+}
+
+struct Candidate {
+  std::string name;
+  std::function<void()> run;
+  std::vector<double> seconds = {};
+};
+
+double quantile(std::vector<double> values, double q) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
+}
+
+void compare(int p, int count, Family family, InstructionSet set, int rounds) {
+  const KnotVector knots = make_knots(p, count, family);
+  GramianSet results[3];
+  std::vector<Candidate> candidates;
+  candidates.push_back({"gauss", [&] { recompute_gramians(knots, GramianMethod::gauss, results[0], set); }});
+  candidates.push_back({"recurrence", [&] { recompute_gramians(knots, GramianMethod::recurrence, results[1], set); }});
+  for (auto& candidate : candidates) candidate.run();
+  const int repeat = std::max(1, static_cast<int>(60000.0 / count / (p + 1)));
+  for (int round = 0; round < rounds; ++round) {
+    for (auto& candidate : candidates) {
+      const auto start = std::chrono::steady_clock::now();
+      for (int k = 0; k < repeat; ++k) candidate.run();
+      candidate.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+                                  repeat);
+    }
+  }
+  const char* names[] = {"random lengths 0.5 to 1.5", "random lengths, exponential", "equal lengths"};
+  std::printf("| %d | %d | %s | %s |", p, count, names[static_cast<int>(family)], std::string(name(set)).c_str());
+  for (const auto& candidate : candidates) {
+    std::vector<double> ratios;
+    for (std::size_t k = 0; k < candidate.seconds.size(); ++k) {
+      ratios.push_back(candidates[0].seconds[k] / candidate.seconds[k]);
+    }
+    std::printf(" %.2f | ", 1e9 * quantile(candidate.seconds, 0.5) / count);
+    if (&candidate != &candidates[0]) {
+      std::printf("%.2f (%.2f … %.2f) |", quantile(ratios, 0.5), quantile(ratios, 0.1), quantile(ratios, 0.9));
+    }
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+/// Arguments: [rounds [degree …]].
+int main(int argc, char** argv) {
+  const int rounds = argc > 1 ? std::atoi(argv[1]) : 61;
+  std::vector<int> degrees;
+  for (int k = 2; k < argc; ++k) degrees.push_back(std::atoi(argv[k]));
+  if (degrees.empty()) degrees = {3, 1, 2, 4, 5, 7};
+  std::printf(
+      "| p | functions | knots | instructions | gauss ns/row | recurrence ns/row | times faster (10 %% … 90 %%) |\n");
+  std::printf("|---|---|---|---|---|---|---|\n");
+  for (const int p : degrees) {
+    for (const int count : {100, 10000}) {
+      for (const Family family : {Family::uniform_lengths, Family::exponential_lengths, Family::equal_lengths}) {
+        for (const InstructionSet set : available_instruction_sets()) compare(p, count, family, set, rounds);
+      }
+    }
+  }
+}

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace knead {
+
+/// Instruction sets that the Gramian kernels are compiled for. They differ in speed alone: all of them compute the same
+/// numbers bit for bit (the same operations in the same order, divisions correctly rounded, nothing fused).
+enum class InstructionSet {
+  scalar,     ///< one row at a time; everywhere
+  vector128,  ///< two rows: SSE2, NEON or WebAssembly SIMD, whatever the compiler's baseline offers
+  avx2,       ///< four rows, x86 with AVX2
+  avx512,     ///< eight rows, x86 with AVX-512 F, DQ and VL
+};
+
+[[nodiscard]] std::string_view name(InstructionSet set);
+
+/// Those that this build holds and this machine can run, slowest first; never empty.
+[[nodiscard]] const std::vector<InstructionSet>& available_instruction_sets();
+
+/// The fastest available one; what is used where none is asked for.
+[[nodiscard]] InstructionSet best_instruction_set();
+
+}  // namespace knead

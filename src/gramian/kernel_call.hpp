@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+
+#include "knead/gramian/gramian.hpp"
+#include "simd/kernels.hpp"
+
+namespace knead::detail {
+
+/// The knots and the four band matrices as the kernels want them. Valid as long as both arguments live.
+class KernelCall {
+ public:
+  KernelCall(const KnotVector& knots, GramianSet& set);
+  [[nodiscard]] const KernelKnots& knots() const { return knots_; }
+  [[nodiscard]] const KernelOutput& output() const { return output_; }
+
+ private:
+  std::array<double, 3 * KernelKnots::readable> tail_;
+  KernelKnots knots_;
+  KernelOutput output_;
+};
+
+/// Matrices of the right size for the four terms; those that fit already are kept, whatever they hold.
+void resize(GramianSet& set, const KnotVector& knots);
+
+}  // namespace knead::detail

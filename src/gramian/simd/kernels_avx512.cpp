@@ -1,0 +1,16 @@
+// Compiled for AVX-512 where the compiler can (src/gramian/CMakeLists.txt); called only where the machine has it.
+#ifdef __AVX512F__
+#define KNEAD_ISA isa_avx512
+#define KNEAD_LANES 8
+#include "kernels.inc"
+
+namespace knead::detail {
+const GramianKernels* const avx512_kernels = &isa_avx512::kernels;
+}
+#else
+#include "kernels.hpp"
+
+namespace knead::detail {
+const GramianKernels* const avx512_kernels = nullptr;
+}
+#endif

@@ -1,0 +1,108 @@
+// Included by one translation unit per instruction set, which defines KNEAD_LANES and KNEAD_ISA. Everything stands in a
+// namespace of that instruction set, and nothing from the standard library is instantiated here: an inline function
+// that the linker shares between translation units could otherwise carry AVX code into the portable ones.
+#pragma once
+
+#if KNEAD_LANES > 1 && (defined(__x86_64__) || defined(__i386__))
+#include <immintrin.h>
+#endif
+
+#include <cstddef>
+#include <type_traits>
+
+#define KNEAD_INLINE __attribute__((always_inline)) inline
+#define KNEAD_LAMBDA __attribute__((always_inline))
+
+namespace knead::detail::KNEAD_ISA {
+
+inline constexpr int lanes = KNEAD_LANES;
+
+// Rows i, i + 1, … i + lanes − 1 of one quantity.
+#if KNEAD_LANES == 1
+using Lanes = double;
+KNEAD_INLINE Lanes load(const double* p) { return *p; }
+KNEAD_INLINE void store(double* p, Lanes v) { *p = v; }
+KNEAD_INLINE Lanes splat(double x) { return x; }
+KNEAD_INLINE double first(Lanes v) { return v; }
+KNEAD_INLINE bool any_not_positive(Lanes v) { return !(v > 0); }
+KNEAD_INLINE bool all_equal(Lanes v, double x) { return v == x; }
+/// Rows i + 1, …, i + lanes; the last comes from `next`, the row after this group.
+KNEAD_INLINE Lanes shifted(Lanes, double next) { return next; }
+#else
+typedef double Lanes __attribute__((vector_size(8 * KNEAD_LANES)));
+typedef double Unaligned __attribute__((vector_size(8 * KNEAD_LANES), aligned(8), may_alias));
+KNEAD_INLINE Lanes load(const double* p) { return *reinterpret_cast<const Unaligned*>(p); }
+KNEAD_INLINE void store(double* p, Lanes v) { *reinterpret_cast<Unaligned*>(p) = v; }
+KNEAD_INLINE Lanes splat(double x) { return Lanes{} + x; }
+KNEAD_INLINE double first(Lanes v) { return v[0]; }
+KNEAD_INLINE bool any_not_positive(Lanes v) {
+  const auto mask = v <= splat(0);
+  long long any = 0;
+  for (int l = 0; l < lanes; ++l) any |= mask[l];
+  return any != 0;
+}
+KNEAD_INLINE bool all_equal(Lanes v, double x) {
+  const auto mask = v == splat(x);
+  long long all = -1;
+  for (int l = 0; l < lanes; ++l) all &= mask[l];
+  return all != 0;
+}
+KNEAD_INLINE Lanes shifted(Lanes v, double next) {
+  const Lanes after = splat(next);
+#if KNEAD_LANES == 2
+  return __builtin_shufflevector(v, after, 1, 2);
+#elif KNEAD_LANES == 4
+  return __builtin_shufflevector(v, after, 1, 2, 3, 4);
+#else
+  return __builtin_shufflevector(v, after, 1, 2, 3, 4, 5, 6, 7, 8);
+#endif
+}
+#endif
+
+KNEAD_INLINE Lanes square_root(Lanes v) {
+#if KNEAD_LANES == 1
+  return __builtin_sqrt(v);
+#elif KNEAD_LANES == 8
+  return _mm512_maskz_sqrt_pd(0xFF, v);  // the plain form makes GCC 12 warn of an undefined value
+#elif KNEAD_LANES == 4
+  return _mm256_sqrt_pd(v);
+#elif defined(__SSE2__)
+  return _mm_sqrt_pd(v);
+#else
+  return Lanes{__builtin_sqrt(v[0]), __builtin_sqrt(v[1])};
+#endif
+}
+
+/// v where condition > 0, else 0.
+KNEAD_INLINE Lanes where_positive(Lanes v, Lanes condition) { return condition > splat(0) ? v : splat(0); }
+
+template <int I>
+using Index = std::integral_constant<int, I>;
+
+/// f(Index<From>()), f(Index<From + 1>()), … below To: a loop whose counter is a constant.
+template <int From, int To, class F>
+KNEAD_INLINE void unrolled(F&& f) {
+  if constexpr (From < To) {
+    f(Index<From>());
+    unrolled<From + 1, To>(f);
+  }
+}
+
+constexpr double factorial(int n) { return n < 2 ? 1 : n * factorial(n - 1); }
+
+/// The constants that turn S into inner products (T[k][l] = k! l! / (k + l − 1)! S[k][l]), with the 1/K of each N and
+/// the p of each derivative.
+struct Factors {
+  double g00, g10, g11, g22;
+};
+constexpr Factors factors(int p) {
+  const int K = p + 1;
+  return {factorial(p) * factorial(p) / factorial(2 * K - 1), factorial(p) * factorial(p) / factorial(2 * p),
+          factorial(p) * factorial(p) / factorial(2 * p - 1),
+          p < 2 ? 0 : factorial(p) * factorial(p) / factorial(2 * p - 3)};
+}
+
+/// A zero distance of k knots is read as k times this: an infinitesimal splitting of repeated knots.
+inline constexpr double splitting = 0x1p-300;
+
+}  // namespace knead::detail::KNEAD_ISA

@@ -1,0 +1,294 @@
+#pragma once
+
+#include "kernels.hpp"
+#include "lanes.hpp"
+
+namespace knead::detail::KNEAD_ISA {
+
+/// The positive recurrence for a degree known at compile time; docs/gramians/recurrence.md derives it.
+///
+/// Rows are swept downwards in groups of `lanes`, all levels of a group in registers. What a row needs of the next row
+/// is the same register moved by one lane; the lane that comes in is row 0 of the group before and is kept in `carry`.
+///
+/// S[k][l][s](i) is the scaled inner product of the functions (i, order k) and (i + s, order l), k + l = m at level m.
+/// Rows of order K = p + 1 are kept multiplied by their support d(i, K), which saves the division by it.
+template <int P>
+class FixedRecurrence {
+  static constexpr int K = P + 1;
+
+ public:
+  static void run(const KernelKnots& knots, const KernelOutput& out) {
+    FixedRecurrence sweep;
+    const int rows = knots.size - K, last = (rows - 1) / lanes;
+    // Rows behind the last have no support of their own; they only fill the carries.
+    for (int group = (rows + P) / lanes; group >= 0; --group) {
+      const double* x = knots.from(group * lanes);
+      if (group <= last && sweep.repeats(x)) {
+        copy_row(out, group * lanes);
+        continue;
+      }
+      if (sweep.near_empty_span(x)) {
+        sweep.compute<true>(x, out, group * lanes, group <= last);
+      } else {
+        sweep.compute<false>(x, out, group * lanes, group <= last);
+      }
+    }
+  }
+
+ private:
+  /// One lane-wise quantity at the rows of the group and at the rows after them.
+  struct Pair {
+    Lanes here, next;
+  };
+
+  /// True where some span that the group's rows or the rows they reach through the carries see has zero length. Groups
+  /// are asked in their order; the answers of those before are remembered.
+  bool near_empty_span(const double* x) {
+    constexpr unsigned window = (1u << ((lanes + 2 * K - 2) / lanes + 1)) - 1;
+    empty_ = (empty_ << 1) | (any_not_positive(load(x + 1) - load(x)) ? 1u : 0u);
+    return (empty_ & window) != 0;
+  }
+
+  /// True where all distances d(i, k) that rows of this group and of the next one see are the same numbers for all i:
+  /// then the rows are the same too, to the last bit, and so are the carries.
+  bool repeats(const double* x) {
+    bool uniform = true;
+    for (int k = 1; k <= K && uniform; ++k) {
+      const Lanes distance = load(x + k) - load(x);
+      if (first(distance) != distance_[k]) equal_rows_ = 0;
+      distance_[k] = first(distance);
+      uniform = all_equal(distance, distance_[k]);
+    }
+    equal_rows_ = uniform ? equal_rows_ + lanes : 0;
+    if (equal_rows_ < 2 * lanes + 2 * K || !(distance_[1] > 0)) return false;
+    empty_ <<= 1;
+    return true;
+  }
+
+  /// Row i + lanes, computed before, into the rows of this group.
+  static void copy_row(const KernelOutput& out, int i) {
+    const auto repeat = [](double* at) { store(at, splat(at[lanes])); };
+    for (int term = 0; term < 4; ++term) {
+      for (int s = 0; s <= P; ++s) repeat(out.g[term] + static_cast<std::size_t>(s) * out.stride[term] + i);
+    }
+    for (int s = 0; s < P; ++s) repeat(out.lower10[s] + i);
+  }
+
+  KNEAD_INLINE Lanes next(Lanes value, double& carry) {
+    const Lanes result = shifted(value, carry);
+    carry = first(value);
+    return result;
+  }
+
+  template <bool Split>
+  __attribute__((noinline)) void compute(const double* xp, const KernelOutput& out, int row, bool wanted) {
+    Lanes x[K + 1];
+    unrolled<0, K + 1>([&](auto b) KNEAD_LAMBDA { x[b] = load(xp + b); });
+    const auto knot_distance = [&](Lanes upper, Lanes lower, int knots_between) KNEAD_LAMBDA {
+      const Lanes distance = upper - lower;
+      if constexpr (Split) return distance + splat(knots_between * splitting);
+      return distance;
+    };
+    const auto d = [&](auto a, auto b) KNEAD_LAMBDA { return knot_distance(x[b], x[a], b - a); };  // d(i + a, b − a)
+    Lanes support[K];                                                                              // d(i + s, K)
+    unrolled<0, K>([&](auto s) KNEAD_LAMBDA { support[s] = knot_distance(load(xp + s + K), x[s], K); });
+
+    Lanes reciprocal[K];  // 1 / d(i, k), two of them by one division
+    unrolled<1, K>([&](auto k) KNEAD_LAMBDA {
+      if constexpr (k == 1 && P != 2) {
+      } else if constexpr (k > 1 && k % 2 == 0 && k + 1 < K) {
+        const Lanes a = d(Index<0>(), Index<k>()), b = d(Index<0>(), Index<k + 1>()), both = 1.0 / (a * b);
+        reciprocal[k] = b * both;
+        reciprocal[k + 1] = a * both;
+      } else if constexpr (k == 1 || k % 2 == 0) {
+        reciprocal[k] = 1.0 / d(Index<0>(), Index<k>());
+      }
+    });
+
+    Pair level[2][K + 1][K];  // of two consecutive m
+    Pair t1[K], t2[K], cross[K];
+    Lanes full[K];
+    unrolled<2, 2 * K + 1>([&](auto m_) KNEAD_LAMBDA {
+      constexpr int m = m_;
+      auto& now = level[m % 2];
+      auto& before = level[(m + 1) % 2];
+      unrolled<0, K>([&](auto k_) KNEAD_LAMBDA {
+        constexpr int k = K - k_, l = m - k;  // k falls, so that S[l][k] stands when S[k][l], k < l, is asked for
+        if constexpr (l >= 0 && l <= K && !(k == 1 && l == 0)) {
+          unrolled<0, k>([&](auto s_) KNEAD_LAMBDA {
+            constexpr int s = s_;
+            if constexpr ((l == 0 && s == 0) || (k == K && l < K && s == 0)) {
+              return;  // zero, and never asked for
+            } else if constexpr (k == 1 && l == 1 && P != 2) {
+              return;
+            } else if constexpr (k < l && l < K && s == 0) {
+              now[k][0] = now[l][0];
+            } else if constexpr (l == 1 && k > 1 && k < K && (s == 0 || s == k - 1)) {
+              now[k][s] = before[k][s == 0 ? 1 : s];
+            } else {
+              Lanes v;
+              if constexpr (k == 1 && l == 1) {
+                v = reciprocal[1];
+              } else if constexpr (k == 2 && l == 0) {
+                v = K == 2 ? splat(1) : reciprocal[2];
+              } else if constexpr (s == 0) {
+                v = diagonal<k, l>(before, support[0]);
+              } else {
+                constexpr bool inner = s <= k - 2;  // else both (i, order k − 1) and (i + s + 1) end before they meet
+                bool any = false;
+                const auto add = [&](Lanes term) KNEAD_LAMBDA {
+                  v = any ? v + term : term;
+                  any = true;
+                };
+                if constexpr (inner && l >= 1) {
+                  add(l == K ? before[k][s + 1].here * support[s] : before[k][s + 1].here);
+                }
+                if constexpr (inner) {
+                  Lanes weight = d(Index<0>(), s_);
+                  if constexpr (k < K) weight = weight * reciprocal[k];
+                  add(weight * before[k - 1][s].here);
+                }
+                if constexpr (!(l == 0 && s == 1)) {
+                  Lanes weight = d(s_, Index<k>());
+                  if constexpr (k < K) weight = weight * reciprocal[k];
+                  add(weight * before[k - 1][s - 1].next);
+                }
+              }
+              now[k][s].here = v;
+              if constexpr (k < K) now[k][s].next = next(v, carry_[k][l][s]);
+            }
+            if constexpr (k == P - 1 && l == P - 1) t2[s] = now[k][s];
+            if constexpr (k == P && l == P) t1[s] = now[k][s];
+            if constexpr (k == P && l == K) cross[s] = now[k][s];
+            if constexpr (k == K && l == K) full[s] = now[k][s].here;
+          });
+        }
+      });
+    });
+
+    Lanes rho = reciprocal[P];
+    if constexpr (Split) mask(xp, t1, t2, cross, rho);
+    Pair q[K];
+    weighted_differences(t2, rho, q);
+    if (!wanted) return;
+    // Exactly zero where supports do not overlap, whatever the splitting made of it.
+    const auto put = [&](double* at, auto s, Lanes value) KNEAD_LAMBDA {
+      if constexpr (Split && s > 0) value = where_positive(value, x[K] - x[s]);
+      store(at, value);
+    };
+    constexpr Factors factor = factors(P);
+    unrolled<0, K>([&](auto s) KNEAD_LAMBDA {
+      const auto at = [&](int term) KNEAD_LAMBDA { return out.g[term] + s * out.stride[term] + row; };
+      put(at(0), s, full[s] * (s == 0 ? 2 * factor.g00 : factor.g00));
+      put(at(1), s, difference<s, P>(t1) * factor.g11);
+      put(at(2), s, difference<s, P>(q));
+      if constexpr (s == 0) {
+        Lanes edge = splat(0);  // (z_i − z_{i+1}) / 2: where a function jumps, half the jump of its square
+        if constexpr (Split) {
+          edge = 0.5 * (where_positive(splat(1), x[P] - x[0]) - where_positive(splat(1), x[K] - x[1]));
+        }
+        store(at(3), edge);
+      } else {
+        Lanes value = s < P ? cross[s].here - cross[s - 1].next : -cross[s - 1].next;
+        value = value * factor.g10;
+        put(at(3), s, value);
+        put(out.lower10[s - 1] + row, s, -value);
+      }
+    });
+  }
+
+  /// S[k][l][0] = S[l][k-1][1] + S[k][l-1][1], with the supports that orders K carry.
+  template <int k, int l>
+  KNEAD_INLINE static Lanes diagonal(const Pair (&before)[K + 1][K], Lanes support) {
+    if constexpr (k == K && l == K) {
+      return support * before[K][1].here;  // twice this; the factor waits for the output
+    } else if constexpr (k == 1) {
+      return before[l][1].here;
+    } else if constexpr (l == K) {
+      return before[l][1].here + support * before[k][1].here;
+    } else {
+      return before[l][1].here + before[k][1].here;
+    }
+  }
+
+  /// D(t)_s(i) = t_s(i) − t_{s+1}(i) − t_{s−1}(i+1) + t_s(i+1), t_{−1}(i+1) read as t_1(i), t_s zero from s = Count on.
+  template <int s, int Count>
+  KNEAD_INLINE static Lanes difference(const Pair* t) {
+    if constexpr (s == 0) {
+      const Lanes sum = t[0].here + t[0].next;
+      if constexpr (Count > 1) return sum - (t[1].here + t[1].here);
+      return sum;
+    } else if constexpr (s + 1 < Count) {
+      return (t[s].here - t[s + 1].here) + (t[s].next - t[s - 1].next);
+    } else if constexpr (s < Count) {
+      return t[s].here + (t[s].next - t[s - 1].next);
+    } else if constexpr (s == Count) {
+      return -t[s - 1].next;
+    } else {
+      return splat(0);
+    }
+  }
+
+  /// Q_s(i) = rho_i rho_{i+s} D(t)_s(i): inner products of the first derivatives of the functions of order p.
+  KNEAD_INLINE void weighted_differences(const Pair* t, Lanes rho, Pair* q) {
+    Lanes ahead = rho;
+    const Lanes scaled = rho * factors(P).g22;
+    unrolled<0, P>([&](auto s) KNEAD_LAMBDA {
+      if constexpr (s > 0) ahead = next(ahead, carry_rho_[s]);
+      q[s].here = (scaled * ahead) * difference<s, P - 1>(t);
+      q[s].next = next(q[s].here, carry_q_[s]);
+    });
+  }
+
+  /// Functions of lower order without support count as zero from here on.
+  KNEAD_INLINE static void mask(const double* xp, Pair* t1, Pair* t2, Pair* cross, Lanes& rho) {
+    Lanes z1[K + 1], z2[K + 1];  // 1 where d(i + s, p) > 0, d(i + s, p − 1) > 0
+    unrolled<0, K>([&](auto s) KNEAD_LAMBDA {
+      z1[s] = where_positive(splat(1), load(xp + s + P) - load(xp + s));
+      z2[s] = where_positive(splat(1), load(xp + s + P - 1) - load(xp + s));
+    });
+    unrolled<0, P>([&](auto s) KNEAD_LAMBDA {
+      t1[s].here = where_positive(t1[s].here, z1[0] * z1[s]);
+      t1[s].next = where_positive(t1[s].next, z1[1] * z1[s + 1]);
+      cross[s].here = where_positive(cross[s].here, z1[0]);
+      cross[s].next = where_positive(cross[s].next, z1[1]);
+    });
+    unrolled<0, P - 1>([&](auto s) KNEAD_LAMBDA {
+      t2[s].here = where_positive(t2[s].here, z2[0] * z2[s]);
+      t2[s].next = where_positive(t2[s].next, z2[1] * z2[s + 1]);
+    });
+    rho = where_positive(rho, z1[0]);
+  }
+
+  double carry_[K + 1][K + 1][K] = {};
+  double carry_rho_[K] = {}, carry_q_[K] = {};
+  unsigned empty_ = ~0u;
+  int equal_rows_ = 0;  ///< how many rows from here upwards see the distances of this one
+  double distance_[K + 1] = {};
+};
+
+/// Degree 1 in closed form.
+template <>
+class FixedRecurrence<1> {
+ public:
+  static void run(const KernelKnots& knots, const KernelOutput& out) {
+    for (int i = 0; i < knots.size - 2; i += lanes) {
+      const double* x = knots.from(i);
+      const Lanes a = load(x + 1) - load(x), b = load(x + 2) - load(x + 1);
+      const Lanes slope_a = where_positive(1.0 / a, a), slope_b = where_positive(1.0 / b, b);
+      const Lanes half_a = where_positive(splat(0.5), a), half_b = where_positive(splat(0.5), b);
+      const auto at = [&](int term, std::size_t s) { return out.g[term] + s * out.stride[term] + i; };
+      store(at(0, 0), (a + b) / 3.0);
+      store(at(0, 1), b / 6.0);
+      store(at(1, 0), slope_a + slope_b);
+      store(at(1, 1), -slope_b);
+      store(at(2, 0), splat(0));
+      store(at(2, 1), splat(0));
+      store(at(3, 0), half_a - half_b);
+      store(at(3, 1), -half_b);
+      store(out.lower10[0] + i, half_b);
+    }
+  }
+};
+
+}  // namespace knead::detail::KNEAD_ISA

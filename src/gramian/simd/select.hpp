@@ -1,0 +1,11 @@
+#pragma once
+
+#include "kernels.hpp"
+#include "knead/gramian/instruction_set.hpp"
+
+namespace knead::detail {
+
+/// The kernels of an instruction set, or the scalar ones where the machine lacks it.
+[[nodiscard]] const GramianKernels& kernels_of(InstructionSet set);
+
+}  // namespace knead::detail
