@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "knead/base/error.hpp"
+
+namespace knead::cli {
+
+/// What a sub-command does once its arguments are parsed.
+using Action = std::function<Expected<void>()>;
+
+// Each declares its sub-command on `app` and returns what to run when it was called.
+Action add_info(CLI::App& app);
+Action add_sculpt(CLI::App& app);
+Action add_gramian(CLI::App& app);
+Action add_stiffness(CLI::App& app);
+
+/// Numbers separated by commas or white space. A usage error names `option` and the entry that is no number.
+[[nodiscard]] Expected<std::vector<double>> parse_numbers(const std::string& text, const std::string& option);
+
+/// To 17 significant digits, which gives the same double back; what is not finite becomes null.
+[[nodiscard]] std::string json_number(double value);
+
+}  // namespace knead::cli

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli.hpp"
+#include "knead/exchange/step_file.hpp"
+#include "knead/spline/extremum.hpp"
+
+namespace knead::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string file;
+  bool json = false;
+};
+
+Json to_json(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+Json to_json(const StepPlacement& p) {
+  return {{"origin", to_json(p.origin)}, {"axis", to_json(p.axis)}, {"ref_direction", to_json(p.ref_direction)}};
+}
+
+Json to_json(const StepSurface& s) {
+  const Surface& surface = s.surface;
+  const BoundingBox box = bounding_box(surface);
+  Json knots = Json::array();
+  for (int d = 0; d < 2; ++d) {
+    const auto values = surface.knots(d).knots();
+    knots.push_back(std::vector<double>(values.begin(), values.end()));
+  }
+  const KnotVector &u = surface.knots(0), &v = surface.knots(1);
+  return {{"id", s.id},
+          {"name", s.name},
+          {"degree", {u.degree(), v.degree()}},
+          {"net", surface.net()},
+          {"rational", surface.rational()},
+          {"clamped", {u.clamped(), v.clamped()}},
+          {"closed", s.closed},
+          {"knots", std::move(knots)},
+          {"max_interior_multiplicity", {u.max_interior_multiplicity(), v.max_interior_multiplicity()}},
+          {"trimmed", s.trimmed},
+          {"bounding_box", {to_json(box.lower), to_json(box.upper)}}};
+}
+
+Json to_json(const StepInstance& i) {
+  return {{"id", i.id},
+          {"name", i.name},
+          {"parent", i.parent},
+          {"child", i.child},
+          {"placement", i.placement ? to_json(*i.placement) : Json()},
+          {"frame", i.frame ? to_json(*i.frame) : Json()}};
+}
+
+void print_text(const StepFile& file) {
+  fmt::print("{}: STEP{}, units {}, {} B-spline surface{}\n", file.name(),
+             file.schema().empty() ? "" : " " + file.schema(), file.length_unit(), file.surfaces().size(),
+             file.surfaces().size() == 1 ? "" : "s");
+  for (const StepSurface& s : file.surfaces()) {
+    const Surface& surface = s.surface;
+    const auto [m, n] = surface.net();
+    const BoundingBox box = bounding_box(surface);
+    std::string traits = surface.rational() ? "rational" : "polynomial";
+    if (s.closed[0]) traits += ", closed in u";
+    if (s.closed[1]) traits += ", closed in v";
+    if (s.trimmed) traits += ", trimmed";
+    fmt::print("  {:<8} {}degree {} x {}, net {} x {}, {}\n", s.id, s.name.empty() ? "" : "\"" + s.name + "\", ",
+               surface.knots(0).degree(), surface.knots(1).degree(), m, n, traits);
+    fmt::print("           from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.lower.x(), box.lower.y(),
+               box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
+  }
+  for (const StepUnreadableSurface& s : file.unreadable_surfaces()) {
+    fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
+  }
+  if (!file.instances().empty()) {
+    fmt::print("  {} assembly placement{} (--json lists them)\n", file.instances().size(),
+               file.instances().size() == 1 ? "" : "s");
+  }
+}
+
+Expected<void> run(const Options& options) {
+  const auto file = StepFile::read(options.file);
+  if (!file) return std::unexpected(file.error());
+  if (!options.json) {
+    print_text(*file);
+    return {};
+  }
+  Json surfaces = Json::array(), unreadable = Json::array(), instances = Json::array();
+  for (const StepSurface& s : file->surfaces()) surfaces.push_back(to_json(s));
+  for (const StepUnreadableSurface& s : file->unreadable_surfaces()) {
+    unreadable.push_back({{"id", s.id}, {"reason", s.reason.message()}});
+  }
+  for (const StepInstance& i : file->instances()) instances.push_back(to_json(i));
+  const Json info = {{"file", options.file},
+                     {"format", "STEP"},
+                     {"schema", file->schema()},
+                     {"units", file->length_unit()},
+                     {"surfaces", std::move(surfaces)},
+                     {"unreadable_surfaces", std::move(unreadable)},
+                     {"instances", std::move(instances)}};
+  fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));
+  return {};
+}
+
+}  // namespace
+
+Action add_info(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("info", "list the B-spline surfaces of a CAD file");
+  command->add_option("file", options->file, "STEP file")->required();
+  command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");
+  command->footer(
+      "Coordinates and boxes are in the surface's own frame and units; the box is that of the whole\n"
+      "untrimmed surface; `net` counts control points; knots are listed with their multiplicity.");
+  return [options] { return run(*options); };
+}
+
+}  // namespace knead::cli

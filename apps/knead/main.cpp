@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+
+#include "cli.hpp"
+
+namespace {
+
+int exit_code(knead::ErrorKind kind) {
+  switch (kind) {
+    case knead::ErrorKind::usage:
+      return 2;
+    case knead::ErrorKind::input:
+      return 3;
+    case knead::ErrorKind::numerical:
+      return 4;
+  }
+  return 4;
+}
+
+int fail(const knead::Error& error) {
+  fmt::print(stderr, "knead: {}\n", error.message());
+  return exit_code(error.kind);
+}
+
+/// The value of these options may begin with a minus sign, which would read as an option: joined with "=".
+std::vector<std::string> joined_arguments(int argc, char** argv) {
+  static constexpr std::array<std::string_view, 3> number_lists = {"--knots", "--alpha", "--beta"};
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (std::size_t k = 0; k + 1 < arguments.size(); ++k) {
+    for (std::string_view option : number_lists) {
+      if (arguments[k] != option) continue;
+      arguments[k] += "=" + arguments[k + 1];
+      arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+      break;
+    }
+  }
+  return {arguments.rbegin(), arguments.rend()};  // CLI11 takes them last first
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Knead sculpts exact B-spline and NURBS geometry: the CAD file that comes out is the one that went in,\n"
+      "with the sculpted surface changed and nothing else.",
+      "knead");
+  app.set_version_flag("--version", std::string("knead ") + KNEAD_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 success, 2 wrong usage, 3 bad input, 4 numerical failure.\n"
+      "`knead COMMAND --help` tells more about a command.");
+  const std::array<knead::cli::Action, 4> actions = {knead::cli::add_info(app), knead::cli::add_sculpt(app),
+                                                     knead::cli::add_gramian(app), knead::cli::add_stiffness(app)};
+  try {
+    app.parse(joined_arguments(argc, argv));
+  } catch (const CLI::Success& done) {
+    return app.exit(done);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    return fail({knead::ErrorKind::usage, error.what(), "command line", "see knead --help"});
+  }
+  const auto subcommands = app.get_subcommands([](CLI::App*) { return true; });
+  for (std::size_t k = 0; k < subcommands.size(); ++k) {
+    if (!app.got_subcommand(subcommands[k])) continue;
+    if (auto done = actions[k](); !done) return fail(done.error());
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    return fail({knead::ErrorKind::input, "the output could not be written", "standard output", "is the disk full?"});
+  }
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "cli.hpp"
+
+namespace knead::cli {
+
+Expected<std::vector<double>> parse_numbers(const std::string& text, const std::string& option) {
+  std::vector<double> numbers;
+  const auto is_separator = [](char c) { return c == ',' || c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+  const char *at = text.data(), *end = at + text.size();
+  while (true) {
+    while (at != end && is_separator(*at)) ++at;
+    if (at == end) return numbers;
+    const char* stop = at;
+    while (stop != end && !is_separator(*stop)) ++stop;
+    double value = 0;
+    const char* first = *at == '+' ? at + 1 : at;
+    const auto [parsed, code] = std::from_chars(first, stop, value);
+    if (code == std::errc::result_out_of_range || (code == std::errc{} && !std::isfinite(value))) {
+      return input_error(fmt::format("\"{}\" is not a finite number", std::string(at, stop)),
+                         fmt::format("{} entry {}", option, numbers.size()), "use numbers below 1.8e308");
+    }
+    if (code != std::errc{} || parsed != stop) {
+      return usage_error(fmt::format("\"{}\" is not a number", std::string(at, stop)),
+                         fmt::format("{} entry {}", option, numbers.size()), "write decimals separated by commas");
+    }
+    numbers.push_back(value);
+    at = stop;
+  }
+}
+
+std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null"; }
+
+}  // namespace knead::cli
