@@ -258,7 +258,7 @@ BoundingBox bounding_box(const Surface& surface) {
       box.upper[axis] = s.points.col(axis).maxCoeff();
       continue;
     }
-    box.lower[axis] = -maximise(surface, Coordinate{axis, -1}, s.u, s.v, s.points).value;
+    box.lower[axis] = 0.0 - maximise(surface, Coordinate{axis, -1}, s.u, s.v, s.points).value;  // never -0
     box.upper[axis] = maximise(surface, Coordinate{axis, 1}, s.u, s.v, s.points).value;
   }
   return box;
