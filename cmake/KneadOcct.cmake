@@ -1,0 +1,26 @@
+# Open CASCADE, for the programs that make and check CAD files. The library and the command line never link to it.
+# Found by its headers and libraries: its own package file accepts one exact version only and wants its visualisation.
+find_path(KNEAD_OCCT_INCLUDE_DIR STEPCAFControl_Writer.hxx PATH_SUFFIXES opencascade)
+set(KNEAD_OCCT_LIBRARIES)
+set(KNEAD_OCCT_FOUND ${KNEAD_OCCT_INCLUDE_DIR})
+foreach(library TKXDESTEP TKSTEP TKSTEP209 TKSTEPAttr TKSTEPBase TKXSBase TKXCAF TKLCAF TKCDF TKCAF TKShHealing TKTopAlgo
+                TKPrim TKBRep TKGeomAlgo TKGeomBase TKG3d TKG2d TKMath TKernel)
+  find_library(KNEAD_OCCT_${library} ${library})
+  mark_as_advanced(KNEAD_OCCT_${library})
+  list(APPEND KNEAD_OCCT_LIBRARIES ${KNEAD_OCCT_${library}})
+  if(NOT KNEAD_OCCT_${library})
+    set(KNEAD_OCCT_FOUND FALSE)
+  endif()
+endforeach()
+if(KNEAD_OCCT_FOUND)
+  file(STRINGS ${KNEAD_OCCT_INCLUDE_DIR}/Standard_Version.hxx version REGEX "define OCC_VERSION_COMPLETE")
+  string(REGEX MATCH "[0-9]+\\.[0-9]+\\.[0-9]+" KNEAD_OCCT_VERSION "${version}")
+  message(STATUS "Found Open CASCADE ${KNEAD_OCCT_VERSION}")
+else()
+  message(STATUS "No Open CASCADE (libocct-data-exchange-dev): the tests go without their oracle")
+endif()
+
+function(knead_link_occt target)
+  target_include_directories(${target} SYSTEM PRIVATE ${KNEAD_OCCT_INCLUDE_DIR})
+  target_link_libraries(${target} PRIVATE ${KNEAD_OCCT_LIBRARIES})
+endfunction()
