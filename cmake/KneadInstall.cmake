@@ -1,5 +1,5 @@
-# `cmake --install` leaves a package that `find_package(knead)` finds: headers, library, command line, licence.
-# The imported target is knead::knead, as inside the build.
+# `cmake --install` leaves a package that `find_package(knead)` finds: headers, library, licence; the command
+# line installs itself. The imported target is knead::knead, as inside the build.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -10,9 +10,6 @@ install(TARGETS knead EXPORT knead-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_L
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/knead DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(EXPORT knead-targets NAMESPACE knead:: DESTINATION ${package_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-if(TARGET knead_cli)
-  install(TARGETS knead_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/kneadConfig.cmake.in ${PROJECT_BINARY_DIR}/kneadConfig.cmake
                               INSTALL_DESTINATION ${package_dir})
