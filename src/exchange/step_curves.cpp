@@ -103,7 +103,8 @@ std::optional<Points> spline(const StepReader& reader, std::uint32_t instance, c
   const double near = 1e-6 * domain.length();
   double from = table->closest(ends.start).parameter;
   double to = table->closest(ends.end).parameter;
-  if (table->closed(1e-6 * size)) {
+  const bool closed = table->closed(1e-6 * size);
+  if (closed) {
     if (from >= domain.upper - near) from = domain.lower;
     if (to <= from + near) to += domain.length();
   } else if (to < from) {
@@ -114,7 +115,7 @@ std::optional<Points> spline(const StepReader& reader, std::uint32_t instance, c
   Parameters<1> parameters(count);
   for (int k = 0; k < count; ++k) {
     double t = from + (to - from) * static_cast<double>(k) / (count - 1);
-    if (t > domain.upper) t -= domain.length();
+    if (closed && t > domain.upper) t -= domain.length();
     parameters(k) = std::clamp(t, domain.lower, domain.upper);
   }
   const auto evaluation = evaluate<1>(table->curve(), parameters);
@@ -213,7 +214,7 @@ Expected<CurveTable> CurveTable::create(Curve curve) {
   return result;
 }
 
-CurveTable::Foot CurveTable::closest(const Point& point) const {
+CurveTable::Foot CurveTable::closest(const Point& point, double limit) const {
   const Eigen::VectorXd distances = (points_.rowwise() - point.transpose()).rowwise().norm();
   Eigen::Index best = 0;
   Foot foot{0, distances.minCoeff(&best)};
@@ -225,7 +226,7 @@ CurveTable::Foot CurveTable::closest(const Point& point) const {
     if (distances[before] < distances[k] || distances[after] < distances[k]) continue;
     const double reach =
         std::max((points_.row(k) - points_.row(before)).norm(), (points_.row(k) - points_.row(after)).norm());
-    if (distances[k] - 2 * reach > foot.distance) continue;
+    if (distances[k] - 2 * reach > std::min(foot.distance, limit)) continue;
     const double lower = parameters_[static_cast<std::size_t>(before)];
     const double upper = parameters_[static_cast<std::size_t>(after)];
     double t = parameters_[static_cast<std::size_t>(k)];
@@ -244,7 +245,7 @@ CurveTable::Foot CurveTable::closest(const Point& point) const {
       const double divisor = curvature > 0 ? curvature : slope;
       if (!(divisor > 0)) break;
       const double next = std::clamp(t - offset.dot(first) / divisor, lower, upper);
-      if (std::abs(next - t) <= 1e-15 * std::max(std::abs(lower), std::abs(upper))) break;
+      if (std::abs(next - t) <= 1e-9 * (upper - lower)) break;
       t = next;
     }
   }

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "knead/spline/spline.hpp"
 #include "step_entity.hpp"
@@ -29,7 +32,8 @@ class CurveTable {
     double parameter = 0;
     double distance = 0;
   };
-  [[nodiscard]] Foot closest(const Point& point) const;
+  /// Feet farther away than `limit` may be given roughly.
+  [[nodiscard]] Foot closest(const Point& point, double limit = std::numeric_limits<double>::infinity()) const;
   [[nodiscard]] const Curve& curve() const { return curve_; }
   [[nodiscard]] const std::vector<double>& parameters() const { return parameters_; }
   [[nodiscard]] const Points& points() const { return points_; }

@@ -54,7 +54,7 @@ class NaturalBoundary {
     for (Eigen::Index k = 0; k < edge.rows(); ++k) {
       bool on = false;
       for (std::size_t s = 0; s < sides_.size(); ++s) {
-        const auto foot = sides_[s].table.closest(edge.row(k).transpose());
+        const auto foot = sides_[s].table.closest(edge.row(k).transpose(), tolerance_);
         const auto now = foot.distance <= tolerance_ ? std::optional(foot.parameter) : std::nullopt;
         on = on || now.has_value();
         if (now && before[s]) cover(sides_[s], *before[s], *now);
@@ -177,7 +177,7 @@ std::vector<bool> trimmed_surfaces(const StepReader& reader, const std::vector<R
     const auto s = found->second;
     const auto& surface = surfaces[s].surface;
     const double diagonal = net_diagonal(surface.control_points());
-    const double tolerance = std::clamp(uncertainty[s], 1e-5 * diagonal, 1e-4 * diagonal);
+    const double tolerance = std::clamp(2 * uncertainty[s], 1e-5 * diagonal, 1e-4 * diagonal);
     auto [slot, fresh] = boundaries.try_emplace(s);
     if (fresh) slot->second = NaturalBoundary::create(surface, tolerance);
     if (!slot->second) {

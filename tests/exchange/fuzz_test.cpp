@@ -15,7 +15,7 @@ class Damage {
   explicit Damage(std::uint32_t seed) : random_(seed) {}
 
   std::string operator()(std::string bytes) {
-    const auto times = 1 + below(4);
+    const auto times = 1 + below(3);
     for (std::size_t k = 0; k < times && !bytes.empty(); ++k) once(bytes);
     return bytes;
   }
@@ -152,7 +152,7 @@ TEST(StepFuzz, DamagedFilesOfTheCollection) {
 }
 
 TEST(StepFuzz, DamagedSamples) {
-  for (const auto& path : testing::step_files_in(testing::samples())) damage(*read_file(path), times(20));
+  for (const auto& path : testing::step_files_in(testing::samples())) damage(*read_file(path), times(60));
 }
 
 }  // namespace
