@@ -33,22 +33,29 @@ typedef double Lanes __attribute__((vector_size(8 * KNEAD_LANES)));
 typedef double Unaligned __attribute__((vector_size(8 * KNEAD_LANES), aligned(8), may_alias));
 KNEAD_INLINE Lanes load(const double* p) { return *reinterpret_cast<const Unaligned*>(p); }
 KNEAD_INLINE void store(double* p, Lanes v) { *reinterpret_cast<Unaligned*>(p) = v; }
-KNEAD_INLINE Lanes splat(double x) { return Lanes{} + x; }
+KNEAD_INLINE Lanes splat(double x) {
+#if KNEAD_LANES == 2
+  return Lanes{x, x};
+#elif KNEAD_LANES == 4
+  return Lanes{x, x, x, x};
+#else
+  return Lanes{x, x, x, x, x, x, x, x};
+#endif
+}
 KNEAD_INLINE double first(Lanes v) { return v[0]; }
-KNEAD_INLINE bool any_not_positive(Lanes v) {
-  const auto mask = v <= splat(0);
-  long long any = 0;
-  for (int l = 0; l < lanes; ++l) any |= mask[l];
-  return any != 0;
+KNEAD_INLINE bool any(decltype(Lanes{} < Lanes{}) mask) {
+#if KNEAD_LANES == 8
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)) != 0;
+#elif KNEAD_LANES == 4
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+#else
+  return (mask[0] | mask[1]) != 0;
+#endif
 }
-KNEAD_INLINE bool all_equal(Lanes v, double x) {
-  const auto mask = v == splat(x);
-  long long all = -1;
-  for (int l = 0; l < lanes; ++l) all &= mask[l];
-  return all != 0;
-}
+KNEAD_INLINE bool any_not_positive(Lanes v) { return any(v <= splat(0)); }
+KNEAD_INLINE bool all_equal(Lanes v, double x) { return !any(v != splat(x)); }
 KNEAD_INLINE Lanes shifted(Lanes v, double next) {
-  const Lanes after = splat(next);
+  const Lanes after = {next};
 #if KNEAD_LANES == 2
   return __builtin_shufflevector(v, after, 1, 2);
 #elif KNEAD_LANES == 4

@@ -2,83 +2,21 @@
 
 #include "kernels.hpp"
 #include "lanes.hpp"
+#include "row_sweep.hpp"
 
 namespace knead::detail::KNEAD_ISA {
 
 /// The positive recurrence for a degree known at compile time; docs/gramians/recurrence.md derives it.
 ///
-/// Rows are swept downwards in groups of `lanes`, all levels of a group in registers. What a row needs of the next row
-/// is the same register moved by one lane; the lane that comes in is row 0 of the group before and is kept in `carry`.
-///
 /// S[k][l][s](i) is the scaled inner product of the functions (i, order k) and (i + s, order l), k + l = m at level m.
 /// Rows of order K = p + 1 are kept multiplied by their support d(i, K), which saves the division by it.
 template <int P>
-class FixedRecurrence {
+class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
+  using Sweep = RowSweep<P, FixedRecurrence<P>>;
   static constexpr int K = P + 1;
+  using typename Sweep::Pair;
 
- public:
-  static void run(const KernelKnots& knots, const KernelOutput& out) {
-    FixedRecurrence sweep;
-    const int rows = knots.size - K, last = (rows - 1) / lanes;
-    // Rows behind the last have no support of their own; they only fill the carries.
-    for (int group = (rows + P) / lanes; group >= 0; --group) {
-      const double* x = knots.from(group * lanes);
-      if (group <= last && sweep.repeats(x)) {
-        copy_row(out, group * lanes);
-        continue;
-      }
-      if (sweep.near_empty_span(x)) {
-        sweep.compute<true>(x, out, group * lanes, group <= last);
-      } else {
-        sweep.compute<false>(x, out, group * lanes, group <= last);
-      }
-    }
-  }
-
- private:
-  /// One lane-wise quantity at the rows of the group and at the rows after them.
-  struct Pair {
-    Lanes here, next;
-  };
-
-  /// True where some span that the group's rows or the rows they reach through the carries see has zero length. Groups
-  /// are asked in their order; the answers of those before are remembered.
-  bool near_empty_span(const double* x) {
-    constexpr unsigned window = (1u << ((lanes + 2 * K - 2) / lanes + 1)) - 1;
-    empty_ = (empty_ << 1) | (any_not_positive(load(x + 1) - load(x)) ? 1u : 0u);
-    return (empty_ & window) != 0;
-  }
-
-  /// True where all distances d(i, k) that rows of this group and of the next one see are the same numbers for all i:
-  /// then the rows are the same too, to the last bit, and so are the carries.
-  bool repeats(const double* x) {
-    bool uniform = true;
-    for (int k = 1; k <= K && uniform; ++k) {
-      const Lanes distance = load(x + k) - load(x);
-      if (first(distance) != distance_[k]) equal_rows_ = 0;
-      distance_[k] = first(distance);
-      uniform = all_equal(distance, distance_[k]);
-    }
-    equal_rows_ = uniform ? equal_rows_ + lanes : 0;
-    if (equal_rows_ < 2 * lanes + 2 * K || !(distance_[1] > 0)) return false;
-    empty_ <<= 1;
-    return true;
-  }
-
-  /// Row i + lanes, computed before, into the rows of this group.
-  static void copy_row(const KernelOutput& out, int i) {
-    const auto repeat = [](double* at) { store(at, splat(at[lanes])); };
-    for (int term = 0; term < 4; ++term) {
-      for (int s = 0; s <= P; ++s) repeat(out.g[term] + static_cast<std::size_t>(s) * out.stride[term] + i);
-    }
-    for (int s = 0; s < P; ++s) repeat(out.lower10[s] + i);
-  }
-
-  KNEAD_INLINE Lanes next(Lanes value, double& carry) {
-    const Lanes result = shifted(value, carry);
-    carry = first(value);
-    return result;
-  }
+  friend RowSweep<P, FixedRecurrence<P>>;
 
   template <bool Split>
   __attribute__((noinline)) void compute(const double* xp, const KernelOutput& out, int row, bool wanted) {
@@ -123,7 +61,7 @@ class FixedRecurrence {
               return;
             } else if constexpr (k < l && l < K && s == 0) {
               now[k][0] = now[l][0];
-            } else if constexpr (l == 1 && k > 1 && k < K && (s == 0 || s == k - 1)) {
+            } else if constexpr (l == 1 && k > 1 && (s == 0 || s == k - 1)) {
               now[k][s] = before[k][s == 0 ? 1 : s];
             } else {
               Lanes v;
@@ -155,7 +93,7 @@ class FixedRecurrence {
                 }
               }
               now[k][s].here = v;
-              if constexpr (k < K) now[k][s].next = next(v, carry_[k][l][s]);
+              if constexpr (k < K) now[k][s].next = Sweep::next(v, carry_[k][l][s]);
             }
             if constexpr (k == P - 1 && l == P - 1) t2[s] = now[k][s];
             if constexpr (k == P && l == P) t1[s] = now[k][s];
@@ -167,7 +105,7 @@ class FixedRecurrence {
     });
 
     Lanes rho = reciprocal[P];
-    if constexpr (Split) mask(xp, t1, t2, cross, rho);
+    if constexpr (Split) Sweep::mask(xp, t1, t2, cross, rho);
     Pair q[K];
     weighted_differences(t2, rho, q);
     if (!wanted) return;
@@ -180,8 +118,8 @@ class FixedRecurrence {
     unrolled<0, K>([&](auto s) KNEAD_LAMBDA {
       const auto at = [&](int term) KNEAD_LAMBDA { return out.g[term] + s * out.stride[term] + row; };
       put(at(0), s, full[s] * (s == 0 ? 2 * factor.g00 : factor.g00));
-      put(at(1), s, difference<s, P>(t1) * factor.g11);
-      put(at(2), s, difference<s, P>(q));
+      put(at(1), s, Sweep::template difference<s, P>(t1) * factor.g11);
+      put(at(2), s, Sweep::template difference<s, P>(q));
       if constexpr (s == 0) {
         Lanes edge = splat(0);  // (z_i − z_{i+1}) / 2: where a function jumps, half the jump of its square
         if constexpr (Split) {
@@ -211,60 +149,19 @@ class FixedRecurrence {
     }
   }
 
-  /// D(t)_s(i) = t_s(i) − t_{s+1}(i) − t_{s−1}(i+1) + t_s(i+1), t_{−1}(i+1) read as t_1(i), t_s zero from s = Count on.
-  template <int s, int Count>
-  KNEAD_INLINE static Lanes difference(const Pair* t) {
-    if constexpr (s == 0) {
-      const Lanes sum = t[0].here + t[0].next;
-      if constexpr (Count > 1) return sum - (t[1].here + t[1].here);
-      return sum;
-    } else if constexpr (s + 1 < Count) {
-      return (t[s].here - t[s + 1].here) + (t[s].next - t[s - 1].next);
-    } else if constexpr (s < Count) {
-      return t[s].here + (t[s].next - t[s - 1].next);
-    } else if constexpr (s == Count) {
-      return -t[s - 1].next;
-    } else {
-      return splat(0);
-    }
-  }
-
   /// Q_s(i) = rho_i rho_{i+s} D(t)_s(i): inner products of the first derivatives of the functions of order p.
   KNEAD_INLINE void weighted_differences(const Pair* t, Lanes rho, Pair* q) {
     Lanes ahead = rho;
     const Lanes scaled = rho * factors(P).g22;
     unrolled<0, P>([&](auto s) KNEAD_LAMBDA {
-      if constexpr (s > 0) ahead = next(ahead, carry_rho_[s]);
-      q[s].here = (scaled * ahead) * difference<s, P - 1>(t);
-      q[s].next = next(q[s].here, carry_q_[s]);
+      if constexpr (s > 0) ahead = Sweep::next(ahead, carry_rho_[s]);
+      q[s].here = (scaled * ahead) * Sweep::template difference<s, P - 1>(t);
+      q[s].next = Sweep::next(q[s].here, carry_q_[s]);
     });
-  }
-
-  /// Functions of lower order without support count as zero from here on.
-  KNEAD_INLINE static void mask(const double* xp, Pair* t1, Pair* t2, Pair* cross, Lanes& rho) {
-    Lanes z1[K + 1], z2[K + 1];  // 1 where d(i + s, p) > 0, d(i + s, p − 1) > 0
-    unrolled<0, K>([&](auto s) KNEAD_LAMBDA {
-      z1[s] = where_positive(splat(1), load(xp + s + P) - load(xp + s));
-      z2[s] = where_positive(splat(1), load(xp + s + P - 1) - load(xp + s));
-    });
-    unrolled<0, P>([&](auto s) KNEAD_LAMBDA {
-      t1[s].here = where_positive(t1[s].here, z1[0] * z1[s]);
-      t1[s].next = where_positive(t1[s].next, z1[1] * z1[s + 1]);
-      cross[s].here = where_positive(cross[s].here, z1[0]);
-      cross[s].next = where_positive(cross[s].next, z1[1]);
-    });
-    unrolled<0, P - 1>([&](auto s) KNEAD_LAMBDA {
-      t2[s].here = where_positive(t2[s].here, z2[0] * z2[s]);
-      t2[s].next = where_positive(t2[s].next, z2[1] * z2[s + 1]);
-    });
-    rho = where_positive(rho, z1[0]);
   }
 
   double carry_[K + 1][K + 1][K] = {};
   double carry_rho_[K] = {}, carry_q_[K] = {};
-  unsigned empty_ = ~0u;
-  int equal_rows_ = 0;  ///< how many rows from here upwards see the distances of this one
-  double distance_[K + 1] = {};
 };
 
 /// Degree 1 in closed form.
