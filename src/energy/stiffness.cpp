@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "tensor_pattern.hpp"
@@ -51,9 +52,13 @@ Expected<void> check_orders(const Energy<D>& energy) {
 }  // namespace
 
 template <int D>
-Expected<Stiffness<D>> Stiffness<D>::create(const std::array<KnotVector, D>& knots, const Energy<D>& energy,
+Expected<Stiffness<D>> Stiffness<D>::create(const std::array<KnotVector, D>& knots, const Energy<D>& given,
                                             const StiffnessOptions& options) {
-  if (auto checked = check_orders<D>(energy); !checked) return std::unexpected(checked.error());
+  if (auto checked = check_orders<D>(given); !checked) return std::unexpected(checked.error());
+  // Terms with a != b come in mirrored pairs. Summed first, a pair gives x + y above the diagonal and y + x below, the
+  // same number: K is symmetric to the last bit.
+  Energy<D> energy = given;
+  std::ranges::stable_partition(energy, [](const EnergyTerm<D>& term) { return term.a != term.b; });
   Stiffness result;
   result.degree_ = degrees<D>(knots);
   result.size_ = 1;
