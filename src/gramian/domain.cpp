@@ -7,31 +7,35 @@
 namespace knead::detail {
 namespace {
 
-/// Entry (i, j), i <= j, over the spans of the domain alone, by Gauss points.
-void integrate_cut_entry(const KnotVector& knots, int i, int j, GramianSet& set) {
+/// Adds the share of span s to the terms of the functions whose common support leaves the domain.
+///
+/// In extended precision: near the end of a support the two terms of a derivative nearly cancel, and beside the small
+/// integral that is left their rounding errors would count.
+template <class Cut>
+void add_span(const KnotVector& knots, int s, GramianSet& set, Cut cut) {
+  using Real = long double;
   const int p = knots.degree(), orders[3] = {0, 1, 2};
-  const UnitGaussRule rule = unit_gauss(p + 1);
-  double g00 = 0, g11 = 0, g22 = 0, g10 = 0, g01 = 0;
-  SpanValues values[3];
-  for (int s = std::max(j, p); s <= std::min(i + p, knots.count() - 1); ++s) {
-    const double h = knots[s + 1] - knots[s];
-    if (!(h > 0)) continue;
-    const int a = i - (s - p), b = j - (s - p);
-    for (std::size_t g = 0; g < rule.t.size(); ++g) {
-      span_basis(knots, s, rule.t[g], rule.complement[g], orders, 3, values);
-      const double weight = h * rule.weights[g];
-      g00 += weight * values[0][a] * values[0][b];
-      g11 += weight * values[1][a] * values[1][b];
-      g22 += weight * values[2][a] * values[2][b];
-      g10 += weight * values[1][a] * values[0][b];
-      g01 += weight * values[0][a] * values[1][b];
+  const UnitGaussRule<Real> rule = unit_gauss<Real>(p + 1);
+  const Real h = Real(knots[s + 1]) - Real(knots[s]);
+  SpanValues<Real> values[3];
+  for (std::size_t g = 0; g < rule.t.size(); ++g) {
+    span_basis(knots, s, rule.t[g], rule.complement[g], orders, 3, values);
+    const Real weight = h * rule.weights[g];
+    for (int b = 0; b <= p; ++b) {
+      for (int a = 0; a <= b; ++a) {
+        const int i = s - p + a, j = s - p + b;
+        if (!cut(i, j)) continue;
+        const auto add = [&](BandMatrix& matrix, int row, int column, Real f, Real g_) {
+          matrix.at(row, column) += static_cast<double>(weight * f * g_);
+        };
+        add(set.g00, i, j, values[0][a], values[0][b]);
+        add(set.g11, i, j, values[1][a], values[1][b]);
+        add(set.g22, i, j, values[2][a], values[2][b]);
+        add(set.g10, i, j, values[1][a], values[0][b]);
+        if (i != j) add(set.g10, j, i, values[1][b], values[0][a]);
+      }
     }
   }
-  set.g00.at(i, j) = g00;
-  set.g11.at(i, j) = g11;
-  set.g22.at(i, j) = g22;
-  set.g10.at(j, i) = g01;
-  set.g10.at(i, j) = g10;
 }
 
 }  // namespace
@@ -53,14 +57,18 @@ bool within_kernel_range(const KnotVector& knots) {
 void cut_to_domain(const KnotVector& knots, GramianSet& set) {
   const int p = knots.degree(), n = knots.count();
   const Interval domain = knots.domain();
-  const auto redo = [&](int i, int j) {
-    if (knots[j] < domain.lower || knots[i + p + 1] > domain.upper) integrate_cut_entry(knots, i, j, set);
-  };
-  for (int j = 0; j < p; ++j) {
-    for (int i = 0; i <= j; ++i) redo(i, j);
+  if (knots.clamped()) return;
+  // i <= j share [x_j, x_{i+p+1}].
+  const auto cut = [&](int i, int j) { return knots[j] < domain.lower || knots[i + p + 1] > domain.upper; };
+  for (int j = 0; j < n; j = j == p - 1 ? std::max(p, n - p) : j + 1) {
+    for (int i = std::max(0, j - p); i <= j; ++i) {
+      if (!cut(i, j)) continue;
+      for (BandMatrix* matrix : {&set.g00, &set.g11, &set.g22, &set.g10}) matrix->at(i, j) = 0;
+      set.g10.at(j, i) = 0;
+    }
   }
-  for (int i = std::max(n - p, 0); i < n; ++i) {
-    for (int j = std::max(i, p); j < std::min(n, i + p + 1); ++j) redo(i, j);
+  for (int s = p; s < n; s = s == 2 * p - 1 ? std::max(2 * p, n - p) : s + 1) {
+    if (knots[s] < knots[s + 1]) add_span(knots, s, set, cut);
   }
 }
 

@@ -13,9 +13,9 @@ BandMatrix gauss_gramian(const KnotVector& knots, int a, int b) {
   BandMatrix result(knots.count(), p, symmetry_of(a, b));
   if (a > p || b > p) return result;
   // The integrand has degree 2p − a − b on each span.
-  const UnitGaussRule rule = unit_gauss(p + 1);
+  const UnitGaussRule<double> rule = unit_gauss<double>(p + 1);
   const int orders[2] = {a, b};
-  SpanValues values[2];
+  SpanValues<double> values[2];
   for (const int span : knots.spans()) {
     const double h = knots[span + 1] - knots[span];
     for (std::size_t g = 0; g < rule.t.size(); ++g) {
@@ -40,7 +40,7 @@ void gauss_gramians(const KnotVector& knots, InstructionSet instructions, Gramia
   }
   resize(set, knots);
   GaussPoints points;
-  const UnitGaussRule rule = unit_gauss(p + 1);
+  const UnitGaussRule<double> rule = unit_gauss<double>(p + 1);
   for (std::size_t g = 0; g < rule.t.size(); ++g) {
     points.t[g] = rule.t[g];
     points.complement[g] = rule.complement[g];
