@@ -109,7 +109,7 @@ class Part21File {
   std::vector<Part21Instance> instances_;
   std::vector<Part21Value> values_;
   std::vector<std::uint32_t> header_;
-  std::vector<std::uint32_t> line_starts_;  // of the second line and on
+  std::vector<std::uint32_t> line_starts_;                  // of the second line and on
   std::unordered_map<std::uint64_t, std::uint32_t> index_;  // name to instance; no_instance: REFERENCE section
   std::uint64_t largest_id_ = 0;
 };

@@ -25,16 +25,16 @@ struct StepSurface {
 
   /// Geometrically closed in u, in v: S(a, ·) and S(b, ·) are the same curve. The two boundary isocurves are split at
   /// their ends into control points (and weights) by the basis at the first and last parameter; they are the same curve
-  /// where these agree to 1e-9 of the net's bounding-box diagonal. A direction along which the whole net is collapsed is
-  /// not closed. The file's own u_closed and v_closed flags are often wrong and not used.
+  /// where these agree to 1e-9 of the net's bounding-box diagonal. A direction along which the whole net is collapsed
+  /// is not closed. The file's own u_closed and v_closed flags are often wrong and not used.
   std::array<bool, 2> closed = {false, false};
 
   /// Some face on this surface is not the whole of it: an edge of its bounds leaves the four boundary isocurves of the
   /// surface, or its edges together leave out part of a boundary isocurve that is neither a seam nor a single point.
-  /// Decided by points sampled on the edges, to twice the uncertainty the file states (edge and surface may each be off by
-  /// it), but no less than 1e-5 and no more than 1e-4 of the net's bounding-box diagonal. Where the form of an edge's
-  /// curve is not known (docs/step.md) the face counts as trimmed. A surface that no face uses is untrimmed, unless a
-  /// RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE cuts it.
+  /// Decided by points sampled on the edges, to twice the uncertainty the file states (edge and surface may each be off
+  /// by it), but no less than 1e-5 and no more than 1e-4 of the net's bounding-box diagonal. Where the form of an
+  /// edge's curve is not known (docs/step.md) the face counts as trimmed. A surface that no face uses is untrimmed,
+  /// unless a RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE cuts it.
   bool trimmed = false;
 };
 

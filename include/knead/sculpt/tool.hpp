@@ -25,8 +25,8 @@ struct Tool {
   std::string name = "tool";
   Sphere shape;
   ToolMode mode = ToolMode::collision;
-  double stiffness = 1e4; ///< k: force per length and parameter area
-  double range = 0.5;     ///< proximity: no force at this distance and beyond; unused by collision
+  double stiffness = 1e4;  ///< k: force per length and parameter area
+  double range = 0.5;      ///< proximity: no force at this distance and beyond; unused by collision
 
   friend bool operator==(const Tool&, const Tool&) = default;
 };
