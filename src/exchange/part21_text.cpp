@@ -189,9 +189,10 @@ bool same_keyword(std::string_view a, std::string_view b) {
 
 std::optional<std::uint64_t> parse_instance_name(std::string_view text) {
   std::uint64_t id = 0;
-  const auto* const end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data() + 1, end, id);
-  if (error != std::errc() || last != end || id > std::numeric_limits<std::int64_t>::max()) return std::nullopt;
+  const auto digits = text.substr(1);
+  const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
+  if (error != std::errc() || last != digits.data() + digits.size() || id > std::numeric_limits<std::int64_t>::max())
+    return std::nullopt;
   return id;
 }
 
@@ -206,9 +207,8 @@ std::optional<double> parse_real(std::string_view text) {
     text = copy;
   }
   double value = 0;
-  const auto* const end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data(), end, value);
-  if (last != end || error == std::errc::invalid_argument) return std::nullopt;
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (last != text.data() + text.size() || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
     if (decimal_magnitude(text) > 0) return std::nullopt;
     value = 0;

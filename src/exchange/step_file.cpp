@@ -56,9 +56,11 @@ Expected<StepFile> StepFile::parse(std::string bytes, std::string name) {
   }
 
   const auto contexts = read_unit_contexts(reader);
+  data->units.reserve(contexts.size());
   for (const auto& context : contexts) data->units.push_back(context.unit);
   const auto context_of = contexts_of(reader, contexts, data->surface_instances);
   std::vector<double> uncertainty;
+  uncertainty.reserve(context_of.size());
   for (const int context : context_of) {
     uncertainty.push_back(context < 0 ? 0 : contexts[static_cast<std::size_t>(context)].uncertainty);
   }

@@ -63,15 +63,16 @@ Expected<std::array<KnotVector, 2>> surface_knots(const StepReader& reader, std:
                         "write it as B_SPLINE_SURFACE_WITH_KNOTS, with multiplicities and knots");
   }
   for (std::size_t k = 0; k < 2; ++k) {
-    if (listed.empty()) {
-      auto implied = implied_knots(*form, degree[k], count[k]);
-      if (!implied)
-        return reader.error(instance, std::string(names[k]) + ": " + implied.error().what, implied.error().remedy);
-      knots.push_back(*std::move(implied));
-    } else {
+    if (!listed.empty()) {
       auto read = read_knots(reader, instance, degree[k], count[k], listed[k], listed[k + 2], names[k]);
       if (!read) return std::unexpected(std::move(read.error()));
       knots.push_back(*std::move(read));
+    } else if (form) {
+      auto implied = implied_knots(*form, degree[k], count[k]);
+      if (!implied) {
+        return reader.error(instance, std::string(names[k]) + ": " + implied.error().what, implied.error().remedy);
+      }
+      knots.push_back(*std::move(implied));
     }
   }
   return std::array<KnotVector, 2>{std::move(knots[0]), std::move(knots[1])};

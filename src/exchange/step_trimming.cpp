@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "knead/spline/evaluate.hpp"
 #include "step_curves.hpp"
@@ -57,8 +58,8 @@ class NaturalBoundary {
         const auto foot = sides_[s].table.closest(edge.row(k).transpose(), tolerance_);
         const auto now = foot.distance <= tolerance_ ? std::optional(foot.parameter) : std::nullopt;
         on = on || now.has_value();
-        if (now && before[s]) cover(sides_[s], *before[s], *now);
-        before[s] = now;
+        const auto last = std::exchange(before[s], now);
+        if (now && last) cover(sides_[s], *last, *now);
       }
       if (!on) return false;
     }
@@ -180,12 +181,11 @@ std::vector<bool> trimmed_surfaces(const StepReader& reader, const std::vector<R
     const double tolerance = std::clamp(2 * uncertainty[s], 1e-5 * diagonal, 1e-4 * diagonal);
     auto [slot, fresh] = boundaries.try_emplace(s);
     if (fresh) slot->second = NaturalBoundary::create(surface, tolerance);
-    if (!slot->second) {
-      trimmed[s] = true;  // its boundary cannot be evaluated
-      continue;
+    trimmed[s] = true;
+    if (auto& boundary = slot->second) {  // else it cannot be evaluated
+      boundary->begin_face();
+      trimmed[s] = !add_bounds(reader, bounds[0], *boundary) || !boundary->covered();
     }
-    slot->second->begin_face();
-    trimmed[s] = !add_bounds(reader, bounds[0], *slot->second) || !slot->second->covered();
   }
   return trimmed;
 }
