@@ -48,7 +48,8 @@ struct Objective {
 };
 
 /// (A + H) d = −g by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
-/// `z` = A⁻¹ g is known already.
+/// `z` = A⁻¹ g is known already. Where A + H turns out not to be positive the way gone so far is the answer, or −z: a
+/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1).
 Points newton_direction(const Objective& objective, const SurfaceLoad::State& state, const Points& g, const Points& z,
                         double tolerance, Points& a_direction, int& solves) {
   const SparseMatrix& a = objective.euler.system();
@@ -63,7 +64,14 @@ Points newton_direction(const Objective& objective, const SurfaceLoad::State& st
     for (int i = 0; i < partition.size(); ++i) {
       if (!partition.is_free(i)) hp.row(i).setZero();
     }
-    const double step = rs / dot(p, hp);
+    const double curvature = dot(p, hp);
+    if (curvature <= 1e-12 * dot(p, ap)) {
+      if (iteration > 0) break;
+      d = p;
+      ad = std::move(ap);
+      break;
+    }
+    const double step = rs / curvature;
     d += step * p;
     ad += step * ap;
     r -= step * hp;

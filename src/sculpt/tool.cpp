@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace knead {
@@ -25,11 +24,11 @@ ToolAction tool_action(const Tool& tool, const Point& x) {
   ToolAction action;
   const Point offset = x - tool.shape.centre;
   const double distance = offset.norm(), phi = distance - tool.shape.radius, k = tool.stiffness;
-  double slope = 0;  // ψ'(φ) / φ
+  double slope = 0, curvature = 0;  // ψ'(φ) / φ and ψ''(φ)
   if (tool.mode == ToolMode::collision) {
     if (phi >= 0) return action;
     action.potential = 0.5 * k * phi * phi;
-    slope = k;
+    slope = curvature = k;
   } else {
     const double r2 = tool.range * tool.range, s = 1 - phi * phi / r2;
     if (s <= 0) {
@@ -38,12 +37,13 @@ ToolAction tool_action(const Tool& tool, const Point& x) {
     }
     action.potential = k * r2 / 6 * (1 - s * s * s);
     slope = k * s * s;
+    curvature = k * s * (5 * s - 4);
   }
   if (distance == 0) return action;
   action.direction = offset / distance;
   action.force = -slope * phi * action.direction;
-  action.normal = slope;
-  action.tangential = std::max(0.0, slope * phi / distance);
+  action.normal = curvature;
+  action.tangential = slope * phi / distance;
   return action;
 }
 

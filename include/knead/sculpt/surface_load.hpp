@@ -46,7 +46,7 @@ class SurfaceLoad {
 
   [[nodiscard]] State evaluate(const Points& x, std::span<const Tool> tools) const;
 
-  /// H V: the positive semi-definite Hessian model of the potential at `state`, applied to N × 3 directions.
+  /// H V: the Hessian of the potential at `state`, applied to N × 3 directions. It may be indefinite.
   [[nodiscard]] Points apply_hessian(const State& state, const Points& v) const;
 
   [[nodiscard]] int points() const { return quadrature_[0].basis.size() * quadrature_[1].basis.size(); }

@@ -34,8 +34,9 @@ struct Tool {
 /// Checks radius > 0, stiffness >= 0, range > 0 where it is used, all finite; the error names the field.
 [[nodiscard]] Expected<Tool> validated(const Tool& tool);
 
-/// What a tool does to one point x: a potential ψ whose negative gradient is the force of the springs, and a positive
-/// semi-definite model of its Hessian, normal · n nᵀ + tangential · (I − n nᵀ).
+/// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian
+/// ∂²ψ = normal · n nᵀ + tangential · (I − n nᵀ), which need not be positive: a surface pressed against a ball is pushed
+/// sideways off its top.
 ///
 /// With φ the signed distance of x to the tool (negative inside) and n its gradient:
 /// collision  ψ = k/2 min(φ, 0)², force −k φ n inside;
@@ -45,8 +46,8 @@ struct Tool {
 struct ToolAction {
   double potential = 0;
   Point force = Point::Zero();
-  double normal = 0, tangential = 0;
-  Point direction = Point::Zero();  ///< n
+  double normal = 0, tangential = 0;  ///< ψ''(φ) and ψ'(φ) / |x − centre|
+  Point direction = Point::Zero();    ///< n; zero where the tool does not act
 
   [[nodiscard]] bool active() const { return normal != 0 || tangential != 0; }
 };
