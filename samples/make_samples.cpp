@@ -200,16 +200,17 @@ void write(const TopoDS_Shape& bonnet_shape, const TopoDS_Shape& ring_shape, con
   XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
   const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const auto colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
-  const auto part = [&](const TopoDS_Shape& shape, const char* name, const Quantity_Color& colour) {
+  const auto part = [&](const TopoDS_Shape& shape, const char* name) {
     const TDF_Label label = shapes->AddShape(shape, false);
     TDataStd_Name::Set(label, name);
-    colours->SetColor(label, colour, XCAFDoc_ColorSurf);
     return label;
   };
   const TDF_Label car = shapes->NewShape();
   TDataStd_Name::Set(car, "Front end");
-  const TDF_Label bonnet_part = part(bonnet_shape, "Bonnet", Quantity_Color(0.09, 0.24, 0.45, Quantity_TOC_sRGB));
-  const TDF_Label ring_part = part(ring_shape, "Headlamp ring", Quantity_Color(0.75, 0.75, 0.78, Quantity_TOC_sRGB));
+  const TDF_Label bonnet_part = part(bonnet_shape, "Bonnet");
+  const TDF_Label ring_part = part(ring_shape, "Headlamp ring");
+  // One colour only: Open CASCADE writes several in the order of addresses, which differs from run to run.
+  colours->SetColor(bonnet_part, Quantity_Color(0.09, 0.24, 0.45, Quantity_TOC_sRGB), XCAFDoc_ColorSurf);
   gp_Trsf place;
   place.SetTransformation(gp_Ax3(gp_Pnt(60, -430, -140), gp_Dir(-1, 0, 0.25), gp_Dir(0, 1, 0)), gp_Ax3());
   TDataStd_Name::Set(shapes->AddComponent(car, bonnet_part, TopLoc_Location()), "bonnet");
