@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-export GTEST_SHUFFLE=1 GTEST_REPEAT=3
+export GTEST_SHUFFLE=1 GTEST_REPEAT=3 KNEAD_LONG=1
 scripts/test.sh release
 scripts/test.sh asan
 scripts/noexcept.sh
