@@ -10,16 +10,16 @@ namespace knead::detail {
 template <class Real>
 using SpanValues = Real[max_degree + 1];
 
-/// N_{span-p+r}^(d) at u = x_span + t (x_{span+1} − x_span), r = 0 … p, for each d of `orders[0 … count)`.
+/// N_{span-p+r}^(d) at u = lower + t (upper − lower), r = 0 … p, for each d of `orders[0 … count)`.
 ///
-/// Like `basis_derivatives`, but u is given by t and 1 − t inside the span and never formed, so that no digit is lost
-/// on spans that are short beside the size of the knots. Values are sums of non-negative terms; a derivative is d
-/// differences of values of degree p − d. Orders above p give zero.
+/// [lower, upper] is a piece of the span or all of it. Like `basis_derivatives`, but u is given by t and 1 − t inside
+/// the piece and never formed, so that no digit is lost on spans that are short beside the size of the knots. Values
+/// are sums of non-negative terms; a derivative is d differences of values of degree p − d. Orders above p give zero.
 template <class Real>
-void span_basis(const KnotVector& knots, int span, Real t, Real complement, const int* orders, int count,
-                SpanValues<Real>* out) {
+void span_basis(const KnotVector& knots, int span, double lower, double upper, Real t, Real complement,
+                const int* orders, int count, SpanValues<Real>* out) {
   const int p = knots.degree();
-  const Real a = knots[span], b = knots[span + 1], h = b - a;
+  const Real a = lower, b = upper, h = b - a;
   Real left[max_degree + 2], right[max_degree + 2];
   // Every lower degree is kept: the derivative of order d starts from the values of degree p − d.
   Real values[max_degree + 1][max_degree + 1];
@@ -50,6 +50,13 @@ void span_basis(const KnotVector& knots, int span, Real t, Real complement, cons
       result[q] = before;
     }
   }
+}
+
+/// The same with the whole span as the piece.
+template <class Real>
+void span_basis(const KnotVector& knots, int span, Real t, Real complement, const int* orders, int count,
+                SpanValues<Real>* out) {
+  span_basis(knots, span, knots[span], knots[span + 1], t, complement, orders, count, out);
 }
 
 }  // namespace knead::detail
