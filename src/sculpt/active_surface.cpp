@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,11 @@ struct ActiveSurface::Model {
     return (control_points - origin) / scaling.length;
   }
   [[nodiscard]] Points origin_about_centre() const { return (origin.rowwise() - centre.transpose()) / scaling.length; }
+  /// Σ Xᵀ K X. K annihilates constants: without their mean the numbers are smaller, and so is the rounding.
+  [[nodiscard]] double energy(const Points& x) const {
+    const Points y = x.rowwise() - x.colwise().mean();
+    return std::max(0.0, y.cwiseProduct(euler.k() * y).sum());
+  }
   [[nodiscard]] Tool normalised(Tool tool) const {
     tool.shape.centre = (tool.shape.centre - centre) / scaling.length;
     tool.shape.radius /= scaling.length;
@@ -73,7 +79,7 @@ Expected<ActiveStep> ActiveSurface::step(const Points& control_points, std::span
   const Points origin = m.origin_about_centre(), before = m.unknown(control_points);
   Points x = before;
   const ContactSummary summary = minimise_step(m.euler, m.load, scaled, origin, x);
-  if (!x.allFinite()) {
+  if (!x.allFinite() || !summary.finite) {
     return numerical_error("the step gives no finite result and was refused", "step",
                            "use a larger lambda, a smaller stiffness or larger material coefficients");
   }
@@ -84,11 +90,15 @@ Expected<ActiveStep> ActiveSurface::step(const Points& control_points, std::span
       if (x(i, c) != before(i, c)) result.control_points(i, c) = m.origin(i, c) + m.scaling.length * x(i, c);
     }
   }
-  const Points kx = m.euler.k() * x, force = m.load.evaluate(origin + x, scaled).force();
-  const auto free_norm = [&m](const Points& y) { return m.euler.partition().gather(y).norm(); };
-  const double scale = free_norm(force) + free_norm(kx);
-  result.energy = x.cwiseProduct(kx).sum();
-  result.residual = scale > 0 ? free_norm(force - kx) / scale : 0;
+  // Forces at the free control points: of the tools, of the free part of the net, and of the part that is held.
+  const Partition& partition = m.euler.partition();
+  const Points free_part = partition.scatter(partition.gather(x));
+  const Points from_free = partition.gather(m.euler.k() * free_part);
+  const Points from_held = partition.gather(m.euler.k() * (x - free_part));
+  const Points from_tools = partition.gather(m.load.evaluate(origin + x, scaled).force());
+  const double scale = from_tools.norm() + from_free.norm() + from_held.norm();
+  result.energy = m.energy(x);
+  result.residual = scale > 0 ? (from_tools - from_free - from_held).norm() / scale : 0;
   result.iterations = summary.iterations;
   result.solves = summary.solves;
   result.converged = summary.converged;
@@ -96,8 +106,7 @@ Expected<ActiveStep> ActiveSurface::step(const Points& control_points, std::span
 }
 
 double ActiveSurface::energy(const Points& control_points) const {
-  const Points x = model_->unknown(control_points);
-  return x.cwiseProduct(model_->euler.k() * x).sum();
+  return model_->energy(model_->unknown(control_points));
 }
 
 const DomainScaling& ActiveSurface::scaling() const { return model_->scaling; }

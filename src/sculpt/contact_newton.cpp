@@ -8,12 +8,19 @@ namespace {
 
 constexpr int max_newton_iterations = 60;
 constexpr int max_cg_iterations = 400;
-// The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step; relative to the largest one met.
+// The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step. It is compared with what the step
+// weighs against each other, |F|, |K X₀| and the first imbalance in the same norm.
 constexpr double relative_tolerance = 1e-11;
-constexpr double absolute_tolerance = 1e-15;
 constexpr double sufficient_decrease = 1e-4;
+constexpr double rounding = 1e-14;
+constexpr int max_rounded_steps = 4;
 
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
+
+/// sqrt(bᵀ A⁻¹ b) over the free unknowns.
+double dual_norm(const ImplicitEuler& euler, const Points& b) {
+  return std::sqrt(std::max(0.0, dot(b, euler.solve(b))));
+}
 
 /// The minimised function Φ and its gradient, X measured from X₀ (the matrix A = K + λW is kept, W is not needed):
 /// Φ = ½ YᵀAY + YᵀKX₀ + Ψ(X₀ + Y) + const, ∇Φ = A Y + K X₀ − F(X₀ + Y).
@@ -93,15 +100,18 @@ ContactSummary minimise_step(const ImplicitEuler& euler, const SurfaceLoad& load
   const Points x0 = x;
   const Objective objective{euler, load, tools, origin + x0, euler.k() * x0};
   Objective::At here = objective.at(Points::Zero(x.rows(), 3), Points::Zero(x.rows(), 3));
-  double largest = 0;
+  double largest = std::max(dual_norm(euler, objective.kx0), dual_norm(euler, here.state.force()));
+  summary.solves += 2;
+  const double energy = 0.5 * dot(x0, objective.kx0);
+  int rounded_steps = 0;
   while (true) {
     const Points g = objective.gradient(here);
     const Points z = euler.solve(g);
     ++summary.solves;
     const double decrement = std::sqrt(std::max(0.0, dot(g, z)));
     largest = std::max(largest, decrement);
-    if (decrement <= relative_tolerance * largest + absolute_tolerance || !std::isfinite(decrement)) {
-      summary.converged = std::isfinite(decrement);
+    if (decrement <= relative_tolerance * largest || !std::isfinite(decrement)) {
+      summary.converged = summary.finite = std::isfinite(decrement);
       break;
     }
     if (summary.iterations == max_newton_iterations) break;
@@ -119,11 +129,18 @@ ContactSummary minimise_step(const ImplicitEuler& euler, const SurfaceLoad& load
     const double slope = dot(g, d);
     double t = 1;
     Objective::At next = objective.at(here.y + d, here.ay + ad);
-    // Differences below the rounding of Φ decide nothing: the full step is taken.
-    const double rounding = 1e-14 * (std::abs(here.quadratic) + here.state.potential());
-    while (next.value() > here.value() + sufficient_decrease * t * slope + rounding && t > 1e-10) {
-      t /= 2;
-      next = objective.at(here.y + t * d, here.ay + t * ad);
+    if (-slope <= rounding * (energy + std::abs(here.quadratic) + here.state.potential())) {
+      // The gain left is below the rounding of Φ, so that comparing values decides nothing: a few full steps take what
+      // the gradient still sees.
+      if (++rounded_steps > max_rounded_steps) {
+        summary.converged = true;
+        break;
+      }
+    } else {
+      while (next.value() > here.value() + sufficient_decrease * t * slope && t > 1e-10) {
+        t /= 2;
+        next = objective.at(here.y + t * d, here.ay + t * ad);
+      }
     }
     here = std::move(next);
   }

@@ -12,6 +12,7 @@ struct ContactSummary {
   int iterations = 0;  ///< Newton iterations
   int solves = 0;      ///< back substitutions
   bool converged = false;
+  bool finite = true;  ///< false: a number overflowed on the way
 };
 
 /// Minimises ½ XᵀKX + λ/2 |X − X₀|²_W + Ψ(X) over the free unknowns, starting from X₀ = `x`, which becomes the minimum.

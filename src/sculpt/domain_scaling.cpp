@@ -10,21 +10,27 @@ namespace knead {
 Expected<DomainScaling> normalised_scaling(const Surface& rest) {
   std::array<BasisQuadrature, 2> q;
   for (int d = 0; d < 2; ++d) {
-    q[static_cast<std::size_t>(d)] = gauss_basis(rest.knots(d), rest.knots(d).degree() + 1, 1);
+    q[static_cast<std::size_t>(d)] = gauss_basis(rest.knots(d), rest.knots(d).degree() + 4, 1);
   }
-  auto grid = evaluate_grid<2>(rest, std::array<const BasisTable*, 2>{&q[0].basis, &q[1].basis}, 1);
-  if (!grid) return std::unexpected(grid.error());
-  const Points& su = grid->at({1, 0});
-  const Points& sv = grid->at({0, 1});
   double area = 0, total_u = 0, total_v = 0;
-  Eigen::Index row = 0;
-  for (double wu : q[0].weights) {
-    for (double wv : q[1].weights) {
-      const Point a = su.row(row), b = sv.row(row);
-      area += wu * wv * a.cross(b).norm();
-      total_u += wu * wv * a.norm();
-      total_v += wu * wv * b.norm();
-      ++row;
+  // One span of u after the other, so that a large net needs no large memory.
+  const int block = rest.knots(0).degree() + 4;
+  for (int begin = 0; begin < q[0].basis.size(); begin += block) {
+    const BasisTable rows = q[0].basis.slice(begin, begin + block);
+    auto grid = evaluate_grid<2>(rest, std::array<const BasisTable*, 2>{&rows, &q[1].basis}, 1);
+    if (!grid) return std::unexpected(grid.error());
+    const Points& su = grid->at({1, 0});
+    const Points& sv = grid->at({0, 1});
+    Eigen::Index row = 0;
+    for (int k = begin; k < begin + block; ++k) {
+      for (double wv : q[1].weights) {
+        const Point a = su.row(row), b = sv.row(row);
+        const double w = q[0].weights[static_cast<std::size_t>(k)] * wv;
+        area += w * a.cross(b).norm();
+        total_u += w * a.norm();
+        total_v += w * b.norm();
+        ++row;
+      }
     }
   }
   if (!(area > 0) || !std::isfinite(area)) {

@@ -11,8 +11,9 @@ Expected<Tool> validated(const Tool& tool) {
   if (!std::isfinite(tool.shape.radius) || tool.shape.radius <= 0) {
     return input_error(fmt::format("{} is not a radius", tool.shape.radius), "radius", "use a number > 0");
   }
-  if (!std::isfinite(tool.stiffness) || tool.stiffness < 0) {
-    return input_error(fmt::format("{} is not a stiffness", tool.stiffness), "stiffness", "use a number >= 0");
+  if (!(tool.stiffness >= 0 && tool.stiffness <= max_tool_stiffness)) {
+    return input_error(fmt::format("{} is not a stiffness", tool.stiffness), "stiffness",
+                       fmt::format("use a number from 0 to {}", max_tool_stiffness));
   }
   if (!std::isfinite(tool.range) || (tool.mode == ToolMode::proximity && tool.range <= 0)) {
     return input_error(fmt::format("{} is not a range", tool.range), "range", "use a number > 0");

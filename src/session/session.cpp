@@ -136,7 +136,8 @@ struct Session::Executor {
                          "give one of them");
     }
     const double diagonal = diagonal_of(**surface), unit = c.relative ? diagonal : 1;
-    SceneTool made{{c.name, {}, c.mode, c.stiffness, 0}, c.relative};
+    const double stiffness = c.stiffness.value_or(c.mode == ToolMode::collision ? 1e4 : 100);
+    SceneTool made{{c.name, {}, c.mode, stiffness, 0}, c.relative};
     made.tool.shape.radius = c.radius ? *c.radius * unit : 0.1 * diagonal;
     made.tool.range = c.range ? *c.range * unit : 0.5 * made.tool.shape.radius;
     if (c.position) {

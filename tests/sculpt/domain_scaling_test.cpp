@@ -22,8 +22,8 @@ TEST(DomainScaling, OfTheUnitSphereIsItsAreaAndMeanIsocurves) {
   // Area 4π. Parallels have the mean length 2π times the mean of the radius over v; meridians have the length π.
   const auto s = normalised_scaling(testing::sphere());
   ASSERT_TRUE(s);
-  EXPECT_NEAR(s->length * s->length, 4 * std::numbers::pi, 1e-3);
-  EXPECT_NEAR(s->factors[1] * 2 * s->length, std::numbers::pi, 1e-3);
+  EXPECT_NEAR(s->length * s->length, 4 * std::numbers::pi, 1e-5);
+  EXPECT_NEAR(s->factors[1] * 2 * s->length, std::numbers::pi, 1e-5);
 }
 
 TEST(DomainScaling, IsInvariantUnderMotionAndProportionalToSize) {

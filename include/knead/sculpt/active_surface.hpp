@@ -40,7 +40,8 @@ struct ActiveSettings {
 struct ActiveStep {
   Points control_points;  ///< file units; rows that did not move keep their bits
   double energy = 0;      ///< Σ Xᵀ K X after the step (thesis Eq. 4.14), normalised units
-  double residual = 0;    ///< |F − K X| / (|F| + |K X|) on the free control points: 0 in equilibrium
+  double residual = 0;  ///< imbalance |F − K X| at the free control points, relative to the forces of tools, free part
+                        ///< and held part of the net that meet there: 0 in equilibrium
   int iterations = 0;     ///< Newton iterations
   int solves = 0;         ///< back substitutions with the factored matrix
   bool converged = true;  ///< the step's own minimum was reached

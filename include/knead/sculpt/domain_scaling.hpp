@@ -21,7 +21,7 @@ struct DomainScaling {
 };
 
 /// The normalised scaling of a rest surface. Area ∫|S_u × S_v| and mean isocurve lengths (1/|V|)∫∫|S_u| du dv are
-/// integrated by p + 1 Gauss points per span. Invariant (up to rounding) under rigid motion, uniform scaling, exchange
+/// integrated by p + 4 Gauss points per span. Invariant (up to rounding) under rigid motion, uniform scaling, exchange
 /// and reversal of the directions and affine maps of the knots.
 /// Errors: the surface has no area (numerical); a rational denominator that is not positive.
 [[nodiscard]] Expected<DomainScaling> normalised_scaling(const Surface& rest);

@@ -31,12 +31,17 @@ struct Tool {
   friend bool operator==(const Tool&, const Tool&) = default;
 };
 
-/// Checks radius > 0, stiffness >= 0, range > 0 where it is used, all finite; the error names the field.
+/// Beyond this, the rounding of positions alone makes forces larger than those of the material: the entry into a tool
+/// is then less than 1e-9 of the surface's size anyway.
+inline constexpr double max_tool_stiffness = 1e10;
+
+/// Checks radius > 0, stiffness from 0 to the maximum, range > 0 where it is used, all finite; the error names the
+/// field.
 [[nodiscard]] Expected<Tool> validated(const Tool& tool);
 
 /// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian
-/// ∂²ψ = normal · n nᵀ + tangential · (I − n nᵀ), which need not be positive: a surface pressed against a ball is pushed
-/// sideways off its top.
+/// ∂²ψ = normal · n nᵀ + tangential · (I − n nᵀ), which need not be positive: a surface pressed against a ball is
+/// pushed sideways off its top.
 ///
 /// With φ the signed distance of x to the tool (negative inside) and n its gradient:
 /// collision  ψ = k/2 min(φ, 0)², force −k φ n inside;

@@ -49,9 +49,9 @@ struct ToolCommand {
   std::optional<std::array<double, 3>> position;  ///< of the centre; or:
   std::optional<std::array<double, 2>> at;        ///< centre on the surface, at fractions of its domain
   ToolMode mode = ToolMode::collision;
-  double stiffness = 1e4;
-  std::optional<double> range;  ///< default: half the radius
-  bool relative = false;        ///< lengths and positions are fractions of the bounding-box diagonal
+  std::optional<double> stiffness;  ///< default: 1e4 for collision, 100 for proximity
+  std::optional<double> range;      ///< default: half the radius
+  bool relative = false;            ///< lengths and positions are fractions of the bounding-box diagonal
 };
 
 /// Takes a tool out of the scene.

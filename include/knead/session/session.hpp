@@ -17,7 +17,7 @@ struct StepRecord {
   int surface = 0;                  ///< index into the document's surfaces
   double time = 0;                  ///< seconds
   double energy = 0;                ///< after the step, normalised units
-  double residual = 0;              ///< |F − K X| / (|F| + |K X|)
+  double residual = 0;              ///< relative imbalance of forces, see ActiveStep
   double largest_displacement = 0;  ///< from the surface as opened, file units
   int iterations = 0;
   bool converged = true;

@@ -37,6 +37,10 @@ struct BasisTable {
            (static_cast<std::size_t>(k) * static_cast<std::size_t>(order + 1) + static_cast<std::size_t>(d)) *
                static_cast<std::size_t>(degree + 1);
   }
+  /// The parameters begin … end − 1 alone.
+  [[nodiscard]] BasisTable slice(int begin, int end) const {
+    return {degree, order, {first.begin() + begin, first.begin() + end}, {row(begin, 0), row(end, 0)}};
+  }
 };
 
 /// Tabulates the basis and its derivatives up to `order` at `parameters` (any order, repetitions allowed).
