@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "knead/base/error.hpp"
@@ -18,7 +19,15 @@ Action add_sculpt(CLI::App& app);
 Action add_gramian(CLI::App& app);
 Action add_stiffness(CLI::App& app);
 
-/// Numbers separated by commas or white space. A usage error names `option` and the entry that is no number.
+/// Stands at the end of every help text.
+inline constexpr std::string_view exit_codes =
+    "Exit codes: 0 success, 2 wrong usage, 3 bad input, 4 numerical failure.";
+
+/// What --method says in the help texts: all names, and the default.
+[[nodiscard]] std::string gramian_method_help();
+
+/// Numbers separated by commas or white space; a comma stands behind a number, and the last one may end the text.
+/// A usage error names `option` and the entry that is no number.
 [[nodiscard]] Expected<std::vector<double>> parse_numbers(const std::string& text, const std::string& option);
 
 /// To 17 significant digits, which gives the same double back; what is not finite becomes null.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "cli.hpp"
@@ -25,13 +27,36 @@ Expected<std::vector<double>> read_knots(const Options& options) {
   if (options.knots_file.empty()) return parse_numbers(options.knots, "--knots");
   auto text = read_file(options.knots_file);
   if (!text) return std::unexpected(text.error());
-  auto knots = parse_numbers(*text, "--knots-file");
-  if (!knots) {
-    Error error = knots.error();
-    error.file = options.knots_file;
-    return std::unexpected(error);
+  return parse_numbers(*text, "--knots-file");
+}
+
+Expected<KnotVector> knot_vector(const Options& options) {
+  if (options.degree < 1 || options.degree > max_degree) {
+    return input_error(fmt::format("degree {} is out of range", options.degree), "--degree",
+                       fmt::format("use 1 to {}", max_degree));
   }
-  return knots;
+  auto numbers = read_knots(options);
+  auto knots = numbers ? KnotVector::create(options.degree, std::move(*numbers))
+                       : Expected<KnotVector>(std::unexpected(numbers.error()));
+  if (knots) return knots;
+  Error error = knots.error();
+  if (options.knots_file.empty()) {
+    if (numbers) error = error.within("--knots");
+  } else {
+    error.kind = ErrorKind::input;  // what is wrong stands in a file, not in the call
+    error.file = options.knots_file;
+  }
+  return std::unexpected(error);
+}
+
+bool all_finite(const BandMatrix& matrix) {
+  for (int i = 0; i < matrix.size(); ++i) {
+    for (int j = std::max(0, i - matrix.half_bandwidth());
+         j <= std::min(matrix.size() - 1, i + matrix.half_bandwidth()); ++j) {
+      if (!std::isfinite(matrix(i, j))) return false;
+    }
+  }
+  return true;
 }
 
 /// Row i of the band: G(i, i − p) … G(i, i + p), zero outside of the matrix.
@@ -65,13 +90,12 @@ void print_csv(int degree, int count, const std::vector<NamedGramian>& gramians)
 
 Expected<void> run(const Options& options) {
   const auto method = gramian_method(options.method);
-  if (!method) return std::unexpected(method.error());
+  if (!method) return std::unexpected(method.error().within("--method"));
   if (options.knots.empty() == options.knots_file.empty()) {
-    return usage_error("the knots are not given, or twice", "knots", "give --knots or --knots-file");
+    return usage_error(options.knots.empty() ? "no knots are given" : "the knots are given twice", "command line",
+                       "give either --knots or --knots-file");
   }
-  auto numbers = read_knots(options);
-  if (!numbers) return std::unexpected(numbers.error());
-  auto knots = KnotVector::create(options.degree, std::move(*numbers));
+  const auto knots = knot_vector(options);
   if (!knots) return std::unexpected(knots.error());
   std::vector<NamedGramian> gramians;
   if (options.all) {
@@ -80,8 +104,13 @@ Expected<void> run(const Options& options) {
     gramians = {{"00", set->g00}, {"11", set->g11}, {"22", set->g22}, {"10", set->g10}};
   } else {
     auto matrix = gramian(*knots, options.a, options.b, *method);
-    if (!matrix) return std::unexpected(matrix.error());
+    if (!matrix) return std::unexpected(matrix.error().within("--a, --b"));
     gramians = {{fmt::format("{}{}", options.a, options.b), std::move(*matrix)}};
+  }
+  for (const NamedGramian& g : gramians) {
+    if (all_finite(g.matrix)) continue;
+    return numerical_error(fmt::format("entries leave the range of double precision (method {})", options.method),
+                           "Gramian " + g.term, "scale the knots nearer to 1");
   }
   if (options.format == "csv") {
     print_csv(options.degree, knots->count(), gramians);
@@ -97,15 +126,17 @@ Action add_gramian(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("gramian", "print Gramian matrices of a B-spline basis");
   command->add_option("--degree", options->degree, "degree of the basis, 1 to 15")->required();
-  command->add_option("--knots", options->knots, "all knots, separated by commas, ends repeated as wanted");
+  command->add_option("--knots", options->knots,
+                      "all knots, separated by commas, each as often as its multiplicity; may begin with a minus sign");
   command->add_option("--knots-file", options->knots_file, "file with the knots, separated by commas or white space");
-  command->add_option("--a", options->a, "derivative of the row functions (default 0)");
-  command->add_option("--b", options->b, "derivative of the column functions (default 0)");
-  command->add_flag("--all", options->all, "print 00, 11, 22 and 10");
-  command->add_option("--method", options->method,
-                      "how to integrate: gauss, analytic (default " + options->method + ")");
+  CLI::Option* a = command->add_option("--a", options->a, "derivative of the row functions, 0 to 2 (default 0)");
+  CLI::Option* b = command->add_option("--b", options->b, "derivative of the column functions, 0 to 2 (default 0)");
+  command->add_flag("--all", options->all, "print 00, 11, 22 and 10")->excludes(a)->excludes(b);
+  command->add_option("--method", options->method, gramian_method_help());
   command->add_option("--format", options->format, "json (default) or csv")->check(CLI::IsMember({"json", "csv"}));
-  command->footer("Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside of the matrix; 17 significant digits.");
+  command->footer(
+      "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside of the matrix; 17 significant digits.\n" +
+      std::string(exit_codes));
   return [options] { return run(*options); };
 }
 

@@ -109,11 +109,12 @@ Expected<void> run(const Options& options) {
 Action add_info(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("info", "list the B-spline surfaces of a CAD file");
-  command->add_option("file", options->file, "STEP file")->required();
+  command->add_option("FILE", options->file, "STEP file")->required()->type_name("");
   command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");
   command->footer(
       "Coordinates and boxes are in the surface's own frame and units; the box is that of the whole\n"
-      "untrimmed surface; `net` counts control points; knots are listed with their multiplicity.");
+      "untrimmed surface; `net` counts control points; knots are listed with their multiplicity.\n" +
+      std::string(exit_codes));
   return [options] { return run(*options); };
 }
 

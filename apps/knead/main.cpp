@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +19,23 @@ int exit_code(knead::ErrorKind kind) {
       return 4;
   }
   return 4;
+}
+
+/// CLI11's account of what is wrong with the arguments, with the command it concerns, in one line.
+knead::Error usage_error(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
+  const auto used = app.get_subcommands();
+  if (used.empty() && !first.empty() && first.front() != '-') {
+    std::string known;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+      known += (known.empty() ? "" : ", ") + command->get_name();
+    }
+    return {knead::ErrorKind::usage, "there is no command \"" + first + "\"", "command line",
+            "the commands are: " + known};
+  }
+  const std::string command = used.empty() ? "knead" : "knead " + used.front()->get_name();
+  std::string what = error.what();
+  std::ranges::replace(what, '\n', ' ');
+  return {knead::ErrorKind::usage, std::move(what), "command line", "see " + command + " --help"};
 }
 
 int fail(const knead::Error& error) {
@@ -49,9 +67,9 @@ int main(int argc, char** argv) {
       "knead");
   app.set_version_flag("--version", std::string("knead ") + KNEAD_VERSION);
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 success, 2 wrong usage, 3 bad input, 4 numerical failure.\n"
-      "`knead COMMAND --help` tells more about a command.");
+  app.footer(std::string(knead::cli::exit_codes) +
+             "\nErrors are one line on standard error: file, place, what is wrong; remedy."
+             "\n`knead COMMAND --help` tells more about a command.");
   const std::array<knead::cli::Action, 4> actions = {knead::cli::add_info(app), knead::cli::add_sculpt(app),
                                                      knead::cli::add_gramian(app), knead::cli::add_stiffness(app)};
   try {
@@ -59,7 +77,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& done) {
     return app.exit(done);  // --help, --version
   } catch (const CLI::ParseError& error) {
-    return fail({knead::ErrorKind::usage, error.what(), "command line", "see knead --help"});
+    return fail(usage_error(app, error, argc > 1 ? argv[1] : ""));
   }
   const auto subcommands = app.get_subcommands([](CLI::App*) { return true; });
   for (std::size_t k = 0; k < subcommands.size(); ++k) {

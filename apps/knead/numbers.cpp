@@ -4,16 +4,22 @@
 #include <cmath>
 
 #include "cli.hpp"
+#include "knead/gramian/gramian.hpp"
 
 namespace knead::cli {
 
 Expected<std::vector<double>> parse_numbers(const std::string& text, const std::string& option) {
   std::vector<double> numbers;
-  const auto is_separator = [](char c) { return c == ',' || c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+  const auto is_separator = [&](char c) { return c == ',' || is_space(c); };
   const char *at = text.data(), *end = at + text.size();
   while (true) {
-    while (at != end && is_separator(*at)) ++at;
+    while (at != end && is_space(*at)) ++at;
     if (at == end) return numbers;
+    if (*at == ',') {
+      return usage_error("there is no number before this comma", fmt::format("{} entry {}", option, numbers.size()),
+                         "write decimals separated by single commas");
+    }
     const char* stop = at;
     while (stop != end && !is_separator(*stop)) ++stop;
     double value = 0;
@@ -29,7 +35,14 @@ Expected<std::vector<double>> parse_numbers(const std::string& text, const std::
     }
     numbers.push_back(value);
     at = stop;
+    while (at != end && is_space(*at)) ++at;
+    if (at != end && *at == ',') ++at;
   }
+}
+
+std::string gramian_method_help() {
+  return fmt::format("Gramians by: {}, {} or {} (default {})", name(GramianMethod::gauss),
+                     name(GramianMethod::analytic), name(GramianMethod::recurrence), name(default_gramian_method));
 }
 
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null"; }

@@ -8,6 +8,7 @@
 #include "knead/exchange/file_io.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
+#include "outputs.hpp"
 #include "picture.hpp"
 
 namespace knead::cli {
@@ -109,7 +110,7 @@ void print_summary(const Options& options, const Session& session, const Outcome
   }
 }
 
-/// Writing may fail on one file only; the others are not begun then.
+/// The CAD file comes last: where it stands, everything that was asked for does.
 Expected<void> write_results(const Options& options, const Session& session, const Outcome& o) {
   auto bytes = session.save();
   if (!bytes) return std::unexpected(bytes.error());
@@ -126,8 +127,6 @@ Expected<void> write_results(const Options& options, const Session& session, con
     if (!svg) return std::unexpected(svg.error());
     picture = std::move(*svg);
   }
-  if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
-  fmt::print("wrote {} ({} surface{} changed)\n", options.output, o.surfaces, o.surfaces == 1 ? "" : "s");
   if (!options.report.empty()) {
     if (auto done = write_file_atomically(options.report, report_json(session.state(), o)); !done) return done;
     fmt::print("wrote {}\n", options.report);
@@ -136,10 +135,18 @@ Expected<void> write_results(const Options& options, const Session& session, con
     if (auto done = write_file_atomically(options.picture, picture); !done) return done;
     fmt::print("wrote {}\n", options.picture);
   }
+  if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
+  fmt::print("wrote {} ({} surface{} changed)\n", options.output, o.surfaces, o.surfaces == 1 ? "" : "s");
   return {};
 }
 
 Expected<void> run(const Options& options) {
+  if (options.output.empty()) return usage_error("the name is empty", "--output", "name the STEP file to write");
+  const NamedFile file{"FILE", options.file}, script{"--script", options.script}, output{"--output", options.output};
+  // The surface may be sculpted in place: only --output may name the file that is read.
+  if (auto possible = check_outputs({output}, {script}); !possible) return possible;
+  const NamedFile report{"--report", options.report}, picture{"--picture", options.picture};
+  if (auto possible = check_outputs({report, picture}, {file, script, output}); !possible) return possible;
   const auto text = read_file(options.script);
   if (!text) return std::unexpected(text.error());
   const auto commands = parse_script(*text, options.script);
@@ -170,15 +177,21 @@ Expected<void> run(const Options& options) {
 Action add_sculpt(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("sculpt", "run a script of sculpting commands on a CAD file");
-  command->add_option("file", options->file, "STEP file to sculpt; it is not changed")->required();
+  command->add_option("FILE", options->file, "STEP file to sculpt; it is not changed, unless --output names it too")
+      ->required()
+      ->type_name("");
   command->add_option("-o,--output", options->output, "STEP file to write; it appears whole or not at all")->required();
   command->add_option("--script", options->script, "JSON file with the commands")->required();
-  command->add_option("--report", options->report, "JSON file to write what every step did to");
+  command->add_option("--report", options->report, "JSON file to write what every step did to, see below");
   command->add_option("--picture", options->picture, "SVG file to draw the displacement over (u, v) to");
   command->footer(
       R"(The script is {"knead": 1, "commands": [{"do": "...", ...}, ...]}. Lengths are in file units. The commands:
 
-)" + command_help());
+)" + command_help() +
+      R"(
+The report is {"steps": [{"time", "energy", "residual", "largest_displacement"}, ...], "time", "energy_before",
+"energy_after", "residual", "largest_displacement", "control_points_moved"}: times in seconds, lengths in file units.
+)" + std::string(exit_codes));
   return [options] { return run(*options); };
 }
 

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "cli.hpp"
@@ -57,7 +58,7 @@ Expected<void> run(const Options& options) {
   const auto beta = parse_triple(options.beta, "--beta");
   if (!beta) return std::unexpected(beta.error());
   const auto method = gramian_method(options.method);
-  if (!method) return std::unexpected(method.error());
+  if (!method) return std::unexpected(method.error().within("--method"));
   const auto material = validated({*alpha, *beta});
   if (!material) return std::unexpected(material.error());
   const auto u = KnotVector::clamped_uniform((*degree)[0], (*net)[0]);
@@ -76,13 +77,18 @@ Expected<void> run(const Options& options) {
   if (!stiffness) return std::unexpected(stiffness.error());
   const SparseMatrix matrix = stiffness->assemble();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double norm = matrix.norm();
+  if (!std::isfinite(norm)) {
+    return numerical_error("the Frobenius norm leaves the range of double precision", "stiffness matrix",
+                           "use smaller coefficients");
+  }
   if (options.json) {
     fmt::print(R"({{"rows":{},"nnz":{},"frobenius":{},"seconds":{}}})"
                "\n",
-               matrix.rows(), matrix.nonZeros(), json_number(matrix.norm()), json_number(seconds));
+               matrix.rows(), matrix.nonZeros(), json_number(norm), json_number(seconds));
   } else {
     fmt::print("{} rows, {} entries, Frobenius norm {:.12g}, assembled in {:.3g} s\n", matrix.rows(), matrix.nonZeros(),
-               matrix.norm(), seconds);
+               norm, seconds);
   }
   return {};
 }
@@ -97,8 +103,9 @@ Action add_stiffness(CLI::App& app) {
   command->add_option("--net", options->net, "control points per direction, as in 64x64")->required();
   command->add_option("--alpha", options->alpha, "stretch coefficients a11,a12,a22 (default 1,0,1)");
   command->add_option("--beta", options->beta, "bend coefficients b11,b12,b22 (default 0,0,0)");
-  command->add_option("--method", options->method, "Gramians by: gauss, analytic (default " + options->method + ")");
+  command->add_option("--method", options->method, gramian_method_help());
   command->add_flag("--json", options->json, "print JSON");
+  command->footer(std::string(exit_codes));
   return [options] { return run(*options); };
 }
 

@@ -1,0 +1,64 @@
+#include "outputs.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+namespace knead::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_special(const std::string& path) {
+  std::error_code code;
+  return fs::exists(path, code) && !fs::is_regular_file(path, code) && !fs::is_directory(path, code);
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  if (is_special(a)) return false;
+  std::error_code code;
+  return a == b || fs::equivalent(a, b, code) || fs::weakly_canonical(a, code) == fs::weakly_canonical(b, code);
+}
+
+Expected<void> check_writable(const std::string& path) {
+  if (is_special(path)) return {};
+  const auto fail = [&path](int reason, const char* remedy) {
+    return std::unexpected(
+        Error{ErrorKind::input, fmt::format("cannot be written: {}", std::strerror(reason)), {}, remedy, path, 0});
+  };
+  std::error_code code;
+  if (fs::is_directory(path, code)) return fail(EISDIR, "name a file");
+  fs::path target = path;
+  if (fs::is_symlink(target, code)) target = fs::weakly_canonical(target, code);
+  const fs::path directory = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (::access(directory.c_str(), W_OK | X_OK) != 0) {
+    return fail(errno, "check that its directory exists and may be written to");
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<void> check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    const auto& [option, path] = outputs[k];
+    if (path.empty()) continue;
+    const auto clash = [&](const NamedFile& other) -> Expected<void> {
+      if (other.path.empty() || !same_file(path, other.path)) return {};
+      return usage_error(fmt::format("{} is also the {}", path, other.option), option, "name another file");
+    };
+    for (const NamedFile& input : inputs) {
+      if (auto free = clash(input); !free) return free;
+    }
+    for (std::size_t j = 0; j < k; ++j) {
+      if (auto free = clash(outputs[j]); !free) return free;
+    }
+    if (auto possible = check_writable(path); !possible) return possible;
+  }
+  return {};
+}
+
+}  // namespace knead::cli
