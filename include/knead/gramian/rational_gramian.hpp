@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <span>
+
+#include "knead/base/error.hpp"
+#include "knead/gramian/band_matrix.hpp"
+#include "knead/spline/knot_vector.hpp"
+
+namespace knead {
+
+/// A Gramian of rational functions, and how far it can be from the exact one.
+template <class Matrix>
+struct RationalGramian {
+  Matrix matrix;
+  /// No entry is farther than this from its integral, rounding apart (about 1e-14 of the largest entry).
+  double error_bound = 0;
+  int pieces = 0;          ///< how many pieces the spans were cut into
+  int largest_points = 0;  ///< Gauss points per piece and direction, at most
+};
+
+/// G^ab_ij = ∫ R_i^(a) R_j^(b) du with R_i = w_i N_i / Σ w N, to a tolerance.
+///
+/// On every span as many Gauss points as a bound asks for: with M a bound of the integrand on the Bernstein ellipse of
+/// parameter ρ about the span and N points, the error is below (h/2) (64/15) M ρ^(−2N) / (1 − ρ^(−2)) (L. N. Trefethen,
+/// Approximation Theory and Approximation Practice, Thm 19.3). M comes from the Chebyshev coefficients of the
+/// functions, their derivatives and the denominator; where the denominator has no positive lower bound on any ellipse
+/// that would do, the span is halved. \param weights    one per function, positive. \param tolerance  largest error of
+/// an entry, as a fraction of max_I sqrt(G^aa_II G^bb_II), which is the largest entry where a = b; > 0. Below 1e-14
+/// rounding decides. Orders 0 <= a, b <= 2, derivatives span by span. Errors: order or tolerance (usage); a number of
+/// weights that differs, a weight that is not positive and finite (input).
+[[nodiscard]] Expected<RationalGramian<BandMatrix>> rational_gramian(const KnotVector& knots,
+                                                                     std::span<const double> weights, int a, int b,
+                                                                     double tolerance);
+
+/// The same on a surface: ∫∫ ∂^a R_I ∂^b R_J du dv, a and b per direction with a_0 + a_1 <= 2. Row and column I = i n +
+/// j for function (i, j) of an m × n net, second direction fastest, as in `Spline`; the pattern is that of the
+/// overlapping supports. Cost: O((N (p + 1)²)²) per piece with N points in a direction.
+[[nodiscard]] Expected<RationalGramian<Eigen::SparseMatrix<double>>> rational_gramian(
+    const std::array<KnotVector, 2>& knots, std::span<const double> weights, std::array<int, 2> a, std::array<int, 2> b,
+    double tolerance);
+
+/// The thesis' approximation (5.8): on each span the denominator is taken as constant, as its value in the middle, so
+/// that the Gramian is a weighted one of polynomials. It errs by 1 to 3 % on circles and without limit where weights
+/// differ much; it is here under its name for comparison, never used silently. Errors as above.
+[[nodiscard]] Expected<BandMatrix> constant_denominator_gramian(const KnotVector& knots,
+                                                                std::span<const double> weights, int a, int b);
+
+}  // namespace knead
