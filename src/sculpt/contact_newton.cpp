@@ -14,6 +14,12 @@ constexpr double relative_tolerance = 1e-11;
 constexpr double sufficient_decrease = 1e-4;
 constexpr double rounding = 1e-14;
 constexpr int max_rounded_steps = 4;
+// Stages of stiffness on the way to a stiff tool.
+constexpr double soft_stiffness = 1e4;
+constexpr double stiffening = 30;
+constexpr double far_from_balance = 1e-2;
+constexpr double stage_tolerance = 1e-4;
+constexpr int max_stage_iterations = 20;
 
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
@@ -30,6 +36,7 @@ struct Objective {
   std::span<const Tool> tools;
   Points start;  // control points at X₀
   Points kx0;
+  double energy;  // ½ X₀ᵀ K X₀, for the rounding of Φ
 
   struct At {
     Points y, ay;
@@ -92,29 +99,26 @@ Points newton_direction(const Objective& objective, const SurfaceLoad::State& st
   return d;
 }
 
-}  // namespace
-
-ContactSummary minimise_step(const ImplicitEuler& euler, const SurfaceLoad& load, std::span<const Tool> tools,
-                             const Points& origin, Points& x) {
-  ContactSummary summary;
-  const Points x0 = x;
-  const Objective objective{euler, load, tools, origin + x0, euler.k() * x0};
-  Objective::At here = objective.at(Points::Zero(x.rows(), 3), Points::Zero(x.rows(), 3));
+/// Newton's iteration on Φ from `here` on, until the decrement is `tolerance` of what the step weighs against each
+/// other.
+void iterate(const Objective& objective, double tolerance, int max_iterations, Objective::At& here,
+             ContactSummary& summary) {
+  const ImplicitEuler& euler = objective.euler;
   double largest = std::max(dual_norm(euler, objective.kx0), dual_norm(euler, here.state.force()));
   summary.solves += 2;
-  const double energy = 0.5 * dot(x0, objective.kx0);
   int rounded_steps = 0;
-  while (true) {
+  summary.converged = false;
+  for (int iteration = 0;; ++iteration) {
     const Points g = objective.gradient(here);
     const Points z = euler.solve(g);
     ++summary.solves;
     const double decrement = std::sqrt(std::max(0.0, dot(g, z)));
     largest = std::max(largest, decrement);
-    if (decrement <= relative_tolerance * largest || !std::isfinite(decrement)) {
+    if (decrement <= tolerance * largest || !std::isfinite(decrement)) {
       summary.converged = summary.finite = std::isfinite(decrement);
-      break;
+      return;
     }
-    if (summary.iterations == max_newton_iterations) break;
+    if (iteration == max_iterations) return;
     ++summary.iterations;
 
     Points d, ad;
@@ -123,20 +127,20 @@ ContactSummary minimise_step(const ImplicitEuler& euler, const SurfaceLoad& load
       ad = euler.system() * d;
     } else {
       // Loose while far away, tight near the end, where a step must not undo what the one before it gained.
-      const double tolerance = std::clamp(0.1 * decrement / largest, 1e-8, 1e-2);
-      d = newton_direction(objective, here.state, g, z, tolerance, ad, summary.solves);
+      const double cg_tolerance = std::clamp(0.1 * decrement / largest, 1e-8, 1e-2);
+      d = newton_direction(objective, here.state, g, z, cg_tolerance, ad, summary.solves);
     }
     const double slope = dot(g, d);
-    double t = 1;
     Objective::At next = objective.at(here.y + d, here.ay + ad);
-    if (-slope <= rounding * (energy + std::abs(here.quadratic) + here.state.potential())) {
+    if (-slope <= rounding * (objective.energy + std::abs(here.quadratic) + here.state.potential())) {
       // The gain left is below the rounding of Φ, so that comparing values decides nothing: a few full steps take what
       // the gradient still sees.
       if (++rounded_steps > max_rounded_steps) {
         summary.converged = true;
-        break;
+        return;
       }
     } else {
+      double t = 1;
       while (next.value() > here.value() + sufficient_decrease * t * slope && t > 1e-10) {
         t /= 2;
         next = objective.at(here.y + t * d, here.ay + t * ad);
@@ -144,6 +148,40 @@ ContactSummary minimise_step(const ImplicitEuler& euler, const SurfaceLoad& load
     }
     here = std::move(next);
   }
+}
+
+/// The tools with no stiffness above `cap`.
+std::vector<Tool> softened(std::span<const Tool> tools, double cap) {
+  std::vector<Tool> result(tools.begin(), tools.end());
+  for (Tool& tool : result) tool.stiffness = std::min(tool.stiffness, cap);
+  return result;
+}
+
+}  // namespace
+
+ContactSummary minimise_step(const ImplicitEuler& euler, const SurfaceLoad& load, std::span<const Tool> tools,
+                             const Points& origin, Points& x) {
+  ContactSummary summary;
+  const Points x0 = x, kx0 = euler.k() * x0;
+  double stiffest = 0;
+  for (const Tool& tool : tools) stiffest = std::max(stiffest, tool.stiffness);
+  Objective objective{euler, load, tools, origin + x0, kx0, 0.5 * dot(x0, kx0)};
+  Objective::At here = objective.at(Points::Zero(x.rows(), 3), Points::Zero(x.rows(), 3));
+
+  // A very stiff tool is met by way of softer ones: from afar its springs would throw the surface about. A step that
+  // starts near its balance, as most do, has nothing to gain from that.
+  const double imbalance = dual_norm(euler, objective.gradient(here));
+  if (stiffest > soft_stiffness && imbalance > far_from_balance * dual_norm(euler, kx0)) {
+    for (double cap = soft_stiffness; cap < stiffest; cap *= stiffening) {
+      const std::vector<Tool> soft = softened(tools, cap);
+      objective.tools = soft;
+      here = objective.at(std::move(here.y), std::move(here.ay));
+      iterate(objective, stage_tolerance, max_stage_iterations, here, summary);
+    }
+    objective.tools = tools;
+    here = objective.at(std::move(here.y), std::move(here.ay));
+  }
+  iterate(objective, relative_tolerance, max_newton_iterations, here, summary);
   x = x0 + here.y;
   return summary;
 }
