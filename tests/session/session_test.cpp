@@ -1,0 +1,235 @@
+#include "knead/session/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "knead/session/command_json.hpp"
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+namespace {
+
+const std::string sample = std::string(KNEAD_SOURCE_DIR) + "/samples/bonnet.step";
+const char* const skin = "#285";
+
+Session open_sample() {
+  auto document = Document::open(sample);
+  if (!document) ADD_FAILURE() << document.error().message();
+  return Session(std::move(*document));
+}
+
+void run(Session& session, const std::vector<std::string>& commands) {
+  for (const std::string& json : commands) {
+    const auto command = parse_command(json);
+    ASSERT_TRUE(command) << json;
+    const auto done = session.execute(*command);
+    ASSERT_TRUE(done) << json << ": " << done.error().message();
+  }
+}
+
+Error refusal(Session& session, const std::string& json) {
+  const auto command = parse_command(json);
+  if (!command) return command.error();
+  const auto done = session.execute(*command);
+  if (done) {
+    ADD_FAILURE() << json << " was accepted";
+    return {};
+  }
+  return done.error();
+}
+
+const std::vector<std::string> press = {R"({"do":"select","surface":"#285"})", R"({"do":"hold","rows":2})",
+                                        R"({"do":"tool","name":"ball","radius":160,"at":[0.4,0.5]})",
+                                        R"({"do":"move","tool":"ball","by":[0,0,120]})", R"({"do":"step","count":4})"};
+
+TEST(Session, PressesAToolIntoARealFileAndReadsTheSameBitsBack) {
+  Session session = open_sample();
+  run(session, press);
+  const int index = *session.state().selected;
+  EXPECT_GT(session.largest_displacement(index), 20);
+  EXPECT_LT(session.largest_displacement(index), 40.1);
+  EXPECT_GT(session.moved_control_points(index), 10);
+  const auto bytes = session.save();
+  ASSERT_TRUE(bytes);
+  const auto again = StepFile::parse(*bytes, "saved");
+  ASSERT_TRUE(again);
+  const Points& current = session.state().surfaces[static_cast<std::size_t>(index)].current->control_points();
+  EXPECT_EQ(again->find_surface(skin)->surface.control_points(), current);
+}
+
+TEST(Session, WithoutStepsTheFileIsItsInputByteForByte) {
+  Session session = open_sample();
+  run(session, {press[0], press[1], press[2], press[3]});
+  EXPECT_EQ(*session.save(), session.document().file().bytes());
+}
+
+TEST(Session, AtRestNothingMoves) {
+  Session session = open_sample();
+  run(session, {press[0], R"({"do":"step","count":5})"});
+  EXPECT_EQ(*session.save(), session.document().file().bytes());
+}
+
+TEST(Session, UndoAfterAnyCommandRestoresTheStateBitForBit) {
+  Session session = open_sample();
+  run(session, press);
+  const std::vector<std::string> commands = {R"({"do":"material","alpha":[2,0,2],"beta":[1,1,1]})",
+                                             R"({"do":"rest","mode":"none"})",
+                                             R"({"do":"hold","rows":1})",
+                                             R"({"do":"pin","control_points":[[5,5]]})",
+                                             R"({"do":"release"})",
+                                             R"({"do":"tool","name":"other","radius":10,"at":[0,0]})",
+                                             R"({"do":"remove","tool":"ball"})",
+                                             R"({"do":"move","tool":"ball","by":[1,1,1]})",
+                                             R"({"do":"step","count":2})",
+                                             R"({"do":"select","surface":"#1044"})"};
+  for (const std::string& json : commands) {
+    const auto state = std::make_shared<const SessionState>(session.state());
+    const std::string bytes = *session.save();
+    run(session, {json});
+    const std::string after = *session.save();
+    run(session, {R"({"do":"undo"})"});
+    EXPECT_EQ(*session.save(), bytes) << json;
+    EXPECT_EQ(session.state().selected, state->selected);
+    EXPECT_EQ(session.state().tools.size(), state->tools.size());
+    EXPECT_EQ(session.state().steps.size(), state->steps.size());
+    run(session, {R"({"do":"redo"})"});
+    EXPECT_EQ(*session.save(), after) << json;
+    run(session, {R"({"do":"undo"})"});
+  }
+}
+
+TEST(Session, ANewCommandForgetsWhatWasTakenBack) {
+  Session session = open_sample();
+  run(session, press);
+  run(session, {R"({"do":"undo"})", R"({"do":"hold","rows":3})"});
+  EXPECT_EQ(refusal(session, R"({"do":"redo"})").what, "there is nothing to redo");
+  EXPECT_EQ(session.journal().size(), press.size());
+}
+
+TEST(Session, TheJournalReplaysToTheSameBits) {
+  Session session = open_sample();
+  run(session, press);
+  run(session,
+      {R"({"do":"step","count":3,"lambda":7})", R"({"do":"undo"})", R"({"do":"step","count":2,"weight":"identity"})"});
+  Session replay = open_sample();
+  for (const Command& command : session.journal()) ASSERT_TRUE(replay.execute(command));
+  EXPECT_EQ(*replay.save(), *session.save());
+}
+
+TEST(Session, RandomCommandsAndTheirUndoLeaveTheStartingPoint) {
+  std::mt19937 random(11);
+  Session session = open_sample();
+  run(session, {press[0], press[1], press[2]});
+  const std::vector<std::string> pool = {R"({"do":"move","by":[3,-5,-7]})",
+                                         R"({"do":"step"})",
+                                         R"({"do":"hold","rows":1})",
+                                         R"({"do":"rest"})",
+                                         R"({"do":"material","beta":[0.1,0.2,0.3]})",
+                                         R"({"do":"pin","control_points":[[4,4]]})",
+                                         R"({"do":"step","lambda":30})"};
+  const std::string start = *session.save();
+  const std::size_t depth = session.journal().size();
+  for (int k = 0; k < 40; ++k) run(session, {pool[random() % pool.size()]});
+  while (session.journal().size() > depth) run(session, {R"({"do":"undo"})"});
+  EXPECT_EQ(*session.save(), start);
+}
+
+TEST(Session, ARefusedCommandChangesNothing) {
+  Session session = open_sample();
+  run(session, press);
+  const std::string bytes = *session.save();
+  for (const char* json :
+       {R"({"do":"select","surface":"#7"})", R"({"do":"material","beta":[-1,0,0]})",
+        R"({"do":"pin","control_points":[[0,0],[14,0]]})", R"({"do":"hold","rows":-1})",
+        R"({"do":"tool","at":[0.5,1.5]})", R"({"do":"tool","radius":-1,"at":[0,0]})", R"({"do":"tool","radius":1})",
+        R"({"do":"tool","at":[0,0],"position":[0,0,0]})", R"({"do":"tool","shape":"teapot","at":[0,0]})",
+        R"({"do":"move","tool":"none","by":[0,0,0]})", R"({"do":"remove","tool":"none"})",
+        R"({"do":"step","count":-1})", R"({"do":"step","lambda":-1})"}) {
+    EXPECT_FALSE(refusal(session, json).message().empty()) << json;
+    EXPECT_EQ(session.journal().size(), press.size()) << json;
+  }
+  EXPECT_EQ(*session.save(), bytes);
+}
+
+TEST(Session, AFileWithSeveralSurfacesAsksForASelection) {
+  Session session = open_sample();
+  const Error e = refusal(session, R"({"do":"step"})");
+  EXPECT_NE(e.what.find("selected"), std::string::npos);
+  EXPECT_NE(e.remedy.find("#285"), std::string::npos);
+  EXPECT_NE(refusal(session, R"({"do":"select","surface":"285"})").remedy.find("#1044"), std::string::npos);
+}
+
+TEST(Session, RelativeLengthsAreFractionsOfTheDiagonal) {
+  Session absolute = open_sample(), relative = open_sample();
+  run(absolute, {press[0]});
+  const auto& surface = *absolute.state().surfaces[static_cast<std::size_t>(*absolute.state().selected)].current;
+  const double diagonal = bounding_box(surface).diagonal();
+  run(relative, {press[0], R"({"do":"tool","radius":0.1,"range":0.2,"position":[0.5,0.25,0],"relative":true})",
+                 R"({"do":"move","by":[0,0,0.5]})", R"({"do":"move","by":[7,0,0],"relative":false})"});
+  const Tool& tool = relative.state().tools.front().tool;
+  EXPECT_DOUBLE_EQ(tool.shape.radius, 0.1 * diagonal);
+  EXPECT_DOUBLE_EQ(tool.range, 0.2 * diagonal);
+  EXPECT_DOUBLE_EQ(tool.shape.centre.x(), 0.5 * diagonal + 7);
+  EXPECT_DOUBLE_EQ(tool.shape.centre.z(), 0.5 * diagonal);
+}
+
+TEST(Session, PinnedControlPointsKeepTheirBits) {
+  Session session = open_sample();
+  run(session, {press[0], press[1], press[2], press[3], R"({"do":"pin","control_points":[[5,5],[6,6]]})",
+                R"({"do":"step","count":3})"});
+  const auto index = static_cast<std::size_t>(*session.state().selected);
+  const Points& before = session.document().surfaces()[index].surface->control_points();
+  const Points& after = session.state().surfaces[index].current->control_points();
+  for (int row : {5 * 12 + 5, 6 * 12 + 6, 0, 13, 167}) EXPECT_EQ(after.row(row), before.row(row)) << row;
+  EXPECT_NE(after.row(5 * 12 + 6), before.row(5 * 12 + 6));
+}
+
+TEST(Session, StepsAreRecordedWithWhatTheyDid) {
+  Session session = open_sample();
+  run(session, press);
+  const auto& steps = session.state().steps;
+  ASSERT_EQ(steps.size(), 4U);
+  for (const StepRecord& s : steps) {
+    EXPECT_GT(s.time, 0);
+    EXPECT_GT(s.energy, 0);
+    EXPECT_TRUE(s.converged);
+  }
+  EXPECT_LT(steps.back().residual, steps.front().residual);
+  EXPECT_EQ(*session.state().energy_before, 0);
+  EXPECT_EQ(*session.energy(), steps.back().energy);
+  EXPECT_EQ(session.largest_displacement(*session.state().selected), steps.back().largest_displacement);
+}
+
+TEST(Session, EveryRealSurfaceCanBeSculptedOrSaysWhyNot) {
+  const std::filesystem::path folder = std::string(KNEAD_SHARED_DIR) + "/data/cad";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the collection of CAD files is not there";
+  int sculpted = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".step" && extension != ".stp") continue;
+    auto document = Document::open(entry.path());
+    ASSERT_TRUE(document) << document.error().message();
+    Session session(std::move(*document));
+    // The first surface of every file whose net is not huge.
+    for (const DocumentSurface& s : session.document().surfaces()) {
+      if (s.surface->size() > 600) continue;
+      run(session,
+          {R"({"do":"select","surface":")" + s.id + R"("})",
+           R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})", R"({"do":"move","by":[0.03,0.05,0.15]})"});
+      const auto done = session.execute(StepCommand{1, 1, StepWeight::mass});
+      if (!done) {
+        EXPECT_EQ(done.error().kind, ErrorKind::numerical) << entry.path() << " " << s.id << done.error().message();
+        continue;
+      }
+      ++sculpted;
+      const auto bytes = session.save();
+      ASSERT_TRUE(bytes) << entry.path() << " " << s.id << " " << bytes.error().message();
+      break;
+    }
+  }
+  EXPECT_GE(sculpted, 12);
+}
+
+}  // namespace
+}  // namespace knead
