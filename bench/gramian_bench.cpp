@@ -81,9 +81,12 @@ void compare(int p, int count, Family family, InstructionSet set, int rounds) {
 
 /// Arguments: [rounds [degree …]].
 int main(int argc, char** argv) {
-  const int rounds = argc > 1 ? std::atoi(argv[1]) : 61;
-  std::vector<int> degrees;
-  for (int k = 2; k < argc; ++k) degrees.push_back(std::atoi(argv[k]));
+  std::vector<int> numbers, degrees;
+  for (int k = 1; k < argc; ++k) {
+    if (const int number = std::atoi(argv[k]); number > 0) numbers.push_back(number);  // others mean other benchmarks
+  }
+  const int rounds = numbers.empty() ? 61 : numbers.front();
+  for (std::size_t k = 1; k < numbers.size(); ++k) degrees.push_back(numbers[k]);
   if (degrees.empty()) degrees = {3, 1, 2, 4, 5, 7};
   std::printf(
       "| p | functions | knots | instructions | gauss ns/row | recurrence ns/row | times faster (10 %% … 90 %%) |\n");

@@ -30,6 +30,17 @@ BandMatrix gauss_gramian(const KnotVector& knots, int a, int b) {
   return result;
 }
 
+GaussPoints gauss_points(int degree) {
+  GaussPoints points{};
+  const UnitGaussRule<double> rule = unit_gauss<double>(degree + 1);
+  for (std::size_t g = 0; g < rule.t.size(); ++g) {
+    points.t[g] = rule.t[g];
+    points.complement[g] = rule.complement[g];
+    points.root_weight[g] = std::sqrt(rule.weights[g]);
+  }
+  return points;
+}
+
 void gauss_gramians(const KnotVector& knots, InstructionSet instructions, GramianSet& set) {
   constexpr int highest_kernel = 7;
   const int p = knots.degree();
@@ -39,15 +50,8 @@ void gauss_gramians(const KnotVector& knots, InstructionSet instructions, Gramia
     return;
   }
   resize(set, knots);
-  GaussPoints points;
-  const UnitGaussRule<double> rule = unit_gauss<double>(p + 1);
-  for (std::size_t g = 0; g < rule.t.size(); ++g) {
-    points.t[g] = rule.t[g];
-    points.complement[g] = rule.complement[g];
-    points.root_weight[g] = std::sqrt(rule.weights[g]);
-  }
   const KernelCall call(knots, set);
-  kernels_of(instructions).gauss(call.knots(), p, points, call.output());
+  kernels_of(instructions).gauss(call.knots(), p, gauss_points(p), call.output());
   cut_to_domain(knots, set);
 }
 

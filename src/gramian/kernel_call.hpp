@@ -20,6 +20,9 @@ class KernelCall {
   KernelOutput output_;
 };
 
+/// The p + 1 points that the Gauss kernels want.
+[[nodiscard]] GaussPoints gauss_points(int degree);
+
 /// Matrices of the right size for the four terms; those that fit already are kept, whatever they hold.
 void resize(GramianSet& set, const KnotVector& knots);
 

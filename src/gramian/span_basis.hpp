@@ -43,7 +43,7 @@ void span_basis(const KnotVector& knots, int span, double lower, double upper, R
     for (int q = p - orders[k] + 1; q <= p; ++q) {
       Real before = 0;
       for (int r = 0; r < q; ++r) {
-        const Real quotient = q * result[r] / (Real(knots[span + 1 + r]) - Real(knots[span + 1 - q + r]));
+        const Real quotient = Real(q) * result[r] / (Real(knots[span + 1 + r]) - Real(knots[span + 1 - q + r]));
         result[r] = before - quotient;
         before = quotient;
       }

@@ -18,7 +18,16 @@ namespace knead::detail::KNEAD_ISA {
 inline constexpr int lanes = KNEAD_LANES;
 
 // Rows i, i + 1, … i + lanes − 1 of one quantity.
-#if KNEAD_LANES == 1
+#if defined(KNEAD_COUNTING)
+using Lanes = Counted;  // a double that counts what is done with it
+KNEAD_INLINE Lanes load(const double* p) { return *p; }
+KNEAD_INLINE void store(double* p, Lanes v) { *p = v.value; }
+KNEAD_INLINE Lanes splat(double x) { return x; }
+KNEAD_INLINE double first(Lanes v) { return v.value; }
+KNEAD_INLINE bool any_not_positive(Lanes v) { return !(v.value > 0); }
+KNEAD_INLINE bool all_equal(Lanes, double) { return false; }  // no row is copied: all are to be counted
+KNEAD_INLINE Lanes shifted(Lanes, double next) { return next; }
+#elif KNEAD_LANES == 1
 using Lanes = double;
 KNEAD_INLINE Lanes load(const double* p) { return *p; }
 KNEAD_INLINE void store(double* p, Lanes v) { *p = v; }
@@ -67,7 +76,9 @@ KNEAD_INLINE Lanes shifted(Lanes v, double next) {
 #endif
 
 KNEAD_INLINE Lanes square_root(Lanes v) {
-#if KNEAD_LANES == 1
+#if defined(KNEAD_COUNTING)
+  return root(v);
+#elif KNEAD_LANES == 1
   return __builtin_sqrt(v);
 #elif KNEAD_LANES == 8
   return _mm512_maskz_sqrt_pd(0xFF, v);  // the plain form makes GCC 12 warn of an undefined value

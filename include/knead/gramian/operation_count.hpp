@@ -1,0 +1,20 @@
+#pragma once
+
+#include "knead/gramian/gramian.hpp"
+
+namespace knead {
+
+/// Floating-point operations, as they are done.
+struct OperationCount {
+  long additions = 0;  ///< and subtractions
+  long multiplications = 0;
+  long divisions = 0;  ///< and square roots
+  [[nodiscard]] long total() const { return additions + multiplications + divisions; }
+};
+
+/// How many operations the four Gramians cost by a method: the method itself is run, on numbers that count. Copied rows
+/// (equal spans) count as if they were computed. gauss and recurrence are the kernels that `gramians` runs (gauss to
+/// degree 7; above, and where distances of knots are out of the range of the kernels, the count of gauss is zero).
+[[nodiscard]] OperationCount count_operations(const KnotVector& knots, GramianMethod method);
+
+}  // namespace knead

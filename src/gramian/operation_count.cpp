@@ -1,0 +1,36 @@
+#include "knead/gramian/operation_count.hpp"
+
+#include "analytic.hpp"
+#include "counted.hpp"
+#include "kernel_call.hpp"
+#include "methods.hpp"
+
+#define KNEAD_COUNTING
+#define KNEAD_ISA isa_counting
+#define KNEAD_LANES 1
+#include "simd/kernels.inc"
+
+namespace knead {
+
+OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
+  detail::Counted::count() = {};
+  if (method == GramianMethod::analytic) {
+    for (const auto& [a, b] : {std::pair{0, 0}, {1, 1}, {2, 2}, {1, 0}}) {
+      detail::Analytic<detail::Counted>(knots).accumulate(a, b, [](int, int, detail::Counted) {});
+      if (a != b) detail::Analytic<detail::Counted>(knots).accumulate(b, a, [](int, int, detail::Counted) {});
+    }
+  } else if (detail::within_kernel_range(knots)) {
+    GramianSet set;
+    detail::resize(set, knots);
+    const detail::KernelCall call(knots, set);
+    if (method == GramianMethod::recurrence) {
+      detail::isa_counting::kernels.recurrence(call.knots(), knots.degree(), call.output());
+    } else {
+      detail::isa_counting::kernels.gauss(call.knots(), knots.degree(), detail::gauss_points(knots.degree()),
+                                          call.output());
+    }
+  }
+  return detail::Counted::count();
+}
+
+}  // namespace knead
