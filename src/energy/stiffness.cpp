@@ -29,6 +29,39 @@ void apply_along(const BandMatrix& gramian, std::size_t outer, std::size_t inner
   }
 }
 
+/// One row of an assembled matrix: for every outer column a run of `length` entries Σ_g weight_g · band_g, the bands
+/// `stride` apart.
+struct Runs {
+  const double* band;
+  std::size_t stride;
+  const double* weights;
+  std::size_t kinds, columns;
+
+  template <int length>
+  double* write(double* to) const {
+    const double* w = weights;
+    for (std::size_t column = 0; column < columns; ++column, w += kinds, to += length) {
+      double sum[length] = {};
+      for (std::size_t g = 0; g < kinds; ++g) {
+        for (int c = 0; c < length; ++c) sum[c] += w[g] * band[g * stride + static_cast<std::size_t>(c)];
+      }
+      std::copy_n(sum, length, to);
+    }
+    return to;
+  }
+
+  double* write(double* to, int length) const {
+    const double* w = weights;
+    for (std::size_t column = 0; column < columns; ++column, w += kinds, to += length) {
+      std::fill_n(to, length, 0.0);
+      for (std::size_t g = 0; g < kinds; ++g) {
+        for (int c = 0; c < length; ++c) to[c] += w[g] * band[g * stride + static_cast<std::size_t>(c)];
+      }
+    }
+    return to;
+  }
+};
+
 template <int D>
 std::array<int, D> degrees(const std::array<KnotVector, D>& knots) {
   std::array<int, D> result;
@@ -129,7 +162,6 @@ SparseMatrix Stiffness<D>::assemble() const {
   if (assembled_) return *assembled_;
   const TensorPattern<D> pattern{net_, degree_};
   SparseMatrix matrix = pattern.allocate();
-  double* values = matrix.valuePtr();
 
   // The factors of the last direction as full rows of 2p + 1 numbers, row j from column j − p on.
   constexpr std::size_t last = D - 1;
@@ -145,49 +177,39 @@ SparseMatrix Stiffness<D>::assemble() const {
     }
   }
 
-  // For every pair of outer indices the terms collapse to one coefficient per factor of the last direction; they are
-  // kept by kind, outer column by outer column.
-  TensorPattern<D> outer_pattern = pattern;
-  outer_pattern.net[last] = 1;
-  outer_pattern.degree[last] = 0;
+  // For every pair of outer indices the terms collapse to one coefficient per factor of the last direction.
+  const TensorPattern<D> rows = pattern.outer();
   std::vector<double> weights;
-  std::size_t at = 0;
-  for (int row = 0; row < outer_pattern.size(); ++row) {
-    const std::array<int, D> i = outer_pattern.unpack(row);
-    int columns = 1;
-    for (std::size_t d = 0; d < last; ++d) columns *= pattern.length(d, i[d]);
-    weights.assign(static_cast<std::size_t>(columns) * kinds, 0.0);
-    for (int column = 0; column < columns; ++column) {
-      std::array<int, D> j{};
-      for (std::size_t d = last, rest = static_cast<std::size_t>(column); d-- > 0;) {
-        const auto length = static_cast<std::size_t>(pattern.length(d, i[d]));
-        j[d] = pattern.first(d, i[d]) + static_cast<int>(rest % length);
-        rest /= length;
-      }
+  double* to = matrix.valuePtr();
+  for (int row = 0; row < rows.size(); ++row) {
+    const std::array<int, D> i = rows.unpack(row);
+    const std::vector<std::array<int, D>> columns = rows.columns(i);
+    weights.assign(columns.size() * kinds, 0.0);
+    for (std::size_t column = 0; column < columns.size(); ++column) {
       for (const Term& term : terms_) {
         double product = term.coefficient;
-        for (std::size_t d = 0; d < last; ++d)
-          product *= factors_[d][static_cast<std::size_t>(term.factor[d])](i[d], j[d]);
-        weights[static_cast<std::size_t>(column) * kinds + static_cast<std::size_t>(term.factor[last])] += product;
+        for (std::size_t d = 0; d < last; ++d) {
+          product *= factors_[d][static_cast<std::size_t>(term.factor[d])](i[d], columns[column][d]);
+        }
+        weights[column * kinds + static_cast<std::size_t>(term.factor[last])] += product;
       }
     }
     for (int k = 0; k < n; ++k) {
       const int length = pattern.length(last, k), skip = pattern.first(last, k) - k + p;
-      for (int column = 0; column < columns; ++column) {
-        const double* w = weights.data() + static_cast<std::size_t>(column) * kinds;
-        double* to = values + at;
-        for (std::size_t g = 0; g < kinds; ++g) {
-          const double* from =
-              band.data() +
-              (g * static_cast<std::size_t>(n) + static_cast<std::size_t>(k)) * static_cast<std::size_t>(width) + skip;
-          if (g == 0) {
-            for (int c = 0; c < length; ++c) to[c] = w[g] * from[c];
-          } else {
-            for (int c = 0; c < length; ++c) to[c] += w[g] * from[c];
-          }
-        }
-        if (kinds == 0) std::fill(to, to + length, 0.0);
-        at += static_cast<std::size_t>(length);
+      const double* from = band.data() + static_cast<std::size_t>(k * width + skip);
+      const Runs runs{from, static_cast<std::size_t>(n * width), weights.data(), kinds, columns.size()};
+      switch (length) {
+        case 3:
+          to = runs.write<3>(to);
+          break;
+        case 5:
+          to = runs.write<5>(to);
+          break;
+        case 7:
+          to = runs.write<7>(to);
+          break;
+        default:
+          to = runs.write(to, length);
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "knead/energy/stiffness.hpp"
 
@@ -31,31 +32,54 @@ struct TensorPattern {
     return i;
   }
 
+  /// The pattern of all directions but the last, which is taken to have one function.
+  [[nodiscard]] TensorPattern outer() const {
+    TensorPattern pattern = *this;
+    pattern.net[D - 1] = 1;
+    pattern.degree[D - 1] = 0;
+    return pattern;
+  }
+
+  /// The columns of row i of an `outer` pattern, ascending, as multi-indices.
+  [[nodiscard]] std::vector<std::array<int, D>> columns(const std::array<int, D>& i) const {
+    std::size_t count = 1;
+    for (std::size_t d = 0; d < D; ++d) count *= static_cast<std::size_t>(length(d, i[d]));
+    std::vector<std::array<int, D>> result(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t d = D, rest = k; d-- > 0;) {
+        const auto n = static_cast<std::size_t>(length(d, i[d]));
+        result[k][d] = first(d, i[d]) + static_cast<int>(rest % n);
+        rest /= n;
+      }
+    }
+    return result;
+  }
+
   /// A square matrix with this pattern and uninitialised values.
   [[nodiscard]] SparseMatrix allocate() const {
-    const int n = size();
-    SparseMatrix matrix(n, n);
-    auto* outer = matrix.outerIndexPtr();
-    outer[0] = 0;
-    for (int row = 0; row < n; ++row) {
-      const std::array<int, D> i = unpack(row);
-      int count = 1;
-      for (std::size_t d = 0; d < D; ++d) count *= length(d, i[d]);
-      outer[row + 1] = outer[row] + count;
-    }
-    matrix.resizeNonZeros(outer[n]);
-    auto* inner = matrix.innerIndexPtr();
-    for (int row = 0; row < n; ++row) {
-      const std::array<int, D> i = unpack(row);
-      std::array<int, D> j;
-      for (std::size_t d = 0; d < D; ++d) j[d] = first(d, i[d]);
-      for (auto at = outer[row]; at < outer[row + 1]; ++at) {
+    const TensorPattern rows = outer();
+    const int n = net[D - 1];
+    SparseMatrix matrix(size(), size());
+    auto* start = matrix.outerIndexPtr();
+    start[0] = 0;
+    std::vector<std::vector<int>> bases(static_cast<std::size_t>(rows.size()));  // first column of each run
+    for (int row = 0; row < rows.size(); ++row) {
+      std::vector<int>& base = bases[static_cast<std::size_t>(row)];
+      for (const std::array<int, D>& j : rows.columns(rows.unpack(row))) {
         int column = 0;
-        for (std::size_t d = 0; d < D; ++d) column = column * net[d] + j[d];
-        inner[at] = column;
-        for (std::size_t d = D; d-- > 0;) {
-          if (++j[d] < first(d, i[d]) + length(d, i[d])) break;
-          j[d] = first(d, i[d]);
+        for (std::size_t d = 0; d + 1 < D; ++d) column = column * net[d] + j[d];
+        base.push_back(column * n);
+      }
+      for (int k = 0; k < n; ++k, ++start) start[1] = start[0] + static_cast<int>(base.size()) * length(D - 1, k);
+    }
+    matrix.resizeNonZeros(*start);
+    auto* to = matrix.innerIndexPtr();
+    for (const std::vector<int>& base : bases) {
+      for (int k = 0; k < n; ++k) {
+        const int begin = first(D - 1, k), count = length(D - 1, k);
+        for (const int run : base) {
+          for (int c = 0; c < count; ++c) to[c] = run + begin + c;
+          to += count;
         }
       }
     }
