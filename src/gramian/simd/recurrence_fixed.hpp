@@ -43,6 +43,17 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
       }
     });
 
+    // The weights 1 − w = d(i, s)/d(i, k) and w = d(i + s, k − s)/d(i, k); for order K without the division.
+    Lanes below[K + 1][K], above[K + 1][K];
+    unrolled<2, K + 1>([&](auto k) KNEAD_LAMBDA {
+      unrolled<1, k>([&](auto s) KNEAD_LAMBDA {
+        if constexpr (s <= k - 2) {
+          below[k][s] = k < K ? d(Index<0>(), s) * reciprocal[k < K ? k : 1] : d(Index<0>(), s);
+        }
+        above[k][s] = k < K ? d(s, k) * reciprocal[k < K ? k : 1] : d(s, k);
+      });
+    });
+
     Pair level[2][K + 1][K];  // of two consecutive m
     Pair t1[K], t2[K], cross[K];
     Lanes full[K];
@@ -82,14 +93,10 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
                   add(l == K ? before[k][s + 1].here * support[s] : before[k][s + 1].here);
                 }
                 if constexpr (inner) {
-                  Lanes weight = d(Index<0>(), s_);
-                  if constexpr (k < K) weight = weight * reciprocal[k];
-                  add(weight * before[k - 1][s].here);
+                  add(below[k][s] * before[k - 1][s].here);
                 }
                 if constexpr (!(l == 0 && s == 1)) {
-                  Lanes weight = d(s_, Index<k>());
-                  if constexpr (k < K) weight = weight * reciprocal[k];
-                  add(weight * before[k - 1][s - 1].next);
+                  add(above[k][s] * before[k - 1][s - 1].next);
                 }
               }
               now[k][s].here = v;
