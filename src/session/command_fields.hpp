@@ -67,7 +67,8 @@ KNEAD_COMMAND(ToolCommand, "tool", "put a tool into the scene, or replace the on
   v.field("at", Presence::optional, c.at, "[s, t]: centre on the surface, at fractions 0 to 1 of its domain");
   v.choice("mode", c.mode, std::span<const Choice<ToolMode>>(tool_modes),
            "collision pushes out what has entered; proximity draws near");
-  v.field("stiffness", Presence::optional, c.stiffness, "spring constant k >= 0; default: 1e4 for collision, 100 for proximity");
+  v.field("stiffness", Presence::optional, c.stiffness,
+          "spring constant k >= 0; default: 1e4 for collision, 100 for proximity");
   v.field("range", Presence::optional, c.range, "reach of proximity, a length; default: half the radius");
   v.field("relative", Presence::optional, c.relative,
           "radius, range, position and later moves are fractions of the bounding-box diagonal");
