@@ -2,7 +2,7 @@
 # The work is done by CMake presets (CMakePresets.json) and the scripts in scripts/.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run test asan noexcept format format-check lint check-long bench clean
+.PHONY: help setup build run test asan noexcept format format-check lint check-long bench figures clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -39,6 +39,9 @@ check-long: ## The checks that take longer than CI should
 
 bench: ## Build and run the benchmarks
 	@scripts/bench.sh
+
+figures: ## Regenerate the thesis' tables and figures of Gramians: out/figures/
+	@scripts/figures.sh
 
 clean: ## Remove build/ and out/
 	@rm -rf build out

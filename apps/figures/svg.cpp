@@ -110,7 +110,9 @@ std::string Chart::svg() const {
         pen = true;
       }
     }
-    out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>\n", path, colour);
+    const char* dashes = k < std::size(colours) ? "none" : "5 3";  // colours come round again
+    out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-dasharray=\"{}\"/>\n",
+                       path, colour, dashes);
     const double row = top + 16 * static_cast<double>(k);
     out += fmt::format("<path d=\"M{:.1f} {:.1f}h18\" stroke=\"{}\" stroke-width=\"3\"/>\n", width - right + 10, row,
                        colour);
