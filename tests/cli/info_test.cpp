@@ -1,0 +1,78 @@
+#include "knead/spline/extremum.hpp"
+#include "program.hpp"
+#include "step_sheet.hpp"
+
+namespace knead::testing {
+namespace {
+
+TEST(Info, HasEveryFieldOfTheContract) {
+  const Json info = knead({"info", bonnet(), "--json"}).json();
+  EXPECT_EQ(info.at("file"), bonnet());
+  EXPECT_EQ(info.at("format"), "STEP");
+  EXPECT_EQ(info.at("units"), "mm");
+  EXPECT_TRUE(info.at("instances").is_array());
+  ASSERT_EQ(info.at("surfaces").size(), 2U);
+  for (const Json& s : info.at("surfaces")) {
+    const std::string id = s.at("id");
+    const Surface surface = surface_of(bonnet(), id);
+    EXPECT_TRUE(s.at("name").is_string());
+    for (std::size_t d = 0; d < 2; ++d) {
+      const KnotVector& knots = surface.knots()[d];
+      EXPECT_EQ(s.at("degree").at(d), knots.degree());
+      EXPECT_EQ(s.at("net").at(d), knots.count()) << "control points, not spans";
+      EXPECT_EQ(s.at("clamped").at(d), knots.clamped());
+      EXPECT_TRUE(s.at("closed").at(d).is_boolean());
+      EXPECT_EQ(s.at("knots").at(d).get<std::vector<double>>(),
+                std::vector<double>(knots.knots().begin(), knots.knots().end()))
+          << "to the last bit, with their multiplicity";
+      EXPECT_EQ(s.at("max_interior_multiplicity").at(d), knots.max_interior_multiplicity());
+    }
+    EXPECT_EQ(s.at("rational"), surface.rational());
+    EXPECT_TRUE(s.at("trimmed").is_boolean());
+    const BoundingBox box = bounding_box(surface);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(s.at("bounding_box").at(0).at(static_cast<std::size_t>(c)), box.lower[c]);
+      EXPECT_EQ(s.at("bounding_box").at(1).at(static_cast<std::size_t>(c)), box.upper[c]);
+    }
+  }
+}
+
+TEST(Info, ListsPlacementsUnderInstances) {
+  const Json instances = knead({"info", bonnet(), "--json"}).json().at("instances");
+  ASSERT_FALSE(instances.empty());
+  for (const Json& i : instances) {
+    for (const char* field : {"id", "name", "parent", "child", "placement", "frame"}) EXPECT_TRUE(i.contains(field));
+  }
+}
+
+TEST(Info, AFileWithoutSplineSurfacesIsNoError) {
+  const Workshop workshop;
+  const std::string path =
+      workshop.file("none.step",
+                    "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+                    "FILE_SCHEMA(('X'));\nENDSEC;\nDATA;\n#1=CARTESIAN_POINT('',(0.,0.,0.));\nENDSEC;\n"
+                    "END-ISO-10303-21;\n");
+  const Outcome run = knead({"info", path, "--json"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_TRUE(run.json().at("surfaces").empty());
+  EXPECT_EQ(run.json().at("units"), "unknown");
+}
+
+TEST(Info, ANameInAnyTongueIsValidJson) {
+  const Workshop workshop;
+  std::string text = step_sheet(surface_of(bonnet(), "#285"));
+  text.replace(text.find("'sheet'"), 7, R"('\X2\00DC\X0\ "\\" ')");
+  const Json info = knead({"info", workshop.file("name.step", text), "--json"}).json();
+  EXPECT_EQ(info.at("surfaces").at(0).at("name"), "Ü \"\\\" ");
+}
+
+TEST(Info, TheShortFormNamesEverySurface) {
+  const Outcome run = knead({"info", bonnet()});
+  EXPECT_EQ(run.code, 0);
+  for (const char* word : {"#285", "#1044", "bonnet skin", "net 14 x 12", "mm"}) {
+    EXPECT_NE(run.out.find(word), std::string::npos) << word;
+  }
+}
+
+}  // namespace
+}  // namespace knead::testing

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "knead/exchange/step_file.hpp"
+
+namespace knead::testing {
+
+using Json = nlohmann::json;
+
+/// A directory of its own for one test, gone afterwards.
+class Workshop {
+ public:
+  Workshop();
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+  ~Workshop();
+
+  [[nodiscard]] std::string operator/(const std::string& name) const { return (directory_ / name).string(); }
+  /// Writes a file and returns its path.
+  [[nodiscard]] std::string file(const std::string& name, const std::string& content) const;
+  [[nodiscard]] std::string script(const Json& commands, const std::string& name = "script.json") const;
+  /// Names of all files, hidden ones too, sorted.
+  [[nodiscard]] std::vector<std::string> files() const;
+
+ private:
+  std::filesystem::path directory_;
+};
+
+/// What a run of the program left behind.
+struct Outcome {
+  int code = -1;  ///< exit code; -1 where it did not end by itself
+  std::string out, err;
+  [[nodiscard]] Json json() const { return Json::parse(out); }
+};
+
+/// Runs the command line with these arguments.
+[[nodiscard]] Outcome knead(const std::vector<std::string>& arguments);
+
+[[nodiscard]] std::string content_of(const std::string& path);
+[[nodiscard]] std::string bonnet();
+/// Surface #id of a STEP file; fails the test where there is none.
+[[nodiscard]] Surface surface_of(const std::string& path, const std::string& id);
+
+/// True where the run failed as the contract says: this code, nothing but one line on standard error, and that names
+/// all of these.
+[[nodiscard]] ::testing::AssertionResult fails_with(const Outcome& run, int code,
+                                                    const std::vector<std::string>& named);
+
+/// A script's command: command("step", {{"count", 3}}).
+[[nodiscard]] inline Json command(const std::string& name, Json fields = Json::object()) {
+  fields["do"] = name;
+  return fields;
+}
+
+}  // namespace knead::testing

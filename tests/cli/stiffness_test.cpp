@@ -1,0 +1,50 @@
+#include "program.hpp"
+
+namespace knead::testing {
+namespace {
+
+TEST(StiffnessCommand, ReproducesThePublishedCheckValues) {
+  // Eq. 4.8 with all six terms on open uniform knots, p = 3, 128²: nnz = (7·128 − 12)², norm to 12 digits.
+  for (const char* method : {"gauss", "analytic", "recurrence"}) {
+    const Json out = knead({"stiffness", "--degree", "3", "--net", "128x128", "--alpha", "1,0.3,0.5", "--beta",
+                            "1e-3,2e-3,5e-4", "--method", method, "--json"})
+                         .json();
+    EXPECT_EQ(out.at("rows"), 16384);
+    EXPECT_EQ(out.at("nnz"), 781456);
+    EXPECT_NEAR(out.at("frobenius").get<double>(), 1.14119150436e4, 0.5e-7) << method;
+    EXPECT_GT(out.at("seconds").get<double>(), 0);
+  }
+}
+
+TEST(StiffnessCommand, TheTwoDirectionsMayDiffer) {
+  const auto norm = [](const std::string& degree, const std::string& net, const std::string& alpha) {
+    return knead({"stiffness", "--degree", degree, "--net", net, "--alpha", alpha, "--json"}).json();
+  };
+  const Json a = norm("2x3", "7x9", "1,0.25,2"), b = norm("3x2", "9x7", "2,0.25,1");
+  EXPECT_EQ(a.at("rows"), 63);
+  EXPECT_NEAR(a.at("frobenius").get<double>(), b.at("frobenius").get<double>(), 1e-14 * 63);
+}
+
+TEST(StiffnessCommand, NegativeCoefficientsAreReadAsNumbers) {
+  EXPECT_EQ(knead({"stiffness", "--net", "4x4", "--alpha", "1,-0.5,1", "--json"}).code, 0);
+  EXPECT_TRUE(fails_with(knead({"stiffness", "--net", "4x4", "--alpha", "-1,0,1"}), 3, {"alpha11", "-1"}));
+}
+
+TEST(StiffnessCommand, WhatIsWrongIsNamed) {
+  const auto fails = [](std::vector<std::string> arguments, int code, const std::vector<std::string>& named) {
+    arguments.insert(arguments.begin(), "stiffness");
+    return fails_with(knead(arguments), code, named);
+  };
+  EXPECT_TRUE(fails({}, 2, {"--net", "knead stiffness --help"}));
+  EXPECT_TRUE(fails({"--net", "4"}, 2, {"--net", "64x64"}));
+  EXPECT_TRUE(fails({"--net", "4x4x4"}, 2, {"--net", "64x64"}));
+  EXPECT_TRUE(fails({"--net", "2x4"}, 3, {"--net", "first", "at least 4"}));
+  EXPECT_TRUE(fails({"--net", "4x4", "--alpha", "1,1"}, 2, {"--alpha", "three"}));
+  EXPECT_TRUE(fails({"--net", "4x4", "--alpha", "1,2,1"}, 3, {"alpha12"}));
+  EXPECT_TRUE(fails({"--net", "4x4", "--beta", "0,x,0"}, 2, {"--beta", "entry 1"}));
+  EXPECT_TRUE(fails({"--net", "100000x100000"}, 3, {"--net", "smaller"}));
+  EXPECT_TRUE(fails({"--net", "8x8", "--alpha", "1e305,0,1e305"}, 4, {"range"}));
+}
+
+}  // namespace
+}  // namespace knead::testing
