@@ -132,7 +132,7 @@ void iterate(const Objective& objective, double tolerance, int max_iterations, O
     }
     const double slope = dot(g, d);
     Objective::At next = objective.at(here.y + d, here.ay + ad);
-    if (-slope <= rounding * (objective.energy + std::abs(here.quadratic) + here.state.potential())) {
+    if (-slope <= rounding * (objective.energy + std::abs(here.quadratic) + std::abs(here.state.potential()))) {
       // The gain left is below the rounding of Φ, so that comparing values decides nothing: a few full steps take what
       // the gradient still sees.
       if (++rounded_steps > max_rounded_steps) {

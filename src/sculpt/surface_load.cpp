@@ -1,5 +1,7 @@
 #include "knead/sculpt/surface_load.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,7 @@ namespace knead {
 namespace {
 
 constexpr double points_per_detail = 6;
-constexpr int max_points_per_direction = 3000;
+constexpr double max_points_per_direction = 1e5;
 
 /// Pieces per span of direction d, so that Gauss points lie closer than detail / points_per_detail on the surface.
 Expected<std::vector<int>> pieces(const Surface& surface, int direction, double detail) {
@@ -25,7 +27,7 @@ Expected<std::vector<int>> pieces(const Surface& surface, int direction, double 
   const int per_span = surface.knots(direction).degree() + 1;
   const int others = direction == 0 ? nv : nu;
   std::vector<int> result(spans.size(), 1);
-  int total = static_cast<int>(spans.size()) * per_span;
+  double total = 0;
   for (std::size_t s = 0; s < spans.size(); ++s) {
     double longest = 0;
     for (int other = 0; other < others; ++other) {
@@ -41,15 +43,22 @@ Expected<std::vector<int>> pieces(const Surface& surface, int direction, double 
     }
     // Rounded up with a grain of slack, so that a length that is a whole multiple but for rounding is taken as whole.
     const double wanted = std::ceil(longest * points_per_detail / (detail * per_span) * (1 - 1e-6));
-    result[s] = static_cast<int>(std::clamp(wanted, 1.0, 64.0));
-    total += (result[s] - 1) * per_span;
-  }
-  if (total > max_points_per_direction) {
-    const double shrink = static_cast<double>(max_points_per_direction) / total;
-    for (int& count : result) count = std::max(1, static_cast<int>(count * shrink));
+    total += std::max(wanted, 1.0) * per_span;
+    if (total > max_points_per_direction) {
+      return input_error(fmt::format("a tool of size {:.3g} is too small for this surface", detail), "tool",
+                         "use a larger tool, or sculpt a surface that is smaller or has a finer net");
+    }
+    result[s] = static_cast<int>(std::max(wanted, 1.0));
   }
   return result;
 }
+
+/// Distance of a point to an axis-parallel box; 0 inside.
+double distance(const Point& x, const Point& lower, const Point& upper) {
+  return (lower - x).cwiseMax(x - upper).cwiseMax(0.0).norm();
+}
+
+double reach(const Tool& tool) { return tool.shape.radius + (tool.mode == ToolMode::proximity ? tool.range : 0); }
 
 }  // namespace
 
@@ -62,24 +71,12 @@ Expected<SurfaceLoad> SurfaceLoad::create(const Surface& surface, const DomainSc
     if (!counts) return std::unexpected(counts.error());
     load.quadrature_[k] = gauss_basis(surface.knots(d), surface.knots(d).degree() + 1, 0, *counts);
     for (double& w : load.quadrature_[k].weights) w *= scaling.factors[k];
+    const int per_piece = surface.knots(d).degree() + 1;
+    load.spans_[k].push_back(0);
+    for (int count : *counts) load.spans_[k].push_back(load.spans_[k].back() + count * per_piece);
   }
-  if (!surface.rational()) return load;
-
   load.weights_.assign(surface.weights().begin(), surface.weights().end());
-  // The denominator is the first coordinate of the polynomial surface whose control points are the weights.
-  Points weights = Points::Zero(surface.size(), 3);
-  weights.col(0) = Eigen::Map<const Eigen::VectorXd>(load.weights_.data(), surface.size());
-  auto denominator = Surface::create(surface.knots(), weights);
-  if (!denominator) return std::unexpected(denominator.error());
-  auto grid = evaluate_grid<2>(
-      *denominator, std::array<const BasisTable*, 2>{&load.quadrature_[0].basis, &load.quadrature_[1].basis});
-  if (!grid) return std::unexpected(grid.error());
-  load.inverse_denominator_.resize(static_cast<std::size_t>(grid->points().rows()));
-  for (Eigen::Index k = 0; k < grid->points().rows(); ++k) {
-    const double w = grid->points()(k, 0);
-    if (!(w > 0)) return numerical_error("the rational denominator is not positive", "load", "use positive weights");
-    load.inverse_denominator_[static_cast<std::size_t>(k)] = 1 / w;
-  }
+  load.in_hull_ = std::ranges::all_of(load.weights_, [](double w) { return w > 0; });
   return load;
 }
 
@@ -115,43 +112,79 @@ void SurfaceLoad::scatter(int ku, int kv, const Point& f, Points& out) const {
   }
 }
 
-SurfaceLoad::State SurfaceLoad::evaluate(const Points& x, std::span<const Tool> tools) const {
-  State state;
-  state.force_ = Points::Zero(x.rows(), 3);
-  if (tools.empty()) return state;
+/// The Gauss points of one span in u and one in v.
+struct SurfaceLoad::Patch {
+  int u_begin, u_end, v_begin, v_end;
+};
+
+void SurfaceLoad::evaluate_patch(const Patch& patch, const Points& x, std::span<const Tool> tools, State& state) const {
   const BasisTable &tu = quadrature_[0].basis, &tv = quadrature_[1].basis;
-  const int nu = tu.size(), nv = tv.size(), n = net_[1];
-  // Homogeneous net contracted along u once per row of Gauss points.
-  Points net = x;
-  for (std::size_t k = 0; k < weights_.size(); ++k) net.row(static_cast<Eigen::Index>(k)) *= weights_[k];
-  Points row(n, 3);
-  for (int ku = 0; ku < nu; ++ku) {
-    const double* basis_u = tu.row(ku, 0);
-    const Eigen::Index first = static_cast<Eigen::Index>(tu.first[static_cast<std::size_t>(ku)]) * n;
-    row = basis_u[0] * net.middleRows(first, n);
-    for (int r = 1; r <= tu.degree; ++r)
-      row += basis_u[r] * net.middleRows(first + static_cast<Eigen::Index>(r) * n, n);
-    for (int kv = 0; kv < nv; ++kv) {
-      const double* basis_v = tv.row(kv, 0);
-      const double* from = row.data() + 3 * static_cast<std::ptrdiff_t>(tv.first[static_cast<std::size_t>(kv)]);
-      double sum[3] = {0, 0, 0};
-      for (int c = 0; c <= tv.degree; ++c) {
-        for (int k = 0; k < 3; ++k) sum[k] += basis_v[c] * from[3 * c + k];
+  const int i0 = tu.first[static_cast<std::size_t>(patch.u_begin)],
+            j0 = tv.first[static_cast<std::size_t>(patch.v_begin)];
+  // The patch's control points, homogeneous, contracted along u once per row of Gauss points.
+  std::array<std::array<double, 4>, max_degree + 1> row;
+  for (int ku = patch.u_begin; ku < patch.u_end; ++ku) {
+    const double* nu = tu.row(ku, 0);
+    for (int c = 0; c <= tv.degree; ++c) {
+      std::array<double, 4> sum = {0, 0, 0, 0};
+      for (int r = 0; r <= tu.degree; ++r) {
+        const Eigen::Index at = static_cast<Eigen::Index>(i0 + r) * net_[1] + j0 + c;
+        const double n = weights_.empty() ? nu[r] : nu[r] * weights_[static_cast<std::size_t>(at)];
+        for (int k = 0; k < 3; ++k) sum[static_cast<std::size_t>(k)] += n * x(at, k);
+        sum[3] += n;
       }
-      const double inverse = inverse_denominator_.empty()
-                                 ? 1
-                                 : inverse_denominator_[static_cast<std::size_t>(ku) * static_cast<std::size_t>(nv) +
-                                                        static_cast<std::size_t>(kv)];
+      row[static_cast<std::size_t>(c)] = sum;
+    }
+    for (int kv = patch.v_begin; kv < patch.v_end; ++kv) {
+      const double* nv = tv.row(kv, 0);
+      std::array<double, 4> sum = {0, 0, 0, 0};
+      for (int c = 0; c <= tv.degree; ++c) {
+        for (std::size_t k = 0; k < 4; ++k) sum[k] += nv[c] * row[static_cast<std::size_t>(c)][k];
+      }
+      const double inverse = weights_.empty() ? 1 : 1 / sum[3];
       const Point point = inverse * Point(sum[0], sum[1], sum[2]);
       const double weight =
           quadrature_[0].weights[static_cast<std::size_t>(ku)] * quadrature_[1].weights[static_cast<std::size_t>(kv)];
       for (const Tool& tool : tools) {
         const ToolAction action = tool_action(tool, point);
-        state.potential_ += weight * action.potential;
         if (!action.active()) continue;
+        state.potential_ += weight * action.potential;
         scatter(ku, kv, (weight * inverse) * action.force, state.force_);
         state.contacts_.push_back(
             {ku, kv, weight * inverse * inverse, action.normal, action.tangential, action.direction});
+      }
+    }
+  }
+}
+
+SurfaceLoad::State SurfaceLoad::evaluate(const Points& x, std::span<const Tool> tools) const {
+  State state;
+  state.force_ = Points::Zero(x.rows(), 3);
+  if (tools.empty()) return state;
+  const BasisTable &tu = quadrature_[0].basis, &tv = quadrature_[1].basis;
+  std::vector<Point> lower(static_cast<std::size_t>(net_[1])), upper(lower);
+  for (std::size_t a = 0; a + 1 < spans_[0].size(); ++a) {
+    const int i0 = tu.first[static_cast<std::size_t>(spans_[0][a])];
+    for (int j = 0; j < net_[1]; ++j) {  // boxes of the columns of control points that this span of u sees
+      const auto k = static_cast<std::size_t>(j);
+      lower[k] = upper[k] = x.row(static_cast<Eigen::Index>(i0) * net_[1] + j);
+      for (int r = 1; r <= tu.degree; ++r) {
+        const Point p = x.row(static_cast<Eigen::Index>(i0 + r) * net_[1] + j);
+        lower[k] = lower[k].cwiseMin(p);
+        upper[k] = upper[k].cwiseMax(p);
+      }
+    }
+    for (std::size_t b = 0; b + 1 < spans_[1].size(); ++b) {
+      const auto j0 = static_cast<std::size_t>(tv.first[static_cast<std::size_t>(spans_[1][b])]);
+      Point low = lower[j0], high = upper[j0];
+      for (std::size_t c = 1; c <= static_cast<std::size_t>(tv.degree); ++c) {
+        low = low.cwiseMin(lower[j0 + c]);
+        high = high.cwiseMax(upper[j0 + c]);
+      }
+      const bool near = std::ranges::any_of(
+          tools, [&](const Tool& tool) { return distance(tool.shape.centre, low, high) <= reach(tool); });
+      if (near || !in_hull_) {
+        evaluate_patch({spans_[0][a], spans_[0][a + 1], spans_[1][b], spans_[1][b + 1]}, x, tools, state);
       }
     }
   }

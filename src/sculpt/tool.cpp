@@ -32,11 +32,8 @@ ToolAction tool_action(const Tool& tool, const Point& x) {
     slope = curvature = k;
   } else {
     const double r2 = tool.range * tool.range, s = 1 - phi * phi / r2;
-    if (s <= 0) {
-      action.potential = k * r2 / 6;
-      return action;
-    }
-    action.potential = k * r2 / 6 * (1 - s * s * s);
+    if (s <= 0) return action;
+    action.potential = -k * r2 / 6 * s * s * s;
     slope = k * s * s;
     curvature = k * s * (5 * s - 4);
   }

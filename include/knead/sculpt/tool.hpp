@@ -45,8 +45,8 @@ inline constexpr double max_tool_stiffness = 1e10;
 ///
 /// With φ the signed distance of x to the tool (negative inside) and n its gradient:
 /// collision  ψ = k/2 min(φ, 0)², force −k φ n inside;
-/// proximity  ψ = k r²/6 (1 − (1 − φ²/r²)³) within the range r, force −k φ (1 − φ²/r²)² n, which is k φ near the
-///            tool and falls to zero with two derivatives at the range's end.
+/// proximity  ψ = −k r²/6 (1 − φ²/r²)³ within the range r, force −k φ (1 − φ²/r²)² n, which is k φ near the tool and
+///            falls to zero with two derivatives at the range's end.
 /// At the very centre of a sphere no direction is nearest and the force is zero.
 struct ToolAction {
   double potential = 0;
