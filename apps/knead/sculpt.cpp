@@ -87,13 +87,12 @@ void print_summary(const Options& options, const Session& session, const Outcome
     fmt::print("{}: surface {}{}, lengths in {}\n", file, s.id, s.name.empty() ? "" : " \"" + s.name + "\"", s.unit);
     fmt::print("  degree {} x {}, net {} x {}, {}\n", s.surface->knots(0).degree(), s.surface->knots(1).degree(), m, n,
                s.surface->rational() ? "rational" : "polynomial");
-    for (const SceneTool& t : state.tools) {
-      const Point& c = t.tool.shape.centre;
-      fmt::print(
-          "  tool {}: sphere of radius {:.4g} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", t.tool.name,
-          t.tool.shape.radius, c.x(), c.y(), c.z(),
-          t.tool.mode == ToolMode::collision ? "collision" : fmt::format("proximity within {:.4g}", t.tool.range),
-          t.tool.stiffness);
+    for (const Tool& t : state.tools) {
+      const Point& c = t.shape.centre;
+      fmt::print("  tool {}: sphere of radius {:.4g} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", t.name,
+                 t.shape.radius, c.x(), c.y(), c.z(),
+                 t.mode == ToolMode::collision ? "collision" : fmt::format("proximity within {:.4g}", t.range),
+                 t.stiffness);
     }
   }
   if (!state.steps.empty()) {

@@ -71,7 +71,7 @@ KNEAD_COMMAND(ToolCommand, "tool", "put a tool into the scene, or replace the on
           "spring constant k >= 0; default: 1e4 for collision, 100 for proximity");
   v.field("range", Presence::optional, c.range, "reach of proximity, a length; default: half the radius");
   v.field("relative", Presence::optional, c.relative,
-          "radius, range, position and later moves are fractions of the bounding-box diagonal");
+          "radius, range and position are fractions of the surface's bounding-box diagonal");
 }
 KNEAD_COMMAND(RemoveCommand, "remove", "take a tool out of the scene") {
   v.field("tool", Presence::optional, c.tool, "its name; default: the only tool");
@@ -79,7 +79,7 @@ KNEAD_COMMAND(RemoveCommand, "remove", "take a tool out of the scene") {
 KNEAD_COMMAND(MoveCommand, "move", "move a tool") {
   v.field("tool", Presence::optional, c.tool, "its name; default: the only tool");
   v.field("by", Presence::required, c.by, "[dx, dy, dz]");
-  v.field("relative", Presence::optional, c.relative, "fractions of the diagonal; default: as the tool was made");
+  v.field("relative", Presence::optional, c.relative, "fractions of the surface's bounding-box diagonal, not lengths");
 }
 KNEAD_COMMAND(StepCommand, "step", "let the selected surface evolve under the tools") {
   v.field("count", Presence::optional, c.count, "number of steps");

@@ -27,11 +27,10 @@ std::vector<bool> fixed_control_points(const SurfaceState& surface) {
   return fixed;
 }
 
-double detail_of(const std::vector<SceneTool>& tools) {
+double detail_of(const std::vector<Tool>& tools) {
   double detail = 0;
-  for (const SceneTool& t : tools) {
-    const double size =
-        t.tool.mode == ToolMode::proximity ? std::min(t.tool.shape.radius, t.tool.range) : t.tool.shape.radius;
+  for (const Tool& t : tools) {
+    const double size = t.mode == ToolMode::proximity ? std::min(t.shape.radius, t.range) : t.shape.radius;
     if (detail == 0 || size < detail) detail = size;
   }
   return detail;
@@ -58,11 +57,11 @@ struct Session::Executor {
     return &state.surfaces[static_cast<std::size_t>(*state.selected)];
   }
 
-  Expected<SceneTool*> find_tool(const std::optional<std::string>& name) {
+  Expected<Tool*> find_tool(const std::optional<std::string>& name) {
     std::string known;
-    for (SceneTool& t : state.tools) {
-      if (name ? t.tool.name == *name : state.tools.size() == 1) return &t;
-      known += (known.empty() ? "" : ", ") + t.tool.name;
+    for (Tool& t : state.tools) {
+      if (name ? t.name == *name : state.tools.size() == 1) return &t;
+      known += (known.empty() ? "" : ", ") + t.name;
     }
     if (known.empty()) return input_error("there is no tool", "tool", "make one first with the command tool");
     return input_error(name ? fmt::format("there is no tool \"{}\"", *name) : "which tool is not said", "tool",
@@ -137,19 +136,19 @@ struct Session::Executor {
     }
     const double diagonal = diagonal_of(**surface), unit = c.relative ? diagonal : 1;
     const double stiffness = c.stiffness.value_or(c.mode == ToolMode::collision ? 1e4 : 100);
-    SceneTool made{{c.name, {}, c.mode, stiffness, 0}, c.relative};
-    made.tool.shape.radius = c.radius ? *c.radius * unit : 0.1 * diagonal;
-    made.tool.range = c.range ? *c.range * unit : 0.5 * made.tool.shape.radius;
+    Tool made{c.name, {}, c.mode, stiffness, 0};
+    made.shape.radius = c.radius ? *c.radius * unit : 0.1 * diagonal;
+    made.range = c.range ? *c.range * unit : 0.5 * made.shape.radius;
     if (c.position) {
-      for (int k = 0; k < 3; ++k) made.tool.shape.centre[k] = (*c.position)[static_cast<std::size_t>(k)] * unit;
+      for (int k = 0; k < 3; ++k) made.shape.centre[k] = (*c.position)[static_cast<std::size_t>(k)] * unit;
     } else {
       auto point = point_at(*(*surface)->current, *c.at);
       if (!point) return std::unexpected(point.error());
-      made.tool.shape.centre = *point;
+      made.shape.centre = *point;
     }
-    auto tool = validated(made.tool);
+    auto tool = validated(made);
     if (!tool) return std::unexpected(tool.error());
-    const auto same = std::ranges::find(state.tools, c.name, [](const SceneTool& t) { return t.tool.name; });
+    const auto same = std::ranges::find(state.tools, c.name, [](const Tool& t) { return t.name; });
     if (same != state.tools.end()) {
       *same = made;
     } else {
@@ -169,16 +168,16 @@ struct Session::Executor {
     auto tool = find_tool(c.tool);
     if (!tool) return std::unexpected(tool.error());
     double unit = 1;
-    if (c.relative.value_or((*tool)->relative)) {
+    if (c.relative) {
       auto surface = selected();
       if (!surface) return std::unexpected(surface.error());
       unit = diagonal_of(**surface);
     }
-    Tool moved = (*tool)->tool;
+    Tool moved = **tool;
     for (int k = 0; k < 3; ++k) moved.shape.centre[k] += c.by[static_cast<std::size_t>(k)] * unit;
     auto checked = validated(moved);
     if (!checked) return std::unexpected(checked.error());
-    (*tool)->tool = moved;
+    **tool = moved;
     return {};
   }
 
@@ -189,12 +188,10 @@ struct Session::Executor {
     SurfaceState& surface = **selection;
     const auto model = session.model_of(surface, state.tools, c.lambda, c.weight);
     if (!model) return std::unexpected(model.error());
-    std::vector<Tool> tools;
-    for (const SceneTool& t : state.tools) tools.push_back(t.tool);
     if (!state.energy_before) state.energy_before = model->energy(surface.current->control_points());
     for (int k = 0; k < c.count; ++k) {
       const auto start = std::chrono::steady_clock::now();
-      auto step = model->step(surface.current->control_points(), tools);
+      auto step = model->step(surface.current->control_points(), state.tools);
       if (!step) return std::unexpected(step.error());
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       auto moved = surface.current->with_control_points(std::move(step->control_points));
@@ -260,8 +257,8 @@ std::vector<Command> Session::journal() const {
   return {commands_.begin(), commands_.begin() + static_cast<std::ptrdiff_t>(position_)};
 }
 
-Expected<ActiveSurface> Session::model_of(const SurfaceState& surface, const std::vector<SceneTool>& tools,
-                                          double lambda, StepWeight weight) {
+Expected<ActiveSurface> Session::model_of(const SurfaceState& surface, const std::vector<Tool>& tools, double lambda,
+                                          StepWeight weight) {
   ActiveSettings settings;
   settings.material = surface.material;
   settings.rest = surface.mode;
@@ -279,10 +276,13 @@ Expected<ActiveSurface> Session::model_of(const SurfaceState& surface, const std
 Expected<double> Session::energy() {
   if (!state().selected) return 0;
   const SurfaceState& surface = state().surfaces[static_cast<std::size_t>(*state().selected)];
+  if (surface.mode == RestMode::shape && surface.current == surface.rest) return 0;  // also where no model can be made
+  // The energy does not depend on lambda; a large one makes a model of whatever can be stepped at all.
+  constexpr double lambda = 1e6;
   const auto model = cache_ && cache_->rest == surface.rest && cache_->model.settings().material == surface.material &&
                              cache_->model.settings().rest == surface.mode
                          ? Expected<ActiveSurface>(cache_->model)
-                         : model_of(surface, {}, 1, StepWeight::mass);
+                         : model_of(surface, {}, lambda, StepWeight::mass);
   if (!model) return std::unexpected(model.error());
   return model->energy(surface.current->control_points());
 }

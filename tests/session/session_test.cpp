@@ -166,8 +166,8 @@ TEST(Session, RelativeLengthsAreFractionsOfTheDiagonal) {
   const auto& surface = *absolute.state().surfaces[static_cast<std::size_t>(*absolute.state().selected)].current;
   const double diagonal = bounding_box(surface).diagonal();
   run(relative, {press[0], R"({"do":"tool","radius":0.1,"range":0.2,"position":[0.5,0.25,0],"relative":true})",
-                 R"({"do":"move","by":[0,0,0.5]})", R"({"do":"move","by":[7,0,0],"relative":false})"});
-  const Tool& tool = relative.state().tools.front().tool;
+                 R"({"do":"move","by":[0,0,0.5],"relative":true})", R"({"do":"move","by":[7,0,0]})"});
+  const Tool& tool = relative.state().tools.front();
   EXPECT_DOUBLE_EQ(tool.shape.radius, 0.1 * diagonal);
   EXPECT_DOUBLE_EQ(tool.range, 0.2 * diagonal);
   EXPECT_DOUBLE_EQ(tool.shape.centre.x(), 0.5 * diagonal + 7);
@@ -214,9 +214,9 @@ TEST(Session, EveryRealSurfaceCanBeSculptedOrSaysWhyNot) {
     // The first surface of every file whose net is not huge.
     for (const DocumentSurface& s : session.document().surfaces()) {
       if (s.surface->size() > 600) continue;
-      run(session,
-          {R"({"do":"select","surface":")" + s.id + R"("})",
-           R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})", R"({"do":"move","by":[0.03,0.05,0.15]})"});
+      run(session, {R"({"do":"select","surface":")" + s.id + R"("})",
+                    R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})",
+                    R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
       const auto done = session.execute(StepCommand{1, 1, StepWeight::mass});
       if (!done) {
         EXPECT_EQ(done.error().kind, ErrorKind::numerical) << entry.path() << " " << s.id << done.error().message();

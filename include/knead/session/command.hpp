@@ -51,7 +51,7 @@ struct ToolCommand {
   ToolMode mode = ToolMode::collision;
   std::optional<double> stiffness;  ///< default: 1e4 for collision, 100 for proximity
   std::optional<double> range;      ///< default: half the radius
-  bool relative = false;            ///< lengths and positions are fractions of the bounding-box diagonal
+  bool relative = false;            ///< lengths and position are fractions of the bounding-box diagonal
 };
 
 /// Takes a tool out of the scene.
@@ -63,7 +63,7 @@ struct RemoveCommand {
 struct MoveCommand {
   std::optional<std::string> tool;  ///< default: the only tool
   std::array<double, 3> by = {0, 0, 0};
-  std::optional<bool> relative;  ///< default: as the tool was made
+  bool relative = false;  ///< `by` is in fractions of the bounding-box diagonal
 };
 
 /// Lets the selected surface evolve under the tools.

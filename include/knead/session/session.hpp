@@ -23,12 +23,6 @@ struct StepRecord {
   bool converged = true;
 };
 
-/// A tool of the scene; lengths in file units.
-struct SceneTool {
-  Tool tool;
-  bool relative = false;  ///< made with lengths relative to a bounding-box diagonal: so are later moves
-};
-
 /// What a session knows about one surface.
 struct SurfaceState {
   std::shared_ptr<const Surface> current;
@@ -43,7 +37,7 @@ struct SurfaceState {
 struct SessionState {
   std::optional<int> selected;
   std::vector<SurfaceState> surfaces;
-  std::vector<SceneTool> tools;
+  std::vector<Tool> tools;  ///< lengths in file units
   std::vector<StepRecord> steps;
   std::optional<double> energy_before;  ///< energy before the first step
 };
@@ -85,7 +79,7 @@ class Session {
     ActiveSurface model;
   };
 
-  [[nodiscard]] Expected<ActiveSurface> model_of(const SurfaceState& surface, const std::vector<SceneTool>& tools,
+  [[nodiscard]] Expected<ActiveSurface> model_of(const SurfaceState& surface, const std::vector<Tool>& tools,
                                                  double lambda, StepWeight weight);
   [[nodiscard]] double displacement_of(int surface, const Surface& current) const;
 

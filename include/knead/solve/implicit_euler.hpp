@@ -16,7 +16,7 @@ namespace knead {
 /// Fixed rows keep their bits. Without force the energy Σ Xᵀ K X never grows.
 class ImplicitEuler {
  public:
-  /// Factors K + λW on the free unknowns and checks that solving for a known displacement gives it back to 1e-6.
+  /// Factors K + λW on the free unknowns and checks that solving for a known displacement gives it back to 1e-3.
   /// Errors: λ negative or not finite (input); the matrix is not positive definite, or too close to singular for the
   /// check (numerical).
   [[nodiscard]] static Expected<ImplicitEuler> create(SparseMatrix k, const SparseMatrix& w, double lambda,
