@@ -198,7 +198,8 @@ TEST_P(ScaleFree, KnotsMappedAffinely) {
 TEST_P(ScaleFree, RelativeToolsOnCopiesOfEverySize) {
   const Workshop workshop;
   const Json commands = {command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.3, 0.6}}}),
-                         command("move", {{"by", {0.02, 0.01, 0.04}}}), command("step", {{"lambda", 20}})};
+                         command("move", {{"by", {0.02, 0.01, 0.04}}, {"relative", true}}),
+                         command("step", {{"lambda", 20}})};
   const auto run = [&](double scale) {
     const Placement copy{scale};
     const std::string file = workshop.file("sheet.step", step_sheet(placed(rest_, copy))), out = workshop / "out.step";

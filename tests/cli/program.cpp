@@ -89,6 +89,12 @@ Surface surface_of(const std::string& path, const std::string& id) {
   return found->surface;
 }
 
+::testing::AssertionResult identical(const std::string& a, const std::string& b) {
+  if (a == b) return ::testing::AssertionSuccess() << "both have the same " << a.size() << " bytes";
+  const auto [at, ignored] = std::ranges::mismatch(a, b);
+  return ::testing::AssertionFailure() << "byte " << at - a.begin() << " of " << a.size() << " and " << b.size();
+}
+
 ::testing::AssertionResult fails_with(const Outcome& run, int code, const std::vector<std::string>& named) {
   if (run.code != code) return ::testing::AssertionFailure() << "exit code " << run.code << ", " << run.err;
   if (!run.err.starts_with("knead: ") || run.err.find('\n') != run.err.size() - 1) {

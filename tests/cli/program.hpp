@@ -47,6 +47,9 @@ struct Outcome {
 /// Surface #id of a STEP file; fails the test where there is none.
 [[nodiscard]] Surface surface_of(const std::string& path, const std::string& id);
 
+/// The same bytes; says where they differ without printing them.
+[[nodiscard]] ::testing::AssertionResult identical(const std::string& a, const std::string& b);
+
 /// True where the run failed as the contract says: this code, nothing but one line on standard error, and that names
 /// all of these.
 [[nodiscard]] ::testing::AssertionResult fails_with(const Outcome& run, int code,

@@ -1,0 +1,72 @@
+#include <sstream>
+
+#include "program.hpp"
+
+namespace knead::testing {
+namespace {
+
+// What the documentation shows and promises of scripts.
+
+std::string page(const std::string& name) { return content_of(std::string(KNEAD_SOURCE_DIR) + "/" + name); }
+
+/// The indented blocks of a page that are scripts.
+std::vector<Json> scripts_in(const std::string& text) {
+  std::vector<Json> scripts;
+  const std::string begin = "\n    {\"knead\": 1", end = "\n    ]}";
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    scripts.push_back(Json::parse(text.substr(at, text.find(end, at) + end.size() - at)));
+  }
+  return scripts;
+}
+
+TEST(Pages, EveryScriptShownSculptsTheSample) {
+  for (const char* name : {"docs/scripts.md", "README.md"}) {
+    const std::vector<Json> scripts = scripts_in(page(name));
+    EXPECT_FALSE(scripts.empty()) << name;
+    for (const Json& script : scripts) {
+      const Workshop workshop;
+      const std::string report = workshop / "report.json";
+      const Outcome run = knead({"sculpt", bonnet(), "-o", workshop / "out.step", "--script",
+                                 workshop.file("script.json", script.dump()), "--report", report});
+      EXPECT_EQ(run.code, 0) << name << ": " << script << "\n" << run.err;
+      EXPECT_GT(Json::parse(content_of(report)).at("largest_displacement").get<double>(), 1) << "mm; " << script;
+    }
+  }
+}
+
+TEST(Pages, EveryCommandAndFieldOfTheHelpIsExplained) {
+  const std::string text = page("docs/scripts.md");
+  std::istringstream help(knead({"sculpt", "--help"}).out);
+  std::string line, section;
+  bool commands = false;
+  int fields = 0;
+  while (std::getline(help, line)) {
+    if (line.find("The commands:") != std::string::npos) commands = true;
+    if (line.starts_with("The report")) break;
+    if (!commands || !line.starts_with("  ")) continue;
+    std::istringstream words(line);
+    std::string name;
+    words >> name;
+    if (line[2] != ' ') {
+      section = name;
+      EXPECT_NE(text.find(name), std::string::npos) << name;
+    } else {
+      const std::size_t from = text.find("\n### " + section + "\n");
+      ASSERT_NE(from, std::string::npos) << section;
+      const std::size_t at = text.find("\n| `" + name + "` |", from);
+      EXPECT_LT(at, text.find("\n### ", from + 1)) << section << "." << name << " is not explained";
+      ++fields;
+    }
+  }
+  EXPECT_GE(fields, 20);
+}
+
+TEST(Pages, TheGramianShownIsTheOnePrinted) {
+  const std::string text = page("docs/command-line.md");
+  std::istringstream run(knead({"gramian", "--degree", "1", "--knots", "-1,-1,0,1,1", "--a", "1", "--b", "1"}).out);
+  for (std::string line; std::getline(run, line);)
+    EXPECT_NE(text.find("    " + line + "\n"), std::string::npos) << line;
+}
+
+}  // namespace
+}  // namespace knead::testing

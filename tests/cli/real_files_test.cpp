@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <cmath>
+
+#include "program.hpp"
+
+namespace knead::testing {
+namespace {
+
+// Scripts with nothing but defaults on files from real CAD systems.
+
+std::vector<std::string> step_files() {
+  std::vector<std::string> files;
+  const std::filesystem::path collection = std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad";
+  if (!std::filesystem::exists(collection)) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(collection)) {
+    if (entry.path().extension() == ".stp" || entry.path().extension() == ".step") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+TEST(RealFiles, KeepEveryByteUnderAnEmptyScript) {
+  const std::vector<std::string> files = step_files();
+  if (files.empty()) GTEST_SKIP() << "no collection of CAD files beside the project";
+  const Workshop workshop;
+  const std::string script = workshop.script(Json::array()), out = workshop / "out.step";
+  for (const std::string& file : files) {
+    EXPECT_EQ(knead({"sculpt", file, "-o", out, "--script", script}).code, 0) << file;
+    EXPECT_TRUE(identical(content_of(out), content_of(file))) << file;
+  }
+}
+
+TEST(RealFiles, TakeADentInTheirFirstSurface) {
+  const std::vector<std::string> files = step_files();
+  if (files.empty()) GTEST_SKIP() << "no collection of CAD files beside the project";
+  const Workshop workshop;
+  const std::string out = workshop / "out.step", report = workshop / "report.json";
+  for (const std::string& file : files) {
+    const Json surfaces = knead({"info", file, "--json"}).json().at("surfaces");
+    if (surfaces.empty()) continue;
+    const Json& s = surfaces.front();
+    if (file.ends_with("simple_wing.stp")) continue;  // its first surface is collapsed to a line
+    const Json commands = {command("select", {{"surface", s.at("id")}}), command("hold", {{"rows", 1}}),
+                           command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
+                           command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
+                           command("step", {{"lambda", 10}})};
+    const Outcome run = knead({"sculpt", file, "-o", out, "--script", workshop.script(commands), "--report", report});
+    ASSERT_EQ(run.code, 0) << file << ": " << run.err;
+    const Json result = Json::parse(content_of(report));
+    const bool all_held = s.at("net").at(0) <= 2 || s.at("net").at(1) <= 2;
+    double size = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double side = s.at("bounding_box")[1][c].get<double>() - s.at("bounding_box")[0][c].get<double>();
+      size += side * side;
+    }
+    const double largest = result.at("largest_displacement");
+    EXPECT_EQ(largest > 0, !all_held) << file;
+    EXPECT_LT(largest, 0.2 * std::sqrt(size)) << file << ": a ball of a tenth leaves no larger dent";
+    EXPECT_TRUE(result.at("residual").is_number()) << file;
+    EXPECT_TRUE(result.at("energy_after").is_number()) << file;
+  }
+}
+
+}  // namespace
+}  // namespace knead::testing
