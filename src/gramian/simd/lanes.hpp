@@ -10,8 +10,13 @@
 #include <cstddef>
 #include <type_traits>
 
+#if defined(KNEAD_COUNTING)  // not for speed: nothing need be inlined
+#define KNEAD_INLINE inline
+#define KNEAD_LAMBDA
+#else
 #define KNEAD_INLINE __attribute__((always_inline)) inline
 #define KNEAD_LAMBDA __attribute__((always_inline))
+#endif
 
 namespace knead::detail::KNEAD_ISA {
 
