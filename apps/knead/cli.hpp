@@ -18,6 +18,7 @@ Action add_info(CLI::App& app);
 Action add_sculpt(CLI::App& app);
 Action add_gramian(CLI::App& app);
 Action add_stiffness(CLI::App& app);
+Action add_basis(CLI::App& app);
 
 /// Stands at the end of every help text.
 inline constexpr std::string_view exit_codes =

@@ -5,16 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cli.hpp"
-#include "knead/exchange/file_io.hpp"
+#include "knead/gramian/rational_gramian.hpp"
+#include "knots_option.hpp"
 
 namespace knead::cli {
 namespace {
 
 struct Options {
-  int degree = 3, a = 0, b = 0;
-  std::string knots, knots_file, method{name(default_gramian_method)}, format = "json";
+  KnotsOption knots;
+  int a = 0, b = 0;
+  std::string method, weights, format = "json";
+  double tolerance = 1e-10;
   bool all = false;
 };
 
@@ -22,32 +26,6 @@ struct NamedGramian {
   std::string term;
   BandMatrix matrix;
 };
-
-Expected<std::vector<double>> read_knots(const Options& options) {
-  if (options.knots_file.empty()) return parse_numbers(options.knots, "--knots");
-  auto text = read_file(options.knots_file);
-  if (!text) return std::unexpected(text.error());
-  return parse_numbers(*text, "--knots-file");
-}
-
-Expected<KnotVector> knot_vector(const Options& options) {
-  if (options.degree < 1 || options.degree > max_degree) {
-    return input_error(fmt::format("degree {} is out of range", options.degree), "--degree",
-                       fmt::format("use 1 to {}", max_degree));
-  }
-  auto numbers = read_knots(options);
-  auto knots = numbers ? KnotVector::create(options.degree, std::move(*numbers))
-                       : Expected<KnotVector>(std::unexpected(numbers.error()));
-  if (knots) return knots;
-  Error error = knots.error();
-  if (options.knots_file.empty()) {
-    if (numbers) error = error.within("--knots");
-  } else {
-    error.kind = ErrorKind::input;  // what is wrong stands in a file, not in the call
-    error.file = options.knots_file;
-  }
-  return std::unexpected(error);
-}
 
 bool all_finite(const BandMatrix& matrix) {
   for (int i = 0; i < matrix.size(); ++i) {
@@ -59,9 +37,19 @@ bool all_finite(const BandMatrix& matrix) {
   return true;
 }
 
+struct Result {
+  std::string method;
+  std::vector<NamedGramian> gramians;
+  std::optional<double> error_bound;  // of the rational method
+};
+
 /// Row i of the band: G(i, i − p) … G(i, i + p), zero outside of the matrix.
-void print_json(int degree, int count, const std::string& method, const std::vector<NamedGramian>& gramians) {
-  fmt::print(R"({{"degree":{},"count":{},"method":"{}","gramians":{{)", degree, count, method);
+void print_json(int degree, const Result& result) {
+  const std::vector<NamedGramian>& gramians = result.gramians;
+  const int count = gramians.front().matrix.size();
+  fmt::print(R"({{"degree":{},"count":{},"method":"{}",)", degree, count, result.method);
+  if (result.error_bound) fmt::print("\"error_bound\":{},", json_number(*result.error_bound));
+  fmt::print("\"gramians\":{{");
   for (std::size_t k = 0; k < gramians.size(); ++k) {
     fmt::print("{}\n \"{}\":{{\"band\":[", k == 0 ? "" : ",", gramians[k].term);
     for (int i = 0; i < count; ++i) {
@@ -77,9 +65,10 @@ void print_json(int degree, int count, const std::string& method, const std::vec
   fmt::print("}}}}\n");
 }
 
-void print_csv(int degree, int count, const std::vector<NamedGramian>& gramians) {
+void print_csv(int degree, const Result& result) {
   fmt::print("term,i,j,value\n");
-  for (const NamedGramian& g : gramians) {
+  for (const NamedGramian& g : result.gramians) {
+    const int count = g.matrix.size();
     for (int i = 0; i < count; ++i) {
       for (int j = std::max(0, i - degree); j <= std::min(count - 1, i + degree); ++j) {
         fmt::print("{},{},{},{}\n", g.term, i, j, json_number(g.matrix(i, j)));
@@ -88,34 +77,69 @@ void print_csv(int degree, int count, const std::vector<NamedGramian>& gramians)
   }
 }
 
-Expected<void> run(const Options& options) {
-  const auto method = gramian_method(options.method);
+constexpr std::string_view constant_denominator = "constant-denominator", rational = "rational";
+
+std::vector<std::array<int, 2>> orders(const Options& options) {
+  if (options.all) return {{0, 0}, {1, 1}, {2, 2}, {1, 0}};
+  return {{options.a, options.b}};
+}
+
+Expected<Result> compute(const Options& options, const KnotVector& knots) {
+  const std::string chosen = options.method.empty() ? std::string(name(default_gramian_method)) : options.method;
+  const auto method = gramian_method(chosen);
   if (!method) return std::unexpected(method.error().within("--method"));
-  if (options.knots.empty() == options.knots_file.empty()) {
-    return usage_error(options.knots.empty() ? "no knots are given" : "the knots are given twice", "command line",
-                       "give either --knots or --knots-file");
-  }
-  const auto knots = knot_vector(options);
-  if (!knots) return std::unexpected(knots.error());
-  std::vector<NamedGramian> gramians;
+  Result result{chosen, {}, {}};
   if (options.all) {
-    auto set = knead::gramians(*knots, *method);
+    auto set = knead::gramians(knots, *method);
     if (!set) return std::unexpected(set.error());
-    gramians = {{"00", set->g00}, {"11", set->g11}, {"22", set->g22}, {"10", set->g10}};
-  } else {
-    auto matrix = gramian(*knots, options.a, options.b, *method);
-    if (!matrix) return std::unexpected(matrix.error().within("--a, --b"));
-    gramians = {{fmt::format("{}{}", options.a, options.b), std::move(*matrix)}};
+    result.gramians = {{"00", set->g00}, {"11", set->g11}, {"22", set->g22}, {"10", set->g10}};
+    return result;
   }
-  for (const NamedGramian& g : gramians) {
+  auto matrix = gramian(knots, options.a, options.b, *method);
+  if (!matrix) return std::unexpected(matrix.error().within("--a, --b"));
+  result.gramians = {{fmt::format("{}{}", options.a, options.b), std::move(*matrix)}};
+  return result;
+}
+
+/// With weights: to a tolerance, or by the approximation that takes the denominator as constant on a span.
+Expected<Result> compute_rational(const Options& options, const KnotVector& knots) {
+  const auto weights = parse_numbers(options.weights, "--rational-weights");
+  if (!weights) return std::unexpected(weights.error());
+  Result result{options.method.empty() ? std::string(rational) : options.method, {}, {}};
+  if (result.method != rational && result.method != constant_denominator) {
+    return usage_error(fmt::format("the method \"{}\" does not take weights", options.method), "--method",
+                       fmt::format("use {} or {}", rational, constant_denominator));
+  }
+  for (const auto& [a, b] : orders(options)) {
+    const std::string term = fmt::format("{}{}", a, b);
+    if (result.method == constant_denominator) {
+      auto matrix = constant_denominator_gramian(knots, *weights, a, b);
+      if (!matrix) return std::unexpected(matrix.error());
+      result.gramians.push_back({term, std::move(*matrix)});
+    } else {
+      auto found = rational_gramian(knots, *weights, a, b, options.tolerance);
+      if (!found) return std::unexpected(found.error());
+      result.gramians.push_back({term, std::move(found->matrix)});
+      result.error_bound = std::max(result.error_bound.value_or(0), found->error_bound);
+    }
+  }
+  return result;
+}
+
+Expected<void> run(const Options& options) {
+  const auto knots = options.knots.read();
+  if (!knots) return std::unexpected(knots.error());
+  const auto result = options.weights.empty() ? compute(options, *knots) : compute_rational(options, *knots);
+  if (!result) return std::unexpected(result.error());
+  for (const NamedGramian& g : result->gramians) {
     if (all_finite(g.matrix)) continue;
-    return numerical_error(fmt::format("entries leave the range of double precision (method {})", options.method),
+    return numerical_error(fmt::format("entries leave the range of double precision (method {})", result->method),
                            "Gramian " + g.term, "scale the knots nearer to 1");
   }
   if (options.format == "csv") {
-    print_csv(options.degree, knots->count(), gramians);
+    print_csv(options.knots.degree, *result);
   } else {
-    print_json(options.degree, knots->count(), options.method, gramians);
+    print_json(options.knots.degree, *result);
   }
   return {};
 }
@@ -125,14 +149,19 @@ Expected<void> run(const Options& options) {
 Action add_gramian(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("gramian", "print Gramian matrices of a B-spline basis");
-  command->add_option("--degree", options->degree, "degree of the basis, 1 to 15")->required();
-  command->add_option("--knots", options->knots,
-                      "all knots, separated by commas, each as often as its multiplicity; may begin with a minus sign");
-  command->add_option("--knots-file", options->knots_file, "file with the knots, separated by commas or white space");
+  options->knots.add_to(*command);
   CLI::Option* a = command->add_option("--a", options->a, "derivative of the row functions, 0 to 2 (default 0)");
   CLI::Option* b = command->add_option("--b", options->b, "derivative of the column functions, 0 to 2 (default 0)");
   command->add_flag("--all", options->all, "print 00, 11, 22 and 10")->excludes(a)->excludes(b);
-  command->add_option("--method", options->method, gramian_method_help());
+  command->add_option("--method", options->method,
+                      gramian_method_help() + "; with weights: rational (default) or constant-denominator");
+  CLI::Option* weights = command->add_option("--rational-weights", options->weights,
+                                             "one positive weight per function: Gramians of the rational basis");
+  command
+      ->add_option(
+          "--tolerance", options->tolerance,
+          "error allowed with weights, relative to the largest entry (default 1e-10); the JSON tells the bound")
+      ->needs(weights);
   command->add_option("--format", options->format, "json (default) or csv")->check(CLI::IsMember({"json", "csv"}));
   command->footer(
       "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside of the matrix; 17 significant digits.\n" +

@@ -45,7 +45,8 @@ int fail(const knead::Error& error) {
 
 /// The value of these options may begin with a minus sign, which would read as an option: joined with "=".
 std::vector<std::string> joined_arguments(int argc, char** argv) {
-  static constexpr std::array<std::string_view, 3> number_lists = {"--knots", "--alpha", "--beta"};
+  static constexpr std::array<std::string_view, 6> number_lists = {"--knots", "--alpha", "--beta", "--rational-weights",
+                                                                   "--from",  "--to"};
   std::vector<std::string> arguments(argv + 1, argv + argc);
   for (std::size_t k = 0; k + 1 < arguments.size(); ++k) {
     for (std::string_view option : number_lists) {
@@ -70,8 +71,9 @@ int main(int argc, char** argv) {
   app.footer(std::string(knead::cli::exit_codes) +
              "\nErrors are one line on standard error: file, place, what is wrong; remedy."
              "\n`knead COMMAND --help` tells more about a command.");
-  const std::array<knead::cli::Action, 4> actions = {knead::cli::add_info(app), knead::cli::add_sculpt(app),
-                                                     knead::cli::add_gramian(app), knead::cli::add_stiffness(app)};
+  const std::array<knead::cli::Action, 5> actions = {knead::cli::add_info(app), knead::cli::add_sculpt(app),
+                                                     knead::cli::add_gramian(app), knead::cli::add_stiffness(app),
+                                                     knead::cli::add_basis(app)};
   try {
     app.parse(joined_arguments(argc, argv));
   } catch (const CLI::Success& done) {

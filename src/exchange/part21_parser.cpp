@@ -23,7 +23,8 @@ bool Part21Parser::file_structure() {
   if (file_.bytes_.starts_with("\xEF\xBB\xBF")) lexer_.set_position(3);
   advance();
   if (!at_keyword(start_mark)) {
-    return fail("not a STEP file: it does not begin with ISO-10303-21;", "give a file in the form of ISO 10303-21");
+    return fail("not a STEP file: it does not begin with the line ISO-10303-21",
+                "give a file in the form of ISO 10303-21");
   }
   advance();
   if (!expect_symbol(';', "ISO-10303-21") || !header_section()) return false;

@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "cli.hpp"
+#include "knead/spline/basis_integral.hpp"
+#include "knead/spline/jumps.hpp"
+#include "knots_option.hpp"
+
+namespace knead::cli {
+namespace {
+
+constexpr int max_integral = 30, max_samples = 10'000'000;
+
+struct Options {
+  KnotsOption knots;
+  int index = 0, samples = 101;
+  std::optional<int> derivative, integral;
+  std::optional<double> from, to;
+  std::string format = "csv";
+};
+
+Expected<void> check(const Options& options, int count) {
+  if (options.index < 0 || options.index >= count) {
+    return input_error(fmt::format("there is no basis function {}", options.index), "--index",
+                       fmt::format("use 0 to {}", count - 1));
+  }
+  if (options.derivative.value_or(0) < 0) return usage_error("the order is negative", "--derivative", "use 0 or more");
+  if (options.integral && (*options.integral < 0 || *options.integral > max_integral)) {
+    return usage_error(fmt::format("{} integrations cannot be done", *options.integral), "--integral",
+                       fmt::format("use 0 to {}", max_integral));
+  }
+  if (options.samples < 1 || options.samples > max_samples) {
+    return usage_error(fmt::format("{} samples cannot be taken", options.samples), "--samples",
+                       fmt::format("use 1 to {}", max_samples));
+  }
+  return {};
+}
+
+/// The jumps at knots of N^(order), or for order p + 1 the weights of its Dirac impulses, the jumps of order p.
+std::string jumps_json(const KnotVector& knots, int index, int order) {
+  const int p = knots.degree();
+  const bool impulses = order == p + 1;
+  std::string text;
+  for (const KnotJumps& k : derivative_jumps(knots, index)) {
+    const double jump = k.of_order(impulses ? p : order, p);
+    if (jump == 0) continue;
+    text += fmt::format("{}{{\"knot\":{},\"{}\":{}}}", text.empty() ? "" : ",", json_number(k.knot),
+                        impulses ? "weight" : "jump", json_number(jump));
+  }
+  return fmt::format("\"{}\":[{}],", impulses ? "diracs" : "jumps", text);
+}
+
+Expected<void> run(const Options& options) {
+  const auto knots = options.knots.read();
+  if (!knots) return std::unexpected(knots.error());
+  if (auto checked = check(options, knots->count()); !checked) return checked;
+  const double from = options.from.value_or(knots->domain().lower), to = options.to.value_or(knots->domain().upper);
+  if (!std::isfinite(from) || !std::isfinite(to)) return input_error("the interval is not finite", "--from, --to");
+  const int order = options.derivative.value_or(0);
+  const bool json = options.format == "json";
+  if (json) {
+    fmt::print(R"({{"degree":{},"count":{},"index":{},"{}":{},)", knots->degree(), knots->count(), options.index,
+               options.integral ? "integral" : "derivative", options.integral.value_or(order));
+    if (!options.integral) fmt::print("{}", jumps_json(*knots, options.index, order));
+    fmt::print("\"samples\":[");
+  } else {
+    fmt::print("u,value\n");
+  }
+  for (int k = 0; k < options.samples; ++k) {
+    const double t = options.samples == 1 ? 0 : static_cast<double>(k) / (options.samples - 1);
+    const double u = k + 1 == options.samples && k > 0 ? to : from + (to - from) * t;
+    const double value = options.integral ? basis_integral(*knots, options.index, *options.integral, u)
+                                          : basis_function(*knots, options.index, order, u);
+    if (json) {
+      fmt::print("{}[{},{}]", k == 0 ? "" : ",", json_number(u), json_number(value));
+    } else {
+      fmt::print("{},{}\n", json_number(u), json_number(value));
+    }
+  }
+  if (json) fmt::print("]}}\n");
+  return {};
+}
+
+}  // namespace
+
+Action add_basis(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("basis", "sample a basis function, its derivatives or its repeated integrals");
+  options->knots.add_to(*command);
+  command->add_option("--index", options->index, "which function, counted from 0 (default 0)");
+  CLI::Option* derivative =
+      command->add_option("--derivative", options->derivative, "order of the derivative (default 0)");
+  command->add_option("--integral", options->integral, "how often to integrate from the left")->excludes(derivative);
+  command->add_option("--samples", options->samples, "number of samples, ends included (default 101)");
+  command->add_option("--from", options->from, "first parameter (default: start of the domain)");
+  command->add_option("--to", options->to, "last parameter (default: end of the domain)");
+  command->add_option("--format", options->format, "csv (default) or json")->check(CLI::IsMember({"csv", "json"}));
+  command->footer(
+      "At a knot the limit from the right is taken. JSON also lists where the derivative jumps; of the derivative of\n"
+      "order degree + 1, which is zero elsewhere, it lists the weights of the Dirac impulses.\n" +
+      std::string(exit_codes));
+  return [options] { return run(*options); };
+}
+
+}  // namespace knead::cli

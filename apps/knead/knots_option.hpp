@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "cli.hpp"
+#include "knead/spline/knot_vector.hpp"
+
+namespace knead::cli {
+
+/// --degree with --knots or --knots-file: the basis that a sub-command works on.
+struct KnotsOption {
+  int degree = 3;
+  std::string knots, file;
+
+  void add_to(CLI::App& command);
+  /// Usage errors: neither or both are given, an entry is no number. Input errors: the file cannot be read, or what it
+  /// holds is no knot vector of the degree; the index is named.
+  [[nodiscard]] Expected<KnotVector> read() const;
+};
+
+}  // namespace knead::cli
