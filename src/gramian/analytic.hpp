@@ -100,7 +100,8 @@ class Analytic {
       for (int k = 0; j + k <= span; ++k) {
         sum += c[k] * (Real(x(j + k + q)) - Real(x(j + k))) / Real(q);
         c[k] = sum;
-        result += sum * values_[q][q - (span - j - k)];
+        // Functions that end left of the span, as the first ones of a lowered degree do, are zero at u.
+        if (const int at = q - (span - j - k); at >= 0) result += sum * values_[q][at];
       }
       integral_[m] = result;
     }
