@@ -14,7 +14,7 @@ template <int D>
 class RationalBasis {
  public:
   RationalBasis(const Spline<D>& spline, int order)
-      : spline_(spline), order_(order), indices_(multi_indices<D>(order)), net_(spline.net()) {
+      : spline_(spline), indices_(multi_indices<D>(order)), net_(spline.net()) {
     local_ = 1;
     for (std::size_t d = 0; d < D; ++d) {
       width_[d] = spline.knots()[d].degree() + 1;
@@ -87,7 +87,6 @@ class RationalBasis {
   };
 
   const Spline<D>& spline_;
-  int order_;
   std::vector<MultiIndex<D>> indices_;
   std::vector<Lower> lower_;
   std::array<int, D> net_, width_{};

@@ -92,7 +92,7 @@ Expected<ActiveStep> ActiveSurface::step(const Points& control_points, std::span
   }
   // Forces at the free control points: of the tools, of the free part of the net, and of the part that is held.
   const Partition& partition = m.euler.partition();
-  const Points free_part = partition.scatter(partition.gather(x));
+  const Points free_part = partition.free_part(x);
   const Points from_free = partition.gather(m.euler.k() * free_part);
   const Points from_held = partition.gather(m.euler.k() * (x - free_part));
   const Points from_tools = partition.gather(m.load.evaluate(origin + x, scaled).force());

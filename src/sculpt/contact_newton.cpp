@@ -53,11 +53,7 @@ struct Objective {
   }
 
   [[nodiscard]] Points gradient(const At& here) const {
-    Points g = here.ay + kx0 - here.state.force();
-    for (int i = 0; i < euler.partition().size(); ++i) {
-      if (!euler.partition().is_free(i)) g.row(i).setZero();
-    }
-    return g;
+    return euler.partition().free_part(here.ay + kx0 - here.state.force());
   }
 };
 
@@ -67,17 +63,13 @@ struct Objective {
 Points newton_direction(const Objective& objective, const SurfaceLoad::State& state, const Points& g, const Points& z,
                         double tolerance, Points& a_direction, int& solves) {
   const SparseMatrix& a = objective.euler.system();
-  const Partition& partition = objective.euler.partition();
   Points d = Points::Zero(g.rows(), 3), ad = d;
   Points r = -g, s = -z, p = s;
   double rs = dot(r, s);
   const double target = tolerance * tolerance * rs;
   for (int iteration = 0; iteration < max_cg_iterations && rs > target && rs > 0; ++iteration) {
     Points ap = a * p;
-    Points hp = ap + objective.load.apply_hessian(state, p);
-    for (int i = 0; i < partition.size(); ++i) {
-      if (!partition.is_free(i)) hp.row(i).setZero();
-    }
+    const Points hp = objective.euler.partition().free_part(ap + objective.load.apply_hessian(state, p));
     const double curvature = dot(p, hp);
     if (curvature <= 1e-12 * dot(p, ap)) {
       if (iteration > 0) break;

@@ -13,15 +13,28 @@ namespace {
 constexpr double points_per_detail = 6;
 constexpr double max_points_per_direction = 1e5;
 
-/// Pieces per span of direction d, so that Gauss points lie closer than detail / points_per_detail on the surface.
-Expected<std::vector<int>> pieces(const Surface& surface, int direction, double detail) {
-  std::array<BasisQuadrature, 2> q;
-  for (int d = 0; d < 2; ++d) {
-    q[static_cast<std::size_t>(d)] = gauss_basis(surface.knots(d), surface.knots(d).degree() + 1, 1);
+/// The tangents of a surface at p + 1 Gauss points per span.
+struct TangentGrid {
+  std::array<BasisQuadrature, 2> quadrature;
+  Evaluation<2> surface;
+
+  static Expected<TangentGrid> create(const Surface& surface) {
+    TangentGrid grid;
+    for (std::size_t d = 0; d < 2; ++d) {
+      grid.quadrature[d] = gauss_basis(surface.knots()[d], surface.knots()[d].degree() + 1, 1);
+    }
+    auto evaluated = evaluate_grid<2>(
+        surface, std::array<const BasisTable*, 2>{&grid.quadrature[0].basis, &grid.quadrature[1].basis}, 1);
+    if (!evaluated) return std::unexpected(evaluated.error());
+    grid.surface = std::move(*evaluated);
+    return grid;
   }
-  auto grid = evaluate_grid<2>(surface, std::array<const BasisTable*, 2>{&q[0].basis, &q[1].basis}, 1);
-  if (!grid) return std::unexpected(grid.error());
-  const Points& tangent = direction == 0 ? grid->at({1, 0}) : grid->at({0, 1});
+};
+
+/// Pieces per span of direction d, so that Gauss points lie closer than detail / points_per_detail on the surface.
+Expected<std::vector<int>> pieces(const Surface& surface, const TangentGrid& grid, int direction, double detail) {
+  const std::array<BasisQuadrature, 2>& q = grid.quadrature;
+  const Points& tangent = direction == 0 ? grid.surface.at({1, 0}) : grid.surface.at({0, 1});
   const int nu = q[0].basis.size(), nv = q[1].basis.size();
   const std::vector<int> spans = surface.knots(direction).spans();
   const int per_span = surface.knots(direction).degree() + 1;
@@ -65,9 +78,11 @@ double reach(const Tool& tool) { return tool.shape.radius + (tool.mode == ToolMo
 Expected<SurfaceLoad> SurfaceLoad::create(const Surface& surface, const DomainScaling& scaling, double detail) {
   SurfaceLoad load;
   load.net_ = surface.net();
+  const auto grid = TangentGrid::create(surface);
+  if (!grid) return std::unexpected(grid.error());
   for (int d = 0; d < 2; ++d) {
     const auto k = static_cast<std::size_t>(d);
-    auto counts = pieces(surface, d, detail);
+    auto counts = pieces(surface, *grid, d, detail);
     if (!counts) return std::unexpected(counts.error());
     load.quadrature_[k] = gauss_basis(surface.knots(d), surface.knots(d).degree() + 1, 0, *counts);
     for (double& w : load.quadrature_[k].weights) w *= scaling.factors[k];

@@ -26,6 +26,14 @@ Points Partition::scatter(const Points& free_rows) const {
   return result;
 }
 
+Points Partition::free_part(Points x) const {
+  assert(x.rows() == size());
+  for (int i = 0; i < size(); ++i) {
+    if (!is_free(i)) x.row(i).setZero();
+  }
+  return x;
+}
+
 SparseMatrix Partition::restrict(const SparseMatrix& matrix) const {
   assert(matrix.rows() == size() && matrix.cols() == size());
   if (free_count() == size()) return matrix;

@@ -15,6 +15,8 @@ TEST(Partition, GatherAndScatterAreInverse) {
   const Points x = testing::random_points(3, 1);
   EXPECT_EQ(partition.gather(partition.scatter(x)), x);
   EXPECT_EQ(partition.scatter(x).row(1).norm(), 0);
+  const Points full = testing::random_points(5, 2);
+  EXPECT_EQ(partition.free_part(full), partition.scatter(partition.gather(full)));
 }
 
 TEST(Partition, RestrictsAMatrixToItsFreeBlock) {

@@ -25,6 +25,8 @@ class Partition {
   [[nodiscard]] Points gather(const Points& x) const;
   /// A full vector with the free rows given and zero elsewhere.
   [[nodiscard]] Points scatter(const Points& free_rows) const;
+  /// x with its fixed rows set to zero.
+  [[nodiscard]] Points free_part(Points x) const;
   /// The block of free rows and columns.
   [[nodiscard]] SparseMatrix restrict(const SparseMatrix& matrix) const;
 
