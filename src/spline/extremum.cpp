@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
+#include "homogeneous.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -42,14 +42,10 @@ Jet jet_at(const Surface& surface, double u, double v) {
     for (std::size_t k = 0; k < 6; ++k) jet.d[k] = h[k].head<3>();
     return jet;
   }
-  const double w = h[0][3];
-  const auto head = [&h](std::size_t k) { return Point(h[k].head<3>()); };
-  jet.d[0] = head(0) / w;
-  jet.d[1] = (head(1) - h[1][3] * jet.d[0]) / w;
-  jet.d[2] = (head(2) - h[2][3] * jet.d[0]) / w;
-  jet.d[3] = (head(3) - 2 * h[1][3] * jet.d[1] - h[3][3] * jet.d[0]) / w;
-  jet.d[4] = (head(4) - h[1][3] * jet.d[2] - h[2][3] * jet.d[1] - h[4][3] * jet.d[0]) / w;
-  jet.d[5] = (head(5) - 2 * h[2][3] * jet.d[2] - h[5][3] * jet.d[0]) / w;
+  static const detail::QuotientRule<2> rule(2);
+  std::vector<Points> cartesian(6, Points::Zero(1, 3));
+  rule.apply(h.front().data(), 4, 0, cartesian);  // the samples have shown the denominator to be positive
+  for (std::size_t k = 0; k < 6; ++k) jet.d[k] = cartesian[k].row(0).transpose();
   return jet;
 }
 
