@@ -51,7 +51,7 @@ Expected<std::string> displacement_picture(const Surface& before, const Surface&
                                            const std::string& unit) {
   const auto field = after.with_control_points(after.control_points() - before.control_points());
   if (!field) return std::unexpected(field.error());
-  const auto scaling = normalised_scaling(before);
+  const auto scaling = normalised_scaling<2>(before);
   if (!scaling) return std::unexpected(scaling.error());
   const Interval du = before.knots(0).domain(), dv = before.knots(1).domain();
   const double side_u = scaling->factors[0] * du.length(), side_v = scaling->factors[1] * dv.length();

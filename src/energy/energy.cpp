@@ -4,21 +4,30 @@
 
 namespace knead {
 
-Energy<2> stretch_and_bend(const Material& material) {
-  const auto& [a11, a12, a22] = material.alpha;
-  const auto& [b11, b12, b22] = material.beta;
-  Energy<2> energy;
-  const auto add = [&energy](double c, MultiIndex<2> a, MultiIndex<2> b) {
-    if (c != 0) energy.push_back({c, a, b});
+template <int D>
+Energy<D> stretch_and_bend(const MaterialOf<D>& material) {
+  const auto unit = [](int i) {
+    MultiIndex<D> a{};
+    a[static_cast<std::size_t>(i)] = 1;
+    return a;
   };
-  add(a11, {1, 0}, {1, 0});
-  add(a12, {1, 0}, {0, 1});
-  add(a12, {0, 1}, {1, 0});
-  add(a22, {0, 1}, {0, 1});
-  add(b11, {2, 0}, {2, 0});
-  add(2 * b12, {1, 1}, {1, 1});
-  add(b22, {0, 2}, {0, 2});
-  return energy;
+  Energy<D> stretch, bend;
+  for (int i = 0; i < D; ++i) {
+    for (int j = i; j < D; ++j) {
+      const std::size_t place = MaterialOf<D>::place(i, j);
+      if (const double alpha = material.alpha[place]; alpha != 0) {
+        stretch.push_back({alpha, unit(i), unit(j)});
+        if (i != j) stretch.push_back({alpha, unit(j), unit(i)});
+      }
+      if (const double beta = material.beta[place]; beta != 0) {
+        MultiIndex<D> second = unit(i);
+        ++second[static_cast<std::size_t>(j)];
+        bend.push_back({i == j ? beta : 2 * beta, second, second});
+      }
+    }
+  }
+  stretch.insert(stretch.end(), bend.begin(), bend.end());
+  return stretch;
 }
 
 template <int D>
@@ -40,6 +49,9 @@ Energy<D> on_scaled_domain(const Energy<D>& energy, const std::array<double, D>&
   return scaled;
 }
 
+template Energy<1> stretch_and_bend<1>(const MaterialOf<1>&);
+template Energy<2> stretch_and_bend<2>(const MaterialOf<2>&);
+template Energy<3> stretch_and_bend<3>(const MaterialOf<3>&);
 template Energy<1> mass_energy<1>(double);
 template Energy<2> mass_energy<2>(double);
 template Energy<3> mass_energy<3>(double);

@@ -5,31 +5,64 @@
 #include <cmath>
 
 namespace knead {
+namespace {
 
-Expected<Material> validated(const Material& material) {
-  static constexpr const char* suffix[] = {"11", "12", "22"};
-  const auto& [a11, a12, a22] = material.alpha;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!std::isfinite(material.alpha[k])) {
-      return input_error("the coefficient is not a finite number", fmt::format("alpha{}", suffix[k]));
-    }
-    if (!std::isfinite(material.beta[k])) {
-      return input_error("the coefficient is not a finite number", fmt::format("beta{}", suffix[k]));
-    }
-    if (material.beta[k] < 0) {
-      return input_error(fmt::format("{} is negative, so the energy has no minimum", material.beta[k]),
-                         fmt::format("beta{}", suffix[k]), "use a value >= 0");
-    }
-    if (k != 1 && material.alpha[k] < 0) {
-      return input_error(fmt::format("{} is negative, so the energy has no minimum", material.alpha[k]),
-                         fmt::format("alpha{}", suffix[k]), "use a value >= 0");
+template <int D>
+std::string name_of(const char* letter, int i, int j) {
+  return fmt::format("{}{}{}", letter, i + 1, j + 1);
+}
+
+}  // namespace
+
+template <int D>
+Expected<MaterialOf<D>> validated(const MaterialOf<D>& material) {
+  constexpr auto place = MaterialOf<D>::place;
+  for (int i = 0; i < D; ++i) {
+    for (int j = i; j < D; ++j) {
+      const double alpha = material.alpha[place(i, j)], beta = material.beta[place(i, j)];
+      if (!std::isfinite(alpha)) {
+        return input_error("the coefficient is not a finite number", name_of<D>("alpha", i, j));
+      }
+      if (!std::isfinite(beta)) {
+        return input_error("the coefficient is not a finite number", name_of<D>("beta", i, j));
+      }
+      if (beta < 0) {
+        return input_error(fmt::format("{} is negative, so the energy has no minimum", beta),
+                           name_of<D>("beta", i, j), "use a value >= 0");
+      }
+      if (i == j && alpha < 0) {
+        return input_error(fmt::format("{} is negative, so the energy has no minimum", alpha),
+                           name_of<D>("alpha", i, j), "use a value >= 0");
+      }
     }
   }
-  if (a12 * a12 > a11 * a22) {
-    return input_error(fmt::format("{}² exceeds alpha11 alpha22 = {}, so the energy has no minimum", a12, a11 * a22),
-                       "alpha12", "use |alpha12| <= sqrt(alpha11 alpha22)");
+  for (int i = 0; i < D; ++i) {
+    for (int j = i + 1; j < D; ++j) {
+      const double ii = material.alpha[place(i, i)], ij = material.alpha[place(i, j)], jj = material.alpha[place(j, j)];
+      if (ij * ij > ii * jj) {
+        return input_error(fmt::format("{}² exceeds alpha{}{} alpha{}{} = {}, so the energy has no minimum", ij, i + 1,
+                                       i + 1, j + 1, j + 1, ii * jj),
+                           name_of<D>("alpha", i, j),
+                           fmt::format("use |alpha{}{}| <= sqrt(alpha{}{} alpha{}{})", i + 1, j + 1, i + 1, i + 1,
+                                       j + 1, j + 1));
+      }
+    }
+  }
+  if constexpr (D == 3) {
+    const auto& [a, b, c, d, e, f] = material.alpha;
+    const double determinant = a * (d * f - e * e) - b * (b * f - c * e) + c * (b * e - c * d);
+    const double rounding = 1e-15 * (a * (d * f + e * e) + std::abs(b) * (std::abs(b) * f + std::abs(c * e)) +
+                                     std::abs(c) * (std::abs(b * e) + std::abs(c) * d));
+    if (determinant < -rounding) {
+      return input_error("the matrix of the alpha is not positive semidefinite, so the energy has no minimum", "alpha",
+                         "reduce alpha12, alpha13 and alpha23");
+    }
   }
   return material;
 }
+
+template Expected<MaterialOf<1>> validated<1>(const MaterialOf<1>&);
+template Expected<MaterialOf<2>> validated<2>(const MaterialOf<2>&);
+template Expected<MaterialOf<3>> validated<3>(const MaterialOf<3>&);
 
 }  // namespace knead

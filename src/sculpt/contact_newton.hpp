@@ -1,9 +1,7 @@
 #pragma once
 
-#include <span>
-
-#include "knead/sculpt/surface_load.hpp"
-#include "knead/solve/implicit_euler.hpp"
+#include "knead/sculpt/potential.hpp"
+#include "knead/solve/constrained_cholesky.hpp"
 
 namespace knead {
 
@@ -15,10 +13,17 @@ struct ContactSummary {
   bool finite = true;  ///< false: a number overflowed on the way
 };
 
-/// Minimises ½ XᵀKX + λ/2 |X − X₀|²_W + Ψ(X) over the free unknowns, starting from X₀ = `x`, which becomes the minimum.
-/// `euler` holds K and K + λW with its factor; `load` and `tools` the potential Ψ of the surface whose control points
-/// are `origin` + X. All in normalised units.
-[[nodiscard]] ContactSummary minimise_step(const ImplicitEuler& euler, const SurfaceLoad& load,
-                                           std::span<const Tool> tools, const Points& origin, Points& x);
+/// One step as a minimisation over X = X₀ + Y:  Φ(Y) = ½ YᵀAY − Yᵀb + s Ψ(x₀ + Y), Y + X₀ subject to constraints.
+struct StepProblem {
+  const SparseMatrix& a;
+  const ConstrainedCholesky& inverse;  // of A on the free unknowns
+  Points b;
+  Points start;               // control points x₀ that Ψ is evaluated at for Y = 0
+  double potential_factor;    // s
+  double energy;              // ½ X₀ᵀ K X₀: the size of the numbers that Φ is a difference of
+};
+
+/// Minimises, starting from `y` (feasible), which becomes the minimum.
+[[nodiscard]] ContactSummary minimise_step(const StepProblem& problem, Potential& potential, Points& y);
 
 }  // namespace knead

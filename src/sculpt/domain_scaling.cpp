@@ -6,40 +6,80 @@
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
+namespace {
 
-Expected<DomainScaling> normalised_scaling(const Surface& rest) {
-  std::array<BasisQuadrature, 2> q;
-  for (int d = 0; d < 2; ++d) {
-    q[static_cast<std::size_t>(d)] = gauss_basis(rest.knots(d), rest.knots(d).degree() + 4, 1);
+template <int D>
+double measure(const std::array<Point, D>& tangents) {
+  if constexpr (D == 1) return tangents[0].norm();
+  if constexpr (D == 2) return tangents[0].cross(tangents[1]).norm();
+  if constexpr (D == 3) return std::abs(tangents[0].cross(tangents[1]).dot(tangents[2]));
+}
+
+constexpr const char* measure_name[] = {"length", "area", "volume"};
+
+}  // namespace
+
+template <int D>
+Expected<DomainScaling<D>> normalised_scaling(const Spline<D>& rest) {
+  std::array<BasisQuadrature, D> q;
+  std::array<const BasisTable*, D> tables;
+  double domain = 1;
+  for (std::size_t d = 0; d < D; ++d) {
+    q[d] = gauss_basis(rest.knots()[d], rest.knots()[d].degree() + 4, 1);
+    tables[d] = &q[d].basis;
+    domain *= rest.knots()[d].domain().length();
   }
-  double area = 0, total_u = 0, total_v = 0;
-  // One span of u after the other, so that a large net needs no large memory.
+  double total = 0;
+  std::array<double, D> lengths{};
+  // One span of the first direction after the other, so that a large net needs no large memory.
   const int block = rest.knots(0).degree() + 4;
   for (int begin = 0; begin < q[0].basis.size(); begin += block) {
     const BasisTable rows = q[0].basis.slice(begin, begin + block);
-    auto grid = evaluate_grid<2>(rest, std::array<const BasisTable*, 2>{&rows, &q[1].basis}, 1);
+    tables[0] = &rows;
+    auto grid = evaluate_grid<D>(rest, tables, 1);
     if (!grid) return std::unexpected(grid.error());
-    const Points& su = grid->at({1, 0});
-    const Points& sv = grid->at({0, 1});
-    Eigen::Index row = 0;
-    for (int k = begin; k < begin + block; ++k) {
-      for (double wv : q[1].weights) {
-        const Point a = su.row(row), b = sv.row(row);
-        const double w = q[0].weights[static_cast<std::size_t>(k)] * wv;
-        area += w * a.cross(b).norm();
-        total_u += w * a.norm();
-        total_v += w * b.norm();
-        ++row;
+    for (Eigen::Index row = 0; row < grid->points().rows(); ++row) {
+      double w = 1;
+      auto at = static_cast<std::size_t>(row);
+      for (std::size_t d = D; d-- > 0;) {
+        const auto size = d == 0 ? static_cast<std::size_t>(block) : q[d].weights.size();
+        w *= q[d].weights[(d == 0 ? static_cast<std::size_t>(begin) : 0) + at % size];
+        at /= size;
       }
+      std::array<Point, D> tangents;
+      for (std::size_t d = 0; d < D; ++d) {
+        MultiIndex<D> first{};
+        first[d] = 1;
+        tangents[d] = grid->at(first).row(row);
+        lengths[d] += w * tangents[d].norm();
+      }
+      total += w * measure<D>(tangents);
     }
   }
-  if (!(area > 0) || !std::isfinite(area)) {
-    return numerical_error("the surface has no area", {}, "choose a surface that is not collapsed to a curve or point");
+  if (!(total > 0) || !std::isfinite(total)) {
+    return numerical_error(std::string("the shape has no ") + measure_name[D - 1], {},
+                           "choose one that is not collapsed");
   }
-  const double length = std::sqrt(area);
-  const double range_u = rest.knots(0).domain().length(), range_v = rest.knots(1).domain().length();
-  // Mean isocurve length over the other direction, in units of `length`, per unit of its own parameter.
-  return DomainScaling{length, {total_u / (range_u * range_v) / length, total_v / (range_u * range_v) / length}};
+  DomainScaling<D> scaling;
+  scaling.length = D == 1 ? total : D == 2 ? std::sqrt(total) : std::cbrt(total);
+  // Mean isocurve length over the other directions, in units of `length`, per unit of its own parameter.
+  for (std::size_t d = 0; d < D; ++d) scaling.factors[d] = lengths[d] / domain / scaling.length;
+  return scaling;
 }
+
+template <int D>
+DomainScaling<D> in_unit(const DomainScaling<D>& scaling, double length) {
+  DomainScaling<D> result = scaling;
+  result.length = length;
+  for (double& factor : result.factors) factor *= scaling.length / length;
+  return result;
+}
+
+template Expected<DomainScaling<1>> normalised_scaling<1>(const Spline<1>&);
+template Expected<DomainScaling<2>> normalised_scaling<2>(const Spline<2>&);
+template Expected<DomainScaling<3>> normalised_scaling<3>(const Spline<3>&);
+template DomainScaling<1> in_unit<1>(const DomainScaling<1>&, double);
+template DomainScaling<2> in_unit<2>(const DomainScaling<2>&, double);
+template DomainScaling<3> in_unit<3>(const DomainScaling<3>&, double);
 
 }  // namespace knead

@@ -259,7 +259,7 @@ std::vector<Command> Session::journal() const {
 
 Expected<ActiveSurface> Session::model_of(const SurfaceState& surface, const std::vector<Tool>& tools, double lambda,
                                           StepWeight weight) {
-  ActiveSettings settings;
+  ActiveSettings<2> settings;
   settings.material = surface.material;
   settings.rest = surface.mode;
   settings.weight = weight;

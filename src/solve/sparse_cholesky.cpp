@@ -28,43 +28,51 @@ Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) {
   return SparseCholesky(std::move(factor), static_cast<int>(a.rows()));
 }
 
-Points SparseCholesky::solve(const Points& b) const {
-  // Substitution with the three columns side by side: L is read once per sweep instead of once per column.
-  const SparseMatrix& l = factor_->lower;
+namespace {
+
+/// L y = b, Lᵀ x = y with the columns side by side: L is read once per sweep instead of once per column.
+template <int columns>
+void substitute(const SparseMatrix& l, double* x) {
   const auto* start = l.outerIndexPtr();
   const auto* row = l.innerIndexPtr();
   const double* value = l.valuePtr();
-  Points y(size_, 3);
+  const auto size = static_cast<int>(l.cols());
+  for (int j = 0; j < size; ++j) {
+    double* xj = x + columns * static_cast<std::ptrdiff_t>(j);
+    double known[columns];
+    for (int c = 0; c < columns; ++c) known[c] = xj[c] /= value[start[j]];
+    for (auto k = start[j] + 1; k < start[j + 1]; ++k) {
+      double* xi = x + columns * static_cast<std::ptrdiff_t>(row[k]);
+      for (int c = 0; c < columns; ++c) xi[c] -= value[k] * known[c];
+    }
+  }
+  for (int j = size; j-- > 0;) {
+    double* xj = x + columns * static_cast<std::ptrdiff_t>(j);
+    double sum[columns];
+    for (int c = 0; c < columns; ++c) sum[c] = xj[c];
+    for (auto k = start[j] + 1; k < start[j + 1]; ++k) {
+      const double* xi = x + columns * static_cast<std::ptrdiff_t>(row[k]);
+      for (int c = 0; c < columns; ++c) sum[c] -= value[k] * xi[c];
+    }
+    for (int c = 0; c < columns; ++c) xj[c] = sum[c] / value[start[j]];
+  }
+}
+
+}  // namespace
+
+Points SparseCholesky::solve(const Points& b) const {
+  Points y(size_, 3), result(size_, 3);
   for (int i = 0; i < size_; ++i) y.row(factor_->order[i]) = b.row(i);
-  double* x = y.data();
-  for (int j = 0; j < size_; ++j) {
-    double* xj = x + 3 * static_cast<std::ptrdiff_t>(j);
-    const double pivot = value[start[j]];
-    for (int c = 0; c < 3; ++c) xj[c] /= pivot;
-    const double x0 = xj[0], x1 = xj[1], x2 = xj[2];
-    for (auto k = start[j] + 1; k < start[j + 1]; ++k) {
-      double* xi = x + 3 * static_cast<std::ptrdiff_t>(row[k]);
-      xi[0] -= value[k] * x0;
-      xi[1] -= value[k] * x1;
-      xi[2] -= value[k] * x2;
-    }
-  }
-  for (int j = size_; j-- > 0;) {
-    double* xj = x + 3 * static_cast<std::ptrdiff_t>(j);
-    double x0 = xj[0], x1 = xj[1], x2 = xj[2];
-    for (auto k = start[j] + 1; k < start[j + 1]; ++k) {
-      const double* xi = x + 3 * static_cast<std::ptrdiff_t>(row[k]);
-      x0 -= value[k] * xi[0];
-      x1 -= value[k] * xi[1];
-      x2 -= value[k] * xi[2];
-    }
-    const double pivot = value[start[j]];
-    xj[0] = x0 / pivot;
-    xj[1] = x1 / pivot;
-    xj[2] = x2 / pivot;
-  }
-  Points result(size_, 3);
+  substitute<3>(factor_->lower, y.data());
   for (int i = 0; i < size_; ++i) result.row(i) = y.row(factor_->order[i]);
+  return result;
+}
+
+Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {
+  Eigen::VectorXd y(size_), result(size_);
+  for (int i = 0; i < size_; ++i) y[factor_->order[i]] = b[i];
+  substitute<1>(factor_->lower, y.data());
+  for (int i = 0; i < size_; ++i) result[i] = y[factor_->order[i]];
   return result;
 }
 

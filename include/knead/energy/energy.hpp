@@ -21,8 +21,12 @@ struct EnergyTerm {
 template <int D>
 using Energy = std::vector<EnergyTerm<D>>;
 
-/// The stretch and bend energy of a surface (thesis Eq. 4.8). Terms with a zero coefficient are left out.
-[[nodiscard]] Energy<2> stretch_and_bend(const Material& material);
+/// The stretch and bend energy of a `MaterialOf<D>`. Terms with a zero coefficient are left out.
+template <int D>
+[[nodiscard]] Energy<D> stretch_and_bend(const MaterialOf<D>& material);
+
+/// For braces in place of a material.
+[[nodiscard]] inline Energy<2> stretch_and_bend(const Material& material) { return stretch_and_bend<2>(material); }
 
 /// ∫ |S|² · coefficient: the list whose operator is the mass matrix (thesis Eq. 5.41 with constant μ).
 template <int D>

@@ -6,20 +6,42 @@
 
 namespace knead {
 
-/// The constants of the stretch and bend energy of a surface (thesis Eq. 4.8), in the order 11, 12, 22:
+/// The constants of the stretch and bend energy of a D-variate spline. The upper triangle of a symmetric D × D matrix, row
+/// by row: 11 for curves, 11, 12, 22 for surfaces, 11, 12, 13, 22, 23, 33 for volumes.
 ///
-///   E(S) = ∫ α11|S_u|² + 2α12 S_u·S_v + α22|S_v|² + β11|S_uu|² + 2β12|S_uv|² + β22|S_vv|² du dv.
+///   E(S) = ∫ Σ_i α_ii |S_i|² + 2 Σ_{i<j} α_ij S_i·S_j + Σ_i β_ii |S_ii|² + 2 Σ_{i<j} β_ij |S_ij|² du,
 ///
-/// α resists stretch, β resists bending. Units: those of the equation; see `DomainScaling` for the normalised ones.
-struct Material {
-  std::array<double, 3> alpha = {1, 0, 1};
-  std::array<double, 3> beta = {0.01, 0.01, 0.01};
+/// which is thesis Eq. 4.8 at D = 2 and, with equal constants, 5.43 at D = 3. α resists stretch, β resists bending. Units: those of
+/// the equation; see `DomainScaling` for the normalised ones.
+template <int D>
+struct MaterialOf {
+  static constexpr std::size_t count = D * (D + 1) / 2;
+  /// Place of the coefficient ij, i <= j, counted from 0.
+  static constexpr std::size_t place(int i, int j) { return static_cast<std::size_t>(i * D - i * (i - 1) / 2 + j - i); }
 
-  friend bool operator==(const Material&, const Material&) = default;
+  std::array<double, count> alpha = filled(1, 0);
+  std::array<double, count> beta = filled(0.01, 0.01);
+
+  friend bool operator==(const MaterialOf&, const MaterialOf&) = default;
+
+ private:
+  static constexpr std::array<double, count> filled(double same, double mixed) {
+    std::array<double, count> result{};
+    for (int i = 0; i < D; ++i) {
+      for (int j = i; j < D; ++j) result[place(i, j)] = i == j ? same : mixed;
+    }
+    return result;
+  }
 };
 
-/// Accepts exactly the materials whose energy is convex: all finite, α11 >= 0, α22 >= 0, α11 α22 >= α12², every β >= 0.
+using Material = MaterialOf<2>;
+
+/// Accepts exactly the materials whose energy is convex: all finite, the matrix α positive semidefinite, every β >= 0.
 /// The error names the coefficient.
-[[nodiscard]] Expected<Material> validated(const Material& material);
+template <int D>
+[[nodiscard]] Expected<MaterialOf<D>> validated(const MaterialOf<D>& material);
+
+/// For braces in place of a material.
+[[nodiscard]] inline Expected<Material> validated(const Material& material) { return validated<2>(material); }
 
 }  // namespace knead

@@ -18,7 +18,11 @@ struct Sphere {
 enum class ToolMode {
   proximity,  ///< the surface is drawn to the tool's surface from either side, within `range`
   collision,  ///< what has entered the tool is pushed out; nothing else is touched
+  imprint,    ///< collision whose result becomes the new rest shape
 };
+
+/// Which way a proximity tool acts.
+enum class ToolDirection { pull, push };
 
 /// A shaped tool: Hookean springs between the surface and the tool (thesis Eq. 4.25).
 struct Tool {
@@ -27,6 +31,12 @@ struct Tool {
   ToolMode mode = ToolMode::collision;
   double stiffness = 1e4;  ///< k: force per length and parameter area
   double range = 0.5;      ///< proximity: no force at this distance and beyond; unused by collision
+  bool rigid = false;      ///< collision: raise k until nothing enters by more than `rigid_gap` of the tool's size
+  double friction = 0;     ///< collision: Coulomb's coefficient
+  double plasticity = 0;   ///< share of the displacement that stays when the tool is taken away, 0 to 1
+  ToolDirection direction = ToolDirection::pull;
+
+  [[nodiscard]] bool collides() const { return mode != ToolMode::proximity; }
 
   friend bool operator==(const Tool&, const Tool&) = default;
 };
@@ -35,28 +45,34 @@ struct Tool {
 /// is then less than 1e-9 of the surface's size anyway.
 inline constexpr double max_tool_stiffness = 1e10;
 
-/// Checks radius > 0, stiffness from 0 to the maximum, range > 0 where it is used, all finite; the error names the
-/// field.
+/// How far anything may enter a rigid tool, in sizes of the tool.
+inline constexpr double rigid_gap = 1e-4;
+
+/// Checks radius > 0, stiffness from 0 to the maximum, range > 0 where it is used, friction >= 0, plasticity from 0 to 1,
+/// all finite; the error names the field.
 [[nodiscard]] Expected<Tool> validated(const Tool& tool);
 
-/// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian
-/// ∂²ψ = normal · n nᵀ + tangential · (I − n nᵀ), which need not be positive: a surface pressed against a ball is
-/// pushed sideways off its top.
+/// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian ∂²ψ, which need not
+/// be positive: a surface pressed against a ball is pushed sideways off its top.
 ///
-/// With φ the signed distance of x to the tool (negative inside) and n its gradient:
+/// With φ the signed distance of x to the tool (negative inside), n its gradient and H its Hessian:
 /// collision  ψ = k/2 min(φ, 0)², force −k φ n inside;
 /// proximity  ψ = −k r²/6 (1 − φ²/r²)³ within the range r, force −k φ (1 − φ²/r²)² n, which is k φ near the tool and
-///            falls to zero with two derivatives at the range's end.
-/// At the very centre of a sphere no direction is nearest and the force is zero.
+///            falls to zero with two derivatives at the range's end; to push, the signs are turned;
+/// Hessian    ψ'' n nᵀ + ψ' H.
+/// Where no direction is nearest, as at the centre of a sphere, the force is zero.
 struct ToolAction {
+  bool active = false;
   double potential = 0;
+  double entry = 0;  ///< collision: −φ
   Point force = Point::Zero();
-  double normal = 0, tangential = 0;  ///< ψ''(φ) and ψ'(φ) / |x − centre|
-  Point direction = Point::Zero();    ///< n; zero where the tool does not act
-
-  [[nodiscard]] bool active() const { return normal != 0 || tangential != 0; }
+  Point normal = Point::Zero();  ///< n
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
 
 [[nodiscard]] ToolAction tool_action(const Tool& tool, const Point& x);
+
+/// The same tool in coordinates (x − centre) / length.
+[[nodiscard]] Tool in_units(const Tool& tool, const Point& centre, double length);
 
 }  // namespace knead

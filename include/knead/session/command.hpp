@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "knead/sculpt/active_surface.hpp"
+#include "knead/sculpt/active_spline.hpp"
 
 namespace knead {
 

@@ -14,6 +14,8 @@ class SparseCholesky {
 
   /// X with A X = B, three columns at once. Cost: O(nonzeros of L). const and thread-safe.
   [[nodiscard]] Points solve(const Points& b) const;
+  /// The same for one column.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
   [[nodiscard]] int size() const { return size_; }
 

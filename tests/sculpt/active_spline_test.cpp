@@ -1,4 +1,4 @@
-#include "knead/sculpt/active_surface.hpp"
+#include "knead/sculpt/active_spline.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ std::vector<bool> rim(const Surface& s, int rows) {
   return fixed;
 }
 
-ActiveSurface active(const Surface& s, const ActiveSettings& settings) {
+ActiveSurface active(const Surface& s, const ActiveSettings<2>& settings) {
   auto made = ActiveSurface::create(s, settings);
   if (!made) ADD_FAILURE() << made.error().message();
   return std::move(*made);
@@ -41,7 +41,7 @@ Points run(const ActiveSurface& model, Points x, const std::vector<Tool>& tools,
 /// A scene in which both modes are in contact: a relief, its rim held, a ball pressed in and a ball that attracts.
 struct Scene {
   Surface surface;
-  ActiveSettings settings;
+  ActiveSettings<2> settings;
   std::vector<Tool> tools;
 
   explicit Scene(Surface s) : surface(std::move(s)) {
@@ -95,7 +95,7 @@ TEST(ActiveSurface, WithoutForcesIsExactlyTheImplicitEulerStep) {
   const Surface s = testing::relief(testing::uniform_clamped(3, 5), testing::uniform_clamped(3, 4), 4);
   for (RestMode rest : {RestMode::shape, RestMode::none}) {
     for (StepWeight weight : {StepWeight::mass, StepWeight::identity}) {
-      ActiveSettings settings;
+      ActiveSettings<2> settings;
       settings.rest = rest;
       settings.weight = weight;
       settings.lambda = 3;
@@ -129,7 +129,7 @@ TEST(ActiveSurface, IsStableAndTightAtAnyStiffness) {
   const Surface s = testing::uniform_sheet(3, 20, 20);
   double before = 1;
   for (double k : {1e0, 1e2, 1e4, 1e6, 1e8, max_tool_stiffness}) {
-    ActiveSettings settings;
+    ActiveSettings<2> settings;
     settings.fixed = rim(s, 2);
     settings.detail = 0.2;
     const std::vector<Tool> tools = {{"ball", {Point(0.5, 0.47, 0.15), 0.2}, ToolMode::collision, k, 1}};
@@ -155,7 +155,7 @@ TEST(ActiveSurface, IsStableAndTightAtAnyStiffness) {
 
 TEST(ActiveSurface, ReleasesWithoutSticking) {
   const Surface s = testing::uniform_sheet(3, 14, 14);
-  ActiveSettings settings;
+  ActiveSettings<2> settings;
   settings.fixed = rim(s, 2);
   settings.detail = 0.2;
   const ActiveSurface model = active(s, settings);
@@ -169,7 +169,7 @@ TEST(ActiveSurface, ReleasesWithoutSticking) {
 
 TEST(ActiveSurface, ProximityDrawsTheSurfaceToTheTool) {
   const Surface s = testing::uniform_sheet(3, 16, 16);
-  ActiveSettings settings;
+  ActiveSettings<2> settings;
   settings.fixed = rim(s, 2);
   settings.detail = 0.1;
   const std::vector<Tool> tools = {{"magnet", {Point(0.5, 0.5, 0.25), 0.2}, ToolMode::proximity, 100, 0.1}};
@@ -250,7 +250,7 @@ TEST(ActiveSurface, DoesNotFeelReversalOrExchangeOfTheDirections) {
 /// Largest displacement after ten steps on a sheet of the given net.
 double dent(int net, StepWeight weight, double lambda) {
   const Surface s = testing::uniform_sheet(3, net, net);
-  ActiveSettings settings;
+  ActiveSettings<2> settings;
   settings.detail = 0.3;
   settings.weight = weight;
   settings.lambda = lambda;
@@ -269,7 +269,7 @@ TEST(ActiveSurface, FeelsTheSameOnEveryNetWithTheMassMatrixAndNotWithTheIdentity
 
 TEST(ActiveSurface, RefusesWhatCannotBeComputed) {
   const Surface s = testing::uniform_sheet(3, 6, 6);
-  ActiveSettings settings;
+  ActiveSettings<2> settings;
   settings.material.beta[0] = -1;
   EXPECT_EQ(ActiveSurface::create(s, settings).error().where, "beta11");
   settings = {};

@@ -1,0 +1,148 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "knead/energy/material.hpp"
+#include "knead/gramian/gramian.hpp"
+#include "knead/sculpt/domain_scaling.hpp"
+#include "knead/sculpt/tool.hpp"
+#include "knead/solve/linear_constraint.hpp"
+
+namespace knead {
+
+/// What the energy acts on.
+enum class RestMode {
+  shape,  ///< the displacement from the rest shape: at rest nothing moves (the default for CAD files)
+  none,   ///< the shape itself, as in the thesis: without forces it shrinks to a point
+};
+
+/// The weight W of the implicit Euler step.
+enum class StepWeight {
+  mass,      ///< the mass matrix: refining the net does not change the evolution
+  identity,  ///< the identity, the thesis' Eq. 4.22: the evolution depends on the net
+};
+
+/// What a step solves.
+enum class Evolution {
+  acm,         ///< (K + λW) X = λW X₀ + F, thesis Eq. 4.22: sinks towards the balance
+  stationary,  ///< K X = F: the balance at once
+  dynamic,     ///< M Ẍ + D Ẋ + K X = F, thesis Eq. 5.39: swings
+};
+
+/// Everything that decides the matrices of an `ActiveSpline`.
+template <int D>
+struct ActiveSettings {
+  MaterialOf<D> material;
+  RestMode rest = RestMode::shape;
+  Evolution evolution = Evolution::acm;
+  StepWeight weight = StepWeight::mass;
+  double lambda = 1;         ///< acm: inverse step size
+  double time_step = 0.02;   ///< dynamic
+  double mass = 1;           ///< μ, per measure of the parameter domain
+  double damping = 0.5;      ///< γ, force per velocity and measure
+  std::vector<bool> fixed;   ///< control points that do not move, one flag each; empty: none
+  std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shape, file units
+  double detail = 0;         ///< smallest tool dimension the forces must resolve, file units; 0: no tool
+  bool raw = false;          ///< no normalisation: numbers are those of the equations on the knots as they are
+  GramianMethod method = default_gramian_method;
+
+  friend bool operator==(const ActiveSettings&, const ActiveSettings&) = default;
+};
+
+/// Where an active spline is, in file units (per unit of time). Rows are control points, patch after patch.
+struct ActiveState {
+  Points control_points;
+  Points rest = {};      ///< the rest shape; empty: the one the model was created with
+  Points velocity = {};  ///< dynamic; empty: at rest
+};
+
+/// Forces beside those of tools, per measure of the (scaled) parameter domain.
+struct ActiveLoads {
+  Point gravity = Point::Zero();  ///< acceleration: force μ·gravity
+  Point force = Point::Zero();    ///< the same everywhere
+  double pressure = 0;            ///< along the normal S_u × S_v at the start of the step; surfaces only
+  Point wind = Point::Zero();     ///< (n·(wind − velocity)) n at the start of the step; surfaces only
+  Points nodal = {};              ///< ∫ R_i f of any other load, N × 3; empty: none
+  double limit = 0;               ///< no point moves further than this from `original`, file units; 0: no limit
+  Points original = {};           ///< control points the limit is measured from; empty: the rest shape
+};
+
+/// One step of an `ActiveSpline`.
+struct ActiveStep {
+  Points control_points;  ///< file units; rows that did not move keep their bits
+  Points velocity;        ///< dynamic: file units per unit of time; else empty
+  double energy = 0;      ///< Σ Xᵀ K X after the step (thesis Eq. 4.14), normalised units: stretch + bend
+  double stretch = 0, bend = 0;
+  double kinetic = 0;     ///< ½ Σ Vᵀ M V
+  double contact = 0;     ///< Ψ, the potential of tools, friction and limit
+  double residual = 0;    ///< imbalance of forces at the free unknowns, relative to the forces of tools, loads, free part
+                          ///< and held part of the net that meet there: 0 in equilibrium
+  double gap = 0;         ///< deepest entry into a collision tool, in sizes of that tool
+  std::string gap_tool;   ///< its name
+  double coarseness = 0;  ///< longest span in contact with a tool, in sizes of that tool
+  double violation = 0;   ///< of the constraints, file units
+  bool limited = false;   ///< the limit holds something back
+  int iterations = 0;     ///< Newton iterations
+  int solves = 0;         ///< back substitutions with the factored matrix
+  bool converged = true;  ///< the step's own minimum was reached, and the gap of rigid tools
+  std::string note;       ///< why not, and what would help
+};
+
+/// A spline that resists stretch and bend, pressed on by tools: the active model of thesis chapters 4 and 5, for curves,
+/// surfaces and volumes, one patch or several that constraints couple.
+///
+/// Unknown is X, the displacement of the control points from the rest shape (`RestMode::shape`) or the control points
+/// about a fixed origin (`RestMode::none`), in units of a normalised `DomainScaling` of the first patch. A step minimises
+///
+///   Φ(Y) = ½ YᵀAY − Yᵀb + s Ψ(X₀ + Y)
+///
+/// over all Y = X − X₀ that the constraints allow, with the forces F = −∇Ψ of the tools taken at the new position:
+///   acm         A = K + λW,              b = G − K X₀,                      s = 1   (implicit Euler)
+///   stationary  A = K,                   b = G − K X₀,                      s = 1
+///   dynamic     A = K + 2D/h + 4M/h²,    b = 2G − 2K X₀ + 4M V₀/h,          s = 2   (implicit midpoint, V = 2Y/h − V₀)
+/// G the loads, F_i = ∫ R_i f(S) du dv (thesis Eqs. 4.23, 4.25). The midpoint rule is of second order and conserves
+/// ½VᵀMV + ½XᵀKX exactly without damping and forces; a convex Ψ taken at the new position only removes energy.
+/// A is factored once; Newton's iteration treats the springs in contact by conjugate gradients on that factor, with a
+/// line search on Φ. Hence a step is stable for any stiffness k and step size, and stiffness does not freeze the sheet.
+/// Without tools it is exactly one back substitution. Immutable, const is thread-safe.
+template <int D>
+class ActiveSpline {
+ public:
+  /// Factors the matrices. Errors: a bad material or step size, contradictory constraints (input); no area, not positive
+  /// definite, or nothing that holds a stationary problem (numerical).
+  [[nodiscard]] static Expected<ActiveSpline> create(std::vector<Spline<D>> patches, const ActiveSettings<D>& settings);
+  [[nodiscard]] static Expected<ActiveSpline> create(const Spline<D>& rest, const ActiveSettings<D>& settings) {
+    return create(std::vector<Spline<D>>{rest}, settings);
+  }
+
+  /// One step under tools given in file units. Errors (numerical): the result is not finite or runs away; nothing is
+  /// changed then.
+  [[nodiscard]] Expected<ActiveStep> step(const ActiveState& state, std::span<const Tool> tools,
+                                          const ActiveLoads& loads = {}) const;
+  [[nodiscard]] Expected<ActiveStep> step(const Points& control_points, std::span<const Tool> tools) const {
+    return step(ActiveState{control_points}, tools);
+  }
+
+  /// Σ Xᵀ K X of the given control points.
+  [[nodiscard]] double energy(const Points& control_points) const { return energy(ActiveState{control_points}); }
+  [[nodiscard]] double energy(const ActiveState& state) const;
+
+  [[nodiscard]] const DomainScaling<D>& scaling(int patch = 0) const;
+  [[nodiscard]] const ActiveSettings<D>& settings() const;
+  /// First row of every patch in the control points, and the end.
+  [[nodiscard]] const std::vector<int>& rows() const;
+  /// Unknowns that are free to move: control points, or coordinates where a constraint couples them.
+  [[nodiscard]] int free_count() const;
+
+ private:
+  struct Model;
+  explicit ActiveSpline(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+  std::shared_ptr<const Model> model_;
+};
+
+using ActiveSurface = ActiveSpline<2>;
+
+}  // namespace knead

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "knead/spline/spline.hpp"
+
+namespace knead {
+
+/// A material point on which a force acts, and the derivative of that force.
+struct ContactPoint {
+  int patch = 0;
+  std::array<int, 3> at{};  ///< Gauss point in every direction of the patch
+  double factor = 0;        ///< Gauss weight / rational denominator²; the basis carries w N
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+};
+
+/// A potential Ψ, its force −∇Ψ and its linearisation at one place.
+struct PotentialState {
+  double potential = 0;
+  Points force;  ///< N × 3
+  std::vector<ContactPoint> contacts;
+  double entry = 0;         ///< deepest entry into a collision tool, in sizes of that tool
+  int entered = -1;         ///< that tool, as an index
+  double coarseness = 0;    ///< longest span in contact with a tool, in sizes of that tool
+};
+
+/// A potential of the positions of all control points: what tools, friction and limits are to the solver.
+class Potential {
+ public:
+  virtual ~Potential() = default;
+
+  /// At the control points x (N × 3).
+  [[nodiscard]] virtual PotentialState evaluate(const Points& x) const = 0;
+  /// H V: the Hessian at `state`, applied to N × 3 directions. It may be indefinite.
+  [[nodiscard]] virtual Points apply_hessian(const PotentialState& state, const Points& v) const = 0;
+  /// The same potential with no spring stiffer than `cap`.
+  virtual void soften(double cap) = 0;
+  /// The largest stiffness of a spring.
+  [[nodiscard]] virtual double stiffest() const = 0;
+
+ protected:
+  Potential() = default;
+  Potential(const Potential&) = default;
+  Potential& operator=(const Potential&) = default;
+};
+
+}  // namespace knead

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "knead/energy/stiffness.hpp"
+#include "knead/solve/linear_constraint.hpp"
+
+namespace knead {
+
+/// All X that satisfy a list of linear constraints: X = T y + d with independent unknowns y.
+///
+/// Some unknowns may be held: they keep whatever value they have, to the last bit, and d depends on it. The constraints are
+/// eliminated one after the other: each gives one unknown that is not held as a combination of others, the pivot being
+/// among its largest coefficients. Constraints that follow from those before, or meet held unknowns only, are passed over.
+/// Without a constraint along a normal the three coordinates share one T (N × m); with one, T maps m numbers to all 3N
+/// coordinates (`coupled`). Immutable.
+class ConstraintSpace {
+ public:
+  /// Nothing is constrained.
+  explicit ConstraintSpace(int size) : size_(size) { number_free(std::vector<Definition>(at(size)), false); }
+  /// Only held points.
+  explicit ConstraintSpace(const std::vector<bool>& held) : ConstraintSpace(*create(static_cast<int>(held.size()), {}, held)) {}
+
+  /// \param size number of unknown points N.
+  /// \param held one flag per unknown point; empty: none.
+  /// Errors (input): a constraint that contradicts others, both named; an unknown that there is not; a number that is not
+  /// finite, a normal of no length.
+  /// Two constraints count as dependent where elimination leaves less than 1e-11 of the largest coefficient, and as
+  /// contradictory where it then leaves more than 1e-9 of the right sides (or of 1, the model's size).
+  [[nodiscard]] static Expected<ConstraintSpace> create(int size, std::span<const LinearConstraint> constraints,
+                                                        const std::vector<bool>& held = {});
+
+  [[nodiscard]] int size() const { return size_; }
+  /// Length of y: independent points, or independent coordinates where `coupled`.
+  [[nodiscard]] int free_count() const { return static_cast<int>(free_.size()); }
+  [[nodiscard]] bool coupled() const { return coupled_; }
+  /// True where point i is held, or constrained to one place.
+  [[nodiscard]] bool is_fixed(int i) const;
+
+  /// Tᵀ b: m × 3, or m × 1 where `coupled`.
+  [[nodiscard]] Eigen::MatrixXd reduce(const Points& b) const;
+  /// T y.
+  [[nodiscard]] Points expand(const Eigen::MatrixXd& y) const;
+  /// The same for m × 3, without detour; only where not `coupled`.
+  [[nodiscard]] Points reduce_points(const Points& b) const;
+  [[nodiscard]] Points expand_points(const Points& y) const;
+  /// Tᵀ A T, or Tᵀ (A ⊗ I) T where `coupled`.
+  [[nodiscard]] SparseMatrix restrict(const SparseMatrix& a) const;
+
+  /// X with the same independent unknowns that satisfies the constraints. Rows that do already keep their bits.
+  [[nodiscard]] Points feasible(const Points& x) const;
+
+  /// The largest |Σ c X − value| over the constraints, as given.
+  [[nodiscard]] double violation(const Points& x) const;
+
+ private:
+  struct Definition {
+    bool dependent = false, held = false;
+    std::vector<std::pair<int, double>> terms;  // over independent and held unknowns
+    double value[3] = {0, 0, 0};
+    std::vector<int> sources;  // constraints it was derived from, as indices of names
+  };
+  struct Elimination;
+
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  void number_free(std::vector<Definition> definitions, bool coupled);
+
+  int size_ = 0;
+  bool coupled_ = false;
+  std::vector<int> free_, position_;  // independent points or coordinates; position_[free_[k]] = k, −1 for others
+  std::vector<int> dependent_;        // unknowns with a row in rows_
+  Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;       // dependent_ × m
+  Eigen::SparseMatrix<double, Eigen::RowMajor> held_rows_;  // dependent_ × all, the held unknowns they depend on
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> values_;  // of the dependent ones; column 0 where coupled
+  std::vector<LinearConstraint> constraints_;
+};
+
+}  // namespace knead

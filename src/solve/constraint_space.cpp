@@ -1,0 +1,332 @@
+#include "knead/solve/constraint_space.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace knead {
+namespace {
+
+constexpr double dependent_below = 1e-11;
+constexpr double contradictory_above = 1e-9;
+constexpr double pivot_threshold = 0.3;  // of the largest coefficient: room to choose an unknown that few others use
+
+std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> result;
+  std::ranges::set_union(a, b, std::back_inserter(result));
+  return result;
+}
+
+}  // namespace
+
+/// Gaussian elimination that keeps every definition in terms of independent unknowns.
+struct ConstraintSpace::Elimination {
+  std::vector<Definition> definitions;
+  std::vector<std::set<int>> users;  // users[j]: dependent unknowns whose definition contains j
+  std::vector<std::string> names;
+  int width;  // right sides
+
+  struct Row {
+    std::map<int, double> terms;
+    double value[3] = {0, 0, 0};
+    std::vector<int> sources;
+    double scale = 0;  // largest coefficient before elimination
+    double size = 1;   // of the numbers that the right side was computed from
+  };
+
+  Elimination(int count, int columns) : definitions(at(count)), users(at(count)), width(columns) {}
+
+  void add_term(Row& row, int unknown, double c) const {
+    const Definition& d = definitions[at(unknown)];
+    if (!d.dependent) {
+      row.terms[unknown] += c;
+      return;
+    }
+    for (const auto& [j, a] : d.terms) row.terms[j] += c * a;
+    for (int k = 0; k < width; ++k) {
+      row.value[k] -= c * d.value[k];
+      row.size = std::max(row.size, std::abs(c * d.value[k]) / row.scale);
+    }
+    row.sources = united(row.sources, d.sources);
+  }
+
+  [[nodiscard]] std::string names_of(const std::vector<int>& sources, int without) const {
+    std::string text;
+    for (int s : sources) {
+      if (s != without) text += (text.empty() ? "" : ", ") + names[at(s)];
+    }
+    return text.empty() ? "itself" : text;
+  }
+
+  Expected<void> add(const std::vector<std::pair<int, double>>& terms, const double* value, int name) {
+    Row row;
+    for (const auto& [unknown, c] : terms) row.scale = std::max(row.scale, std::abs(c));
+    row.sources = {name};
+    for (int k = 0; k < width; ++k) {
+      row.value[k] = value[k];
+      row.size = std::max(row.size, row.scale > 0 ? std::abs(value[k]) / row.scale : std::abs(value[k]));
+    }
+    for (const auto& [unknown, c] : terms) add_term(row, unknown, c);
+    double largest = 0, largest_held = 0;
+    for (const auto& [j, c] : row.terms) {
+      double& of = definitions[at(j)].held ? largest_held : largest;
+      of = std::max(of, std::abs(c));
+    }
+    if (largest <= dependent_below * row.scale) {
+      if (largest_held > dependent_below * row.scale) return {};  // a condition on what is held: true or not, it stays
+      for (int k = 0; k < width; ++k) {
+        if (std::abs(row.value[k]) > contradictory_above * row.size * std::max(row.scale, 1e-300)) {
+          return input_error(fmt::format("the constraint contradicts {}", names_of(row.sources, name)), names[at(name)],
+                             "release one of them");
+        }
+      }
+      return {};
+    }
+    int pivot = -1;
+    for (const auto& [j, c] : row.terms) {
+      if (definitions[at(j)].held || std::abs(c) < pivot_threshold * largest) continue;
+      if (pivot < 0 || users[at(j)].size() < users[at(pivot)].size()) pivot = j;
+    }
+    define(pivot, row);
+    return {};
+  }
+
+  void define(int pivot, const Row& row) {
+    Definition& d = definitions[at(pivot)];
+    const double c = row.terms.at(pivot);
+    d.dependent = true;
+    d.sources = row.sources;
+    for (int k = 0; k < width; ++k) d.value[k] = row.value[k] / c;
+    for (const auto& [j, a] : row.terms) {
+      if (j == pivot || std::abs(a) <= 1e-15 * row.scale) continue;
+      d.terms.emplace_back(j, -a / c);
+      users[at(j)].insert(pivot);
+    }
+    for (int i : users[at(pivot)]) substitute(definitions[at(i)], i, pivot);
+    users[at(pivot)].clear();
+  }
+
+  void substitute(Definition& user, int index, int pivot) {
+    std::map<int, double> terms(user.terms.begin(), user.terms.end());
+    const double c = terms.extract(pivot).mapped();
+    const Definition& d = definitions[at(pivot)];
+    for (const auto& [j, a] : d.terms) {
+      terms[j] += c * a;
+      users[at(j)].insert(index);
+    }
+    for (int k = 0; k < width; ++k) user.value[k] += c * d.value[k];
+    user.terms.assign(terms.begin(), terms.end());
+    user.sources = united(user.sources, d.sources);
+  }
+};
+
+Expected<ConstraintSpace> ConstraintSpace::create(int size, std::span<const LinearConstraint> constraints,
+                                                  const std::vector<bool>& held) {
+  assert(held.empty() || held.size() == at(size));
+  bool coupled = false;
+  for (const LinearConstraint& c : constraints) {
+    coupled = coupled || c.normal.has_value();
+    if (!c.value.allFinite()) return input_error("a right side is not a finite number", c.name);
+    if (c.normal && !(c.normal->allFinite() && c.normal->norm() > 0)) {
+      return input_error("the normal has no direction", c.name);
+    }
+    for (const auto& [unknown, coefficient] : c.terms) {
+      if (unknown < 0 || unknown >= size) {
+        return input_error(fmt::format("there is no control point {}", unknown), c.name,
+                           fmt::format("there are {}", size));
+      }
+      if (!std::isfinite(coefficient)) return input_error("a coefficient is not a finite number", c.name);
+    }
+  }
+  Elimination elimination(coupled ? 3 * size : size, coupled ? 1 : 3);
+  std::map<std::string, int> known;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    for (std::size_t k = 0; k < (coupled ? 3 : 1); ++k) {
+      elimination.definitions[coupled ? 3 * i + k : i].held = held[i];
+    }
+  }
+  for (const LinearConstraint& c : constraints) {
+    const auto [it, added] = known.try_emplace(c.name, static_cast<int>(known.size()));
+    if (added) elimination.names.push_back(c.name);
+    Expected<void> done;
+    if (!coupled) {
+      done = elimination.add(c.terms, c.value.data(), it->second);
+    } else if (c.normal) {
+      const Point n = c.normal->normalized();
+      std::vector<std::pair<int, double>> terms;
+      for (const auto& [unknown, a] : c.terms) {
+        for (int k = 0; k < 3; ++k) {
+          if (n[k] != 0) terms.emplace_back(3 * unknown + k, a * n[k]);
+        }
+      }
+      const double value = n.dot(c.value);
+      done = elimination.add(terms, &value, it->second);
+    } else {
+      for (int k = 0; k < 3 && done; ++k) {
+        std::vector<std::pair<int, double>> terms;
+        for (const auto& [unknown, a] : c.terms) terms.emplace_back(3 * unknown + k, a);
+        done = elimination.add(terms, &c.value[k], it->second);
+      }
+    }
+    if (!done) return std::unexpected(done.error());
+  }
+  ConstraintSpace space(0);
+  space.size_ = size;
+  space.constraints_.assign(constraints.begin(), constraints.end());
+  space.number_free(std::move(elimination.definitions), coupled);
+  return space;
+}
+
+void ConstraintSpace::number_free(std::vector<Definition> definitions, bool coupled) {
+  coupled_ = coupled;
+  free_.clear();
+  position_.assign(definitions.size(), -1);
+  for (std::size_t i = 0; i < definitions.size(); ++i) {
+    if (definitions[i].dependent) {
+      dependent_.push_back(static_cast<int>(i));
+    } else if (!definitions[i].held) {
+      position_[i] = static_cast<int>(free_.size());
+      free_.push_back(static_cast<int>(i));
+    }
+  }
+  std::vector<Eigen::Triplet<double>> entries, held;
+  values_.setZero(static_cast<Eigen::Index>(dependent_.size()), 3);
+  for (std::size_t k = 0; k < dependent_.size(); ++k) {
+    const Definition& d = definitions[at(dependent_[k])];
+    for (int c = 0; c < 3; ++c) values_(static_cast<Eigen::Index>(k), c) = d.value[c];
+    for (const auto& [j, a] : d.terms) {
+      if (definitions[at(j)].held) {
+        held.emplace_back(static_cast<int>(k), j, a);
+      } else {
+        entries.emplace_back(static_cast<int>(k), position_[at(j)], a);
+      }
+    }
+  }
+  rows_.resize(static_cast<Eigen::Index>(dependent_.size()), static_cast<Eigen::Index>(free_.size()));
+  rows_.setFromTriplets(entries.begin(), entries.end());
+  held_rows_.resize(rows_.rows(), static_cast<Eigen::Index>(definitions.size()));
+  held_rows_.setFromTriplets(held.begin(), held.end());
+}
+
+bool ConstraintSpace::is_fixed(int i) const {
+  const auto fixed = [this](int unknown) {
+    if (position_[at(unknown)] >= 0) return false;
+    const auto found = std::ranges::lower_bound(dependent_, unknown);
+    if (found == dependent_.end() || *found != unknown) return true;
+    const auto k = found - dependent_.begin();
+    return rows_.outerIndexPtr()[k] == rows_.outerIndexPtr()[k + 1];
+  };
+  if (!coupled_) return fixed(i);
+  return fixed(3 * i) && fixed(3 * i + 1) && fixed(3 * i + 2);
+}
+
+Points ConstraintSpace::reduce_points(const Points& b) const {
+  assert(!coupled_ && b.rows() == size_);
+  Points y(free_count(), 3);
+  for (std::size_t k = 0; k < free_.size(); ++k) y.row(static_cast<Eigen::Index>(k)) = b.row(free_[k]);
+  for (Eigen::Index k = 0; k < rows_.outerSize(); ++k) {
+    for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it) {
+      y.row(it.col()) += it.value() * b.row(dependent_[static_cast<std::size_t>(k)]);
+    }
+  }
+  return y;
+}
+
+Points ConstraintSpace::expand_points(const Points& y) const {
+  assert(!coupled_ && y.rows() == free_count());
+  Points x = Points::Zero(size_, 3);
+  for (std::size_t k = 0; k < free_.size(); ++k) x.row(free_[k]) = y.row(static_cast<Eigen::Index>(k));
+  for (Eigen::Index k = 0; k < rows_.outerSize(); ++k) {
+    for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it) {
+      x.row(dependent_[static_cast<std::size_t>(k)]) += it.value() * y.row(it.col());
+    }
+  }
+  return x;
+}
+
+Eigen::MatrixXd ConstraintSpace::reduce(const Points& b) const {
+  if (!coupled_) return reduce_points(b);
+  const Eigen::Map<const Eigen::VectorXd> flat(b.data(), b.size());
+  Eigen::VectorXd y(free_count()), rest(static_cast<Eigen::Index>(dependent_.size()));
+  for (std::size_t k = 0; k < free_.size(); ++k) y[static_cast<Eigen::Index>(k)] = flat[free_[k]];
+  for (std::size_t k = 0; k < dependent_.size(); ++k) rest[static_cast<Eigen::Index>(k)] = flat[dependent_[k]];
+  y += rows_.transpose() * rest;
+  return y;
+}
+
+Points ConstraintSpace::expand(const Eigen::MatrixXd& y) const {
+  if (!coupled_) return expand_points(y);
+  Points x = Points::Zero(size_, 3);
+  const Eigen::VectorXd rest = rows_ * y.col(0);
+  for (std::size_t k = 0; k < free_.size(); ++k) x.data()[free_[k]] = y(static_cast<Eigen::Index>(k), 0);
+  for (std::size_t k = 0; k < dependent_.size(); ++k) x.data()[dependent_[k]] = rest[static_cast<Eigen::Index>(k)];
+  return x;
+}
+
+SparseMatrix ConstraintSpace::restrict(const SparseMatrix& a) const {
+  assert(a.rows() == size_ && a.cols() == size_);
+  const int copies = coupled_ ? 3 : 1;
+  if (free_count() == copies * size_ && !coupled_) return a;
+  SparseMatrix full = a;
+  if (coupled_) {  // A ⊗ I
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<std::size_t>(3 * a.nonZeros()));
+    for (Eigen::Index j = 0; j < a.outerSize(); ++j) {
+      for (SparseMatrix::InnerIterator it(a, j); it; ++it) {
+        for (int c = 0; c < 3; ++c) {
+          entries.emplace_back(3 * static_cast<int>(it.row()) + c, 3 * static_cast<int>(j) + c, it.value());
+        }
+      }
+    }
+    full.resize(3 * a.rows(), 3 * a.cols());
+    full.setFromTriplets(entries.begin(), entries.end());
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < free_.size(); ++k) entries.emplace_back(free_[k], static_cast<int>(k), 1.0);
+  for (Eigen::Index k = 0; k < rows_.outerSize(); ++k) {
+    for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it) {
+      entries.emplace_back(dependent_[static_cast<std::size_t>(k)], static_cast<int>(it.col()), it.value());
+    }
+  }
+  SparseMatrix t(full.rows(), free_count());
+  t.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix right = full * t;
+  return SparseMatrix(t.transpose()) * right;
+}
+
+Points ConstraintSpace::feasible(const Points& x) const {
+  Points result = x;
+  const auto dependents = static_cast<Eigen::Index>(dependent_.size());
+  for (Eigen::Index k = 0; k < dependents; ++k) {
+    const int unknown = dependent_[static_cast<std::size_t>(k)];
+    for (int c = 0; c < (coupled_ ? 1 : 3); ++c) {
+      double sum = values_(k, c), size = std::abs(sum);
+      const auto add = [&](int other, double coefficient) {
+        const double term = coefficient * (coupled_ ? x.data()[other] : x(other, c));
+        sum += term;
+        size += std::abs(term);
+      };
+      for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it) add(free_[at(static_cast<int>(it.col()))], it.value());
+      for (decltype(rows_)::InnerIterator it(held_rows_, k); it; ++it) add(static_cast<int>(it.col()), it.value());
+      double& entry = coupled_ ? result.data()[unknown] : result(unknown, c);
+      if (std::abs(entry - sum) > 1e-15 * size) entry = sum;  // what differs by rounding alone satisfies it already
+    }
+  }
+  return result;
+}
+
+double ConstraintSpace::violation(const Points& x) const {
+  double largest = 0;
+  for (const LinearConstraint& c : constraints_) {
+    Point sum = -c.value;
+    for (const auto& [unknown, a] : c.terms) sum += a * x.row(unknown).transpose();
+    largest = std::max(largest, c.normal ? std::abs(c.normal->normalized().dot(sum)) : sum.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+}  // namespace knead

@@ -1,0 +1,104 @@
+#include "knead/sculpt/tool_load.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/surfaces.hpp"
+
+namespace knead {
+namespace {
+
+const DomainScaling<2> raw{};
+
+PotentialState evaluate(const ToolLoad<2>& load, const Points& x, std::span<const Tool> tools) {
+  PotentialState state;
+  state.force = Points::Zero(x.rows(), 3);
+  load.evaluate(x, 0, 0, {tools}, state);
+  return state;
+}
+
+Points apply_hessian(const ToolLoad<2>& load, const PotentialState& state, const Points& v) {
+  Points result = Points::Zero(v.rows(), 3);
+  for (const ContactPoint& contact : state.contacts) load.apply_hessian(contact, 0, v, result);
+  return result;
+}
+
+/// A sphere so large that a sheet in z = 0 sees a plane: every point enters by the same depth along −z.
+Tool half_space(double depth) {
+  constexpr double radius = 1e7;
+  return {"plane", {Point(0.5, 0.5, radius - depth), radius}, ToolMode::collision, 3, 1};
+}
+
+TEST(ToolLoad, OfAUniformPressureIsTheIntegralOfEveryBasisFunction) {
+  // F_i = f ∫ N_i, and ∫ N_i = (x_{i+p+1} − x_i)/(p + 1) (thesis Theorem 5.2).
+  for (const auto& family : testing::knot_families(3)) {
+    if (!family.ordinary() || !family.knots.clamped() || family.knots.count() > 40) continue;
+    const KnotVector v = testing::uniform_clamped(2, 3);
+    const Surface s = testing::sheet(family.knots, v);
+    const auto load = ToolLoad<2>::create(s, raw, std::numeric_limits<double>::infinity());
+    ASSERT_TRUE(load);
+    const Tool tool = half_space(0.01);
+    const auto state = evaluate(*load, s.control_points(), {&tool, 1});
+    for (int i = 0; i < family.knots.count(); ++i) {
+      for (int j = 0; j < v.count(); ++j) {
+        const double area = (family.knots[i + 4] - family.knots[i]) / 4 * (v[j + 3] - v[j]) / 3;
+        EXPECT_NEAR(state.force(i * v.count() + j, 2), -3 * 0.01 * area, 1e-6 * area) << family.name;
+      }
+    }
+  }
+}
+
+TEST(ToolLoad, ForceIsMinusTheGradientOfThePotential) {
+  for (const Surface& s :
+       {testing::relief(testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 4), 1),
+        testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 2, 0.1, 5)}) {
+    for (ToolMode mode : {ToolMode::collision, ToolMode::proximity}) {
+      const Tool tool = {"ball", {Point(0.6, 0.4, 0.3), 0.35}, mode, 10, 0.3};
+      const auto load = ToolLoad<2>::create(s, DomainScaling<2>{1, {0.7, 1.3}}, 0.3);
+      ASSERT_TRUE(load);
+      const Points x = s.control_points(), direction = testing::random_points(x.rows(), 4);
+      const auto state = evaluate(*load, x, {&tool, 1});
+      EXPECT_GT(state.contacts.size(), 10U);
+      constexpr double h = 1e-5;
+      const double slope = (evaluate(*load, x + h * direction, {&tool, 1}).potential -
+                            evaluate(*load, x - h * direction, {&tool, 1}).potential) /
+                           (2 * h);
+      EXPECT_NEAR(-state.force.cwiseProduct(direction).sum(), slope, 1e-4 * std::abs(slope));
+    }
+  }
+}
+
+TEST(ToolLoad, HessianIsSymmetricAndTheDerivativeOfTheForce) {
+  const Surface s = testing::relief(testing::uniform_clamped(2, 4), testing::uniform_clamped(3, 4), 3, 0.1, 4);
+  const Tool tool = {"ball", {Point(0.6, 0.4, 0.3), 0.35}, ToolMode::proximity, 10, 0.3};
+  const auto load = ToolLoad<2>::create(s, raw, 0.3);
+  const auto state = evaluate(*load, s.control_points(), {&tool, 1});
+  const Points a = testing::random_points(s.size(), 5), b = testing::random_points(s.size(), 6);
+  const double ab = a.cwiseProduct(apply_hessian(*load, state, b)).sum();
+  const double ba = b.cwiseProduct(apply_hessian(*load, state, a)).sum();
+  EXPECT_NEAR(ab, ba, 1e-13 * a.norm() * b.norm());
+  constexpr double h = 1e-6;
+  const Points slope = (evaluate(*load, s.control_points() + h * a, {&tool, 1}).force -
+                        evaluate(*load, s.control_points() - h * a, {&tool, 1}).force) /
+                       (2 * h);
+  EXPECT_LE((slope + apply_hessian(*load, state, a)).norm(), 1e-4 * slope.norm());
+}
+
+TEST(ToolLoad, UsesMorePointsForSmallerTools) {
+  const Surface s = testing::uniform_sheet(3, 6, 6);
+  const auto coarse = ToolLoad<2>::create(s, raw, std::numeric_limits<double>::infinity());
+  const auto fine = ToolLoad<2>::create(s, raw, 0.02);
+  EXPECT_EQ(coarse->points(), 12 * 12);
+  EXPECT_GE(fine->points(), 300 * 300);  // six points per 0.02
+}
+
+TEST(ToolLoad, WithoutToolsIsZero) {
+  const Surface s = testing::uniform_sheet(3, 6, 6);
+  const auto state = evaluate(*ToolLoad<2>::create(s, raw, 1), s.control_points(), {});
+  EXPECT_EQ(state.force.norm(), 0);
+  EXPECT_EQ(state.potential, 0);
+}
+
+}  // namespace
+}  // namespace knead

@@ -1,0 +1,95 @@
+#include "knead/solve/constrained_cholesky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "support/surfaces.hpp"
+
+namespace knead {
+namespace {
+
+using testing::random_points;
+
+struct Problem {
+  Surface surface;
+  SparseMatrix k, mass;
+
+  explicit Problem(Surface s, const Material& material = {}) : surface(std::move(s)) {
+    k = Stiffness<2>::create(surface, stretch_and_bend(material))->assemble();
+    mass = Stiffness<2>::create(surface, mass_energy<2>())->assemble();
+  }
+};
+
+TEST(SparseCholesky, SolvesToTheAccuracyOfADenseFactorisation) {
+  const Problem p(testing::relief(testing::uniform_clamped(3, 6), testing::uniform_clamped(2, 7), 1));
+  const SparseMatrix a = p.k + p.mass;
+  const auto cholesky = SparseCholesky::factor(a);
+  ASSERT_TRUE(cholesky);
+  const Points x = random_points(a.rows(), 2), b = a * x;
+  EXPECT_LE((cholesky->solve(b) - x).norm(), 1e-12 * x.norm());
+  // Backward error: what a stable solver promises whatever the condition number.
+  EXPECT_LE((a * cholesky->solve(b) - b).norm(), 1e-14 * Eigen::MatrixXd(a).norm() * x.norm());
+}
+
+TEST(SparseCholesky, RefusesWhatIsNotPositiveDefinite) {
+  SparseMatrix a(2, 2);
+  a.insert(0, 0) = 1;
+  a.insert(1, 1) = -1;
+  auto failed = SparseCholesky::factor(a);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().kind, ErrorKind::numerical);
+  a.coeffRef(1, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(SparseCholesky::factor(a));
+}
+
+/// Some held points and some constraints on the others.
+ConstraintSpace some_space(const Surface& s) {
+  std::vector<bool> held(static_cast<std::size_t>(s.size()));
+  for (std::size_t i = 0; i < held.size(); i += 3) held[i] = true;
+  const std::vector<LinearConstraint> constraints = {{"a", {{1, 1}, {2, -1}, {4, 0.5}}}, {"b", {{5, 1}, {1, 1}}}};
+  return *ConstraintSpace::create(s.size(), constraints, held);
+}
+
+TEST(ConstrainedCholesky, SolvesOnTheFreeUnknownsAlone) {
+  const Problem p(testing::relief(testing::uniform_clamped(3, 5), testing::uniform_clamped(3, 4), 3));
+  const SparseMatrix a = p.k + p.mass;
+  const auto system = ConstrainedCholesky::factor(a, some_space(p.surface));
+  ASSERT_TRUE(system);
+  const Points b = random_points(p.surface.size(), 4), x = system->solve(b);
+  for (int i = 0; i < x.rows(); i += 3) EXPECT_EQ(x.row(i).norm(), 0);
+  EXPECT_LT(system->space().violation(x), 1e-13);
+  EXPECT_LE(system->space().reduce(b - a * x).norm(), 1e-12 * Eigen::MatrixXd(a).norm() * x.norm());
+}
+
+TEST(ConstrainedCholesky, CoupledCoordinatesGiveTheSameSolutionWhereNothingCouplesThem) {
+  const Problem p(testing::relief(testing::uniform_clamped(2, 5), testing::uniform_clamped(3, 4), 3));
+  const SparseMatrix a = p.k + p.mass;
+  std::vector<LinearConstraint> constraints = {{"a", {{1, 1}, {2, -1}, {4, 0.5}}}};
+  const auto simple = ConstrainedCholesky::factor(a, *ConstraintSpace::create(p.surface.size(), constraints));
+  std::vector<LinearConstraint> axes;
+  for (int k = 0; k < 3; ++k) axes.push_back({"a", constraints[0].terms, Point::Zero(), Point(Point::Unit(k))});
+  const auto coupled = ConstrainedCholesky::factor(a, *ConstraintSpace::create(p.surface.size(), axes));
+  ASSERT_TRUE(simple && coupled);
+  EXPECT_TRUE(coupled->space().coupled());
+  const Points b = random_points(p.surface.size(), 4), x = simple->solve(b);
+  EXPECT_LE((coupled->solve(b) - x).norm(), 1e-11 * x.norm());
+}
+
+TEST(ConstrainedCholesky, WithEverythingHeldNothingMoves) {
+  const Problem p(testing::uniform_sheet(2, 4, 4));
+  const auto system = ConstrainedCholesky::factor(p.k, ConstraintSpace(std::vector<bool>(16, true)));
+  ASSERT_TRUE(system);
+  EXPECT_EQ(system->solve(random_points(16, 2)).norm(), 0);
+}
+
+TEST(ConstrainedCholesky, RefusesASingularSystem) {
+  const SparseMatrix zero(16, 16);
+  EXPECT_EQ(ConstrainedCholesky::factor(zero, ConstraintSpace(16)).error().kind, ErrorKind::numerical);
+  const Problem p(testing::uniform_sheet(3, 8, 8));  // constants cost nothing
+  EXPECT_FALSE(ConstrainedCholesky::factor(p.k, ConstraintSpace(p.surface.size())));
+}
+
+}  // namespace
+}  // namespace knead
