@@ -8,6 +8,7 @@
 
 #include "contact_newton.hpp"
 #include "knead/energy/stiffness.hpp"
+#include "knead/spline/extremum.hpp"
 #include "patch_potential.hpp"
 #include "surface_forces.hpp"
 
@@ -18,6 +19,9 @@ constexpr double run_away = 1e4;           // a step longer than this many sizes
 constexpr double first_rigid_stiffness = 1e6;
 constexpr double developed_slip = 1e-4;    // friction is fully developed after this way, in lengths of the model
 constexpr double limit_stiffness = 1e8;
+constexpr double limit_tolerance = 1e-6;
+constexpr int max_limit_rounds = 12;
+const double stage = 1 - std::sqrt(0.5);   // of a dynamic step
 
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
@@ -177,8 +181,8 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
       }
       break;
     case Evolution::dynamic: {
-      const double h = settings.time_step;
-      a = k_matrix + (2 / h * settings.damping + 4 / (h * h) * settings.mass) * m;
+      const double tau = stage * settings.time_step;
+      a = k_matrix + (settings.damping / tau + settings.mass / (tau * tau)) * m;
       break;
     }
   }
@@ -249,10 +253,9 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   for (int i = 0; i < space.size(); ++i) {
     if (space.is_fixed(i)) free_part.row(i).setZero();
   }
-  const Eigen::MatrixXd from_free = space.reduce(stiffness * free_part), from_held = space.reduce(stiffness * (x - free_part));
-  const Eigen::MatrixXd from_tools = space.reduce(contact.force), from_loads = space.reduce(external);
-  const double scale = from_tools.norm() + from_loads.norm() + from_free.norm() + from_held.norm();
-  result.residual = scale > 0 ? (from_tools + from_loads - from_free - from_held).norm() / scale : 0;
+  const Points from_free = stiffness * free_part, from_held = stiffness * (x - free_part);
+  const double scale = contact.force.norm() + external.norm() + from_free.norm() + from_held.norm();
+  result.residual = scale > 0 ? space.reduce(contact.force + external - from_free - from_held).norm() / scale : 0;
   result.stretch = energy(stretch, x);
   result.bend = energy(bend, x);
   result.energy = energy(stiffness, x);
@@ -263,74 +266,160 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   result.violation = length * space.violation(x);
 }
 
+/// The largest |S| of a displacement field. Of volumes the samples alone, 2p + 3 to a span.
+template <int D>
+double largest_of(const Spline<D>& field) {
+  if constexpr (D == 2) return largest_norm(field).value;
+  if constexpr (D == 1) {  // as a ruled surface that is constant along its rulings
+    Points twice(2 * field.size(), 3);
+    std::vector<double> weights;
+    for (int i = 0; i < field.size(); ++i) {
+      twice.row(2 * i) = twice.row(2 * i + 1) = field.control_points().row(i);
+      if (field.rational()) weights.insert(weights.end(), 2, field.weights()[static_cast<std::size_t>(i)]);
+    }
+    const auto surface = Surface::create({field.knots(0), *KnotVector::clamped_uniform(1, 2)}, twice, weights);
+    return surface ? largest_norm(*surface).value : 0;
+  }
+  if constexpr (D == 3) {
+    std::array<std::vector<double>, D> parameters;
+    std::array<std::span<const double>, D> spans;
+    for (std::size_t d = 0; d < D; ++d) {
+      const KnotVector& knots = field.knots()[d];
+      const int steps = 2 * knots.degree() + 3;
+      for (int span : knots.spans()) {
+        const double a = knots[span], b = knots[span + 1];
+        for (int k = 0; k <= steps; ++k) parameters[d].push_back(k == steps ? b : a + (b - a) * k / steps);
+      }
+      spans[d] = parameters[d];
+    }
+    const auto grid = evaluate_grid<D>(field, spans);
+    return grid ? grid->points().rowwise().norm().maxCoeff() : 0;
+  }
+}
+
+/// The largest |S − S_original| over all patches, for control points that differ by `way`.
+template <int D>
+double largest_way(const std::vector<Spline<D>>& patches, const std::vector<int>& rows, const Points& way) {
+  double largest = 0;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const auto field = patches[k].with_control_points(way.middleRows(rows[k], rows[k + 1] - rows[k]));
+    if (field) largest = std::max(largest, largest_of<D>(*field));
+  }
+  return largest;
+}
+
+template <int D>
+struct ActiveSpline<D>::Run {
+  const Model& m;
+  PatchPotential<D>& potential;
+  const std::vector<Tool>& tools;  // as given, in units of the model
+  ContactSummary summary = {0, 0, true, true};
+  std::string note = {};
+
+  /// One minimisation, with the stiffness of rigid tools raised until nothing enters them any more.
+  PotentialState minimise(const StepProblem& problem, Points& y) {
+    while (true) {
+      const ContactSummary part = minimise_step(problem, potential, y);
+      summary.iterations += part.iterations;
+      summary.solves += part.solves;
+      summary.finite = summary.finite && part.finite && y.allFinite();
+      summary.converged = part.converged;
+      if (!summary.finite) return {};
+      PotentialState contact = potential.evaluate(problem.start + y);
+      if (contact.entered < 0 || contact.entry <= rigid_gap) return contact;
+      const auto t = static_cast<std::size_t>(contact.entered);
+      const Tool& tool = potential.tools()[t];
+      if (!tool.rigid) return contact;
+      if (tool.stiffness >= max_tool_stiffness) {
+        summary.converged = false;
+        note = fmt::format(
+            "tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net cannot give way",
+            tool.name, contact.entry);
+        return contact;
+      }
+      potential.set_stiffness(t, std::min(10 * tool.stiffness, max_tool_stiffness));
+    }
+  }
+
+  /// The same under a limit: it is kept at Gauss points, so between them it is drawn in until it holds everywhere.
+  PotentialState minimise(const StepProblem& problem, Points& y, double limit, const Points& original) {
+    if (!(limit > 0)) return minimise(problem, y);
+    double inner = limit * (1 - 0.5 * limit_tolerance);
+    for (int round = 0;; ++round) {
+      potential.limit(original, inner, limit_stiffness);
+      PotentialState contact = minimise(problem, y);
+      if (!summary.finite || !contact.limited) return contact;
+      const double way = largest_way<D>(m.patches, m.rows, problem.start + y - original);
+      if (way <= limit * (1 + limit_tolerance)) return contact;
+      if (round == max_limit_rounds) {
+        summary.converged = false;
+        note = "the limit is exceeded between the points where it is kept; refine the net";
+        return contact;
+      }
+      inner -= way - limit;
+    }
+  }
+};
+
 template <int D>
 Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<const Tool> tools,
                                            const ActiveLoads& loads) const {
   const Model& m = *model_;
-  const double h = m.settings.time_step;
   const bool dynamic = m.settings.evolution == Evolution::dynamic;
   std::vector<Tool> scaled;
   for (const Tool& tool : tools) scaled.push_back(in_units(tool, m.centre, m.length));
   const Points file_origin = m.origin(state);
   const Points before = (state.control_points - file_origin) / m.length;
   const Points origin = (file_origin.rowwise() - m.centre.transpose()) / m.length;
-  const Points velocity = dynamic && state.velocity.rows() > 0 ? Points(state.velocity / m.length) : Points::Zero(before.rows(), 3);
   auto external = m.load_of(state, loads);
   if (!external) return std::unexpected(external.error());
 
   const Points kx0 = m.stiffness * before;
-  StepProblem problem{m.a, m.inverse, *external - kx0, origin + before, 1, 0.5 * dot(before, kx0)};
-  if (dynamic) {
-    problem.b = 2 * problem.b + (4 / h * m.settings.mass) * (m.mass * velocity);
-    problem.potential_factor = 2;
-  }
+  StepProblem problem{m.a, m.inverse, *external - kx0, origin + before, 0.5 * dot(before, kx0)};
   PatchPotential<D> potential(m.loads, m.rows, scaled);
   potential.grip(problem.start, developed_slip);
-  const double limit = loads.limit / m.length;
-  double inner_limit = limit;
-  Points limit_origin;
-  if (loads.limit > 0) {
-    const Points& original = loads.original.rows() > 0 ? loads.original : m.rest;
-    limit_origin = (original.rowwise() - m.centre.transpose()) / m.length;
-    potential.limit(limit_origin, inner_limit, limit_stiffness);
-  }
   for (std::size_t t = 0; t < scaled.size(); ++t) {
     if (scaled[t].rigid && scaled[t].collides()) {
       potential.set_stiffness(t, std::max(scaled[t].stiffness, first_rigid_stiffness));
     }
   }
+  const Points& original = loads.original.rows() > 0 ? loads.original : m.rest;
+  const Points limit_origin = (original.rowwise() - m.centre.transpose()) / m.length;
 
-  ActiveStep result;
-  Points y = m.inverse.space().feasible(before) - before;
+  Run run{m, potential, scaled};
+  Points y = m.inverse.space().feasible(before) - before, after;
   PotentialState contact;
-  ContactSummary summary;
-  while (true) {
-    const ContactSummary part = minimise_step(problem, potential, y);
-    summary = {summary.iterations + part.iterations, summary.solves + part.solves, part.converged, part.finite};
-    if (!part.finite || !y.allFinite()) break;
-    contact = potential.evaluate(problem.start + y);
-    if (contact.entry <= rigid_gap || contact.entered < 0) break;
-    const auto t = static_cast<std::size_t>(contact.entered);
-    const Tool& tool = potential.tools()[t];
-    if (!scaled[t].rigid) break;
-    if (tool.stiffness >= max_tool_stiffness) {
-      summary.converged = false;
-      result.note = fmt::format("tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net "
-                                "cannot give way", tool.name, contact.entry);
-      break;
+  if (!dynamic) {
+    contact = run.minimise(problem, y, loads.limit / m.length, limit_origin);
+  } else {
+    const double tau = stage * m.settings.time_step;
+    const Points b = problem.b;
+    const Points v0 = state.velocity.rows() > 0 ? Points(state.velocity / m.length) : Points::Zero(y.rows(), 3);
+    // What a stage starts from: the step's beginning, then further on along the first stage.
+    Points way = Points::Zero(y.rows(), 3), v = v0;
+    for (int k = 0; k < 2 && run.summary.finite; ++k) {
+      problem.b = b + m.mass * ((m.settings.mass / (tau * tau) + m.settings.damping / tau) * way +
+                                (m.settings.mass / tau) * v);
+      contact = run.minimise(problem, y, loads.limit / m.length, limit_origin);
+      after = (y - way) / tau;
+      if (k == 0) {
+        way = (1 - stage) / stage * y;
+        v = v0 + (1 - stage) / stage * (after - v0);
+      }
     }
-    potential.set_stiffness(t, std::min(10 * tool.stiffness, max_tool_stiffness));
   }
-  if (!y.allFinite() || !summary.finite) {
+  if (!y.allFinite() || !run.summary.finite) {
     return numerical_error("the step gives no finite result and was refused", "step",
                            "use a larger lambda, a smaller stiffness or larger material coefficients");
   }
   if (const double way = y.rowwise().norm().maxCoeff(); way > run_away * std::max(m.extent, 1e-300)) {
     return numerical_error(fmt::format("the step runs away ({:.1e} sizes of the model) and was refused", way / m.extent),
-                           "step", dynamic ? "use a smaller time_step or smaller loads"
-                                           : "hold something, use a larger lambda, or smaller loads");
+                           "step",
+                           dynamic ? "use a smaller time_step or smaller loads"
+                                   : "hold something, use a larger lambda, or smaller loads");
   }
   const Points x = before + y;
+  ActiveStep result;
   result.control_points = state.control_points;
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
     for (int c = 0; c < 3; ++c) {
@@ -338,15 +427,15 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     }
   }
   if (dynamic) {
-    const Points after = 2 / h * y - velocity;
     result.kinetic = 0.5 * m.settings.mass * dot(after, m.mass * after);
     result.velocity = m.length * after;
   }
   m.report(result, x, *external, contact, scaled);
-  result.limited = loads.limit > 0 && contact.potential > 0;
-  result.iterations = summary.iterations;
-  result.solves = summary.solves;
-  result.converged = summary.converged;
+  result.limited = contact.limited;
+  result.iterations = run.summary.iterations;
+  result.solves = run.summary.solves;
+  result.converged = run.summary.converged;
+  result.note = run.note;
   return result;
 }
 

@@ -32,25 +32,25 @@ double dual_norm(const StepProblem& problem, const Points& b) {
 struct At {
   Points y, ay;
   PotentialState state;
-  double quadratic = 0, factor = 1;
-  [[nodiscard]] double value() const { return quadratic + factor * state.potential; }
+  double quadratic = 0;
+  [[nodiscard]] double value() const { return quadratic + state.potential; }
 };
 
 At at(const StepProblem& problem, const Potential& potential, Points y, Points ay) {
   PotentialState state = potential.evaluate(problem.start + y);
-  At here{std::move(y), std::move(ay), std::move(state), 0, problem.potential_factor};
+  At here{std::move(y), std::move(ay), std::move(state), 0};
   here.quadratic = 0.5 * dot(here.y, here.ay) - dot(here.y, problem.b);
   return here;
 }
 
 Points gradient(const StepProblem& problem, const At& here) {
-  return here.ay - problem.b - problem.potential_factor * here.state.force;
+  return problem.inverse.space().lumped(here.ay - problem.b - here.state.force);
 }
 
-/// (A + sH) d = −g by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
-/// `z` = A⁻¹ g is known already. Where A + sH turns out not to be positive the way gone so far is the answer, or −z: a
-/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). All scalar products are with
-/// members of the constrained space, so that what the residual holds against the constraints does not count.
+/// (A + H) d = −g by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
+/// `z` = A⁻¹ g is known already. Where A + H turns out not to be positive the way gone so far is the answer, or −z: a
+/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). Residuals are kept lumped: what
+/// constraints bear does no work here, but its rounding would.
 Points newton_direction(const StepProblem& problem, const Potential& potential, const PotentialState& state,
                         const Points& g, const Points& z, double tolerance, Points& a_direction, int& solves) {
   Points d = Points::Zero(g.rows(), 3), ad = d;
@@ -59,7 +59,7 @@ Points newton_direction(const StepProblem& problem, const Potential& potential, 
   const double target = tolerance * tolerance * rs;
   for (int iteration = 0; iteration < max_cg_iterations && rs > target && rs > 0; ++iteration) {
     Points ap = problem.a * p;
-    const Points hp = ap + problem.potential_factor * potential.apply_hessian(state, p);
+    const Points hp = problem.inverse.space().lumped(ap + potential.apply_hessian(state, p));
     const double curvature = dot(p, hp);
     if (curvature <= 1e-12 * dot(p, ap)) {
       if (iteration > 0) break;
@@ -74,6 +74,7 @@ Points newton_direction(const StepProblem& problem, const Potential& potential, 
     s = problem.inverse.solve(r);
     ++solves;
     const double next = dot(r, s);
+    if (!(next < 1e6 * target / (tolerance * tolerance))) break;  // nothing but rounding is left
     p = s + (next / rs) * p;
     rs = next;
   }
@@ -86,7 +87,7 @@ Points newton_direction(const StepProblem& problem, const Potential& potential, 
 void iterate(const StepProblem& problem, const Potential& potential, double tolerance, int max_iterations, At& here,
              ContactSummary& summary) {
   double largest =
-      std::max(dual_norm(problem, problem.b), dual_norm(problem, problem.potential_factor * here.state.force));
+      std::max(dual_norm(problem, problem.b), dual_norm(problem, here.state.force));
   summary.solves += 2;
   int rounded_steps = 0;
   summary.converged = false;
@@ -115,7 +116,7 @@ void iterate(const StepProblem& problem, const Potential& potential, double tole
     const double slope = dot(g, d);
     At next = at(problem, potential, here.y + d, here.ay + ad);
     if (-slope <=
-        rounding * (problem.energy + std::abs(here.quadratic) + std::abs(here.factor * here.state.potential))) {
+        rounding * (problem.energy + std::abs(here.quadratic) + std::abs(here.state.potential))) {
       // The gain left is below the rounding of Φ, so that comparing values decides nothing: a few full steps take what
       // the gradient still sees.
       if (++rounded_steps > max_rounded_steps) {

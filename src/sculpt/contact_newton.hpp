@@ -13,13 +13,12 @@ struct ContactSummary {
   bool finite = true;  ///< false: a number overflowed on the way
 };
 
-/// One step as a minimisation over X = X₀ + Y:  Φ(Y) = ½ YᵀAY − Yᵀb + s Ψ(x₀ + Y), Y + X₀ subject to constraints.
+/// One step as a minimisation over X = X₀ + Y:  Φ(Y) = ½ YᵀAY − Yᵀb + Ψ(x₀ + Y), Y + X₀ subject to constraints.
 struct StepProblem {
   const SparseMatrix& a;
   const ConstrainedCholesky& inverse;  // of A on the free unknowns
   Points b;
   Points start;               // control points x₀ that Ψ is evaluated at for Y = 0
-  double potential_factor;    // s
   double energy;              // ½ X₀ᵀ K X₀: the size of the numbers that Φ is a difference of
 };
 

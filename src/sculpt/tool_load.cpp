@@ -315,6 +315,7 @@ void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& 
         const Point way = s.place - original;
         const double length = way.norm(), beyond = length - actors.limit->distance, k = actors.limit->stiffness;
         if (beyond > 0) {
+          state.limited = true;
           const Point n = way / length;
           Eigen::Matrix3d hessian = k * (1 - beyond / length) * n * n.transpose();
           hessian.diagonal().array() += k * beyond / length;

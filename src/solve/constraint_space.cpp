@@ -267,6 +267,18 @@ Points ConstraintSpace::expand(const Eigen::MatrixXd& y) const {
   return x;
 }
 
+Points ConstraintSpace::lumped(const Points& b) const {
+  Points result = Points::Zero(size_, 3);
+  if (!coupled_) {
+    const Points y = reduce_points(b);
+    for (std::size_t k = 0; k < free_.size(); ++k) result.row(free_[k]) = y.row(static_cast<Eigen::Index>(k));
+  } else {
+    const Eigen::MatrixXd y = reduce(b);
+    for (std::size_t k = 0; k < free_.size(); ++k) result.data()[free_[k]] = y(static_cast<Eigen::Index>(k), 0);
+  }
+  return result;
+}
+
 SparseMatrix ConstraintSpace::restrict(const SparseMatrix& a) const {
   assert(a.rows() == size_ && a.cols() == size_);
   const int copies = coupled_ ? 3 : 1;

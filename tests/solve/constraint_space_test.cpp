@@ -78,6 +78,7 @@ TEST(ConstraintSpace, ReduceIsTheTransposeOfExpandAndRestrictTheirProduct) {
     const Eigen::MatrixXd y = Eigen::MatrixXd::Random(with_held->free_count(), width);
     const Points b = random_points(10, 9);
     EXPECT_NEAR(with_held->reduce(b).cwiseProduct(y).sum(), b.cwiseProduct(with_held->expand(y)).sum(), 1e-13);
+    EXPECT_LT((with_held->reduce(with_held->lumped(b)) - with_held->reduce(b)).norm(), 1e-13);
     Eigen::MatrixXd dense = Eigen::MatrixXd::Random(10, 10);
     dense = (dense + dense.transpose()).eval();
     const SparseMatrix a = dense.sparseView();

@@ -97,14 +97,15 @@ struct ActiveStep {
 /// Unknown is X, the displacement of the control points from the rest shape (`RestMode::shape`) or the control points
 /// about a fixed origin (`RestMode::none`), in units of a normalised `DomainScaling` of the first patch. A step minimises
 ///
-///   Φ(Y) = ½ YᵀAY − Yᵀb + s Ψ(X₀ + Y)
+///   Φ(Y) = ½ YᵀAY − Yᵀb + Ψ(X₀ + Y)
 ///
 /// over all Y = X − X₀ that the constraints allow, with the forces F = −∇Ψ of the tools taken at the new position:
-///   acm         A = K + λW,              b = G − K X₀,                      s = 1   (implicit Euler)
-///   stationary  A = K,                   b = G − K X₀,                      s = 1
-///   dynamic     A = K + 2D/h + 4M/h²,    b = 2G − 2K X₀ + 4M V₀/h,          s = 2   (implicit midpoint, V = 2Y/h − V₀)
-/// G the loads, F_i = ∫ R_i f(S) du dv (thesis Eqs. 4.23, 4.25). The midpoint rule is of second order and conserves
-/// ½VᵀMV + ½XᵀKX exactly without damping and forces; a convex Ψ taken at the new position only removes energy.
+///   acm         A = K + λW,           b = G − K X₀      (implicit Euler)
+///   stationary  A = K,                b = G − K X₀
+///   dynamic     A = K + D/τ + M/τ²,   b = G − K X₀ + M(Δ/τ² + V₀/τ) + DΔ/τ
+/// G the loads, F_i = ∫ R_i f(S) du dv (thesis Eqs. 4.23, 4.25). A dynamic step of size h is two such stages, τ = (1 − √½)h:
+/// the L-stable, stiffly accurate diagonally implicit Runge-Kutta method of second order (Alexander 1977). Being A-stable, it
+/// never lets ½VᵀMV + ½XᵀKX grow without forces, whatever h; waves much shorter than a step die out instead of ringing.
 /// A is factored once; Newton's iteration treats the springs in contact by conjugate gradients on that factor, with a
 /// line search on Φ. Hence a step is stable for any stiffness k and step size, and stiffness does not freeze the sheet.
 /// Without tools it is exactly one back substitution. Immutable, const is thread-safe.
@@ -139,6 +140,7 @@ class ActiveSpline {
 
  private:
   struct Model;
+  struct Run;
   explicit ActiveSpline(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
   std::shared_ptr<const Model> model_;
 };

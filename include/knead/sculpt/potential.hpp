@@ -23,6 +23,7 @@ struct PotentialState {
   double entry = 0;         ///< deepest entry into a collision tool, in sizes of that tool
   int entered = -1;         ///< that tool, as an index
   double coarseness = 0;    ///< longest span in contact with a tool, in sizes of that tool
+  bool limited = false;     ///< some point is held back by a limit
 };
 
 /// A potential of the positions of all control points: what tools, friction and limits are to the solver.

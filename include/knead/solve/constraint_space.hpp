@@ -49,6 +49,10 @@ class ConstraintSpace {
   /// Tᵀ A T, or Tᵀ (A ⊗ I) T where `coupled`.
   [[nodiscard]] SparseMatrix restrict(const SparseMatrix& a) const;
 
+  /// A force that does the same work on every T y as b, Tᵀ(lumped b) = Tᵀ b, and acts on independent unknowns alone: what
+  /// the constraints bear is left out.
+  [[nodiscard]] Points lumped(const Points& b) const;
+
   /// X with the same independent unknowns that satisfies the constraints. Rows that do already keep their bits.
   [[nodiscard]] Points feasible(const Points& x) const;
 
