@@ -1,0 +1,311 @@
+#include "foot_search.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace knead::detail {
+namespace {
+
+constexpr int most_cells = 8000;
+constexpr double smallest_cell = 1e-6;  ///< of the size
+constexpr double margin = 1e-12;        ///< of squared lengths: what rounding may hide
+
+std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+double length(const Range& r) { return r.upper - r.lower; }
+
+/// Tangents turn little enough over a leaf that the tests of `examine` mostly decide at once.
+bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size) {
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (length(at.side[d]) == 0) continue;
+    const Range3& t = b[1 + d];
+    const double spread = 0.5 * t.diagonal();
+    const double mid = 0.5 * std::hypot(t.axis[0].lower + t.axis[0].upper, t.axis[1].lower + t.axis[1].upper,
+                                        t.axis[2].lower + t.axis[2].upper);
+    if (spread > 0.35 * mid && t.magnitude() * length(at.side[d]) > 0.02 * size) return false;
+  }
+  return true;
+}
+
+/// The side along which the cell is longer in space.
+std::size_t longer_side(const PatchBounds& b, const ParameterRectangle& at) {
+  return b[1].magnitude() * length(at.side[0]) >= b[2].magnitude() * length(at.side[1]) && length(at.side[0]) > 0 ? 0
+                                                                                                                  : 1;
+}
+
+std::array<ParameterRectangle, 2> halves(const ParameterRectangle& at, std::size_t side) {
+  std::array<ParameterRectangle, 2> h = {at, at};
+  h[0].side[side].upper = h[1].side[side].lower = at.centre()[side];
+  return h;
+}
+
+}  // namespace
+
+struct FootSearch::Query {
+  Point x;
+  double bound = std::numeric_limits<double>::infinity();
+  std::vector<Foot> feet;
+  bool certified = true;
+  int cells = 0;
+};
+
+FootSearch::FootSearch(std::vector<std::unique_ptr<Patch>> patches, double size)
+    : patches_(std::move(patches)), size_(size) {
+  std::vector<int> roots;
+  for (std::size_t k = 0; k < patches_.size(); ++k) {
+    roots.push_back(build_patch(static_cast<int>(k), patches_[k]->domain, 0));
+  }
+  root_ = join(std::move(roots));
+}
+
+int FootSearch::build_patch(int patch, const ParameterRectangle& at, int depth) {
+  const PatchBounds bounds = patches_[index(patch)]->bounds(at);
+  const int node = static_cast<int>(nodes_.size());
+  nodes_.push_back({bounds[0], {-1, -1}, -1});
+  if (depth >= 10 || fine_enough(bounds, at, size_)) {
+    nodes_.back().leaf = static_cast<int>(leaves_.size());
+    leaves_.push_back({patch, at, bounds});
+    return node;
+  }
+  const auto parts = halves(at, longer_side(bounds, at));
+  const std::array<int, 2> child = {build_patch(patch, parts[0], depth + 1), build_patch(patch, parts[1], depth + 1)};
+  nodes_[index(node)].child = child;
+  Range3 box = nodes_[index(child[0])].box;
+  box.include(nodes_[index(child[1])].box);
+  nodes_[index(node)].box = box;
+  return node;
+}
+
+int FootSearch::join(std::vector<int> nodes) {
+  if (nodes.size() == 1) return nodes.front();
+  Range3 box = nodes_[index(nodes.front())].box;
+  for (int k : nodes) box.include(nodes_[index(k)].box);
+  std::size_t axis = 0;
+  for (std::size_t a = 1; a < 3; ++a) {
+    if (length(box.axis[a]) > length(box.axis[axis])) axis = a;
+  }
+  const auto middle = [&](int k) {
+    const Range& r = nodes_[index(k)].box.axis[axis];
+    return r.lower + r.upper;
+  };
+  const auto half = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
+  std::nth_element(nodes.begin(), half, nodes.end(), [&](int a, int b) { return middle(a) < middle(b); });
+  const int left = join({nodes.begin(), half}), right = join({half, nodes.end()});
+  nodes_.push_back({box, {left, right}, -1});
+  return static_cast<int>(nodes_.size()) - 1;
+}
+
+FootResult FootSearch::nearest(const Point& x) const {
+  Query q;
+  q.x = x;
+  struct Open {
+    double lower;
+    int node;
+  };
+  std::array<Open, 256> stack;
+  std::size_t open = 0;
+  stack[open++] = {box().squared_distance(x), root_};
+  while (open > 0) {
+    const Open next = stack[--open];
+    if (next.lower > q.bound * (1 + margin)) continue;
+    const Node& node = nodes_[index(next.node)];
+    if (node.leaf >= 0) {
+      const Leaf& leaf = leaves_[index(node.leaf)];
+      if (q.feet.empty() && !std::isfinite(q.bound)) {
+        q.bound = descend(q, leaf.patch, patches_[index(leaf.patch)]->domain, leaf.at.centre()).squared;
+      }
+      examine(q, leaf.patch, leaf.at, leaf.bounds, 0);
+      continue;
+    }
+    Open a = {nodes_[index(node.child[0])].box.squared_distance(x), node.child[0]};
+    Open b = {nodes_[index(node.child[1])].box.squared_distance(x), node.child[1]};
+    if (a.lower < b.lower) std::swap(a, b);  // the nearer one is taken first
+    stack[open++] = a;
+    stack[open++] = b;
+  }
+
+  FootResult result;
+  result.cells = q.cells;
+  result.certified = q.certified && !q.feet.empty();
+  if (q.feet.empty()) {
+    const Leaf& leaf = leaves_.front();
+    q.feet.push_back(descend(q, leaf.patch, patches_[index(leaf.patch)]->domain, leaf.at.centre()));
+  }
+  // Of feet that rounding cannot tell apart the one that is pressed least against a border is taken.
+  double least = std::numeric_limits<double>::infinity();
+  for (const Foot& f : q.feet) least = std::min(least, f.squared);
+  const double tie = least * (1 + 1e-13) + 1e-30 * size_ * size_;
+  const Foot* best = nullptr;
+  for (const Foot& f : q.feet) {
+    if (f.squared <= tie && (best == nullptr || f.pressure < best->pressure)) best = &f;
+  }
+  result.best = *best;
+  const Foot polished = descend(q, best->patch, patches_[index(best->patch)]->domain, best->at);
+  if (polished.squared <= tie) result.best = polished;
+  if (result.best.pressed[0] || result.best.pressed[1]) {
+    for (const Foot& f : q.feet) {
+      const bool elsewhere = f.patch != result.best.patch || std::abs(f.at[0] - result.best.at[0]) > 1e-3 ||
+                             std::abs(f.at[1] - result.best.at[1]) > 1e-3;
+      if (elsewhere && (f.jet[0] - result.best.jet[0]).norm() < 1e-9 * size_) {
+        result.neighbours.push_back(f);
+      }
+    }
+  }
+  return result;
+}
+
+void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds bounds, int depth) const {
+  const Patch& p = *patches_[index(patch)];
+  for (bool changed = true; changed;) {
+    changed = false;
+    if (++q.cells > most_cells) {
+      q.certified = false;
+      return;
+    }
+    if (bounds[0].squared_distance(q.x) > q.bound * (1 + margin)) return;
+    const Range3 way = bounds[0] - q.x;
+    for (std::size_t d = 0; d < 2 && !changed; ++d) {
+      if (length(at.side[d]) == 0) continue;
+      const Range slope = way.dot(bounds[1 + d]);
+      const double rounding = 1e-14 * way.magnitude() * bounds[1 + d].magnitude();
+      if (slope.lower > rounding) {
+        if (at.side[d].lower != p.domain.side[d].lower) return;
+        at.side[d].upper = at.side[d].lower;
+        changed = true;
+      } else if (slope.upper < -rounding) {
+        if (at.side[d].upper != p.domain.side[d].upper) return;
+        at.side[d].lower = at.side[d].upper;
+        changed = true;
+      }
+    }
+    if (changed) bounds = p.bounds(at);
+  }
+  const Range3 way = bounds[0] - q.x;
+  const bool free_u = length(at.side[0]) > 0, free_v = length(at.side[1]) > 0;
+  const Range uu = bounds[1].squared_norm() + way.dot(bounds[3]), vv = bounds[2].squared_norm() + way.dot(bounds[5]);
+  bool convex = (!free_u || uu.lower > 0) && (!free_v || vv.lower > 0);
+  if (convex && free_u && free_v) {
+    const double uv = (bounds[1].dot(bounds[2]) + way.dot(bounds[4])).magnitude();
+    convex = uu.lower * vv.lower > uv * uv;
+  }
+  if (convex) {
+    record(q, descend(q, patch, at, at.centre()));
+    return;
+  }
+  // |x − S|² >= |x − S(centre)|² − 2 Σ max|∂| half side (mean value form).
+  const auto c = at.centre();
+  const double middle = (p.jet(c[0], c[1])[0] - q.x).squaredNorm();
+  q.bound = std::min(q.bound, middle);
+  const double fall =
+      way.dot(bounds[1]).magnitude() * length(at.side[0]) + way.dot(bounds[2]).magnitude() * length(at.side[1]);
+  if (middle - fall > q.bound * (1 + margin)) return;
+  if (depth == 0) q.bound = std::min(q.bound, descend(q, patch, p.domain, c).squared);
+  const double extent =
+      std::max(bounds[1].magnitude() * length(at.side[0]), bounds[2].magnitude() * length(at.side[1]));
+  if (extent < smallest_cell * size_ || depth > 60) {
+    const double hidden = q.bound - (middle - fall);
+    if (hidden > 1e-11 * size_ * (size_ + std::sqrt(q.bound))) q.certified = false;
+    record(q, descend(q, patch, p.domain, c));
+    return;
+  }
+  halve(q, patch, at, bounds, depth);
+}
+
+void FootSearch::halve(Query& q, int patch, const ParameterRectangle& at, const PatchBounds& bounds, int depth) const {
+  auto parts = halves(at, longer_side(bounds, at));
+  std::array<PatchBounds, 2> b = {patches_[index(patch)]->bounds(parts[0]), patches_[index(patch)]->bounds(parts[1])};
+  const bool swap = b[1][0].squared_distance(q.x) < b[0][0].squared_distance(q.x);
+  examine(q, patch, parts[swap ? 1 : 0], b[swap ? 1 : 0], depth + 1);
+  examine(q, patch, parts[swap ? 0 : 1], b[swap ? 0 : 1], depth + 1);
+}
+
+Foot FootSearch::descend(const Query& q, int patch, const ParameterRectangle& within,
+                         std::array<double, 2> start) const {
+  const Patch& p = *patches_[index(patch)];
+  Foot f;
+  f.patch = patch;
+  Eigen::Vector2d w(start[0], start[1]);
+  PatchJet j = p.jet(w[0], w[1]);
+  double before = std::numeric_limits<double>::infinity();
+  const auto slope = [&](const PatchJet& jet) {
+    const Point r = jet[0] - q.x;
+    return Eigen::Vector2d(r.dot(jet[1]), r.dot(jet[2]));
+  };
+  for (int iteration = 0; iteration < 80; ++iteration) {
+    const Point r = j[0] - q.x;
+    const Eigen::Vector2d g = slope(j);
+    std::array<bool, 2> free{};
+    for (std::size_t d = 0; d < 2; ++d) {
+      const Range& side = within.side[d];
+      const auto k = static_cast<Eigen::Index>(d);
+      free[d] = length(side) > 0 && !(w[k] <= side.lower && g[k] >= 0) && !(w[k] >= side.upper && g[k] <= 0);
+    }
+    if (!free[0] && !free[1]) break;
+    const Eigen::Matrix2d metric{{j[1].dot(j[1]), j[1].dot(j[2])}, {j[1].dot(j[2]), j[2].dot(j[2])}};
+    Eigen::Matrix2d a = metric + Eigen::Matrix2d{{r.dot(j[3]), r.dot(j[4])}, {r.dot(j[4]), r.dot(j[5])}};
+    Eigen::Vector2d step = Eigen::Vector2d::Zero();
+    bool newton = true;
+    for (int round = 0; round < 2; ++round) {
+      const double determinant = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
+      if (free[0] && free[1] && a(0, 0) > 0 && determinant > 1e-14 * a(0, 0) * a(1, 1)) {
+        step[0] = -(a(1, 1) * g[0] - a(0, 1) * g[1]) / determinant;
+        step[1] = -(a(0, 0) * g[1] - a(1, 0) * g[0]) / determinant;
+        break;
+      }
+      if (free[0] != free[1]) {
+        const Eigen::Index k = free[0] ? 0 : 1;
+        if (a(k, k) > 0) {
+          step[k] = -g[k] / a(k, k);
+          break;
+        }
+      }
+      newton = false;  // not convex here: Gauss and Newton's step
+      a = metric;
+      a.diagonal().array() += 1e-10 * metric.trace() + 1e-300;
+    }
+    Eigen::Vector2d next = w;
+    double reach = 0;
+    for (double t = 1;; t *= 0.25) {
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        const Range& side = within.side[index(static_cast<int>(k))];
+        next[k] = free[index(static_cast<int>(k))] ? std::clamp(w[k] + t * step[k], side.lower, side.upper) : w[k];
+      }
+      const Eigen::Vector2d moved = next - w;
+      reach = (moved[0] * j[1] + moved[1] * j[2]).norm() +
+              0.5 * (moved[0] * moved[0] * j[3].norm() + moved[1] * moved[1] * j[5].norm());
+      if (newton && t == 1 && reach < 1e-4 * size_) break;
+      const PatchJet trial = p.jet(next[0], next[1]);
+      if ((trial[0] - q.x).squaredNorm() < r.squaredNorm() || t < 1e-12) break;
+    }
+    w = next;
+    j = p.jet(w[0], w[1]);
+    if (reach <= 1e-16 * size_ || (reach < 1e-13 * size_ && reach >= 0.5 * before)) break;
+    before = reach;
+  }
+  f.at = {w[0], w[1]};
+  f.jet = j;
+  f.squared = (j[0] - q.x).squaredNorm();
+  const Eigen::Vector2d g = slope(j);
+  for (std::size_t d = 0; d < 2; ++d) {
+    const auto k = static_cast<Eigen::Index>(d);
+    if (length(p.domain.side[d]) == 0) continue;
+    const bool low = w[k] <= within.side[d].lower && g[k] > 0, high = w[k] >= within.side[d].upper && g[k] < 0;
+    if (!low && !high) continue;
+    const double push = std::abs(g[k]) / (j[1 + d].norm() * (std::sqrt(f.squared) + 1e-3 * size_) + 1e-300);
+    const bool border = low ? w[k] <= p.domain.side[d].lower : w[k] >= p.domain.side[d].upper;
+    if (border) {
+      f.pressed[d] = push > 1e-9;
+      f.pressure = std::max(f.pressure, push);
+    } else if (push > 1e-9) {
+      f.patch = -1;  // smaller still in the neighbouring cell
+    }
+  }
+  return f;
+}
+
+void FootSearch::record(Query& q, const Foot& foot) const {
+  q.bound = std::min(q.bound, foot.squared);
+  if (foot.patch >= 0 && foot.squared <= q.bound * (1 + margin)) q.feet.push_back(foot);
+}
+
+}  // namespace knead::detail

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "interval3.hpp"
+#include "knead/spline/spline.hpp"
+
+namespace knead::detail {
+
+/// S, S_u, S_v, S_uu, S_uv, S_vv at one parameter point.
+using PatchJet = std::array<Point, 6>;
+/// Boxes that hold the same six over a rectangle of parameters.
+using PatchBounds = std::array<Range3, 6>;
+
+struct ParameterRectangle {
+  std::array<Range, 2> side;
+  [[nodiscard]] std::array<double, 2> centre() const {
+    return {0.5 * (side[0].lower + side[0].upper), 0.5 * (side[1].lower + side[1].upper)};
+  }
+};
+
+/// A piece of surface, twice continuously differentiable over the rectangle `domain` (a side may have length 0: a
+/// curve). First derivatives may vanish at its border (poles).
+class Patch {
+ public:
+  explicit Patch(ParameterRectangle rectangle, double outward = 1) : domain(rectangle), orientation(outward) {}
+  Patch(const Patch&) = delete;
+  Patch& operator=(const Patch&) = delete;
+  virtual ~Patch() = default;
+  [[nodiscard]] virtual PatchBounds bounds(const ParameterRectangle& at) const = 0;
+  [[nodiscard]] virtual PatchJet jet(double u, double v) const = 0;
+
+  ParameterRectangle domain;
+  double orientation;  ///< 1 where S_u × S_v points outwards, −1 where it points inwards
+};
+
+/// A point of a patch where the distance to x is stationary, or smallest on the patch's border.
+struct Foot {
+  double squared = std::numeric_limits<double>::infinity();
+  int patch = -1;
+  std::array<double, 2> at{};
+  PatchJet jet{};
+  std::array<bool, 2> pressed{};  ///< the distance would fall further beyond the border in this direction
+  double pressure = 0;            ///< how fast it would, relative to the distance: 0 at stationary points
+};
+
+struct FootResult {
+  Foot best;
+  /// Other patches' feet at the same place as `best`: what meets there. Only where `best` is pressed.
+  std::vector<Foot> neighbours;
+  bool certified = true;
+  int cells = 0;  ///< how many were examined
+};
+
+/// The point of a set of patches that is nearest to x, by branch and bound.
+///
+/// A cell (a rectangle of a patch) is discarded where its box is further away than the best point so far, or where the
+/// gradient of |x − S|² cannot vanish in it by interval arithmetic (then its minimum lies on its border: if that is
+/// the border of the patch, the search goes on there, in one variable less). Where the Hessian is positive definite
+/// all over the cell, Newton's iteration finds its only minimum; all other cells are halved. What is left at cells of
+/// 1e-6 of the size is not examined further: `certified` says whether it could hide a point nearer by 1e-11 of the
+/// size.
+class FootSearch {
+ public:
+  /// \param size the length that tolerances are relative to
+  FootSearch(std::vector<std::unique_ptr<Patch>> patches, double size);
+
+  [[nodiscard]] FootResult nearest(const Point& x) const;
+  [[nodiscard]] const Patch& patch(int k) const { return *patches_[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] const Range3& box() const { return nodes_[static_cast<std::size_t>(root_)].box; }
+  [[nodiscard]] double size() const { return size_; }
+
+ private:
+  struct Node {
+    Range3 box;
+    std::array<int, 2> child = {-1, -1};
+    int leaf = -1;
+  };
+  struct Leaf {
+    int patch;
+    ParameterRectangle at;
+    PatchBounds bounds;
+  };
+  struct Query;
+
+  int build_patch(int patch, const ParameterRectangle& at, int depth);
+  int join(std::vector<int> nodes);
+  void examine(Query& q, int patch, ParameterRectangle at, PatchBounds bounds, int depth) const;
+  void halve(Query& q, int patch, const ParameterRectangle& at, const PatchBounds& bounds, int depth) const;
+  Foot descend(const Query& q, int patch, const ParameterRectangle& within, std::array<double, 2> start) const;
+  void record(Query& q, const Foot& foot) const;
+
+  std::vector<std::unique_ptr<Patch>> patches_;
+  std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;
+  double size_;
+  int root_ = 0;
+};
+
+/// Signed distance with its derivatives at x, from the nearest point and the sign of x's side.
+struct DistanceJet {
+  double distance = 0;
+  Point normal = Point::Zero();
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+};
+/// The unit normal S_u × S_v at a foot (at a pole that of a point very near it); zero where there is none.
+[[nodiscard]] Point foot_normal(const Foot& foot, const Patch& patch);
+[[nodiscard]] DistanceJet distance_jet(const Point& x, const Foot& foot, const Patch& patch, double sign, double size);
+
+}  // namespace knead::detail

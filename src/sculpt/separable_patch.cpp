@@ -1,0 +1,144 @@
+#include "separable_patch.hpp"
+
+#include <cmath>
+
+namespace knead::detail {
+namespace {
+
+/// s^k for small whole k >= 0.
+double power(double s, int k) {
+  double r = 1;
+  for (; k > 0; --k) r *= s;
+  return r;
+}
+
+}  // namespace
+
+MonotoneCurve MonotoneCurve::segment(const Vector2& from, const Vector2& to) {
+  MonotoneCurve c;
+  c.origin_ = from;
+  c.size_ = to - from;
+  return c;
+}
+
+MonotoneCurve MonotoneCurve::arc(const Vector2& centre, const Vector2& size, double exponent, bool exchanged) {
+  MonotoneCurve c;
+  c.straight_ = false;
+  c.exchanged_ = exchanged;
+  c.origin_ = centre;
+  c.size_ = size;
+  c.p_ = 2 / exponent;
+  c.m_ = c.p_ >= 2 || c.p_ == 1 ? 1 : static_cast<int>(std::ceil(exponent));
+  return c;
+}
+
+/// The monotone factors that all derivatives are made of; a power with exponent 0 is 1, at σ = 0 too.
+struct MonotoneCurve::Factors {
+  double x, y;    ///< X, Y
+  double w1, w2;  ///< w^(−1/p−1), w^(−1/p−2), w = 1 + s^p; they fall
+  double z1, z2;  ///< σ^(mp−1), σ^(mp−2); they rise
+  double zz2;     ///< σ^(2mp−2)
+  double m1, m2;  ///< σ^(m−1), σ^(m−2)
+  double zm2;     ///< σ^(mp+m−2)
+};
+
+MonotoneCurve::Factors MonotoneCurve::factors(double sigma) const {
+  Factors f;
+  const double mp = m_ * p_, s = power(sigma, m_);
+  f.m1 = power(sigma, m_ - 1);
+  f.m2 = m_ >= 2 ? power(sigma, m_ - 2) : 0;
+  if (sigma < 1e-100) {
+    f.x = f.w1 = f.w2 = 1;
+    f.y = s;
+    f.z1 = mp == 1 ? 1 : 0;
+    f.z2 = mp == 2 ? 1 : 0;
+    f.zz2 = f.zm2 = mp == 1 ? 1 : 0;
+    return f;
+  }
+  const bool round = p_ == 2;
+  const double z = round ? sigma * sigma : std::pow(sigma, mp), w = 1 + z;
+  f.x = round ? 1 / std::sqrt(w) : std::pow(w, -1 / p_);
+  f.y = s * f.x;
+  f.w1 = f.x / w;
+  f.w2 = f.w1 / w;
+  f.z1 = z / sigma;
+  f.z2 = f.z1 / sigma;
+  f.zz2 = f.z1 * f.z1;
+  f.zm2 = f.z1 * f.m1;
+  return f;
+}
+
+std::array<MonotoneCurve::Vector2, 3> MonotoneCurve::at(double sigma) const {
+  if (straight_) return {origin_ + sigma * size_, size_, Vector2::Zero()};
+  const Factors f = factors(sigma);
+  const double m = m_, mp = m * p_;
+  std::array<Vector2, 3> c = {Vector2(f.x, f.y), m * f.w1 * Vector2(-f.z1, f.m1),
+                              Vector2(-m * (mp - 1) * f.z2 * f.w1 + m * m * (p_ + 1) * f.zz2 * f.w2,
+                                      m * (m - 1) * f.m2 * f.w1 - m * m * (p_ + 1) * f.zm2 * f.w2)};
+  for (Vector2& d : c) {
+    if (exchanged_) std::swap(d[0], d[1]);
+    d = d.cwiseProduct(size_).eval();
+  }
+  c[0] += origin_;
+  return c;
+}
+
+std::array<std::array<Range, 2>, 3> MonotoneCurve::over(const Range& sigma) const {
+  std::array<std::array<Range, 2>, 3> r;
+  if (straight_) {
+    for (int k = 0; k < 2; ++k) {
+      const auto c = static_cast<std::size_t>(k);
+      r[0][c] = size_[k] * sigma + origin_[k];
+      r[1][c] = {size_[k], size_[k]};
+    }
+    return r;
+  }
+  const Factors a = factors(sigma.lower), b = factors(sigma.upper);
+  const double m = m_, mp = m * p_;
+  const Range w1 = {b.w1, a.w1}, w2 = {b.w2, a.w2};
+  r[0] = {Range{b.x, a.x}, Range{a.y, b.y}};
+  r[1] = {-m * (Range{a.z1, b.z1} * w1), m * (Range{a.m1, b.m1} * w1)};
+  r[2] = {m * m * (p_ + 1) * (Range{a.zz2, b.zz2} * w2), -m * m * (p_ + 1) * (Range{a.zm2, b.zm2} * w2)};
+  if (mp != 1) r[2][0] = r[2][0] + -m * (mp - 1) * (Range{a.z2, b.z2} * w1);
+  if (m_ > 1) r[2][1] = r[2][1] + m * (m - 1) * (Range{a.m2, b.m2} * w1);
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (exchanged_) std::swap(r[d][0], r[d][1]);
+    for (int k = 0; k < 2; ++k) {
+      Range& c = r[d][static_cast<std::size_t>(k)];
+      c = size_[k] * c;
+      if (d == 0) c = c + origin_[k];
+    }
+  }
+  return r;
+}
+
+PatchBounds SeparablePatch::bounds(const ParameterRectangle& at) const {
+  const auto f = meridian_.over(at.side[0]), g = parallel_.over(at.side[1]);
+  constexpr std::array<std::array<std::size_t, 2>, 6> order = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+  PatchBounds b;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto [du, dv] = order[k];
+    const std::array<Range, 3> c = {f[du][0] * g[dv][0], f[du][0] * g[dv][1], dv == 0 ? f[du][1] : Range{0, 0}};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto i = static_cast<Eigen::Index>(a);
+      b[k].axis[static_cast<std::size_t>(axes_[a])] = scale_[i] * c[a] + (k == 0 ? offset_[i] : 0.0);
+    }
+  }
+  return b;
+}
+
+PatchJet SeparablePatch::jet(double u, double v) const {
+  const auto f = meridian_.at(u), g = parallel_.at(v);
+  constexpr std::array<std::array<std::size_t, 2>, 6> order = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+  PatchJet j;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto [du, dv] = order[k];
+    const Point c(f[du][0] * g[dv][0], f[du][0] * g[dv][1], dv == 0 ? f[du][1] : 0.0);
+    for (int a = 0; a < 3; ++a) {
+      j[k][axes_[static_cast<std::size_t>(a)]] = scale_[a] * c[a] + (k == 0 ? offset_[a] : 0.0);
+    }
+  }
+  return j;
+}
+
+}  // namespace knead::detail

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "foot_search.hpp"
+
+namespace knead::detail {
+
+/// A plane curve over σ in [0, 1] whose coordinates are monotone: a segment, origin + size σ, or half a quarter of a
+/// superellipse, origin + (size.x X, size.y Y) with X^p + Y^p = 1, p = 2/e:
+///   s = σ^m, X = (1 + s^p)^(−1/p), Y = s X,  or X and Y exchanged (the other half).
+/// s = Y/X runs evenly where a trigonometric parameter crowds; m makes second derivatives bounded where 1 < p < 2 or
+/// p < 1 (at σ = 0 the curve then has infinite curvature or a cusp, and its first derivative vanishes).
+class MonotoneCurve {
+ public:
+  using Vector2 = Eigen::Vector2d;
+  [[nodiscard]] static MonotoneCurve segment(const Vector2& from, const Vector2& to);
+  [[nodiscard]] static MonotoneCurve arc(const Vector2& centre, const Vector2& size, double exponent, bool exchanged);
+
+  /// The curve and its first two derivatives at σ.
+  [[nodiscard]] std::array<Vector2, 3> at(double sigma) const;
+  /// The same six numbers' ranges over [lower, upper]: ranges[derivative][coordinate].
+  [[nodiscard]] std::array<std::array<Range, 2>, 3> over(const Range& sigma) const;
+
+ private:
+  struct Factors;
+  [[nodiscard]] Factors factors(double sigma) const;
+
+  bool straight_ = true, exchanged_ = false;
+  Vector2 origin_ = Vector2::Zero(), size_ = Vector2::Zero();
+  double p_ = 2;
+  int m_ = 1;
+};
+
+/// S(u, v) = offset + scale ∘ (f g, f k, h) with (f, h)(u) and (g, k)(v) monotone curves: every surface of revolution
+/// and every superquadric, one octant at a time. `axes` says which coordinate each of the three becomes.
+class SeparablePatch final : public Patch {
+ public:
+  SeparablePatch(const ParameterRectangle& rectangle, const MonotoneCurve& meridian, const MonotoneCurve& parallel,
+                 const Point& scale, const Point& offset = Point::Zero(), std::array<int, 3> axes = {0, 1, 2})
+      : Patch(rectangle), meridian_(meridian), parallel_(parallel), scale_(scale), offset_(offset), axes_(axes) {}
+
+  [[nodiscard]] PatchBounds bounds(const ParameterRectangle& at) const override;
+  [[nodiscard]] PatchJet jet(double u, double v) const override;
+
+ private:
+  MonotoneCurve meridian_, parallel_;
+  Point scale_, offset_;
+  std::array<int, 3> axes_;
+};
+
+}  // namespace knead::detail

@@ -1,0 +1,192 @@
+#include <cmath>
+#include <functional>
+
+#include "separable_patch.hpp"
+#include "shape_kernel.hpp"
+
+namespace knead::detail {
+namespace {
+
+using Vector2 = Eigen::Vector2d;
+using Patches = std::vector<std::unique_ptr<Patch>>;
+using Inside = std::function<bool(const Point&)>;
+
+constexpr ParameterRectangle whole = {{Range{0, 1}, Range{0, 1}}};
+constexpr ParameterRectangle meridian_only = {{Range{0, 1}, Range{0, 0}}};
+
+/// A solid whose surface is made of patches. It is symmetric in the coordinates that are folded: there only the
+/// octant, quarter or half with positive coordinates has patches.
+class SearchedSolid final : public ShapeKernel {
+ public:
+  /// \param round the solid is one of revolution about z and its patches are meridians in y = 0
+  SearchedSolid(Patches patches, Inside inside, std::array<bool, 3> fold, bool round, const BoundingBox& extent,
+                double feature)
+      : inside_(std::move(inside)), fold_(fold), round_(round) {
+    box = extent;
+    size = feature;
+    for (auto& patch : patches) orient(*patch);
+    search_ = std::make_unique<FootSearch>(std::move(patches), 0.5 * (extent.upper - extent.lower).maxCoeff());
+  }
+
+  Nearest nearest(const Point& x) const override {
+    Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // columns: the axes of the folded frame
+    Point y = x;
+    const double rho = std::hypot(x.x(), x.y());
+    if (round_) {
+      const Point e = rho > 0 ? Point(x.x() / rho, x.y() / rho, 0) : Point::UnitX();
+      frame.col(0) = e;
+      frame.col(1) = Point(-e.y(), e.x(), 0);
+      y = Point(rho, 0, x.z());
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (!fold_[static_cast<std::size_t>(k)] || !std::signbit(y[k])) continue;
+      frame.col(k) *= -1;
+      y[k] = -y[k];
+    }
+    const FootResult found = search_->nearest(y);
+    const DistanceJet d =
+        distance_jet(y, found.best, search_->patch(found.best.patch), inside_(y) ? -1 : 1, search_->size());
+    Nearest r;
+    r.converged = found.certified;
+    r.distance = d.distance;
+    r.point = frame * found.best.jet[0];
+    if (round_ && rho == 0 && std::abs(d.normal.x()) > 1e-12) return r;  // a circle of points is nearest
+    r.normal = frame * d.normal;
+    r.hessian = frame * d.hessian * frame.transpose();
+    return r;
+  }
+
+ private:
+  void orient(Patch& patch) const {
+    const PatchJet j = patch.jet(0.5, patch.domain.centre()[1]);
+    const Point n = j[1].cross(j[2]).normalized();
+    if (inside_(j[0] + 1e-7 * (box.upper - box.lower).minCoeff() * n)) patch.orientation = -1;
+  }
+
+  Inside inside_;
+  std::array<bool, 3> fold_;
+  bool round_;
+  std::unique_ptr<FootSearch> search_;
+};
+
+constexpr std::array<bool, 2> both_halves = {false, true};
+
+/// Adds the patches that a meridian curve sweeps over the first quarter of the superellipse of exponent e.
+void sweep(Patches& patches, const MonotoneCurve& meridian, double e, const Point& scale, bool round = false) {
+  if (round) {
+    const MonotoneCurve start = MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), 1, false);
+    patches.push_back(std::make_unique<SeparablePatch>(meridian_only, meridian, start, scale));
+    return;
+  }
+  for (bool exchanged : both_halves) {
+    const MonotoneCurve parallel = MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), e, exchanged);
+    patches.push_back(std::make_unique<SeparablePatch>(whole, meridian, parallel, scale));
+  }
+}
+
+bool in_superellipse(double x, double y, double e) {
+  const double p = 2 / e;
+  return std::pow(std::abs(x), p) + std::pow(std::abs(y), p) <= 1;
+}
+
+/// (|x|^p + |y|^p)^(1/p), p = 2/e, without overflow.
+double superellipse_norm(double x, double y, double e) {
+  const double a = std::max(std::abs(x), std::abs(y)), b = std::min(std::abs(x), std::abs(y));
+  return a == 0 ? 0 : a * std::pow(1 + std::pow(b / a, 2 / e), e / 2);
+}
+
+}  // namespace
+
+Kernel scaled_revolution_kernel(const Shape& shape, const Meridian& pieces, const Point& scale) {
+  const bool round = scale.x() == scale.y();
+  Patches patches;
+  for (const MeridianPiece& piece : pieces) {
+    if (piece.kind == MeridianPiece::Kind::segment) {
+      sweep(patches, MonotoneCurve::segment(piece.a, piece.b), 1, scale, round);
+    } else {
+      for (bool exchanged : both_halves) {
+        sweep(patches, MonotoneCurve::arc(piece.a, piece.b, 1, exchanged), 1, scale, round);
+      }
+    }
+  }
+  const Kernel plain = revolution_kernel(shape, pieces);
+  const BoundingBox extent = {plain->box.lower.cwiseProduct(scale), plain->box.upper.cwiseProduct(scale)};
+  const auto inside = [shape, scale](const Point& x) {
+    const Point y = x.cwiseQuotient(scale);
+    return in_meridian(shape, std::hypot(y.x(), y.y()), y.z());
+  };
+  return std::make_unique<SearchedSolid>(std::move(patches), inside, std::array<bool, 3>{!round, !round, false}, round,
+                                         extent, 0.0);
+}
+
+Kernel scaled_box_kernel(const BoxShape& shape, const Point& scale) {
+  const Point half(shape.half_sizes[0], shape.half_sizes[1], shape.half_sizes[2]);
+  const Point core = ((half.array() - shape.rounding).max(0.0)).matrix().cwiseProduct(scale);
+  const Point reach = shape.rounding * scale, outer = core + reach;
+  const auto up = MonotoneCurve::segment(Vector2(1, 0), Vector2(1, 1)),
+             across = MonotoneCurve::segment(Vector2(0, 1), Vector2(1, 1));
+  Patches patches;
+  for (int a = 0; a < 3; ++a) {
+    const std::array<int, 3> axes = {a, (a + 1) % 3, (a + 2) % 3};
+    const auto [i, j, k] = axes;
+    // The face x_j = outer_j over the core's x_i and x_k, and the edge along x_k.
+    if (core[i] > 0 && core[k] > 0) {
+      patches.push_back(
+          std::make_unique<SeparablePatch>(whole, up, across, Point(core[i], outer[j], core[k]), Point::Zero(), axes));
+    }
+    for (bool exchanged : both_halves) {
+      if (core[k] == 0) break;
+      const auto arc = MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), 1, exchanged);
+      patches.push_back(std::make_unique<SeparablePatch>(whole, up, arc, Point(reach[i], reach[j], core[k]),
+                                                         Point(core[i], core[j], 0), axes));
+    }
+  }
+  for (bool one : both_halves) {
+    for (bool other : both_halves) {
+      const auto arc = MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), 1, one);
+      const auto round = MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), 1, other);
+      patches.push_back(std::make_unique<SeparablePatch>(whole, arc, round, reach, core));
+    }
+  }
+  const auto inside = [core, reach](const Point& x) {
+    return (x.cwiseAbs() - core).cwiseMax(0.0).cwiseQuotient(reach).squaredNorm() <= 1;
+  };
+  return std::make_unique<SearchedSolid>(std::move(patches), inside, std::array<bool, 3>{true, true, true}, false,
+                                         BoundingBox{-outer, outer}, outer.minCoeff());
+}
+
+Kernel superellipsoid_kernel(const SuperellipsoidShape& s, const Point& scale) {
+  const Point a(s.semi_axes[0] * scale.x(), s.semi_axes[1] * scale.y(), s.semi_axes[2] * scale.z());
+  Patches patches;
+  for (bool exchanged : both_halves) {
+    sweep(patches, MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), s.e1, exchanged), s.e2, a);
+  }
+  const auto inside = [a, e1 = s.e1, e2 = s.e2](const Point& x) {
+    return in_superellipse(superellipse_norm(x.x() / a.x(), x.y() / a.y(), e2), x.z() / a.z(), e1);
+  };
+  return std::make_unique<SearchedSolid>(std::move(patches), inside, std::array<bool, 3>{true, true, true}, false,
+                                         BoundingBox{-a, a}, a.minCoeff());
+}
+
+Kernel supertoroid_kernel(const SupertoroidShape& s, const Point& scale) {
+  const bool round = scale.x() == scale.y() && s.e2 == 1;
+  Patches patches;
+  for (double side : {1.0, -1.0}) {
+    for (bool exchanged : both_halves) {
+      const Vector2 tube(side * s.semi_axes[0], s.semi_axes[1]);
+      sweep(patches, MonotoneCurve::arc(Vector2(s.major, 0), tube, s.e1, exchanged), s.e2, scale, round);
+    }
+  }
+  const auto inside = [s, scale](const Point& x) {
+    const Point y = x.cwiseQuotient(scale);
+    return in_superellipse((superellipse_norm(y.x(), y.y(), s.e2) - s.major) / s.semi_axes[0], y.z() / s.semi_axes[1],
+                           s.e1);
+  };
+  const Point outer(scale.x() * (s.major + s.semi_axes[0]), scale.y() * (s.major + s.semi_axes[0]),
+                    scale.z() * s.semi_axes[1]);
+  const double feature = std::min({scale.x() * s.semi_axes[0], scale.y() * s.semi_axes[0], outer.z()});
+  return std::make_unique<SearchedSolid>(std::move(patches), inside, std::array<bool, 3>{!round, !round, true}, round,
+                                         BoundingBox{-outer, outer}, feature);
+}
+
+}  // namespace knead::detail
