@@ -225,6 +225,39 @@ std::string format_real(double value) {
   return text;
 }
 
+std::string format_shortest_real(double value) {
+  std::array<char, 32> buffer{};
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  std::string text(buffer.data(), error == std::errc() ? end : buffer.data());
+  const auto exponent = std::min(text.find('e'), text.size());
+  if (exponent < text.size()) text[exponent] = 'E';
+  if (text.find('.') == std::string::npos) text.insert(exponent, ".");
+  return text;
+}
+
+std::string encode_string(std::string_view text) {
+  std::string out = "'";
+  const auto hex = [&out](char32_t code, int digits) {
+    for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) out += "0123456789ABCDEF"[(code >> shift) & 0xF];
+  };
+  for (std::size_t k = 0; k < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[k]);
+    const auto length = utf8_length(text, k);
+    if (length == 1 && byte >= 0x20 && byte != 0x7F) {
+      if (byte == '\'' || byte == '\\') out += text[k];
+      out += text[k++];
+      continue;
+    }
+    char32_t code = length == 0 ? 0xFFFD : length == 1 ? byte : byte & (0xFFU >> (length + 1));
+    for (std::size_t i = 1; i < length; ++i) code = (code << 6) | (static_cast<unsigned char>(text[k + i]) & 0x3FU);
+    out += code < 0x10000 ? "\\X2\\" : "\\X4\\";
+    hex(code, code < 0x10000 ? 4 : 8);
+    out += "\\X0\\";
+    k += std::max<std::size_t>(length, 1);
+  }
+  return out + "'";
+}
+
 std::string decode_string(std::string_view literal) {
   if (literal.size() >= 2 && literal.front() == '\'' && literal.back() == '\'') {
     literal = literal.substr(1, literal.size() - 2);

@@ -26,6 +26,8 @@ class StepReader {
 
   /// "#12 CARTESIAN_POINT"
   [[nodiscard]] std::string label(std::uint32_t instance) const;
+  /// The part of the instance (a value of kind `typed`) with this name.
+  [[nodiscard]] std::optional<std::uint32_t> part(std::uint32_t instance, std::string_view entity) const;
   /// Some part of the instance has this name.
   [[nodiscard]] bool is(std::uint32_t instance, std::string_view entity) const {
     return part(instance, entity).has_value();
@@ -62,8 +64,6 @@ class StepReader {
   [[nodiscard]] std::unexpected<Error> error(std::uint32_t instance, std::string what, std::string remedy = {}) const;
 
  private:
-  [[nodiscard]] std::optional<std::uint32_t> part(std::uint32_t instance, std::string_view entity) const;
-
   const Part21File* file_;
 };
 

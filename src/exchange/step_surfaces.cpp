@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "knead/spline/basis.hpp"
-#include "step_knots.hpp"
 
 namespace knead {
 namespace {
@@ -43,20 +42,11 @@ Expected<Net> read_net(const StepReader& reader, std::uint32_t instance, std::ui
   return net;
 }
 
-std::optional<ImpliedKnots> implied_form(const StepReader& reader, std::uint32_t instance) {
-  if (reader.is(instance, "BEZIER_SURFACE")) return ImpliedKnots::bezier;
-  if (reader.is(instance, "QUASI_UNIFORM_SURFACE")) return ImpliedKnots::quasi_uniform;
-  if (reader.is(instance, "UNIFORM_SURFACE")) return ImpliedKnots::uniform;
-  return std::nullopt;
-}
-
 Expected<std::array<KnotVector, 2>> surface_knots(const StepReader& reader, std::uint32_t instance,
                                                   std::array<int, 2> degree, std::array<int, 2> count) {
   constexpr std::array<const char*, 2> names = {"u", "v"};
   std::vector<KnotVector> knots;
-  const auto listed = reader.is(instance, "B_SPLINE_SURFACE_WITH_KNOTS")
-                          ? reader.attributes(instance, "B_SPLINE_SURFACE_WITH_KNOTS", attributes_of_surface, 4)
-                          : std::vector<std::uint32_t>{};
+  const auto listed = knot_parameters(reader, instance);
   const auto form = implied_form(reader, instance);
   if (listed.empty() && !form) {
     return reader.error(instance, "it has no knots",
@@ -99,6 +89,33 @@ Expected<std::vector<double>> surface_weights(const StepReader& reader, std::uin
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> knot_parameters(const StepReader& reader, std::uint32_t instance) {
+  if (!reader.is(instance, "B_SPLINE_SURFACE_WITH_KNOTS")) return {};
+  return reader.attributes(instance, "B_SPLINE_SURFACE_WITH_KNOTS", attributes_of_surface, 4);
+}
+
+std::uint32_t weights_parameter(const StepReader& reader, std::uint32_t instance) {
+  return reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_surface, 1).front();
+}
+
+const char* implied_keyword(ImpliedKnots form) {
+  switch (form) {
+    case ImpliedKnots::bezier:
+      return "BEZIER_SURFACE";
+    case ImpliedKnots::quasi_uniform:
+      return "QUASI_UNIFORM_SURFACE";
+    default:
+      return "UNIFORM_SURFACE";
+  }
+}
+
+std::optional<ImpliedKnots> implied_form(const StepReader& reader, std::uint32_t instance) {
+  for (const auto form : {ImpliedKnots::bezier, ImpliedKnots::quasi_uniform, ImpliedKnots::uniform}) {
+    if (reader.is(instance, implied_keyword(form))) return form;
+  }
+  return std::nullopt;
+}
 
 bool is_b_spline_surface(const StepReader& reader, std::uint32_t instance) {
   return std::any_of(forms.begin(), forms.end(), [&](std::string_view form) { return reader.is(instance, form); });

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "knead/spline/spline.hpp"
 #include "step_entity.hpp"
+#include "step_knots.hpp"
 
 namespace knead {
 
@@ -21,6 +23,17 @@ struct ReadSurface {
 
 /// Reads one (ISO 10303-42, b_spline_surface and its subtypes). Errors (input) with entity and line.
 [[nodiscard]] Expected<ReadSurface> read_b_spline_surface(const StepReader& reader, std::uint32_t instance);
+
+/// The values of its u multiplicities, v multiplicities, u knots, v knots, and whatever follows; empty where it lists
+/// none.
+[[nodiscard]] std::vector<std::uint32_t> knot_parameters(const StepReader& reader, std::uint32_t instance);
+
+/// The value of the list of its weights; it must be rational.
+[[nodiscard]] std::uint32_t weights_parameter(const StepReader& reader, std::uint32_t instance);
+
+/// The form that implies its knots, if it has one.
+[[nodiscard]] std::optional<ImpliedKnots> implied_form(const StepReader& reader, std::uint32_t instance);
+[[nodiscard]] const char* implied_keyword(ImpliedKnots form);
 
 /// `StepSurface::closed`.
 [[nodiscard]] std::array<bool, 2> closed_directions(const Surface& surface);

@@ -77,6 +77,12 @@ struct StepEdit {
   Points control_points;
 };
 
+/// Another surface in the place of one of the file: refined, or coarser, over the same parameter domain.
+struct StepReplacement {
+  std::string id;  ///< "#123"
+  Surface surface;
+};
+
 /// A STEP file (ISO 10303-21 exchange structure) whose records remember their bytes, and its B-spline surfaces.
 ///
 /// Reading changes nothing: the bytes are kept. Writing is surgical: only what must differ does (docs/step.md).
@@ -114,6 +120,19 @@ class StepFile {
   /// Errors: unknown or repeated id, wrong number of control points, a coordinate that is not finite (input); the
   /// self-check fails (numerical).
   [[nodiscard]] Expected<std::string> with_control_points(std::span<const StepEdit> edits) const;
+
+  /// The bytes of this file with whole surfaces replaced, other nets, degrees, knots and weights included, and every
+  /// other byte as it was.
+  ///
+  /// Where only control points differ this is `with_control_points`. Otherwise what differs in the surface's record is
+  /// rewritten: degrees, the list of control points, weights, and the knots of a direction; forms with implied knots
+  /// become B_SPLINE_SURFACE_WITH_KNOTS unless the new knots are implied as well. Name, surface form and the flags for
+  /// closed and self-intersecting stay. Control points that have a value of the old net keep its record; others take
+  /// over records that only this surface used and no longer needs, or get new ones (docs/step.md). The parameter domain
+  /// should stay the same, since trimming curves live in it; that is not checked.
+  /// Errors: unknown or repeated id; weights where the file has none, or none where it has; a knot inside the domain
+  /// repeated more often than the degree (input); the self-check fails (numerical).
+  [[nodiscard]] Expected<std::string> with_surfaces(std::span<const StepReplacement> replacements) const;
 
   struct Data;  ///< private to the exchange room
 

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "knead/base/error.hpp"
+#include "knead/spline/spline.hpp"
+
+namespace knead {
+
+/// A surface for a file that does not exist yet.
+struct StepNewSurface {
+  std::string name;  ///< its label, UTF-8
+  Surface surface;   ///< coordinates in `StepTextOptions::unit`
+};
+
+struct StepTextOptions {
+  std::string unit = "mm";           ///< "um", "mm", "cm", "m", "km", "inch" or "foot"
+  std::string product = "surfaces";  ///< name of the product and its representation, UTF-8
+  std::string file_name = {};        ///< of the header, UTF-8
+  std::string time_stamp = {};       ///< of the header, as in "2024-05-17T12:00:00"; the text depends on nothing else
+};
+
+/// A STEP file (ISO 10303-21, AP214: AUTOMOTIVE_DESIGN) that holds these surfaces and nothing else.
+///
+/// One product with one GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION whose GEOMETRIC_SET lists the surfaces in
+/// order, each on its natural bounds, as B_SPLINE_SURFACE_WITH_KNOTS, with weights as a complex instance with
+/// RATIONAL_B_SPLINE_SURFACE. Coordinates carry 17 significant digits, knots and weights the fewest that give back the
+/// same bits: `StepFile::parse` reads the same surfaces bit for bit. The flags for closed are those of
+/// `StepSurface::closed`. Cost: linear in the number of control points.
+/// Errors (input): no surfaces; an unknown unit; a knot inside the domain repeated more often than the degree.
+[[nodiscard]] Expected<std::string> step_text(std::span<const StepNewSurface> surfaces,
+                                              const StepTextOptions& options = {});
+
+}  // namespace knead

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "knead/exchange/part21.hpp"
+
+namespace knead {
+
+/// Names for new records: above all others, so that nothing that was deleted from the file before can be meant; but not
+/// above what readers with 32-bit names understand, where a free name is left below.
+class FreshNames {
+ public:
+  explicit FreshNames(const Part21File& file) : file_(file), next_(file.largest_id() + 1) {}
+
+  std::uint64_t next() {
+    constexpr std::uint64_t readable = std::numeric_limits<std::int32_t>::max();
+    if (next_ > readable && !exhausted_) {
+      while (file_.taken(low_) && low_ <= readable) ++low_;
+      if (low_ <= readable) return low_++;
+      exhausted_ = true;
+    }
+    return next_++;
+  }
+
+ private:
+  const Part21File& file_;
+  std::uint64_t next_;
+  std::uint64_t low_ = 1;
+  bool exhausted_ = false;
+};
+
+}  // namespace knead

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "knead/exchange/part21.hpp"
+#include "knead/spline/spline.hpp"
+#include "step_entity.hpp"
+#include "step_fresh_names.hpp"
+
+namespace knead {
+
+/// Equal to the last bit: tells 0 from -0.
+[[nodiscard]] bool same_bits(const Points& a, const Points& b);
+[[nodiscard]] bool same_bits(std::span<const double> a, std::span<const double> b);
+
+/// Collects what must change in the bytes of a file so that surfaces become other ones, and nothing else.
+class Surgeon {
+ public:
+  explicit Surgeon(const Part21File& file) : file_(file), reader_(file), names_(file) {}
+
+  /// Other control points on the same net.
+  /// \param refs values that refer to the control points, in their order
+  [[nodiscard]] Expected<void> move_points(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
+                                           const Points& old_points, const Points& new_points);
+
+  /// Another net, other degrees, knots or weights as well (rational as before).
+  [[nodiscard]] Expected<void> replace_surface(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
+                                               const Surface& before, const Surface& after);
+
+  /// The bytes of the file with everything changed.
+  [[nodiscard]] std::string result();
+
+ private:
+  // Bytes [range) become `text`; where ranges are empty the text is inserted.
+  struct Change {
+    ByteRange range;
+    std::string text;
+  };
+  using Coordinates = std::array<std::uint32_t, 3>;
+
+  [[nodiscard]] Expected<void> move(std::uint32_t point, const std::vector<Eigen::Index>& rows,
+                                    const std::vector<std::uint32_t>& refs, const Points& old_points,
+                                    const Points& new_points, std::string& inserted);
+  [[nodiscard]] Expected<std::vector<std::string>> point_names(const std::vector<std::uint32_t>& refs,
+                                                               const Points& old_points, const Points& new_points,
+                                                               std::string& inserted);
+  void write_knots(std::uint32_t instance, const Surface& before, const Surface& after);
+  [[nodiscard]] std::vector<Change> rewritten(const Coordinates& coordinates, const Points& old_points,
+                                              Eigen::Index old_row, const Points& points, Eigen::Index row) const;
+  [[nodiscard]] std::string copy_of(std::uint32_t point, const std::string& name,
+                                    const std::vector<Change>& changes) const;
+  // The text of a number: as it stands in the list (of lists), if it is there, and in the fewest digits otherwise.
+  [[nodiscard]] std::function<std::string(double)> texts(std::uint32_t list) const;
+  [[nodiscard]] std::string line_break() const;
+  void change(std::uint32_t value, std::string text) {
+    changes_.push_back({file_.value(value).bytes, std::move(text)});
+  }
+  void insert(std::uint32_t at, std::string text) { changes_.push_back({{at, at}, std::move(text)}); }
+
+  const Part21File& file_;
+  StepReader reader_;
+  FreshNames names_;
+  std::vector<Change> changes_;
+};
+
+}  // namespace knead

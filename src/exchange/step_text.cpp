@@ -1,0 +1,145 @@
+#include "knead/exchange/step_text.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "part21_text.hpp"
+#include "step_print.hpp"
+#include "step_surfaces.hpp"
+
+namespace knead {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  std::string_view prefix;  // of the metre; for a conversion based unit empty
+  double millimetres = 0;   // of a conversion based unit
+  std::string_view label = {};
+};
+
+constexpr std::array<Unit, 7> units = {{{"mm", ".MILLI."},
+                                        {"um", ".MICRO."},
+                                        {"cm", ".CENTI."},
+                                        {"m", "$"},
+                                        {"km", ".KILO."},
+                                        {"inch", "", 25.4, "INCH"},
+                                        {"foot", "", 304.8, "FOOT"}}};
+
+// The DATA section, record by record.
+class Records {
+ public:
+  /// Adds "#n=record;" and gives back "#n".
+  std::string add(const std::string& record) {
+    auto name = next();
+    text_ += name + "=" + record + ";\n";
+    return name;
+  }
+  std::string add_point(const double* coordinates) {
+    auto name = next();
+    text_ += print_point(name, coordinates) + "\n";
+    return name;
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string next() { return "#" + std::to_string(++last_); }
+
+  std::string text_;
+  int last_ = 0;
+};
+
+std::string add_length_unit(Records& records, const Unit& unit) {
+  const auto metric = [&](std::string_view prefix) {
+    return records.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(" + std::string(prefix) + ",.METRE.))");
+  };
+  if (!unit.prefix.empty()) return metric(unit.prefix);
+  const auto exponents = records.add("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)");
+  const auto factor = records.add("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(unit.millimetres) +
+                                  ")," + metric(".MILLI.") + ")");
+  return records.add("(CONVERSION_BASED_UNIT('" + std::string(unit.label) + "'," + factor +
+                     ")LENGTH_UNIT()NAMED_UNIT(" + exponents + "))");
+}
+
+std::string add_context(Records& records, const Unit& unit) {
+  const auto length = add_length_unit(records, unit);
+  const auto angle = records.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
+  const auto solid_angle = records.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
+  const auto uncertainty =
+      records.add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-07)," + length + ",'distance_accuracy_value','')");
+  return records.add("(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((" + uncertainty +
+                     "))GLOBAL_UNIT_ASSIGNED_CONTEXT((" + length + "," + angle + "," + solid_angle +
+                     "))REPRESENTATION_CONTEXT('',''))");
+}
+
+std::string add_surface(Records& records, const StepNewSurface& item) {
+  const Surface& surface = item.surface;
+  const auto net = surface.net();
+  std::vector<std::string> names;
+  for (Eigen::Index k = 0; k < surface.size(); ++k) {
+    names.push_back(records.add_point(surface.control_points().row(k).data()));
+  }
+  std::array<PrintedKnots, 2> knots;
+  for (std::size_t d = 0; d < 2; ++d) knots[d] = print_knots(surface.knots()[d], format_shortest_real);
+  const auto closed = closed_directions(surface);
+  const auto label = encode_string(item.name);
+  const auto own = std::to_string(surface.knots(0).degree()) + "," + std::to_string(surface.knots(1).degree()) + "," +
+                   print_net(
+                       net[0], net[1], [&](int k) { return names[static_cast<std::size_t>(k)]; }, "\n") +
+                   ",.UNSPECIFIED.," + (closed[0] ? ".T." : ".F.") + "," + (closed[1] ? ".T." : ".F.") + ",.U.";
+  const auto listed = knots[0].multiplicities + "," + knots[1].multiplicities + "," + knots[0].values + "," +
+                      knots[1].values + ",.UNSPECIFIED.";
+  if (!surface.rational()) return records.add("B_SPLINE_SURFACE_WITH_KNOTS(" + label + "," + own + "," + listed + ")");
+  const auto weights = print_net(
+      net[0], net[1], [&](int k) { return format_shortest_real(surface.weights()[static_cast<std::size_t>(k)]); },
+      "\n");
+  return records.add("(BOUNDED_SURFACE()B_SPLINE_SURFACE(" + own + ")B_SPLINE_SURFACE_WITH_KNOTS(" + listed +
+                     ")GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(" + weights + ")REPRESENTATION_ITEM(" +
+                     label + ")SURFACE())");
+}
+
+}  // namespace
+
+Expected<std::string> step_text(std::span<const StepNewSurface> surfaces, const StepTextOptions& options) {
+  const auto unit = std::ranges::find(units, options.unit, &Unit::name);
+  if (unit == units.end()) {
+    return input_error("the unit " + options.unit + " is not known", {}, "use um, mm, cm, m, km, inch or foot");
+  }
+  if (surfaces.empty()) return input_error("there is no surface to write");
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    for (const auto& knots : surfaces[k].surface.knots()) {
+      if (knots.max_interior_multiplicity() <= knots.degree()) continue;
+      return input_error("STEP knows no surface that is torn along a knot", "surface " + std::to_string(k),
+                         "keep knots inside the domain to a multiplicity of " + std::to_string(knots.degree()));
+    }
+  }
+
+  Records records;
+  const auto product_name = encode_string(options.product);
+  const auto application = records.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
+  records.add("APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000," + application + ")");
+  const auto product_context = records.add("PRODUCT_CONTEXT(''," + application + ",'mechanical')");
+  const auto product = records.add("PRODUCT(" + product_name + "," + product_name + ",'',(" + product_context + "))");
+  records.add("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(" + product + "))");
+  const auto formation = records.add("PRODUCT_DEFINITION_FORMATION('',''," + product + ")");
+  const auto design = records.add("PRODUCT_DEFINITION_CONTEXT('part definition'," + application + ",'design')");
+  const auto definition = records.add("PRODUCT_DEFINITION('design',''," + formation + "," + design + ")");
+  const auto shape = records.add("PRODUCT_DEFINITION_SHAPE('',''," + definition + ")");
+  const auto context = add_context(records, *unit);
+  const auto origin = records.add("CARTESIAN_POINT('',(0.,0.,0.))");
+  const auto axis = records.add("DIRECTION('',(0.,0.,1.))");
+  const auto direction = records.add("DIRECTION('',(1.,0.,0.))");
+  const auto placement = records.add("AXIS2_PLACEMENT_3D(''," + origin + "," + axis + "," + direction + ")");
+  std::string items;
+  for (const auto& surface : surfaces) items += (items.empty() ? "" : ",") + add_surface(records, surface);
+  const auto set = records.add("GEOMETRIC_SET('',(" + items + "))");
+  const auto representation = records.add("GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION(" + product_name + ",(" +
+                                          placement + "," + set + ")," + context + ")");
+  records.add("SHAPE_DEFINITION_REPRESENTATION(" + shape + "," + representation + ")");
+
+  return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME(" + encode_string(options.file_name) + "," +
+         encode_string(options.time_stamp) + ",(''),(''),'Knead','Knead','');\n" +
+         "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n" + records.text() +
+         "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+}  // namespace knead

@@ -1,0 +1,91 @@
+#include "knead/exchange/step_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "exchange/new_surfaces.hpp"
+#include "exchange/support.hpp"
+
+namespace knead {
+namespace {
+
+using testing::new_surfaces;
+using testing::parse_or_die;
+
+TEST(StepText, ReadsBackToTheLastBit) {
+  const auto surfaces = new_surfaces();
+  const auto text = knead::step_text(surfaces);
+  ASSERT_TRUE(text) << text.error().message();
+  const auto file = parse_or_die(*text);
+  EXPECT_EQ(file.schema(), "AUTOMOTIVE_DESIGN");
+  EXPECT_TRUE(file.unreadable_surfaces().empty());
+  ASSERT_EQ(file.surfaces().size(), surfaces.size());
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    const auto& read = file.surfaces()[k];
+    EXPECT_EQ(read.name, surfaces[k].name);
+    EXPECT_EQ(read.unit, "mm");
+    EXPECT_FALSE(read.trimmed);
+    EXPECT_EQ(read.surface.knots(), surfaces[k].surface.knots());
+    EXPECT_TRUE(testing::same_bits(read.surface.control_points(), surfaces[k].surface.control_points()));
+    EXPECT_TRUE(std::ranges::equal(read.surface.weights(), surfaces[k].surface.weights()));
+    EXPECT_EQ(read.closed, (std::array{read.name == "tube", read.name == "cone"})) << read.name;
+  }
+}
+
+TEST(StepText, CanBeEditedLikeAnyFile) {
+  const auto surfaces = new_surfaces();
+  const auto file = parse_or_die(*knead::step_text(surfaces));
+  EXPECT_EQ(file.with_control_points({}), file.bytes());
+  const StepReplacement other{file.surfaces()[0].id,
+                              *surfaces[0].surface.with_control_points(2 * surfaces[0].surface.control_points())};
+  EXPECT_TRUE(file.with_surfaces({&other, 1}));
+}
+
+TEST(StepText, EveryUnitIsReadAsWhatItIs) {
+  const auto surfaces = new_surfaces();
+  const std::pair<const char*, double> units[] = {{"um", 1e-6}, {"mm", 1e-3},     {"cm", 1e-2},    {"m", 1},
+                                                  {"km", 1e3},  {"inch", 0.0254}, {"foot", 0.3048}};
+  for (const auto& [unit, metres] : units) {
+    const auto text = knead::step_text(surfaces, {.unit = unit});
+    ASSERT_TRUE(text) << unit;
+    const auto file = parse_or_die(*text);
+    EXPECT_EQ(file.length_unit(), unit);
+    ASSERT_EQ(file.length_units().size(), 1U);
+    EXPECT_NEAR(file.length_units()[0].metres / metres, 1, 1e-15);
+    EXPECT_EQ(file.surfaces()[0].unit, unit);
+  }
+}
+
+TEST(StepText, NamesOfAllKindsComeBack) {
+  const auto surface = new_surfaces().front().surface;
+  for (const auto* name : {"", "it's", "a\\b", "\\X2\\", "été αβ 車", "🚗", "line\nbreak\ttab", "#10=X('')"}) {
+    const StepNewSurface item{name, surface};
+    const auto text = knead::step_text({&item, 1}, {.product = name, .file_name = name});
+    ASSERT_TRUE(text);
+    EXPECT_EQ(parse_or_die(*text).surfaces()[0].name, name);
+    EXPECT_TRUE(std::ranges::all_of(*text, [](char c) { return c == '\n' || (c >= ' ' && c < 127); }));
+  }
+  const StepNewSurface broken{"caf\xE9", surface};
+  EXPECT_EQ(parse_or_die(*knead::step_text({&broken, 1})).surfaces()[0].name, "caf\xEF\xBF\xBD");
+}
+
+TEST(StepText, DependsOnItsArgumentsOnly) {
+  const auto surfaces = new_surfaces();
+  const StepTextOptions options{.time_stamp = "2024-05-17T12:00:00"};
+  EXPECT_EQ(*knead::step_text(surfaces, options), *knead::step_text(surfaces, options));
+  EXPECT_NE(knead::step_text(surfaces, options)->find("FILE_NAME('','2024-05-17T12:00:00',"), std::string::npos);
+}
+
+TEST(StepText, WhatCannotBeWrittenIsAnError) {
+  EXPECT_FALSE(knead::step_text({}));
+  const auto surfaces = new_surfaces();
+  EXPECT_NE(knead::step_text(surfaces, {.unit = "furlong"}).error().message().find("furlong"), std::string::npos);
+  const auto torn = *KnotVector::create(1, {0, 0, 1, 1, 2, 2});
+  const auto line = *KnotVector::create(1, {0, 0, 1, 1});
+  const StepNewSurface item{"torn", *Surface::create({torn, line}, Points::Random(8, 3))};
+  EXPECT_NE(knead::step_text({&item, 1}).error().message().find("surface 0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace knead
