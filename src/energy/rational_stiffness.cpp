@@ -1,6 +1,10 @@
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
+#include "knead/base/gauss_legendre.hpp"
 #include "rational_basis.hpp"
 #include "tensor_pattern.hpp"
 
@@ -22,14 +26,36 @@ std::vector<std::pair<int, int>> element_runs(const BasisTable& table) {
   return runs;
 }
 
-}  // namespace
+/// Gauss points on the spans of one direction, cut at `breaks` (ascending, may lie anywhere).
+Expected<BasisQuadrature> gauss_basis_between(const KnotVector& knots, const std::vector<double>& breaks, int points,
+                                              int order) {
+  const GaussRule rule = gauss_legendre(points);
+  BasisQuadrature result;
+  for (const int span : knots.spans()) {
+    double lower = knots[span];
+    for (auto next = std::ranges::upper_bound(breaks, lower); lower < knots[span + 1]; ++next) {
+      const double upper = next == breaks.end() ? knots[span + 1] : std::min(*next, knots[span + 1]);
+      const double half = (upper - lower) / 2, middle = lower + half;
+      for (std::size_t g = 0; g < rule.abscissae.size(); ++g) {
+        // Strictly inside, so that the span to the right is the one meant; a piece of a single ulp has no inside.
+        const double u = std::clamp(middle + half * rule.abscissae[g], lower, std::nextafter(upper, lower));
+        result.parameters.push_back(u);
+        result.weights.push_back(half * rule.weights[g]);
+      }
+      lower = upper;
+      if (next == breaks.end()) break;
+    }
+  }
+  auto table = tabulate_basis(knots, result.parameters, order);
+  if (!table) return std::unexpected(table.error());
+  result.basis = std::move(*table);
+  return result;
+}
 
-template <int D>
-Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D>& energy, int gauss_points) {
-  TensorPattern<D> pattern;
-  pattern.net = spline.net();
+template <int D, class Term>
+int highest_order(const std::vector<Term>& energy) {
   int order = 0;
-  for (const EnergyTerm<D>& term : energy) {
+  for (const Term& term : energy) {
     int a = 0, b = 0;
     for (std::size_t d = 0; d < D; ++d) {
       a += term.a[d];
@@ -37,13 +63,21 @@ Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D
     }
     order = std::max({order, a, b});
   }
-  std::array<BasisQuadrature, D> quadrature;
+  return order;
+}
+
+/// K by the points of `quadrature`. varying[t] is what multiplies the coefficient of term t at every point of the grid,
+/// last direction fastest; empty: one.
+template <int D>
+Expected<SparseMatrix> assemble_on(const Spline<D>& spline, const Energy<D>& energy, int order,
+                                   const std::array<BasisQuadrature, D>& quadrature,
+                                   const std::vector<std::vector<double>>& varying) {
+  TensorPattern<D> pattern;
+  pattern.net = spline.net();
   std::array<std::vector<std::pair<int, int>>, D> runs;
   int local = 1;
   for (std::size_t d = 0; d < D; ++d) {
     pattern.degree[d] = spline.knots()[d].degree();
-    const int points = gauss_points > 0 ? gauss_points : pattern.degree[d] + 8;
-    quadrature[d] = gauss_basis(spline.knots()[d], points, order);
     runs[d] = element_runs(quadrature[d].basis);
     local *= pattern.degree[d] + 1;
   }
@@ -67,23 +101,32 @@ Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D
     }
     for (Dense& b : basis) b.resize(local, total);
     Eigen::VectorXd weight(total);
+    std::vector<std::size_t> place(static_cast<std::size_t>(total));  // in the whole grid
     for (int k = 0; k < total; ++k) {
       std::array<const double*, D> rows;
       double w = 1;
+      std::size_t stride = 1;
       for (std::size_t d = D, rest = static_cast<std::size_t>(k); d-- > 0;) {
         const int at = runs[d][element[d]].first + static_cast<int>(rest % static_cast<std::size_t>(points[d]));
         rest /= static_cast<std::size_t>(points[d]);
         rows[d] = quadrature[d].basis.row(at, 0);
         w *= quadrature[d].weights[static_cast<std::size_t>(at)];
+        place[static_cast<std::size_t>(k)] += static_cast<std::size_t>(at) * stride;
+        stride *= quadrature[d].weights.size();
       }
       weight(k) = w;
       if (auto ok = rational.evaluate(first, rows, k, basis); !ok) return std::unexpected(ok.error());
     }
     Dense block = Dense::Zero(local, local);
-    for (const EnergyTerm<D>& term : energy) {
+    for (std::size_t t = 0; t < energy.size(); ++t) {
+      const EnergyTerm<D>& term = energy[t];
       const Dense& a = basis[static_cast<std::size_t>(multi_index_position<D>(term.a))];
       const Dense& b = basis[static_cast<std::size_t>(multi_index_position<D>(term.b))];
-      block.noalias() += (a * (term.coefficient * weight).asDiagonal()) * b.transpose();
+      Eigen::VectorXd scaled = term.coefficient * weight;
+      for (std::size_t k = 0; k < place.size() && !varying[t].empty(); ++k) {
+        scaled[static_cast<Eigen::Index>(k)] *= varying[t][place[k]];
+      }
+      block.noalias() += (a * scaled.asDiagonal()) * b.transpose();
     }
     // The two terms of a symmetric pair are rounded apart; the mean of both halves is symmetric to the last bit.
     const Dense symmetric = 0.5 * (block + block.transpose());
@@ -103,8 +146,71 @@ Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D
   }
 }
 
+}  // namespace
+
+template <int D>
+Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D>& energy, int gauss_points) {
+  const int order = highest_order<D>(energy);
+  std::array<BasisQuadrature, D> quadrature;
+  for (std::size_t d = 0; d < D; ++d) {
+    const int points = gauss_points > 0 ? gauss_points : spline.knots()[d].degree() + 8;
+    quadrature[d] = gauss_basis(spline.knots()[d], points, order);
+  }
+  return assemble_on<D>(spline, energy, order, quadrature, std::vector<std::vector<double>>(energy.size()));
+}
+
+template <int D>
+Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const FieldEnergy<D>& energy, int gauss_points) {
+  std::array<std::vector<double>, D> breaks;
+  std::array<int, D> degree{};
+  Energy<D> constant;
+  bool any = false;
+  for (const FieldTerm<D>& term : energy) {
+    const double* c = std::get_if<double>(&term.coefficient);
+    constant.push_back({c ? term.factor * *c : term.factor, term.a, term.b});
+    if (c) continue;
+    any = true;
+    for (std::size_t d = 0; d < D; ++d) {
+      const KnotVector& knots = std::get<SplineField<D>>(term.coefficient).knots()[d];
+      const Interval own = spline.knots()[d].domain(), other = knots.domain();
+      if (own.lower != other.lower || own.upper != other.upper) {
+        return input_error(
+            fmt::format("the domains [{}, {}] and [{}, {}] differ", own.lower, own.upper, other.lower, other.upper), {},
+            "give a field over the domain of the spline");
+      }
+      breaks[d].insert(breaks[d].end(), knots.knots().begin(), knots.knots().end());
+      degree[d] = std::max(degree[d], knots.degree());
+    }
+  }
+  if (!any) return assemble_rational<D>(spline, constant, gauss_points);
+  const int order = highest_order<D>(energy);
+  std::array<BasisQuadrature, D> quadrature;
+  for (std::size_t d = 0; d < D; ++d) {
+    std::ranges::sort(breaks[d]);
+    breaks[d].erase(std::unique(breaks[d].begin(), breaks[d].end()), breaks[d].end());
+    const int points = gauss_points > 0 ? gauss_points : spline.knots()[d].degree() + 8 + (degree[d] + 1) / 2;
+    auto made = gauss_basis_between(spline.knots()[d], breaks[d], points, order);
+    if (!made) return std::unexpected(made.error());
+    quadrature[d] = std::move(*made);
+  }
+  std::array<std::span<const double>, D> parameters;
+  for (std::size_t d = 0; d < D; ++d) parameters[d] = quadrature[d].parameters;
+  std::vector<std::vector<double>> varying(energy.size());
+  for (std::size_t t = 0; t < energy.size(); ++t) {
+    const auto* field = std::get_if<SplineField<D>>(&energy[t].coefficient);
+    if (field == nullptr) continue;
+    auto values = field->on_grid(parameters);
+    if (!values) return std::unexpected(values.error());
+    varying[t] = std::move(*values);
+  }
+  return assemble_on<D>(spline, constant, order, quadrature, varying);
+}
+
 template Expected<SparseMatrix> assemble_rational<1>(const Spline<1>&, const Energy<1>&, int);
 template Expected<SparseMatrix> assemble_rational<2>(const Spline<2>&, const Energy<2>&, int);
 template Expected<SparseMatrix> assemble_rational<3>(const Spline<3>&, const Energy<3>&, int);
+template Expected<SparseMatrix> assemble_rational<1>(const Spline<1>&, const FieldEnergy<1>&, int);
+template Expected<SparseMatrix> assemble_rational<2>(const Spline<2>&, const FieldEnergy<2>&, int);
+template Expected<SparseMatrix> assemble_rational<3>(const Spline<3>&, const FieldEnergy<3>&, int);
 
 }  // namespace knead

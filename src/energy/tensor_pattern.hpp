@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "knead/energy/material_field.hpp"
 #include "knead/energy/stiffness.hpp"
 
 namespace knead {
@@ -97,6 +98,11 @@ struct TensorPattern {
 /// K of a rational spline by Gauss points on the rational basis, all entries of the tensor pattern stored.
 template <int D>
 [[nodiscard]] Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D>& energy,
+                                                       int gauss_points);
+
+/// The same with coefficients that vary: they are evaluated at the Gauss points, and spans are cut at their knots.
+template <int D>
+[[nodiscard]] Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const FieldEnergy<D>& energy,
                                                        int gauss_points);
 
 }  // namespace knead
