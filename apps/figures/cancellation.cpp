@@ -49,13 +49,17 @@ KnotVector mirrored(const KnotVector& knots) {
   return *KnotVector::create(knots.degree(), std::move(x));
 }
 
-double worst(const KnotVector& knots) {
+double worst(const KnotVector& knots, bool better_side = false) {
+  const int n = knots.count();
   const BandMatrix analytic = *gramian(knots, 0, 0, GramianMethod::analytic);
+  const BandMatrix from_right = *gramian(mirrored(knots), 0, 0, GramianMethod::analytic);
   const BandMatrix right = *gramian(knots, 0, 0, GramianMethod::recurrence);
   double result = 0;
-  for (int i = 0; i < knots.count(); ++i) {
-    for (int j = i; j < std::min(knots.count(), i + knots.degree() + 1); ++j) {
-      result = std::max(result, std::abs(analytic(i, j) - right(i, j)) / right(i, j));
+  for (int i = 0; i < n; ++i) {
+    for (int j = i; j < std::min(n, i + knots.degree() + 1); ++j) {
+      double error = std::abs(analytic(i, j) - right(i, j));
+      if (better_side) error = std::min(error, std::abs(from_right(n - 1 - i, n - 1 - j) - right(i, j)));
+      result = std::max(result, error / right(i, j));
     }
   }
   return result;
@@ -87,6 +91,8 @@ Cancellation cancellation(int degree, int r) {
 }
 
 double worst_on_thesis_knots(int degree, int r) { return worst(thesis_knots(degree, r)); }
+
+double worst_by_better_side(int degree, int r) { return worst(thesis_knots(degree, r), true); }
 
 double worst_on_cluster(int degree) {
   std::vector<double> x(static_cast<std::size_t>(degree), 0.0);

@@ -21,6 +21,8 @@ struct Cancellation {
 /// The largest relative error over all entries of G00 by the analytic method against recurrence: on the thesis' knots,
 /// and with three knots 1e-8 apart, 6, 6 + 1e-8 and 6 + 2e-8, in place of 6 and 7.
 [[nodiscard]] double worst_on_thesis_knots(int degree, int r);
+/// The same where every entry is taken from the left or from the right, whichever happens to be nearer.
+[[nodiscard]] double worst_by_better_side(int degree, int r);
 [[nodiscard]] double worst_on_cluster(int degree);
 
 }  // namespace knead::figures

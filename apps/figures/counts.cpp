@@ -109,7 +109,7 @@ void add_totals(Report& report) {
     const int number = over == Over::points ? 39 : 40;
     Chart chart = compared(fmt::format("Fig. 5.{}: operations for all four Gramians", number), "operations", over,
                            over == Over::points ? 10 : highest_degree, total, formula);
-    chart.logarithmic(over == Over::points, true);
+    chart.logarithmic(false, true);
     for (const GramianMethod method : all_methods) {
       Points points;
       for (int k = 1; k <= 10; ++k) {
@@ -129,26 +129,22 @@ void add_totals(Report& report) {
             number, over == Over::points ? "number of points" : "degree"));
   }
 
-  Chart chart("Fig. 5.41: operations against points and degree", "number of control points", "operations");
-  chart.logarithmic(true, true);
-  for (const int p : {1, 3, 5, 7}) {
-    Points series[3];
-    for (int n = 16; n <= 1024; n *= 2) {
-      series[0].emplace_back(n, static_cast<double>(total(p, n, both[0])));
-      series[1].emplace_back(n, static_cast<double>(total(p, n, both[1])));
-      series[2].emplace_back(n, operations(p, n, GramianMethod::recurrence));
-    }
-    const char* names[] = {"Gaussian (Alg. 5.1)", "analytic (Alg. 5.5)", "recurrence"};
-    const bool dashes[] = {false, true, false};
-    for (int k = 0; k < 3; ++k) {
-      chart.label(1024, series[k].back().second, fmt::format("p = {}", p));
-      chart.line(names[k], series[k], {.colour = k, .dashed = dashes[k], .markers = true, .in_legend = p == 1});
+  std::vector<Surface> surfaces = {{"Gaussian (Alg. 5.1)", {}}, {"analytic (Alg. 5.5)", {}}, {"recurrence", {}}};
+  std::vector<std::string> degrees, counts;
+  for (int n = 100; n <= 1000; n += 150) counts.push_back(fmt::format("{}", n));
+  for (int p = 1; p <= highest_kernel; ++p) {
+    degrees.push_back(fmt::format("{}", p));
+    for (Surface& surface : surfaces) surface.heights.emplace_back();
+    for (int n = 100; n <= 1000; n += 150) {
+      surfaces[0].heights.back().push_back(static_cast<double>(total(p, n, both[0])));
+      surfaces[1].heights.back().push_back(static_cast<double>(total(p, n, both[1])));
+      surfaces[2].heights.back().push_back(operations(p, n, GramianMethod::recurrence));
     }
   }
-  report.picture(
-      "figure_5_41.svg", chart.svg(),
-      "Fig. 5.41: both at once, for p = 1, 3, 5 and 7. The thesis draws a surface; on logarithmic axes it is "
-      "parallel lines: the ratio does not depend on the number of points.");
+  report.picture("figure_5_41.svg",
+                 surface_svg("Fig. 5.41: operations against points and degree, counted", "degree",
+                             "number of control points", degrees, counts, surfaces),
+                 "Fig. 5.41: both at once. The ratio of the surfaces does not depend on the number of points.");
 
   report.text(
       "\n### Operations per span, all four Gramians\n\nCounted: the difference of 200 and 100 functions. *formula* is "

@@ -58,7 +58,8 @@ void add_matrices(Report& report, const std::string& data) {
                               marked(row.at("printed_gauss"), exact, cut),
                               marked(row.at("printed_analytic"), exact, cut)));
       for (const GramianSet& set : ours) {
-        report.text(" " + marked(fmt::format("{:.14e}", matrix_of(set, term)(i, j)), exact) + " |");
+        report.text(" " + marked(fmt::format("{:.14e}", matrix_of(set, term)(i, j)), exact, Cut::rounded, two_ulp) +
+                    " |");
       }
       report.text("\n");
     }

@@ -8,12 +8,13 @@ void add_tables(Report& report, const std::string& data) {
       "\n## Tables 5.3 to 5.20: the methods against exact values\n\n"
       "Clamped knots 0 … 13 with 7 replaced by 6 + 10^-r, in Tables 5.17 to 5.20 divided by 13. *exact* is the value "
       "by "
-      "rational arithmetic to 17 digits; then what the thesis prints, then our three methods cut to as many digits as "
+      "rational arithmetic; then what the thesis prints, then our three methods cut to as many digits as "
       "the "
       "thesis has, and their relative errors (for G10, whose diagonal is zero, the errors themselves). **Bold digits "
       "are "
       "wrong**: they are not those of the exact value rounded. The thesis underlines such digits in its Gaussian and "
-      "analytic columns; those in its *exact* column are its slips.\n");
+      "analytic columns; those in its *exact* column are its slips. In our columns a digit is "
+      "right, too, where it is that of a number within two ulp of the exact one.\n");
   report.text(tables_markdown(data));
   report.text(
       "\nIn Table 5.16 the printed integral at 12 is that at 9 over again, the printed product at 6 + 10⁻¹⁰ has the "

@@ -26,11 +26,11 @@ struct Axis {
     upper = std::max(upper, scaled(x));
   }
   /// A little room around the data, but none below zero where all is positive.
-  void widen(double room) {
+  void widen(double room, bool below_zero = false) {
     if (!(lower <= upper)) lower = 0, upper = 1;
     if (lower == upper) upper = lower + 1;
     const double extra = room * (upper - lower);
-    lower = !logarithmic && lower >= 0 && lower < upper / 2 ? 0 : lower - extra;
+    lower = !below_zero && !logarithmic && lower >= 0 && lower < upper / 2 ? 0 : lower - extra;
     upper += extra;
   }
   [[nodiscard]] double fraction(double x) const { return (scaled(x) - lower) / (upper - lower); }
@@ -42,6 +42,18 @@ struct Axis {
     std::vector<double> result;
     for (double t = std::ceil(lower / step) * step; t <= upper + 1e-9 * step; t += step) {
       result.push_back(std::abs(t) < 1e-9 * step ? 0 : t);
+    }
+    return result;
+  }
+  /// 2, 3, … 9 times the powers of ten of a logarithmic axis of few decades.
+  [[nodiscard]] std::vector<double> minor_ticks() const {
+    std::vector<double> result;
+    if (!logarithmic || upper - lower > 5) return result;
+    for (double decade = std::floor(lower); decade < upper; ++decade) {
+      for (int k = 2; k <= 9; ++k) {
+        const double t = decade + std::log10(k);
+        if (t >= lower && t <= upper) result.push_back(t);
+      }
     }
     return result;
   }
@@ -92,13 +104,21 @@ std::string Chart::svg() const {
       if (series.impulses) y.include(0);
     }
   }
-  x.widen(strokes > 0 || log_x_ ? 0.03 : 0);
+  x.widen(strokes > 0 || log_x_ ? 0.04 : 0, strokes > 1);
   y.widen(0.05);
   const double width = left + std::max(plot_width, letter * 1.25 * letters(title_) - legend) + legend;
   const auto px = [&](double fraction) { return left + fraction * (width - left - legend); };
   const auto py = [&](double fraction) { return height - bottom - fraction * (height - top - bottom); };
 
   std::string out = header(width, height) + text(left, 26, escaped(title_), "start", "font-size=\"15\"");
+  for (const double tick : x.minor_ticks()) {
+    const double at = px((tick - x.lower) / (x.upper - x.lower));
+    out += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"#f2f2f2\"/>\n", at, py(0), py(1));
+  }
+  for (const double tick : y.minor_ticks()) {
+    const double at = py((tick - y.lower) / (y.upper - y.lower));
+    out += fmt::format("<path d=\"M{0:.1f} {1:.1f}H{2:.1f}\" stroke=\"#f2f2f2\"/>\n", px(0), at, px(1));
+  }
   for (const double tick : x.ticks()) {
     const double at = px((tick - x.lower) / (x.upper - x.lower));
     out += fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"#e3e3e3\"/>\n", at, py(0), py(1));
@@ -151,10 +171,65 @@ std::string Chart::svg() const {
     out += text(px(1) + 46, row + 4, escaped(series.name), "start");
     row += 19;
   }
-  for (const Label& label : labels_) {
-    if (!x.shows(label.x) || !y.shows(label.y)) continue;
-    out += text(px(x.fraction(label.x)) + 6, py(y.fraction(label.y)) - 6, escaped(label.words), "end",
-                "font-size=\"10\" fill=\"#333\"");
+  return out + "</svg>\n";
+}
+
+std::string surface_svg(const std::string& title, const std::string& row_label, const std::string& column_label,
+                        const std::vector<std::string>& rows, const std::vector<std::string>& columns,
+                        const std::vector<Surface>& surfaces) {
+  constexpr double floor_left = 100, floor_front = 430, right = 400, back_x = 150, back_y = -110, tall = 250;
+  double largest = 0;
+  for (const Surface& surface : surfaces) {
+    for (const auto& row : surface.heights) largest = std::max(largest, std::ranges::max(row));
+  }
+  const auto along = [](std::size_t k, std::size_t count) {
+    return count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 0;
+  };
+  const auto x_of = [&](double row, double column) { return floor_left + right * column + back_x * row; };
+  const auto y_of = [&](double row, double height) { return floor_front + back_y * row - tall * height; };
+  std::string out =
+      header(floor_left + right + back_x + 190, 510) + text(24, 26, escaped(title), "start", "font-size=\"15\"");
+  // The floor with its marks, and a post at the back left with heights.
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double r = along(i, rows.size());
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#ddd\"/>\n", x_of(r, 0), y_of(r, 0), x_of(r, 1));
+    out += text(x_of(r, 1) + 10, y_of(r, 0) + 4, rows[i], "start");
+  }
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const double c = along(j, columns.size());
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#ddd\"/>\n", x_of(0, c), y_of(0, 0),
+                       x_of(1, c), y_of(1, 0));
+    out += text(x_of(0, c), y_of(0, 0) + 18, columns[j], "middle");
+  }
+  out += text(x_of(0, 0.5), y_of(0, 0) + 42, escaped(column_label), "middle");
+  out += text(x_of(0.5, 1) + 44, y_of(0.5, 0) + 4, escaped(row_label), "start");
+  Axis z;
+  z.include(0);
+  z.include(largest);
+  out += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}\" stroke=\"#333\"/>\n", x_of(0, 0), y_of(0, 0), y_of(0, 1));
+  for (const double tick : z.ticks()) {
+    out += text(x_of(0, 0) - 8, y_of(0, tick / largest) + 4, z.label(tick), "end");
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}h-4\" stroke=\"#333\"/>\n", x_of(0, 0), y_of(0, tick / largest));
+  }
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    const auto& heights = surfaces[s].heights;
+    std::string path;
+    const auto corner = [&](std::size_t i, std::size_t j, bool pen) {
+      const double r = along(i, rows.size());
+      path += fmt::format("{}{:.1f} {:.1f}", pen ? "L" : "M", x_of(r, along(j, columns.size())),
+                          y_of(r, heights[i][j] / largest));
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (std::size_t j = 0; j < columns.size(); ++j) corner(i, j, j > 0);
+    }
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      for (std::size_t i = 0; i < rows.size(); ++i) corner(i, j, i > 0);
+    }
+    out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\"/>\n", path, colours[s]);
+    const double row = 60 + 19 * static_cast<double>(s);
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}h26\" stroke=\"{}\" stroke-width=\"2.4\"/>\n", floor_left + 30, row,
+                       colours[s]);
+    out += text(floor_left + 64, row + 4, escaped(surfaces[s].name), "start");
   }
   return out + "</svg>\n";
 }

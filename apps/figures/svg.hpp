@@ -35,8 +35,6 @@ class Chart {
   void impulses(std::string name, Points points, Style style = {}) {
     series_.push_back({std::move(name), std::move(points), style, true});
   }
-  /// A word beside a point.
-  void label(double x, double y, std::string words) { labels_.push_back({x, y, std::move(words)}); }
   [[nodiscard]] std::string svg() const;
 
  private:
@@ -46,15 +44,20 @@ class Chart {
     Style style;
     bool impulses;
   };
-  struct Label {
-    double x, y;
-    std::string words;
-  };
   std::string title_, x_label_, y_label_;
   bool log_x_ = false, log_y_ = false;
   std::vector<Series> series_;
-  std::vector<Label> labels_;
 };
+
+/// Surfaces over one grid as wire frames, seen from the front left: heights[row][column], all from zero. Rows go back,
+/// columns to the right.
+struct Surface {
+  std::string name;
+  std::vector<std::vector<double>> heights;
+};
+[[nodiscard]] std::string surface_svg(const std::string& title, const std::string& row_label,
+                                      const std::string& column_label, const std::vector<std::string>& rows,
+                                      const std::vector<std::string>& columns, const std::vector<Surface>& surfaces);
 
 /// The band of a matrix as a picture: one cell per entry with its value, blue below zero, red above, the darker the
 /// larger; entries below `zero` are white. Rows may have any lengths.

@@ -19,7 +19,7 @@ inline constexpr std::array<GramianMethod, 3> all_methods = {GramianMethod::gaus
 struct TableRow {
   std::string table, term;
   int degree = 0, r = 0, i = 0, j = 0;
-  long double exact = 0;                                       ///< to 17 digits
+  long double exact = 0;                                       ///< to 21 digits
   std::string printed_exact, printed_gauss, printed_analytic;  ///< as the thesis prints them
   std::array<double, 3> ours{};                                ///< by all_methods
 

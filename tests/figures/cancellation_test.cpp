@@ -1,0 +1,90 @@
+// What docs/gramians/error-analysis.md argues from.
+#include "figures/cancellation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "figures/thesis_knots.hpp"
+#include "knead/gramian/gramian.hpp"
+#include "support/quad_gramian.hpp"
+
+namespace knead::figures {
+namespace {
+
+constexpr double epsilon = 2.2e-16;
+
+TEST(Cancellation, weights_and_products_grow_as_the_knots_meet_and_the_entry_does_not) {
+  for (const int p : {3, 6, 10}) {
+    for (int r = 3; r < 10; ++r) {
+      const Cancellation here = cancellation(p, r), next = cancellation(p, r + 1);
+      for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_NEAR(next.weight[k] / here.weight[k], 10, 0.05) << p << " " << r;
+        EXPECT_NEAR(next.integral[k] / here.integral[k], 1, 0.02) << p << " " << r;
+      }
+      EXPECT_LT(here.weight[0] * here.weight[1], 0);  // of opposite signs
+      EXPECT_NEAR(here.weight[0] / here.weight[1], -1, 20 * std::pow(10, -r));
+    }
+  }
+}
+
+TEST(Cancellation, error_is_within_the_bound_of_rounded_terms) {
+  // A term is wrong by its weight (2 (p + 3) ulp) and its integral (4 (3p + 4) ulp), the bounds of their docstrings.
+  for (const int p : {3, 5, 10}) {
+    for (int r = 0; r <= 10; ++r) {
+      const Cancellation at = cancellation(p, r);
+      const double bound = (14 * p + 24) * epsilon * at.condition;
+      EXPECT_LE(at.plain, bound) << p << " " << r;
+      EXPECT_LE(at.kahan, bound) << p << " " << r;
+      EXPECT_LE(at.normalised, bound) << p << " " << r;
+    }
+  }
+}
+
+TEST(Cancellation, kahan_summation_and_normalising_gain_nothing) {
+  // Added up over the spacings at which digits are lost: logarithms of the errors, in digits.
+  double plain = 0, kahan = 0, normalised = 0;
+  int count = 0;
+  for (int r = 4; r <= 10; ++r) {
+    const Cancellation at = cancellation(3, r);
+    plain += std::log10(std::max(at.plain, epsilon));
+    kahan += std::log10(std::max(at.kahan, epsilon));
+    normalised += std::log10(std::max(at.normalised, epsilon));
+    ++count;
+  }
+  EXPECT_GT(kahan / count, plain / count - 0.1);
+  EXPECT_GT(normalised / count, plain / count - 0.5);
+  EXPECT_GT(cancellation(3, 10).kahan, 1e-9);
+  EXPECT_GT(cancellation(3, 10).normalised, 1e-9);
+}
+
+TEST(Cancellation, spares_the_tabulated_entry_as_the_degree_grows_but_not_the_worst) {
+  EXPECT_LT(cancellation(10, 10).plain, 1e-12);
+  EXPECT_GT(cancellation(10, 10).mirrored, 1e-5);  // the same entry with integrals from the other side
+  for (const int p : {3, 5, 7, 10}) {
+    EXPECT_GT(worst_on_thesis_knots(p, 10), 1e-7) << p;
+    EXPECT_GT(worst_by_better_side(p, 10), 1e-9) << p;
+    EXPECT_GT(worst_on_cluster(p), 0.5) << p;
+  }
+}
+
+TEST(Cancellation, does_not_touch_the_recurrence) {
+  // Ten roundings at each of the 2p levels: 20 p units of half an ulp.
+  for (const int p : {3, 5, 10}) {
+    for (int r = 0; r <= 10; ++r) {
+      const KnotVector knots = thesis_knots(p, r);
+      const BandMatrix ours = *gramian(knots, 0, 0, GramianMethod::recurrence);
+      const testing::QuadGramian right = testing::quad_gramian(knots, 0, 0);
+      for (int i = 0; i < knots.count(); ++i) {
+        for (int j = i; j < std::min(knots.count(), i + p + 1); ++j) {
+          const auto exact = static_cast<double>(right.value(i, j));
+          EXPECT_LE(std::abs(ours(i, j) - exact), 20 * p * epsilon / 2 * exact) << p << " " << r;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace knead::figures
