@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "figures/thesis_knots.hpp"
 #include "knead/gramian/gramian.hpp"
@@ -67,6 +72,43 @@ TEST(Cancellation, spares_the_tabulated_entry_as_the_degree_grows_but_not_the_wo
     EXPECT_GT(worst_by_better_side(p, 10), 1e-9) << p;
     EXPECT_GT(worst_on_cluster(p), 0.5) << p;
   }
+}
+
+// The page states numbers; they are those that are computed: to the digits stated, and the worst entries of whole
+// matrices, which are noise of the analytic method, to their order of magnitude.
+TEST(Cancellation, is_what_the_page_says) {
+  std::ifstream page(std::string(KNEAD_SOURCE_DIR) + "/docs/gramians/error-analysis.md");
+  int rows = 0, worst_rows = 0;
+  const auto same = [](double stated, double computed) {
+    // One digit is stated; errors below ε are counted as none.
+    EXPECT_LE(std::abs(stated - computed), 0.55 * std::max(std::abs(computed), epsilon)) << stated;
+  };
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| ") || std::isdigit(static_cast<unsigned char>(line[2])) == 0) continue;
+    std::vector<double> cells;
+    std::istringstream cut(line.substr(1));
+    for (std::string cell; std::getline(cut, cell, '|');) cells.push_back(std::stod(cell));
+    if (cells.size() == 6) {
+      const Cancellation at = cancellation(3, static_cast<int>(cells[0]));
+      EXPECT_NEAR(cells[1], at.condition, 0.01 * at.condition);
+      same(cells[2], epsilon * at.condition);
+      same(cells[3], at.plain);
+      same(cells[4], at.kahan);
+      same(cells[5], at.normalised);
+      ++rows;
+    } else {
+      ASSERT_EQ(cells.size(), 5u) << line;
+      const int p = static_cast<int>(cells[0]);
+      const double computed[] = {worst_on_thesis_knots(p, 6), worst_on_thesis_knots(p, 8), worst_on_thesis_knots(p, 10),
+                                 worst_on_cluster(p)};
+      for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_LE(std::abs(std::log10(cells[k + 1] / computed[k])), 1) << line;
+      }
+      ++worst_rows;
+    }
+  }
+  EXPECT_EQ(rows, 6);
+  EXPECT_EQ(worst_rows, 4);
 }
 
 TEST(Cancellation, does_not_touch_the_recurrence) {

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "figures/svg.hpp"
 #include "figures/tables.hpp"
@@ -57,6 +60,14 @@ TEST(Figures, of_the_cubic_matrices_have_the_exact_entries_by_all_methods) {
       EXPECT_NEAR(ours, exact, 2e-15 * std::max(1.0, std::abs(exact)))
           << row.at("term") << " " << row.at("i") << " " << row.at("j") << " by " << name(method);
     }
+  }
+}
+
+TEST(Figures, that_the_docs_show_are_those_that_are_written) {
+  for (const char* name : {"figure_5_48_a.svg", "figure_5_48_b.svg", "figure_5_48_c.svg"}) {
+    std::ifstream file(std::string(KNEAD_SOURCE_DIR) + "/docs/gramians/" + name);
+    const std::string shown((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    EXPECT_EQ(shown, report().pictures.at(name)) << name << ": copy it from out/figures to docs/gramians";
   }
 }
 
