@@ -6,29 +6,22 @@
 #include <fstream>
 #include <system_error>
 
+#include "figures/csv.hpp"
 #include "figures/figures.hpp"
-#include "figures/tables.hpp"
 
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;
   using namespace knead::figures;
   const fs::path folder = argc > 1 ? argv[1] : "out/figures";
   const std::string data = KNEAD_FIGURES_DATA;
-  if (read_csv(data + "/tables_5_3_to_5_20.csv").empty()) {
-    fmt::print(stderr, "{}: the published tables are not there; run from a whole checkout\n", data);
+  for (const char* name : {"tables_5_3_to_5_20", "table_5_15", "table_5_16", "figures_5_50_to_5_57"}) {
+    if (!read_csv(fmt::format("{}/{}.csv", data, name)).empty()) continue;
+    fmt::print(stderr, "{}/{}.csv: the published values are not there; run from a whole checkout\n", data, name);
     return 3;
   }
-  Files files;
-  files["tables.md"] = tables_markdown(data);
-  add_curves(files);
-  add_counts(files);
-  add_errors(files, data);
-  add_matrices(files);
-  std::string index = "# The thesis' evaluation of Gramians, regenerated\n\n";
-  for (const auto& [name, text] : files) {
-    index += name.ends_with(".svg") ? fmt::format("![{0}]({0})\n\n", name) : fmt::format("- [{0}]({0})\n\n", name);
-  }
-  files["README.md"] = index;
+  const Report report = whole_report(data);
+  auto files = report.pictures;
+  files["README.md"] = report.page;
 
   std::error_code failed;
   fs::create_directories(folder, failed);
@@ -40,5 +33,5 @@ int main(int argc, char** argv) {
       return 3;
     }
   }
-  fmt::print("{} files in {}\n", files.size(), folder.string());
+  fmt::print("{} files in {}; begin with README.md\n", files.size(), folder.string());
 }

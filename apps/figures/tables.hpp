@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "figures/csv.hpp"
 #include "knead/gramian/gramian.hpp"
 
 namespace knead::figures {
@@ -12,37 +12,36 @@ namespace knead::figures {
 inline constexpr std::array<GramianMethod, 3> all_methods = {GramianMethod::gauss, GramianMethod::analytic,
                                                              GramianMethod::recurrence};
 
-using CsvRow = std::map<std::string, std::string>;
-/// Rows of a comma-separated file by the names of its first line; empty where there is no such file.
-[[nodiscard]] std::vector<CsvRow> read_csv(const std::string& path);
-
-/// The knots of the thesis' tables: 0 … last with 7 replaced by 6 + 10^-r, every knot times `scale`, clamped.
-[[nodiscard]] KnotVector thesis_knots(int degree, int r, double scale = 1, int last = 13);
+/// G00, G11, G22 or G10 by its name.
+[[nodiscard]] const BandMatrix& matrix_of(const GramianSet& set, const std::string& term);
 
 /// One row of Tables 5.3 to 5.14 and 5.17 to 5.20, published and computed.
 struct TableRow {
   std::string table, term;
   int degree = 0, r = 0, i = 0, j = 0;
-  double exact = 0;                                         ///< by exact rational arithmetic
-  std::string thesis_exact, thesis_gauss, thesis_analytic;  ///< as printed
-  bool thesis_exact_is_right = true;                        ///< to its last digit
-  std::array<double, 3> ours{};                             ///< by all_methods
+  long double exact = 0;                                       ///< to 21 digits
+  std::string printed_exact, printed_gauss, printed_analytic;  ///< as the thesis prints them
+  std::array<double, 3> ours{};                                ///< by all_methods
 
-  /// Relative error of method k; on the diagonal of G10, which is zero, the error itself.
-  [[nodiscard]] double error(std::size_t k) const;
+  /// Knots divided by 13, as in Tables 5.17 to 5.20.
+  [[nodiscard]] bool normalised() const { return std::stoi(table.substr(2)) >= 17; }
+  /// Relative error of a value; on the diagonal of G10, which is zero, the error itself.
+  [[nodiscard]] double error_of(long double value) const;
+  [[nodiscard]] double error(std::size_t method) const { return error_of(ours[method]); }
 };
-[[nodiscard]] std::vector<TableRow> table_rows(const std::vector<CsvRow>& published);
+[[nodiscard]] std::vector<TableRow> table_rows(const std::string& data);
 
-/// Table 5.15 (fourth integrals) and 5.16 (Dirac weights and integrals), published and computed: name of the column,
-/// exact value, ours.
+/// A number of Table 5.15 (fourth integrals) or 5.16 (what the Dirac rule adds up), published and computed.
 struct CheckedValue {
   std::string row, column;
-  double exact = 0, ours = 0;
+  long double exact = 0;
+  std::string printed_exact, printed_analytic;  ///< empty where the thesis has none
+  double ours = 0;
 };
-[[nodiscard]] std::vector<CheckedValue> table_5_15(const std::vector<CsvRow>& published);
-[[nodiscard]] std::vector<CheckedValue> table_5_16(const std::vector<CsvRow>& published);
+[[nodiscard]] std::vector<CheckedValue> table_5_15(const std::string& data);
+[[nodiscard]] std::vector<CheckedValue> table_5_16(const std::string& data);
 
-/// All tables as Markdown.
+/// All tables as Markdown, the thesis' columns beside ours.
 [[nodiscard]] std::string tables_markdown(const std::string& data);
 
 }  // namespace knead::figures

@@ -1,8 +1,8 @@
 #include "knead/gramian/operation_count.hpp"
 
 #include "analytic.hpp"
-#include "counted.hpp"
 #include "kernel_call.hpp"
+#include "knead/gramian/counted.hpp"
 #include "methods.hpp"
 
 #define KNEAD_COUNTING
@@ -13,11 +13,11 @@
 namespace knead {
 
 OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
-  detail::Counted::count() = {};
+  Counted::count() = {};
   if (method == GramianMethod::analytic) {
     for (const auto& [a, b] : {std::pair{0, 0}, {1, 1}, {2, 2}, {1, 0}}) {
-      detail::Analytic<detail::Counted>(knots).accumulate(a, b, [](int, int, detail::Counted) {});
-      if (a != b) detail::Analytic<detail::Counted>(knots).accumulate(b, a, [](int, int, detail::Counted) {});
+      detail::Analytic<Counted>(knots).accumulate(a, b, [](int, int, Counted) {});
+      if (a != b) detail::Analytic<Counted>(knots).accumulate(b, a, [](int, int, Counted) {});
     }
   } else if (detail::within_kernel_range(knots)) {
     GramianSet set;
@@ -30,7 +30,7 @@ OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
                                           call.output());
     }
   }
-  return detail::Counted::count();
+  return Counted::count();
 }
 
 }  // namespace knead

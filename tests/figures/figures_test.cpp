@@ -2,47 +2,72 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "figures/svg.hpp"
 #include "figures/tables.hpp"
+#include "figures/thesis_knots.hpp"
 
 namespace knead::figures {
 namespace {
 
 const std::string data = KNEAD_FIGURES_DATA;
 
-Files all_files() {
-  Files files;
-  add_curves(files);
-  add_counts(files);
-  add_errors(files, data);
-  add_matrices(files);
-  return files;
+const Report& report() {
+  static const Report report = whole_report(data);
+  return report;
 }
 
 TEST(Figures, are_all_there_and_whole) {
-  const Files files = all_files();
-  for (const char* number :
-       {"01", "09_1", "09_2", "09_3", "21", "22", "23", "24", "25", "31", "32", "33", "34", "35", "39",
-        "40", "41",   "46",   "47",   "48", "49", "50", "51", "52", "53", "54", "55", "56", "57"}) {
-    EXPECT_TRUE(files.contains("figure_5_" + std::string(number) + ".svg")) << number;
+  for (const char* number : {"01",   "09_1", "09_2", "09_3", "09_4", "21", "22", "23", "24", "25", "31",     "32",
+                             "33",   "34",   "35",   "36",   "37",   "38", "39", "40", "41", "46", "47_g11", "47_g22",
+                             "48_a", "48_b", "48_c", "49",   "50",   "51", "52", "53", "54", "55", "56",     "57"}) {
+    EXPECT_TRUE(report().pictures.contains("figure_5_" + std::string(number) + ".svg")) << number;
   }
-  for (const auto& [name, text] : files) {
-    if (!name.ends_with(".svg")) continue;
+  for (const auto& [name, text] : report().pictures) {
     EXPECT_TRUE(text.starts_with("<svg") && text.ends_with("</svg>\n")) << name;
     EXPECT_EQ(text.find("nan"), std::string::npos) << name;
     EXPECT_EQ(text.find("inf"), std::string::npos) << name;
+    EXPECT_NE(report().page.find("](" + name + ")"), std::string::npos) << name << " is not on the page";
   }
 }
 
-TEST(Figures, of_the_cubic_matrices_have_the_published_entries) {
-  for (const CsvRow& row : read_csv(data + "/figures_5_50_to_5_57.csv")) {
-    const GramianSet set = *gramians(thesis_knots(3, 0), GramianMethod::recurrence);  // r = 0: the knots 0 … 13
-    const std::string& term = row.at("term");
-    const BandMatrix& matrix = term == "G00" ? set.g00 : term == "G11" ? set.g11 : term == "G22" ? set.g22 : set.g10;
-    const double exact = std::stod(row.at("exact"));
-    EXPECT_NEAR(matrix(std::stoi(row.at("i")), std::stoi(row.at("j"))), exact, 2e-15 * std::max(1.0, std::abs(exact)));
+TEST(Figures, page_has_every_table_with_the_columns_of_the_thesis_beside_ours) {
+  for (int table = 3; table <= 20; ++table) {
+    const std::size_t at = report().page.find("### Table 5." + std::to_string(table) + ":");
+    ASSERT_NE(at, std::string::npos) << table;
+    const std::string head = report().page.substr(at, 400);
+    EXPECT_NE(head.find("thesis: analytic"), std::string::npos) << table;
+    if (table == 15 || table == 16) continue;  // not Gramians
+    EXPECT_NE(head.find("| gauss | analytic | recurrence |"), std::string::npos) << table;
+  }
+  EXPECT_NE(report().page.find("0.62222234074060**3** | 0.622222340740602"), std::string::npos);  // Table 5.4, r = 6
+}
+
+TEST(Figures, of_the_cubic_matrices_have_the_exact_entries_by_all_methods) {
+  const KnotVector knots = thesis_knots(3, 0);  // r = 0: the knots 0 … 13
+  const auto rows = read_csv(data + "/figures_5_50_to_5_57.csv");
+  ASSERT_EQ(rows.size(), 4 * 58u);
+  for (const GramianMethod method : all_methods) {
+    const GramianSet set = *gramians(knots, method);
+    for (const CsvRow& row : rows) {
+      const double exact = std::stod(row.at("exact"));
+      const double ours = matrix_of(set, row.at("term"))(std::stoi(row.at("i")), std::stoi(row.at("j")));
+      EXPECT_NEAR(ours, exact, 2e-15 * std::max(1.0, std::abs(exact)))
+          << row.at("term") << " " << row.at("i") << " " << row.at("j") << " by " << name(method);
+    }
+  }
+}
+
+TEST(Figures, that_the_docs_show_are_those_that_are_written) {
+  for (const char* name : {"figure_5_48_a.svg", "figure_5_48_b.svg", "figure_5_48_c.svg"}) {
+    std::ifstream file(std::string(KNEAD_SOURCE_DIR) + "/docs/gramians/" + name);
+    const std::string shown((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    EXPECT_EQ(shown, report().pictures.at(name)) << name << ": copy it from out/figures to docs/gramians";
   }
 }
 
@@ -52,6 +77,14 @@ TEST(Chart, leaves_out_what_a_logarithmic_axis_cannot_show) {
   EXPECT_EQ(chart.svg().find("nan"), std::string::npos);
   EXPECT_EQ(chart.svg().find("inf"), std::string::npos);
 }
+
+TEST(Chart, escapes_what_is_markup) {
+  Chart chart("a < b & c", "x", "y");
+  chart.line("p", {{0, 0}, {1, 1}});
+  EXPECT_NE(chart.svg().find("a &lt; b &amp; c"), std::string::npos);
+}
+
+TEST(Chart, of_nothing_is_still_a_picture) { EXPECT_TRUE(Chart("t", "x", "y").svg().ends_with("</svg>\n")); }
 
 }  // namespace
 }  // namespace knead::figures

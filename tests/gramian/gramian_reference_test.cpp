@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "figures/csv.hpp"
 #include "knead/gramian/gramian.hpp"
-#include "support/csv.hpp"
 #include "support/knot_families.hpp"
 
 namespace knead {
@@ -28,7 +28,7 @@ struct TableEntry {
 
 std::vector<TableEntry> table_entries(GramianMethod method) {
   std::vector<TableEntry> entries;
-  for (const auto& row : testing::read_csv(reference + "tables_5_3_to_5_20.csv")) {
+  for (const auto& row : figures::read_csv(reference + "tables_5_3_to_5_20.csv")) {
     const std::string& table = row.at("table");
     const int p = std::stoi(row.at("degree")), r = std::stoi(row.at("r"));
     const bool normalised = std::stoi(table.substr(2)) >= 17;  // these tables divide every knot by 13
@@ -55,7 +55,7 @@ TEST(ThesisTables, analytic_gives_every_exact_entry_but_loses_up_to_a_digit_with
 }
 
 TEST(ThesisFigures, both_methods_give_the_cubic_matrices_of_figures_5_50_to_5_57) {
-  const auto rows = testing::read_csv(reference + "figures_5_50_to_5_57.csv");
+  const auto rows = figures::read_csv(reference + "figures_5_50_to_5_57.csv");
   if (rows.empty()) GTEST_SKIP() << "the published values are not at " << reference;
   const KnotVector knots = testing::uniform_clamped(3, 13);
   for (const GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic}) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "support/csv.hpp"
+#include "figures/csv.hpp"
 #include "support/knot_families.hpp"
 #include "support/quad_gramian.hpp"
 
@@ -81,7 +81,7 @@ TEST(BasisIntegral, of_no_order_is_the_function) {
 }
 
 TEST(BasisIntegral, gives_the_fourth_integrals_of_thesis_table_5_15) {
-  const auto rows = testing::read_csv(std::string(KNEAD_SHARED_DIR) + "/reference/table_5_15.csv");
+  const auto rows = figures::read_csv(std::string(KNEAD_SHARED_DIR) + "/reference/table_5_15.csv");
   if (rows.empty()) GTEST_SKIP() << "the published values are not beside the project";
   for (const auto& row : rows) {
     const KnotVector knots = testing::thesis_knots(3, std::stoi(row.at("r")));

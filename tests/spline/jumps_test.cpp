@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "support/csv.hpp"
+#include "figures/csv.hpp"
 #include "support/knot_families.hpp"
 #include "support/quad_gramian.hpp"
 
@@ -82,7 +82,7 @@ TEST(DerivativeJumps, of_the_highest_order_sum_to_zero) {
 }
 
 TEST(DerivativeJumps, are_the_dirac_weights_of_thesis_table_5_16) {
-  const auto rows = testing::read_csv(std::string(KNEAD_SHARED_DIR) + "/reference/table_5_16.csv");
+  const auto rows = figures::read_csv(std::string(KNEAD_SHARED_DIR) + "/reference/table_5_16.csv");
   if (rows.empty()) GTEST_SKIP() << "the published values are not beside the project";
   std::vector<double> breaks;
   for (int k = 0; k <= 17; ++k) breaks.push_back(k == 7 ? 6 + 1e-10 : k);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "figures/thesis_knots.hpp"
 #include "knead/spline/knot_vector.hpp"
 
 /// Families of knot vectors, so that every algorithm meets every kind of input: `knot_families(p)` is all of them, and
@@ -69,12 +70,7 @@ inline KnotVector periodic(int degree, const std::vector<double>& lengths) {
   return make_knots(degree, std::move(knots));
 }
 
-/// The thesis' knots of Tables 5.3 to 5.14: 0 … 13 with 7 replaced by 6 + 10^-r.
-inline KnotVector thesis_knots(int degree, int r, double scale = 1) {
-  std::vector<double> breaks;
-  for (int k = 0; k <= 13; ++k) breaks.push_back((k == 7 ? 6 + std::pow(10.0, -r) : k) * scale);
-  return clamped_knots(degree, breaks);
-}
+using figures::thesis_knots;  // 0 … 13 with 7 replaced by 6 + 10^-r
 
 inline std::vector<NamedKnots> knot_families(int p) {
   std::vector<NamedKnots> families;

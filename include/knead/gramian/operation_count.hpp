@@ -10,6 +10,10 @@ struct OperationCount {
   long multiplications = 0;
   long divisions = 0;  ///< and square roots
   [[nodiscard]] long total() const { return additions + multiplications + divisions; }
+
+  friend OperationCount operator-(const OperationCount& a, const OperationCount& b) {
+    return {a.additions - b.additions, a.multiplications - b.multiplications, a.divisions - b.divisions};
+  }
 };
 
 /// How many operations the four Gramians cost by a method: the method itself is run, on numbers that count. Copied rows

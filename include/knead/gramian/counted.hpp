@@ -4,9 +4,10 @@
 
 #include "knead/gramian/operation_count.hpp"
 
-namespace knead::detail {
+namespace knead {
 
-/// A double that counts the operations done with it, for this thread.
+/// A double that counts the operations done with it, for this thread: what a template is run on to learn its cost.
+/// Comparisons, copies and changes of sign are not counted.
 struct Counted {
   double value;
 
@@ -14,6 +15,7 @@ struct Counted {
   Counted(double x) : value(x) {}  // NOLINT(google-explicit-constructor): it stands in for a double
   explicit operator double() const { return value; }
 
+  /// What this thread has counted; assign {} to begin anew.
   static OperationCount& count() {
     static thread_local OperationCount operations;
     return operations;
@@ -31,4 +33,4 @@ struct Counted {
   friend bool operator>(Counted a, Counted b) { return a.value > b.value; }
 };
 
-}  // namespace knead::detail
+}  // namespace knead

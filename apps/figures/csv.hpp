@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace knead::testing {
+namespace knead::figures {
 
 using CsvRow = std::map<std::string, std::string>;
 
@@ -31,4 +31,4 @@ inline std::vector<CsvRow> read_csv(const std::string& path) {
   return rows;
 }
 
-}  // namespace knead::testing
+}  // namespace knead::figures
