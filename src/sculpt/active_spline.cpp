@@ -15,13 +15,13 @@
 namespace knead {
 namespace {
 
-constexpr double run_away = 1e4;           // a step longer than this many sizes of the model is refused
+constexpr double run_away = 1e4;  // a step longer than this many sizes of the model is refused
 constexpr double first_rigid_stiffness = 1e6;
-constexpr double developed_slip = 1e-4;    // friction is fully developed after this way, in lengths of the model
+constexpr double developed_slip = 1e-4;  // friction is fully developed after this way, in lengths of the model
 constexpr double limit_stiffness = 1e8;
 constexpr double limit_tolerance = 1e-6;
 constexpr int max_limit_rounds = 12;
-const double stage = 1 - std::sqrt(0.5);   // of a dynamic step
+const double stage = 1 - std::sqrt(0.5);  // of a dynamic step
 
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
@@ -87,7 +87,7 @@ struct ActiveSpline<D>::Model {
   std::vector<DomainScaling<D>> scalings;
   std::vector<ToolLoad<D>> loads;
   double length;
-  Point centre;  // positions are computed relative to this point, to keep digits where coordinates are large
+  Point centre;   // positions are computed relative to this point, to keep digits where coordinates are large
   double extent;  // diagonal of the control points, in units of `length`
   Points rest;
   SparseMatrix stretch, bend, stiffness, mass, a;
@@ -106,7 +106,7 @@ struct ActiveSpline<D>::Model {
 
   Expected<Points> load_of(const ActiveState& state, const ActiveLoads& given) const;
   void report(ActiveStep& result, const Points& x, const Points& external, const PotentialState& contact,
-              const std::vector<Tool>& tools) const;
+              std::span<const Tool> tools) const;
 };
 
 template <int D>
@@ -186,13 +186,14 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
       break;
     }
   }
-  const bool undamped = settings.evolution == Evolution::stationary ||
-                        (settings.evolution == Evolution::acm && settings.lambda == 0);
+  const bool undamped =
+      settings.evolution == Evolution::stationary || (settings.evolution == Evolution::acm && settings.lambda == 0);
   if (undamped && space->free_count() > 0) {
     // A displacement of the whole model that no constraint forbids costs nothing: there is no balance to go to.
     const Points constant = Points::Ones(size, 3);
     bool held = false;
-    for (int i = 0; i < size && !held; ++i) held = !settings.fixed.empty() && settings.fixed[static_cast<std::size_t>(i)];
+    for (int i = 0; i < size && !held; ++i)
+      held = !settings.fixed.empty() && settings.fixed[static_cast<std::size_t>(i)];
     if (!held) {
       for (const LinearConstraint& c : constraints) {
         double sum = 0;
@@ -209,7 +210,8 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
   if (!inverse) {
     Error error = inverse.error();
     if (undamped && error.kind == ErrorKind::numerical) {
-      error.remedy = "what is held leaves the model free to move or tilt: hold more, or use another mode or a positive lambda";
+      error.remedy =
+          "what is held leaves the model free to move or tilt: hold more, or use another mode or a positive lambda";
     }
     return std::unexpected(error);
   }
@@ -232,7 +234,8 @@ Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state, const
       for (std::size_t k = 0; k < patches.size(); ++k) {
         const int n = rows[k + 1] - rows[k];
         const Points points = (state.control_points.middleRows(rows[k], n).rowwise() - centre.transpose()) / length;
-        const Points velocity = state.velocity.rows() > 0 ? Points(state.velocity.middleRows(rows[k], n) / length) : Points(0, 3);
+        const Points velocity =
+            state.velocity.rows() > 0 ? Points(state.velocity.middleRows(rows[k], n) / length) : Points(0, 3);
         const auto normal = normal_forces(patches[k], scalings[k], points, velocity, given.pressure, given.wind);
         if (!normal) return std::unexpected(normal.error());
         g.middleRows(rows[k], n) += *normal;
@@ -246,7 +249,7 @@ Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state, const
 
 template <int D>
 void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const Points& external,
-                                    const PotentialState& contact, const std::vector<Tool>& tools) const {
+                                    const PotentialState& contact, std::span<const Tool> tools) const {
   const ConstraintSpace& space = inverse.space();
   // Forces on what is free: of tools and loads, of the free part of the net, and of the part that is held.
   Points free_part = x;
@@ -312,7 +315,6 @@ template <int D>
 struct ActiveSpline<D>::Run {
   const Model& m;
   PatchPotential<D>& potential;
-  const std::vector<Tool>& tools;  // as given, in units of the model
   ContactSummary summary = {0, 0, true, true};
   std::string note = {};
 
@@ -328,16 +330,16 @@ struct ActiveSpline<D>::Run {
       PotentialState contact = potential.evaluate(problem.start + y);
       if (contact.entered < 0 || contact.entry <= rigid_gap) return contact;
       const auto t = static_cast<std::size_t>(contact.entered);
-      const Tool& tool = potential.tools()[t];
+      const Tool& tool = potential.tool(t);
       if (!tool.rigid) return contact;
-      if (tool.stiffness >= max_tool_stiffness) {
+      if (potential.stiffness(t) >= max_tool_stiffness) {
         summary.converged = false;
         note = fmt::format(
             "tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net cannot give way",
             tool.name, contact.entry);
         return contact;
       }
-      potential.set_stiffness(t, std::min(10 * tool.stiffness, max_tool_stiffness));
+      potential.set_stiffness(t, std::min(10 * potential.stiffness(t), max_tool_stiffness));
     }
   }
 
@@ -366,8 +368,8 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
                                            const ActiveLoads& loads) const {
   const Model& m = *model_;
   const bool dynamic = m.settings.evolution == Evolution::dynamic;
-  std::vector<Tool> scaled;
-  for (const Tool& tool : tools) scaled.push_back(in_units(tool, m.centre, m.length));
+  std::vector<ModelTool> scaled;
+  for (const Tool& tool : tools) scaled.emplace_back(tool, m.centre, m.length);
   const Points file_origin = m.origin(state);
   const Points before = (state.control_points - file_origin) / m.length;
   const Points origin = (file_origin.rowwise() - m.centre.transpose()) / m.length;
@@ -376,17 +378,17 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
 
   const Points kx0 = m.stiffness * before;
   StepProblem problem{m.a, m.inverse, *external - kx0, origin + before, 0.5 * dot(before, kx0)};
-  PatchPotential<D> potential(m.loads, m.rows, scaled);
+  PatchPotential<D> potential(m.loads, m.rows, std::move(scaled));
   potential.grip(problem.start, developed_slip);
-  for (std::size_t t = 0; t < scaled.size(); ++t) {
-    if (scaled[t].rigid && scaled[t].collides()) {
-      potential.set_stiffness(t, std::max(scaled[t].stiffness, first_rigid_stiffness));
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    if (tools[t].rigid && tools[t].collides()) {
+      potential.set_stiffness(t, std::max(tools[t].stiffness, first_rigid_stiffness));
     }
   }
   const Points& original = loads.original.rows() > 0 ? loads.original : m.rest;
   const Points limit_origin = (original.rowwise() - m.centre.transpose()) / m.length;
 
-  Run run{m, potential, scaled};
+  Run run{m, potential};
   Points y = m.inverse.space().feasible(before) - before, after;
   PotentialState contact;
   if (!dynamic) {
@@ -398,8 +400,8 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     // What a stage starts from: the step's beginning, then further on along the first stage.
     Points way = Points::Zero(y.rows(), 3), v = v0;
     for (int k = 0; k < 2 && run.summary.finite; ++k) {
-      problem.b = b + m.mass * ((m.settings.mass / (tau * tau) + m.settings.damping / tau) * way +
-                                (m.settings.mass / tau) * v);
+      problem.b =
+          b + m.mass * ((m.settings.mass / (tau * tau) + m.settings.damping / tau) * way + (m.settings.mass / tau) * v);
       contact = run.minimise(problem, y, loads.limit / m.length, limit_origin);
       after = (y - way) / tau;
       if (k == 0) {
@@ -413,10 +415,9 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
                            "use a larger lambda, a smaller stiffness or larger material coefficients");
   }
   if (const double way = y.rowwise().norm().maxCoeff(); way > run_away * std::max(m.extent, 1e-300)) {
-    return numerical_error(fmt::format("the step runs away ({:.1e} sizes of the model) and was refused", way / m.extent),
-                           "step",
-                           dynamic ? "use a smaller time_step or smaller loads"
-                                   : "hold something, use a larger lambda, or smaller loads");
+    return numerical_error(
+        fmt::format("the step runs away ({:.1e} sizes of the model) and was refused", way / m.extent), "step",
+        dynamic ? "use a smaller time_step or smaller loads" : "hold something, use a larger lambda, or smaller loads");
   }
   const Points x = before + y;
   ActiveStep result;
@@ -430,7 +431,7 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     result.kinetic = 0.5 * m.settings.mass * dot(after, m.mass * after);
     result.velocity = m.length * after;
   }
-  m.report(result, x, *external, contact, scaled);
+  m.report(result, x, *external, contact, tools);
   result.limited = contact.limited;
   result.iterations = run.summary.iterations;
   result.solves = run.summary.solves;

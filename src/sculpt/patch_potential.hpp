@@ -10,12 +10,15 @@ namespace knead {
 template <int D>
 class PatchPotential final : public Potential {
  public:
-  PatchPotential(std::span<const ToolLoad<D>> loads, std::span<const int> rows, std::vector<Tool> tools)
-      : loads_(loads), rows_(rows), tools_(std::move(tools)), given_(tools_) {}
+  PatchPotential(std::span<const ToolLoad<D>> loads, std::span<const int> rows, std::vector<ModelTool> tools)
+      : loads_(loads), rows_(rows), tools_(std::move(tools)) {
+    for (const ModelTool& tool : tools_) given_.push_back(tool.stiffness());
+  }
 
   /// Friction from the contacts at x on; it is fully developed after moving by `slip`.
   void grip(const Points& x, double slip) {
-    if (std::ranges::none_of(tools_, [](const Tool& t) { return t.friction > 0 && t.collides(); })) return;
+    if (std::ranges::none_of(tools_, [](const ModelTool& t) { return t.tool().friction > 0 && t.tool().collides(); }))
+      return;
     for (std::size_t k = 0; k < loads_.size(); ++k) friction_.push_back(loads_[k].anchors(x, rows_[k], tools_, slip));
   }
   /// No point may be further than `distance` from where `original` has it.
@@ -25,8 +28,12 @@ class PatchPotential final : public Potential {
       limits_.push_back({distance, stiffness, original.middleRows(rows_[k], rows_[k + 1] - rows_[k])});
     }
   }
-  void set_stiffness(std::size_t tool, double stiffness) { tools_[tool].stiffness = given_[tool].stiffness = stiffness; }
-  [[nodiscard]] const std::vector<Tool>& tools() const { return given_; }
+  void set_stiffness(std::size_t tool, double stiffness) {
+    tools_[tool].set_stiffness(stiffness);
+    given_[tool] = stiffness;
+  }
+  [[nodiscard]] const Tool& tool(std::size_t k) const { return tools_[k].tool(); }
+  [[nodiscard]] double stiffness(std::size_t k) const { return given_[k]; }
 
   [[nodiscard]] PotentialState evaluate(const Points& x) const override {
     PotentialState state;
@@ -49,19 +56,20 @@ class PatchPotential final : public Potential {
   }
 
   void soften(double cap) override {
-    for (std::size_t t = 0; t < tools_.size(); ++t) tools_[t].stiffness = std::min(given_[t].stiffness, cap);
+    for (std::size_t t = 0; t < tools_.size(); ++t) tools_[t].set_stiffness(std::min(given_[t], cap));
   }
 
   [[nodiscard]] double stiffest() const override {
     double result = 0;
-    for (const Tool& tool : given_) result = std::max(result, tool.stiffness);
+    for (double stiffness : given_) result = std::max(result, stiffness);
     return result;
   }
 
  private:
   std::span<const ToolLoad<D>> loads_;
   std::span<const int> rows_;
-  std::vector<Tool> tools_, given_;
+  std::vector<ModelTool> tools_;
+  std::vector<double> given_;  // their stiffness, not softened
   std::vector<FrictionAnchors> friction_;
   std::vector<DisplacementLimit> limits_;
 };

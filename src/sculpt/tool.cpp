@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace knead {
 
 Expected<Tool> validated(const Tool& tool) {
-  if (!tool.shape.centre.allFinite()) return input_error("a coordinate is not a finite number", "position");
-  if (!std::isfinite(tool.shape.radius) || tool.shape.radius <= 0) {
-    return input_error(fmt::format("{} is not a radius", tool.shape.radius), "radius", "use a number > 0");
-  }
   if (!(tool.stiffness >= 0 && tool.stiffness <= max_tool_stiffness)) {
     return input_error(fmt::format("{} is not a stiffness", tool.stiffness), "stiffness",
                        fmt::format("use a number from 0 to {}", max_tool_stiffness));
@@ -19,8 +16,7 @@ Expected<Tool> validated(const Tool& tool) {
     return input_error(fmt::format("{} is not a range", tool.range), "range", "use a number > 0");
   }
   if (!std::isfinite(tool.friction) || tool.friction < 0) {
-    return input_error(fmt::format("{} is not a friction coefficient", tool.friction), "friction",
-                       "use a number >= 0");
+    return input_error(fmt::format("{} is not a friction coefficient", tool.friction), "friction", "use a number >= 0");
   }
   if (!(tool.plasticity >= 0 && tool.plasticity <= 1)) {
     return input_error(fmt::format("{} is not a plasticity", tool.plasticity), "plasticity",
@@ -29,40 +25,52 @@ Expected<Tool> validated(const Tool& tool) {
   return tool;
 }
 
-ToolAction tool_action(const Tool& tool, const Point& x) {
+ModelTool::ModelTool(const Tool& tool, const Point& centre, double length)
+    : tool_(tool), length_(length), range_(tool.range / length) {
+  const Placement& at = tool.shape.placement();
+  // Finite minus finite: the placement stays valid unless it overflows, and then the shape is out of reach anyway.
+  if (auto moved = tool.shape.moved(at.rotation, at.position - centre)) tool_.shape = std::move(*moved);
+  size_ = std::min(tool.shape.size() / length, 1.0);
+  const BoundingBox box = tool_.shape.bounding_box();
+  const double margin = tool.collides() ? 0 : range_;
+  lower_ = (box.lower / length).array() - margin;
+  upper_ = (box.upper / length).array() + margin;
+}
+
+bool ModelTool::may_reach(const Point& lower, const Point& upper) const {
+  if ((upper.array() < lower_.array()).any() || (lower.array() > upper_.array()).any()) return false;
+  // Distances are 1-Lipschitz.
+  const Point middle = 0.5 * (lower + upper);
+  const double radius = 0.5 * (upper - lower).norm(), phi = tool_.shape.nearest(Point(length_ * middle)).distance / length_;
+  if (tool_.collides()) return phi <= radius;
+  return std::abs(phi) <= radius + range_;
+}
+
+ToolAction ModelTool::action(const Point& x) const {
   ToolAction action;
-  const Point offset = x - tool.shape.centre;
-  const double distance = offset.norm(), phi = distance - tool.shape.radius, k = tool.stiffness;
-  double slope = 0, curvature = 0;  // ψ'(φ) / φ and ψ''(φ)
-  if (tool.collides()) {
+  const Nearest near = tool_.shape.nearest(Point(length_ * x));
+  const double phi = near.distance / length_, k = tool_.stiffness;
+  double slope = 0, curvature = 0;  // ψ'(φ) and ψ''(φ)
+  if (tool_.collides()) {
     if (phi >= 0) return action;
     action.potential = 0.5 * k * phi * phi;
     action.entry = -phi;
-    slope = curvature = k;
+    slope = k * phi;
+    curvature = k;
   } else {
-    const double r2 = tool.range * tool.range, s = 1 - phi * phi / r2;
+    const double r2 = range_ * range_, s = 1 - phi * phi / r2;
     if (s <= 0) return action;
-    const double sign = tool.direction == ToolDirection::pull ? 1 : -1;
+    const double sign = tool_.direction == ToolDirection::pull ? 1 : -1;
     action.potential = -sign * k * r2 / 6 * s * s * s;
-    slope = sign * k * s * s;
+    slope = sign * k * s * s * phi;
     curvature = sign * k * s * (5 * s - 4);
   }
-  if (distance == 0) return action;
-  const Point n = offset / distance;
+  if (near.normal == Point::Zero()) return action;
   action.active = true;
-  action.normal = n;
-  action.force = -slope * phi * n;
-  action.hessian = (curvature - slope * phi / distance) * n * n.transpose();
-  action.hessian.diagonal().array() += slope * phi / distance;
+  action.normal = near.normal;
+  action.force = -slope * near.normal;
+  action.hessian = curvature * near.normal * near.normal.transpose() + slope * length_ * near.hessian;
   return action;
-}
-
-Tool in_units(const Tool& tool, const Point& centre, double length) {
-  Tool result = tool;
-  result.shape.centre = (tool.shape.centre - centre) / length;
-  result.shape.radius /= length;
-  result.range /= length;
-  return result;
 }
 
 }  // namespace knead

@@ -29,7 +29,8 @@ Expected<std::vector<double>> span_lengths(const Spline<D>& spline, std::size_t 
   first[direction] = 1;
   const Points& tangent = grid->at(first);
   std::size_t inner = 1, outer = 1;
-  for (std::size_t d = 0; d < D; ++d) (d < direction ? outer : d > direction ? inner : outer) *= d == direction ? 1 : q[d].weights.size();
+  for (std::size_t d = 0; d < D; ++d)
+    (d < direction ? outer : d > direction ? inner : outer) *= d == direction ? 1 : q[d].weights.size();
   const std::size_t size = q[direction].weights.size();
   const auto per_span = static_cast<std::size_t>(spline.knots()[direction].degree() + 1);
   std::vector<double> result(size / per_span, 0.0);
@@ -38,7 +39,8 @@ Expected<std::vector<double>> span_lengths(const Spline<D>& spline, std::size_t 
       for (std::size_t i = 0; i < inner; ++i) {
         double length = 0;
         for (std::size_t at = s * per_span; at < (s + 1) * per_span; ++at) {
-          length += q[direction].weights[at] * tangent.row(static_cast<Eigen::Index>((o * size + at) * inner + i)).norm();
+          length +=
+              q[direction].weights[at] * tangent.row(static_cast<Eigen::Index>((o * size + at) * inner + i)).norm();
         }
         result[s] = std::max(result[s], length);
       }
@@ -63,13 +65,6 @@ Expected<std::vector<int>> pieces(const std::vector<double>& lengths, int per_sp
   }
   return result;
 }
-
-/// Distance of a point to an axis-parallel box; 0 inside.
-double distance(const Point& x, const Point& lower, const Point& upper) {
-  return (lower - x).cwiseMax(x - upper).cwiseMax(0.0).norm();
-}
-
-double reach(const Tool& tool) { return tool.shape.radius + (tool.collides() ? 0 : tool.range); }
 
 /// Potential, slope / way and curvature of friction that grips with force `grip` after `slip`: quadratic up to there,
 /// linear beyond.
@@ -267,12 +262,13 @@ void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& 
     box_of(element, x, first, lower, upper);
     near.clear();
     for (std::size_t t = 0; t < actors.tools.size(); ++t) {
-      if (!in_hull_ || distance(actors.tools[t].shape.centre, lower, upper) <= reach(actors.tools[t])) near.push_back(t);
+      if (!in_hull_ || actors.tools[t].may_reach(lower, upper)) near.push_back(t);
     }
     const bool limited = actors.limit != nullptr && may_exceed(element);
     if (near.empty() && !limited) return;
     double longest = 0;
-    for (std::size_t d = 0; d < D; ++d) longest = std::max(longest, lengths_[d][static_cast<std::size_t>(element.span[d])]);
+    for (std::size_t d = 0; d < D; ++d)
+      longest = std::max(longest, lengths_[d][static_cast<std::size_t>(element.span[d])]);
     for_each_point(element, x, first, [&](const Sample& s) {
       const auto push = [&](double potential, const Point& force, const Eigen::Matrix3d& hessian) {
         state.potential += s.weight * potential;
@@ -283,11 +279,11 @@ void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& 
         state.contacts.push_back({patch, s.at, s.weight * s.inverse * s.inverse, hessian});
       };
       for (std::size_t t : near) {
-        const Tool& tool = actors.tools[t];
-        const ToolAction action = tool_action(tool, s.place);
+        const ModelTool& tool = actors.tools[t];
+        const ToolAction action = tool.action(s.place);
         if (!action.active) continue;
         push(action.potential, action.force, action.hessian);
-        const double size = tool.shape.radius;
+        const double size = tool.size();
         state.coarseness = std::max(state.coarseness, longest / size);
         if (action.entry > state.entry * size) {
           state.entry = action.entry / size;
@@ -309,9 +305,8 @@ void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& 
       }
       if (limited) {
         Point original = Point::Zero();
-        for_each_function(s.at, [&](int row, double n) {
-          original += s.inverse * n * actors.limit->original.row(row).transpose();
-        });
+        for_each_function(
+            s.at, [&](int row, double n) { original += s.inverse * n * actors.limit->original.row(row).transpose(); });
         const Point way = s.place - original;
         const double length = way.norm(), beyond = length - actors.limit->distance, k = actors.limit->stiffness;
         if (beyond > 0) {
@@ -341,21 +336,21 @@ void ToolLoad<D>::apply_hessian(const ContactPoint& contact, int first, const Po
 }
 
 template <int D>
-FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const Tool> tools, double slip) const {
+FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip) const {
   FrictionAnchors result;
   result.slip = slip;
   result.index.assign(static_cast<std::size_t>(points()), -1);
   for_each_element([&](const Element& element) {
     Point lower, upper;
     box_of(element, x, first, lower, upper);
-    for (const Tool& tool : tools) {
-      if (!tool.collides() || tool.friction == 0) continue;
-      if (in_hull_ && distance(tool.shape.centre, lower, upper) > reach(tool)) continue;
+    for (const ModelTool& tool : tools) {
+      if (!tool.tool().collides() || tool.tool().friction == 0) continue;
+      if (in_hull_ && !tool.may_reach(lower, upper)) continue;
       for_each_point(element, x, first, [&](const Sample& s) {
-        const ToolAction action = tool_action(tool, s.place);
+        const ToolAction action = tool.action(s.place);
         if (!action.active) return;
         int& at = result.index[static_cast<std::size_t>(index(s.at))];
-        const FrictionAnchors::Anchor anchor{tool.friction * action.force.norm(), action.normal, s.place};
+        const FrictionAnchors::Anchor anchor{tool.tool().friction * action.force.norm(), action.normal, s.place};
         if (at < 0) {
           at = static_cast<int>(result.anchors.size());
           result.anchors.push_back(anchor);

@@ -57,9 +57,27 @@ std::string read(const Json& j, std::string& out) {
   return "";
 }
 
+/// An edge by its name, where it may be left out.
+std::string read(const Json& j, EdgeChoice& out) {
+  for (const Choice<EdgeChoice>& c : edge_choices) {
+    if (!j.is_string() || j.get_ref<const std::string&>() != c.name) continue;
+    out = c.value;
+    return "";
+  }
+  return "one of: all, u0, u1, v0, v1";
+}
+
+template <class T, std::size_t N>
+std::string read(const Json& j, std::array<T, N>& out);
+template <class T>
+std::string read(const Json& j, std::vector<T>& out);
+
 template <class T, std::size_t N>
 std::string read(const Json& j, std::array<T, N>& out) {
-  const std::string wanted = fmt::format("a list of {} {}", N, std::is_same_v<T, int> ? "whole numbers" : "numbers");
+  const std::string wanted = fmt::format("a list of {} {}", N,
+                                         std::is_same_v<T, int>      ? "whole numbers"
+                                         : std::is_same_v<T, double> ? "numbers"
+                                                                     : "lists of numbers");
   if (!j.is_array() || j.size() != N) return wanted;
   for (std::size_t k = 0; k < N; ++k) {
     if (!read(j[k], out[k]).empty()) return wanted;
@@ -118,6 +136,16 @@ struct Reader {
       names.push_back(c.name);
     }
     fail(name, fmt::format("{} is not known", it->dump()), "use one of: " + joined(names));
+  }
+
+  template <class E>
+  void choice(std::string_view name, std::optional<E>& member, std::span<const Choice<E>> choices,
+              std::string_view help) {
+    if (!json.contains(name)) {
+      known.push_back(name);
+      return;
+    }
+    choice(name, member.emplace(), choices, help);
   }
 };
 
@@ -189,6 +217,7 @@ std::string number(double value) { return fmt::format("{:.17g}", value); }
 std::string write(double value) { return number(value); }
 std::string write(int value) { return fmt::format("{}", value); }
 std::string write(bool value) { return value ? "true" : "false"; }
+std::string write(EdgeChoice value);
 std::string write(const std::string& value) { return Json(value).dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 template <class T, std::size_t N>
@@ -219,6 +248,10 @@ std::string_view name_of(E value, std::span<const Choice<E>> choices) {
   return {};
 }
 
+std::string write(EdgeChoice value) {
+  return fmt::format("\"{}\"", name_of(value, std::span<const Choice<EdgeChoice>>(edge_choices)));
+}
+
 struct Writer {
   std::string text;
   void add(std::string_view name, const std::string& value) { text += fmt::format(",\"{}\":{}", name, value); }
@@ -234,6 +267,11 @@ struct Writer {
   template <class E>
   void choice(std::string_view name, const E& member, std::span<const Choice<E>> choices, std::string_view) {
     add(name, fmt::format("\"{}\"", name_of(member, choices)));
+  }
+  template <class E>
+  void choice(std::string_view name, const std::optional<E>& member, std::span<const Choice<E>> choices,
+              std::string_view help) {
+    if (member) choice(name, *member, choices, help);
   }
 };
 
@@ -256,6 +294,13 @@ struct HelpWriter {
     std::vector<std::string_view> names;
     for (const Choice<E>& c : choices) names.push_back(c.name);
     add(name, fmt::format(" ({}; default {})", joined(names), name_of(member, choices)), help);
+  }
+  template <class E>
+  void choice(std::string_view name, const std::optional<E>&, std::span<const Choice<E>> choices,
+              std::string_view help) {
+    std::vector<std::string_view> names;
+    for (const Choice<E>& c : choices) names.push_back(c.name);
+    add(name, fmt::format(" ({})", joined(names)), help);
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include "knead/spline/extremum.hpp"
 #include "support/surfaces.hpp"
+#include "support/tools.hpp"
 
 namespace knead {
 namespace {
@@ -48,8 +49,8 @@ struct Scene {
     settings.fixed = rim(surface, 1);
     settings.detail = 0.1;
     settings.lambda = 5;
-    tools = {{"press", {Point(0.55, 0.4, 0.27), 0.3}, ToolMode::collision, 500, 1},
-             {"draw", {Point(1.0, 0.6, -0.35), 0.2}, ToolMode::proximity, 200, 0.3}};
+    tools = {{"press", testing::sphere_at(Point(0.55, 0.4, 0.27), 0.3), ToolMode::collision, 500, 1},
+             {"draw", testing::sphere_at(Point(1.0, 0.6, -0.35), 0.2), ToolMode::proximity, 200, 0.3}};
   }
   [[nodiscard]] Points sculpted(int steps = 8) const {
     return run(active(surface, settings), surface.control_points(), tools, steps);
@@ -132,7 +133,8 @@ TEST(ActiveSurface, IsStableAndTightAtAnyStiffness) {
     ActiveSettings<2> settings;
     settings.fixed = rim(s, 2);
     settings.detail = 0.2;
-    const std::vector<Tool> tools = {{"ball", {Point(0.5, 0.47, 0.15), 0.2}, ToolMode::collision, k, 1}};
+    const std::vector<Tool> tools = {
+        {"ball", testing::sphere_at(Point(0.5, 0.47, 0.15), 0.2), ToolMode::collision, k, 1}};
     const Points x = run(active(s, settings), s.control_points(), tools, 6);
     const double depth = -x.col(2).minCoeff();
     EXPECT_LT(depth, 0.06);
@@ -143,7 +145,7 @@ TEST(ActiveSurface, IsStableAndTightAtAnyStiffness) {
         evaluate_grid<2>(*s.with_control_points(x), {std::span<const double>(inside), std::span<const double>(inside)});
     double entry = 0;
     for (Eigen::Index i = 0; i < grid->points().rows(); ++i) {
-      entry = std::max(entry, 0.2 - (grid->points().row(i).transpose() - tools[0].shape.centre).norm());
+      entry = std::max(entry, 0.2 - (grid->points().row(i).transpose() - tools[0].shape.placement().position).norm());
     }
     EXPECT_LT(entry, before);
     before = entry + 1e-4;
@@ -159,10 +161,10 @@ TEST(ActiveSurface, ReleasesWithoutSticking) {
   settings.fixed = rim(s, 2);
   settings.detail = 0.2;
   const ActiveSurface model = active(s, settings);
-  std::vector<Tool> tools = {{"ball", {Point(0.5, 0.5, 0.15), 0.2}, ToolMode::collision, 1e5, 1}};
+  std::vector<Tool> tools = {{"ball", testing::sphere_at(Point(0.5, 0.5, 0.15), 0.2), ToolMode::collision, 1e5, 1}};
   Points x = run(model, s.control_points(), tools, 5);
   EXPECT_LT(x.col(2).minCoeff(), -0.03);
-  tools[0].shape.centre.z() = 5;
+  testing::move_to(tools[0], Point(0.5, 0.5, 5));
   x = run(model, x, tools, 30);
   EXPECT_LT(relative_difference(x, s.control_points(), s), 1e-12);
 }
@@ -172,7 +174,8 @@ TEST(ActiveSurface, ProximityDrawsTheSurfaceToTheTool) {
   ActiveSettings<2> settings;
   settings.fixed = rim(s, 2);
   settings.detail = 0.1;
-  const std::vector<Tool> tools = {{"magnet", {Point(0.5, 0.5, 0.25), 0.2}, ToolMode::proximity, 100, 0.1}};
+  const std::vector<Tool> tools = {
+      {"magnet", testing::sphere_at(Point(0.5, 0.5, 0.25), 0.2), ToolMode::proximity, 100, 0.1}};
   const Points x = run(active(s, settings), s.control_points(), tools, 10);
   const double top = largest_norm(*s.with_control_points(x - s.control_points())).value;
   EXPECT_GT(top, 0.001);
@@ -192,8 +195,10 @@ TEST(ActiveSurface, FollowsRigidMotionAndChangeOfUnits) {
       moved.settings.detail *= scale;
       moved.tools = scene.tools;
       for (Tool& tool : moved.tools) {
-        tool.shape.centre = scale * turn * tool.shape.centre + shift.transpose();
-        tool.shape.radius *= scale;
+        const Placement& at = tool.shape.placement();
+        tool.shape = *PlacedShape::create(
+            tool.shape.shape(),
+            {Eigen::Quaterniond(turn), scale * turn * at.position + shift.transpose(), {scale, scale, scale}});
         tool.range *= scale;
       }
       EXPECT_LT(relative_difference(moved.sculpted(), map(expected), moved.surface), 1e-9);
@@ -255,7 +260,8 @@ double dent(int net, StepWeight weight, double lambda) {
   settings.weight = weight;
   settings.lambda = lambda;
   settings.rest = RestMode::shape;
-  const std::vector<Tool> tools = {{"ball", {Point(0.5, 0.5, 0.25), 0.3}, ToolMode::collision, 10, 1}};
+  const std::vector<Tool> tools = {
+      {"ball", testing::sphere_at(Point(0.5, 0.5, 0.25), 0.3), ToolMode::collision, 10, 1}};
   const Points x = run(active(s, settings), s.control_points(), tools, 10);
   return largest_norm(*s.with_control_points(x - s.control_points())).value;
 }

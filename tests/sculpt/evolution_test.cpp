@@ -8,6 +8,7 @@
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/spline/extremum.hpp"
 #include "support/surfaces.hpp"
+#include "support/tools.hpp"
 
 namespace knead {
 namespace {
@@ -163,7 +164,8 @@ double string_error(double h) {
   load.nodal = Points::Zero(s.size(), 3);
   const BasisQuadrature q = gauss_basis(s.knots(0), 12, 0);
   for (int k = 0; k < q.basis.size(); ++k) {
-    const double f = std::numbers::pi * std::numbers::pi * std::sin(std::numbers::pi * q.parameters[static_cast<std::size_t>(k)]);
+    const double f =
+        std::numbers::pi * std::numbers::pi * std::sin(std::numbers::pi * q.parameters[static_cast<std::size_t>(k)]);
     for (int r = 0; r <= 5; ++r) {
       load.nodal(q.basis.first[static_cast<std::size_t>(k)] + r, 2) +=
           q.weights[static_cast<std::size_t>(k)] * f * q.basis.row(k, 0)[r];
@@ -192,7 +194,8 @@ void sinks_and_settles() {
   ActiveSettings<D> settings;
   settings.fixed = ends<D>(s, 1);
   settings.detail = 0.2;
-  const Tool ball = {"ball", {Point(0.5, D > 1 ? 0.5 : 0.03, D > 2 ? 0.5 : 0.17), 0.2}, ToolMode::collision, 1e4, 1};
+  const Tool ball = {"ball", testing::sphere_at(Point(0.5, D > 1 ? 0.5 : 0.03, D > 2 ? 0.5 : 0.17), 0.2),
+                     ToolMode::collision, 1e4, 1};
   const ActiveSpline<D> model = active<D>(s, settings);
   EXPECT_EQ(model.step({s.control_points()}, {})->control_points, s.control_points());  // at rest nothing moves
   ActiveState state{s.control_points()};
@@ -214,10 +217,12 @@ void sinks_and_settles() {
   }
   // Rigid motion and scale are followed.
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Point(1, -2, 0.5).normalized()).toRotationMatrix();
-  const auto moved = [&](const Points& p) { return Points((7.0 * p * turn.transpose()).rowwise() + Eigen::RowVector3d(3, 4, -5)); };
+  const auto moved = [&](const Points& p) {
+    return Points((7.0 * p * turn.transpose()).rowwise() + Eigen::RowVector3d(3, 4, -5));
+  };
   settings.detail *= 7;
   Tool other = ball;
-  other.shape = {Point(7 * turn * ball.shape.centre + Point(3, 4, -5)), 7 * ball.shape.radius};
+  other.shape = testing::sphere_at(7 * turn * ball.shape.placement().position + Point(3, 4, -5), 1.4);
   const ActiveSpline<D> turned = active<D>(*s.with_control_points(moved(s.control_points())), settings);
   ActiveState t{moved(s.control_points())};
   for (int k = 0; k < 25; ++k) t.control_points = turned.step(t, {&other, 1})->control_points;
@@ -238,7 +243,7 @@ TEST(RigidTool, IsEnteredByLessThanAFractionOfItsSize) {
   ActiveSettings<2> settings;
   settings.fixed = rim(s, 2);
   settings.detail = 0.2;
-  Tool ball = {"ball", {Point(0.5, 0.47, 0.15), 0.2}, ToolMode::collision, 100, 1};
+  Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.47, 0.15), 0.2), ToolMode::collision, 100, 1};
   ball.rigid = true;
   const auto step = active<2>(s, settings).step({s.control_points()}, {&ball, 1});
   ASSERT_TRUE(step);
@@ -253,7 +258,7 @@ TEST(RigidTool, SaysWhyWhatIsHeldInsideItStaysThere) {
   ActiveSettings<2> settings;
   settings.fixed = rim(s, 2);
   settings.detail = 0.2;
-  Tool ball = {"ball", {Point(0.5, 0, 0.1), 0.2}, ToolMode::collision, 1e4, 1};
+  Tool ball = {"ball", testing::sphere_at(Point(0.5, 0, 0.1), 0.2), ToolMode::collision, 1e4, 1};
   ball.rigid = true;
   const auto step = active<2>(s, settings).step({s.control_points()}, {&ball, 1});
   ASSERT_TRUE(step);
@@ -266,7 +271,7 @@ TEST(Limit, HoldsToAMillionth) {
   ActiveSettings<2> settings;
   settings.fixed = rim(s, 1);
   settings.detail = 0.2;
-  const Tool ball = {"ball", {Point(0.5, 0.47, 0.1), 0.2}, ToolMode::collision, 1e4, 1};
+  const Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.47, 0.1), 0.2), ToolMode::collision, 1e4, 1};
   const ActiveSpline<2> model = active<2>(s, settings);
   ActiveState state{s.control_points()};
   ActiveLoads loads;
@@ -316,7 +321,8 @@ TEST(Friction, AHeavySheetOnASlantStaysOrSlides) {
   Points start = s.control_points();
   for (int i = 0; i < start.rows(); ++i) start(i, 2) = 0.5 * start(i, 0);  // in the slant
   const auto way = [&](double friction) {
-    Tool ground = {"ground", {Point(0.5, 0.5, 0.25) - radius * up, radius}, ToolMode::collision, 1e4, 1};
+    Tool ground = {"ground", testing::sphere_at(Point(0.5, 0.5, 0.25) - radius * up, radius), ToolMode::collision, 1e4,
+                   1};
     ground.friction = friction;
     const Surface tilted = *s.with_control_points(start);
     const ActiveSpline<2> model = active<2>(tilted, settings);
@@ -363,7 +369,7 @@ TEST(SeveralPatches, CoupledMoveTogetherAndUncoupledTear) {
   const Surface t = *s.with_control_points(right);
   ActiveSettings<2> settings;
   settings.detail = 0.2;
-  const Tool ball = {"ball", {Point(0.9, 0.5, 0.15), 0.2}, ToolMode::collision, 1e4, 1};
+  const Tool ball = {"ball", testing::sphere_at(Point(0.9, 0.5, 0.15), 0.2), ToolMode::collision, 1e4, 1};
   const auto gap = [&](bool coupled) {
     settings.constraints.clear();
     for (int j = 0; coupled && j < 8; ++j) settings.constraints.push_back({"seam", {{56 + j, 1}, {64 + j, -1}}});
@@ -379,7 +385,10 @@ TEST(SeveralPatches, CoupledMoveTogetherAndUncoupledTear) {
       }
       state.control_points = step->control_points;
     }
-    return (state.control_points.middleRows(56, 8) - state.control_points.middleRows(64, 8)).rowwise().norm().maxCoeff();
+    return (state.control_points.middleRows(56, 8) - state.control_points.middleRows(64, 8))
+        .rowwise()
+        .norm()
+        .maxCoeff();
   };
   EXPECT_GT(gap(false), 0.01);
   EXPECT_LT(gap(true), 1e-12);
@@ -389,11 +398,13 @@ TEST(Constraints, APulledPointArrivesAndTheRestFollows) {
   const Surface s = box<2>(3, 10);
   ActiveSettings<2> settings;
   settings.fixed = rim(s, 1);
-  const auto table_u = tabulate_basis(s.knots(0), std::vector{0.4}, 0), table_v = tabulate_basis(s.knots(1), std::vector{0.55}, 0);
+  const auto table_u = tabulate_basis(s.knots(0), std::vector{0.4}, 0),
+             table_v = tabulate_basis(s.knots(1), std::vector{0.55}, 0);
   LinearConstraint pin{"pin", {}, Point(0, 0, 0.1)};
   for (int r = 0; r <= 3; ++r) {
     for (int c = 0; c <= 3; ++c) {
-      pin.terms.emplace_back((table_u->first[0] + r) * 10 + table_v->first[0] + c, table_u->row(0, 0)[r] * table_v->row(0, 0)[c]);
+      pin.terms.emplace_back((table_u->first[0] + r) * 10 + table_v->first[0] + c,
+                             table_u->row(0, 0)[r] * table_v->row(0, 0)[c]);
     }
   }
   settings.constraints = {pin};

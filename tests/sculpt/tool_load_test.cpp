@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "support/surfaces.hpp"
+#include "support/tools.hpp"
 
 namespace knead {
 namespace {
@@ -14,7 +15,9 @@ const DomainScaling<2> raw{};
 PotentialState evaluate(const ToolLoad<2>& load, const Points& x, std::span<const Tool> tools) {
   PotentialState state;
   state.force = Points::Zero(x.rows(), 3);
-  load.evaluate(x, 0, 0, {tools}, state);
+  std::vector<ModelTool> model;
+  for (const Tool& tool : tools) model.emplace_back(tool, Point::Zero(), 1);
+  load.evaluate(x, 0, 0, {.tools = model, .friction = nullptr, .limit = nullptr}, state);
   return state;
 }
 
@@ -27,7 +30,7 @@ Points apply_hessian(const ToolLoad<2>& load, const PotentialState& state, const
 /// A sphere so large that a sheet in z = 0 sees a plane: every point enters by the same depth along −z.
 Tool half_space(double depth) {
   constexpr double radius = 1e7;
-  return {"plane", {Point(0.5, 0.5, radius - depth), radius}, ToolMode::collision, 3, 1};
+  return {"plane", testing::sphere_at(Point(0.5, 0.5, radius - depth), radius), ToolMode::collision, 3, 1};
 }
 
 TEST(ToolLoad, OfAUniformPressureIsTheIntegralOfEveryBasisFunction) {
@@ -54,7 +57,7 @@ TEST(ToolLoad, ForceIsMinusTheGradientOfThePotential) {
        {testing::relief(testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 4), 1),
         testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 2, 0.1, 5)}) {
     for (ToolMode mode : {ToolMode::collision, ToolMode::proximity}) {
-      const Tool tool = {"ball", {Point(0.6, 0.4, 0.3), 0.35}, mode, 10, 0.3};
+      const Tool tool = {"ball", testing::sphere_at(Point(0.6, 0.4, 0.3), 0.35), mode, 10, 0.3};
       const auto load = ToolLoad<2>::create(s, DomainScaling<2>{1, {0.7, 1.3}}, 0.3);
       ASSERT_TRUE(load);
       const Points x = s.control_points(), direction = testing::random_points(x.rows(), 4);
@@ -71,7 +74,7 @@ TEST(ToolLoad, ForceIsMinusTheGradientOfThePotential) {
 
 TEST(ToolLoad, HessianIsSymmetricAndTheDerivativeOfTheForce) {
   const Surface s = testing::relief(testing::uniform_clamped(2, 4), testing::uniform_clamped(3, 4), 3, 0.1, 4);
-  const Tool tool = {"ball", {Point(0.6, 0.4, 0.3), 0.35}, ToolMode::proximity, 10, 0.3};
+  const Tool tool = {"ball", testing::sphere_at(Point(0.6, 0.4, 0.3), 0.35), ToolMode::proximity, 10, 0.3};
   const auto load = ToolLoad<2>::create(s, raw, 0.3);
   const auto state = evaluate(*load, s.control_points(), {&tool, 1});
   const Points a = testing::random_points(s.size(), 5), b = testing::random_points(s.size(), 6);

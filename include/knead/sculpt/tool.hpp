@@ -2,17 +2,9 @@
 
 #include <string>
 
-#include "knead/spline/spline.hpp"
+#include "knead/sculpt/shape.hpp"
 
 namespace knead {
-
-/// A sphere: the shape of a tool.
-struct Sphere {
-  Point centre = Point::Zero();
-  double radius = 1;
-
-  friend bool operator==(const Sphere&, const Sphere&) = default;
-};
 
 /// How a tool acts on the surface (thesis 4.3 and 6.4).
 enum class ToolMode {
@@ -27,7 +19,7 @@ enum class ToolDirection { pull, push };
 /// A shaped tool: Hookean springs between the surface and the tool (thesis Eq. 4.25).
 struct Tool {
   std::string name = "tool";
-  Sphere shape;
+  PlacedShape shape;
   ToolMode mode = ToolMode::collision;
   double stiffness = 1e4;  ///< k: force per length and parameter area
   double range = 0.5;      ///< proximity: no force at this distance and beyond; unused by collision
@@ -37,8 +29,6 @@ struct Tool {
   ToolDirection direction = ToolDirection::pull;
 
   [[nodiscard]] bool collides() const { return mode != ToolMode::proximity; }
-
-  friend bool operator==(const Tool&, const Tool&) = default;
 };
 
 /// Beyond this, the rounding of positions alone makes forces larger than those of the material: the entry into a tool
@@ -48,7 +38,7 @@ inline constexpr double max_tool_stiffness = 1e10;
 /// How far anything may enter a rigid tool, in sizes of the tool.
 inline constexpr double rigid_gap = 1e-4;
 
-/// Checks radius > 0, stiffness from 0 to the maximum, range > 0 where it is used, friction >= 0, plasticity from 0 to 1,
+/// Checks stiffness from 0 to the maximum, range > 0 where it is used, friction >= 0, plasticity from 0 to 1,
 /// all finite; the error names the field.
 [[nodiscard]] Expected<Tool> validated(const Tool& tool);
 
@@ -70,9 +60,25 @@ struct ToolAction {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
 
-[[nodiscard]] ToolAction tool_action(const Tool& tool, const Point& x);
+/// A tool as a model sees it, in coordinates (x − centre) / length of the file's.
+class ModelTool {
+ public:
+  ModelTool(const Tool& tool, const Point& centre, double length);
 
-/// The same tool in coordinates (x − centre) / length.
-[[nodiscard]] Tool in_units(const Tool& tool, const Point& centre, double length);
+  [[nodiscard]] const Tool& tool() const { return tool_; }
+  [[nodiscard]] double stiffness() const { return tool_.stiffness; }
+  void set_stiffness(double stiffness) { tool_.stiffness = stiffness; }
+  /// The smallest feature of the shape, but at most 1.
+  [[nodiscard]] double size() const { return size_; }
+
+  [[nodiscard]] ToolAction action(const Point& x) const;
+  /// False where it is certain that nothing in the box is acted on.
+  [[nodiscard]] bool may_reach(const Point& lower, const Point& upper) const;
+
+ private:
+  Tool tool_;  // its shape moved by −centre, still in file units
+  double length_, range_, size_;
+  Point lower_, upper_;  // of what it acts on
+};
 
 }  // namespace knead

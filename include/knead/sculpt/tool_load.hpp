@@ -31,10 +31,10 @@ struct DisplacementLimit {
 /// The forces of shaped tools on a spline, integrated over it: F_i = ∫ R_i f(S) dû (thesis Eqs. 4.23, 4.25), by Gauss
 /// points of the parameter domain, R_i the (rational) basis. Everything is in the units of a `DomainScaling`.
 ///
-/// The Gauss grid belongs to the knots and weights and to the size of the tools, and is kept from step to step: at least
-/// p + 1 points per span, and as many more as make points lie closer than a sixth of the smallest tool. Only spans whose
-/// control points come near a tool are evaluated (the shape lies in their convex hull; with a weight that is not positive
-/// it need not, and all are), so that the cost follows the contact, not the grid.
+/// The Gauss grid belongs to the knots and weights and to the size of the tools, and is kept from step to step: at
+/// least p + 1 points per span, and as many more as make points lie closer than a sixth of the smallest tool. Only
+/// spans whose control points come near a tool are evaluated (the shape lies in their convex hull; with a weight that
+/// is not positive it need not, and all are), so that the cost follows the contact, not the grid.
 template <int D>
 class ToolLoad {
  public:
@@ -47,7 +47,7 @@ class ToolLoad {
 
   /// What acts on the shape, in normalised units.
   struct Actors {
-    std::span<const Tool> tools;
+    std::span<const ModelTool> tools;
     const FrictionAnchors* friction = nullptr;
     const DisplacementLimit* limit = nullptr;
   };
@@ -59,7 +59,8 @@ class ToolLoad {
   void apply_hessian(const ContactPoint& contact, int first, const Points& v, Points& out) const;
 
   /// The anchors of friction where the tools are touched at x.
-  [[nodiscard]] FrictionAnchors anchors(const Points& x, int first, std::span<const Tool> tools, double slip) const;
+  [[nodiscard]] FrictionAnchors anchors(const Points& x, int first, std::span<const ModelTool> tools,
+                                        double slip) const;
 
   [[nodiscard]] long long points() const;
 
