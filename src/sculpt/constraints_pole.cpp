@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <Eigen/LU>
+
+#include "constraint_rows.hpp"
+
+namespace knead {
+namespace {
+
+/// V_j = Σ_k a_jk V_{basis_k}: for every column of `ring` (3 × n) its coefficients over `rank` independent columns.
+struct RingRelation {
+  int rank = 0;
+  std::vector<int> basis;
+  Eigen::MatrixXd coefficients;  // rank × n
+};
+
+RingRelation relation(const Eigen::Matrix3Xd& ring, double flatness) {
+  RingRelation result;
+  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(ring, Eigen::ComputeThinU);
+  const auto& singular = svd.singularValues();
+  while (result.rank < singular.size() && singular[result.rank] > flatness * singular[0]) ++result.rank;
+  if (result.rank == 0) return result;
+  const Eigen::MatrixXd flat = svd.matrixU().leftCols(result.rank).transpose() * ring;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(flat);
+  Eigen::MatrixXd chosen(result.rank, result.rank);
+  for (int k = 0; k < result.rank; ++k) {
+    result.basis.push_back(qr.colsPermutation().indices()[k]);
+    chosen.col(k) = flat.col(result.basis.back());
+  }
+  result.coefficients = chosen.partialPivLu().solve(flat);
+  return result;
+}
+
+}  // namespace
+
+Expected<std::vector<Pole>> keep_poles(const Surface& rest, double tolerance, double flatness, ConstraintList& to) {
+  for (const auto& [value, name] : {std::pair{tolerance, "pole"}, std::pair{flatness, "flatness"}}) {
+    if (auto valid = detail::check_tolerance(value, name); !valid) return std::unexpected(valid.error());
+  }
+  std::vector<Pole> poles;
+  for (const SurfaceEdge edge : {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1}) {
+    const detail::NetAcross net(rest, edge_across(edge));
+    const KnotVector& knots = net.knots();
+    const int p = knots.degree(), count = knots.count(), columns = net.columns();
+    // With p equal knots at the end, its row of control points is the edge.
+    if (edge_at_end(edge) ? knots[count] != knots[count + p - 1] : knots[1] != knots[p]) continue;
+    const int row = edge_at_end(edge) ? count - 1 : 0, next = edge_at_end(edge) ? count - 2 : 1;
+    const Point pole = net.point(row, 0);
+    Eigen::Matrix3Xd ring(3, columns);
+    bool collapsed = true;
+    for (int j = 0; j < columns; ++j) {
+      collapsed = collapsed && (net.point(row, j) - pole).norm() <= tolerance;
+      ring.col(j) = net.point(next, j) - pole;
+    }
+    if (!collapsed) continue;
+    const std::string name = fmt::format("pole {}", edge_name(edge));
+    const RingRelation affine = relation(ring, flatness);
+    for (int j = 0; j < columns; ++j) {
+      if (j > 0) detail::append(to, name, {{net.index(row, j), 1.0}, {net.index(row, 0), -1.0}});
+      detail::Terms terms = {{net.index(next, j), 1.0}};
+      double sum = 0;
+      bool chosen = false;
+      for (int k = 0; k < affine.rank; ++k) {
+        chosen = chosen || affine.basis[static_cast<std::size_t>(k)] == j;
+        terms.emplace_back(net.index(next, affine.basis[static_cast<std::size_t>(k)]), -affine.coefficients(k, j));
+        sum += affine.coefficients(k, j);
+      }
+      terms.emplace_back(net.index(row, 0), sum - 1);
+      if (!chosen) detail::append(to, name, std::move(terms));
+    }
+    poles.push_back({edge, affine.rank});
+  }
+  return poles;
+}
+
+}  // namespace knead
