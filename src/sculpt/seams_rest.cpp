@@ -1,0 +1,46 @@
+#include "seams_rest.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "seams_edge.hpp"
+
+namespace knead::seams {
+
+Expected<RestMeeting> rest_meeting(const Surface& a, const Surface& b, const Seam& seam) {
+  std::vector<double> t_a = edge_samples(a.knots(edge_along(seam.a.edge)));
+  for (double t : edge_samples(b.knots(edge_along(seam.b.edge)))) t_a.push_back(seam.reversed ? 1 - t : t);
+  std::vector<double> t_b = t_a;
+  if (seam.reversed) {
+    for (double& t : t_b) t = 1 - t;
+  }
+  const auto at_a = evaluate_edge(a, seam.a.edge, t_a, 1), at_b = evaluate_edge(b, seam.b.edge, t_b, 1);
+  if (!at_a) return std::unexpected(at_a.error().within(to_string(seam.a)));
+  if (!at_b) return std::unexpected(at_b.error().within(to_string(seam.b)));
+  const Points in_a = inward(*at_a, seam.a.edge), in_b = inward(*at_b, seam.b.edge);
+  const Points& along = edge_along(seam.a.edge) == 0 ? at_a->at({1, 0}) : at_a->at({0, 1});
+
+  RestMeeting rest;
+  const double squares = in_b.squaredNorm();
+  if (squares == 0) return rest;
+  rest.ratio = -in_a.cwiseProduct(in_b).sum() / squares;
+  rest.lowest = INFINITY;
+  const double least_a = 1e-6 * in_a.rowwise().norm().maxCoeff(), least_b = 1e-6 * in_b.rowwise().norm().maxCoeff();
+  for (Eigen::Index k = 0; k < in_a.rows(); ++k) {
+    const Point x = in_a.row(k), y = in_b.row(k), edge = along.row(k);
+    if (x.norm() <= least_a || y.norm() <= least_b) continue;
+    rest.deviation = std::max(rest.deviation, (x + rest.ratio * y).norm() / x.norm());
+    rest.lowest = std::min(rest.lowest, x.norm() / y.norm());
+    rest.highest = std::max(rest.highest, x.norm() / y.norm());
+    const Point normal_a = edge.cross(x), normal_b = y.cross(edge);
+    if (normal_a.norm() == 0 || normal_b.norm() == 0) continue;
+    const double angle = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
+    rest.angle = std::max(rest.angle, angle);
+    rest.fold = std::max(rest.fold, std::numbers::pi - angle);
+  }
+  return rest;
+}
+
+}  // namespace knead::seams

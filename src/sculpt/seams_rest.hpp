@@ -1,0 +1,19 @@
+#pragma once
+
+#include "knead/sculpt/seams.hpp"
+
+namespace knead::seams {
+
+/// How the two sides of a seam meet at rest, at the samples of both edges.
+struct RestMeeting {
+  double angle = 0;                ///< largest angle between the tangent planes
+  double fold = 0;                 ///< largest angle between them and a fold: π minus the smallest angle
+  double ratio = 0;                ///< ρ of the least squares of S_a' + ρ S_b'; 0 where S_b' vanishes
+  double deviation = 0;            ///< largest |S_a' + ρ S_b'| / |S_a'|
+  double lowest = 0, highest = 0;  ///< of |S_a'|/|S_b'|
+};
+
+/// Samples at which a side's derivative is below 1e-6 of its largest (poles) are left out.
+[[nodiscard]] Expected<RestMeeting> rest_meeting(const Surface& a, const Surface& b, const Seam& seam);
+
+}  // namespace knead::seams

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <optional>
+#include <vector>
+
+#include "knead/sculpt/seams.hpp"
+
+namespace knead::seams {
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// A knot strictly inside the domain, at t in (0, 1), and how often it stands.
+struct InnerKnot {
+  double t = 0;
+  int multiplicity = 0;
+};
+
+/// t = (x − lower)/length of all knots, ascending; 1 − t where `reversed`. Ends of the domain become 0 and 1 exactly.
+[[nodiscard]] std::vector<double> normalised_knots(const KnotVector& knots, bool reversed);
+[[nodiscard]] std::vector<InnerKnot> inner_knots(std::span<const double> normalised);
+
+/// Pairs (index in a, index in b) of knots that are the same, ascending: nearest ones within `agreement`, one to one.
+[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> matching_knots(std::span<const InnerKnot> a,
+                                                                              std::span<const InnerKnot> b,
+                                                                              double agreement);
+
+/// Two univariate spline spaces on one finer one: the highest degree, all knots.
+struct CommonSpace {
+  RowMatrix from_a, from_b;  ///< coefficients on the common space from those of a, of b (b in its own order)
+  bool same = false;         ///< a, b and the common space are one
+  double mismatch = 0;       ///< largest distance of knots that count as the same
+};
+
+/// None where the knots cannot be told apart once normalised (spans of less than an ulp of the domain).
+[[nodiscard]] std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b, bool reversed,
+                                                      double agreement);
+
+/// What an edge is made of: numerator coefficients along the edge as linear forms of the patch's control points.
+struct EdgeForms {
+  RowMatrix value, derivative;                ///< E_j = Σ_i N_i(end) w_ij X_ij; the same with the inward N_i'
+  Eigen::VectorXd weight, weight_derivative;  ///< row sums: the same of 1
+};
+[[nodiscard]] EdgeForms edge_forms(const Surface& surface, SurfaceEdge edge);
+
+}  // namespace knead::seams
