@@ -28,6 +28,8 @@ class GrevilleInterpolation {
   [[nodiscard]] int size() const { return static_cast<int>(abscissae_.size()); }
   /// Non-decreasing; one per function. Those of vanishing functions are the end of the domain.
   [[nodiscard]] const std::vector<double>& abscissae() const { return abscissae_; }
+  /// The side from which each is taken: left for a function that ends in a knot of multiplicity p + 1 there.
+  [[nodiscard]] const std::vector<Side>& sides() const { return sides_; }
   /// The basis at the abscissae, each from its side.
   [[nodiscard]] const BasisTable& basis() const { return basis_; }
   /// The basis of other knots at the abscissae, each from its side. Requires: a domain that holds this one (asserted).

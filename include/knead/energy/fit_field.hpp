@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "knead/energy/spline_field.hpp"
+
+namespace knead {
+
+/// A function of the parameters, in the units of the knots.
+template <int D>
+using ParameterFunction = std::function<double(const std::array<double, D>&)>;
+
+struct FitOptions {
+  double tolerance = 1e-6;  ///< absolute, on the values
+  int max_coefficients = 1 << 16;
+  /// Every direction is sampled at this many parameters at least: features narrower than the domain over this number
+  /// may be missed altogether.
+  int min_samples = 64;
+  /// Coefficients, and with them all values, are kept in this interval.
+  std::optional<Interval> range = {};
+};
+
+template <int D>
+struct FieldFit {
+  SplineField<D> field;
+  double error = 0;  ///< largest |f − field| at the samples
+  long long samples = 0;
+};
+
+/// A spline within a tolerance of a function: what a material given as a formula is turned into.
+///
+/// Interpolation at Greville abscissae on the knots of `hint` (its degree and continuity are kept; repeat knots where
+/// the function has kinks), then spans in which a sample is off by more than 0.9 tolerance are halved, in the direction
+/// in which the divided differences of order p + 1 of the function are large, and neighbouring spans kept within a
+/// factor 2; and so on. With a `range` the coefficients are clamped to it and the error taken after that.
+///
+/// Guaranteed: |f − field| <= tolerance at every sample, max(2p + 3, min_samples / spans) per span and direction,
+/// spread evenly; every value in `range`, samples or not; a function that is constant is met by equal coefficients up
+/// to rounding. Between the samples nothing can be promised of a function known at points only; for one whose
+/// derivatives of order p + 1 vary by less than a factor 2 over a span the error there stays below the tolerance, which
+/// is what the 0.9 is for. Errors: tolerance not positive, a value of the function that is not finite (input); more
+/// coefficients than allowed (numerical; the message says what was reached).
+template <int D>
+[[nodiscard]] Expected<FieldFit<D>> fit_field(const ParameterFunction<D>& f, const std::array<KnotVector, D>& hint,
+                                              const FitOptions& options = {});
+
+}  // namespace knead

@@ -1,0 +1,201 @@
+#include "knead/energy/paint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "span_samples.hpp"
+
+namespace knead {
+namespace {
+
+double fade(double s) { return s <= 0 ? 1 : s >= 1 ? 0 : 1 - s * s * s * (10 - 15 * s + 6 * s * s); }
+
+/// Distance from u to the interval, the shorter way round where closed.
+double outside(double u, double lower, double upper, double period, bool closed) {
+  const double direct = std::max({lower - u, u - upper, 0.0});
+  if (!closed || direct == 0) return direct;
+  const double up = std::max({lower - (u + period), u + period - upper, 0.0});
+  const double down = std::max({lower - (u - period), u - period - upper, 0.0});
+  return std::min({direct, up, down});
+}
+
+template <int D>
+std::array<Interval, D> domain_of(const std::array<KnotVector, D>& knots) {
+  std::array<Interval, D> domain;
+  for (std::size_t d = 0; d < D; ++d) domain[d] = knots[d].domain();
+  return domain;
+}
+
+template <int D>
+Expected<void> check(const Region<D>& region) {
+  if (!(region.falloff > 0) || !std::isfinite(region.falloff)) {
+    return input_error(fmt::format("{} is not a width", region.falloff), "falloff", "use a finite number > 0");
+  }
+  for (const double f : region.factors) {
+    if (!(f > 0) || !std::isfinite(f)) return input_error(fmt::format("{} is not a scale", f), "factors");
+  }
+  if (const auto* box = std::get_if<ParameterBox<D>>(&region.shape)) {
+    for (std::size_t d = 0; d < D; ++d) {
+      if (!std::isfinite(box->lower[d]) || !std::isfinite(box->upper[d]) || box->lower[d] > box->upper[d]) {
+        return input_error(fmt::format("[{}, {}] is not an interval", box->lower[d], box->upper[d]), "region",
+                           "give lower <= upper");
+      }
+    }
+    return {};
+  }
+  const auto& ball = std::get<ParameterBall<D>>(region.shape);
+  for (const double c : ball.centre) {
+    if (!std::isfinite(c)) return input_error("the centre is not finite", "region");
+  }
+  if (!(ball.radius >= 0) || !std::isfinite(ball.radius)) {
+    return input_error(fmt::format("{} is not a radius", ball.radius), "region", "use a finite number >= 0");
+  }
+  return {};
+}
+
+}  // namespace
+
+template <int D>
+double Region<D>::weight(const std::array<double, D>& u, const std::array<Interval, D>& domain) const {
+  double square = 0;
+  const auto* box = std::get_if<ParameterBox<D>>(&shape);
+  const auto* ball = std::get_if<ParameterBall<D>>(&shape);
+  for (std::size_t d = 0; d < D; ++d) {
+    const double lower = box ? box->lower[d] : ball->centre[d], upper = box ? box->upper[d] : ball->centre[d];
+    const double distance = factors[d] * outside(u[d], lower, upper, domain[d].length(), closed[d]);
+    square += distance * distance;
+  }
+  return fade((std::sqrt(square) - (ball ? ball->radius : 0)) / falloff);
+}
+
+template <int D>
+Expected<std::vector<SplineField<D>>> paint(std::span<const Coefficient<D>> old, std::span<const double> values,
+                                            const Region<D>& region, const std::array<KnotVector, D>& hint,
+                                            const PaintOptions& options) {
+  if (old.size() != values.size() || old.empty()) {
+    return usage_error(fmt::format("{} values do not fit {} coefficients", values.size(), old.size()));
+  }
+  if (auto ok = check<D>(region); !ok) return std::unexpected(ok.error());
+  const std::array<Interval, D> domain = domain_of<D>(hint);
+  std::vector<std::array<KnotVector, D>> knots = {hint};
+  std::vector<Interval> ranges;
+  for (std::size_t k = 0; k < old.size(); ++k) {
+    if (!std::isfinite(values[k])) return input_error("the value is not a finite number");
+    Interval range{values[k], values[k]};
+    if (const auto* field = std::get_if<SplineField<D>>(&old[k])) {
+      knots.push_back(field->knots());
+      range = {std::min(range.lower, field->range().lower), std::max(range.upper, field->range().upper)};
+    } else {
+      range = {std::min(range.lower, std::get<double>(old[k])), std::max(range.upper, std::get<double>(old[k]))};
+    }
+    ranges.push_back(range);
+  }
+  auto base = common_knots<D>(std::span<const std::array<KnotVector, D>>(knots));
+  if (!base) return std::unexpected(base.error());
+
+  FitOptions fit;
+  fit.tolerance = 0.5 * options.tolerance;
+  fit.max_coefficients = options.max_coefficients;
+  fit.range = Interval{0, 1};
+  std::array<KnotVector, D> start = *base;
+  while (true) {
+    const auto weight =
+        fit_field<D>([&](const std::array<double, D>& u) { return region.weight(u, domain); }, start, fit);
+    if (!weight) return std::unexpected(weight.error());
+    const std::array<KnotVector, D>& grid = weight->field.knots();
+    const std::vector<double>& w = weight->field.coefficients();
+    std::vector<SplineField<D>> result;
+    std::array<std::vector<bool>, D> marked;
+    std::vector<detail::SpanSamples> samples;
+    std::array<std::span<const double>, D> at;
+    samples.reserve(D);
+    for (std::size_t d = 0; d < D; ++d) {
+      samples.emplace_back(grid[d], 2 * grid[d].degree() + 3, 0);
+      at[d] = samples[d].parameters;
+      marked[d].assign(samples[d].spans.size(), false);
+    }
+    const std::vector<double> softness = *weight->field.on_grid(at);
+    bool met = true;
+    for (std::size_t k = 0; k < old.size(); ++k) {
+      const auto before = on_knots<D>(old[k], grid);
+      if (!before) return std::unexpected(before.error());
+      std::vector<double> c = before->coefficients();
+      for (std::size_t i = 0; i < c.size(); ++i) {
+        c[i] = std::clamp(std::lerp(c[i], values[k], w[i]), ranges[k].lower, ranges[k].upper);
+      }
+      auto after = SplineField<D>::create(grid, std::move(c));
+      if (!after) return std::unexpected(after.error());
+      result.push_back(std::move(*after));
+      if (std::holds_alternative<double>(old[k])) continue;
+      // Blended coefficients against blended values, where the old field varies.
+      const double allowed = 0.5 * options.tolerance * ranges[k].length();
+      const std::vector<double> from = *before->on_grid(at), to = *result.back().on_grid(at);
+      for (std::size_t i = 0; i < to.size(); ++i) {
+        if (std::abs(to[i] - std::lerp(from[i], values[k], softness[i])) <= allowed) continue;
+        met = false;
+        for (std::size_t d = D, rest = i; d-- > 0;) {
+          marked[d][rest % at[d].size() / static_cast<std::size_t>(samples[d].per_span)] = true;
+          rest /= at[d].size();
+        }
+      }
+    }
+    if (met) return result;
+    start = grid;
+    bool changed = false;
+    for (std::size_t d = 0; d < D; ++d) changed = detail::halve(start[d], marked[d]) || changed;
+    if (!changed)
+      return numerical_error("the old field changes too fast to be blended", "tolerance", "use a larger one");
+  }
+}
+
+template <int D>
+Expected<SplineField<D>> paint(const Coefficient<D>& old, double value, const Region<D>& region,
+                               const std::array<KnotVector, D>& hint, const PaintOptions& options) {
+  auto made = paint<D>(std::span(&old, 1), std::span(&value, 1), region, hint, options);
+  if (!made) return std::unexpected(made.error());
+  return std::move(made->front());
+}
+
+template <int D>
+Expected<MaterialFieldOf<D>> paint(const MaterialFieldOf<D>& material, const MaterialPaint<D>& values,
+                                   const Region<D>& region, const std::array<KnotVector, D>& hint,
+                                   const PaintOptions& options) {
+  MaterialFieldOf<D> result = material;
+  std::vector<Coefficient<D>*> painted;
+  std::vector<Coefficient<D>> old;
+  std::vector<double> targets;
+  const auto add = [&](Coefficient<D>& c, const std::optional<double>& value) {
+    if (!value) return;
+    painted.push_back(&c);
+    old.push_back(c);
+    targets.push_back(*value);
+  };
+  for (std::size_t k = 0; k < values.alpha.size(); ++k) add(result.alpha[k], values.alpha[k]);
+  for (std::size_t k = 0; k < values.beta.size(); ++k) add(result.beta[k], values.beta[k]);
+  add(result.mass, values.mass);
+  add(result.damping, values.damping);
+  if (painted.empty()) return usage_error("there is no value to paint", "material");
+  auto made = paint<D>(std::span<const Coefficient<D>>(old), targets, region, hint, options);
+  if (!made) return std::unexpected(made.error());
+  for (std::size_t k = 0; k < painted.size(); ++k) *painted[k] = std::move((*made)[k]);
+  if (auto ok = validated<D>(result); !ok) return std::unexpected(ok.error());
+  return result;
+}
+
+#define KNEAD_INSTANTIATE(D)                                                                                           \
+  template struct Region<D>;                                                                                           \
+  template Expected<std::vector<SplineField<D>>> paint<D>(std::span<const Coefficient<D>>, std::span<const double>,    \
+                                                          const Region<D>&, const std::array<KnotVector, D>&,          \
+                                                          const PaintOptions&);                                        \
+  template Expected<SplineField<D>> paint<D>(const Coefficient<D>&, double, const Region<D>&,                          \
+                                             const std::array<KnotVector, D>&, const PaintOptions&);                   \
+  template Expected<MaterialFieldOf<D>> paint<D>(const MaterialFieldOf<D>&, const MaterialPaint<D>&, const Region<D>&, \
+                                                 const std::array<KnotVector, D>&, const PaintOptions&);
+KNEAD_INSTANTIATE(1)
+KNEAD_INSTANTIATE(2)
+KNEAD_INSTANTIATE(3)
+#undef KNEAD_INSTANTIATE
+
+}  // namespace knead
