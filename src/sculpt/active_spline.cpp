@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "contact_newton.hpp"
-#include "knead/energy/stiffness.hpp"
+#include "knead/energy/field_assembler.hpp"
 #include "knead/spline/extremum.hpp"
 #include "patch_potential.hpp"
 #include "surface_forces.hpp"
@@ -50,6 +50,9 @@ SparseMatrix block_diagonal(std::vector<SparseMatrix> blocks) {
 template <int D>
 Expected<void> check(const ActiveSettings<D>& s) {
   if (const auto material = validated<D>(s.material); !material) return std::unexpected(material.error());
+  for (const MaterialFieldOf<D>& field : s.fields) {
+    if (const auto checked = validated<D>(field); !checked) return std::unexpected(checked.error());
+  }
   if (!std::isfinite(s.lambda) || s.lambda < 0) {
     return input_error(fmt::format("{} is not a step parameter", s.lambda), "lambda", "use a finite number >= 0");
   }
@@ -90,7 +93,7 @@ struct ActiveSpline<D>::Model {
   Point centre;   // positions are computed relative to this point, to keep digits where coordinates are large
   double extent;  // diagonal of the control points, in units of `length`
   Points rest;
-  SparseMatrix stretch, bend, stiffness, mass, a;
+  SparseMatrix stretch, bend, stiffness, weight, mass, damping, a;
   ConstrainedCholesky inverse;
 
   /// What X is measured from.
@@ -116,12 +119,15 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
   std::vector<int> rows = {0};
   for (const Spline<D>& patch : patches) rows.push_back(rows.back() + patch.size());
   const int size = rows.back();
+  if (!settings.fields.empty() && settings.fields.size() != patches.size()) {
+    return usage_error(fmt::format("{} materials do not fit {} patches", settings.fields.size(), patches.size()));
+  }
   if (!settings.fixed.empty() && settings.fixed.size() != static_cast<std::size_t>(size)) {
     return usage_error(fmt::format("{} fixed flags do not fit {} control points", settings.fixed.size(), size));
   }
   std::vector<DomainScaling<D>> scalings;
   std::vector<ToolLoad<D>> loads;
-  std::vector<SparseMatrix> stretch, bend, mass;
+  std::vector<SparseMatrix> stretch, bend, weight, mass, damping;
   const StiffnessOptions options{settings.method, 0};
   const auto [stretching, bending] = parts<D>(settings.material);
   Points rest(size, 3);
@@ -135,14 +141,25 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
       scaling = k == 0 ? *normalised : in_unit<D>(*normalised, scalings.front().length);
     }
     scalings.push_back(scaling);
-    for (const auto& [energy, blocks] : {std::pair{&stretching, &stretch}, std::pair{&bending, &bend}}) {
-      const auto matrix = Stiffness<D>::create(patch, on_scaled_domain<D>(*energy, scaling.factors), options);
-      if (!matrix) return std::unexpected(matrix.error());
-      blocks->push_back(matrix->assemble());
-    }
     const auto w = Stiffness<D>::create(patch, on_scaled_domain<D>(mass_energy<D>(), scaling.factors), options);
     if (!w) return std::unexpected(w.error());
-    mass.push_back(w->assemble());
+    weight.push_back(w->assemble());
+    if (settings.fields.empty()) {
+      for (const auto& [energy, blocks] : {std::pair{&stretching, &stretch}, std::pair{&bending, &bend}}) {
+        const auto matrix = Stiffness<D>::create(patch, on_scaled_domain<D>(*energy, scaling.factors), options);
+        if (!matrix) return std::unexpected(matrix.error());
+        blocks->push_back(matrix->assemble());
+      }
+      mass.push_back(settings.mass * weight.back());
+      damping.push_back(settings.damping * weight.back());
+    } else {
+      auto matrices = FieldAssembler<D>(patch, options).assemble(settings.fields[k], scaling.factors);
+      if (!matrices) return std::unexpected(matrices.error());
+      stretch.push_back(std::move(matrices->stretch));
+      bend.push_back(std::move(matrices->bend));
+      mass.push_back(std::move(matrices->mass));
+      damping.push_back(std::move(matrices->damping));
+    }
     auto load = ToolLoad<D>::create(patch, scaling,
                                     settings.detail > 0 ? settings.detail : std::numeric_limits<double>::infinity());
     if (!load) return std::unexpected(load.error());
@@ -165,7 +182,8 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
   if (!space) return std::unexpected(space.error());
 
   SparseMatrix s = block_diagonal(std::move(stretch)), b = block_diagonal(std::move(bend)),
-               m = block_diagonal(std::move(mass));
+               w = block_diagonal(std::move(weight)), m = block_diagonal(std::move(mass)),
+               d = block_diagonal(std::move(damping));
   SparseMatrix k_matrix = s + b, a;
   switch (settings.evolution) {
     case Evolution::stationary:
@@ -173,7 +191,7 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
       break;
     case Evolution::acm:
       if (settings.weight == StepWeight::mass) {
-        a = k_matrix + settings.lambda * m;
+        a = k_matrix + settings.lambda * w;
       } else {
         SparseMatrix identity(size, size);
         identity.setIdentity();
@@ -182,7 +200,7 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
       break;
     case Evolution::dynamic: {
       const double tau = stage * settings.time_step;
-      a = k_matrix + (settings.damping / tau + settings.mass / (tau * tau)) * m;
+      a = k_matrix + d / tau + m / (tau * tau);
       break;
     }
   }
@@ -218,7 +236,7 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
   return ActiveSpline(std::make_shared<const Model>(
       Model{settings, std::move(patches), std::move(rows), std::move(scalings), std::move(loads), length, centre,
             (upper - lower).norm() / length, std::move(rest), std::move(s), std::move(b), std::move(k_matrix),
-            std::move(m), std::move(a), std::move(*inverse)}));
+            std::move(w), std::move(m), std::move(d), std::move(a), std::move(*inverse)}));
 }
 
 /// G: all forces but those of tools, in normalised units.
@@ -226,8 +244,9 @@ template <int D>
 Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state, const ActiveLoads& given) const {
   Points g = Points::Zero(rest.rows(), 3);
   // Σ_j ∫ R_i R_j = ∫ R_i, since the basis sums to one: exact.
-  const Point everywhere = settings.mass * given.gravity + given.force;
-  if (everywhere != Point::Zero()) g += mass * Points(everywhere.transpose().replicate(rest.rows(), 1));
+  const auto everywhere = [this](const Point& f) { return Points(f.transpose().replicate(rest.rows(), 1)); };
+  if (given.force != Point::Zero()) g += weight * everywhere(given.force);
+  if (given.gravity != Point::Zero()) g += mass * everywhere(given.gravity);
   if (given.nodal.rows() > 0) g += given.nodal;
   if constexpr (D == 2) {
     if (given.pressure != 0 || given.wind != Point::Zero()) {
@@ -380,6 +399,11 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
   StepProblem problem{m.a, m.inverse, *external - kx0, origin + before, 0.5 * dot(before, kx0)};
   PatchPotential<D> potential(m.loads, m.rows, std::move(scaled));
   potential.grip(problem.start, developed_slip);
+  for (PointForce point : loads.points) {
+    point.to = (point.to - m.centre) / m.length;
+    point.core /= m.length;
+    potential.add(std::move(point));
+  }
   for (std::size_t t = 0; t < tools.size(); ++t) {
     if (tools[t].rigid && tools[t].collides()) {
       potential.set_stiffness(t, std::max(tools[t].stiffness, first_rigid_stiffness));
@@ -428,7 +452,7 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     }
   }
   if (dynamic) {
-    result.kinetic = 0.5 * m.settings.mass * dot(after, m.mass * after);
+    result.kinetic = 0.5 * dot(after, m.mass * after);
     result.velocity = m.length * after;
   }
   m.report(result, x, *external, contact, tools);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
+#include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/tool_load.hpp"
 
 namespace knead {
@@ -28,6 +30,8 @@ class PatchPotential final : public Potential {
       limits_.push_back({distance, stiffness, original.middleRows(rows_[k], rows_[k + 1] - rows_[k])});
     }
   }
+  /// A force on one point.
+  void add(PointForce force) { points_.push_back(std::move(force)); }
   void set_stiffness(std::size_t tool, double stiffness) {
     tools_[tool].set_stiffness(stiffness);
     given_[tool] = stiffness;
@@ -43,12 +47,19 @@ class PatchPotential final : public Potential {
                          {tools_, friction_.empty() ? nullptr : &friction_[k], limits_.empty() ? nullptr : &limits_[k]},
                          state);
     }
+    for (std::size_t k = 0; k < points_.size(); ++k) add_point(k, x, state);
     return state;
   }
 
   [[nodiscard]] Points apply_hessian(const PotentialState& state, const Points& v) const override {
     Points result = Points::Zero(v.rows(), 3);
     for (const ContactPoint& c : state.contacts) {
+      if (c.patch < 0) {
+        const PointForce& force = points_[static_cast<std::size_t>(c.at[0])];
+        const Point h = c.hessian * combined(force, v);
+        for (const auto& [row, r] : force.terms) result.row(row) += r * h.transpose();
+        continue;
+      }
       const auto k = static_cast<std::size_t>(c.patch);
       loads_[k].apply_hessian(c, rows_[k], v, result);
     }
@@ -66,6 +77,33 @@ class PatchPotential final : public Potential {
   }
 
  private:
+  [[nodiscard]] static Point combined(const PointForce& force, const Points& x) {
+    Point sum = Point::Zero();
+    for (const auto& [row, r] : force.terms) sum += r * x.row(row).transpose();
+    return sum;
+  }
+
+  void add_point(std::size_t k, const Points& x, PotentialState& state) const {
+    const PointForce& p = points_[k];
+    const Point way = combined(p, x) - p.to;
+    Point force;
+    Eigen::Matrix3d hessian;
+    if (p.kind == PointForce::Kind::spring) {
+      state.potential += 0.5 * p.strength * way.squaredNorm();
+      force = -p.strength * way;
+      hessian = p.strength * Eigen::Matrix3d::Identity();
+    } else {
+      const double r2 = way.squaredNorm() + p.core * p.core, r = std::sqrt(r2), k3 = p.strength / (r2 * r);
+      state.potential += p.strength / r;
+      force = k3 * way;
+      hessian = 3 * k3 / r2 * way * way.transpose();
+      hessian.diagonal().array() -= k3;
+    }
+    for (const auto& [row, r] : p.terms) state.force.row(row) += r * force.transpose();
+    state.contacts.push_back({-1, {static_cast<int>(k), 0, 0}, 1, hessian});
+  }
+
+  std::vector<PointForce> points_;
   std::span<const ToolLoad<D>> loads_;
   std::span<const int> rows_;
   std::vector<ModelTool> tools_;

@@ -1,6 +1,6 @@
 #include "knead/session/document.hpp"
 
-#include <fmt/format.h>
+#include "knead/exchange/step_text.hpp"
 
 namespace knead {
 
@@ -9,7 +9,19 @@ Document Document::from(StepFile file) {
   for (const StepSurface& s : file.surfaces()) {
     surfaces->push_back({s.id, s.name, s.unit, std::make_shared<const Surface>(s.surface)});
   }
-  return Document(std::move(file), std::move(surfaces));
+  Document document;
+  document.name_ = file.name();
+  document.file_ = std::move(file);
+  document.surfaces_ = std::move(surfaces);
+  return document;
+}
+
+Document Document::fresh(std::string name, std::string unit) {
+  Document document;
+  document.name_ = std::move(name);
+  document.unit_ = std::move(unit);
+  document.surfaces_ = std::make_shared<const std::vector<DocumentSurface>>();
+  return document;
 }
 
 Expected<Document> Document::open(const std::filesystem::path& path) {
@@ -18,29 +30,21 @@ Expected<Document> Document::open(const std::filesystem::path& path) {
   return from(std::move(*file));
 }
 
-Expected<int> Document::find_surface(const std::string& id) const {
-  constexpr std::size_t listed = 12;
-  std::string known;
-  for (std::size_t k = 0; k < surfaces_->size(); ++k) {
-    if ((*surfaces_)[k].id == id) return static_cast<int>(k);
-    if (k < listed) known += (k == 0 ? "" : ", ") + (*surfaces_)[k].id;
+Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces) const {
+  if (!file_) {
+    std::vector<StepNewSurface> made;
+    for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});
+    StepTextOptions options;
+    options.unit = unit_;
+    options.product = name_;
+    return step_text(made, options);
   }
-  for (const StepUnreadableSurface& s : file_.unreadable_surfaces()) {
-    if (s.id == id) return std::unexpected(s.reason);
-  }
-  if (surfaces_->size() > listed) known += ", …";
-  return input_error(
-      fmt::format("{} has no surface {}", name(), id), "surface",
-      known.empty() ? "the file has no B-spline surface that could be sculpted" : "its surfaces are: " + known);
-}
-
-Expected<std::string> Document::save(std::span<const std::shared_ptr<const Surface>> surfaces) const {
-  std::vector<StepEdit> edits;
+  std::vector<StepReplacement> replacements;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const DocumentSurface& original = (*surfaces_)[k];
-    if (surfaces[k] != original.surface) edits.push_back({original.id, surfaces[k]->control_points()});
+    if (surfaces[k].surface != original.surface) replacements.push_back({original.id, *surfaces[k].surface});
   }
-  return file_.with_control_points(edits);
+  return file_->with_surfaces(replacements);
 }
 
 }  // namespace knead

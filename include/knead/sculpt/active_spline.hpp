@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/energy/material.hpp"
+#include "knead/energy/material_field.hpp"
 #include "knead/gramian/gramian.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
 #include "knead/sculpt/tool.hpp"
@@ -43,6 +43,8 @@ struct ActiveSettings {
   double time_step = 0.02;   ///< dynamic
   double mass = 1;           ///< μ, per measure of the parameter domain
   double damping = 0.5;      ///< γ, force per velocity and measure
+  /// Coefficients, mass and damping that vary, one per patch; empty: the constants above.
+  std::vector<MaterialFieldOf<D>> fields = {};
   std::vector<bool> fixed;   ///< control points that do not move, one flag each; empty: none
   std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shape, file units
   double detail = 0;         ///< smallest tool dimension the forces must resolve, file units; 0: no tool
@@ -59,6 +61,19 @@ struct ActiveState {
   Points velocity = {};  ///< dynamic; empty: at rest
 };
 
+/// A force on one material point S = Σ c X (thesis Eq. 4.24; Kass, Witkin and Terzopoulos 1988).
+struct PointForce {
+  enum class Kind {
+    spring,   ///< ψ = k/2 |S − to|²
+    volcano,  ///< ψ = k / √(|S − to|² + core²): drives away with k/r² from beyond the core
+  };
+  Kind kind = Kind::spring;
+  std::vector<std::pair<int, double>> terms;  ///< (control point, R) over all patches
+  Point to = Point::Zero();                   ///< file units
+  double strength = 1;                        ///< k, in the model's units
+  double core = 0.1;                          ///< file units
+};
+
 /// Forces beside those of tools, per measure of the (scaled) parameter domain.
 struct ActiveLoads {
   Point gravity = Point::Zero();  ///< acceleration: force μ·gravity
@@ -66,6 +81,7 @@ struct ActiveLoads {
   double pressure = 0;            ///< along the normal S_u × S_v at the start of the step; surfaces only
   Point wind = Point::Zero();     ///< (n·(wind − velocity)) n at the start of the step; surfaces only
   Points nodal = {};              ///< ∫ R_i f of any other load, N × 3; empty: none
+  std::vector<PointForce> points = {};
   double limit = 0;               ///< no point moves further than this from `original`, file units; 0: no limit
   Points original = {};           ///< control points the limit is measured from; empty: the rest shape
 };

@@ -63,6 +63,8 @@ struct PinCommand {
   std::vector<std::array<int, 2>> control_points;
   std::optional<Fractions> at;
   std::optional<Vector3> to;  ///< default: where it is
+
+  friend bool operator==(const PinCommand&, const PinCommand&) = default;
 };
 
 enum class EdgeChoice { all, u0, u1, v0, v1 };
@@ -71,11 +73,15 @@ enum class EdgeHold { position, clamped, curvature, free };
 struct EdgeCommand {
   EdgeChoice which = EdgeChoice::all;
   EdgeHold hold = EdgeHold::position;
+
+  friend bool operator==(const EdgeCommand&, const EdgeCommand&) = default;
 };
 
 /// Freezes a region of the parameter domain, rounded outward to whole spans.
 struct FreezeCommand {
   std::array<Fractions, 2> region = {{{0, 1}, {0, 1}}};
+
+  friend bool operator==(const FreezeCommand&, const FreezeCommand&) = default;
 };
 
 /// Keeps a curve of the surface where it is: an isoparametric line, or a polyline of (s, t).
@@ -83,6 +89,8 @@ struct KeepCommand {
   std::optional<double> u, v;  ///< the line at this fraction of the domain
   std::vector<Fractions> curve;
   double tolerance = 1e-6;
+
+  friend bool operator==(const KeepCommand&, const KeepCommand&) = default;
 };
 
 /// Half a symmetric model: an edge stays in a plane and the surface perpendicular to it; or a whole surface that stays its
@@ -91,6 +99,8 @@ struct SymmetryCommand {
   std::optional<EdgeChoice> edge;
   std::optional<std::string> mirror;  ///< "u" or "v"
   std::optional<Vector3> point, normal;
+
+  friend bool operator==(const SymmetryCommand&, const SymmetryCommand&) = default;
 };
 
 /// Whether knot lines of full multiplicity are kept from bending, and poles from tearing.
@@ -103,6 +113,8 @@ struct SmoothCommand {
 struct SeamsCommand {
   bool couple = true;
   std::optional<double> tolerance;  ///< a length; default: 1e-5 of the diagonal
+
+  friend bool operator==(const SeamsCommand&, const SeamsCommand&) = default;
 };
 
 /// Frees all that is held, pinned, frozen or kept of the selected surfaces.
@@ -172,6 +184,8 @@ struct LoadCommand {
   Vector3 gravity = {0, 0, 0};
   double pressure = 0;
   Vector3 wind = {0, 0, 0};
+
+  friend bool operator==(const LoadCommand&, const LoadCommand&) = default;
 };
 
 /// No point may be further than this from the surface as opened.
@@ -186,6 +200,8 @@ struct EvolveCommand {
   double lambda = 1;
   double time_step = 0.02;
   StepWeight weight = StepWeight::mass;
+
+  friend bool operator==(const EvolveCommand&, const EvolveCommand&) = default;
 };
 
 /// Lets the selected surfaces evolve under the tools.

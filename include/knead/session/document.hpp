@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,22 +24,26 @@ class Document {
  public:
   [[nodiscard]] static Expected<Document> open(const std::filesystem::path& path);
   [[nodiscard]] static Document from(StepFile file);
+  /// Without a file: surfaces are made by commands, and saving writes a new one.
+  [[nodiscard]] static Document fresh(std::string name, std::string unit = "mm");
 
-  [[nodiscard]] const std::string& name() const { return file_.name(); }
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] bool is_fresh() const { return !file_; }
+  /// Length unit of a fresh document.
+  [[nodiscard]] const std::string& unit() const { return unit_; }
   [[nodiscard]] const std::vector<DocumentSurface>& surfaces() const { return *surfaces_; }
-  [[nodiscard]] const StepFile& file() const { return file_; }
+  /// Only where there is a file.
+  [[nodiscard]] const StepFile& file() const { return *file_; }
 
-  /// Index of the surface with this id; the error says which ids there are.
-  [[nodiscard]] Expected<int> find_surface(const std::string& id) const;
-
-  /// The bytes of the file with these control points (one entry per surface) in place of the original ones.
-  [[nodiscard]] Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces) const;
+  /// The bytes of the file with these surfaces in place of the original ones (one each); of a fresh document, a file
+  /// with exactly these.
+  [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces) const;
 
  private:
-  Document(StepFile file, std::shared_ptr<const std::vector<DocumentSurface>> surfaces)
-      : file_(std::move(file)), surfaces_(std::move(surfaces)) {}
+  Document() = default;
 
-  StepFile file_;
+  std::string name_, unit_;
+  std::optional<StepFile> file_;
   std::shared_ptr<const std::vector<DocumentSurface>> surfaces_;
 };
 

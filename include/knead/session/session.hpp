@@ -5,8 +5,10 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "knead/sculpt/seam_coupling.hpp"
 #include "knead/session/command.hpp"
 #include "knead/session/document.hpp"
 
@@ -14,32 +16,59 @@ namespace knead {
 
 /// What one step did.
 struct StepRecord {
-  int surface = 0;                  ///< index into the document's surfaces
-  double time = 0;                  ///< seconds
-  double energy = 0;                ///< after the step, normalised units
-  double residual = 0;              ///< relative imbalance of forces, see ActiveStep
+  int surface = 0;      ///< index into the state's surfaces: the first one selected
+  double time = 0;      ///< seconds
+  double energy = 0;    ///< Σ Xᵀ K X after the step, normalised units: stretch + bend
+  double stretch = 0, bend = 0, kinetic = 0, contact = 0;  ///< by term, see ActiveStep
+  double residual = 0;  ///< relative imbalance of forces, see ActiveStep
   double largest_displacement = 0;  ///< from the surface as opened, file units
+  double gap = 0;                   ///< deepest entry into a collision tool, in sizes of that tool
+  double violation = 0;             ///< of the constraints, file units
   int iterations = 0;
   bool converged = true;
+  bool limited = false;  ///< the limit holds something back
+  std::string note;      ///< what stood in the way, and what would help
 };
 
-/// What a session knows about one surface.
+/// A constraint that was asked for and is kept until it is released.
+using ConstraintRequest = std::variant<EdgeCommand, PinCommand, FreezeCommand, KeepCommand, SymmetryCommand>;
+
+/// What a session knows about one surface. `opened`, `reference`, `rest` and `current` share their knots and weights.
 struct SurfaceState {
+  std::string id, name, unit;
+  std::shared_ptr<const Surface> opened;     ///< as it came, on the present net
+  std::shared_ptr<const Surface> reference;  ///< what the units of the model are taken from
+  std::shared_ptr<const Surface> rest;       ///< what displacements are measured from
   std::shared_ptr<const Surface> current;
-  std::shared_ptr<const Surface> rest;  ///< what displacements are measured from
+  Points velocity = {};  ///< of a dynamic evolution; empty: at rest
   RestMode mode = RestMode::shape;
-  Material material;
+  MaterialFieldOf<2> material = {};
   int hold_rows = 0;
-  std::set<std::array<int, 2>> pins;
+  std::set<std::array<int, 2>> pins = {};
+  std::vector<ConstraintRequest> constraints = {};
+  bool smooth_knot_lines = true, smooth_poles = true;
 };
 
 /// The whole state at one moment. A value: undo puts an earlier one back, bit for bit.
 struct SessionState {
-  std::optional<int> selected;
+  std::optional<int> selected;    ///< the surface that commands act on
+  std::vector<int> together;      ///< the others that were selected with it
   std::vector<SurfaceState> surfaces;
   std::vector<Tool> tools;  ///< lengths in file units
+  std::vector<ForceCommand> forces;
+  LoadCommand load;
+  std::optional<double> limit;  ///< file units
+  EvolveCommand evolve;
+  ScalingMode scaling = ScalingMode::normalised;
+  SeamsCommand seams;
+  RefinePermission permission = RefinePermission::never;
   std::vector<StepRecord> steps;
-  std::optional<double> energy_before;  ///< energy before the first step
+  std::vector<SeamReport> seam_reports;  ///< of the model of the last step; patches in the order of selection
+  std::vector<std::string> notes;        ///< what commands did on the way: refinements, lines kept smooth
+  std::optional<double> energy_before;   ///< energy before the first step
+
+  /// All selected surfaces, the first one first.
+  [[nodiscard]] std::vector<int> selection() const;
 };
 
 /// A document and its history of commands: the model and controller of every user interface.
@@ -49,8 +78,11 @@ struct SessionState {
 class Session {
  public:
   explicit Session(Document document);
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();
 
-  /// Called after each step of a `StepCommand` with the number done and the number asked for.
+  /// Called after each step of a command that steps with the number done and the number asked for.
   using Progress = std::function<void(int, int)>;
 
   [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {});
@@ -62,32 +94,23 @@ class Session {
   [[nodiscard]] bool can_undo() const { return position_ > 0; }
   [[nodiscard]] bool can_redo() const { return position_ + 1 < states_.size(); }
 
-  /// Energy of the selected surface as it stands, normalised units; 0 without a selection.
+  /// Energy of the selected surfaces as they stand, normalised units; 0 without a selection.
   [[nodiscard]] Expected<double> energy();
   /// max |S − S_opened| of one surface, file units.
   [[nodiscard]] double largest_displacement(int surface) const;
   /// Control points of one surface that are no longer where they were opened, bit for bit.
   [[nodiscard]] int moved_control_points(int surface) const;
-  /// The document's file with the present control points.
+  /// The document's file with the present surfaces.
   [[nodiscard]] Expected<std::string> save() const;
 
  private:
-  struct Executor;
-
-  struct CachedModel {
-    std::shared_ptr<const Surface> rest;
-    ActiveSurface model;
-  };
-
-  [[nodiscard]] Expected<ActiveSurface> model_of(const SurfaceState& surface, const std::vector<Tool>& tools,
-                                                 double lambda, StepWeight weight);
-  [[nodiscard]] double displacement_of(int surface, const Surface& current) const;
+  struct ModelCache;
 
   Document document_;
   std::vector<std::shared_ptr<const SessionState>> states_;  // one more than commands_
   std::vector<Command> commands_;
   std::size_t position_ = 0;
-  std::optional<CachedModel> cache_;  // the last model: its factorisation serves until a setting changes
+  std::unique_ptr<ModelCache> cache_;  // the last model: its factorisation serves until a setting changes
 };
 
 }  // namespace knead

@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "executor.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+namespace {
+
+Point point_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
+
+/// The shape that a command describes, lengths times `unit`.
+Expected<Shape> shape_of(const ToolCommand& c, double unit, double diagonal, const Executor& executor) {
+  const double radius = c.radius ? *c.radius * unit : 0.1 * diagonal;
+  const double minor = c.minor ? *c.minor * unit : 0.25 * radius, height = c.height ? *c.height * unit : 2 * radius;
+  const double thickness = c.thickness ? *c.thickness * unit : 0.1 * radius;
+  const double rounding = c.rounding.value_or(0) * unit, top = c.top_radius.value_or(0) * unit;
+  std::array<double, 3> sizes = {radius, radius, radius};
+  if (c.sizes) {
+    for (std::size_t k = 0; k < 3; ++k) sizes[k] = (*c.sizes)[k] * unit;
+  }
+  const std::array<double, 2> e = c.exponents.value_or(std::array<double, 2>{1, 1});
+  if (c.shape == "sphere") return SphereShape{radius};
+  if (c.shape == "ellipsoid") return EllipsoidShape{sizes};
+  if (c.shape == "box") return BoxShape{sizes, rounding};
+  if (c.shape == "cylinder") return CylinderShape{radius, 0.5 * height};
+  if (c.shape == "cone") return ConeShape{radius, height, top};
+  if (c.shape == "capsule") return CapsuleShape{radius, 0.5 * height};
+  if (c.shape == "torus") return TorusShape{radius, minor};
+  if (c.shape == "plane") return PlaneShape{};
+  if (c.shape == "bowl") return BowlShape{radius, thickness};
+  if (c.shape == "superellipsoid") return SuperellipsoidShape{sizes, e[0], e[1]};
+  if (c.shape == "supertoroid") return SupertoroidShape{radius, {minor, minor}, e[0], e[1]};
+  if (c.shape == "surface") {
+    if (!c.surface) return input_error("the surface is missing", "surface", "give its id");
+    const auto index = executor.find_surface(*c.surface);
+    if (!index) return std::unexpected(index.error());
+    return SplineShape{executor.state.surfaces[static_cast<std::size_t>(*index)].current};
+  }
+  return input_error(fmt::format("\"{}\" is not a shape", c.shape), "shape",
+                     "the shapes are: sphere, ellipsoid, box, cylinder, cone, capsule, torus, plane, bowl, "
+                     "superellipsoid, supertoroid, surface");
+}
+
+}  // namespace
+
+Expected<Tool*> Executor::find_tool(const std::optional<std::string>& name) {
+  std::string known;
+  for (Tool& t : state.tools) {
+    if (name ? t.name == *name : state.tools.size() == 1) return &t;
+    known += (known.empty() ? "" : ", ") + t.name;
+  }
+  if (known.empty()) return input_error("there is no tool", "tool", "make one first with the command tool");
+  return input_error(name ? fmt::format("there is no tool \"{}\"", *name) : "which tool is not said", "tool",
+                     "the tools are: " + known);
+}
+
+Expected<void> Executor::operator()(const ToolCommand& c) {
+  auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  const bool own_place = c.shape == "surface" && !c.position && !c.at;  // a surface is where it is
+  if (!own_place && c.position.has_value() == c.at.has_value()) {
+    return input_error(c.at ? "both position and at are given" : "neither position nor at is given", "position",
+                       "give one of them");
+  }
+  const auto length = diagonal();
+  if (!length) return std::unexpected(length.error());
+  const double unit = c.relative ? *length : 1;
+  const auto shape = shape_of(c, unit, *length, *this);
+  if (!shape) return std::unexpected(shape.error());
+  Placement placement;
+  if (c.axis) {
+    const Point axis = point_of(*c.axis);
+    if (!(axis.norm() > 0)) return input_error("the axis has no direction", "axis", "use a vector that is not zero");
+    placement.rotation = Eigen::Quaterniond::FromTwoVectors(Point::UnitZ(), axis);
+  }
+  if (c.scale) placement.scale = *c.scale;
+  if (c.position) {
+    placement.position = unit * point_of(*c.position);
+  } else if (c.at) {
+    const auto u = parameters_at(*(*surface)->current, *c.at);
+    if (!u) return std::unexpected(u.error());
+    const auto point = evaluate_point<2>(*(*surface)->current, *u);
+    if (!point) return std::unexpected(point.error());
+    placement.position = *point;
+  }
+  if (!placement.position.allFinite()) return input_error("a coordinate is not a finite number", "position");
+  auto placed = PlacedShape::create(*shape, placement);
+  if (!placed) return std::unexpected(placed.error());
+  const double stiffness = c.stiffness.value_or(c.mode == ToolMode::proximity ? 100 : 1e4);
+  const double size = std::isfinite(placed->size()) ? placed->size() : 0.1 * *length;
+  Tool made{c.name, std::move(*placed), c.mode, stiffness, c.range ? *c.range * unit : 0.5 * size};
+  made.rigid = c.rigid;
+  made.friction = c.friction;
+  made.plasticity = c.plasticity;
+  made.direction = c.direction;
+  if (auto tool = validated(made); !tool) return std::unexpected(tool.error());
+  const auto same = std::ranges::find(state.tools, c.name, [](const Tool& t) { return t.name; });
+  if (same != state.tools.end()) {
+    *same = std::move(made);
+  } else {
+    state.tools.push_back(std::move(made));
+  }
+  return {};
+}
+
+Expected<void> Executor::operator()(const RemoveCommand& c) {
+  const auto force = std::ranges::find_if(
+      state.forces, [&](const ForceCommand& f) { return c.tool ? f.name == *c.tool : state.tools.empty(); });
+  if (force != state.forces.end() && (c.tool || state.forces.size() == 1)) {
+    state.forces.erase(force);
+    return {};
+  }
+  auto tool = find_tool(c.tool);
+  if (!tool) return std::unexpected(tool.error());
+  const double plasticity = (*tool)->mode == ToolMode::imprint ? 1 : (*tool)->plasticity;
+  state.tools.erase(state.tools.begin() + (*tool - state.tools.data()));
+  if (plasticity > 0 && state.selected) return yield(plasticity);
+  return {};
+}
+
+Expected<void> Executor::operator()(const MoveCommand& c) {
+  auto tool = find_tool(c.tool);
+  if (!tool) return std::unexpected(tool.error());
+  double unit = 1;
+  if (c.relative) {
+    const auto length = diagonal();
+    if (!length) return std::unexpected(length.error());
+    unit = *length;
+  }
+  const Placement& at = (*tool)->shape.placement();
+  auto moved = (*tool)->shape.moved(at.rotation, at.position + unit * point_of(c.by));
+  if (!moved) return std::unexpected(moved.error());
+  (*tool)->shape = std::move(*moved);
+  return {};
+}
+
+Expected<void> Executor::operator()(const TurnCommand& c) {
+  auto tool = find_tool(c.tool);
+  if (!tool) return std::unexpected(tool.error());
+  const Point axis = point_of(c.axis);
+  if (!(axis.norm() > 0)) return input_error("the axis has no direction", "axis", "use a vector that is not zero");
+  const Placement& at = (*tool)->shape.placement();
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(c.angle * std::numbers::pi / 180, axis.normalized()));
+  auto turned = (*tool)->shape.moved((turn * at.rotation).normalized(), at.position);
+  if (!turned) return std::unexpected(turned.error());
+  (*tool)->shape = std::move(*turned);
+  return {};
+}
+
+Expected<void> Executor::operator()(const ScaleCommand& c) {
+  auto tool = find_tool(c.tool);
+  if (!tool) return std::unexpected(tool.error());
+  Placement at = (*tool)->shape.placement();
+  for (std::size_t k = 0; k < 3; ++k) at.scale[k] *= c.by[k];
+  auto scaled = PlacedShape::create((*tool)->shape.shape(), at);
+  if (!scaled) return std::unexpected(scaled.error());
+  (*tool)->shape = std::move(*scaled);
+  return {};
+}
+
+Expected<void> Executor::operator()(const ForceCommand& c) {
+  auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  if (auto u = parameters_at(*(*surface)->current, c.at); !u) return std::unexpected(u.error());
+  if (!(c.strength >= 0 && c.strength <= max_tool_stiffness)) {
+    return input_error(fmt::format("{} is not a strength", c.strength), "strength",
+                       fmt::format("use a number from 0 to {}", max_tool_stiffness));
+  }
+  if (!(std::isfinite(c.core) && c.core > 0)) {
+    return input_error(fmt::format("{} is not a length", c.core), "core", "use a number > 0");
+  }
+  const auto same = std::ranges::find(state.forces, c.name, [](const ForceCommand& f) { return f.name; });
+  if (same != state.forces.end()) {
+    *same = c;
+  } else {
+    state.forces.push_back(c);
+  }
+  return {};
+}
+
+}  // namespace knead

@@ -1,0 +1,375 @@
+#include "surface_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/sculpt/constraints.hpp"
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double pole_tolerance = 1e-9;   // of the surface's size
+constexpr double pole_flatness = 1e-6;
+constexpr double symmetry_tolerance = 1e-6;
+constexpr double symmetry_angle = 1e-3;
+
+double detail_of(const std::vector<Tool>& tools) {
+  double detail = 0;
+  for (const Tool& t : tools) {
+    double size = t.shape.size();
+    if (!t.collides()) size = std::min(size, t.range);
+    if (std::isfinite(size) && (detail == 0 || size < detail)) detail = size;
+  }
+  return detail;
+}
+
+/// The present displacement of a surface from its rest shape.
+Points displacement(const SurfaceState& s) {
+  return s.current->control_points() - s.rest->control_points();
+}
+
+std::vector<SurfaceEdge> edges_of(EdgeChoice which) {
+  switch (which) {
+    case EdgeChoice::u0:
+      return {SurfaceEdge::u0};
+    case EdgeChoice::u1:
+      return {SurfaceEdge::u1};
+    case EdgeChoice::v0:
+      return {SurfaceEdge::v0};
+    case EdgeChoice::v1:
+      return {SurfaceEdge::v1};
+    case EdgeChoice::all:
+      break;
+  }
+  return {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1};
+}
+
+/// Appends what one request asks for.
+struct Asked {
+  const SurfaceState& surface;
+  ConstraintList& list;
+
+  Expected<void> operator()(const EdgeCommand& c) const {
+    if (c.hold == EdgeHold::free) return {};
+    const int order = c.hold == EdgeHold::position ? 0 : c.hold == EdgeHold::clamped ? 1 : 2;
+    return holding([&]() -> Expected<void> {
+      for (SurfaceEdge edge : edges_of(c.which)) {
+        if (auto done = hold_edge(*surface.rest, edge, order, list); !done) return done;
+      }
+      return {};
+    });
+  }
+
+  Expected<void> operator()(const PinCommand& c) const {
+    if (!c.at) return {};
+    const auto u = parameters_at(*surface.rest, *c.at);
+    if (!u) return std::unexpected(u.error());
+    if (c.to) return pin_point(*surface.rest, (*u)[0], (*u)[1], Point((*c.to)[0], (*c.to)[1], (*c.to)[2]), list);
+    return holding([&] { return pin_point(*surface.rest, (*u)[0], (*u)[1], std::nullopt, list); });
+  }
+
+  Expected<void> operator()(const FreezeCommand& c) const {
+    const auto region = region_at(*surface.rest, c.region);
+    if (!region) return std::unexpected(region.error());
+    const auto frozen = freeze_region(*surface.rest, (*region)[0], (*region)[1], list);
+    if (!frozen) return std::unexpected(frozen.error());
+    return {};
+  }
+
+  Expected<void> operator()(const KeepCommand& c) const {
+    return holding([&]() -> Expected<void> {
+      for (int direction = 0; direction < 2; ++direction) {
+        const std::optional<double>& line = direction == 0 ? c.u : c.v;
+        if (!line) continue;
+        Fractions at = {0, 0};
+        at[static_cast<std::size_t>(direction)] = *line;
+        const auto u = parameters_at(*surface.rest, at, direction == 0 ? "u" : "v");
+        if (!u) return std::unexpected(u.error());
+        auto done = hold_isoline(*surface.rest, direction, (*u)[static_cast<std::size_t>(direction)], 0, list);
+        if (!done) return done;
+      }
+      if (c.curve.empty()) return {};
+      Parameters<2> polyline(static_cast<Eigen::Index>(c.curve.size()), 2);
+      for (std::size_t k = 0; k < c.curve.size(); ++k) {
+        const auto u = parameters_at(*surface.rest, c.curve[k], "curve");
+        if (!u) return std::unexpected(u.error());
+        polyline.row(static_cast<Eigen::Index>(k)) << (*u)[0], (*u)[1];
+      }
+      const auto kept = keep_curve(*surface.rest, polyline, c.tolerance, list);
+      if (!kept) return std::unexpected(kept.error());
+      return {};
+    });
+  }
+
+  Expected<void> operator()(const SymmetryCommand& c) const {
+    MirrorPlane plane;
+    const double size = bounding_box(*surface.reference).diagonal();
+    if (c.normal) plane.normal = Point((*c.normal)[0], (*c.normal)[1], (*c.normal)[2]);
+    if (c.point) plane.point = Point((*c.point)[0], (*c.point)[1], (*c.point)[2]);
+    if (c.edge) {
+      for (SurfaceEdge edge : edges_of(*c.edge)) {
+        auto done = hold_symmetry_plane(*surface.reference, edge, plane, 1, symmetry_tolerance * size, symmetry_angle, list);
+        if (!done) return done;
+      }
+      return {};
+    }
+    const int direction = c.mirror == "u" ? 0 : 1;
+    if (!c.normal || !c.point) {
+      const auto best = mirror_plane(*surface.reference, direction);
+      if (!best) return std::unexpected(best.error());
+      plane = *best;
+    }
+    const auto report = keep_mirror(*surface.reference, direction, plane, 1e-9, list);
+    if (!report) return std::unexpected(report.error());
+    return {};
+  }
+
+ private:
+  /// What `f` appends is held where it is now, not where it was at rest.
+  template <class F>
+  Expected<void> holding(const F& f) const {
+    const std::size_t first = list.constraints.size();
+    if (auto done = f(); !done) return done;
+    keep_present(list, displacement(surface), first);
+    return {};
+  }
+};
+
+/// All constraints on one surface; terms count its own control points.
+Expected<ConstraintList> constraints_of(const SurfaceState& s, std::vector<std::string>& notes) {
+  const auto [m, n] = s.reference->net();
+  ConstraintList list(s.reference->size());
+  const int rows = s.hold_rows;
+  for (int i = 0; i < m && rows > 0; ++i) {
+    for (int j = 0; j < n; ++j) {
+      if (i < rows || i >= m - rows || j < rows || j >= n - rows) list.hold(i * n + j, "hold");
+    }
+  }
+  for (const auto& [i, j] : s.pins) list.hold(i * n + j, fmt::format("pin ({}, {})", i, j));
+  for (const ConstraintRequest& request : s.constraints) {
+    if (auto done = std::visit(Asked{s, list}, request); !done) return std::unexpected(done.error());
+  }
+  if (s.mode == RestMode::none) return list;  // the energy acts on the shape itself: there is no rest to stay smooth to
+  if (s.smooth_knot_lines) {
+    const auto lines = keep_smooth(*s.reference, {}, list);
+    if (!lines) return std::unexpected(lines.error());
+    for (const SmoothLine& line : *lines) {
+      if (line.state == SmoothLine::State::crease) {
+        notes.push_back(fmt::format("{}: the crease at {} = {:.6g} may bend", s.id, line.direction == 0 ? "u" : "v", line.knot));
+      }
+    }
+  }
+  if (s.smooth_poles) {
+    const double size = bounding_box(*s.reference).diagonal();
+    const auto poles = keep_poles(*s.reference, pole_tolerance * size, pole_flatness, list);
+    if (!poles) return std::unexpected(poles.error());
+  }
+  return list;
+}
+
+}  // namespace
+
+std::vector<int> SessionState::selection() const {
+  std::vector<int> result;
+  if (selected) result.push_back(*selected);
+  result.insert(result.end(), together.begin(), together.end());
+  return result;
+}
+
+Expected<std::array<double, 2>> parameters_at(const Surface& surface, const Fractions& at, const char* where) {
+  std::array<double, 2> u;
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (!(at[d] >= 0 && at[d] <= 1)) {
+      return input_error(fmt::format("{} is not a fraction of the domain", at[d]), where, "use numbers from 0 to 1");
+    }
+    const Interval domain = surface.knots()[d].domain();
+    u[d] = std::min(domain.lower + at[d] * domain.length(), domain.upper);
+  }
+  return u;
+}
+
+Expected<std::array<Interval, 2>> region_at(const Surface& surface, const std::array<Fractions, 2>& region) {
+  const auto lower = parameters_at(surface, {region[0][0], region[1][0]}, "region");
+  const auto upper = parameters_at(surface, {region[0][1], region[1][1]}, "region");
+  if (!lower) return std::unexpected(lower.error());
+  if (!upper) return std::unexpected(upper.error());
+  std::array<Interval, 2> result;
+  for (std::size_t d = 0; d < 2; ++d) {
+    if ((*upper)[d] < (*lower)[d]) {
+      return input_error("a side of the region decreases", "region", "write [[s0, s1], [t0, t1]] with s0 <= s1, t0 <= t1");
+    }
+    result[d] = {(*lower)[d], (*upper)[d]};
+  }
+  return result;
+}
+
+std::vector<std::pair<int, double>> basis_terms(const Surface& surface, const std::array<double, 2>& u, int first) {
+  std::array<std::array<double, max_degree + 1>, 2> n;
+  std::array<int, 2> span;
+  for (std::size_t d = 0; d < 2; ++d) {
+    span[d] = surface.knots()[d].find_span(u[d]);
+    basis_values(surface.knots()[d], span[d], u[d], n[d].data());
+  }
+  const int p = surface.knots(0).degree(), q = surface.knots(1).degree(), columns = surface.net()[1];
+  std::vector<std::pair<int, double>> terms;
+  double sum = 0;
+  for (int r = 0; r <= p; ++r) {
+    for (int c = 0; c <= q; ++c) {
+      const int row = (span[0] - p + r) * columns + span[1] - q + c;
+      const double w = surface.rational() ? surface.weights()[static_cast<std::size_t>(row)] : 1;
+      terms.emplace_back(first + row, w * n[0][static_cast<std::size_t>(r)] * n[1][static_cast<std::size_t>(c)]);
+      sum += terms.back().second;
+    }
+  }
+  for (auto& term : terms) term.second /= sum;
+  return terms;
+}
+
+ModelInput model_input(const SessionState& state, const EvolveCommand& evolve) {
+  ModelInput input;
+  bool places = false;
+  for (int k : state.selection()) places = places || !state.surfaces[static_cast<std::size_t>(k)].constraints.empty();
+  for (int k : state.selection()) {
+    const SurfaceState& s = state.surfaces[static_cast<std::size_t>(k)];
+    input.references.push_back(s.reference);
+    if (places) input.rests.push_back(s.rest);
+    input.modes.push_back(s.mode);
+    input.materials.push_back(s.material);
+    input.hold_rows.push_back(s.hold_rows);
+    input.pins.push_back(s.pins);
+    input.constraints.push_back(s.constraints);
+    input.smooth.push_back({s.smooth_knot_lines, s.smooth_poles});
+  }
+  input.seams = state.seams;
+  input.scaling = state.scaling;
+  input.evolve = evolve;
+  input.detail = detail_of(state.tools);
+  return input;
+}
+
+Expected<SurfaceModel> make_model(const SessionState& state, ModelInput input) {
+  ActiveSettings<2> settings;
+  std::vector<std::string> notes;
+  std::vector<Surface> patches;
+  std::vector<const Surface*> pointers;
+  std::vector<int> rows = {0};
+  bool varying = false;
+  for (int k : state.selection()) {
+    const SurfaceState& s = state.surfaces[static_cast<std::size_t>(k)];
+    if (s.mode != input.modes.front()) {
+      return input_error("surfaces that are selected together have different rest modes", "rest",
+                         "give `rest` once with all of them selected");
+    }
+    auto list = constraints_of(s, notes);
+    if (!list) return std::unexpected(list.error());
+    settings.fixed.insert(settings.fixed.end(), list->held.begin(), list->held.end());
+    for (LinearConstraint& c : list->constraints) {
+      for (auto& term : c.terms) term.first += rows.back();
+      if (state.together.size() > 0) c.name = s.id + ": " + c.name;
+      settings.constraints.push_back(std::move(c));
+    }
+    for (const Coefficient<2>& c : s.material.alpha) varying = varying || !std::holds_alternative<double>(c);
+    for (const Coefficient<2>& c : s.material.beta) varying = varying || !std::holds_alternative<double>(c);
+    varying = varying || !std::holds_alternative<double>(s.material.mass) || !std::holds_alternative<double>(s.material.damping);
+    varying = varying || !(s.material == input.materials.front());
+    patches.push_back(*s.reference);
+    pointers.push_back(s.reference.get());
+    rows.push_back(rows.back() + s.reference->size());
+  }
+  if (std::ranges::none_of(settings.fixed, [](bool f) { return f; })) settings.fixed.clear();
+
+  std::vector<SeamReport> reports;
+  if (state.seams.couple) {
+    const double tolerance = state.seams.tolerance.value_or(suggested_seam_tolerance(pointers));
+    const auto found = find_seams(pointers, tolerance);
+    if (!found) return std::unexpected(found.error());
+    auto coupled = couple_seams(pointers, rows, found->seams);
+    if (!coupled) return std::unexpected(coupled.error());
+    settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
+    reports = std::move(coupled->reports);
+  }
+
+  const MaterialFieldOf<2>& material = input.materials.front();
+  if (varying) {
+    settings.fields = input.materials;
+  } else {
+    for (std::size_t k = 0; k < 3; ++k) {
+      settings.material.alpha[k] = std::get<double>(material.alpha[k]);
+      settings.material.beta[k] = std::get<double>(material.beta[k]);
+    }
+    settings.mass = std::get<double>(material.mass);
+    settings.damping = std::get<double>(material.damping);
+  }
+  settings.rest = input.modes.front();
+  settings.evolution = input.evolve.mode;
+  settings.weight = input.evolve.weight;
+  settings.lambda = input.evolve.lambda;
+  settings.time_step = input.evolve.time_step;
+  settings.raw = input.scaling == ScalingMode::raw;
+  settings.detail = input.detail;
+  auto model = ActiveSurface::create(std::move(patches), settings);
+  if (!model) return std::unexpected(model.error());
+  return SurfaceModel{std::move(input), std::move(*model), std::move(reports), std::move(notes)};
+}
+
+ActiveState active_state(const SessionState& state) {
+  Eigen::Index size = 0, at = 0;
+  bool moving = false;
+  for (int k : state.selection()) {
+    const SurfaceState& s = state.surfaces[static_cast<std::size_t>(k)];
+    size += s.current->size();
+    moving = moving || s.velocity.rows() > 0;
+  }
+  ActiveState result;
+  result.control_points.resize(size, 3);
+  result.rest.resize(size, 3);
+  if (moving) result.velocity = Points::Zero(size, 3);
+  for (int k : state.selection()) {
+    const SurfaceState& s = state.surfaces[static_cast<std::size_t>(k)];
+    const Eigen::Index n = s.current->size();
+    result.control_points.middleRows(at, n) = s.current->control_points();
+    result.rest.middleRows(at, n) = s.rest->control_points();
+    if (s.velocity.rows() > 0) result.velocity.middleRows(at, n) = s.velocity;
+    at += n;
+  }
+  return result;
+}
+
+Expected<ActiveLoads> active_loads(const SessionState& state) {
+  const auto vector = [](const Vector3& v) { return Point(v[0], v[1], v[2]); };
+  ActiveLoads loads;
+  loads.force = vector(state.load.vector);
+  loads.gravity = vector(state.load.gravity);
+  loads.pressure = state.load.pressure;
+  loads.wind = vector(state.load.wind);
+  for (const ForceCommand& f : state.forces) {
+    const SurfaceState& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
+    const auto u = parameters_at(*s.current, f.at);
+    if (!u) return std::unexpected(u.error());
+    PointForce force;
+    force.kind = f.kind == PointForceKind::spring ? PointForce::Kind::spring : PointForce::Kind::volcano;
+    force.terms = basis_terms(*s.current, *u, 0);
+    force.to = vector(f.to);
+    force.strength = f.strength;
+    force.core = f.core;
+    loads.points.push_back(std::move(force));
+  }
+  if (state.limit) {
+    loads.limit = *state.limit;
+    Eigen::Index size = 0;
+    for (int k : state.selection()) size += state.surfaces[static_cast<std::size_t>(k)].opened->size();
+    loads.original.resize(size, 3);
+    Eigen::Index at = 0;
+    for (int k : state.selection()) {
+      const Points& opened = state.surfaces[static_cast<std::size_t>(k)].opened->control_points();
+      loads.original.middleRows(at, opened.rows()) = opened;
+      at += opened.rows();
+    }
+  }
+  return loads;
+}
+
+}  // namespace knead
