@@ -19,6 +19,13 @@ bool holds(const OcctSurface& occt, const Surface& surface) {
   return occt.net == surface.net() && same_bits(occt.poles, surface.control_points());
 }
 
+/// The same up to the rounding of a conversion of units.
+bool nearly_holds(const OcctSurface& occt, const Surface& surface) {
+  const Points& points = surface.control_points();
+  return occt.net == surface.net() &&
+         (occt.poles - points).cwiseAbs().maxCoeff() <= 1e-14 * points.cwiseAbs().maxCoeff();
+}
+
 void expect_holds(const OcctSurface& occt, const Surface& surface, const std::string& name) {
   EXPECT_TRUE(holds(occt, surface)) << name;
   for (int d = 0; d < 2; ++d) {
@@ -48,7 +55,7 @@ TEST_P(RefinedOracle, FindsTheSameFacesOnRefinedSurfaces) {
   const auto after = read_written(file_->with_surfaces(refined));
   EXPECT_EQ(before_->topology, after.topology);
   EXPECT_EQ(before_->faces, after.faces);
-  int exact = 0, altered = 0;
+  int exact = 0, near = 0, altered = 0;
   for (std::size_t k = 0; k < refined.size(); ++k) {
     const auto& id = refined[k].id;
     const auto a = before_->results.find(id);
@@ -60,6 +67,11 @@ TEST_P(RefinedOracle, FindsTheSameFacesOnRefinedSurfaces) {
       if (holds(a->second.surfaces[f], file_->surfaces()[k].surface)) {
         expect_holds(b->second.surfaces[f], refined[k].surface, id);
         ++exact;
+      } else if (nearly_holds(a->second.surfaces[f], file_->surfaces()[k].surface)) {
+        EXPECT_TRUE(nearly_holds(b->second.surfaces[f], refined[k].surface)) << id;
+        EXPECT_TRUE(std::ranges::equal(b->second.surfaces[f].knots[0], refined[k].surface.knots(0).knots())) << id;
+        EXPECT_TRUE(std::ranges::equal(b->second.surfaces[f].knots[1], refined[k].surface.knots(1).knots())) << id;
+        ++near;
       } else {
         ++altered;
       }
@@ -70,8 +82,8 @@ TEST_P(RefinedOracle, FindsTheSameFacesOnRefinedSurfaces) {
       EXPECT_NEAR(a->second.area_ratios[f], b->second.area_ratios[f], 1e-3) << id;
     }
   }
-  std::cout << GetParam().filename().string() << ": " << exact << " faces hold refined surfaces bit for bit, "
-            << altered << " are on surfaces that Open CASCADE alters anyway\n";
+  std::cout << GetParam().filename().string() << ": " << exact << " faces hold refined surfaces bit for bit, " << near
+            << " to 1e-14, " << altered << " are on surfaces that Open CASCADE alters anyway\n";
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, RefinedOracle, ::testing::ValuesIn(all_files()), test_name);
