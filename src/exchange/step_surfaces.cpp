@@ -13,9 +13,6 @@ constexpr std::array<std::string_view, 6> forms = {
     "B_SPLINE_SURFACE_WITH_KNOTS", "BEZIER_SURFACE",  "UNIFORM_SURFACE", "QUASI_UNIFORM_SURFACE",
     "RATIONAL_B_SPLINE_SURFACE",   "B_SPLINE_SURFACE"};
 
-// The number of attributes of B_SPLINE_SURFACE with the name it inherits.
-constexpr std::size_t attributes_of_surface = 8;
-
 struct Net {
   int rows = 0;
   int columns = 0;
@@ -71,7 +68,7 @@ Expected<std::array<KnotVector, 2>> surface_knots(const StepReader& reader, std:
 Expected<std::vector<double>> surface_weights(const StepReader& reader, std::uint32_t instance, const Net& points) {
   std::vector<double> weights;
   if (!reader.is(instance, "RATIONAL_B_SPLINE_SURFACE")) return weights;
-  const auto own = reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_surface, 1);
+  const auto own = reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_b_spline_surface, 1);
   if (own.empty()) return reader.error(instance, "it is rational and has no weights");
   const auto net = read_net(reader, instance, own[0], "weights");
   if (!net) return std::unexpected(net.error());
@@ -92,11 +89,11 @@ Expected<std::vector<double>> surface_weights(const StepReader& reader, std::uin
 
 std::vector<std::uint32_t> knot_parameters(const StepReader& reader, std::uint32_t instance) {
   if (!reader.is(instance, "B_SPLINE_SURFACE_WITH_KNOTS")) return {};
-  return reader.attributes(instance, "B_SPLINE_SURFACE_WITH_KNOTS", attributes_of_surface, 4);
+  return reader.attributes(instance, "B_SPLINE_SURFACE_WITH_KNOTS", attributes_of_b_spline_surface, 4);
 }
 
 std::uint32_t weights_parameter(const StepReader& reader, std::uint32_t instance) {
-  return reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_surface, 1).front();
+  return reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_b_spline_surface, 1).front();
 }
 
 const char* implied_keyword(ImpliedKnots form) {

@@ -24,6 +24,9 @@ struct ReadSurface {
 /// Reads one (ISO 10303-42, b_spline_surface and its subtypes). Errors (input) with entity and line.
 [[nodiscard]] Expected<ReadSurface> read_b_spline_surface(const StepReader& reader, std::uint32_t instance);
 
+/// The number of attributes of B_SPLINE_SURFACE with the name it inherits.
+inline constexpr std::size_t attributes_of_b_spline_surface = 8;
+
 /// The values of its u multiplicities, v multiplicities, u knots, v knots, and whatever follows; empty where it lists
 /// none.
 [[nodiscard]] std::vector<std::uint32_t> knot_parameters(const StepReader& reader, std::uint32_t instance);

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <map>
-#include <set>
+#include <unordered_set>
 
 #include "part21_text.hpp"
 #include "step_print.hpp"
@@ -18,6 +17,16 @@ Bits bits_of(const Points& points, Eigen::Index row) {
   return {std::bit_cast<std::uint64_t>(points(row, 0)), std::bit_cast<std::uint64_t>(points(row, 1)),
           std::bit_cast<std::uint64_t>(points(row, 2))};
 }
+
+struct BitsHash {
+  std::size_t operator()(const Bits& bits) const {
+    std::uint64_t hash = 0;
+    for (const auto word : bits) hash = (hash ^ word ^ (word >> 29)) * 0x9E3779B97F4A7C15;
+    return static_cast<std::size_t>(hash ^ (hash >> 32));
+  }
+};
+template <class T>
+using ByValue = std::unordered_map<Bits, T, BitsHash>;
 
 constexpr const char* with_knots = "B_SPLINE_SURFACE_WITH_KNOTS";
 
@@ -166,8 +175,7 @@ Expected<void> Surgeon::replace_surface(std::uint32_t instance, const std::vecto
                         net[0], net[1], [&](int k) { return text(after.weights()[static_cast<std::size_t>(k)]); },
                         line_break()));
   }
-  write_knots(instance, before, after);
-  return {};
+  return write_knots(instance, before, after);
 }
 
 // The name of the record of each new control point: one that has its value stays with it; records that only this
@@ -176,8 +184,8 @@ Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::u
                                                         const Points& old_points, const Points& new_points,
                                                         std::string& inserted) {
   const auto rows = static_cast<std::size_t>(new_points.rows());
-  std::map<Bits, std::vector<std::uint32_t>> records;  // by value, one for each occurrence in the old net
-  std::map<std::uint32_t, std::uint32_t> occurrences;  // of each record
+  ByValue<std::vector<std::uint32_t>> records;                   // by value, one for each occurrence in the old net
+  std::unordered_map<std::uint32_t, std::uint32_t> occurrences;  // of each record
   for (std::size_t k = 0; k < refs.size(); ++k) {
     const auto target = file_.value(refs[k]).target;
     records[bits_of(old_points, static_cast<Eigen::Index>(k))].push_back(target);
@@ -185,8 +193,8 @@ Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::u
   }
   const auto name_of = [&](std::uint32_t record) { return "#" + std::to_string(file_.instance(record).id); };
   std::vector<std::string> names(rows);
-  std::map<Bits, std::size_t> met;
-  std::set<std::uint32_t> needed;
+  ByValue<std::size_t> met;
+  std::unordered_set<std::uint32_t> needed;
   for (std::size_t k = 0; k < rows; ++k) {
     const auto bits = bits_of(new_points, static_cast<Eigen::Index>(k));
     const auto found = records.find(bits);
@@ -195,7 +203,7 @@ Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::u
     needed.insert(record);
     names[k] = name_of(record);
   }
-  std::map<Bits, std::string> created;
+  ByValue<std::string> created;
   std::size_t at = 0;
   for (std::size_t k = 0; k < rows; ++k) {
     if (!names[k].empty()) continue;
@@ -224,15 +232,15 @@ Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::u
   return names;
 }
 
-void Surgeon::write_knots(std::uint32_t instance, const Surface& before, const Surface& after) {
-  if (after.knots() == before.knots()) return;
+Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& before, const Surface& after) {
+  if (after.knots() == before.knots()) return {};
   const auto listed = knot_parameters(reader_, instance);
   const auto form = implied_form(reader_, instance);
   if (listed.empty() && form) {
     bool still = true;
     for (const auto& knots : after.knots())
       still = still && implied_knots(*form, knots.degree(), knots.count()) == knots;
-    if (still) return;
+    if (still) return {};
     std::array<PrintedKnots, 2> printed;
     for (std::size_t d = 0; d < 2; ++d) printed[d] = print_knots(after.knots()[d], format_shortest_real);
     const auto text = printed[0].multiplicities + "," + printed[1].multiplicities + "," + printed[0].values + "," +
@@ -242,6 +250,12 @@ void Surgeon::write_knots(std::uint32_t instance, const Surface& before, const S
       insert(file_.value(*reader_.part(instance, "B_SPLINE_SURFACE")).bytes.end,
              std::string(with_knots) + "(" + text + ")");
     } else {
+      // The knots follow the attributes of B_SPLINE_SURFACE, all of which must be there.
+      if (const auto given = file_.children(record.first).size(); given != attributes_of_b_spline_surface) {
+        return reader_.error(instance,
+                             "it has " + std::to_string(given) + " attributes, so knots cannot be listed behind them",
+                             "its type has " + std::to_string(attributes_of_b_spline_surface));
+      }
       const auto bytes = file_.value(record.first).bytes;
       const auto keyword = static_cast<std::uint32_t>(file_.keyword(record.first).size());
       changes_.push_back({{bytes.begin, bytes.begin + keyword}, with_knots});
@@ -249,7 +263,7 @@ void Surgeon::write_knots(std::uint32_t instance, const Surface& before, const S
     }
   }
   if (form && file_.instance(instance).complex) change(*reader_.part(instance, implied_keyword(*form)), "");
-  if (listed.empty()) return;
+  if (listed.empty()) return {};
   for (std::size_t d = 0; d < 2; ++d) {
     if (after.knots()[d] == before.knots()[d]) continue;
     const auto printed = print_knots(after.knots()[d], texts(listed[d + 2]));
@@ -259,6 +273,7 @@ void Surgeon::write_knots(std::uint32_t instance, const Surface& before, const S
   // The kind of knots (uniform, piecewise Bezier, …) need not be theirs any more.
   if (listed.size() > 4 && !same_keyword(reader_.enumeration(listed[4]), "UNSPECIFIED"))
     change(listed[4], ".UNSPECIFIED.");
+  return {};
 }
 
 std::function<std::string(double)> Surgeon::texts(std::uint32_t list) const {

@@ -49,7 +49,7 @@ class Surgeon {
   [[nodiscard]] Expected<std::vector<std::string>> point_names(const std::vector<std::uint32_t>& refs,
                                                                const Points& old_points, const Points& new_points,
                                                                std::string& inserted);
-  void write_knots(std::uint32_t instance, const Surface& before, const Surface& after);
+  [[nodiscard]] Expected<void> write_knots(std::uint32_t instance, const Surface& before, const Surface& after);
   [[nodiscard]] std::vector<Change> rewritten(const Coordinates& coordinates, const Points& old_points,
                                               Eigen::Index old_row, const Points& points, Eigen::Index row) const;
   [[nodiscard]] std::string copy_of(std::uint32_t point, const std::string& name,

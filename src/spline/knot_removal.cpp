@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -203,7 +205,15 @@ struct Reduction {
   Rows rows;
   std::vector<int> origin;  ///< row of the original net that a row still is; −1 if it was changed
   std::vector<double> removed, refused;
+  std::map<double, double> change;  ///< `smallest_change` by knot, where it is still true
   double bound = 0;
+
+  /// Forgets what depends on rows that change, or on knots, when the knot of this index goes.
+  void forget_around(int knot) {
+    const int reach = 2 * knots.degree() + 3, last = static_cast<int>(knots.knots().size()) - 1;
+    change.erase(change.lower_bound(knots[std::max(0, knot - reach)]),
+                 change.upper_bound(knots[std::min(last, knot + reach)]));
+  }
 };
 
 /// Removes one more knot; false if none may go.
@@ -214,7 +224,9 @@ bool remove_one(Reduction& state, const Rows& original, const KnotVector& origin
     if (std::ranges::find(state.refused, state.knots[knot]) != state.refused.end()) continue;
     auto found = relation(state.knots, knot);
     if (!found) continue;
-    const double change = smallest_change(state.rows, layout, *found);
+    const auto known = state.change.find(state.knots[knot]);
+    const double change = known != state.change.end() ? known->second : smallest_change(state.rows, layout, *found);
+    state.change[state.knots[knot]] = change;
     if (change <= tolerance) candidates.emplace_back(change, *std::move(found));
   }
   std::ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.first; });
@@ -235,6 +247,7 @@ bool remove_one(Reduction& state, const Rows& original, const KnotVector& origin
     if (r.fixed(r.last, count)) origin.back() = state.origin.back();
     origin.insert(origin.end(), state.origin.begin() + r.last + 1, state.origin.end());
     state.removed.push_back(state.knots[r.knot]);
+    state.forget_around(r.knot);
     state.knots = std::move(knots);
     state.rows = std::move(rows);
     state.origin = std::move(origin);
@@ -289,7 +302,7 @@ Expected<KnotRemoval<D>> remove_knots(const Spline<D>& spline, int direction, do
       if (spline.rational()) original(i, line * layout.width() + 3 * layout.fields) = weight;
     }
   }
-  Reduction state{spline.knots(direction), original, std::vector<int>(static_cast<std::size_t>(net[d])), {}, {}, 0};
+  Reduction state{spline.knots(direction), original, std::vector<int>(static_cast<std::size_t>(net[d])), {}, {}, {}, 0};
   std::iota(state.origin.begin(), state.origin.end(), 0);
   while (remove_one(state, original, spline.knots(direction), layout, tolerance)) {
   }

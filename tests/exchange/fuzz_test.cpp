@@ -6,6 +6,7 @@
 
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
+#include "knead/spline/refine.hpp"
 
 namespace knead {
 namespace {
@@ -77,7 +78,7 @@ class Damage {
   std::mt19937 random_;
 };
 
-// Reads, and where that succeeds moves every surface and writes.
+// Reads, and where that succeeds moves every surface and writes, and refines every surface and writes.
 bool survives(const std::string& bytes) {
   const auto file = StepFile::parse(bytes, "damaged.step");
   if (!file) {
@@ -93,6 +94,25 @@ bool survives(const std::string& bytes) {
   }
   const auto written = file->with_control_points(edits);
   EXPECT_TRUE(written) << written.error().message() << "\n" << bytes;
+
+  std::vector<StepReplacement> replacements;
+  for (const auto& surface : file->surfaces()) {
+    std::array<std::vector<double>, 2> middles;
+    for (int d = 0; d < 2; ++d) {
+      const auto& knots = surface.surface.knots(d);
+      middles[static_cast<std::size_t>(d)] = span_midpoints(knots, knots.domain());
+    }
+    auto finer = insert_knots<2>(surface.surface, middles);
+    if (!finer) continue;  // a weight has become zero, or a coordinate too large
+    if (const auto higher = elevate_degree(*finer, 1)) finer = *higher;
+    replacements.push_back({surface.id, *std::move(finer)});
+  }
+  const auto refined = file->with_surfaces(replacements);
+  // A record with implied knots that lacks attributes cannot have knots behind them.
+  if (!refined) {
+    EXPECT_EQ(refined.error().kind, ErrorKind::input) << refined.error().message() << "\n" << bytes;
+    EXPECT_NE(refined.error().what.find("attributes"), std::string::npos) << refined.error().message();
+  }
   return true;
 }
 

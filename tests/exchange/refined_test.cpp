@@ -190,6 +190,10 @@ TEST(RefinedSurface, WhatStepCannotSayIsAnError) {
   EXPECT_NE(what(inserted(bytes, {0.5, 0.5})).find("torn along a knot"), std::string::npos);
   EXPECT_NE(what(*Surface::create(s.knots(), s.control_points(), {1, 1, 1, 1})).find("no weights"), std::string::npos);
   EXPECT_NE(what(s, "#99").find("#99"), std::string::npos);
+  const auto short_record = step_text(unit_square_points() + "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)));\n");
+  const StepReplacement finer{"#10", inserted(short_record, {0.5})};
+  EXPECT_NE(parse_or_die(short_record).with_surfaces({&finer, 1}).error().message().find("it has 4 attributes"),
+            std::string::npos);
   const StepReplacement twice[] = {{"#10", s}, {"#10", s}};
   EXPECT_NE(file.with_surfaces(twice).error().message().find("twice"), std::string::npos);
 }

@@ -1,69 +1,15 @@
 // Open CASCADE 7.6 reads what Knead writes: the same faces, and poles that differ where they were edited and only
 // there.
 
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <set>
 
-#include "exchange/support.hpp"
-#include "knead/exchange/file_io.hpp"
-#include "oracle/occt_model.hpp"
+#include "oracle/step_oracle.hpp"
 
 namespace knead::oracle {
 namespace {
 
-namespace fs = std::filesystem;
 using knead::testing::same_bits;
-
-std::vector<fs::path> all_files() {
-  auto files = knead::testing::step_files_in(knead::testing::collection());
-  for (auto& sample : knead::testing::step_files_in(knead::testing::samples())) files.push_back(std::move(sample));
-  return files;
-}
-
-class StepOracle : public ::testing::TestWithParam<fs::path> {
- protected:
-  void SetUp() override {
-    auto read = StepFile::read(GetParam());
-    ASSERT_TRUE(read) << read.error().message();
-    file_ = std::make_unique<StepFile>(*std::move(read));
-    directory_ = fs::temp_directory_path() / ("knead-oracle-" + std::to_string(getpid()));
-    fs::create_directories(directory_);
-    if (file_->bytes().find("&SCOPE") != std::string::npos) {
-      // It may abort there; then there is no second opinion.
-      const auto child = fork();
-      if (child == 0) {
-        static_cast<void>(freopen("/dev/null", "w", stderr));
-        static_cast<void>(occt_read(GetParam(), "mm"));
-        _exit(0);
-      }
-      int status = 0;
-      waitpid(child, &status, 0);
-      if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        GTEST_SKIP() << "Open CASCADE aborts on &SCOPE; nothing is left to compare";
-    }
-    before_ = occt_read(GetParam(), file_->length_unit());
-    ASSERT_TRUE(before_);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  OcctModel read_edited(const std::vector<StepEdit>& edits) {
-    const auto bytes = file_->with_control_points(edits);
-    EXPECT_TRUE(bytes) << bytes.error().message();
-    const auto path = directory_ / GetParam().filename();
-    EXPECT_TRUE(write_file_atomically(path, *bytes));
-    auto model = occt_read(path, file_->length_unit());
-    EXPECT_TRUE(model);
-    return model.value_or(OcctModel{});
-  }
-
-  std::unique_ptr<StepFile> file_;
-  fs::path directory_;
-  std::optional<OcctModel> before_;
-};
 
 // Control points moved so little that a face stays a face: inside the net, so that edges and seams stay where they are,
 // or, in a net without inside, one in the middle.
@@ -167,7 +113,7 @@ TEST_P(StepOracle, FindsTheSameFacesAndOnlyTheEditedPolesDiffer) {
     edits.push_back({surface.id, moved(surface.surface)});
     edited.emplace(surface.id, edits.back().control_points);
   }
-  const auto tally = compare(*file_, *before_, read_edited(edits), edited);
+  const auto tally = compare(*file_, *before_, read_written(file_->with_control_points(edits)), edited);
   std::cout << GetParam().filename().string() << ": " << tally.exact << " surfaces bit for bit";
   if (tally.altered > 0) {
     std::cout << ", " << tally.altered << " that Open CASCADE alters on reading; of their " << tally.altered_poles
@@ -182,7 +128,7 @@ TEST_P(StepOracle, OneEditedSurfaceLeavesAllOthersAlone) {
   if (file_->surfaces().empty()) GTEST_SKIP() << "no B-spline surfaces";
   const auto& surface = file_->surfaces()[file_->surfaces().size() / 2];
   const StepEdit edit{surface.id, moved(surface.surface)};
-  compare(*file_, *before_, read_edited({edit}), {{surface.id, edit.control_points}});
+  compare(*file_, *before_, read_written(file_->with_control_points({&edit, 1})), {{surface.id, edit.control_points}});
 }
 
 // A face is whole where its area is that of its surface.
@@ -197,12 +143,7 @@ TEST_P(StepOracle, AgreesOnWhatIsTrimmed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, StepOracle, ::testing::ValuesIn(all_files()), [](const auto& instance) {
-  auto name = instance.param.filename().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Files, StepOracle, ::testing::ValuesIn(all_files()), test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(StepOracle);
 
 }  // namespace

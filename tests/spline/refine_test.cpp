@@ -29,7 +29,7 @@ double moved(const Spline<D>& before, const Spline<D>& after) {
   return (a->points() - b->points()).rowwise().norm().maxCoeff() / size_of(before.control_points());
 }
 
-/// The promise: 8 (p + 1) ulp of the largest coordinate, to which evaluation before and after adds its own rounding.
+/// The promise, in which the rounding of both evaluations is included.
 double bound(int p) { return 24 * (p + 1) * 0x1p-52; }
 
 std::vector<double> middles(const KnotVector& knots) { return span_midpoints(knots, knots.domain()); }

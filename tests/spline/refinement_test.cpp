@@ -277,13 +277,21 @@ TEST(Refinement, MatrixAndApplyAreTheSameMap) {
 }
 
 TEST(Refinement, EndsOfAnUnclampedDomainMayBeRepeated) {
-  const auto knots = uniform_unclamped(3, 4);
-  const auto [a, b] = knots.domain();
-  const double list[] = {a, b, a, b, b};
-  const auto r = make(knots, with_knots(knots, list));
-  EXPECT_EQ(r.to().domain().lower, a);
-  EXPECT_EQ(r.to().domain().upper, b);
-  EXPECT_LE(static_cast<double>(identity_error(r)), 16 * 0x1p-52);
+  for (const int p : {1, 2, 3, 5}) {
+    for (const auto& knots : {uniform_unclamped(p, 4), periodic(p, {1, 0.5, 2, 0.25, 3})}) {
+      const auto [a, b] = knots.domain();
+      for (int times = 1; times <= p; ++times) {
+        std::vector<double> list(static_cast<std::size_t>(times), a);
+        list.insert(list.end(), list.size(), b);
+        list.push_back((a + 2 * b) / 3);
+        const auto r = make(knots, with_knots(knots, list));
+        EXPECT_EQ(r.to().domain().lower, a);
+        EXPECT_EQ(r.to().domain().upper, b);
+        EXPECT_LE(static_cast<double>(identity_error(r)), 4 * (p + 1) * 0x1p-52);
+        expect_exact_entries(r, "p = " + std::to_string(p) + ", " + std::to_string(times) + " times");
+      }
+    }
+  }
 }
 
 TEST(Refinement, WhatCannotBeInsertedIsNamed) {

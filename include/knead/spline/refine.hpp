@@ -11,10 +11,10 @@ namespace knead {
 /// The same function on finer knots in one direction.
 ///
 /// c̃ = R c along that direction; with weights on homogeneous coordinates, w̃ = R w and P̃ = R (w P) / w̃. Neither shape
-/// nor parametrisation change, up to rounding: with non-negative weights points move by less than 8 (p + 1) ulp of the
-/// largest coordinate of the net, whatever the ratio of the weights. Control points and weights of `Refinement::copied`
-/// rows keep their bits. A displacement or a rest shape on the same net is carried along as a spline of its own:
-/// `refined(*spline.with_control_points(displacement), …)`. Cost: O(size p).
+/// nor parametrisation change, up to rounding: with positive weights points move by less than 24 (p + 1) ulp of the
+/// largest coordinate of the net, evaluation before and after included, whatever the ratio of the weights. Control
+/// points and weights of `Refinement::copied` rows keep their bits. A displacement or a rest shape on the same net is
+/// carried along as a spline of its own: `refined(*spline.with_control_points(displacement), …)`. Cost: O(size p).
 /// Errors: `refinement.from()` is not the knot vector of that direction (usage); a weight comes out zero (numerical).
 template <int D>
 [[nodiscard]] Expected<Spline<D>> refined(const Spline<D>& spline, int direction, const Refinement& refinement);

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "exchange/support.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "oracle/occt_model.hpp"
+
+namespace knead::oracle {
+
+namespace fs = std::filesystem;
+
+inline std::vector<fs::path> all_files() {
+  auto files = knead::testing::step_files_in(knead::testing::collection());
+  for (auto& sample : knead::testing::step_files_in(knead::testing::samples())) files.push_back(std::move(sample));
+  return files;
+}
+
+/// One file of the collection or the samples, and what Open CASCADE makes of it.
+class StepOracle : public ::testing::TestWithParam<fs::path> {
+ protected:
+  void SetUp() override {
+    auto read = StepFile::read(GetParam());
+    ASSERT_TRUE(read) << read.error().message();
+    file_ = std::make_unique<StepFile>(*std::move(read));
+    directory_ = fs::temp_directory_path() / ("knead-oracle-" + std::to_string(getpid()));
+    fs::create_directories(directory_);
+    if (file_->bytes().find("&SCOPE") != std::string::npos) {
+      // It may abort there; then there is no second opinion.
+      const auto child = fork();
+      if (child == 0) {
+        static_cast<void>(freopen("/dev/null", "w", stderr));
+        static_cast<void>(occt_read(GetParam(), "mm"));
+        _exit(0);
+      }
+      int status = 0;
+      waitpid(child, &status, 0);
+      if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        GTEST_SKIP() << "Open CASCADE aborts on &SCOPE; nothing is left to compare";
+    }
+    before_ = occt_read(GetParam(), file_->length_unit());
+    ASSERT_TRUE(before_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  OcctModel read_written(const Expected<std::string>& bytes) {
+    EXPECT_TRUE(bytes) << bytes.error().message();
+    if (!bytes) return {};
+    const auto path = directory_ / GetParam().filename();
+    EXPECT_TRUE(write_file_atomically(path, *bytes));
+    auto model = occt_read(path, file_->length_unit());
+    EXPECT_TRUE(model);
+    return model.value_or(OcctModel{});
+  }
+
+  std::unique_ptr<StepFile> file_;
+  fs::path directory_;
+  std::optional<OcctModel> before_;
+};
+
+inline std::string test_name(const ::testing::TestParamInfo<fs::path>& instance) {
+  auto name = instance.param.filename().string();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+}
+
+}  // namespace knead::oracle
