@@ -2,6 +2,7 @@
 
 #include "analytic.hpp"
 #include "counted.hpp"
+#include "gauss.hpp"
 #include "kernel_call.hpp"
 #include "methods.hpp"
 
@@ -18,6 +19,12 @@ OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
     for (const auto& [a, b] : {std::pair{0, 0}, {1, 1}, {2, 2}, {1, 0}}) {
       detail::Analytic<detail::Counted>(knots).accumulate(a, b, [](int, int, detail::Counted) {});
       if (a != b) detail::Analytic<detail::Counted>(knots).accumulate(b, a, [](int, int, detail::Counted) {});
+    }
+  } else if (method == GramianMethod::gauss_reduced) {
+    detail::Counted sum = 0;
+    for (const auto& [a, b] : {std::pair{0, 0}, {1, 1}, {2, 2}, {1, 0}}) {
+      detail::accumulate_gauss<detail::Counted>(knots, a, b, detail::sufficient_points(knots.degree(), a, b),
+                                                [&](int, int, detail::Counted share) { sum += share; });
     }
   } else if (detail::within_kernel_range(knots)) {
     GramianSet set;
