@@ -6,7 +6,7 @@ set -euo pipefail
 build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev)
 # The benchmarks are built with the tests, so that they keep compiling. OCCT is the oracle the tests compare STEP files
 # with; the product does not use it.
-tests=(libgtest-dev libbenchmark-dev libocct-data-exchange-dev)
+tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
 # The library for WebAssembly, and node to run it.
 wasm=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc nodejs)
 

@@ -7,8 +7,8 @@
 #include "knead/spline/knot_vector.hpp"
 #include "support/quad_gramian.hpp"
 
-/// Gramians in exact rational arithmetic: doubles are rationals, and so is all that follows from them. Slow; it shows that
-/// quadruple precision is good enough as the reference for everything else.
+/// Gramians in exact rational arithmetic: doubles are rationals, and so is all that follows from them. Slow; it shows
+/// that quadruple precision is good enough as the reference for everything else.
 namespace knead::testing {
 
 using Polynomial = std::vector<mpq_class>;  ///< coefficients of 1, v, v², …
@@ -47,6 +47,7 @@ inline std::vector<Polynomial> exact_span_basis(const KnotVector& x, int d, int 
 inline std::vector<mpq_class> exact_gramian(const KnotVector& x, int a, int b) {
   const int p = x.degree();
   std::vector<mpq_class> values(static_cast<std::size_t>(x.count()) * static_cast<std::size_t>(2 * p + 1));
+  if (a > p || b > p) return values;
   for (const int s : x.spans()) {
     const std::vector<Polynomial> f = exact_span_basis(x, a, s), g = exact_span_basis(x, b, s);
     const mpq_class h = mpq_class(x[s + 1]) - mpq_class(x[s]);

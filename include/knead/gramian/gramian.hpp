@@ -38,7 +38,8 @@ inline constexpr GramianMethod default_gramian_method = GramianMethod::recurrenc
 /// Orders: 0 <= a, b <= max_degree; above the degree the Gramian is zero. `used_gramian_method` tells who computes it.
 /// Errors: another order (usage).
 /// Cost: O(n p²) for the Gauss methods and analytic, times the number of points and knots per function respectively.
-/// Accuracy: gauss below 1e-14 of ∫|N_i^(a) N_j^(b)| to degree 10. analytic loses digits as spans shrink: about 1e-12
+/// Accuracy: the Gauss methods below 1e-14 of ∫|N_i^(a) N_j^(b)| to degree 7 and for a, b <= 2; 3e-14 to degree 10 for
+/// other orders, where no derivative above the second changes its sign within a cluster of knots. analytic loses digits as spans shrink: about 1e-12
 /// on uniform knots at p = 3, nothing left where knots cluster 1e-8 apart.
 [[nodiscard]] Expected<BandMatrix> gramian(const KnotVector& knots, int a, int b,
                                            GramianMethod method = default_gramian_method);
