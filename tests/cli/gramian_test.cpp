@@ -1,6 +1,7 @@
 #include "knead/gramian/gramian.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
 #include "program.hpp"
 
@@ -71,8 +72,8 @@ TEST(GramianCommand, OneTermIsNamedByItsOrders) {
 
 TEST(GramianCommand, TheMethodIsTheOneThatWasUsed) {
   const auto used = [](const char* a, const char* b, const std::string& wanted, const std::string& term) {
-    const Json out = knead({"gramian", "--degree", "3", "--knots", thesis_knots, "--a", a, "--b", b, "--method", wanted})
-                         .json();
+    const Json out =
+        knead({"gramian", "--degree", "3", "--knots", thesis_knots, "--a", a, "--b", b, "--method", wanted}).json();
     const auto expected =
         gramian(knot_vector(3, {0, 0, 0, 0, 1, 2, 3, 3, 3, 3}), std::atoi(a), std::atoi(b), *gramian_method(wanted));
     expect_band(out.at("gramians").at(term).at("band"), *expected, 3);
