@@ -112,8 +112,10 @@ TEST_P(OfDegree, recurrence_is_as_exact_as_promised_on_thousands_of_spans) {
       for (int i = p; i < part.count() - p; ++i) {
         for (int j = std::max(p, i - p); j <= std::min(part.count() - p - 1, i + p); ++j) {
           const Quad difference = Quad(matrix(first + i, first + j)) - exact.value(i, j);
-          if (exact.absolute(i, j) == 0) continue;
-          error = std::max(error, static_cast<double>(testing::magnitude(difference) / exact.absolute(i, j)));
+          // 10 entry by entry but for the diagonal, which vanishes.
+          const Quad scale = a + b == 1 && i != j ? testing::magnitude(exact.value(i, j)) : exact.absolute(i, j);
+          if (scale == 0) continue;
+          error = std::max(error, static_cast<double>(testing::magnitude(difference) / scale));
         }
       }
       return error;
