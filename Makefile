@@ -2,7 +2,7 @@
 # The work is done by CMake presets (CMakePresets.json) and the scripts in scripts/.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run test asan noexcept format format-check lint check-long bench figures clean
+.PHONY: help setup build run test asan noexcept wasm format format-check lint check-long bench figures clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -24,6 +24,9 @@ asan: ## Run all tests under the address and undefined-behaviour sanitizers
 
 noexcept: ## Build the core without exceptions and link a program against it
 	@scripts/noexcept.sh
+
+wasm: ## Build the library for WebAssembly
+	@scripts/wasm.sh
 
 format: ## Format all C++ sources in place
 	@scripts/format.sh

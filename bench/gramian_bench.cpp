@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
@@ -34,8 +35,11 @@ KnotVector make_knots(int p, int count, Family family) {
   return *KnotVector::create(p, std::move(knots));
 }
 
+constexpr GramianMethod timed[] = {GramianMethod::gauss, GramianMethod::recurrence, GramianMethod::gauss_reduced,
+                                   GramianMethod::analytic};
+
 struct Candidate {
-  std::string name;
+  GramianMethod method;
   std::function<void()> run;
   std::vector<double> seconds = {};
 };
@@ -49,8 +53,12 @@ void compare(int p, int count, Family family, InstructionSet set, int rounds) {
   const KnotVector knots = make_knots(p, count, family);
   GramianSet result;  // shared, so that all candidates write to the same lines of the cache
   std::vector<Candidate> candidates;
-  candidates.push_back({"gauss", [&] { recompute_gramians(knots, GramianMethod::gauss, result, set); }});
-  candidates.push_back({"recurrence", [&] { recompute_gramians(knots, GramianMethod::recurrence, result, set); }});
+  for (const GramianMethod method : timed) {
+    // Those without kernels stand beside the scalar ones, once.
+    const bool has_kernels = method == GramianMethod::gauss || method == GramianMethod::recurrence;
+    if (!has_kernels && set != InstructionSet::scalar) continue;
+    candidates.push_back({method, [&, method] { recompute_gramians(knots, method, result, set); }});
+  }
   for (auto& candidate : candidates) candidate.run();
   const int repeat = std::max(1, static_cast<int>(60000.0 / count / (p + 1)));
   for (int round = 0; round < rounds; ++round) {
@@ -68,11 +76,12 @@ void compare(int p, int count, Family family, InstructionSet set, int rounds) {
     for (std::size_t k = 0; k < candidate.seconds.size(); ++k) {
       ratios.push_back(candidates[0].seconds[k] / candidate.seconds[k]);
     }
-    std::printf(" %.2f | ", 1e9 * quantile(candidate.seconds, 0.5) / count);
-    if (&candidate != &candidates[0]) {
-      std::printf("%.2f (%.2f … %.2f) |", quantile(ratios, 0.5), quantile(ratios, 0.1), quantile(ratios, 0.9));
+    std::printf(" %.2f |", 1e9 * quantile(candidate.seconds, 0.5) / count);
+    if (candidate.method != timed[0]) {
+      std::printf(" %.2f (%.2f … %.2f) |", quantile(ratios, 0.5), quantile(ratios, 0.1), quantile(ratios, 0.9));
     }
   }
+  for (std::size_t k = candidates.size(); k < std::size(timed); ++k) std::printf(" | |");
   std::printf("\n");
   std::fflush(stdout);
 }
@@ -88,9 +97,12 @@ int main(int argc, char** argv) {
   const int rounds = numbers.empty() ? 61 : numbers.front();
   for (std::size_t k = 1; k < numbers.size(); ++k) degrees.push_back(numbers[k]);
   if (degrees.empty()) degrees = {3, 1, 2, 4, 5, 7};
-  std::printf(
-      "| p | functions | knots | instructions | gauss ns/row | recurrence ns/row | times faster (10 %% … 90 %%) |\n");
-  std::printf("|---|---|---|---|---|---|---|\n");
+  std::printf("| p | functions | knots | instructions | gauss ns/row |");
+  for (const GramianMethod method : timed) {
+    if (method == timed[0]) continue;
+    std::printf(" %s ns/row | times gauss (10 %% … 90 %%) |", std::string(name(method)).c_str());
+  }
+  std::printf("\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const int p : degrees) {
     for (const int count : {100, 1000, 10000}) {
       for (const Family family : {Family::uniform_lengths, Family::exponential_lengths, Family::equal_lengths}) {

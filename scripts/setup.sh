@@ -1,20 +1,23 @@
 #!/usr/bin/env bash
 # Installs the Debian packages a goal needs, and only those that are missing.
-#   scripts/setup.sh build | test | bench | format | lint
+#   scripts/setup.sh build | test | bench | format | lint | wasm
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev)
 # The benchmarks are built with the tests, so that they keep compiling. OCCT is the oracle the tests compare STEP files
 # with; the product does not use it.
-tests=(libgtest-dev libbenchmark-dev libocct-data-exchange-dev)
+tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
+# The library for WebAssembly, and node to run it.
+wasm=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc nodejs)
 
 case "${1:-}" in
   build) needed=("${build[@]}") ;;
   test) needed=("${build[@]}" "${tests[@]}") ;;
   bench) needed=("${build[@]}" libbenchmark-dev) ;;
   format) needed=(clang-format) ;;
+  wasm) needed=("${build[@]}" "${wasm[@]}") ;;
   lint) needed=("${build[@]}" "${tests[@]}" clang-tidy-19) ;;
-  *) echo "usage: scripts/setup.sh build|test|bench|format|lint" >&2; exit 2 ;;
+  *) echo "usage: scripts/setup.sh build|test|bench|format|lint|wasm" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

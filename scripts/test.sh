@@ -8,4 +8,7 @@ preset=$1
 scripts/setup.sh test
 scripts/configure.sh "$preset" KNEAD_BUILD_TESTS=ON
 cmake --build "build/$preset"
+scripts/setup.sh wasm
+scripts/configure.sh wasm-test
+cmake --build build/wasm-test
 ctest --preset "$preset" -j "${KNEAD_JOBS:-$(nproc)}"

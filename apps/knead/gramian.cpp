@@ -84,20 +84,24 @@ std::vector<std::array<int, 2>> orders(const Options& options) {
   return {{options.a, options.b}};
 }
 
+/// "21"; orders of two digits are kept apart, "10,2".
+std::string term_name(int a, int b) { return fmt::format("{}{}{}", a, a > 9 || b > 9 ? "," : "", b); }
+
 Expected<Result> compute(const Options& options, const KnotVector& knots) {
   const std::string chosen = options.method.empty() ? std::string(name(default_gramian_method)) : options.method;
   const auto method = gramian_method(chosen);
   if (!method) return std::unexpected(method.error().within("--method"));
-  Result result{chosen, {}, {}};
+  const int a = options.a, b = options.b;  // 0, 0 where all terms are asked for, which go one way
+  Result result{std::string(name(used_gramian_method(knots, a, b, *method))), {}, {}};
   if (options.all) {
     auto set = knead::gramians(knots, *method);
     if (!set) return std::unexpected(set.error());
     result.gramians = {{"00", set->g00}, {"11", set->g11}, {"22", set->g22}, {"10", set->g10}};
     return result;
   }
-  auto matrix = gramian(knots, options.a, options.b, *method);
+  auto matrix = gramian(knots, a, b, *method);
   if (!matrix) return std::unexpected(matrix.error().within("--a, --b"));
-  result.gramians = {{fmt::format("{}{}", options.a, options.b), std::move(*matrix)}};
+  result.gramians = {{term_name(a, b), std::move(*matrix)}};
   return result;
 }
 
@@ -111,7 +115,7 @@ Expected<Result> compute_rational(const Options& options, const KnotVector& knot
                        fmt::format("use {} or {}", rational, constant_denominator));
   }
   for (const auto& [a, b] : orders(options)) {
-    const std::string term = fmt::format("{}{}", a, b);
+    const std::string term = term_name(a, b);
     if (result.method == constant_denominator) {
       auto matrix = constant_denominator_gramian(knots, *weights, a, b);
       if (!matrix) return std::unexpected(matrix.error());
@@ -150,8 +154,8 @@ Action add_gramian(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("gramian", "print Gramian matrices of a B-spline basis");
   options->knots.add_to(*command);
-  CLI::Option* a = command->add_option("--a", options->a, "derivative of the row functions, 0 to 2 (default 0)");
-  CLI::Option* b = command->add_option("--b", options->b, "derivative of the column functions, 0 to 2 (default 0)");
+  CLI::Option* a = command->add_option("--a", options->a, "derivative of the row functions, 0 to 15 (default 0)");
+  CLI::Option* b = command->add_option("--b", options->b, "derivative of the column functions, 0 to 15 (default 0)");
   command->add_flag("--all", options->all, "print 00, 11, 22 and 10")->excludes(a)->excludes(b);
   command->add_option("--method", options->method,
                       gramian_method_help() + "; with weights: rational (default) or constant-denominator");
@@ -164,7 +168,8 @@ Action add_gramian(CLI::App& app) {
       ->needs(weights);
   command->add_option("--format", options->format, "json (default) or csv")->check(CLI::IsMember({"json", "csv"}));
   command->footer(
-      "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside of the matrix; 17 significant digits.\n" +
+      "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside of the matrix; 17 significant digits. \"method\" is the\n"
+      "one used: recurrence knows 00, 10, 01, 11 and 22 and leaves other orders to gauss.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };
 }

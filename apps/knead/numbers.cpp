@@ -41,8 +41,9 @@ Expected<std::vector<double>> parse_numbers(const std::string& text, const std::
 }
 
 std::string gramian_method_help() {
-  return fmt::format("Gramians by: {}, {} or {} (default {})", name(GramianMethod::gauss),
-                     name(GramianMethod::analytic), name(GramianMethod::recurrence), name(default_gramian_method));
+  return fmt::format("Gramians by: {}, {}, {} or {} (default {})", name(GramianMethod::gauss),
+                     name(GramianMethod::gauss_reduced), name(GramianMethod::analytic), name(GramianMethod::recurrence),
+                     name(default_gramian_method));
 }
 
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null"; }

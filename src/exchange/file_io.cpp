@@ -36,7 +36,7 @@ class Descriptor {
   int fd_;
 };
 
-bool write_all(int fd, std::string_view bytes) {
+[[maybe_unused]] bool write_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
     const auto count = ::write(fd, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
@@ -46,11 +46,13 @@ bool write_all(int fd, std::string_view bytes) {
   return true;
 }
 
+#ifndef __wasi__
 mode_t new_file_mode() {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   return 0666 & ~mask;
 }
+#endif
 
 }  // namespace
 
@@ -73,6 +75,15 @@ Expected<std::string> read_file(const std::filesystem::path& path) {
   bytes.resize(filled);
   return bytes;
 }
+
+#ifdef __wasi__
+
+// A browser keeps its files by other means.
+Expected<void> write_file_atomically(const std::filesystem::path& path, std::string_view) {
+  return system_error(path, "cannot be written", ENOTSUP, "take the bytes and store them yourself");
+}
+
+#else
 
 Expected<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
   namespace fs = std::filesystem;
@@ -114,5 +125,7 @@ Expected<void> write_file_atomically(const std::filesystem::path& path, std::str
   if (parent.get() >= 0) static_cast<void>(::fsync(parent.get()));
   return {};
 }
+
+#endif
 
 }  // namespace knead

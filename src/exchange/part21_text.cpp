@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "iso8859.hpp"
+#include "read_double.hpp"
 
 namespace knead {
 namespace {
@@ -207,7 +208,7 @@ std::optional<double> parse_real(std::string_view text) {
     text = copy;
   }
   double value = 0;
-  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [last, error] = read_double(text.data(), text.data() + text.size(), value);
   if (last != text.data() + text.size() || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
     if (decimal_magnitude(text) > 0) return std::nullopt;

@@ -1,33 +1,23 @@
+#include "gauss.hpp"
+
 #include <cmath>
 
 #include "kernel_call.hpp"
 #include "methods.hpp"
 #include "simd/select.hpp"
-#include "span_basis.hpp"
 #include "unit_gauss.hpp"
 
 namespace knead::detail {
 
-BandMatrix gauss_gramian(const KnotVector& knots, int a, int b) {
-  const int p = knots.degree();
-  BandMatrix result(knots.count(), p, symmetry_of(a, b));
-  if (a > p || b > p) return result;
-  // The integrand has degree 2p − a − b on each span.
-  const UnitGaussRule<double> rule = unit_gauss<double>(p + 1);
-  const int orders[2] = {a, b};
-  SpanValues<double> values[2];
-  for (const int span : knots.spans()) {
-    const double h = knots[span + 1] - knots[span];
-    for (std::size_t g = 0; g < rule.t.size(); ++g) {
-      span_basis(knots, span, rule.t[g], rule.complement[g], orders, 2, values);
-      const double weight = h * rule.weights[g];
-      for (int i = 0; i <= p; ++i) {
-        const double factor = weight * values[0][i];
-        for (int j = a == b ? i : 0; j <= p; ++j) result.at(span - p + i, span - p + j) += factor * values[1][j];
-      }
-    }
-  }
+BandMatrix gauss_gramian(const KnotVector& knots, int a, int b, int points) {
+  BandMatrix result(knots.count(), knots.degree(), symmetry_of(a, b));
+  accumulate_gauss<double>(knots, a, b, points, [&](int i, int j, double value) { result.at(i, j) += value; });
   return result;
+}
+
+void reduced_gauss_gramians(const KnotVector& knots, GramianSet& set) {
+  const auto term = [&](int a, int b) { return gauss_gramian(knots, a, b, sufficient_points(knots.degree(), a, b)); };
+  set = {term(0, 0), term(1, 1), term(2, 2), term(1, 0)};
 }
 
 GaussPoints gauss_points(int degree) {
@@ -45,8 +35,8 @@ void gauss_gramians(const KnotVector& knots, InstructionSet instructions, Gramia
   constexpr int highest_kernel = 7;
   const int p = knots.degree();
   if (p > highest_kernel || !within_kernel_range(knots)) {
-    set = {gauss_gramian(knots, 0, 0), gauss_gramian(knots, 1, 1), gauss_gramian(knots, 2, 2),
-           gauss_gramian(knots, 1, 0)};
+    const auto term = [&](int a, int b) { return gauss_gramian(knots, a, b, p + 1); };
+    set = {term(0, 0), term(1, 1), term(2, 2), term(1, 0)};
     return;
   }
   resize(set, knots);

@@ -9,9 +9,11 @@
 namespace knead {
 namespace {
 
-constexpr int max_order = 2;
+constexpr GramianMethod methods[] = {GramianMethod::gauss, GramianMethod::gauss_reduced, GramianMethod::analytic,
+                                     GramianMethod::recurrence};
 
-constexpr GramianMethod methods[] = {GramianMethod::gauss, GramianMethod::analytic, GramianMethod::recurrence};
+/// One of 00, 11, 22, 10 and 01.
+bool is_kernel_term(int a, int b) { return (a == b && a <= 2) || a + b == 1; }
 
 /// One of the four terms that the kernels compute together.
 BandMatrix by_kernel(const KnotVector& knots, int a, int b, GramianMethod method) {
@@ -27,13 +29,16 @@ Expected<GramianMethod> gramian_method(std::string_view wanted) {
   for (const GramianMethod method : methods) {
     if (name(method) == wanted) return method;
   }
-  return usage_error(fmt::format("there is no Gramian method \"{}\"", wanted), {}, "use gauss, analytic or recurrence");
+  return usage_error(fmt::format("there is no Gramian method \"{}\"", wanted), {},
+                     "use gauss, gauss-reduced, analytic or recurrence");
 }
 
 std::string_view name(GramianMethod method) {
   switch (method) {
     case GramianMethod::gauss:
       return "gauss";
+    case GramianMethod::gauss_reduced:
+      return "gauss-reduced";
     case GramianMethod::analytic:
       return "analytic";
     case GramianMethod::recurrence:
@@ -42,14 +47,28 @@ std::string_view name(GramianMethod method) {
   return {};
 }
 
+GramianMethod used_gramian_method(const KnotVector& knots, int a, int b, GramianMethod wanted) {
+  const bool other = wanted == GramianMethod::recurrence && !(is_kernel_term(a, b) && detail::within_kernel_range(knots));
+  return other ? GramianMethod::gauss : wanted;
+}
+
 Expected<BandMatrix> gramian(const KnotVector& knots, int a, int b, GramianMethod method) {
-  if (a < 0 || a > max_order || b < 0 || b > max_order) {
+  if (a < 0 || a > max_degree || b < 0 || b > max_degree) {
     return usage_error(fmt::format("there is no Gramian of orders {} and {}", a, b), {},
-                       fmt::format("use derivative orders 0 to {}", max_order));
+                       fmt::format("use derivative orders 0 to {}", max_degree));
   }
-  if (method == GramianMethod::analytic) return detail::analytic_gramian(knots, a, b);
-  if (a == b || a + b == 1) return by_kernel(knots, a, b, method);
-  return detail::gauss_gramian(knots, a, b);
+  const int full = knots.degree() + 1;
+  switch (used_gramian_method(knots, a, b, method)) {
+    case GramianMethod::analytic:
+      return detail::analytic_gramian(knots, a, b);
+    case GramianMethod::gauss_reduced:
+      return detail::gauss_gramian(knots, a, b, detail::sufficient_points(knots.degree(), a, b));
+    case GramianMethod::gauss:
+      return is_kernel_term(a, b) ? by_kernel(knots, a, b, method) : detail::gauss_gramian(knots, a, b, full);
+    case GramianMethod::recurrence:
+      return by_kernel(knots, a, b, method);
+  }
+  return {};
 }
 
 Expected<GramianSet> gramians(const KnotVector& knots, GramianMethod method) {
@@ -62,6 +81,8 @@ void recompute_gramians(const KnotVector& knots, GramianMethod method, GramianSe
   switch (method) {
     case GramianMethod::gauss:
       return detail::gauss_gramians(knots, instructions, set);
+    case GramianMethod::gauss_reduced:
+      return detail::reduced_gauss_gramians(knots, set);
     case GramianMethod::recurrence:
       return detail::recurrence_gramians(knots, instructions, set);
     case GramianMethod::analytic:

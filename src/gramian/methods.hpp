@@ -5,8 +5,16 @@
 
 namespace knead::detail {
 
-/// G^ab for any a, b >= 0 by Gauss points (thesis Alg. 5.1).
-[[nodiscard]] BandMatrix gauss_gramian(const KnotVector& knots, int a, int b);
+/// G^ab for any a, b >= 0 by that many Gauss points on each span (thesis Alg. 5.1).
+[[nodiscard]] BandMatrix gauss_gramian(const KnotVector& knots, int a, int b, int points);
+
+/// The Gauss points that integrate G^ab exactly: n points do so for degrees below 2n, and N_i^(a) N_j^(b) has 2p − a − b.
+[[nodiscard]] constexpr int sufficient_points(int degree, int a, int b) {
+  return a + b > 2 * degree ? 1 : (2 * degree - a - b) / 2 + 1;
+}
+
+/// All four terms, each by as many Gauss points as it needs.
+void reduced_gauss_gramians(const KnotVector& knots, GramianSet& set);
 
 /// G^ab for any a, b >= 0 from jumps and repeated integrals (thesis Alg. 5.5, corrected).
 [[nodiscard]] BandMatrix analytic_gramian(const KnotVector& knots, int a, int b);

@@ -1,6 +1,7 @@
 #include "knead/gramian/operation_count.hpp"
 
 #include "analytic.hpp"
+#include "gauss.hpp"
 #include "kernel_call.hpp"
 #include "knead/gramian/counted.hpp"
 #include "methods.hpp"
@@ -18,6 +19,12 @@ OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
     for (const auto& [a, b] : {std::pair{0, 0}, {1, 1}, {2, 2}, {1, 0}}) {
       detail::Analytic<Counted>(knots).accumulate(a, b, [](int, int, Counted) {});
       if (a != b) detail::Analytic<Counted>(knots).accumulate(b, a, [](int, int, Counted) {});
+    }
+  } else if (method == GramianMethod::gauss_reduced) {
+    Counted sum = 0;
+    for (const auto& [a, b] : {std::pair{0, 0}, {1, 1}, {2, 2}, {1, 0}}) {
+      detail::accumulate_gauss<Counted>(knots, a, b, detail::sufficient_points(knots.degree(), a, b),
+                                                [&](int, int, Counted share) { sum += share; });
     }
   } else if (detail::within_kernel_range(knots)) {
     GramianSet set;

@@ -1,6 +1,7 @@
 #include "knead/gramian/gramian.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
 #include "program.hpp"
 
@@ -26,7 +27,7 @@ void expect_band(const Json& band, const BandMatrix& expected, int degree) {
 }
 
 TEST(GramianCommand, AllPrintsFourMatricesBitForBit) {
-  for (const char* method : {"gauss", "analytic", "recurrence"}) {
+  for (const char* method : {"gauss", "gauss-reduced", "analytic", "recurrence"}) {
     const Json out = knead({"gramian", "--degree", "3", "--knots", thesis_knots, "--all", "--method", method}).json();
     EXPECT_EQ(out.at("degree"), 3);
     EXPECT_EQ(out.at("count"), 6);
@@ -43,7 +44,7 @@ TEST(GramianCommand, AllPrintsFourMatricesBitForBit) {
 }
 
 TEST(GramianCommand, TheMassOfOneSpanIsThatOfTheTextbook) {
-  for (const char* method : {"gauss", "analytic", "recurrence"}) {
+  for (const char* method : {"gauss", "gauss-reduced", "analytic", "recurrence"}) {
     const Json out = knead({"gramian", "--degree", "1", "--knots", "0,0,1,1", "--method", method}).json();
     const Json band = out.at("gramians").at("00").at("band");  // hat functions: thirds and sixths
     EXPECT_EQ(band.at(0).at(0), 0);
@@ -67,6 +68,25 @@ TEST(GramianCommand, OneTermIsNamedByItsOrders) {
   const auto expected = gramian(knot_vector(2, {0, 0, 0, 1, 1, 1}), 0, 1, GramianMethod::gauss);
   ASSERT_TRUE(expected);
   expect_band(out.at("gramians").at("01").at("band"), *expected, 2);
+}
+
+TEST(GramianCommand, TheMethodIsTheOneThatWasUsed) {
+  const auto used = [](const char* a, const char* b, const std::string& wanted, const std::string& term) {
+    const Json out =
+        knead({"gramian", "--degree", "3", "--knots", thesis_knots, "--a", a, "--b", b, "--method", wanted}).json();
+    const auto expected =
+        gramian(knot_vector(3, {0, 0, 0, 0, 1, 2, 3, 3, 3, 3}), std::atoi(a), std::atoi(b), *gramian_method(wanted));
+    expect_band(out.at("gramians").at(term).at("band"), *expected, 3);
+    return out.at("method").get<std::string>();
+  };
+  EXPECT_EQ(used("2", "2", "recurrence", "22"), "recurrence");
+  EXPECT_EQ(used("2", "0", "recurrence", "20"), "gauss");
+  EXPECT_EQ(used("3", "3", "recurrence", "33"), "gauss");
+  EXPECT_EQ(used("3", "1", "analytic", "31"), "analytic");
+  EXPECT_EQ(used("3", "1", "gauss-reduced", "31"), "gauss-reduced");
+  EXPECT_EQ(used("12", "1", "gauss", "12,1"), "gauss");  // above the degree, zero
+  const Json tiny = knead({"gramian", "--degree", "1", "--knots", "0,0,1e-80,1e-80", "--all"}).json();
+  EXPECT_EQ(tiny.at("method"), "gauss") << "out of the range of the recurrence";
 }
 
 TEST(GramianCommand, NumbersCarrySeventeenDigits) {
@@ -133,7 +153,8 @@ TEST(GramianCommand, WhatIsWrongIsNamed) {
   EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,2,1,3,3"}, 3, {"knot 3", "decrease", "sort"}));
   EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1,1,2,2"}, 3, {"knot 4", "repeated"}));
   EXPECT_TRUE(fails({"--degree", "3", "--knots", "0,0,1,1"}, 3, {"too few", "8"}));
-  EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1", "--a", "3"}, 2, {"--a", "0 to 2"}));
+  EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1", "--a", "16"}, 2, {"--a", "0 to 15"}));
+  EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1", "--b", "-1"}, 2, {"--b"}));
   EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1", "--a", "1", "--all"}, 2, {"--a", "--all"}));
   EXPECT_TRUE(
       fails({"--degree", "1", "--knots", "0,0,1,1", "--method", "simpson"}, 2, {"simpson", "gauss", "analytic"}));

@@ -14,12 +14,15 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr GramianMethod all_methods[] = {GramianMethod::gauss, GramianMethod::gauss_reduced, GramianMethod::analytic,
+                                         GramianMethod::recurrence};
+
 /// Every family with every method that is fit for it, and the accuracy that may be asked of the method.
 template <class Check>
 void for_all_methods(Check check) {
   for (int p = 1; p <= max_degree; ++p) {
     for (const auto& family : testing::knot_families(p)) {
-      for (const GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic}) {
+      for (const GramianMethod method : all_methods) {
         const bool lossy = method == GramianMethod::analytic;
         if (lossy && (p > 5 || !family.ordinary())) continue;
         SCOPED_TRACE(family.name + ", " + std::string(name(method)));
@@ -100,7 +103,7 @@ TEST(Gramian, of_second_derivatives_annihilates_straight_lines) {
 
 TEST(Gramian, of_degree_one_has_no_second_derivatives) {
   for (const auto& [name, knots] : testing::knot_families(1)) {
-    for (const GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic}) {
+    for (const GramianMethod method : all_methods) {
       for (int b = 0; b <= 2; ++b) {
         EXPECT_EQ(largest(gramian(knots, 2, b, method)->dense()), 0) << name;
         EXPECT_EQ(largest(gramian(knots, b, 2, method)->dense()), 0) << name;
@@ -128,7 +131,11 @@ TEST(Gramian, scales_with_the_knots_to_the_last_bit_for_powers_of_two) {
       for (int b = 0; b <= 2; ++b) {
         const MatrixXd narrow = gramian(knots, a, b, method)->dense();
         if (knots.degree() > 7 && narrow.cwiseAbs().minCoeff() < 1e-280) continue;  // denormal numbers do not scale
-        EXPECT_EQ(gramian(wide, a, b, method)->dense(), narrow * std::pow(4, 1 - a - b)) << a << b;
+        // Of an entry that vanishes between repeated knots their splitting by 2^-300 may be left.
+        const auto settled = [](const MatrixXd& matrix) {
+          return MatrixXd((matrix.array().abs() > 1e-80 * largest(matrix)).select(matrix, 0));
+        };
+        EXPECT_EQ(settled(gramian(wide, a, b, method)->dense()), settled(narrow * std::pow(4, 1 - a - b))) << a << b;
       }
     }
   });
@@ -188,7 +195,7 @@ TEST(Gramian, of_first_derivatives_comes_from_the_one_of_lower_degree) {
 
 TEST(Gramian, refuses_orders_it_does_not_know) {
   const KnotVector knots = testing::uniform_clamped(3, 4);
-  for (const auto& [a, b] : {std::pair{3, 0}, {0, 3}, {-1, 0}, {0, -1}}) {
+  for (const auto& [a, b] : {std::pair{max_degree + 1, 0}, {0, max_degree + 1}, {-1, 0}, {0, -1}}) {
     const auto refused = gramian(knots, a, b);
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().kind, ErrorKind::usage);
@@ -196,7 +203,7 @@ TEST(Gramian, refuses_orders_it_does_not_know) {
 }
 
 TEST(GramianMethod, is_known_by_its_name) {
-  for (const GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic}) {
+  for (const GramianMethod method : all_methods) {
     EXPECT_EQ(gramian_method(name(method)), method);
   }
   const auto unknown = gramian_method("simpson");

@@ -80,7 +80,7 @@ TEST_P(Basis, DerivativesOfEveryOrderAreExactToRounding) {
     basis_derivatives(knots, s, u, order, got.data());
     for (int d = 0; d <= order; ++d) {
       const auto exact = testing::quad_span_basis(knots, p, d, s, u);
-      const auto size = testing::term_magnitudes(knots, p, d, s, u);
+      const auto size = testing::quad_span_basis(knots, p, d, s, u, testing::Terms::magnitudes);
       for (int r = 0; r <= p; ++r) {
         const auto at = static_cast<std::size_t>(r);
         const double error =
@@ -127,8 +127,8 @@ TEST_P(Basis, SmoothnessAtAKnotIsDegreeMinusMultiplicity) {
       basis_derivatives(knots, left, u, p, before.data());
       basis_derivatives(knots, right, u, p, after.data());
       for (int d = 0; d <= std::min(p, p - m + 1); ++d) {
-        const auto size_left = testing::term_magnitudes(knots, p, d, left, u),
-                   size_right = testing::term_magnitudes(knots, p, d, right, u);
+        const auto size_left = testing::quad_span_basis(knots, p, d, left, u, testing::Terms::magnitudes),
+                   size_right = testing::quad_span_basis(knots, p, d, right, u, testing::Terms::magnitudes);
         double jump = 0;
         for (int i = left - p; i <= right; ++i) {
           const bool in_left = i <= left, in_right = i >= right - p;

@@ -8,28 +8,6 @@
 
 namespace knead::testing {
 
-/// Σ of the magnitudes of the terms that `quad_span_basis` sums: what rounding errors of derivatives are relative to.
-inline std::vector<Quad> term_magnitudes(const KnotVector& x, int p, int d, int s, Quad u) {
-  std::vector<Quad> level(static_cast<std::size_t>(p) + 1, Quad(0));
-  if (d > p) return level;
-  level[0] = 1;
-  for (int q = 1; q <= p; ++q) {
-    Quad before = 0;
-    for (int r = 0; r <= q; ++r) {
-      const auto at = static_cast<std::size_t>(r);
-      Quad here = 0, after = 0;
-      if (r < q) {
-        const Quad lower = Quad(x[s + 1 - q + r]), upper = Quad(x[s + 1 + r]), quotient = level[at] / (upper - lower);
-        here = q > p - d ? q * quotient : (upper - u) * quotient;
-        after = q > p - d ? q * quotient : (u - lower) * quotient;
-      }
-      level[at] = here + before;
-      before = after;
-    }
-  }
-  return level;
-}
-
 /// Numerator and denominator of a rational spline at one point, by their defining sums in quadruple precision.
 template <int D>
 struct QuadReference {
@@ -49,7 +27,7 @@ struct QuadReference {
       const int p = knots.degree(), span = knots.find_span(u[d]);
       first[d] = span - p;
       basis[d] = quad_span_basis(knots, p, a[d], span, u[d]);
-      magnitudes[d] = term_magnitudes(knots, p, a[d], span, u[d]);
+      magnitudes[d] = quad_span_basis(knots, p, a[d], span, u[d], Terms::magnitudes);
     }
     Homogeneous sum;
     const auto net = spline.net();

@@ -90,7 +90,7 @@ inline std::vector<NamedKnots> knot_families(int p) {
   add("spans growing tenfold", clamped_knots(p, breaks_of(growing)));
   add("spans shrinking tenfold", clamped_knots(p, breaks_of(shrinking)));
 
-  for (int r = 0; r <= 10; r += 5) add("thesis r=" + std::to_string(r), thesis_knots(p, r));
+  for (int r = 0; r <= 10; ++r) add("thesis r=" + std::to_string(r), thesis_knots(p, r));
   for (const double gap : {1e-8, 1e-13}) {
     std::vector<double> breaks{0, 1, 2};
     for (int k = 1; k <= std::min(p, 5); ++k) breaks.push_back(2 + k * gap);

@@ -55,9 +55,14 @@ Quad quad_basis(const Knots& x, int i, int q, int d, int s, Quad u) {
   return value;
 }
 
+/// The sign of the second term of a derivative, N' = q (N/d − N/d): `magnitudes` adds up what `values` subtracts, which
+/// gives the sum of the magnitudes of all terms, the size that rounding errors are relative to.
+enum class Terms { values, magnitudes };
+
 /// All p + 1 functions of span s at once, order d, in O(p²): the same recursion by levels. out[r] = N_{s-p+r}^(d)(u).
 template <class Knots>
-std::vector<Quad> quad_span_basis(const Knots& x, int p, int d, int s, Quad u) {
+std::vector<Quad> quad_span_basis(const Knots& x, int p, int d, int s, Quad u, Terms terms = Terms::values) {
+  const int sign = terms == Terms::values ? -1 : 1;
   std::vector<Quad> level(static_cast<std::size_t>(p) + 1, Quad(0));
   if (d > p) return level;
   level[0] = 1;
@@ -68,7 +73,7 @@ std::vector<Quad> quad_span_basis(const Knots& x, int p, int d, int s, Quad u) {
       Quad here = 0, after = 0;
       if (r < q) {
         const Quad lower = Quad(x[s + 1 - q + r]), upper = Quad(x[s + 1 + r]), quotient = level[at] / (upper - lower);
-        here = q > p - d ? -q * quotient : (upper - u) * quotient;
+        here = q > p - d ? sign * q * quotient : (upper - u) * quotient;
         after = q > p - d ? q * quotient : (u - lower) * quotient;
       }
       level[at] = here + before;
@@ -79,7 +84,7 @@ std::vector<Quad> quad_span_basis(const Knots& x, int p, int d, int s, Quad u) {
 }
 
 /// G^ab and ∫|N_i^(a) N_j^(b)| (the latter by the points of the rule), as full rows of the band: row i, column j − i +
-/// p.
+/// p. By `Terms::magnitudes` the latter is the integral of the products of the sums of magnitudes instead.
 struct QuadGramian {
   int n = 0, p = 0;
   std::vector<Quad> values, absolutes;
@@ -90,7 +95,7 @@ struct QuadGramian {
   [[nodiscard]] Quad absolute(int i, int j) const { return i - j > p || j - i > p ? Quad(0) : absolutes[at(i, j)]; }
 };
 
-inline QuadGramian quad_gramian(const KnotVector& knots, int a, int b) {
+inline QuadGramian quad_gramian(const KnotVector& knots, int a, int b, Terms beside = Terms::values) {
   const int p = knots.degree(), n = knots.count();
   QuadGramian result{n, p, {}, {}};
   result.values.assign(static_cast<std::size_t>(n) * static_cast<std::size_t>(2 * p + 1), Quad(0));
@@ -102,11 +107,16 @@ inline QuadGramian quad_gramian(const KnotVector& knots, int a, int b) {
       const Quad u = Quad(knots[s]) + h * rule.t[g], weight = h * rule.weight[g];
       const std::vector<Quad> f = quad_span_basis(knots, p, a, s, u);
       const std::vector<Quad> h_b = a == b ? f : quad_span_basis(knots, p, b, s, u);
-      for (int i = 0; i <= p; ++i) {
-        for (int j = 0; j <= p; ++j) {
-          const Quad term = weight * f[static_cast<std::size_t>(i)] * h_b[static_cast<std::size_t>(j)];
-          result.values[result.at(s - p + i, s - p + j)] += term;
-          result.absolutes[result.at(s - p + i, s - p + j)] += magnitude(term);
+      std::vector<Quad> size_a = f, size_b = h_b;
+      if (beside == Terms::magnitudes) {
+        size_a = quad_span_basis(knots, p, a, s, u, beside);
+        size_b = quad_span_basis(knots, p, b, s, u, beside);
+      }
+      for (std::size_t i = 0; i < f.size(); ++i) {
+        for (std::size_t j = 0; j < f.size(); ++j) {
+          const std::size_t at = result.at(s - p + static_cast<int>(i), s - p + static_cast<int>(j));
+          result.values[at] += weight * f[i] * h_b[j];
+          result.absolutes[at] += magnitude(weight * size_a[i] * size_b[j]);
         }
       }
     }
