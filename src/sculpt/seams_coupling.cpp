@@ -150,11 +150,11 @@ void Coupling::whole() {
 
 void Coupling::tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms& forms_b,
                         const seams::CommonSpace& space, const seams::RestMeeting& rest) {
-  if (rest.ratio == 0) return reason("C0: the cross-derivatives vanish");
   // Folded onto each other, as at a thin trailing edge, is as good as smooth: the same condition keeps both.
-  if ((rest.ratio > 0 ? rest.angle : rest.fold) > options.angle) {
+  if ((rest.ratio >= 0 ? rest.angle : rest.fold) > options.angle) {
     return reason(fmt::format("C0: a sharp edge, {:.3g} degrees at rest", rest.angle * 180 / std::numbers::pi));
   }
+  if (rest.ratio == 0) return reason("C0: the cross-derivatives vanish");
   if (!(rest.deviation <= options.angle)) {
     return reason(
         fmt::format("C0: the cross-derivatives are in no fixed ratio (lengths {:.4g} to {:.4g}, off by {:.2g})",

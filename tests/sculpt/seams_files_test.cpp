@@ -43,13 +43,20 @@ TEST(SeamFiles, Explore) {
         rigid += r.rigid;
         restricted += r.restricted;
       }
-      std::printf("%-45s %4zu surfaces tol %8.2g: whole %4d (self %3d) repar %3d partial %4d poles %3zu bad %zu gap %.2g | none %d c0 %d g1 %d per %d rigid %d restr %d | %.1f ms, %.1f ms\n",
-                  entry.path().filename().c_str(), patches.size(), factor * base, kinds[0], closed, kinds[1], kinds[2],
-                  found->collapsed.size(), found->unusable.size(), gap, conts[0], conts[1], conts[2], conts[3], rigid, restricted,
-                  1e3 * std::chrono::duration<double>(middle - begin).count(), 1e3 * std::chrono::duration<double>(end - middle).count());
+      std::printf(
+          "%-45s %4zu surfaces tol %8.2g: whole %4d (self %3d) repar %3d partial %4d poles %3zu bad %zu gap %.2g | "
+          "none %d c0 %d g1 %d per %d rigid %d restr %d | %.1f ms, %.1f ms\n",
+          entry.path().filename().c_str(), patches.size(), factor * base, kinds[0], closed, kinds[1], kinds[2],
+          found->collapsed.size(), found->unusable.size(), gap, conts[0], conts[1], conts[2], conts[3], rigid,
+          restricted, 1e3 * std::chrono::duration<double>(middle - begin).count(),
+          1e3 * std::chrono::duration<double>(end - middle).count());
       if (factor == 1) {
         int k = 0;
-        for (const auto& r : coupled->reports) if (r.seam.kind == SeamKind::whole && k++ < 6) std::printf("    %s-%s rev %d gap %.2g cont %d angle %.2g ratio %.3g dev %.2g mism %.2g: %s\n", to_string(r.seam.a).c_str(), to_string(r.seam.b).c_str(), r.seam.reversed, r.seam.gap, (int)r.continuity, r.angle, r.ratio, r.deviation, r.mismatch, r.reason.c_str());
+        for (const auto& r : coupled->reports)
+          if (r.seam.kind == SeamKind::whole && k++ < 6)
+            std::printf("    %s-%s rev %d gap %.2g cont %d angle %.2g ratio %.3g dev %.2g mism %.2g: %s\n",
+                        to_string(r.seam.a).c_str(), to_string(r.seam.b).c_str(), r.seam.reversed, r.seam.gap,
+                        (int)r.continuity, r.angle, r.ratio, r.deviation, r.mismatch, r.reason.c_str());
       }
     }
   }
