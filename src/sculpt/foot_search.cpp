@@ -22,7 +22,7 @@ bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size
     const double spread = 0.5 * t.diagonal();
     const double mid = 0.5 * std::hypot(t.axis[0].lower + t.axis[0].upper, t.axis[1].lower + t.axis[1].upper,
                                         t.axis[2].lower + t.axis[2].upper);
-    if (spread > 0.35 * mid && t.magnitude() * length(at.side[d]) > 0.02 * size) return false;
+    if (spread > 0.2 * mid && t.magnitude() * length(at.side[d]) > 0.02 * size) return false;
   }
   return true;
 }
@@ -166,14 +166,15 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
     const Range3 way = bounds[0] - q.x;
     for (std::size_t d = 0; d < 2 && !changed; ++d) {
       if (length(at.side[d]) == 0) continue;
-      const Range slope = way.dot(bounds[1 + d]);
-      const double rounding = 1e-14 * way.magnitude() * bounds[1 + d].magnitude();
-      if (slope.lower > rounding) {
-        if (at.side[d].lower != p.domain.side[d].lower) return;
+      const Range slope = way.dot(bounds[6 + d]);
+      const double rounding = 1e-14 * way.magnitude() * bounds[6 + d].magnitude();
+      const bool first = at.side[d].lower == p.domain.side[d].lower, last = at.side[d].upper == p.domain.side[d].upper;
+      if (slope.lower > rounding || (first && slope.lower >= 0)) {
+        if (!first) return;
         at.side[d].upper = at.side[d].lower;
         changed = true;
-      } else if (slope.upper < -rounding) {
-        if (at.side[d].upper != p.domain.side[d].upper) return;
+      } else if (slope.upper < -rounding || (last && slope.upper <= 0)) {
+        if (!last) return;
         at.side[d].lower = at.side[d].upper;
         changed = true;
       }

@@ -12,8 +12,9 @@ namespace knead::detail {
 
 /// S, S_u, S_v, S_uu, S_uv, S_vv at one parameter point.
 using PatchJet = std::array<Point, 6>;
-/// Boxes that hold the same six over a rectangle of parameters.
-using PatchBounds = std::array<Range3, 6>;
+/// Boxes that hold the same six over a rectangle of parameters, and S_u and S_v divided by positive functions of the
+/// parameters (the same for all coordinates), so that they do not vanish at poles and cusps.
+using PatchBounds = std::array<Range3, 8>;
 
 struct ParameterRectangle {
   std::array<Range, 2> side;
