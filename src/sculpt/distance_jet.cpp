@@ -42,7 +42,7 @@ DistanceJet distance_jet(const Point& x, const Foot& foot, const Patch& patch, d
   std::array<bool, 2> free = {!foot.pressed[0], !foot.pressed[1]};
   for (std::size_t d = 0; d < 2; ++d) {
     if (!free[d] || !vanishes(d)) continue;
-    const bool pole = j[d == 0 ? 3 : 5].norm() * 1e-3 < tiny && free[1 - d];
+    const bool pole = free[1 - d] && patch.pole(d, foot.at);
     if (!pole) {
       free[d] = false;  // an apex, or an end where the curvature is infinite
       continue;

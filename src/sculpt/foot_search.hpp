@@ -33,6 +33,9 @@ class Patch {
   virtual ~Patch() = default;
   [[nodiscard]] virtual PatchBounds bounds(const ParameterRectangle& at) const = 0;
   [[nodiscard]] virtual PatchJet jet(double u, double v) const = 0;
+  /// Asked where ∂S along `side` vanishes: true where a whole side of the rectangle is one point (a pole), false where
+  /// the curve itself comes to a halt (a cusp, or infinite curvature).
+  [[nodiscard]] virtual bool pole(std::size_t side, const std::array<double, 2>& at) const = 0;
 
   ParameterRectangle domain;
   double orientation;  ///< 1 where S_u × S_v points outwards, −1 where it points inwards

@@ -41,6 +41,9 @@ class SeparablePatch final : public Patch {
 
   [[nodiscard]] PatchBounds bounds(const ParameterRectangle& at) const override;
   [[nodiscard]] PatchJet jet(double u, double v) const override;
+  [[nodiscard]] bool pole(std::size_t side, const std::array<double, 2>& at) const override {
+    return side == 1 && std::abs(meridian_.at(at[0])[0][0]) < 1e-6;
+  }
 
  private:
   MonotoneCurve meridian_, parallel_;
