@@ -36,7 +36,7 @@ std::size_t side_to_halve(const PatchBounds& b, const ParameterRectangle& at) {
   const std::size_t longer = extent[0] >= extent[1] ? 0 : 1, round = 1 - longer;
   const Range3& t = b[1 + round];
   const bool touches = t.axis[0].holds_zero() && t.axis[1].holds_zero() && t.axis[2].holds_zero();
-  return touches && b[4].magnitude() * length(at.side[round]) > 0.1 * b[1 + longer].magnitude() ? round : longer;
+  return touches && b[4].magnitude() * length(at.side[round]) > 0.5 * b[1 + longer].magnitude() ? round : longer;
 }
 
 std::array<ParameterRectangle, 2> halves(const ParameterRectangle& at, std::size_t side) {
@@ -45,7 +45,7 @@ std::array<ParameterRectangle, 2> halves(const ParameterRectangle& at, std::size
   return h;
 }
 
-/// Of two feet that rounding cannot tell apart: the one pressed less against a border, then the one further from a
+/// Of two feet that rounding cannot tell apart: the one where the gradient is less, then the one further from a
 /// pole.
 bool firmer(const Foot& a, const Foot& b) {
   if (std::abs(a.pressure - b.pressure) > 1e-11) return a.pressure < b.pressure;
@@ -341,12 +341,12 @@ Foot FootSearch::descend(const Query& q, int patch, const ParameterRectangle& wi
     const auto k = static_cast<Eigen::Index>(d);
     if (length(p.domain.side[d]) == 0) continue;
     const bool low = w[k] <= within.side[d].lower && g[k] > 0, high = w[k] >= within.side[d].upper && g[k] < 0;
-    if (!low && !high) continue;
     const double push = std::abs(g[k]) / (j[1 + d].norm() * (std::sqrt(f.squared) + 1e-3 * size_) + 1e-300);
+    f.pressure = std::max(f.pressure, push);
+    if (!low && !high) continue;
     const bool border = low ? w[k] <= p.domain.side[d].lower : w[k] >= p.domain.side[d].upper;
     if (border) {
       f.pressed[d] = push > 1e-9;
-      f.pressure = std::max(f.pressure, push);
     } else if (push > 1e-9) {
       f.patch = -1;  // smaller still in the neighbouring cell
     }

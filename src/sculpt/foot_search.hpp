@@ -48,7 +48,7 @@ struct Foot {
   std::array<double, 2> at{};
   PatchJet jet{};
   std::array<bool, 2> pressed{};  ///< the distance would fall further beyond the border in this direction
-  double pressure = 0;            ///< how fast it would, relative to the distance: 0 at stationary points
+  double pressure = 0;            ///< the sine of the angle that is missing to a right one, to either tangent
 };
 
 struct FootResult {
