@@ -136,6 +136,8 @@ PatchBounds BezierPatch::bounds(const ParameterRectangle& at) const {
       const Hull h = derivative_hull(net, p_, q_, orders[k][0], orders[k][1], lu, lv);
       for (std::size_t c = 0; c < 3; ++c) b[k].axis[c] = h[c];
     }
+    b[6] = b[1];
+    b[7] = b[2];
     return b;
   }
   // Quotients about the middle of the hull, so that the terms with S are small.
@@ -163,6 +165,8 @@ PatchBounds BezierPatch::bounds(const ParameterRectangle& at) const {
     b[4].axis[c] = (h[4][c] - h[1][3] * v - h[2][3] * u - h[4][3] * s) / w;
     b[5].axis[c] = (h[5][c] - 2 * (h[2][3] * v) - h[5][3] * s) / w;
   }
+  b[6] = b[1];
+  b[7] = b[2];
   return b;
 }
 

@@ -18,6 +18,9 @@ class BezierPatch final : public Patch {
 
   [[nodiscard]] PatchBounds bounds(const ParameterRectangle& at) const override;
   [[nodiscard]] PatchJet jet(double u, double v) const override;
+  [[nodiscard]] bool pole(std::size_t side, const std::array<double, 2>& at) const override {
+    return at[1 - side] < 1e-6 || at[1 - side] > 1 - 1e-6;
+  }
 
  private:
   int p_, q_;

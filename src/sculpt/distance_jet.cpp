@@ -42,7 +42,7 @@ DistanceJet distance_jet(const Point& x, const Foot& foot, const Patch& patch, d
   std::array<bool, 2> free = {!foot.pressed[0], !foot.pressed[1]};
   for (std::size_t d = 0; d < 2; ++d) {
     if (!free[d] || !vanishes(d)) continue;
-    const bool pole = j[d == 0 ? 3 : 5].norm() * 1e-3 < tiny && free[1 - d];
+    const bool pole = free[1 - d] && patch.pole(d, foot.at);
     if (!pole) {
       free[d] = false;  // an apex, or an end where the curvature is infinite
       continue;
@@ -85,15 +85,17 @@ DistanceJet distance_jet(const Point& x, const Foot& foot, const Patch& patch, d
       }
     }
     // −T G⁻¹ L (G − φ L)⁻¹ Tᵀ, G and L the fundamental forms over the free parameters.
-    const auto tf = t.leftCols(count);
-    const Eigen::MatrixXd g = tf.transpose() * tf, l = bend.topLeftCorner(count, count), m = g - r.distance * l;
-    if (m.determinant() > 1e-14 * g.determinant()) {
-      r.hessian -= tf * g.inverse() * l * m.inverse() * tf.transpose();
-    }
-    if (count == 1 && r.distance != 0) {
-      r.hessian += (across - tf * tf.transpose() / g(0, 0)) / r.distance;
-    } else if (count == 2) {
-      r.hessian = across * r.hessian * across;
+    if (count == 1) {
+      const Point e = t.col(0);
+      const double g = e.squaredNorm(), m = g - r.distance * bend(0, 0);
+      if (m > 1e-14 * g) r.hessian -= bend(0, 0) / (g * m) * e * e.transpose();
+      if (r.distance != 0) r.hessian += (across - e * e.transpose() / g) / r.distance;
+    } else {
+      const Eigen::Matrix2d g = t.transpose() * t, m = g - r.distance * bend;
+      if (m.determinant() > 1e-14 * g.determinant()) {
+        const Eigen::Matrix2d middle = g.inverse() * bend * m.inverse();
+        r.hessian = -(across * t) * middle * (across * t).transpose();
+      }
     }
   } else if (r.distance != 0) {
     r.hessian = across / r.distance;

@@ -22,15 +22,21 @@ bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size
     const double spread = 0.5 * t.diagonal();
     const double mid = 0.5 * std::hypot(t.axis[0].lower + t.axis[0].upper, t.axis[1].lower + t.axis[1].upper,
                                         t.axis[2].lower + t.axis[2].upper);
-    if (spread > 0.35 * mid && t.magnitude() * length(at.side[d]) > 0.02 * size) return false;
+    if (spread > 0.2 * mid && t.magnitude() * length(at.side[d]) > 0.02 * size) return false;
   }
   return true;
 }
 
-/// The side along which the cell is longer in space.
-std::size_t longer_side(const PatchBounds& b, const ParameterRectangle& at) {
-  return b[1].magnitude() * length(at.side[0]) >= b[2].magnitude() * length(at.side[1]) && length(at.side[0]) > 0 ? 0
-                                                                                                                  : 1;
+/// The side along which the cell is to be halved: the longer one in space. Where a cell touches a pole and the tangents
+/// that leave it still turn a lot, it is the side that goes round the pole.
+std::size_t side_to_halve(const PatchBounds& b, const ParameterRectangle& at) {
+  const std::array<double, 2> extent = {b[1].magnitude() * length(at.side[0]), b[2].magnitude() * length(at.side[1])};
+  if (length(at.side[0]) == 0) return 1;
+  if (length(at.side[1]) == 0) return 0;
+  const std::size_t longer = extent[0] >= extent[1] ? 0 : 1, round = 1 - longer;
+  const Range3& t = b[1 + round];
+  const bool touches = t.axis[0].holds_zero() && t.axis[1].holds_zero() && t.axis[2].holds_zero();
+  return touches && b[4].magnitude() * length(at.side[round]) > 0.5 * b[1 + longer].magnitude() ? round : longer;
 }
 
 std::array<ParameterRectangle, 2> halves(const ParameterRectangle& at, std::size_t side) {
@@ -39,12 +45,36 @@ std::array<ParameterRectangle, 2> halves(const ParameterRectangle& at, std::size
   return h;
 }
 
+/// Of two feet that rounding cannot tell apart: the one where the gradient is less, then the one further from a
+/// pole.
+bool firmer(const Foot& a, const Foot& b) {
+  if (std::abs(a.pressure - b.pressure) > 1e-11) return a.pressure < b.pressure;
+  return a.jet[1].cross(a.jet[2]).squaredNorm() > b.jet[1].cross(b.jet[2]).squaredNorm();
+}
+
 }  // namespace
 
 struct FootSearch::Query {
   Point x;
   double bound = std::numeric_limits<double>::infinity();
   std::vector<Foot> feet;
+  double limit = bound;  ///< what is not further than `bound` as far as rounding lets one tell
+  double rounding = 0;   ///< a length that does not count
+
+  int patch = 0;               ///< where `bound` was found
+  std::array<double, 2> at{};  ///< and at which parameters
+
+  void lower(double squared, int on, const std::array<double, 2>& where) {
+    if (squared >= bound) return;
+    patch = on;
+    at = where;
+    bound = squared;
+    limit = loosened(squared);
+  }
+  [[nodiscard]] double loosened(double squared) const {
+    return squared * (1 + margin) + rounding * (2 * std::sqrt(squared) + rounding);
+  }
+  [[nodiscard]] bool close(double squared) const { return squared <= limit; }
   bool certified = true;
   int cells = 0;
 };
@@ -67,7 +97,7 @@ int FootSearch::build_patch(int patch, const ParameterRectangle& at, int depth) 
     leaves_.push_back({patch, at, bounds});
     return node;
   }
-  const auto parts = halves(at, longer_side(bounds, at));
+  const auto parts = halves(at, side_to_halve(bounds, at));
   const std::array<int, 2> child = {build_patch(patch, parts[0], depth + 1), build_patch(patch, parts[1], depth + 1)};
   nodes_[index(node)].child = child;
   Range3 box = nodes_[index(child[0])].box;
@@ -98,6 +128,7 @@ int FootSearch::join(std::vector<int> nodes) {
 FootResult FootSearch::nearest(const Point& x) const {
   Query q;
   q.x = x;
+  q.rounding = 1e-14 * (size_ + x.norm());
   struct Open {
     double lower;
     int node;
@@ -107,12 +138,13 @@ FootResult FootSearch::nearest(const Point& x) const {
   stack[open++] = {box().squared_distance(x), root_};
   while (open > 0) {
     const Open next = stack[--open];
-    if (next.lower > q.bound * (1 + margin)) continue;
+    if (!q.close(next.lower)) continue;
     const Node& node = nodes_[index(next.node)];
     if (node.leaf >= 0) {
       const Leaf& leaf = leaves_[index(node.leaf)];
       if (q.feet.empty() && !std::isfinite(q.bound)) {
-        q.bound = descend(q, leaf.patch, patches_[index(leaf.patch)]->domain, leaf.at.centre()).squared;
+        const Foot f = descend(q, leaf.patch, patches_[index(leaf.patch)]->domain, leaf.at.centre());
+        q.lower(f.squared, leaf.patch, f.at);
       }
       examine(q, leaf.patch, leaf.at, leaf.bounds, 0);
       continue;
@@ -128,20 +160,21 @@ FootResult FootSearch::nearest(const Point& x) const {
   result.cells = q.cells;
   result.certified = q.certified && !q.feet.empty();
   if (q.feet.empty()) {
-    const Leaf& leaf = leaves_.front();
-    q.feet.push_back(descend(q, leaf.patch, patches_[index(leaf.patch)]->domain, leaf.at.centre()));
+    q.feet.push_back(descend(q, q.patch, patches_[index(q.patch)]->domain, q.at));
   }
-  // Of feet that rounding cannot tell apart the one that is pressed least against a border is taken.
   double least = std::numeric_limits<double>::infinity();
   for (const Foot& f : q.feet) least = std::min(least, f.squared);
-  const double tie = least * (1 + 1e-13) + 1e-30 * size_ * size_;
+  const double tie = q.loosened(least);
   const Foot* best = nullptr;
   for (const Foot& f : q.feet) {
-    if (f.squared <= tie && (best == nullptr || f.pressure < best->pressure)) best = &f;
+    if (f.squared <= tie && (best == nullptr || firmer(f, *best))) best = &f;
   }
   result.best = *best;
-  const Foot polished = descend(q, best->patch, patches_[index(best->patch)]->domain, best->at);
-  if (polished.squared <= tie) result.best = polished;
+  for (int round = 0; round < 2; ++round) {  // the second where the first went to a cusp
+    const Foot polished = descend(q, result.best.patch, patches_[index(result.best.patch)]->domain, result.best.at);
+    if (polished.squared > tie || polished.at == result.best.at) break;
+    result.best = polished;
+  }
   if (result.best.pressed[0] || result.best.pressed[1]) {
     for (const Foot& f : q.feet) {
       const bool elsewhere = f.patch != result.best.patch || std::abs(f.at[0] - result.best.at[0]) > 1e-3 ||
@@ -162,18 +195,19 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
       q.certified = false;
       return;
     }
-    if (bounds[0].squared_distance(q.x) > q.bound * (1 + margin)) return;
+    if (!q.close(bounds[0].squared_distance(q.x))) return;
     const Range3 way = bounds[0] - q.x;
     for (std::size_t d = 0; d < 2 && !changed; ++d) {
       if (length(at.side[d]) == 0) continue;
-      const Range slope = way.dot(bounds[1 + d]);
-      const double rounding = 1e-14 * way.magnitude() * bounds[1 + d].magnitude();
-      if (slope.lower > rounding) {
-        if (at.side[d].lower != p.domain.side[d].lower) return;
+      const Range slope = way.dot(bounds[6 + d]);
+      const double rounding = 1e-14 * way.magnitude() * bounds[6 + d].magnitude();
+      const bool first = at.side[d].lower == p.domain.side[d].lower, last = at.side[d].upper == p.domain.side[d].upper;
+      if (slope.lower > rounding || (first && slope.lower >= 0)) {
+        if (!first) return;
         at.side[d].upper = at.side[d].lower;
         changed = true;
-      } else if (slope.upper < -rounding) {
-        if (at.side[d].upper != p.domain.side[d].upper) return;
+      } else if (slope.upper < -rounding || (last && slope.upper <= 0)) {
+        if (!last) return;
         at.side[d].lower = at.side[d].upper;
         changed = true;
       }
@@ -195,11 +229,14 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
   // |x − S|² >= |x − S(centre)|² − 2 Σ max|∂| half side (mean value form).
   const auto c = at.centre();
   const double middle = (p.jet(c[0], c[1])[0] - q.x).squaredNorm();
-  q.bound = std::min(q.bound, middle);
+  q.lower(middle, patch, c);
   const double fall =
       way.dot(bounds[1]).magnitude() * length(at.side[0]) + way.dot(bounds[2]).magnitude() * length(at.side[1]);
-  if (middle - fall > q.bound * (1 + margin)) return;
-  if (depth == 0) q.bound = std::min(q.bound, descend(q, patch, p.domain, c).squared);
+  if (!q.close(middle - fall)) return;
+  if (depth == 0) {
+    const Foot f = descend(q, patch, p.domain, c);
+    q.lower(f.squared, patch, f.at);
+  }
   const double extent =
       std::max(bounds[1].magnitude() * length(at.side[0]), bounds[2].magnitude() * length(at.side[1]));
   if (extent < smallest_cell * size_ || depth > 60) {
@@ -212,7 +249,7 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
 }
 
 void FootSearch::halve(Query& q, int patch, const ParameterRectangle& at, const PatchBounds& bounds, int depth) const {
-  auto parts = halves(at, longer_side(bounds, at));
+  auto parts = halves(at, side_to_halve(bounds, at));
   std::array<PatchBounds, 2> b = {patches_[index(patch)]->bounds(parts[0]), patches_[index(patch)]->bounds(parts[1])};
   const bool swap = b[1][0].squared_distance(q.x) < b[0][0].squared_distance(q.x);
   examine(q, patch, parts[swap ? 1 : 0], b[swap ? 1 : 0], depth + 1);
@@ -282,6 +319,20 @@ Foot FootSearch::descend(const Query& q, int patch, const ParameterRectangle& wi
     if (reach <= 1e-16 * size_ || (reach < 1e-13 * size_ && reach >= 0.5 * before)) break;
     before = reach;
   }
+  // Towards a cusp the steps shrink without end: the cusp itself is asked too.
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const Range& side = within.side[index(static_cast<int>(k))];
+    for (double end : {side.lower, side.upper}) {
+      if (w[k] == end || std::abs(w[k] - end) > 0.05 * length(side)) continue;
+      Eigen::Vector2d there = w;
+      there[k] = end;
+      const PatchJet trial = p.jet(there[0], there[1]);
+      if (trial[1 + index(static_cast<int>(k))].norm() > 1e-9 * size_) continue;
+      if ((trial[0] - q.x).squaredNorm() > (j[0] - q.x).squaredNorm()) continue;
+      w = there;
+      j = trial;
+    }
+  }
   f.at = {w[0], w[1]};
   f.jet = j;
   f.squared = (j[0] - q.x).squaredNorm();
@@ -290,12 +341,12 @@ Foot FootSearch::descend(const Query& q, int patch, const ParameterRectangle& wi
     const auto k = static_cast<Eigen::Index>(d);
     if (length(p.domain.side[d]) == 0) continue;
     const bool low = w[k] <= within.side[d].lower && g[k] > 0, high = w[k] >= within.side[d].upper && g[k] < 0;
-    if (!low && !high) continue;
     const double push = std::abs(g[k]) / (j[1 + d].norm() * (std::sqrt(f.squared) + 1e-3 * size_) + 1e-300);
+    f.pressure = std::max(f.pressure, push);
+    if (!low && !high) continue;
     const bool border = low ? w[k] <= p.domain.side[d].lower : w[k] >= p.domain.side[d].upper;
     if (border) {
       f.pressed[d] = push > 1e-9;
-      f.pressure = std::max(f.pressure, push);
     } else if (push > 1e-9) {
       f.patch = -1;  // smaller still in the neighbouring cell
     }
@@ -304,8 +355,8 @@ Foot FootSearch::descend(const Query& q, int patch, const ParameterRectangle& wi
 }
 
 void FootSearch::record(Query& q, const Foot& foot) const {
-  q.bound = std::min(q.bound, foot.squared);
-  if (foot.patch >= 0 && foot.squared <= q.bound * (1 + margin)) q.feet.push_back(foot);
+  if (foot.patch >= 0) q.lower(foot.squared, foot.patch, foot.at);
+  if (foot.patch >= 0 && q.close(foot.squared)) q.feet.push_back(foot);
 }
 
 }  // namespace knead::detail

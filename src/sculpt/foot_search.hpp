@@ -12,8 +12,9 @@ namespace knead::detail {
 
 /// S, S_u, S_v, S_uu, S_uv, S_vv at one parameter point.
 using PatchJet = std::array<Point, 6>;
-/// Boxes that hold the same six over a rectangle of parameters.
-using PatchBounds = std::array<Range3, 6>;
+/// Boxes that hold the same six over a rectangle of parameters, and S_u and S_v divided by positive functions of the
+/// parameters (the same for all coordinates), so that they do not vanish at poles and cusps.
+using PatchBounds = std::array<Range3, 8>;
 
 struct ParameterRectangle {
   std::array<Range, 2> side;
@@ -32,6 +33,9 @@ class Patch {
   virtual ~Patch() = default;
   [[nodiscard]] virtual PatchBounds bounds(const ParameterRectangle& at) const = 0;
   [[nodiscard]] virtual PatchJet jet(double u, double v) const = 0;
+  /// Asked where ∂S along `side` vanishes: true where a whole side of the rectangle is one point (a pole), false where
+  /// the curve itself comes to a halt (a cusp, or infinite curvature).
+  [[nodiscard]] virtual bool pole(std::size_t side, const std::array<double, 2>& at) const = 0;
 
   ParameterRectangle domain;
   double orientation;  ///< 1 where S_u × S_v points outwards, −1 where it points inwards
@@ -44,7 +48,7 @@ struct Foot {
   std::array<double, 2> at{};
   PatchJet jet{};
   std::array<bool, 2> pressed{};  ///< the distance would fall further beyond the border in this direction
-  double pressure = 0;            ///< how fast it would, relative to the distance: 0 at stationary points
+  double pressure = 0;            ///< the sine of the angle that is missing to a right one, to either tangent
 };
 
 struct FootResult {

@@ -83,13 +83,13 @@ std::array<MonotoneCurve::Vector2, 3> MonotoneCurve::at(double sigma) const {
   return c;
 }
 
-std::array<std::array<Range, 2>, 3> MonotoneCurve::over(const Range& sigma) const {
-  std::array<std::array<Range, 2>, 3> r;
+std::array<std::array<Range, 2>, 4> MonotoneCurve::over(const Range& sigma) const {
+  std::array<std::array<Range, 2>, 4> r;
   if (straight_) {
     for (int k = 0; k < 2; ++k) {
       const auto c = static_cast<std::size_t>(k);
       r[0][c] = size_[k] * sigma + origin_[k];
-      r[1][c] = {size_[k], size_[k]};
+      r[1][c] = r[3][c] = {size_[k], size_[k]};
     }
     return r;
   }
@@ -101,7 +101,14 @@ std::array<std::array<Range, 2>, 3> MonotoneCurve::over(const Range& sigma) cons
   r[2] = {m * m * (p_ + 1) * (Range{a.zz2, b.zz2} * w2), -m * m * (p_ + 1) * (Range{a.zm2, b.zm2} * w2)};
   if (mp != 1) r[2][0] = r[2][0] + -m * (mp - 1) * (Range{a.z2, b.z2} * w1);
   if (m_ > 1) r[2][1] = r[2][1] + m * (m - 1) * (Range{a.m2, b.m2} * w1);
-  for (std::size_t d = 0; d < 3; ++d) {
+  r[3] = r[1];
+  if (const double k = std::min(mp, m) - 1; k > 0) {
+    const auto rest = [&](double exponent) {
+      return Range{std::pow(sigma.lower, exponent - k), std::pow(sigma.upper, exponent - k)};
+    };
+    r[3] = {-m * (rest(mp - 1) * w1), m * (rest(m - 1) * w1)};
+  }
+  for (std::size_t d = 0; d < 4; ++d) {
     if (exchanged_) std::swap(r[d][0], r[d][1]);
     for (int k = 0; k < 2; ++k) {
       Range& c = r[d][static_cast<std::size_t>(k)];
@@ -123,6 +130,14 @@ PatchBounds SeparablePatch::bounds(const ParameterRectangle& at) const {
       const auto i = static_cast<Eigen::Index>(a);
       b[k].axis[static_cast<std::size_t>(axes_[a])] = scale_[i] * c[a] + (k == 0 ? offset_[i] : 0.0);
     }
+  }
+  // f >= 0 is a common factor of S_v.
+  const std::array<Range, 3> along = {f[3][0] * g[0][0], f[3][0] * g[0][1], f[3][1]};
+  const std::array<Range, 3> round = {g[3][0], g[3][1], Range{0, 0}};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double s = scale_[static_cast<Eigen::Index>(a)];
+    b[6].axis[static_cast<std::size_t>(axes_[a])] = s * along[a];
+    b[7].axis[static_cast<std::size_t>(axes_[a])] = s * round[a];
   }
   return b;
 }

@@ -17,8 +17,9 @@ class MonotoneCurve {
 
   /// The curve and its first two derivatives at σ.
   [[nodiscard]] std::array<Vector2, 3> at(double sigma) const;
-  /// The same six numbers' ranges over [lower, upper]: ranges[derivative][coordinate].
-  [[nodiscard]] std::array<std::array<Range, 2>, 3> over(const Range& sigma) const;
+  /// The same six numbers' ranges over [lower, upper], ranges[derivative][coordinate], and as a fourth row those of the
+  /// first derivative divided by σ^k, k the smaller of the exponents with which its coordinates vanish at σ = 0.
+  [[nodiscard]] std::array<std::array<Range, 2>, 4> over(const Range& sigma) const;
 
  private:
   struct Factors;
@@ -40,6 +41,9 @@ class SeparablePatch final : public Patch {
 
   [[nodiscard]] PatchBounds bounds(const ParameterRectangle& at) const override;
   [[nodiscard]] PatchJet jet(double u, double v) const override;
+  [[nodiscard]] bool pole(std::size_t side, const std::array<double, 2>& at) const override {
+    return side == 1 && std::abs(meridian_.at(at[0])[0][0]) < 1e-6;
+  }
 
  private:
   MonotoneCurve meridian_, parallel_;

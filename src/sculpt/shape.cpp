@@ -179,7 +179,7 @@ Nearest PlacedShape::nearest(const Point& x) const {
   return r;
 }
 
-NearestPoints PlacedShape::nearest(const Points& x) const {
+NearestPoints PlacedShape::nearest_points(const Points& x) const {
   const Eigen::Index n = x.rows();
   NearestPoints r;
   r.distances.resize(n);
@@ -188,7 +188,7 @@ NearestPoints PlacedShape::nearest(const Points& x) const {
   r.hessians.resize(static_cast<std::size_t>(n));
   r.converged.resize(static_cast<std::size_t>(n));
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Nearest one = nearest(Point(x.row(k)));
+    const Nearest one = nearest(x.row(k));
     r.distances[k] = one.distance;
     r.points.row(k) = one.point;
     r.normals.row(k) = one.normal;

@@ -143,20 +143,17 @@ class PlacedShape {
   [[nodiscard]] const Placement& placement() const { return placement_; }
 
   /// Accuracy: distance and point to 1e-10 of the size (far away: plus rounding of x) where `converged`. Cost: closed
-  /// forms below 0.2 µs; searched shapes some microseconds (docs/tools.md has figures).
+  /// forms 0.1 to 0.3 µs, searched shapes 5 to 150 µs (docs/tools.md): cull by `bounding_box` first.
   [[nodiscard]] Nearest nearest(const Point& x) const;
-  [[nodiscard]] NearestPoints nearest(const Points& x) const;
+  [[nodiscard]] NearestPoints nearest_points(const Points& x) const;
 
   /// The smallest feature that integrated forces must resolve: the smallest radius, half thickness or half side; a wall
   /// counts with its thickness, a spline surface with its diagonal; infinite for a plane.
   [[nodiscard]] double size() const;
 
-  /// An axis-parallel box that holds the whole shape (not always the tightest); infinite for a plane.
+  /// An axis-parallel box that holds the whole shape (not always the tightest); infinite for a plane. For culling:
+  /// distances are 1-Lipschitz, so φ >= φ(x) − r all over the ball of radius r round x.
   [[nodiscard]] BoundingBox bounding_box() const;
-
-  /// A lower bound of |φ| on the ball of radius r round x, |φ(x)| − r but at least 0: distances are 1-Lipschitz. A
-  /// negative result of the signed form φ(x) − r means that the ball may reach into the shape.
-  [[nodiscard]] double signed_distance(const Point& x) const { return nearest(x).distance; }
 
  private:
   PlacedShape() = default;
