@@ -49,8 +49,8 @@ Points gradient(const StepProblem& problem, const At& here) {
 
 /// (A + sH) d = −g by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
 /// `z` = A⁻¹ g is known already. Where A + sH turns out not to be positive the way gone so far is the answer, or −z: a
-/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). All scalar products are with
-/// members of the constrained space, so that what the residual holds against the constraints does not count.
+/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). All scalar products are
+/// with members of the constrained space, so that what the residual holds against the constraints does not count.
 Points newton_direction(const StepProblem& problem, const Potential& potential, const PotentialState& state,
                         const Points& g, const Points& z, double tolerance, Points& a_direction, int& solves) {
   Points d = Points::Zero(g.rows(), 3), ad = d;
@@ -109,7 +109,10 @@ void iterate(const StepProblem& problem, const Potential& potential, double tole
       ad = problem.a * d;
     } else {
       // Loose while far away, tight near the end, where a step must not undo what the one before it gained.
-      const double cg_tolerance = std::clamp(0.1 * decrement / largest, 1e-8, 1e-2);
+      // Never below what counts as converged: in what is left then there is rounding only, and directions made of it
+      // leave the constraints.
+      const double cg_tolerance =
+          std::clamp(0.1 * decrement / largest, std::clamp(0.1 * tolerance * largest / decrement, 1e-8, 1e-2), 1e-2);
       d = newton_direction(problem, potential, here.state, g, z, cg_tolerance, ad, summary.solves);
     }
     const double slope = dot(g, d);
