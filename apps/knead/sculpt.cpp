@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli.hpp"
 #include "knead/exchange/file_io.hpp"
@@ -16,7 +17,33 @@ namespace {
 
 struct Options {
   std::string file, output, script, report, picture;
+  bool fresh = false;
+  [[nodiscard]] const std::string& name() const { return fresh ? output : file; }
 };
+
+std::string describe(const Shape& shape) {
+  return std::visit(
+      [](const auto& s) -> std::string {
+        using S = std::decay_t<decltype(s)>;
+        const auto sizes = [](const std::array<double, 3>& a) {
+          return fmt::format("{:.4g} x {:.4g} x {:.4g}", a[0], a[1], a[2]);
+        };
+        if constexpr (std::is_same_v<S, SphereShape>) return fmt::format("sphere of radius {:.4g}", s.radius);
+        if constexpr (std::is_same_v<S, EllipsoidShape>) return "ellipsoid " + sizes(s.semi_axes);
+        if constexpr (std::is_same_v<S, BoxShape>) return "box of half sizes " + sizes(s.half_sizes);
+        if constexpr (std::is_same_v<S, CylinderShape>) return fmt::format("cylinder of radius {:.4g}", s.radius);
+        if constexpr (std::is_same_v<S, ConeShape>) return fmt::format("cone of radius {:.4g}", s.radius);
+        if constexpr (std::is_same_v<S, CapsuleShape>) return fmt::format("capsule of radius {:.4g}", s.radius);
+        if constexpr (std::is_same_v<S, TorusShape>)
+          return fmt::format("torus of radii {:.4g} and {:.4g}", s.major, s.minor);
+        if constexpr (std::is_same_v<S, PlaneShape>) return "plane";
+        if constexpr (std::is_same_v<S, BowlShape>) return fmt::format("bowl of radius {:.4g}", s.radius);
+        if constexpr (std::is_same_v<S, SuperellipsoidShape>) return "superellipsoid " + sizes(s.semi_axes);
+        if constexpr (std::is_same_v<S, SupertoroidShape>) return fmt::format("supertoroid of radius {:.4g}", s.major);
+        if constexpr (std::is_same_v<S, SplineShape>) return "B-spline surface";
+      },
+      shape);
+}
 
 /// "step 12 of 60" on standard error, when that is a terminal and the work has taken more than a second.
 class ProgressLine {
@@ -38,7 +65,7 @@ class ProgressLine {
 };
 
 struct Outcome {
-  double time = 0, energy_before = 0, energy_after = 0, residual = 0, largest_displacement = 0;
+  double time = 0, energy_before = 0, energy_after = 0, residual = 0, largest_displacement = 0, gap = 0;
   int moved = 0, surfaces = 0;
 };
 
@@ -50,7 +77,10 @@ Expected<Outcome> outcome_of(Session& session) {
   o.energy_after = *energy;
   o.energy_before = state.energy_before.value_or(*energy);
   for (const StepRecord& s : state.steps) o.time += s.time;
-  if (!state.steps.empty()) o.residual = state.steps.back().residual;
+  if (!state.steps.empty()) {
+    o.residual = state.steps.back().residual;
+    o.gap = state.steps.back().gap;
+  }
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
     const int moved = session.moved_control_points(static_cast<int>(k));
     if (moved == 0) continue;
@@ -61,47 +91,89 @@ Expected<Outcome> outcome_of(Session& session) {
   return o;
 }
 
+std::string json_string(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+const char* continuity_name(SeamContinuity continuity) {
+  constexpr const char* names[] = {"none", "C0", "G1", "periodic"};
+  return names[static_cast<int>(continuity)];
+}
+
+std::string edge_of(const SessionState& state, const PatchEdge& edge) {
+  const auto index = static_cast<std::size_t>(state.selection()[static_cast<std::size_t>(edge.patch)]);
+  return fmt::format("{} {}", state.surfaces[index].id, edge_name(edge.edge));
+}
+
 std::string report_json(const SessionState& state, const Outcome& o) {
   std::string text = "{\"steps\":[";
   for (std::size_t k = 0; k < state.steps.size(); ++k) {
     const StepRecord& s = state.steps[k];
-    text += fmt::format("{}\n {{\"time\":{},\"energy\":{},\"residual\":{},\"largest_displacement\":{}}}",
-                        k == 0 ? "" : ",", json_number(s.time), json_number(s.energy), json_number(s.residual),
-                        json_number(s.largest_displacement));
+    text += fmt::format(
+        "{}\n {{\"time\":{},\"energy\":{},\"residual\":{},\"largest_displacement\":{},\"stretch\":{},\"bend\":{},"
+        "\"kinetic\":{},\"contact\":{},\"gap\":{},\"constraint_violation\":{},\"converged\":{},\"limited\":{}",
+        k == 0 ? "" : ",", json_number(s.time), json_number(s.energy), json_number(s.residual),
+        json_number(s.largest_displacement), json_number(s.stretch), json_number(s.bend), json_number(s.kinetic),
+        json_number(s.contact), json_number(s.gap), json_number(s.violation), s.converged, s.limited);
+    if (!s.note.empty()) text += ",\"note\":" + json_string(s.note);
+    text += "}";
   }
-  return text + fmt::format(
-                    "],\n\"time\":{},\"energy_before\":{},\"energy_after\":{},\"residual\":{},"
-                    "\"largest_displacement\":{},\"control_points_moved\":{}}}\n",
-                    json_number(o.time), json_number(o.energy_before), json_number(o.energy_after),
-                    json_number(o.residual), json_number(o.largest_displacement), o.moved);
+  text += fmt::format(
+      "],\n\"time\":{},\"energy_before\":{},\"energy_after\":{},\"residual\":{},"
+      "\"largest_displacement\":{},\"control_points_moved\":{}",
+      json_number(o.time), json_number(o.energy_before), json_number(o.energy_after), json_number(o.residual),
+      json_number(o.largest_displacement), o.moved);
+  text += ",\n\"seams\":[";
+  for (std::size_t k = 0; k < state.seam_reports.size(); ++k) {
+    const SeamReport& s = state.seam_reports[k];
+    text += fmt::format("{}\n {{\"a\":{},\"b\":{},\"continuity\":\"{}\",\"gap\":{},\"reason\":{}}}", k == 0 ? "" : ",",
+                        json_string(edge_of(state, s.seam.a)), json_string(edge_of(state, s.seam.b)),
+                        continuity_name(s.continuity), json_number(s.seam.gap), json_string(s.reason));
+  }
+  text += "],\n\"notes\":[";
+  for (std::size_t k = 0; k < state.notes.size(); ++k) text += (k == 0 ? "\n " : ",\n ") + json_string(state.notes[k]);
+  return text + "]}\n";
 }
 
 void print_summary(const Options& options, const Session& session, const Outcome& o) {
   const SessionState& state = session.state();
-  const std::string& file = options.file;
+  const std::string& file = options.name();
   if (!state.selected) {
     fmt::print("{}: no surface selected\n", file);
   } else {
-    const DocumentSurface& s = session.document().surfaces()[static_cast<std::size_t>(*state.selected)];
-    const auto [m, n] = s.surface->net();
-    fmt::print("{}: surface {}{}, lengths in {}\n", file, s.id, s.name.empty() ? "" : " \"" + s.name + "\"", s.unit);
-    fmt::print("  degree {} x {}, net {} x {}, {}\n", s.surface->knots(0).degree(), s.surface->knots(1).degree(), m, n,
-               s.surface->rational() ? "rational" : "polynomial");
+    for (int index : state.selection()) {
+      const SurfaceState& s = state.surfaces[static_cast<std::size_t>(index)];
+      const auto [m, n] = s.current->net();
+      fmt::print("{}: surface {}{}, lengths in {}\n", file, s.id, s.name.empty() ? "" : " \"" + s.name + "\"", s.unit);
+      fmt::print("  degree {} x {}, net {} x {}, {}\n", s.current->knots(0).degree(), s.current->knots(1).degree(), m,
+                 n, s.current->rational() ? "rational" : "polynomial");
+    }
     for (const Tool& t : state.tools) {
-      const Point& c = t.shape.centre;
-      fmt::print("  tool {}: sphere of radius {:.4g} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", t.name,
-                 t.shape.radius, c.x(), c.y(), c.z(),
-                 t.mode == ToolMode::collision ? "collision" : fmt::format("proximity within {:.4g}", t.range),
+      const Point& c = t.shape.placement().position;
+      fmt::print("  tool {}: {} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", t.name, describe(t.shape.shape()),
+                 c.x(), c.y(), c.z(),
+                 t.collides() ? (t.mode == ToolMode::imprint ? "imprint" : "collision")
+                              : fmt::format("proximity within {:.4g}", t.range),
                  t.stiffness);
     }
   }
+  for (const std::string& note : state.notes) fmt::print("  {}\n", note);
+  for (const SeamReport& s : state.seam_reports) {
+    fmt::print("  seam {} - {}: {}{}{}\n", edge_of(state, s.seam.a), edge_of(state, s.seam.b),
+               continuity_name(s.continuity), s.reason.empty() ? "" : ", ", s.reason);
+  }
   if (!state.steps.empty()) {
-    fmt::print("  {} steps, {:.3g} ms each ({:.3g} s in all), residual {:.2g}\n", state.steps.size(),
-               1e3 * o.time / static_cast<double>(state.steps.size()), o.time, o.residual);
+    fmt::print("  {} step{}, {:.3g} ms each ({:.3g} s in all), residual {:.2g}\n", state.steps.size(),
+               state.steps.size() == 1 ? "" : "s", 1e3 * o.time / static_cast<double>(state.steps.size()), o.time,
+               o.residual);
     fmt::print("  largest displacement {:.6g}, {} control point{} moved\n", o.largest_displacement, o.moved,
                o.moved == 1 ? "" : "s");
     fmt::print("  energy {:.6g} before, {:.6g} after\n", o.energy_before, o.energy_after);
-    if (!state.steps.back().converged) {
+    if (o.gap > 0) fmt::print("  deepest entry into a tool: {:.2g} of its size\n", o.gap);
+    const StepRecord& last = state.steps.back();
+    if (!last.note.empty()) {
+      fmt::print(stderr, "knead: warning: {}\n", last.note);
+    } else if (!last.converged) {
       fmt::print(stderr,
                  "knead: warning: the last step stopped before its minimum was reached; use more steps or a "
                  "larger lambda\n");
@@ -120,9 +192,9 @@ Expected<void> write_results(const Options& options, const Session& session, con
       return usage_error("there is no picture without a selected surface", "--picture", "leave it out");
     }
     const auto k = static_cast<std::size_t>(*state.selected);
-    const DocumentSurface& s = session.document().surfaces()[k];
-    auto svg = displacement_picture(*s.surface, *state.surfaces[k].current,
-                                    "Displacement of " + (s.name.empty() ? s.id : s.name), s.unit);
+    const SurfaceState& s = state.surfaces[k];
+    auto svg =
+        displacement_picture(*s.opened, *s.current, "Displacement of " + (s.name.empty() ? s.id : s.name), s.unit);
     if (!svg) return std::unexpected(svg.error());
     picture = std::move(*svg);
   }
@@ -146,11 +218,15 @@ Expected<void> run(const Options& options) {
   if (auto possible = check_outputs({output}, {script}); !possible) return possible;
   const NamedFile report{"--report", options.report}, picture{"--picture", options.picture};
   if (auto possible = check_outputs({report, picture}, {file, script, output}); !possible) return possible;
+  if (options.fresh != options.file.empty()) {
+    return usage_error(options.fresh ? "both a file and --new are given" : "neither a file nor --new is given", "FILE",
+                       "name a STEP file, or give --new to start without one");
+  }
   const auto text = read_file(options.script);
   if (!text) return std::unexpected(text.error());
   const auto commands = parse_script(*text, options.script);
   if (!commands) return std::unexpected(commands.error());
-  auto document = Document::open(options.file);
+  auto document = options.fresh ? Document::fresh("sheet") : Document::open(options.file);
   if (!document) return std::unexpected(document.error());
 
   Session session(std::move(*document));
@@ -177,8 +253,8 @@ Action add_sculpt(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("sculpt", "run a script of sculpting commands on a CAD file");
   command->add_option("FILE", options->file, "STEP file to sculpt; it is not changed, unless --output names it too")
-      ->required()
       ->type_name("");
+  command->add_flag("--new", options->fresh, "start without a FILE: the script makes surfaces with the command new");
   command->add_option("-o,--output", options->output, "STEP file to write; it appears whole or not at all")->required();
   command->add_option("--script", options->script, "JSON file with the commands")->required();
   command->add_option("--report", options->report, "JSON file to write what every step did to, see below");
@@ -188,8 +264,10 @@ Action add_sculpt(CLI::App& app) {
 
 )" + command_help() +
       R"(
-The report is {"steps": [{"time", "energy", "residual", "largest_displacement"}, ...], "time", "energy_before",
-"energy_after", "residual", "largest_displacement", "control_points_moved"}: times in seconds, lengths in file units.
+The report is {"steps": [{"time", "energy", "residual", "largest_displacement", "stretch", "bend", "kinetic", "contact",
+"gap", "constraint_violation", "converged", "limited", "note"}, ...], "time", "energy_before", "energy_after",
+"residual", "largest_displacement", "control_points_moved", "seams", "notes"}: times in seconds, lengths in file units,
+gaps in sizes of the tool.
 )" + std::string(exit_codes));
   return [options] { return run(*options); };
 }

@@ -98,6 +98,18 @@ Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polylin
       }
     }
   }
+  for (Eigen::Index k = 0; k < polyline.rows(); ++k) {  // a vertex on a line that tears lies on both sides of it
+    const double u = polyline(k, 0), v = polyline(k, 1);
+    const auto spans_u = detail::spans_at(rest.knots(0), u, 0), spans_v = detail::spans_at(rest.knots(1), v, 0);
+    if (spans_u.size() * spans_v.size() == 1) continue;
+    for (const int span_u : spans_u) {
+      for (const int span_v : spans_v) {
+        auto row = detail::rational_row(rest, u, v, span_u, span_v);
+        if (!row) return std::unexpected(row.error().within(name));
+        all.rows.push_back(std::move(*row));
+      }
+    }
+  }
   const double least = std::max(tolerance, least_tolerance) / all.growth;
   const detail::SelectedRows selected = detail::select_rows(all.rows, least);
   for (const int k : selected.chosen) detail::append(to, name, std::move(all.rows[static_cast<std::size_t>(k)]));

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
-#include <Eigen/LU>
 
 #include "constraint_rows.hpp"
 

@@ -49,8 +49,8 @@ Points gradient(const StepProblem& problem, const At& here) {
 
 /// (A + H) d = −g by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
 /// `z` = A⁻¹ g is known already. Where A + H turns out not to be positive the way gone so far is the answer, or −z: a
-/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). Residuals are kept lumped: what
-/// constraints bear does no work here, but its rounding would.
+/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). Residuals are kept lumped:
+/// what constraints bear does no work here, but its rounding would.
 Points newton_direction(const StepProblem& problem, const Potential& potential, const PotentialState& state,
                         const Points& g, const Points& z, double tolerance, Points& a_direction, int& solves) {
   Points d = Points::Zero(g.rows(), 3), ad = d;
@@ -86,8 +86,7 @@ Points newton_direction(const StepProblem& problem, const Potential& potential, 
 /// other.
 void iterate(const StepProblem& problem, const Potential& potential, double tolerance, int max_iterations, At& here,
              ContactSummary& summary) {
-  double largest =
-      std::max(dual_norm(problem, problem.b), dual_norm(problem, here.state.force));
+  double largest = std::max(dual_norm(problem, problem.b), dual_norm(problem, here.state.force));
   summary.solves += 2;
   int rounded_steps = 0;
   summary.converged = false;
@@ -110,13 +109,15 @@ void iterate(const StepProblem& problem, const Potential& potential, double tole
       ad = problem.a * d;
     } else {
       // Loose while far away, tight near the end, where a step must not undo what the one before it gained.
-      const double cg_tolerance = std::clamp(0.1 * decrement / largest, 1e-8, 1e-2);
+      // Never below what counts as converged: in what is left then there is rounding only, and directions made of it
+      // leave the constraints.
+      const double cg_tolerance =
+          std::clamp(0.1 * decrement / largest, std::clamp(0.1 * tolerance * largest / decrement, 1e-8, 1e-2), 1e-2);
       d = newton_direction(problem, potential, here.state, g, z, cg_tolerance, ad, summary.solves);
     }
     const double slope = dot(g, d);
     At next = at(problem, potential, here.y + d, here.ay + ad);
-    if (-slope <=
-        rounding * (problem.energy + std::abs(here.quadratic) + std::abs(here.state.potential))) {
+    if (-slope <= rounding * (problem.energy + std::abs(here.quadratic) + std::abs(here.state.potential))) {
       // The gain left is below the rounding of Φ, so that comparing values decides nothing: a few full steps take what
       // the gradient still sees.
       if (++rounded_steps > max_rounded_steps) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "knead/sculpt/constraints.hpp"
 #include "knead/spline/extremum.hpp"
 #include "support/surfaces.hpp"

@@ -100,7 +100,7 @@ TEST(KeepSmooth, SphereShowsNoCrease) {
 }
 
 TEST(KeepSmooth, HoldsAnyRatioOfDerivativesAnyProportionalWeightsBothMultiplicities) {
-  for (const auto [p, q] : {std::pair{2, 1}, {2, 3}, {3, 2}, {5, 3}}) {
+  for (const auto& [p, q] : {std::pair{2, 1}, {2, 3}, {3, 2}, {5, 3}}) {
     for (const double ratio : {1.0, 0.2, 7.0}) {
       for (const double spread : {1.0, 1.5, 10.0}) {
         for (const int multiplicity : {p, p + 1}) {

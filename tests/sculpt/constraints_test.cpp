@@ -30,7 +30,7 @@ double derivative_scale(const Surface& s, SurfaceEdge edge, int order) {
 }
 
 TEST(HoldEdge, KeepsPositionOnEveryKindOfSurfaceHoweverWildTheWeights) {
-  for (const auto [p, q] : {std::pair{1, 2}, {2, 3}, {3, 1}, {4, 3}, {3, 5}}) {
+  for (const auto& [p, q] : {std::pair{1, 2}, {2, 3}, {3, 1}, {4, 3}, {3, 5}}) {
     for (const auto& [name, s] : reliefs(p, q, true, 1e6)) {
       for (const SurfaceEdge edge : edges) {
         ConstraintList list(s.size());
@@ -45,7 +45,7 @@ TEST(HoldEdge, KeepsPositionOnEveryKindOfSurfaceHoweverWildTheWeights) {
 }
 
 TEST(HoldEdge, KeepsTangentPlanesAndCurvatures) {
-  for (const auto [p, q] : {std::pair{1, 2}, {2, 2}, {3, 4}, {5, 3}}) {
+  for (const auto& [p, q] : {std::pair{1, 2}, {2, 2}, {3, 4}, {5, 3}}) {
     for (const auto& [name, s] : reliefs(p, q, false, 3)) {
       for (const SurfaceEdge edge : edges) {
         for (int order = 1; order <= 2; ++order) {
@@ -91,7 +91,7 @@ TEST(HoldEdge, TakesNoFreedomThatItNeedNot) {
 }
 
 TEST(HoldIsoline, KeepsTheLineFromBothSides) {
-  for (const auto [p, q] : {std::pair{2, 3}, {3, 2}}) {
+  for (const auto& [p, q] : {std::pair{2, 3}, {3, 2}}) {
     for (const auto& [name, s] : reliefs(p, q, false, 100)) {
       for (int d = 0; d < 2; ++d) {
         const KnotVector& knots = s.knots(d);

@@ -80,9 +80,11 @@ struct CurveHold {
 /// and known by its values at p + q + 1 Chebyshev points; of all these conditions Σ R X = 0, the best independent ones
 /// are taken (QR with column pivoting) until each of the others is a combination of them up to a remainder r with
 /// Λ |r|_1 <= tolerance, where Λ bounds the growth between the points: 1 + 2/π ln(p + q + 1), times the largest ratio
-/// of W on a piece, which is sampled. Hence `bound`. A larger tolerance leaves more freedom near the curve. \param
-/// tolerance 0 < tolerance <= 1; below 1e-9 it is 1e-9, rounding apart. Cost: O(r² c) for r points and c control points
-/// near the curve, dense: meant for curves across up to hundreds of spans.
+/// of W on a piece, which is sampled. Hence `bound`. A larger tolerance leaves more freedom near the curve. Pieces are
+/// kept on the side of a tear that they run on, vertices on all sides.
+/// \param tolerance above 0, up to 1; below 1e-9 it is 1e-9, rounding apart.
+/// Cost: O(r² c) for r points and c control points near the curve, dense, and as much again for the space: meant for
+/// curves across up to a hundred spans.
 Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polyline, double tolerance, ConstraintList& to,
                                const std::string& name = "curve");
 
