@@ -204,7 +204,7 @@ TEST(GrevilleForce, OnCurvesAndVolumes) {
   for (int i = 0; i < 729; ++i) x.row(i) << k.greville(i / 81), k.greville(i / 9 % 9), k.greville(i % 9);
   const Volume v = *Volume::create({k, k, k}, x);
   const Points d = route<3>(v, {}).greville_force(x, smooth), e = by_gauss<3>(v, {}, smooth, 7);
-  // Interpolation of the third derivative's scale: (h/2)⁴/4! · 3⁴ with h = 1/6, and as much for what neighbours add.
+  // (h/2)⁴/4! times the fourth derivatives, up to 3⁴, with h = 1/6, and as much again from the other directions.
   EXPECT_LE(largest(d - e), 3e-4 * largest(e));
 }
 
