@@ -21,6 +21,42 @@ double outside(double u, double lower, double upper, double period, bool closed)
   return std::min({direct, up, down});
 }
 
+/// The nearest distance from [a, b] to [lower, upper].
+double gap(double a, double b, double lower, double upper, double period, bool closed) {
+  const auto apart = [&](double shift) { return std::max({lower - (b + shift), a + shift - upper, 0.0}); };
+  return closed ? std::min({apart(0), apart(period), apart(-period)}) : apart(0);
+}
+
+/// Coefficients of functions on whose whole support the weight is 0, or 1, are made that number: interpolation leaves
+/// some ten-thousandths there. On such a support the fit only gets better, as all coefficients lie in [0, 1].
+template <int D>
+std::vector<double> settled(const SplineField<D>& fit, const Region<D>& region) {
+  std::vector<double> c = fit.coefficients();
+  const auto* box = std::get_if<ParameterBox<D>>(&region.shape);
+  const auto* ball = std::get_if<ParameterBall<D>>(&region.shape);
+  const double radius = ball ? ball->radius : 0;
+  const std::array<int, D> net = fit.net();
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    double nearest = 0, farthest = 0;
+    for (std::size_t d = D, rest = k; d-- > 0;) {
+      const KnotVector& knots = fit.knots()[d];
+      const Interval domain = knots.domain();
+      const int i = static_cast<int>(rest % static_cast<std::size_t>(net[d]));
+      rest /= static_cast<std::size_t>(net[d]);
+      const double a = std::max(knots[i], domain.lower), b = std::min(knots[i + knots.degree() + 1], domain.upper);
+      const double lower = box ? box->lower[d] : ball->centre[d], upper = box ? box->upper[d] : ball->centre[d];
+      const double near = region.factors[d] * gap(a, b, lower, upper, domain.length(), region.closed[d]);
+      // Straight, which is no shorter than the way round.
+      const double far = region.factors[d] * std::max({lower - a, b - upper, 0.0});
+      nearest += near * near;
+      farthest += far * far;
+    }
+    if (std::sqrt(nearest) >= radius + region.falloff) c[k] = 0;
+    if (std::sqrt(farthest) <= radius) c[k] = 1;
+  }
+  return c;
+}
+
 template <int D>
 std::array<Interval, D> domain_of(const std::array<KnotVector, D>& knots) {
   std::array<Interval, D> domain;
@@ -105,7 +141,7 @@ Expected<std::vector<SplineField<D>>> paint(std::span<const Coefficient<D>> old,
         fit_field<D>([&](const std::array<double, D>& u) { return region.weight(u, domain); }, start, fit);
     if (!weight) return std::unexpected(weight.error());
     const std::array<KnotVector, D>& grid = weight->field.knots();
-    const std::vector<double>& w = weight->field.coefficients();
+    const std::vector<double> w = settled<D>(weight->field, region);
     std::vector<SplineField<D>> result;
     std::array<std::vector<bool>, D> marked;
     std::vector<detail::SpanSamples> samples;
@@ -116,7 +152,9 @@ Expected<std::vector<SplineField<D>>> paint(std::span<const Coefficient<D>> old,
       at[d] = samples[d].parameters;
       marked[d].assign(samples[d].spans.size(), false);
     }
-    const std::vector<double> softness = *weight->field.on_grid(at);
+    const auto soft = SplineField<D>::create(grid, w);
+    if (!soft) return std::unexpected(soft.error());
+    const std::vector<double> softness = *soft->on_grid(at);
     bool met = true;
     for (std::size_t k = 0; k < old.size(); ++k) {
       const auto before = on_knots<D>(old[k], grid);

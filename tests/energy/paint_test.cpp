@@ -134,6 +134,25 @@ TEST(Paint, OnAConstantIsTheBlendToTheToleranceAndKeepsTheRange) {
   }
 }
 
+TEST(Paint, IsTheValueInsideAndTheOldOneFarFromTheRegionToTheLastBit) {
+  Region<2> region{ParameterBox<2>{{0.3, 0.0}, {0.7, 1.0}}, 0.1};
+  const auto painted = paint<2>(0.1, 0.7, region, {knots(3, 24), knots(3, 8)});
+  ASSERT_TRUE(painted);
+  for (const double v : {0.0, 0.37, 1.0}) {
+    // Two spans of 1/21 away: no function that lives there reaches the fall-off. Sums of equal coefficients round.
+    EXPECT_NEAR(*painted->at({0.02, v}), 0.1, 1e-16);
+    EXPECT_NEAR(*painted->at({0.5, v}), 0.7, 3e-16);
+  }
+  EXPECT_EQ(painted->coefficients().front(), 0.1);
+  EXPECT_EQ(painted->coefficients()[painted->coefficients().size() / 2], 0.7);
+  region.closed = {true, false};
+  region.shape = ParameterBall<2>{{0.95, 0.5}, 0.2};
+  const auto around = paint<2>(0.1, 0.7, region, {knots(3, 24), knots(3, 24)});
+  ASSERT_TRUE(around);
+  EXPECT_NEAR(*around->at({0.05, 0.5}), 0.7, 1e-3);
+  EXPECT_NEAR(*around->at({0.5, 0.5}), 0.1, 1e-16);
+}
+
 TEST(Paint, OverAnotherStrokeBlendsTheValues) {
   const std::array<KnotVector, 2> hint = {knots(3, 6), knots(3, 6)};
   const SplineField<2> first = *paint<2>(2.0, 5.0, disc(), hint, {1e-2});

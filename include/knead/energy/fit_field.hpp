@@ -33,14 +33,15 @@ struct FieldFit {
 /// Interpolation at Greville abscissae on the knots of `hint` (its degree and continuity are kept; repeat knots where
 /// the function has kinks), then spans in which a sample is off by more than 0.9 tolerance are halved, in the direction
 /// in which the divided differences of order p + 1 of the function are large, and neighbouring spans kept within a
-/// factor 2; and so on. With a `range` the coefficients are clamped to it and the error taken after that.
+/// factor 2; and so on. At a knot of multiplicity p + 1, where the spline may jump, the function is asked at the knot,
+/// which counts as the right limit, and at the next smaller number, which counts as the left one. With a `range` the
+/// coefficients are clamped to it and the error taken after that.
 ///
 /// Guaranteed: |f − field| <= tolerance at every sample, max(2p + 3, min_samples / spans) per span and direction,
-/// spread evenly; every value in `range`, samples or not; a function that is constant is met by equal coefficients up
-/// to rounding. Between the samples nothing can be promised of a function known at points only; for one whose
-/// derivatives of order p + 1 vary by less than a factor 2 over a span the error there stays below the tolerance, which
-/// is what the 0.9 is for. Errors: tolerance not positive, a value of the function that is not finite (input); more
-/// coefficients than allowed (numerical; the message says what was reached).
+/// spread evenly; every value in `range`, samples or not. Between the samples nothing can be promised of a function
+/// known at points only; the factor 0.9 is there for it, and on smooth functions tests find the tolerance kept
+/// everywhere. Errors: tolerance not positive, a value of the function that is not finite (input); more coefficients
+/// than allowed (numerical; the message says what was reached).
 template <int D>
 [[nodiscard]] Expected<FieldFit<D>> fit_field(const ParameterFunction<D>& f, const std::array<KnotVector, D>& hint,
                                               const FitOptions& options = {});

@@ -60,6 +60,8 @@ struct PaintOptions {
 /// - no coefficient, hence no value, leaves the interval between the old coefficients and the value (for a constant:
 /// between
 ///   the two numbers);
+/// - a coefficient whose function does not reach the fall-off keeps its bits where the old field is a constant or has
+///   these knots, and one whose function lies where the weight is 1 becomes the value;
 /// - coefficients that were convex together (`validated`) and are painted together with values that are convex stay so;
 /// - where the old field is constant the result differs from (1 − w) old + w value by the fit of w alone; where it
 /// varies, by

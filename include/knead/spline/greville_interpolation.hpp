@@ -16,8 +16,10 @@ namespace knead {
 /// unclamped vector) take the value 0 as their coefficient, whatever is given.
 ///
 /// C is banded and totally positive, so that elimination without pivoting is stable (de Boor & Pinkus 1977). Cost: O(n
-/// p²) to factor. The condition number grows with the degree alone, not with the lengths of the spans: about 4 at p =
-/// 3, 30 at p = 5. Immutable.
+/// p²) to factor. For clamped knots |C⁻¹| in the maximum norm grows with the degree, hardly with the spans: at most 4,
+/// 8, 20, 44 for p = 2, 3, 4, 5 over all knots that were tried, lengths of ten decades among them. In an unclamped
+/// basis functions can be so small on the domain that their coefficients are determined badly; the function that they
+/// make is not. Immutable.
 class GrevilleInterpolation {
  public:
   /// Error (numerical): two abscissae coincide or change places in rounding (spans of single ulps), so that C is
