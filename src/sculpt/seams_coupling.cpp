@@ -134,7 +134,7 @@ void Coupling::whole() {
   report.restricted = !space->same;
   if (report.restricted) reason("degrees or knots of its sides differ: it follows only what both can");
 
-  for (Eigen::Index k = 0; k < value_a.rows(); ++k) {
+  for (const Eigen::Index k : space->independent) {
     add_row(value_a, k, first_a, 1 / weight_a[k]);
     add_row(value_b, k, first_b, -1 / weight_b[k]);
     finish();
@@ -174,7 +174,7 @@ void Coupling::tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms&
       return reason("C0: the weights beside the edge are not in proportion to its own");
     report.mismatch = std::max(report.mismatch, spread);
   }
-  for (Eigen::Index k = 0; k < value.rows(); ++k) {
+  for (const Eigen::Index k : space.independent) {
     add_row(derivative_a, k, first_a, 1 / weight_a[k]);
     add_row(derivative_b, k, first_b, rest.ratio / weight_b[k]);
     add_row(value, k, first_a, -kappa[k] / weight_a[k]);
