@@ -51,7 +51,7 @@ struct Coupling {
 
   bool periodic();
   void rigid(const std::string& why);
-  void whole();
+  void whole(const Expected<seams::RestMeeting>& rest);
   void tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms& forms_b, const seams::CommonSpace& space,
                 const seams::RestMeeting& rest);
 };
@@ -116,7 +116,7 @@ void Coupling::rigid(const std::string& why) {
   reason("the edge moves as a whole: " + why);
 }
 
-void Coupling::whole() {
+void Coupling::whole(const Expected<seams::RestMeeting>& rest) {
   const auto space = seams::common_space(a.knots(edge_along(seam.a.edge)), b.knots(edge_along(seam.b.edge)),
                                          seam.reversed, options.agreement);
   if (!space) return rigid("the knots of its sides cannot be compared");
@@ -134,13 +134,12 @@ void Coupling::whole() {
   report.restricted = !space->same;
   if (report.restricted) reason("degrees or knots of its sides differ: it follows only what both can");
 
-  for (Eigen::Index k = 0; k < value_a.rows(); ++k) {
+  for (const Eigen::Index k : space->independent) {
     add_row(value_a, k, first_a, 1 / weight_a[k]);
     add_row(value_b, k, first_b, -1 / weight_b[k]);
     finish();
   }
   report.continuity = SeamContinuity::c0;
-  const auto rest = seams::rest_meeting(a, b, seam);
   if (!rest) return reason(rest.error().message());
   report.angle = rest->angle;
   report.ratio = rest->ratio;
@@ -174,7 +173,7 @@ void Coupling::tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms&
       return reason("C0: the weights beside the edge are not in proportion to its own");
     report.mismatch = std::max(report.mismatch, spread);
   }
-  for (Eigen::Index k = 0; k < value.rows(); ++k) {
+  for (const Eigen::Index k : space.independent) {
     add_row(derivative_a, k, first_a, 1 / weight_a[k]);
     add_row(derivative_b, k, first_b, rest.ratio / weight_b[k]);
     add_row(value, k, first_a, -kappa[k] / weight_a[k]);
@@ -191,15 +190,26 @@ void Coupling::tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms&
 }  // namespace
 
 Expected<SeamCoupling> couple_seams(std::span<const Surface* const> patches, std::span<const int> rows,
-                                    std::span<const Seam> seams, const SeamOptions& options) {
+                                    std::span<const Seam> found, const SeamOptions& options) {
   SeamCoupling result;
-  for (std::size_t k = 0; k < seams.size(); ++k) {
-    const Seam& seam = seams[k];
-    const std::string name = fmt::format("seam {} ({} – {})", k, to_string(seam.a), to_string(seam.b));
-    for (int patch : {seam.a.patch, seam.b.patch}) {
-      if (patch < 0 || at(patch) >= patches.size())
-        return input_error(fmt::format("there is no patch {}", patch), name);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    for (int patch : {found[k].a.patch, found[k].b.patch}) {
+      if (patch < 0 || at(patch) >= patches.size()) {
+        return input_error(fmt::format("there is no patch {}", patch), fmt::format("seam {}", k));
+      }
     }
+  }
+  std::vector<Expected<seams::RestMeeting>> rests(found.size());
+  std::vector<seams::RestMeeting*> smooth(found.size(), nullptr);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (found[k].kind != SeamKind::whole || options.most == SeamContinuity::none) continue;
+    rests[k] = seams::rest_meeting(*patches[at(found[k].a.patch)], *patches[at(found[k].b.patch)], found[k]);
+    if (rests[k] && rests[k]->deviation <= options.angle) smooth[k] = &*rests[k];
+  }
+  seams::agree_ratios(patches, found, smooth);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Seam& seam = found[k];
+    const std::string name = fmt::format("seam {} ({} – {})", k, to_string(seam.a), to_string(seam.b));
     Coupling coupling{seam,
                       *patches[at(seam.a.patch)],
                       *patches[at(seam.b.patch)],
@@ -218,7 +228,7 @@ Expected<SeamCoupling> couple_seams(std::span<const Surface* const> patches, std
     } else if (seam.kind == SeamKind::reparametrised) {
       coupling.rigid("its sides run through it differently");
     } else if (!coupling.periodic()) {
-      coupling.whole();
+      coupling.whole(rests[k]);
     }
     result.reports.push_back(std::move(coupling.report));
   }

@@ -43,4 +43,31 @@ Expected<RestMeeting> rest_meeting(const Surface& a, const Surface& b, const Sea
   return rest;
 }
 
+void agree_ratios(std::span<const Surface* const> patches, std::span<const Seam> seams,
+                  std::span<RestMeeting* const> rests) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < seams.size(); ++k) {
+    if (rests[k] != nullptr && rests[k]->ratio != 0) order.push_back(k);
+  }
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return rests[k]->deviation; });
+  const auto length = [&](const PatchEdge& e) {
+    return patches[static_cast<std::size_t>(e.patch)]->knots(edge_across(e.edge)).domain().length();
+  };
+  std::vector<double> values = {0};  // of |log ρ| per normalised parameter: the most exact seams state them
+  for (std::size_t k : order) {
+    RestMeeting& rest = *rests[k];
+    // d/dt = length d/dx: S_a' length_a = −(ρ length_a/length_b) S_b' length_b.
+    const double logarithm = std::log(std::abs(rest.ratio) * length(seams[k].a) / length(seams[k].b));
+    const double size = std::abs(logarithm);
+    const double nearest = *std::ranges::min_element(values, {}, [&](double value) { return std::abs(value - size); });
+    if (std::abs(nearest - size) > std::max(1e-7, 3 * rest.deviation)) {
+      values.push_back(size);
+      continue;
+    }
+    const double change = std::copysign(nearest, logarithm) - logarithm;
+    rest.ratio *= std::exp(change);
+    rest.deviation += std::abs(change);
+  }
+}
+
 }  // namespace knead::seams

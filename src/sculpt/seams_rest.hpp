@@ -16,4 +16,12 @@ struct RestMeeting {
 /// Samples at which a side's derivative is below 1e-6 of its largest (poles) are left out.
 [[nodiscard]] Expected<RestMeeting> rest_meeting(const Surface& a, const Surface& b, const Seam& seam);
 
+/// Makes ratios equal that differ by rounding in the file. Per normalised parameter, ρ and 1/ρ alike, each takes the
+/// nearest value stated before it, by 1 or by a seam that deviates less, within 1e-7 or thrice its own deviation.
+/// Around a corner of four patches opposite seams have the same ratio; if it differed in the last digits, both
+/// conditions together would hold the tangents of the corner still. `deviation` grows by the change. Null entries are
+/// passed over.
+void agree_ratios(std::span<const Surface* const> patches, std::span<const Seam> seams,
+                  std::span<RestMeeting* const> rests);
+
 }  // namespace knead::seams

@@ -1,8 +1,10 @@
 #include "seams_space.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "knead/spline/basis.hpp"
 #include "seams_edge.hpp"
@@ -83,6 +85,18 @@ std::optional<RowMatrix> onto(int degree, const std::vector<double>& knots, int 
   return RowMatrix(coarse_to_fine(*from, *to) * result);
 }
 
+/// Of the conditions R_a E_a = R_b E_b as many as are independent: columns of both less the dimension of what the
+/// spaces have in common, which is known. Elimination could not tell the others from rounding after some tens of them.
+std::vector<Eigen::Index> independent_rows(const RowMatrix& from_a, const RowMatrix& from_b, Eigen::Index common) {
+  Eigen::MatrixXd both(from_a.cols() + from_b.cols(), from_a.rows());
+  both << Eigen::MatrixXd(from_a.transpose()), -Eigen::MatrixXd(from_b.transpose());
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(both);
+  const auto& order = factors.colsPermutation().indices();
+  std::vector<Eigen::Index> rows(order.data(), order.data() + (both.rows() - common));
+  std::ranges::sort(rows);
+  return rows;
+}
+
 }  // namespace
 
 std::vector<double> normalised_knots(const KnotVector& knots, bool reversed) {
@@ -147,6 +161,7 @@ std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b
 
   std::vector<InnerKnot> common;
   std::size_t j = 0, pair = 0;
+  Eigen::Index shared = std::min(a.degree(), b.degree()) + 1;  // dimension of the intersection: the smoother of either
   result.same = more_a == 0 && more_b == 0 && inner_a.size() == inner_b.size() && pairs.size() == inner_a.size();
   for (std::size_t i = 0; i < inner_a.size(); ++i) {
     while (j < inner_b.size() && inner_b[j].t < inner_a[i].t) {
@@ -156,6 +171,7 @@ std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b
     InnerKnot knot{inner_a[i].t, inner_a[i].multiplicity + more_a};
     if (pair < pairs.size() && pairs[pair].first == i) {
       result.same = result.same && inner_b[j].multiplicity == inner_a[i].multiplicity;
+      shared += std::max(0, std::min(inner_a[i].multiplicity - more_b, inner_b[j].multiplicity - more_a));
       knot.multiplicity = std::max(knot.multiplicity, inner_b[j].multiplicity + more_b);
       ++j;
       ++pair;
@@ -170,6 +186,12 @@ std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b
   if (!from_a || !from_b) return std::nullopt;
   result.from_a = std::move(*from_a);
   result.from_b = std::move(*from_b);
+  if (a.degree() == b.degree()) {
+    result.independent.resize(static_cast<std::size_t>(result.from_a.rows()));
+    std::iota(result.independent.begin(), result.independent.end(), Eigen::Index{0});
+  } else {
+    result.independent = independent_rows(result.from_a, result.from_b, shared);
+  }
   if (reversed) {  // columns in b's own order
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index k = 0; k < result.from_b.outerSize(); ++k) {

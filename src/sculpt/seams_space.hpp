@@ -28,8 +28,10 @@ struct InnerKnot {
 /// Two univariate spline spaces on one finer one: the highest degree, all knots.
 struct CommonSpace {
   RowMatrix from_a, from_b;  ///< coefficients on the common space from those of a, of b (b in its own order)
-  bool same = false;         ///< a, b and the common space are one
-  double mismatch = 0;       ///< largest distance of knots that count as the same
+  /// Rows k of from_a E_a = from_b E_b that imply all others: all of them where the degrees agree.
+  std::vector<Eigen::Index> independent;
+  bool same = false;    ///< a, b and the common space are one
+  double mismatch = 0;  ///< largest distance of knots that count as the same
 };
 
 /// None where the knots cannot be told apart once normalised (spans of less than an ulp of the domain).

@@ -195,5 +195,49 @@ TEST(SeamCorners, ATranslationOfEverythingIsAlwaysAllowed) {
   }
 }
 
+/// side × side patches of a sheet, cut at uneven places and turned every way, each point off by some noise.
+std::vector<Surface> uneven_grid(int side, double noise) {
+  const std::vector<double> cuts = {0, 1, 1.3, 2.9, 3.6, 5, 5.4, 6.5, 7.1};
+  std::vector<Surface> patches;
+  for (int i = 0; i < side; ++i) {
+    for (int j = 0; j < side; ++j) {
+      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      const Surface s = uniform_sheet(3, 6, 6, cuts[a + 1] - cuts[a], cuts[b + 1] - cuts[b]);
+      Points points = s.control_points() + noise * random_points(s.size(), static_cast<unsigned>(side * i + j + 1));
+      points.rowwise() += Eigen::RowVector3d(cuts[a], cuts[b], 0);
+      patches.push_back(
+          with_edge_at(*s.with_control_points(points), static_cast<SurfaceEdge>((i + 2 * j) % 4), j % 3 == 1));
+    }
+  }
+  return patches;
+}
+
+TEST(SeamCorners, ALargeGridIsOneSmoothSheet) {
+  constexpr int side = 8;
+  const Coupled c(uneven_grid(side, 0));
+  ASSERT_EQ(c.coupling.reports.size(), 2u * side * (side - 1));
+  expect_kept(c, SeamContinuity::g1);
+  const int across = 6 * side - 2 * (side - 1);
+  EXPECT_EQ(c.space.free_count(), across * across);
+}
+
+TEST(SeamCorners, RoundingInAFileHoldsNothing) {
+  // Ratios that do not fit around a corner to the last digits would hold its tangents and its twist still.
+  constexpr int side = 6;
+  for (double noise : {1e-13, 1e-11, 1e-9, 1e-5}) {
+    const Coupled c(uneven_grid(side, noise));
+    ASSERT_EQ(c.coupling.reports.size(), 2u * side * (side - 1));
+    const auto after = c.moved(11, 0.005);  // small beside the smallest spans, 0.1: no derivative turns round
+    for (const SeamReport& report : c.coupling.reports) {
+      EXPECT_EQ(report.continuity, SeamContinuity::g1) << report.reason;
+      EXPECT_LT(gap_change(c.patches, after, report.seam), rounding);
+      EXPECT_LT(angle_change(c.patches, after, report.seam), std::max(1e-6, report.deviation));
+    }
+    const int across = 6 * side - 2 * (side - 1);
+    EXPECT_EQ(c.space.free_count(), across * across) << noise;
+    EXPECT_LT(c.space.violation(Points::Ones(c.space.size(), 3)), 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace knead

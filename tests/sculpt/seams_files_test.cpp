@@ -1,64 +1,127 @@
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 
 #include "knead/exchange/step_file.hpp"
-#include "knead/sculpt/seam_coupling.hpp"
-#include "knead/solve/constraint_space.hpp"
+#include "seams_support.hpp"
 
+/// Seams of real CAD files, where there are any beside the project.
 namespace knead {
 namespace {
 
-TEST(SeamFiles, Explore) {
-  const std::filesystem::path directory = std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad";
-  if (!std::filesystem::exists(directory)) GTEST_SKIP() << "no CAD files at " << directory;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-    if (entry.path().extension() != ".stp" && entry.path().extension() != ".step") continue;
-    const auto file = StepFile::read(entry.path());
+using namespace knead::testing;
+
+std::vector<Surface> surfaces_of(const StepFile& file) {
+  std::vector<Surface> patches;
+  for (const StepSurface& s : file.surfaces()) patches.push_back(s.surface);
+  return patches;
+}
+
+class SeamFiles : public ::testing::Test {
+ protected:
+  std::vector<std::filesystem::path> paths;
+  void SetUp() override {
+    const std::filesystem::path directory = std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad";
+    if (std::filesystem::exists(directory)) {
+      for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+        const auto extension = entry.path().extension();
+        if (extension == ".stp" || extension == ".step") paths.push_back(entry.path());
+      }
+    }
+    std::ranges::sort(paths);
+    if (paths.empty()) GTEST_SKIP() << "no CAD files in " << directory;
+  }
+};
+
+double milliseconds(std::chrono::steady_clock::time_point since) {
+  return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+}
+
+TEST_F(SeamFiles, ClosedSurfacesAreSeamsWithThemselvesAndNoOthersAre) {
+  int closed = 0;
+  for (const auto& path : paths) {
+    const auto file = StepFile::read(path);
     if (!file || file->surfaces().empty()) continue;
-    std::vector<const Surface*> patches;
-    std::vector<int> rows{0};
-    for (const StepSurface& s : file->surfaces()) {
-      patches.push_back(&s.surface);
-      rows.push_back(rows.back() + s.surface.size());
-    }
-    const double base = suggested_seam_tolerance(patches);
-    for (double factor : {0.1, 1.0, 10.0}) {
-      const auto begin = std::chrono::steady_clock::now();
-      const auto found = find_seams(patches, factor * base);
-      const auto middle = std::chrono::steady_clock::now();
-      const auto coupled = couple_seams(patches, rows, found->seams);
-      const auto end = std::chrono::steady_clock::now();
-      int kinds[3] = {}, closed = 0, conts[4] = {}, rigid = 0, restricted = 0;
-      double gap = 0;
-      for (const Seam& s : found->seams) {
-        ++kinds[static_cast<int>(s.kind)];
-        closed += s.a.patch == s.b.patch && s.kind == SeamKind::whole;
-        if (s.kind == SeamKind::whole) gap = std::max(gap, s.gap);
-      }
-      for (const auto& r : coupled->reports) {
-        ++conts[static_cast<int>(r.continuity)];
-        rigid += r.rigid;
-        restricted += r.restricted;
-      }
-      std::printf(
-          "%-45s %4zu surfaces tol %8.2g: whole %4d (self %3d) repar %3d partial %4d poles %3zu bad %zu gap %.2g | "
-          "none %d c0 %d g1 %d per %d rigid %d restr %d | %.1f ms, %.1f ms\n",
-          entry.path().filename().c_str(), patches.size(), factor * base, kinds[0], closed, kinds[1], kinds[2],
-          found->collapsed.size(), found->unusable.size(), gap, conts[0], conts[1], conts[2], conts[3], rigid,
-          restricted, 1e3 * std::chrono::duration<double>(middle - begin).count(),
-          1e3 * std::chrono::duration<double>(end - middle).count());
-      if (factor == 1) {
-        int k = 0;
-        for (const auto& r : coupled->reports)
-          if (r.seam.kind == SeamKind::whole && k++ < 6)
-            std::printf("    %s-%s rev %d gap %.2g cont %d angle %.2g ratio %.3g dev %.2g mism %.2g: %s\n",
-                        to_string(r.seam.a).c_str(), to_string(r.seam.b).c_str(), r.seam.reversed, r.seam.gap,
-                        (int)r.continuity, r.angle, r.ratio, r.deviation, r.mismatch, r.reason.c_str());
+    const auto patches = surfaces_of(*file);
+    const double tolerance = suggested_seam_tolerance(pointers(patches));
+    const auto found = find_seams(pointers(patches), tolerance);
+    ASSERT_TRUE(found);
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      for (int d = 0; d < 2; ++d) {
+        bool itself = false;
+        for (const Seam& s : found->seams) {
+          itself = itself ||
+                   (s.kind == SeamKind::whole && s.a.patch == static_cast<int>(k) && s.b.patch == s.a.patch &&
+                    s.a.edge != s.b.edge && edge_across(s.a.edge) == d && edge_across(s.b.edge) == d && !s.reversed);
+        }
+        bool pole = false;  // an edge that is a point closes nothing
+        for (const CollapsedEdge& c : found->collapsed) {
+          pole = pole || (c.edge.patch == static_cast<int>(k) && edge_across(c.edge.edge) == d);
+        }
+        const bool expected = file->surfaces()[k].closed[static_cast<std::size_t>(d)] && !pole;
+        EXPECT_EQ(itself, expected) << path.filename() << " " << file->surfaces()[k].id << " direction " << d;
+        closed += itself;
       }
     }
+  }
+  EXPECT_GT(closed, 20);
+}
+
+TEST_F(SeamFiles, HolesMadeOfTwoHalvesHaveTwoSmoothSeamsEach) {
+  const auto path = paths.front().parent_path() / "as1-oc-214.stp";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const auto file = StepFile::read(path);
+  ASSERT_TRUE(file);
+  const Coupled c(surfaces_of(*file), {}, suggested_seam_tolerance(pointers(surfaces_of(*file))));
+  std::vector<int> seams(c.patches.size(), 0);
+  for (const SeamReport& report : c.coupling.reports) {
+    if (report.seam.kind != SeamKind::whole) continue;
+    EXPECT_EQ(report.continuity, SeamContinuity::g1) << report.reason;
+    ++seams[static_cast<std::size_t>(report.seam.a.patch)];
+    ++seams[static_cast<std::size_t>(report.seam.b.patch)];
+  }
+  for (int count : seams) EXPECT_EQ(count, 2);  // all its B-spline surfaces are halves of cylinders
+}
+
+TEST_F(SeamFiles, EveryCoupledSeamKeepsItsGapAndEverySmoothOneItsAngle) {
+  for (const auto& path : paths) {
+    const auto file = StepFile::read(path);
+    if (!file || file->surfaces().empty()) continue;
+    const auto patches = surfaces_of(*file);
+    const double tolerance = suggested_seam_tolerance(pointers(patches)), size = 1e4 * tolerance;
+    auto begin = std::chrono::steady_clock::now();
+    const auto found = find_seams(pointers(patches), tolerance);
+    const double finding = milliseconds(begin);
+    begin = std::chrono::steady_clock::now();
+    const auto coupling = couple_seams(pointers(patches), first_rows(patches), found->seams);
+    ASSERT_TRUE(coupling);
+    const double coupled = milliseconds(begin);
+    begin = std::chrono::steady_clock::now();
+    const auto space = ConstraintSpace::create(first_rows(patches).back(), coupling->constraints);
+    ASSERT_TRUE(space) << path << space.error().message();
+    const double eliminated = milliseconds(begin);
+
+    const auto after = displaced(patches, space->feasible(0.01 * size * random_points(space->size(), 5)));
+    int counts[4] = {}, whole = 0, partial = 0;
+    double gap = 0, angle = 0;
+    for (const SeamReport& report : coupling->reports) {
+      ++counts[static_cast<int>(report.continuity)];
+      whole += report.seam.kind == SeamKind::whole;
+      partial += report.seam.kind == SeamKind::partial;
+      if (report.continuity == SeamContinuity::none) continue;
+      gap = std::max(gap, gap_change(patches, after, report.seam) / size);
+      if (report.continuity >= SeamContinuity::g1 && report.deviation < 1e-12) {
+        angle = std::max(angle, angle_change(patches, after, report.seam));
+      }
+    }
+    EXPECT_LT(gap, 1e-12) << path;
+    EXPECT_LT(angle, 1e-6) << path;
+    std::printf(
+        "%-42s %3zu surfaces, %3d seams (%d partial, %zu poles): none %d, C0 %d, G1 %d; found %.1f ms, coupled %.1f "
+        "ms, "
+        "eliminated %.1f ms; gap %.1e, angle %.1e\n",
+        path.filename().c_str(), patches.size(), whole, partial, found->collapsed.size(), counts[0], counts[1],
+        counts[2], finding, coupled, eliminated, gap, angle);
   }
 }
 

@@ -139,8 +139,11 @@ inline Sides sides(const std::vector<Surface>& patches, const Seam& seam) {
     const MultiIndex<2> dv = across == 0 ? MultiIndex<2>{0, 1} : MultiIndex<2>{1, 0};
     for (int k = 0; k < 41; ++k) {
       const Point in = e->at(du).row(k), run = e->at(dv).row(k);
-      normal.row(k) = sign * run.cross(in).normalized();
+      normal.row(k) = sign * run.cross(in);
     }
+    // Beside a pole nothing is left of a normal but rounding.
+    const double least = 1e-8 * normal.rowwise().norm().maxCoeff();
+    for (int k = 0; k < 41; ++k) normal.row(k) *= normal.row(k).norm() <= least ? 0 : 1 / normal.row(k).norm();
     (second ? result.b : result.a) = e->points();
     (second ? result.normal_b : result.normal_a) = normal;
   }
@@ -161,7 +164,8 @@ inline double angle_change(const std::vector<Surface>& before, const std::vector
   };
   double change = 0;
   for (int k = 0; k < 41; ++k) {
-    if (x.normal_a.row(k).norm() == 0 || x.normal_b.row(k).norm() == 0) continue;  // a pole
+    if (x.normal_a.row(k).norm() == 0 || x.normal_b.row(k).norm() == 0) continue;
+    if (y.normal_a.row(k).norm() == 0 || y.normal_b.row(k).norm() == 0) continue;
     change = std::max(change, std::abs(angle(y, k) - angle(x, k)));
   }
   return change;

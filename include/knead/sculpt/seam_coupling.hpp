@@ -37,8 +37,9 @@ struct SeamReport {
   double mismatch = 0;      ///< largest difference of knots or weights that was passed over as rounding
   double angle = 0;         ///< largest angle between the tangent planes at rest, radians; 0: tangent-continuous
   double ratio = 0;         ///< ρ: inward derivatives at rest obey S_a' = −ρ S_b' best
-  double deviation = 0;  ///< max |S_a' + ρ S_b'| / |S_a'|: with G1, the angle changes by less than this times the turn
-  int constraints = 0;   ///< how many were added
+  double deviation =
+      0;  ///< max |S_a' + ρ S_b'| / |S_a'|: with G1, the angle changes by about this times the turn at most
+  int constraints = 0;  ///< how many were added
 };
 
 struct SeamCoupling {
