@@ -94,6 +94,7 @@ SelectedRows select_rows(const std::vector<Terms>& rows, double tolerance) {
     result.remainder = remainder_of(rank);
     if (result.remainder > tolerance && threshold > 1e-13) continue;
     for (Eigen::Index k = 0; k < rank; ++k) result.chosen.push_back(qr.colsPermutation().indices()[k]);
+    std::ranges::sort(result.chosen);  // neighbours together: elimination is many times faster then
     return result;
   }
 }

@@ -15,7 +15,7 @@ using detail::LocalBasis;
 using detail::NetAcross;
 using detail::Terms;
 
-constexpr double proportional = 1e-9;  // weights that are proportional but for the rounding of their decimals
+constexpr double proportional = 1e-7;  // weights that are proportional but for the rounding of their decimals
 
 /// A knot line of multiplicity p or p + 1: its two sides, and the rest shape at samples along it.
 struct Line {

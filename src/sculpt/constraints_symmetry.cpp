@@ -14,7 +14,7 @@ using detail::LocalBasis;
 using detail::NetAcross;
 using detail::Terms;
 
-constexpr double proportional = 1e-9;
+constexpr double proportional = 1e-7;  // weights that are proportional but for the rounding of their decimals
 
 struct Frame {
   Point normal;

@@ -9,6 +9,8 @@ namespace {
 
 using namespace testing;
 
+Tool ball(const Point& centre, double radius) { return {"ball", {centre, radius}, ToolMode::collision, 1e3}; }
+
 ActiveSurface active(const Surface& s, const ConstraintList& list) {
   ActiveSettings<2> settings;
   settings.fixed = list.held;
@@ -39,7 +41,7 @@ Surface sculpted(const Surface& s, const ConstraintList& list, const std::vector
 
 TEST(SculptedUnderConstraints, CylinderShowsNoCreaseUnlessItMay) {
   const Surface s = cylinder();
-  const std::vector<Tool> tools = {{"ball", {Point(1.2, 0.3, 1), 0.45}, ToolMode::collision, 1e3}};
+  const std::vector<Tool> tools = {ball(Point(1.2, 0.3, 1), 0.45)};
   ConstraintList list(s.size());
   const Surface free = sculpted(s, list, tools);
   ASSERT_TRUE(keep_smooth(s, {}, list));
@@ -57,7 +59,7 @@ TEST(SculptedUnderConstraints, SphereKeepsPolesAndSmoothness) {
   ConstraintList list(s.size());
   ASSERT_TRUE(keep_smooth(s, {}, list));
   ASSERT_TRUE(keep_poles(s, 1e-9, 1e-6, list));
-  const Surface after = sculpted(s, list, {{"ball", {Point(0.2, 0.3, 1.1), 0.4}, ToolMode::collision, 1e3}});
+  const Surface after = sculpted(s, list, {ball(Point(0.2, 0.3, 1.1), 0.4)});
   for (const double u : {1.0, 2.0, 3.0}) EXPECT_LT(crease(after, 0, u), 1e-9);
   EXPECT_LT(crease(after, 1, 1), 1e-9);
   const Points pole = on_line(after, 1, 2, 0, Side::right), across = on_line(after, 1, 2, 1, Side::right);
@@ -82,7 +84,7 @@ TEST(SculptedUnderConstraints, EdgesPinsCurvesAndRegionsStay) {
       line << a + 1.5, 4, a + 4.5, 9;
       const auto kept = keep_curve(s, line, 1e-9, list);
       ASSERT_TRUE(kept);
-      const Surface after = sculpted(s, list, {{"ball", {Point(0.75, 0.3, 0.12), 0.2}, ToolMode::collision, 1e3}});
+      const Surface after = sculpted(s, list, {ball(Point(0.75, 0.3, 0.12), 0.2)});
       const double size = size_of(s);
       for (int k = 0; k <= 1; ++k) {
         EXPECT_LT((on_line(after, 0, a, k, Side::right) - on_line(s, 0, a, k, Side::right)).cwiseAbs().maxCoeff(),
@@ -101,7 +103,7 @@ TEST(SculptedUnderConstraints, EdgesPinsCurvesAndRegionsStay) {
 
 TEST(SculptedUnderConstraints, SymmetryOutlastsToolsThatAreNotSymmetric) {
   const Surface s = uniform_sheet(3, 10, 8);  // straight across every edge, symmetric in u about x = 1/2
-  const std::vector<Tool> tools = {{"ball", {Point(0.3, 0.45, 0.1), 0.2}, ToolMode::collision, 1e3}};
+  const std::vector<Tool> tools = {ball(Point(0.3, 0.45, 0.1), 0.2)};
   const MirrorPlane middle{Point(0.5, 0, 0), Point::UnitX()};
   ConstraintList mirror(s.size());
   ASSERT_TRUE(keep_mirror(s, 0, middle, 1e-9, mirror));
@@ -110,7 +112,7 @@ TEST(SculptedUnderConstraints, SymmetryOutlastsToolsThatAreNotSymmetric) {
 
   ConstraintList half(s.size());
   ASSERT_TRUE(hold_symmetry_plane(s, SurfaceEdge::u0, {Point::Zero(), Point::UnitX()}, 1, 1e-9, 1e-9, half));
-  const Surface after = sculpted(s, half, {{"ball", {Point(0.1, 0.45, 0.1), 0.2}, ToolMode::collision, 1e3}});
+  const Surface after = sculpted(s, half, {ball(Point(0.1, 0.45, 0.1), 0.2)});
   const Points edge = on_line(after, 0, 0, 0, Side::right), across = on_line(after, 0, 0, 1, Side::right);
   EXPECT_LT(edge.col(0).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT(across.rightCols<2>().cwiseAbs().maxCoeff(), 1e-11);

@@ -192,6 +192,30 @@ TEST(Constraints, OfAllKindsTogetherHold) {
   }
 }
 
+TEST(Constraints, HoldOnRandomSurfaces) {
+  std::mt19937_64 random(2024);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int round = 0; round < 200; ++round) {
+    const int p = 1 + round % 6, q = 1 + (round / 6) % 5;
+    const KnotVector u = random_knots(random, p), v = random_knots(random, q);
+    const Surface s = relief(u, v, static_cast<unsigned>(round), 0.1, round % 2 == 0 ? 1 : 100);
+    const auto inside = [&](const Interval& i) {
+      return std::clamp(i.lower + share(random) * i.length(), i.lower, i.upper);
+    };
+    const double c = inside(u.domain());
+    ConstraintList list(s.size());
+    ASSERT_TRUE(hold_isoline(s, 0, c, 0, list));
+    ASSERT_TRUE(hold_edge(s, SurfaceEdge::v0, 0, list));
+    Parameters<2> at(1, 2);
+    at << inside(u.domain()), inside(v.domain());
+    ASSERT_TRUE(pin_point(s, at(0, 0), at(0, 1), {}, list));
+    const Surface f = field(s, random_member(s, list, static_cast<unsigned>(round)));
+    EXPECT_LT(on_line(f, 0, c, 0, Side::right).cwiseAbs().maxCoeff(), 1e-10) << "round " << round;
+    EXPECT_LT(on_line(f, 1, v.domain().lower, 0, Side::right).cwiseAbs().maxCoeff(), 1e-10) << "round " << round;
+    EXPECT_LT(evaluate(f, at)->points().norm(), 1e-10) << "round " << round;
+  }
+}
+
 TEST(Constraints, ThatContradictAreNamed) {
   const Surface s = relief(uniform_clamped(3, 4), uniform_unclamped(3, 4), 12);
   const Points none = Points::Zero(s.size(), 3);

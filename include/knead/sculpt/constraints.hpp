@@ -129,7 +129,7 @@ struct SmoothLine {
 ///   Σ_i (N_i'⁺ − λ N_i'⁻ − κ N_i) w_ij X_ij = 0   for every j,
 /// for equal knots and weights the relation of three points in line. At multiplicity p + 1 also X⁺_j = X⁻_j (C0), and
 /// the right side's weights are divided by their ratio σ to the left's. λ is fitted to S_u at samples, κ and σ to the
-/// weights; they count as fixed where the remainder is below `angle` (ratios) or 1e-9 (weights). Otherwise, and where
+/// weights; they count as fixed where the remainder is below `angle` (ratios) or 1e-7 (weights). Otherwise, and where
 /// S_u⁺ = λ S_u⁻ + μ S_v, D_u⁺ = λ D_u⁻ + μ D_v is asked at 2q + 4 points per span of the line, as many as are
 /// independent to `tolerance`: that can leave a line little freedom, but no hinge.
 /// Returns all such lines with what became of them, u first, by knot.
@@ -165,7 +165,7 @@ struct MirrorPlane {
 /// t · Σ_i (N_i' − κ N_i) w_ij X_ij = 0 for every j, W_u = κ W along the edge.
 /// Errors (input): control points of the edge further than `tolerance` (file units) from the plane; with `order` 1 a
 /// cross derivative that leaves the normal by more than `angle` (radian), or weights of the rows at the edge that are
-/// not proportional to 1e-9: each with the amount.
+/// not proportional to 1e-7: each with the amount.
 Expected<void> hold_symmetry_plane(const Surface& rest, SurfaceEdge edge, const MirrorPlane& plane, int order,
                                    double tolerance, double angle, ConstraintList& to);
 
