@@ -8,15 +8,11 @@ namespace knead::detail::KNEAD_ISA {
 /// Rows are asked for and copied by as many as fill a cache line.
 inline constexpr int row_chunk = 8;
 
-/// The rows from the result on down to `end` see the same distances d(i, k), k = 1 … p + 1, to the last bit, as row
-/// `end` and all the rows that it depends on: then they are the same as that row, and so is whatever was computed on
-/// the way. The result is `end` less a multiple of `row_chunk`, and `end` itself where the rows differ.
+/// `equal_rows_begin` where the first spans are found to be equal.
 template <int P>
-inline int equal_rows_begin(const KernelKnots& knots, int end) {
+__attribute__((noinline)) inline int equal_rows_found(const KernelKnots& knots, int end) {
   constexpr int K = P + 1;
-  if (end < row_chunk || end >= knots.size - K) return end;
   const double* x = knots.from(end);
-  if (!(x[1] > x[0]) || x[2] - x[1] != x[1] - x[0]) return end;  // as almost always
   Lanes distance[K + 1];
   unrolled<1, K + 1>([&](auto k) KNEAD_LAMBDA { distance[k] = splat(x[k] - x[0]); });
   const auto same = [&](int row) KNEAD_LAMBDA {
@@ -36,6 +32,17 @@ inline int equal_rows_begin(const KernelKnots& knots, int end) {
     if (!all) break;
   }
   return begin;
+}
+
+/// The rows from the result on down to `end` see the same distances d(i, k), k = 1 … p + 1, to the last bit, as row
+/// `end` and all the rows that it depends on: then they are the same as that row, and so is whatever was computed on
+/// the way. The result is `end` less a multiple of `row_chunk`, and `end` itself where the rows differ.
+template <int P>
+KNEAD_INLINE int equal_rows_begin(const KernelKnots& knots, int end) {
+  if (end < row_chunk || end >= knots.size - P - 1) return end;
+  const double* x = knots.from(end);
+  if (!(x[1] > x[0]) || x[2] - x[1] != x[1] - x[0]) return end;  // as almost always
+  return equal_rows_found<P>(knots, end);
 }
 
 /// Row `end` into rows begin … end − 1, a diagonal after the other: the rows as a whole would be as many streams of
