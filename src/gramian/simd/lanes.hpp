@@ -30,7 +30,8 @@ KNEAD_INLINE void store(double* p, Lanes v) { *p = v.value; }
 KNEAD_INLINE Lanes splat(double x) { return x; }
 KNEAD_INLINE double first(Lanes v) { return v.value; }
 KNEAD_INLINE bool any_not_positive(Lanes v) { return !(v.value > 0); }
-KNEAD_INLINE bool all_equal(Lanes, double) { return false; }  // no row is copied: all are to be counted
+KNEAD_INLINE int differs(Lanes, Lanes) { return 1; }  // no row is copied: all are to be counted
+KNEAD_INLINE bool any(int mask) { return mask != 0; }
 KNEAD_INLINE Lanes shifted(Lanes, double next) { return next; }
 #elif KNEAD_LANES == 1
 using Lanes = double;
@@ -39,7 +40,8 @@ KNEAD_INLINE void store(double* p, Lanes v) { *p = v; }
 KNEAD_INLINE Lanes splat(double x) { return x; }
 KNEAD_INLINE double first(Lanes v) { return v; }
 KNEAD_INLINE bool any_not_positive(Lanes v) { return !(v > 0); }
-KNEAD_INLINE bool all_equal(Lanes v, double x) { return v == x; }
+KNEAD_INLINE int differs(Lanes a, Lanes b) { return a != b ? 1 : 0; }
+KNEAD_INLINE bool any(int mask) { return mask != 0; }
 /// Rows i + 1, …, i + lanes; the last comes from `next`, the row after this group.
 KNEAD_INLINE Lanes shifted(Lanes, double next) { return next; }
 #else
@@ -67,7 +69,7 @@ KNEAD_INLINE bool any(decltype(Lanes{} < Lanes{}) mask) {
 #endif
 }
 KNEAD_INLINE bool any_not_positive(Lanes v) { return any(v <= splat(0)); }
-KNEAD_INLINE bool all_equal(Lanes v, double x) { return !any(v != splat(x)); }
+KNEAD_INLINE auto differs(Lanes a, Lanes b) { return a != b; }
 KNEAD_INLINE Lanes shifted(Lanes v, double next) {
   const Lanes after = {next};
 #if KNEAD_LANES == 2

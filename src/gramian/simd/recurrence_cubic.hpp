@@ -41,10 +41,11 @@ class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
     const Lanes d22 = d(x4, x2, 2), d31 = d(x4, x3, 1), d13 = d(x4, x1, 3);
     const Pair s401 = paired(d01 * s301.here, 4);
     const Lanes s402 = d22 * s301.next + d02 * s302.here, s403 = d31 * s302.next;
-    const Pair s311 = paired(w12 * s201.next + (s301.here + s302.here), 5);
+    const Lanes inner = w12 * s201.next;
+    const Pair s311 = paired(inner + (s301.here + s302.here), 5);
     const Pair s230 = paired(s311.here + s221.here, 6);
     const Pair s231 = paired(w11 * s301.next, 7);
-    const Pair s321 = paired((w12 + w12) * s201.next + (w01 * s221.here + s302.here), 8);
+    const Pair s321 = paired((inner + inner) + (w01 * s221.here + s302.here), 8);
     const Pair s322 = paired(w21 * s221.next, 9);
     const Lanes s411 = d13 * s301.next + (d01 * s311.here + s402);
     const Lanes s412 = d22 * s311.next + (d02 * s302.here + s403);
@@ -59,8 +60,7 @@ class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
     const Pair s340 = paired(s421 + d04 * s331.here, 14);
     const Pair s341 = paired(w12 * s240.next + (w01 * s241.here + d14 * s332.here), 15);
     const Pair s342 = paired(w21 * s241.next, 16);
-    const Pair s330 = {s321.here + s321.here, s321.next + s321.next};
-    const Lanes s431 = d13 * s330.next + (d01 * s331.here + s422);
+    const Lanes s431 = d13 * (s321.next + s321.next) + (d01 * s331.here + s422);
     const Lanes s432 = d22 * s331.next + (d02 * s332.here + s423), s433 = d31 * s332.next;
 
     // Exactly zero where supports do not overlap, whatever the splitting made of it.
@@ -77,21 +77,24 @@ class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
       put(0, 3, d31 * s342.next);
     }
 
-    Pair t1[4] = {s330, s331, s332}, cross[4] = {s340, s341, s342};
-    Pair t2[4] = {{s201.here + s201.here, s201.next + s201.next}, s221};
+    // The first of t1 and of t2 is S330 and S220 without their factor 2.
+    Pair t1[4] = {s321, s331, s332}, cross[4] = {s340, s341, s342};
+    Pair t2[4] = {s201, s221};
     Lanes rho = r3;
     if constexpr (Split) mask(xp, t1, t2, cross, rho);
     const Lanes rho1 = next(rho, carry_[17]), rho2 = next(rho1, carry_[18]);
     const Lanes scaled = rho * factor22;
-    const Pair q0 = paired(scaled * rho * difference<0, 2>(t2), 19),
-               q1 = paired(scaled * rho1 * difference<1, 2>(t2), 20);
-    const Pair q2 = paired(scaled * rho2 * difference<2, 2>(t2), 21);
+    const Lanes diagonal = (t2[0].here + t2[0].next) - t2[1].here;
+    const Pair q0 = paired(scaled * rho * (diagonal + diagonal), 19);
+    const Pair q1 = paired(scaled * rho1 * (t2[1].here + (t2[1].next - (t2[0].next + t2[0].next))), 20);
+    const Pair q2 = paired(scaled * rho2 * -t2[1].next, 21);
     if (!wanted) return;
     const Pair q[4] = {q0, q1, q2};
-    unrolled<0, 4>([&](auto s) KNEAD_LAMBDA {
-      put(1, s, difference<s, 3>(t1) * factor11);
-      put(2, s, difference<s, 3>(q));
-    });
+    put(1, 0, ((t1[0].here + t1[0].next) - t1[1].here) * (2 * factor11));
+    put(1, 1, ((t1[1].here - t1[2].here) + (t1[1].next - (t1[0].next + t1[0].next))) * factor11);
+    put(1, 2, (t1[2].here + (t1[2].next - t1[1].next)) * factor11);
+    put(1, 3, t1[2].next * -factor11);
+    unrolled<0, 4>([&](auto s) KNEAD_LAMBDA { put(2, s, difference<s, 3>(q)); });
     Lanes edge = splat(0);  // half of what the square of a function jumps by
     if constexpr (Split) edge = 0.5 * (where_positive(splat(1), x3 - x0) - where_positive(splat(1), x4 - x1));
     put(3, 0, edge);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "equal_rows.hpp"
 #include "kernels.hpp"
 #include "lanes.hpp"
 
@@ -21,11 +22,14 @@ class RowSweep {
     const int rows = knots.size - K, last = (rows - 1) / lanes;
     // Rows behind the last have no support of their own; they only fill the carries.
     for (int group = (rows + P) / lanes; group >= 0; --group) {
-      const double* x = knots.from(group * lanes);
-      if (group <= last && kernel.repeats(x)) {
-        copy_row(out, group * lanes);
+      const int end = (group + 1) * lanes;
+      if (const int begin = equal_rows_begin<P>(knots, end); begin < end) {
+        copy_rows<P>(out, begin, end);
+        group = begin / lanes;
+        kernel.empty_ = 0;  // the rows above are known to see no empty span
         continue;
       }
+      const double* x = knots.from(group * lanes);
       if (kernel.near_empty_span(x)) {
         kernel.template compute<true>(x, out, group * lanes, group <= last);
       } else {
@@ -93,34 +97,7 @@ class RowSweep {
     return (empty_ & window) != 0;
   }
 
-  /// True where all distances d(i, k) that rows of this group and of the next one see are the same numbers for all i:
-  /// then the rows are the same too, to the last bit, and so are the carries.
-  bool repeats(const double* x) {
-    bool uniform = true;
-    for (int k = 1; k <= K && uniform; ++k) {
-      const Lanes distance = load(x + k) - load(x);
-      if (first(distance) != distance_[k]) equal_rows_ = 0;
-      distance_[k] = first(distance);
-      uniform = all_equal(distance, distance_[k]);
-    }
-    equal_rows_ = uniform ? equal_rows_ + lanes : 0;
-    if (equal_rows_ < 2 * lanes + 2 * K || !(distance_[1] > 0)) return false;
-    empty_ <<= 1;
-    return true;
-  }
-
-  /// Row i + lanes, computed before, into the rows of this group.
-  static void copy_row(const KernelOutput& out, int i) {
-    const auto repeat = [](double* at) { store(at, splat(at[lanes])); };
-    for (int term = 0; term < 4; ++term) {
-      for (int s = 0; s <= P; ++s) repeat(out.g[term] + static_cast<std::size_t>(s) * out.stride[term] + i);
-    }
-    for (int s = 0; s < P; ++s) repeat(out.lower10[s] + i);
-  }
-
   unsigned empty_ = ~0u;
-  int equal_rows_ = 0;  ///< how many rows from here upwards see the distances of this one
-  double distance_[K + 1] = {};
 };
 
 }  // namespace knead::detail::KNEAD_ISA
