@@ -8,6 +8,7 @@
 
 #include "contact_newton.hpp"
 #include "knead/energy/field_assembler.hpp"
+#include "knead/sculpt/greville_force.hpp"
 #include "knead/spline/extremum.hpp"
 #include "patch_potential.hpp"
 #include "surface_forces.hpp"
@@ -21,6 +22,8 @@ constexpr double developed_slip = 1e-4;  // friction is fully developed after th
 constexpr double limit_stiffness = 1e8;
 constexpr double limit_tolerance = 1e-6;
 constexpr int max_limit_rounds = 12;
+constexpr int max_route_passes = 60;
+constexpr double route_tolerance = 1e-9;
 const double stage = 1 - std::sqrt(0.5);  // of a dynamic step
 
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
@@ -89,6 +92,7 @@ struct ActiveSpline<D>::Model {
   std::vector<int> rows;
   std::vector<DomainScaling<D>> scalings;
   std::vector<ToolLoad<D>> loads;
+  std::vector<GrevilleForce<D>> greville;  // for the analytic route
   double length;
   Point centre;   // positions are computed relative to this point, to keep digits where coordinates are large
   double extent;  // diagonal of the control points, in units of `length`
@@ -127,6 +131,7 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
   }
   std::vector<DomainScaling<D>> scalings;
   std::vector<ToolLoad<D>> loads;
+  std::vector<GrevilleForce<D>> greville;
   std::vector<SparseMatrix> stretch, bend, weight, mass, damping;
   const StiffnessOptions options{settings.method, 0};
   const auto [stretching, bending] = parts<D>(settings.material);
@@ -164,6 +169,11 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
                                     settings.detail > 0 ? settings.detail : std::numeric_limits<double>::infinity());
     if (!load) return std::unexpected(load.error());
     loads.push_back(std::move(*load));
+    if (settings.route == ForceRoute::analytic) {
+      auto force = GrevilleForce<D>::create(patch, scaling, options);
+      if (!force) return std::unexpected(force.error());
+      greville.push_back(std::move(*force));
+    }
   }
   const double length = scalings.front().length;
   const Eigen::RowVector3d lower = rest.colwise().minCoeff(), upper = rest.colwise().maxCoeff();
@@ -234,7 +244,7 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
     return std::unexpected(error);
   }
   return ActiveSpline(std::make_shared<const Model>(
-      Model{settings, std::move(patches), std::move(rows), std::move(scalings), std::move(loads), length, centre,
+      Model{settings, std::move(patches), std::move(rows), std::move(scalings), std::move(loads), std::move(greville), length, centre,
             (upper - lower).norm() / length, std::move(rest), std::move(s), std::move(b), std::move(k_matrix),
             std::move(w), std::move(m), std::move(d), std::move(a), std::move(*inverse)}));
 }
@@ -336,6 +346,10 @@ struct ActiveSpline<D>::Run {
   PatchPotential<D>& potential;
   ContactSummary summary = {0, 0, true, true};
   std::string note = {};
+  Points lagged = {};  // what the analytic route adds to the forces of Gauss points
+
+  PotentialState settle(const StepProblem& problem, Points& y, double limit, const Points& original,
+                        std::span<const ModelTool> tools);
 
   /// One minimisation, with the stiffness of rigid tools raised until nothing enters them any more.
   PotentialState minimise(const StepProblem& problem, Points& y) {
@@ -382,6 +396,51 @@ struct ActiveSpline<D>::Run {
   }
 };
 
+/// The forces of tools by the analytic route, as a correction that lags behind: F_analytic − F_Gauss at the last result
+/// goes to the right side until it no longer changes it.
+template <int D>
+PotentialState ActiveSpline<D>::Run::settle(const StepProblem& problem, Points& y, double limit,
+                                            const Points& original, std::span<const ModelTool> tools) {
+  PotentialState contact = minimise(problem, y, limit, original);
+  if (m.greville.empty() || tools.empty() || !summary.finite) return contact;
+  StepProblem corrected = problem;
+  double before = std::numeric_limits<double>::infinity();
+  int stalled = 0;
+  for (int pass = 0; pass < max_route_passes; ++pass) {
+    const Points x = problem.start + y;
+    PatchPotential<D> alone(m.loads, m.rows, {tools.begin(), tools.end()});
+    for (std::size_t t = 0; t < tools.size(); ++t) alone.set_stiffness(t, potential.stiffness(t));
+    Points difference = -alone.evaluate(x).force;
+    for (std::size_t k = 0; k < m.greville.size(); ++k) {
+      const int n = m.rows[k + 1] - m.rows[k];
+      difference.middleRows(m.rows[k], n) +=
+          m.greville[k].greville_force(x.middleRows(m.rows[k], n), [&](const Point& place) {
+            Point sum = Point::Zero();
+            for (std::size_t t = 0; t < tools.size(); ++t) {
+              ModelTool tool = tools[t];
+              tool.set_stiffness(potential.stiffness(t));
+              sum += tool.action(place).force;
+            }
+            return sum;
+          });
+    }
+    corrected.b = problem.b + difference;
+    const Points last = y;
+    contact = minimise(corrected, y, limit, original);
+    if (!summary.finite) return contact;
+    const double change = (y - last).cwiseAbs().maxCoeff();
+    if (change <= route_tolerance * std::max(y.cwiseAbs().maxCoeff(), m.extent * route_tolerance)) {
+      lagged = difference;
+      return contact;
+    }
+    stalled = change > 0.9 * before ? stalled + 1 : 0;
+    if (stalled == 3) break;
+    before = change;
+  }
+  note = "the analytic force route does not settle at this stiffness on this net; the forces are those of Gauss points";
+  return minimise(problem, y, limit, original);
+}
+
 template <int D>
 Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<const Tool> tools,
                                            const ActiveLoads& loads) const {
@@ -397,7 +456,7 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
 
   const Points kx0 = m.stiffness * before;
   StepProblem problem{m.a, m.inverse, *external - kx0, origin + before, 0.5 * dot(before, kx0)};
-  PatchPotential<D> potential(m.loads, m.rows, std::move(scaled));
+  PatchPotential<D> potential(m.loads, m.rows, scaled);
   potential.grip(problem.start, developed_slip);
   for (PointForce point : loads.points) {
     point.to = (point.to - m.centre) / m.length;
@@ -416,7 +475,7 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
   Points y = m.inverse.space().feasible(before) - before, after;
   PotentialState contact;
   if (!dynamic) {
-    contact = run.minimise(problem, y, loads.limit / m.length, limit_origin);
+    contact = run.settle(problem, y, loads.limit / m.length, limit_origin, scaled);
   } else {
     const double tau = stage * m.settings.time_step;
     const Points b = problem.b;
@@ -426,7 +485,7 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     for (int k = 0; k < 2 && run.summary.finite; ++k) {
       problem.b =
           b + m.mass * ((m.settings.mass / (tau * tau) + m.settings.damping / tau) * way + (m.settings.mass / tau) * v);
-      contact = run.minimise(problem, y, loads.limit / m.length, limit_origin);
+      contact = run.settle(problem, y, loads.limit / m.length, limit_origin, scaled);
       after = (y - way) / tau;
       if (k == 0) {
         way = (1 - stage) / stage * y;
@@ -455,6 +514,7 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     result.kinetic = 0.5 * dot(after, m.mass * after);
     result.velocity = m.length * after;
   }
+  if (run.lagged.rows() > 0) *external += run.lagged;
   m.report(result, x, *external, contact, tools);
   result.limited = contact.limited;
   result.iterations = run.summary.iterations;

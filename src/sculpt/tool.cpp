@@ -25,6 +25,60 @@ Expected<Tool> validated(const Tool& tool) {
   return tool;
 }
 
+namespace {
+
+/// The surface with x reversed and u run through backwards, so that its outside stays outside.
+Expected<Surface> flipped(const Surface& s) {
+  const auto [m, n] = s.net();
+  std::vector<double> knots(s.knots(0).knots().begin(), s.knots(0).knots().end()), weights;
+  std::ranges::reverse(knots);
+  for (double& x : knots) x = 0.0 - x;
+  auto u = KnotVector::create(s.knots(0).degree(), std::move(knots));
+  if (!u) return std::unexpected(u.error());
+  Points points(s.size(), 3);
+  for (int i = 0; i < m; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int from = (m - 1 - i) * n + j;
+      points.row(i * n + j) = s.control_points().row(from).cwiseProduct(Eigen::RowVector3d(-1, 1, 1));
+      if (s.rational()) weights.push_back(s.weights()[static_cast<std::size_t>(from)]);
+    }
+  }
+  return Surface::create({std::move(*u), s.knots(1)}, std::move(points), std::move(weights));
+}
+
+}  // namespace
+
+Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, const Point& normal) {
+  // All shapes but surfaces are symmetric in their own x: reflected in space and in x they are turned only.
+  const Placement& at = tool.shape.placement();
+  const Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
+  const Eigen::Matrix3d turn =
+      reflection * at.rotation.toRotationMatrix() * Eigen::Vector3d(-1, 1, 1).asDiagonal();
+  Placement image = at;
+  image.rotation = Eigen::Quaterniond(turn).normalized();
+  image.position = at.position - 2 * normal.dot(at.position - point) * normal;
+  Shape shape = tool.shape.shape();
+  if (const auto* spline = std::get_if<SplineShape>(&shape)) {
+    auto surface = flipped(*spline->surface);
+    if (!surface) return std::unexpected(surface.error());
+    shape = SplineShape{std::make_shared<const Surface>(std::move(*surface))};
+  }
+  auto placed = PlacedShape::create(shape, image);
+  if (!placed) return std::unexpected(placed.error());
+  // Its own image has the same distances everywhere; a few dozen places tell.
+  const double size = std::isfinite(tool.shape.size()) ? tool.shape.size() : 1;
+  bool same = true;
+  for (int k = 0; k < 40 && same; ++k) {
+    const double t = 2.399963 * k, z = (k + 0.5) / 20 - 1, r = std::sqrt(1 - z * z);  // a spiral round the tool
+    const Point x = at.position + (1 + 0.1 * (k % 7)) * size * Point(r * std::cos(t), r * std::sin(t), z);
+    same = std::abs(tool.shape.nearest(x).distance - placed->nearest(x).distance) <= 1e-9 * size;
+  }
+  if (same) return std::nullopt;
+  Tool result = tool;
+  result.shape = std::move(*placed);
+  return result;
+}
+
 ModelTool::ModelTool(const Tool& tool, const Point& centre, double length)
     : tool_(tool), length_(length), range_(tool.range / length) {
   const Placement& at = tool.shape.placement();

@@ -32,6 +32,12 @@ enum class Evolution {
   dynamic,     ///< M Ẍ + D Ẋ + K X = F, thesis Eq. 5.39: swings
 };
 
+/// How the forces of tools are integrated; docs/materials-and-loads.md compares them.
+enum class ForceRoute {
+  gauss,     ///< by Gauss points: forces have a potential
+  analytic,  ///< interpolated at Greville abscissae, then by the exact mass matrix (see `GrevilleForce`)
+};
+
 /// Everything that decides the matrices of an `ActiveSpline`.
 template <int D>
 struct ActiveSettings {
@@ -48,6 +54,7 @@ struct ActiveSettings {
   std::vector<bool> fixed;   ///< control points that do not move, one flag each; empty: none
   std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shape, file units
   double detail = 0;         ///< smallest tool dimension the forces must resolve, file units; 0: no tool
+  ForceRoute route = ForceRoute::gauss;
   bool raw = false;          ///< no normalisation: numbers are those of the equations on the knots as they are
   GramianMethod method = default_gramian_method;
 
@@ -124,7 +131,9 @@ struct ActiveStep {
 /// never lets ½VᵀMV + ½XᵀKX grow without forces, whatever h; waves much shorter than a step die out instead of ringing.
 /// A is factored once; Newton's iteration treats the springs in contact by conjugate gradients on that factor, with a
 /// line search on Φ. Hence a step is stable for any stiffness k and step size, and stiffness does not freeze the sheet.
-/// Without tools it is exactly one back substitution. Immutable, const is thread-safe.
+/// Without tools it is exactly one back substitution. The analytic force route, which has no potential, is taken as a
+/// lagged correction of the Gauss forces until it no longer changes; where it does not settle (stiff contact on a coarse
+/// net) the Gauss forces stand and the step's note says so. Immutable, const is thread-safe.
 template <int D>
 class ActiveSpline {
  public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "knead/sculpt/shape.hpp"
@@ -41,6 +42,10 @@ inline constexpr double rigid_gap = 1e-4;
 /// Checks stiffness from 0 to the maximum, range > 0 where it is used, friction >= 0, plasticity from 0 to 1,
 /// all finite; the error names the field.
 [[nodiscard]] Expected<Tool> validated(const Tool& tool);
+
+/// The mirror image of a tool in the plane through `point` with this normal (of length 1); nothing where the tool is its own
+/// image, to 1e-9 of its size. Errors: those of the shape.
+[[nodiscard]] Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, const Point& normal);
 
 /// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian ∂²ψ, which need not
 /// be positive: a surface pressed against a ball is pushed sideways off its top.

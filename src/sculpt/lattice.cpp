@@ -1,0 +1,84 @@
+#include "knead/sculpt/lattice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+
+Expected<Lattice> Lattice::create(const BoundingBox& box, double margin, const std::array<int, 3>& degree,
+                                  const std::array<int, 3>& net) {
+  if (!box.lower.allFinite() || !box.upper.allFinite() || !(box.diagonal() > 0)) {
+    return input_error("the box has no size", "lattice");
+  }
+  if (!(std::isfinite(margin) && margin > 0)) {
+    return input_error(fmt::format("{} is not a margin", margin), "margin", "use a number > 0");
+  }
+  std::vector<KnotVector> knots;
+  for (std::size_t d = 0; d < 3; ++d) {
+    auto made = KnotVector::clamped_uniform(degree[d], net[d]);
+    if (!made) return std::unexpected(made.error().within("net"));
+    knots.push_back(std::move(*made));
+  }
+  const double size = static_cast<double>(net[0]) * net[1] * net[2];
+  if (size > 1e6) return input_error("the lattice has more than a million control points", "net", "use fewer");
+  const Point lower = box.lower.array() - margin * box.diagonal(), upper = box.upper.array() + margin * box.diagonal();
+  Points points(static_cast<Eigen::Index>(size), 3);
+  Eigen::Index row = 0;
+  for (int i = 0; i < net[0]; ++i) {
+    for (int j = 0; j < net[1]; ++j) {
+      for (int k = 0; k < net[2]; ++k, ++row) {
+        const Point u(knots[0].greville(i), knots[1].greville(j), knots[2].greville(k));
+        points.row(row) = (lower + u.cwiseProduct(upper - lower)).transpose();
+      }
+    }
+  }
+  auto rest = Volume::create({knots[0], knots[1], knots[2]}, std::move(points));
+  if (!rest) return std::unexpected(rest.error());
+  return Lattice(std::move(*rest), lower, upper - lower);
+}
+
+Expected<Points> Lattice::deformed(const Points& points, const Points& control_points) const {
+  const auto displacement = rest_.with_control_points(control_points - rest_.control_points());
+  if (!displacement) return std::unexpected(displacement.error());
+  Parameters<3> parameters(points.rows(), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Point u = (points.row(i).transpose() - lower_).cwiseQuotient(size_);
+    if (!((u.array() >= 0).all() && (u.array() <= 1).all())) {
+      return input_error("the point is outside of the lattice", fmt::format("point {}", i), "make the lattice larger");
+    }
+    parameters.row(i) = u.transpose();
+  }
+  const auto moved = evaluate<3>(*displacement, parameters);
+  if (!moved) return std::unexpected(moved.error());
+  return Points(points + moved->points());
+}
+
+Expected<std::vector<bool>> Lattice::faces(std::span<const std::string> names, int rows) const {
+  static constexpr const char* known[] = {"u0", "u1", "v0", "v1", "w0", "w1"};
+  std::vector<bool> result(static_cast<std::size_t>(rest_.size()), false);
+  const std::array<int, 3> net = rest_.net();
+  for (const std::string& name : names) {
+    const auto* const found = std::ranges::find(known, name);
+    if (found == std::end(known)) {
+      return input_error(fmt::format("\"{}\" is not a face", name), "hold", "the faces are: u0, u1, v0, v1, w0, w1");
+    }
+    const auto face = static_cast<std::size_t>(found - known), d = face / 2;
+    std::size_t row = 0;
+    std::array<int, 3> i;
+    for (i[0] = 0; i[0] < net[0]; ++i[0]) {
+      for (i[1] = 0; i[1] < net[1]; ++i[1]) {
+        for (i[2] = 0; i[2] < net[2]; ++i[2], ++row) {
+          const int depth = face % 2 == 0 ? i[d] : net[d] - 1 - i[d];
+          if (depth < rows) result[row] = true;
+        }
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace knead
