@@ -65,11 +65,8 @@ inline Surface with_edge_at(Surface s, SurfaceEdge edge, bool backwards) {
   return edge_across(edge) == 1 ? transposed(s) : s;
 }
 
-/// Two surfaces that meet in edge u0 of both, tangent-continuous with the ratio ρ: rows of the net on either side of a
-/// common row. Weights: `along` on the row itself, times `factor_b` on b, and times 1 + kappa on the next rows.
-struct Pair {
-  std::vector<Surface> patches;
-};
+/// Two surfaces that meet in edge u0 of both, tangent-continuous with the ratio ρ. With weights, those of the edge are
+/// random, three times as large on b, and those of the next row in proportion to them on either side.
 inline std::vector<Surface> smooth_pair(const KnotVector& across_a, const KnotVector& across_b, const KnotVector& along,
                                         double rho, unsigned seed, double weight_spread = 1) {
   std::mt19937_64 random(seed);

@@ -61,6 +61,7 @@ struct SeamCoupling {
 ///   A_a'/W_a + ρ A_b'/W_b = κ D,   κ = (W_a' + (W_a/W_b) ρ W_b') / W_a,
 /// which is linear on the common refinement where κ is constant (edge and next rows with proportional weights, or
 /// symmetric ones as on a circle). Sharp edges, ratios that vary and other weights get C0.
+/// Ratios that differ by rounding in the file are made the same, or a corner of four patches would be held by them.
 ///
 /// Periodic: a patch closed in an unclamped direction whose knots repeat (x_{n−p+k} = x_k + period for 0 < k < 2p) and
 /// whose weights repeat up to a factor: X_{n−p+k} = X_k, 0 <= k < p.
