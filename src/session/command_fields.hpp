@@ -30,6 +30,7 @@ inline constexpr Choice<ToolMode> tool_modes[] = {
 inline constexpr Choice<ToolDirection> tool_directions[] = {{"pull", ToolDirection::pull},
                                                             {"push", ToolDirection::push}};
 inline constexpr Choice<StepWeight> step_weights[] = {{"mass", StepWeight::mass}, {"identity", StepWeight::identity}};
+inline constexpr Choice<ForceRoute> force_routes[] = {{"gauss", ForceRoute::gauss}, {"analytic", ForceRoute::analytic}};
 inline constexpr Choice<Evolution> evolutions[] = {
     {"acm", Evolution::acm}, {"static", Evolution::stationary}, {"dynamic", Evolution::dynamic}};
 inline constexpr Choice<EdgeChoice> edge_choices[] = {{"all", EdgeChoice::all},
@@ -113,8 +114,10 @@ KNEAD_COMMAND(KeepCommand, "keep", "hold a curve of the surface") {
   v.field("tolerance", Presence::optional, c.tolerance, "of a polyline, as a share of the motion around it");
 }
 KNEAD_COMMAND(SymmetryCommand, "symmetry", "keep a symmetry") {
-  v.field("edge", Presence::optional, c.edge, "u0, u1, v0 or v1: stays in a plane, the surface perpendicular to it; or:");
-  v.field("mirror", Presence::optional, c.mirror, "u or v: the surface stays its own mirror image along that direction");
+  v.field("edge", Presence::optional, c.edge,
+          "u0, u1, v0 or v1: stays in a plane, the surface perpendicular to it; or:");
+  v.field("mirror", Presence::optional, c.mirror,
+          "u or v: the surface stays its own mirror image along that direction");
   v.field("point", Presence::optional, c.point, "[x, y, z] of the plane; default for `mirror`: the best plane");
   v.field("normal", Presence::optional, c.normal, "[x, y, z] of the plane");
 }
@@ -124,7 +127,8 @@ KNEAD_COMMAND(SmoothCommand, "smooth", "keep what is smooth smooth; on unless sw
 }
 KNEAD_COMMAND(SeamsCommand, "seams", "couple selected surfaces, and each with itself, along shared edges") {
   v.field("couple", Presence::optional, c.couple, "false: they may tear apart");
-  v.field("tolerance", Presence::optional, c.tolerance, "length; default: 1e-5 of the diagonal of the selected surfaces");
+  v.field("tolerance", Presence::optional, c.tolerance,
+          "length; default: 1e-5 of the diagonal of the selected surfaces");
 }
 KNEAD_COMMAND(ReleaseCommand, "release", "free all that is held, pinned, frozen or kept") {}
 KNEAD_COMMAND(ToolCommand, "tool", "put a tool into the scene, or replace the one of that name") {
@@ -190,7 +194,8 @@ KNEAD_COMMAND(LoadCommand, "load", "loads everywhere on the selected surfaces; r
 }
 KNEAD_COMMAND(LimitCommand, "limit", "no point moves further from the surface as opened") {
   v.field("distance", Presence::optional, c.distance, "length; left out: no limit");
-  v.field("relative", Presence::optional, c.relative, "a fraction of the surface's bounding-box diagonal, not a length");
+  v.field("relative", Presence::optional, c.relative,
+          "a fraction of the surface's bounding-box diagonal, not a length");
 }
 KNEAD_COMMAND(EvolveCommand, "evolve", "what steps do; static solves at once") {
   v.choice("mode", c.mode, std::span<const Choice<Evolution>>(evolutions),
@@ -199,6 +204,8 @@ KNEAD_COMMAND(EvolveCommand, "evolve", "what steps do; static solves at once") {
   v.field("time_step", Presence::optional, c.time_step, "dynamic: time per step");
   v.choice("weight", c.weight, std::span<const Choice<StepWeight>>(step_weights),
            "acm: W of the step: mass matrix, or identity as in the thesis");
+  v.choice("route", c.route, std::span<const Choice<ForceRoute>>(force_routes),
+           "how tool forces are integrated: Gauss points, or Greville abscissae and exact mass matrices");
 }
 KNEAD_COMMAND(StepCommand, "step", "let the selected surfaces evolve under the tools") {
   v.field("count", Presence::optional, c.count, "number of steps");
@@ -222,6 +229,14 @@ KNEAD_COMMAND(DragCommand, "drag", "take hold of a surface point, drag it and le
   v.field("steps", Presence::optional, c.steps, "steps on the way");
   v.field("plasticity", Presence::optional, c.plasticity, "share of the result that stays, 0 to 1");
   v.field("relative", Presence::optional, c.relative, "`by` and radius are fractions of the bounding-box diagonal");
+}
+KNEAD_COMMAND(LatticeCommand, "lattice", "deform the surfaces with an elastic block of space that the tools act on") {
+  v.field("net", Presence::optional, c.net, "control points of the block along x, y, z");
+  v.field("degree", Presence::optional, c.degree, "along x, y, z");
+  v.field("margin", Presence::optional, c.margin, "how far it reaches beyond the surfaces, of their diagonal");
+  v.field("steps", Presence::optional, c.steps, "number of steps");
+  v.field("lambda", Presence::optional, c.lambda, "inverse step size");
+  v.field("hold", Presence::optional, c.hold, "faces that stay: u0, u1 (along x), v0, v1, w0, w1");
 }
 KNEAD_COMMAND(RefineCommand, "refine", "a finer net of the same shape") {
   v.field("region", Presence::optional, c.region, "[[s0, s1], [t0, t1]]: halve the spans there; or:");

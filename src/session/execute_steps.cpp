@@ -11,8 +11,8 @@
 namespace knead {
 namespace {
 
-constexpr double coarse = 0.5;        // spans longer than this share of a tool cannot follow it
-constexpr int max_refinements = 5;    // of the net under a tool, where refining is permitted
+constexpr double coarse = 0.5;         // spans longer than this share of a tool cannot follow it
+constexpr int max_refinements = 5;     // of the net under a tool, where refining is permitted
 constexpr int footprint_samples = 13;  // of a drag, in either direction
 
 /// Rounds of halving after which spans are no longer coarse.
@@ -93,13 +93,15 @@ Expected<void> Executor::run(int count, const EvolveCommand& evolve, const std::
       cache = std::move(*made);
     }
     const ActiveSurface& model = cache->model;
+    const auto tools = all_tools();
+    if (!tools) return std::unexpected(tools.error());
     auto loads = active_loads(state);
     if (!loads) return std::unexpected(loads.error());
     loads->points.insert(loads->points.end(), more.begin(), more.end());
     const ActiveState before = active_state(state);
     if (!state.energy_before) state.energy_before = model.energy(before);
     const auto start = std::chrono::steady_clock::now();
-    auto step = model.step(before, state.tools, *loads);
+    auto step = model.step(before, *tools, *loads);
     if (!step) return std::unexpected(step.error());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
@@ -119,16 +121,16 @@ Expected<void> Executor::run(int count, const EvolveCommand& evolve, const std::
         }
       }
       if (note.empty()) {
-        note = fmt::format("the net is too coarse to follow the tool: its spans are up to {:.2g} times the tool's size; "
-                           "halve them {} with {{\"do\":\"refine\",\"under\":\"…\"}}",
-                           step->coarseness,
-                           halvings(step->coarseness) == 1 ? "once" : fmt::format("{} times", halvings(step->coarseness)));
+        note = fmt::format(
+            "the net is too coarse to follow the tool: its spans are up to {:.2g} times the tool's size; "
+            "halve them {} with {{\"do\":\"refine\",\"under\":\"…\"}}",
+            step->coarseness,
+            halvings(step->coarseness) == 1 ? "once" : fmt::format("{} times", halvings(step->coarseness)));
       }
     }
     Eigen::Index first = 0;
-    const bool imprinting = step->gap > 0 && std::ranges::any_of(state.tools, [](const Tool& t) {
-      return t.mode == ToolMode::imprint;
-    });
+    const bool imprinting =
+        step->gap > 0 && std::ranges::any_of(state.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
     for (int index : state.selection()) {
       SurfaceState& s = state.surfaces[static_cast<std::size_t>(index)];
       const Eigen::Index n = s.current->size();
@@ -180,8 +182,8 @@ Expected<void> Executor::yield(double plasticity) {
       s.rest = s.current;
       continue;
     }
-    auto rest = s.rest->with_control_points(
-        s.rest->control_points() + plasticity * (s.current->control_points() - s.rest->control_points()));
+    auto rest = s.rest->with_control_points(s.rest->control_points() +
+                                            plasticity * (s.current->control_points() - s.rest->control_points()));
     if (!rest) return std::unexpected(rest.error());
     s.rest = std::make_shared<const Surface>(std::move(*rest));
   }

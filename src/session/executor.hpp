@@ -47,6 +47,7 @@ struct Executor {
   Expected<void> operator()(const StepCommand& c);
   Expected<void> operator()(const StrokeCommand& c);
   Expected<void> operator()(const DragCommand& c);
+  Expected<void> operator()(const LatticeCommand& c);
 
   Expected<void> operator()(const RefineCommand& c);
   Expected<void> operator()(const ElevateCommand& c);
@@ -68,6 +69,8 @@ struct Executor {
   /// `count` steps with the forces of the scene and these.
   Expected<void> run(int count, const EvolveCommand& evolve, const std::vector<PointForce>& more = {}, int done = 0,
                      int total = 0);
+  /// The tools of the scene, and their images in planes of mirror symmetry.
+  Expected<std::vector<Tool>> all_tools();
   /// Share `plasticity` of the displacement becomes rest shape.
   Expected<void> yield(double plasticity);
 

@@ -11,7 +11,7 @@
 namespace knead {
 namespace {
 
-constexpr double pole_tolerance = 1e-9;   // of the surface's size
+constexpr double pole_tolerance = 1e-9;  // of the surface's size
 constexpr double pole_flatness = 1e-6;
 constexpr double symmetry_tolerance = 1e-6;
 constexpr double symmetry_angle = 1e-3;
@@ -27,9 +27,7 @@ double detail_of(const std::vector<Tool>& tools) {
 }
 
 /// The present displacement of a surface from its rest shape.
-Points displacement(const SurfaceState& s) {
-  return s.current->control_points() - s.rest->control_points();
-}
+Points displacement(const SurfaceState& s) { return s.current->control_points() - s.rest->control_points(); }
 
 std::vector<SurfaceEdge> edges_of(EdgeChoice which) {
   switch (which) {
@@ -46,6 +44,16 @@ std::vector<SurfaceEdge> edges_of(EdgeChoice which) {
   }
   return {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1};
 }
+
+}  // namespace
+
+Expected<MirrorPlane> plane_of(const SymmetryCommand& c, const Surface& surface) {
+  if (!c.normal || !c.point) return mirror_plane(surface, c.mirror == "u" ? 0 : 1);
+  return MirrorPlane{Point((*c.point)[0], (*c.point)[1], (*c.point)[2]),
+                     Point((*c.normal)[0], (*c.normal)[1], (*c.normal)[2])};
+}
+
+namespace {
 
 /// Appends what one request asks for.
 struct Asked {
@@ -111,17 +119,16 @@ struct Asked {
     if (c.point) plane.point = Point((*c.point)[0], (*c.point)[1], (*c.point)[2]);
     if (c.edge) {
       for (SurfaceEdge edge : edges_of(*c.edge)) {
-        auto done = hold_symmetry_plane(*surface.reference, edge, plane, 1, symmetry_tolerance * size, symmetry_angle, list);
+        auto done =
+            hold_symmetry_plane(*surface.reference, edge, plane, 1, symmetry_tolerance * size, symmetry_angle, list);
         if (!done) return done;
       }
       return {};
     }
     const int direction = c.mirror == "u" ? 0 : 1;
-    if (!c.normal || !c.point) {
-      const auto best = mirror_plane(*surface.reference, direction);
-      if (!best) return std::unexpected(best.error());
-      plane = *best;
-    }
+    const auto own = plane_of(c, *surface.reference);
+    if (!own) return std::unexpected(own.error());
+    plane = *own;
     const auto report = keep_mirror(*surface.reference, direction, plane, 1e-9, list);
     if (!report) return std::unexpected(report.error());
     return {};
@@ -158,7 +165,8 @@ Expected<ConstraintList> constraints_of(const SurfaceState& s, std::vector<std::
     if (!lines) return std::unexpected(lines.error());
     for (const SmoothLine& line : *lines) {
       if (line.state == SmoothLine::State::crease) {
-        notes.push_back(fmt::format("{}: the crease at {} = {:.6g} may bend", s.id, line.direction == 0 ? "u" : "v", line.knot));
+        notes.push_back(
+            fmt::format("{}: the crease at {} = {:.6g} may bend", s.id, line.direction == 0 ? "u" : "v", line.knot));
       }
     }
   }
@@ -199,7 +207,8 @@ Expected<std::array<Interval, 2>> region_at(const Surface& surface, const std::a
   std::array<Interval, 2> result;
   for (std::size_t d = 0; d < 2; ++d) {
     if ((*upper)[d] < (*lower)[d]) {
-      return input_error("a side of the region decreases", "region", "write [[s0, s1], [t0, t1]] with s0 <= s1, t0 <= t1");
+      return input_error("a side of the region decreases", "region",
+                         "write [[s0, s1], [t0, t1]] with s0 <= s1, t0 <= t1");
     }
     result[d] = {(*lower)[d], (*upper)[d]};
   }
@@ -273,7 +282,8 @@ Expected<SurfaceModel> make_model(const SessionState& state, ModelInput input) {
     }
     for (const Coefficient<2>& c : s.material.alpha) varying = varying || !std::holds_alternative<double>(c);
     for (const Coefficient<2>& c : s.material.beta) varying = varying || !std::holds_alternative<double>(c);
-    varying = varying || !std::holds_alternative<double>(s.material.mass) || !std::holds_alternative<double>(s.material.damping);
+    varying = varying || !std::holds_alternative<double>(s.material.mass) ||
+              !std::holds_alternative<double>(s.material.damping);
     varying = varying || !(s.material == input.materials.front());
     patches.push_back(*s.reference);
     pointers.push_back(s.reference.get());
@@ -308,6 +318,7 @@ Expected<SurfaceModel> make_model(const SessionState& state, ModelInput input) {
   settings.weight = input.evolve.weight;
   settings.lambda = input.evolve.lambda;
   settings.time_step = input.evolve.time_step;
+  settings.route = input.evolve.route;
   settings.raw = input.scaling == ScalingMode::raw;
   settings.detail = input.detail;
   auto model = ActiveSurface::create(std::move(patches), settings);
@@ -355,6 +366,23 @@ Expected<ActiveLoads> active_loads(const SessionState& state) {
     force.to = vector(f.to);
     force.strength = f.strength;
     force.core = f.core;
+    for (const ConstraintRequest& request : s.constraints) {  // and its mirror images
+      const auto* symmetry = std::get_if<SymmetryCommand>(&request);
+      if (symmetry == nullptr || !symmetry->mirror) continue;
+      const auto plane = plane_of(*symmetry, *s.reference);
+      if (!plane) return std::unexpected(plane.error());
+      Fractions at = f.at;
+      double& along = at[*symmetry->mirror == "u" ? 0 : 1];
+      if (along == 0.5) continue;
+      along = 1 - along;
+      const auto there = parameters_at(*s.current, at);
+      if (!there) return std::unexpected(there.error());
+      PointForce image = force;
+      image.terms = basis_terms(*s.current, *there, 0);
+      const Point n = plane->normal.normalized();
+      image.to -= 2 * n.dot(image.to - plane->point) * n;
+      loads.points.push_back(std::move(image));
+    }
     loads.points.push_back(std::move(force));
   }
   if (state.limit) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "knead/sculpt/constraints.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {
@@ -39,6 +40,9 @@ struct SurfaceModel {
 
 /// Loads, forces and the limit of the scene. Errors: a force on a point that there is not.
 [[nodiscard]] Expected<ActiveLoads> active_loads(const SessionState& state);
+
+/// The plane of a mirror symmetry: as given, or the best one.
+[[nodiscard]] Expected<MirrorPlane> plane_of(const SymmetryCommand& c, const Surface& surface);
 
 /// (u, v) at fractions of the domain. Error (input): a number that is not from 0 to 1, named `where`.
 [[nodiscard]] Expected<std::array<double, 2>> parameters_at(const Surface& surface, const Fractions& at,

@@ -2,6 +2,7 @@
 
 #include "knead/sculpt/active_spline.hpp"
 #include "sculpt/constrained.hpp"
+#include "support/tools.hpp"
 
 /// The constraints at work: sculpted with tools, they hold on the surface that comes out.
 namespace knead {
@@ -9,7 +10,9 @@ namespace {
 
 using namespace testing;
 
-Tool ball(const Point& centre, double radius) { return {"ball", {centre, radius}, ToolMode::collision, 1e3}; }
+Tool ball(const Point& centre, double radius) {
+  return {"ball", testing::sphere_at(centre, radius), ToolMode::collision, 1e3};
+}
 
 ActiveSurface active(const Surface& s, const ConstraintList& list) {
   ActiveSettings<2> settings;

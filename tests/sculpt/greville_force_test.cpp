@@ -5,6 +5,7 @@
 #include "knead/sculpt/loads.hpp"
 #include "knead/sculpt/tool.hpp"
 #include "support/surfaces.hpp"
+#include "support/tools.hpp"
 
 namespace knead {
 namespace {
@@ -175,8 +176,9 @@ TEST(GrevilleForce, KeepsConstantForcesWhateverTheWeights) {
 
 TEST(GrevilleForce, OfACollisionHasTheGaussForceAsItsLimitWithLowOrder) {
   // The force has a kink at the edge of the contact: the bound is O(h), measured.
-  const Tool tool{.shape = {{0.5, 0.5, 0.25}, 0.3}, .mode = ToolMode::collision, .stiffness = 1};
-  const auto force = [&](const Point& x) -> Point { return tool_action(tool, x).force; };
+  const ModelTool tool({"ball", testing::sphere_at(Point(0.5, 0.5, 0.25), 0.3), ToolMode::collision, 1, 1},
+                       Point::Zero(), 1);
+  const auto force = [&](const Point& x) -> Point { return tool.action(x).force; };
   const auto sheet = [&](int n) {
     return testing::sheet(*KnotVector::clamped_uniform(3, n + 3), *KnotVector::clamped_uniform(3, n + 3));
   };

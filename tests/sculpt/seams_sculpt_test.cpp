@@ -1,6 +1,7 @@
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/spline/extremum.hpp"
 #include "seams_support.hpp"
+#include "support/tools.hpp"
 
 namespace knead {
 namespace {
@@ -13,11 +14,11 @@ struct Sculpted {
   double moved = 0;           // largest displacement on the seam, of the model's size
 };
 
-Sculpted sculpt(const Coupled& c, const Sphere& ball, const std::vector<bool>& fixed, int steps = 6) {
+Sculpted sculpt(const Coupled& c, const PlacedShape& ball, const std::vector<bool>& fixed, int steps = 6) {
   ActiveSettings<2> settings;
   settings.constraints = c.coupling.constraints;
   settings.fixed = fixed;
-  settings.detail = ball.radius;
+  settings.detail = ball.size();
   settings.lambda = 2;
   const auto model = ActiveSurface::create(c.patches, settings);
   if (!model) {
@@ -75,7 +76,7 @@ std::vector<bool> far_edges(const std::vector<Surface>& patches) {
 }
 
 TEST(SeamSculpting, TwoPatchesStayTogetherUnderABallOnTheirSeam) {
-  const Sphere ball{Point(1.02, 0.45, 0.2), 0.3};
+  const PlacedShape ball = testing::sphere_at(Point(1.02, 0.45, 0.2), 0.3);
   for (double gap : {0.0, 1e-4}) {
     const auto patches = two_patches(gap);
     const auto fixed = far_edges(patches);
@@ -118,7 +119,7 @@ TEST(SeamSculpting, AClosedCylinderStaysClosedUnderABallOnItsSeam) {
     }
   }
   const Surface tube = make_surface(quarter.knots(0), along, points, weights);
-  const Sphere ball{Point(1.1, 0.05, 1.1), 0.3};
+  const PlacedShape ball = testing::sphere_at(Point(1.1, 0.05, 1.1), 0.3);
   const Coupled c({tube});
   ASSERT_EQ(c.coupling.reports.size(), 1u);
   ASSERT_EQ(c.report().continuity, SeamContinuity::g1) << c.report().reason;
@@ -147,11 +148,12 @@ TEST(SeamSculpting, APeriodicTubeStaysPeriodic) {
   const Coupled c({tube});
   ASSERT_EQ(c.report().continuity, SeamContinuity::periodic);
   const Point seam = *evaluate_point<2>(tube, {3.0, 3.0});
-  const Sculpted smooth = sculpt(c, {1.05 * seam, 0.3}, fixed);
+  const Sculpted smooth = sculpt(c, testing::sphere_at(1.05 * seam, 0.3), fixed);
   EXPECT_GT(smooth.moved, 0.01);
   EXPECT_LT(smooth.gap, 1e-12);
   EXPECT_LT(smooth.angle, 1e-6);
-  EXPECT_GT(sculpt(Coupled({tube}, {.most = SeamContinuity::none}), {1.05 * seam, 0.3}, fixed).gap, 1e-3);
+  EXPECT_GT(sculpt(Coupled({tube}, {.most = SeamContinuity::none}), testing::sphere_at(1.05 * seam, 0.3), fixed).gap,
+            1e-3);
 }
 
 }  // namespace

@@ -93,8 +93,8 @@ struct KeepCommand {
   friend bool operator==(const KeepCommand&, const KeepCommand&) = default;
 };
 
-/// Half a symmetric model: an edge stays in a plane and the surface perpendicular to it; or a whole surface that stays its
-/// own mirror image.
+/// Half a symmetric model: an edge stays in a plane and the surface perpendicular to it; or a whole surface that stays
+/// its own mirror image.
 struct SymmetryCommand {
   std::optional<EdgeChoice> edge;
   std::optional<std::string> mirror;  ///< "u" or "v"
@@ -124,18 +124,18 @@ struct ReleaseCommand {};
 struct ToolCommand {
   std::string name = "tool";
   std::string shape = "sphere";
-  std::optional<double> radius;                  ///< default: a tenth of the surface's bounding-box diagonal
+  std::optional<double> radius;  ///< default: a tenth of the surface's bounding-box diagonal
   std::optional<double> minor, height, rounding, thickness, top_radius;
-  std::optional<Vector3> sizes;                  ///< semi-axes or half sizes
+  std::optional<Vector3> sizes;  ///< semi-axes or half sizes
   std::optional<std::array<double, 2>> exponents;
-  std::optional<std::string> surface;            ///< of shape "surface": its id
-  std::optional<Vector3> axis;                   ///< where the tool's own z points
-  std::optional<Vector3> scale;                  ///< along its own axes
-  std::optional<Vector3> position;               ///< of the centre; or:
-  std::optional<Fractions> at;                   ///< centre on the surface
+  std::optional<std::string> surface;  ///< of shape "surface": its id
+  std::optional<Vector3> axis;         ///< where the tool's own z points
+  std::optional<Vector3> scale;        ///< along its own axes
+  std::optional<Vector3> position;     ///< of the centre; or:
+  std::optional<Fractions> at;         ///< centre on the surface
   ToolMode mode = ToolMode::collision;
-  std::optional<double> stiffness;               ///< default: 1e4 for collision, 100 for proximity
-  std::optional<double> range;                   ///< default: half the size
+  std::optional<double> stiffness;  ///< default: 1e4 for collision, 100 for proximity
+  std::optional<double> range;      ///< default: half the size
   ToolDirection direction = ToolDirection::pull;
   bool rigid = false;
   double friction = 0;
@@ -200,6 +200,7 @@ struct EvolveCommand {
   double lambda = 1;
   double time_step = 0.02;
   StepWeight weight = StepWeight::mass;
+  ForceRoute route = ForceRoute::gauss;
 
   friend bool operator==(const EvolveCommand&, const EvolveCommand&) = default;
 };
@@ -231,6 +232,16 @@ struct DragCommand {
   bool relative = false;
 };
 
+/// Deforms the selected surfaces with a block of space round them, on which the tools act, as one command (thesis 5.7).
+struct LatticeCommand {
+  std::array<int, 3> net = {6, 6, 6};
+  std::array<int, 3> degree = {3, 3, 3};
+  double margin = 0.05;  ///< of the diagonal
+  int steps = 4;
+  double lambda = 1;
+  std::vector<std::string> hold;  ///< faces: "u0" … "w1", u along x, v along y, w along z
+};
+
 enum class RefinePermission { automatic, never };
 /// Finer nets, the same shape: halves spans in a region or under a tool, or inserts knots.
 struct RefineCommand {
@@ -260,7 +271,7 @@ using Command =
     std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand, PinCommand,
                  EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand,
                  ToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand,
-                 LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, RefineCommand, ElevateCommand,
-                 CoarsenCommand, UndoCommand, RedoCommand>;
+                 LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, LatticeCommand, RefineCommand,
+                 ElevateCommand, CoarsenCommand, UndoCommand, RedoCommand>;
 
 }  // namespace knead

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "executor.hpp"
+#include "knead/sculpt/lattice.hpp"
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+
+Expected<std::vector<Tool>> Executor::all_tools() {
+  std::vector<Tool> tools = state.tools;
+  if (!state.selected) return tools;
+  const SurfaceState& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
+  for (const ConstraintRequest& request : s.constraints) {
+    const auto* symmetry = std::get_if<SymmetryCommand>(&request);
+    if (symmetry == nullptr || !symmetry->mirror) continue;
+    const auto plane = plane_of(*symmetry, *s.reference);
+    if (!plane) return std::unexpected(plane.error());
+    const std::size_t count = tools.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      auto image = mirrored(tools[k], plane->point, plane->normal.normalized());
+      if (!image) return std::unexpected(image.error());
+      if (*image) tools.push_back(std::move(**image));
+    }
+  }
+  return tools;
+}
+
+Expected<void> Executor::operator()(const LatticeCommand& c) {
+  auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  if (c.steps < 1) return input_error(fmt::format("{} steps are too few", c.steps), "steps", "use 1 or more");
+  // The lattice moves control points, so it must hold all of them.
+  BoundingBox box;
+  bool first = true;
+  for (int index : state.selection()) {
+    const Points& points = state.surfaces[static_cast<std::size_t>(index)].current->control_points();
+    const Point lower = points.colwise().minCoeff().transpose(), upper = points.colwise().maxCoeff().transpose();
+    box.lower = first ? lower : Point(box.lower.cwiseMin(lower));
+    box.upper = first ? upper : Point(box.upper.cwiseMax(upper));
+    first = false;
+  }
+  const auto lattice = Lattice::create(box, c.margin, c.degree, c.net);
+  if (!lattice) return std::unexpected(lattice.error());
+  auto held = lattice->faces(c.hold, 1);
+  if (!held) return std::unexpected(held.error());
+  const auto tools = all_tools();
+  if (!tools) return std::unexpected(tools.error());
+  ActiveSettings<3> settings;
+  settings.lambda = c.lambda;
+  if (!c.hold.empty()) settings.fixed = std::move(*held);
+  for (const Tool& tool : *tools) {
+    const double size = tool.collides() ? tool.shape.size() : std::min(tool.shape.size(), tool.range);
+    if (std::isfinite(size) && (settings.detail == 0 || size < settings.detail)) settings.detail = size;
+  }
+  const auto model = ActiveSpline<3>::create(lattice->rest(), settings);
+  if (!model) return std::unexpected(model.error());
+  ActiveState active{lattice->rest().control_points()};
+  for (int k = 0; k < c.steps; ++k) {
+    auto step = model->step(active, *tools);
+    if (!step) return std::unexpected(step.error());
+    active.control_points = std::move(step->control_points);
+    if (progress) progress(k + 1, c.steps);
+  }
+  for (int index : state.selection()) {
+    SurfaceState& s = state.surfaces[static_cast<std::size_t>(index)];
+    const auto points = lattice->deformed(s.current->control_points(), active.control_points);
+    if (!points) return std::unexpected(points.error());
+    auto moved = s.current->with_control_points(*points);
+    if (!moved) return std::unexpected(moved.error());
+    s.current = s.rest = std::make_shared<const Surface>(std::move(*moved));  // the block bore the energy, not they
+    s.velocity.resize(0, 3);
+  }
+  return {};
+}
+
+}  // namespace knead
