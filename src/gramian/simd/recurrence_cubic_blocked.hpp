@@ -39,7 +39,12 @@ class BlockedCubicRecurrence {
 
  private:
   BlockedCubicRecurrence(const KernelKnots& knots, const KernelOutput& out)
-      : knots_(knots), out_(out), rows_(knots.size - K) {}
+      : knots_(knots), out_(out), rows_(knots.size - K) {
+    // What stands behind the uppermost block; the rest is written before it is read.
+    for (int q = 0; q < width; ++q) {
+      for (int c = block; c < block + 2 * chunk; c += lanes) store(at(q, c), splat(0));
+    }
+  }
 
   void sweep() {
     // Rows behind the last have no support of their own; they only fill the table.
@@ -340,7 +345,7 @@ class BlockedCubicRecurrence {
   const KernelKnots& knots_;
   const KernelOutput out_;
   const int rows_;
-  alignas(64) double table_[width * (block + 2 * chunk)] = {};
+  alignas(64) double table_[width * (block + 2 * chunk)];
 };
 
 }  // namespace knead::detail::KNEAD_ISA
