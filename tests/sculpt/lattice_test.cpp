@@ -101,6 +101,7 @@ struct Sheet {
 
 TEST(ForceRoute, AnalyticAndGaussDifferByWhatInterpolationMisses) {
   Sheet s;
+  s.settings.evolution = Evolution::stationary;
   const Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.47, 0.25), 0.3), ToolMode::collision, 100, 1};
   const auto gauss = ActiveSurface::create(s.surface, s.settings)->step(s.surface.control_points(), {&ball, 1});
   s.settings.route = ForceRoute::analytic;
