@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/energy/stiffness.hpp"
+#include "knead/sculpt/active_spline.hpp"
+#include "knead/sculpt/greville_force.hpp"
+#include "knead/sculpt/potential.hpp"
+#include "knead/sculpt/tool_load.hpp"
+#include "knead/solve/constrained_cholesky.hpp"
+
+namespace knead {
+
+/// A dynamic step is two stages of this share of it (Alexander's method).
+inline const double dynamic_stage = 1 - std::sqrt(0.5);
+
+inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
+
+/// What a step works with; all matrices on all unknowns, in normalised units.
+template <int D>
+struct ActiveSpline<D>::Model {
+  ActiveSettings<D> settings;
+  std::vector<Spline<D>> patches;
+  std::vector<int> rows;
+  std::vector<DomainScaling<D>> scalings;
+  std::vector<ToolLoad<D>> loads;
+  std::vector<GrevilleForce<D>> greville;  // for the analytic route
+  double length;
+  Point centre;   // positions are computed relative to this point, to keep digits where coordinates are large
+  double extent;  // diagonal of the control points, in units of `length`
+  Points rest;
+  SparseMatrix stretch, bend, stiffness, weight, mass, damping, a;
+  ConstrainedCholesky inverse;
+
+  /// What X is measured from.
+  [[nodiscard]] Points origin(const ActiveState& state) const {
+    if (settings.rest == RestMode::none) return centre.transpose().replicate(rest.rows(), 1);
+    return state.rest.rows() > 0 ? state.rest : rest;
+  }
+  /// Xᵀ K X. K annihilates constants: without their mean the numbers are smaller, and so is the rounding.
+  [[nodiscard]] double energy(const SparseMatrix& matrix, const Points& x) const {
+    const Points y = x.rowwise() - x.colwise().mean();
+    return std::max(0.0, dot(y, matrix * y));
+  }
+
+  Expected<Points> load_of(const ActiveState& state, const ActiveLoads& given) const;
+  void report(ActiveStep& result, const Points& x, const Points& external, const PotentialState& contact,
+              std::span<const Tool> tools) const;
+};
+
+}  // namespace knead
