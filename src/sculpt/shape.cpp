@@ -158,6 +158,7 @@ Expected<PlacedShape> PlacedShape::create(const Shape& shape, const Placement& p
   placed.shape_ = shape;
   placed.placement_ = placement;
   placed.rotation_ = placement.rotation.normalized().toRotationMatrix();
+  placed.upright_ = placed.rotation_ == Eigen::Matrix3d::Identity();
   placed.kernel_ = std::move(*kernel);
   return placed;
 }
@@ -168,10 +169,16 @@ Expected<PlacedShape> PlacedShape::moved(const Eigen::Quaterniond& rotation, con
   placed.placement_.rotation = rotation;
   placed.placement_.position = position;
   placed.rotation_ = rotation.normalized().toRotationMatrix();
+  placed.upright_ = placed.rotation_ == Eigen::Matrix3d::Identity();
   return placed;
 }
 
 Nearest PlacedShape::nearest(const Point& x) const {
+  if (upright_) {
+    Nearest r = kernel_->nearest(x - placement_.position);
+    r.point += placement_.position;
+    return r;
+  }
   Nearest r = kernel_->nearest(rotation_.transpose() * (x - placement_.position));
   r.point = rotation_ * r.point + placement_.position;
   r.normal = rotation_ * r.normal;

@@ -15,7 +15,8 @@ class Sphere final : public ShapeKernel {
   }
   Nearest nearest(const Point& x) const override {
     Nearest r;
-    const double norm = x.stableNorm();
+    double norm = x.norm();
+    if (!(norm > 1e-150 && norm < 1e150)) norm = x.stableNorm();  // squares that under- or overflow
     r.distance = norm - radius_;
     if (norm == 0) {
       r.point = Point(0, 0, radius_);

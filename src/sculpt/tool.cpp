@@ -52,8 +52,7 @@ Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, con
   // All shapes but surfaces are symmetric in their own x: reflected in space and in x they are turned only.
   const Placement& at = tool.shape.placement();
   const Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
-  const Eigen::Matrix3d turn =
-      reflection * at.rotation.toRotationMatrix() * Eigen::Vector3d(-1, 1, 1).asDiagonal();
+  const Eigen::Matrix3d turn = reflection * at.rotation.toRotationMatrix() * Eigen::Vector3d(-1, 1, 1).asDiagonal();
   Placement image = at;
   image.rotation = Eigen::Quaterniond(turn).normalized();
   image.position = at.position - 2 * normal.dot(at.position - point) * normal;
@@ -95,13 +94,15 @@ bool ModelTool::may_reach(const Point& lower, const Point& upper) const {
   if ((upper.array() < lower_.array()).any() || (lower.array() > upper_.array()).any()) return false;
   // Distances are 1-Lipschitz.
   const Point middle = 0.5 * (lower + upper);
-  const double radius = 0.5 * (upper - lower).norm(), phi = tool_.shape.nearest(Point(length_ * middle)).distance / length_;
+  const double radius = 0.5 * (upper - lower).norm(),
+               phi = tool_.shape.nearest(Point(length_ * middle)).distance / length_;
   if (tool_.collides()) return phi <= radius;
   return std::abs(phi) <= radius + range_;
 }
 
 ToolAction ModelTool::action(const Point& x) const {
   ToolAction action;
+  if ((x.array() < lower_.array()).any() || (x.array() > upper_.array()).any()) return action;
   const Nearest near = tool_.shape.nearest(Point(length_ * x));
   const double phi = near.distance / length_, k = tool_.stiffness;
   double slope = 0, curvature = 0;  // ψ'(φ) and ψ''(φ)

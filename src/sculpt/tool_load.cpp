@@ -202,12 +202,12 @@ void ToolLoad<D>::box_of(const Element& element, const Points& x, int first, Poi
 /// time.
 template <int D>
 template <class F>
-void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int first, const F& f) const {
-  using Homogeneous = std::array<double, 4>;
-  std::array<std::vector<Homogeneous>, D + 1> level;  // level[d]: directions d … D−1 are still control points
+void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int first, Workspace& workspace,
+                                 const F& f) const {
   std::array<std::size_t, D + 1> sizes;
   sizes[D] = 1;
   for (std::size_t d = D; d-- > 0;) sizes[d] = sizes[d + 1] * static_cast<std::size_t>(quadrature_[d].basis.degree + 1);
+  auto& level = workspace;  // level[d]: directions d … D−1 are still control points
   for (std::size_t d = 0; d <= D; ++d) level[d].resize(sizes[d]);
   std::size_t to = 0;
   for_each_control_point(element, [&](int row) {
@@ -256,6 +256,7 @@ void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& 
     for_each_control_point(element, [&](int row) { result = result || ways[row] > actors.limit->distance; });
     return result;
   };
+  Workspace workspace;
   std::vector<std::size_t> near;
   for_each_element([&](const Element& element) {
     Point lower, upper;
@@ -269,7 +270,7 @@ void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& 
     double longest = 0;
     for (std::size_t d = 0; d < D; ++d)
       longest = std::max(longest, lengths_[d][static_cast<std::size_t>(element.span[d])]);
-    for_each_point(element, x, first, [&](const Sample& s) {
+    for_each_point(element, x, first, workspace, [&](const Sample& s) {
       const auto push = [&](double potential, const Point& force, const Eigen::Matrix3d& hessian) {
         state.potential += s.weight * potential;
         for_each_function(s.at, [&](int row, double n) {
@@ -338,6 +339,7 @@ void ToolLoad<D>::apply_hessian(const ContactPoint& contact, int first, const Po
 template <int D>
 FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip) const {
   FrictionAnchors result;
+  Workspace workspace;
   result.slip = slip;
   result.index.assign(static_cast<std::size_t>(points()), -1);
   for_each_element([&](const Element& element) {
@@ -346,7 +348,7 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
     for (const ModelTool& tool : tools) {
       if (!tool.tool().collides() || tool.tool().friction == 0) continue;
       if (in_hull_ && !tool.may_reach(lower, upper)) continue;
-      for_each_point(element, x, first, [&](const Sample& s) {
+      for_each_point(element, x, first, workspace, [&](const Sample& s) {
         const ToolAction action = tool.action(s.place);
         if (!action.active) return;
         int& at = result.index[static_cast<std::size_t>(index(s.at))];

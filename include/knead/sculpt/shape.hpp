@@ -160,6 +160,7 @@ class PlacedShape {
   Shape shape_;
   Placement placement_;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+  bool upright_ = true;  // no rotation
   std::shared_ptr<const detail::ShapeKernel> kernel_;
 };
 

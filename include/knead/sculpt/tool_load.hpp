@@ -67,6 +67,8 @@ class ToolLoad {
  private:
   struct Element;  // one span per direction
   struct Sample;   // one Gauss point
+  using Homogeneous = std::array<double, 4>;
+  using Workspace = std::array<std::vector<Homogeneous>, D + 1>;
 
   ToolLoad() = default;
 
@@ -75,7 +77,7 @@ class ToolLoad {
   template <class F>
   void for_each_control_point(const Element& element, const F& f) const;
   template <class F>
-  void for_each_point(const Element& element, const Points& x, int first, const F& f) const;
+  void for_each_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f) const;
   [[nodiscard]] long long index(const std::array<int, 3>& at) const;
   template <class F>
   void for_each_function(const std::array<int, 3>& at, const F& f) const;
