@@ -94,11 +94,13 @@ Expected<Comparison> compare_models(int n) {
   start = now();
   result.relax_steps = relax(k, f, h * h * load_factor, 1e-8).steps;  // masses of 1: ω² is that of h² K
   result.relax_time = now() - start;
-  const GlobalInterpolation interpolation(*knots, equidistant(n));
+  const auto averaged = averaged_knots(equidistant(n));
+  if (!averaged) return std::unexpected(averaged.error());
+  const GlobalInterpolation interpolation(*averaged, equidistant(n));
   start = now();
   const Eigen::MatrixXd control_points = interpolation.control_points(with_border(x, n));
   result.interpolation_time = now() - start;
-  result.surface_error = largest_error(*knots, control_points);
+  result.surface_error = largest_error(*averaged, control_points);
 
   const auto sheet = flat_sheet(*knots);
   if (!sheet) return std::unexpected(sheet.error());
@@ -135,9 +137,7 @@ Expected<Touch> touch(int n, double spring) {
   const auto knots = KnotVector::clamped_uniform(3, n);
   if (!knots) return std::unexpected(knots.error());
   Touch result;
-  const Eigen::MatrixXd control_points =
-      GlobalInterpolation(*knots, equidistant(n)).control_points(with_border(factor->solve(pull), n));
-  result.springs = sampled(*knots, control_points, 3)(1, 1);
+  result.springs = with_border(factor->solve(pull), n)((n - 1) / 2, (n - 1) / 2);
 
   Energy<2> energy = stretch_and_bend({{alpha, 0, alpha}, {beta, beta, beta}});
   const Energy<2> mass = mass_energy<2>(spring);
@@ -192,9 +192,9 @@ Expected<double> interpolation_drift(double cluster, int rounds) {
   return (control_points - first).cwiseAbs().maxCoeff() / first.cwiseAbs().maxCoeff();
 }
 
-Expected<double> ripple(int n, double distance) {
+Expected<double> ripple(int n, double distance, bool averaged) {
   constexpr double radius = 0.25;
-  const auto knots = KnotVector::clamped_uniform(3, n);
+  const auto knots = averaged ? averaged_knots(equidistant(n)) : KnotVector::clamped_uniform(3, n);
   if (!knots) return std::unexpected(knots.error());
   const auto dent = [](double u, double v) {
     const double r2 = (u - 0.5) * (u - 0.5) + (v - 0.5) * (v - 0.5);

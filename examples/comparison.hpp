@@ -19,11 +19,11 @@ struct Comparison {
   double exact_step = 0;          ///< one frame
 };
 
-/// n × n masses against a cubic net of n × n control points; n >= 8.
+/// n × n masses against a cubic net of n × n control points; n >= 8. The surface through the masses has averaged knots.
 [[nodiscard]] Expected<Comparison> compare_models(int n);
 
-/// How far the middle moves when every mass is drawn to height 1 by a spring of the same constant (which is what a tool
-/// that acts on points does), and when the surface is drawn by springs of that constant per area.
+/// How far the middle moves (n odd) when every mass is drawn to height 1 by a spring of the same constant (which is
+/// what a tool that acts on points does), and when the surface is drawn by springs of that constant per area.
 struct Touch {
   double springs = 0, exact = 0;
 };
@@ -34,8 +34,9 @@ struct Touch {
 [[nodiscard]] Expected<double> interpolation_drift(double cluster, int rounds);
 
 /// A round dent of radius ¼ is pressed into flat masses; outside of it they stay at 0. The largest height of the
-/// surface interpolated through them further than `distance` outside of the dent, relative to its depth.
-[[nodiscard]] Expected<double> ripple(int n, double distance);
+/// surface interpolated through them further than `distance` outside of the dent, relative to its depth. On knots
+/// averaged from the masses' parameters, or on clamped uniform knots as the surface may have come with.
+[[nodiscard]] Expected<double> ripple(int n, double distance, bool averaged);
 
 /// The largest movement of control points in a step of the active surface at rest: 0, bit for bit.
 [[nodiscard]] Expected<double> movement_at_rest(int n);

@@ -96,6 +96,13 @@ Eigen::MatrixXd basis_matrix(const KnotVector& knots, const std::vector<double>&
   return result;
 }
 
+Expected<KnotVector> averaged_knots(const std::vector<double>& at) {
+  std::vector<double> knots(4, at.front());
+  for (std::size_t j = 1; j + 3 < at.size(); ++j) knots.push_back((at[j] + at[j + 1] + at[j + 2]) / 3);
+  knots.insert(knots.end(), 4, at.back());
+  return KnotVector::create(3, std::move(knots));
+}
+
 std::vector<double> equidistant(int n) {
   std::vector<double> result;
   for (int k = 0; k < n; ++k) result.push_back(static_cast<double>(k) / (n - 1));

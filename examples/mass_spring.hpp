@@ -52,6 +52,10 @@ class GlobalInterpolation {
 /// Values of the basis at parameters, one row each, dense.
 [[nodiscard]] Eigen::MatrixXd basis_matrix(const KnotVector& knots, const std::vector<double>& at);
 
+/// The cubic knots that *The NURBS Book* (Eq. 9.8) chooses for interpolation at parameters from 0 to 1: interior knots
+/// are means of three neighbouring parameters, so that the collocation matrix is well conditioned.
+[[nodiscard]] Expected<KnotVector> averaged_knots(const std::vector<double>& at);
+
 /// n equidistant numbers from 0 to 1.
 [[nodiscard]] std::vector<double> equidistant(int n);
 

@@ -25,7 +25,8 @@ int main() try {
       for (std::size_t i = 0; i < count; ++i) {
         errors.push_back((*found)[i] / exact[i] - 1);
         fmt::print("  {:8.1e}", errors.back());
-        if (!before.empty()) fmt::print(" {:4.2f}", std::log2(before[i] / errors.back()));
+        // Below 1e-9 rounding has a share in the error.
+        if (!before.empty() && errors.back() > 1e-9) fmt::print(" {:4.2f}", std::log2(before[i] / errors.back()));
       }
       fmt::print("\n");
       before = errors;
