@@ -216,8 +216,7 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     // What a stage starts from: the step's beginning, then further on along the first stage.
     Points way = Points::Zero(y.rows(), 3), v = v0;
     for (int k = 0; k < 2 && run.summary.finite; ++k) {
-      problem.b =
-          b + m.mass * ((m.settings.mass / (tau * tau) + m.settings.damping / tau) * way + (m.settings.mass / tau) * v);
+      problem.b = b + m.mass * (way / (tau * tau) + v / tau) + m.damping * (way / tau);
       contact = run.settle(problem, y, loads.limit / m.length, limit_origin, scaled);
       after = (y - way) / tau;
       if (k == 0) {

@@ -107,8 +107,9 @@ TEST(Dynamic, NeverGainsEnergyAndComesToRestWithDamping) {
   swings<3>();
 }
 
-/// A string fixed at its ends, plucked into its lowest mode: X = sin(πu) cos(πt) z, α = 1, μ = 1.
-double string_error(double h) {
+/// A string fixed at its ends, plucked into its lowest mode: X = sin(πu) cos(πt/√μ) z, α = 1. With the mass as a
+/// constant, or as a field.
+double string_error(double h, double mass = 1, bool field = false) {
   const Curve s = box<1>(5, 24);
   ActiveSettings<1> settings;
   settings.raw = true;
@@ -117,6 +118,17 @@ double string_error(double h) {
   settings.fixed = ends<1>(s, 1);
   settings.damping = 0;
   settings.time_step = h;
+  settings.mass = mass;
+  if (field) {
+    MaterialFieldOf<1> varying;
+    varying.alpha = {1.0};
+    varying.beta = {0.0};
+    varying.mass = mass;
+    varying.damping = 0.0;
+    settings.fields = {varying};
+    settings.mass = 77;  // the field counts
+    settings.damping = 77;
+  }
   const ActiveSpline<1> model = active<1>(s, settings);
   // The stationary shape under the load π² sin(πu) is sin(πu): it gives the control points of the mode.
   ActiveSettings<1> still = settings;
@@ -134,7 +146,7 @@ double string_error(double h) {
   }
   const auto mode = active<1>(s, still).step({s.control_points()}, {}, load);
   ActiveState state{mode->control_points};
-  const int steps = static_cast<int>(std::round(0.5 / h));
+  const int steps = static_cast<int>(std::round(0.5 * std::sqrt(mass) / h));
   for (int k = 0; k < steps; ++k) {
     auto step = model.step(state, {});
     state.control_points = std::move(step->control_points);
@@ -147,6 +159,13 @@ TEST(Dynamic, IsOfSecondOrder) {
   const double a = string_error(0.1), b = string_error(0.05), c = string_error(0.025);
   EXPECT_NEAR(std::log2(a / b), 2, 0.1);
   EXPECT_NEAR(std::log2(b / c), 2, 0.05);
+}
+
+TEST(Dynamic, FourTimesTheMassSwingsHalfAsFast) {
+  // In units of the period nothing changes, the error of a step included.
+  const double expected = string_error(0.05);
+  EXPECT_NEAR(string_error(0.1, 4), expected, 1e-9);
+  EXPECT_NEAR(string_error(0.1, 4, true), expected, 1e-9);
 }
 
 template <int D>

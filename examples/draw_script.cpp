@@ -1,0 +1,53 @@
+// Runs scripts as `knead sculpt --new` does and draws what they leave:
+//   example_draw_script SCRIPT.json OUT.svg [FILE.step]
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "draw.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+
+namespace {
+
+using namespace knead;
+
+Expected<void> run(const std::string& script, const std::string& out, const std::string& file) {
+  const auto text = read_file(script);
+  if (!text) return std::unexpected(text.error());
+  const auto commands = parse_script(*text, script);
+  if (!commands) return std::unexpected(commands.error());
+  auto document = file.empty() ? Document::fresh("sheet") : Document::open(file);
+  if (!document) return std::unexpected(document.error());
+  Session session(std::move(*document));
+  for (std::size_t k = 0; k < commands->size(); ++k) {
+    if (auto done = session.execute((*commands)[k]); !done) {
+      return std::unexpected(done.error().within(fmt::format("commands[{}]", k)));
+    }
+  }
+  std::vector<Surface> surfaces;
+  for (const SurfaceState& s : session.state().surfaces) surfaces.push_back(*s.current);
+  const auto svg = examples::draw(surfaces, session.state().tools);
+  if (!svg) return std::unexpected(svg.error());
+  return write_file_atomically(out, *svg);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc != 3 && argc != 4) {
+    std::fputs("usage: example_draw_script SCRIPT.json OUT.svg [FILE.step]\n", stderr);
+    return 2;
+  }
+  const auto done = run(argv[1], argv[2], argc == 4 ? argv[3] : "");
+  if (!done) {
+    fmt::print(stderr, "example_draw_script: {}\n", done.error().message());
+    return 1;
+  }
+  return 0;
+} catch (const std::exception& e) {
+  std::fputs(e.what(), stderr);
+  return 1;
+}
