@@ -168,6 +168,37 @@ TEST(Dynamic, FourTimesTheMassSwingsHalfAsFast) {
   EXPECT_NEAR(string_error(0.1, 4, true), expected, 1e-9);
 }
 
+TEST(Dynamic, AFreeSheetFallsAsMassDampingAndGravitySay) {
+  // μ ẍ = μ g − γ ẋ: x = g/c (t − (1 − exp(−c t))/c), c = γ/μ, the same everywhere on the sheet.
+  const Surface s = box<2>(3, 6);
+  ActiveSettings<2> settings;
+  settings.evolution = Evolution::dynamic;
+  settings.raw = true;
+  settings.time_step = 0.01;
+  ActiveLoads loads;
+  loads.gravity = Point(0, 0, -3);
+  for (const double mass : {0.5, 2.0}) {
+    for (const bool field : {false, true}) {
+      settings.mass = mass;
+      settings.damping = 0.8;
+      settings.fields.clear();
+      if (field) settings.fields.emplace_back(settings.material, mass, 0.8);
+      const ActiveSpline<2> model = active<2>(s, settings);
+      ActiveState state{s.control_points()};
+      for (int k = 0; k < 100; ++k) {
+        auto step = model.step(state, {}, loads);
+        ASSERT_TRUE(step);
+        state.control_points = std::move(step->control_points);
+        state.velocity = std::move(step->velocity);
+      }
+      const double c = 0.8 / mass, expected = -3 / c * (1 - (1 - std::exp(-c)) / c);
+      const Points way = state.control_points - s.control_points();
+      EXPECT_NEAR(way.col(2).minCoeff(), expected, 2e-5);  // second order in the step
+      EXPECT_NEAR(way.col(2).maxCoeff(), expected, 2e-5);
+    }
+  }
+}
+
 template <int D>
 void sinks_and_settles() {
   const Spline<D> s = box<D>(2, D == 3 ? 6 : 10);
