@@ -2,7 +2,7 @@
 # The work is done by CMake presets (CMakePresets.json) and the scripts in scripts/.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run test asan noexcept wasm format format-check lint check-long bench figures clean
+.PHONY: help setup build run test asan noexcept wasm format format-check lint check-long bench figures examples clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -45,6 +45,9 @@ bench: ## Build and run the benchmarks
 
 figures: ## Regenerate the thesis' tables and figures of Gramians: out/figures/
 	@scripts/figures.sh
+
+examples: ## Run the examples and draw the thesis' sculpting figures: out/examples/
+	@scripts/examples.sh
 
 clean: ## Remove build/ and out/
 	@rm -rf build out
