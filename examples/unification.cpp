@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "comparison.hpp"
 #include "knead/gramian/gramian.hpp"
