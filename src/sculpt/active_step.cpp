@@ -19,6 +19,7 @@ constexpr double developed_slip = 1e-4;  // friction is fully developed after th
 constexpr double limit_stiffness = 1e8;
 constexpr double limit_tolerance = 1e-6;
 constexpr int max_limit_rounds = 12;
+constexpr int max_rigid_rounds = 16;
 constexpr int max_route_passes = 60;
 constexpr double route_tolerance = 1e-9;
 
@@ -84,9 +85,10 @@ struct ActiveSpline<D>::Run {
   PotentialState settle(const StepProblem& problem, Points& y, double limit, const Points& original,
                         std::span<const ModelTool> tools);
 
-  /// One minimisation, with the stiffness of rigid tools raised until nothing enters them any more.
+  /// One minimisation, with the stiffness of rigid tools raised until nothing enters them at Gauss points any more, and
+  /// contact begun further out until nothing enters them in between.
   PotentialState minimise(const StepProblem& problem, Points& y) {
-    while (true) {
+    for (int round = 0;; ++round) {
       const ContactSummary part = minimise_step(problem, potential, y);
       summary.iterations += part.iterations;
       summary.solves += part.solves;
@@ -94,18 +96,39 @@ struct ActiveSpline<D>::Run {
       summary.converged = part.converged;
       if (!summary.finite) return {};
       PotentialState contact = potential.evaluate(problem.start + y);
-      if (contact.entered < 0 || contact.entry <= rigid_gap) return contact;
-      const auto t = static_cast<std::size_t>(contact.entered);
-      const Tool& tool = potential.tool(t);
-      if (!tool.rigid) return contact;
-      if (potential.stiffness(t) >= max_tool_stiffness) {
-        summary.converged = false;
-        note = fmt::format(
-            "tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net cannot give way",
-            tool.name, contact.entry);
-        return contact;
+      if (contact.entered < 0) return contact;
+      bool again = false;
+      double gap = 0;
+      int entered = -1;
+      for (std::size_t t = 0; t < potential.tool_count(); ++t) {
+        if (!potential.tool(t).collides()) continue;
+        const double size = potential.size(t), entry = potential.deepest_entry(t, problem.start + y) / size;
+        if (entry > gap) {
+          gap = entry;
+          entered = static_cast<int>(t);
+        }
+        if (!potential.tool(t).rigid || entry <= rigid_gap) continue;
+        if (round == max_rigid_rounds) {
+          summary.converged = false;
+          note = fmt::format(
+              "tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net cannot give way",
+              potential.tool(t).name, entry);
+          continue;
+        }
+        again = true;
+        if (contact.entry > rigid_gap && static_cast<int>(t) == contact.entered) {
+          if (potential.stiffness(t) < max_tool_stiffness) {
+            potential.set_stiffness(t, std::min(10 * potential.stiffness(t), max_tool_stiffness));
+          } else {
+            round = max_rigid_rounds - 1;  // the hardest springs give: once more, and it is said
+          }
+        } else {
+          potential.set_offset(t, potential.offset(t) + (entry - 0.5 * rigid_gap) * size);
+        }
       }
-      potential.set_stiffness(t, std::min(10 * potential.stiffness(t), max_tool_stiffness));
+      contact.entry = gap;
+      contact.entered = entered;
+      if (!again) return contact;
     }
   }
 

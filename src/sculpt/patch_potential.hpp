@@ -36,6 +36,18 @@ class PatchPotential final : public Potential {
     tools_[tool].set_stiffness(stiffness);
     given_[tool] = stiffness;
   }
+  /// Collision with tool k starts this much further out.
+  void set_offset(std::size_t k, double offset) { tools_[k].set_offset(offset); }
+  [[nodiscard]] double offset(std::size_t k) const { return tools_[k].offset(); }
+  /// How deep anything reaches into tool k itself, between Gauss points too.
+  [[nodiscard]] double deepest_entry(std::size_t k, const Points& x) const {
+    double deepest = 0;
+    for (std::size_t l = 0; l < loads_.size(); ++l)
+      deepest = std::max(deepest, loads_[l].deepest_entry(x, rows_[l], tools_[k]));
+    return deepest;
+  }
+  [[nodiscard]] std::size_t tool_count() const { return tools_.size(); }
+  [[nodiscard]] double size(std::size_t k) const { return tools_[k].size(); }
   [[nodiscard]] const Tool& tool(std::size_t k) const { return tools_[k].tool(); }
   [[nodiscard]] double stiffness(std::size_t k) const { return given_[k]; }
 

@@ -90,13 +90,21 @@ ModelTool::ModelTool(const Tool& tool, const Point& centre, double length)
   upper_ = (box.upper / length).array() + margin;
 }
 
+void ModelTool::set_offset(double offset) {
+  lower_ = lower_.array() - (offset - offset_);
+  upper_ = upper_.array() + (offset - offset_);
+  offset_ = offset;
+}
+
+double ModelTool::distance(const Point& x) const { return tool_.shape.nearest(Point(length_ * x)).distance / length_; }
+
 bool ModelTool::may_reach(const Point& lower, const Point& upper) const {
   if ((upper.array() < lower_.array()).any() || (lower.array() > upper_.array()).any()) return false;
   // Distances are 1-Lipschitz.
   const Point middle = 0.5 * (lower + upper);
   const double radius = 0.5 * (upper - lower).norm(),
                phi = tool_.shape.nearest(Point(length_ * middle)).distance / length_;
-  if (tool_.collides()) return phi <= radius;
+  if (tool_.collides()) return phi <= radius + offset_;
   return std::abs(phi) <= radius + range_;
 }
 
@@ -104,7 +112,7 @@ ToolAction ModelTool::action(const Point& x) const {
   ToolAction action;
   if ((x.array() < lower_.array()).any() || (x.array() > upper_.array()).any()) return action;
   const Nearest near = tool_.shape.nearest(Point(length_ * x));
-  const double phi = near.distance / length_, k = tool_.stiffness;
+  const double phi = near.distance / length_ - offset_, k = tool_.stiffness;
   double slope = 0, curvature = 0;  // ψ'(φ) and ψ''(φ)
   if (tool_.collides()) {
     if (phi >= 0) return action;

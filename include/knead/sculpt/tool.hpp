@@ -43,8 +43,8 @@ inline constexpr double rigid_gap = 1e-4;
 /// all finite; the error names the field.
 [[nodiscard]] Expected<Tool> validated(const Tool& tool);
 
-/// The mirror image of a tool in the plane through `point` with this normal (of length 1); nothing where the tool is its own
-/// image, to 1e-9 of its size. Errors: those of the shape.
+/// The mirror image of a tool in the plane through `point` with this normal (of length 1); nothing where the tool is
+/// its own image, to 1e-9 of its size. Errors: those of the shape.
 [[nodiscard]] Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, const Point& normal);
 
 /// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian ∂²ψ, which need not
@@ -76,13 +76,19 @@ class ModelTool {
   /// The smallest feature of the shape, but at most 1.
   [[nodiscard]] double size() const { return size_; }
 
+  /// Collision keeps points this far away from the tool (0 unless said), in units of the model.
+  void set_offset(double offset);
+  [[nodiscard]] double offset() const { return offset_; }
+
+  /// Signed distance to the tool itself.
+  [[nodiscard]] double distance(const Point& x) const;
   [[nodiscard]] ToolAction action(const Point& x) const;
   /// False where it is certain that nothing in the box is acted on.
   [[nodiscard]] bool may_reach(const Point& lower, const Point& upper) const;
 
  private:
   Tool tool_;  // its shape moved by −centre, still in file units
-  double length_, range_, size_;
+  double length_, range_, size_, offset_ = 0;
   Point lower_, upper_;  // of what it acts on
 };
 

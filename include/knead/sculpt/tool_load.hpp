@@ -62,6 +62,11 @@ class ToolLoad {
   [[nodiscard]] FrictionAnchors anchors(const Points& x, int first, std::span<const ModelTool> tools,
                                         double slip) const;
 
+  /// How deep the shape with control points x reaches into a tool, anywhere and not at Gauss points alone: sampled
+  /// three times as densely, and the deepest samples refined by a compass search, to 1e-6 of the distance of the
+  /// samples.
+  [[nodiscard]] double deepest_entry(const Points& x, int first, const ModelTool& tool) const;
+
   [[nodiscard]] long long points() const;
 
  private:
@@ -85,6 +90,7 @@ class ToolLoad {
 
   std::array<int, D> net_{};
   std::array<BasisQuadrature, D> quadrature_;
+  std::vector<KnotVector> knots_;
   std::array<std::vector<int>, D> spans_;       // first Gauss point of every span, and the end
   std::array<std::vector<double>, D> lengths_;  // of every span, normalised
   std::vector<double> weights_;                 // of the control points; empty for a polynomial spline
