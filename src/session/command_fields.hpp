@@ -113,8 +113,10 @@ KNEAD_COMMAND(KeepCommand, "keep", "hold a curve of the surface") {
   v.field("tolerance", Presence::optional, c.tolerance, "of a polyline, as a share of the motion around it");
 }
 KNEAD_COMMAND(SymmetryCommand, "symmetry", "keep a symmetry") {
-  v.field("edge", Presence::optional, c.edge, "u0, u1, v0 or v1: stays in a plane, the surface perpendicular to it; or:");
-  v.field("mirror", Presence::optional, c.mirror, "u or v: the surface stays its own mirror image along that direction");
+  v.field("edge", Presence::optional, c.edge,
+          "u0, u1, v0 or v1: stays in a plane, the surface perpendicular to it; or:");
+  v.field("mirror", Presence::optional, c.mirror,
+          "u or v: the surface stays its own mirror image along that direction");
   v.field("point", Presence::optional, c.point, "[x, y, z] of the plane; default for `mirror`: the best plane");
   v.field("normal", Presence::optional, c.normal, "[x, y, z] of the plane");
 }
@@ -124,7 +126,8 @@ KNEAD_COMMAND(SmoothCommand, "smooth", "keep what is smooth smooth; on unless sw
 }
 KNEAD_COMMAND(SeamsCommand, "seams", "couple selected surfaces, and each with itself, along shared edges") {
   v.field("couple", Presence::optional, c.couple, "false: they may tear apart");
-  v.field("tolerance", Presence::optional, c.tolerance, "length; default: 1e-5 of the diagonal of the selected surfaces");
+  v.field("tolerance", Presence::optional, c.tolerance,
+          "length; default: 1e-4 of the diagonal of the selected surfaces");
 }
 KNEAD_COMMAND(ReleaseCommand, "release", "free all that is held, pinned, frozen or kept") {}
 KNEAD_COMMAND(ToolCommand, "tool", "put a tool into the scene, or replace the one of that name") {
@@ -190,7 +193,8 @@ KNEAD_COMMAND(LoadCommand, "load", "loads everywhere on the selected surfaces; r
 }
 KNEAD_COMMAND(LimitCommand, "limit", "no point moves further from the surface as opened") {
   v.field("distance", Presence::optional, c.distance, "length; left out: no limit");
-  v.field("relative", Presence::optional, c.relative, "a fraction of the surface's bounding-box diagonal, not a length");
+  v.field("relative", Presence::optional, c.relative,
+          "a fraction of the surface's bounding-box diagonal, not a length");
 }
 KNEAD_COMMAND(EvolveCommand, "evolve", "what steps do; static solves at once") {
   v.choice("mode", c.mode, std::span<const Choice<Evolution>>(evolutions),
@@ -218,7 +222,7 @@ KNEAD_COMMAND(DragCommand, "drag", "take hold of a surface point, drag it and le
   v.field("at", Presence::required, c.at, "[s, t]: the surface point, at fractions of its domain");
   v.field("by", Presence::required, c.by, "[dx, dy, dz]");
   v.field("radius", Presence::optional, c.radius, "of the footprint, a length; default: 0.1 of the diagonal");
-  v.field("strength", Presence::optional, c.strength, "spring constant of the grip, per area");
+  v.field("strength", Presence::optional, c.strength, "spring constant of the grip");
   v.field("steps", Presence::optional, c.steps, "steps on the way");
   v.field("plasticity", Presence::optional, c.plasticity, "share of the result that stays, 0 to 1");
   v.field("relative", Presence::optional, c.relative, "`by` and radius are fractions of the bounding-box diagonal");

@@ -275,11 +275,11 @@ struct Writer {
   }
 };
 
-/// One line of help per field: name, default, meaning.
+/// One line of help per field: name, meaning, default.
 struct HelpWriter {
   std::string text;
   void add(std::string_view name, const std::string& value, std::string_view help) {
-    text += fmt::format("      {:<15} {}{}\n", name, help, value);
+    text += fmt::format("  {:<15} {}{}\n", name, help, help.empty() && !value.empty() ? value.substr(1) : value);
   }
   template <class T>
   void field(std::string_view name, Presence presence, const T& member, std::string_view help) {
@@ -301,6 +301,46 @@ struct HelpWriter {
     std::vector<std::string_view> names;
     for (const Choice<E>& c : choices) names.push_back(c.name);
     add(name, fmt::format(" ({})", joined(names)), help);
+  }
+};
+
+/// The fields in a few lines: names with their defaults.
+struct BriefWriter {
+  static constexpr std::size_t indent = 14, width = 110;
+  std::string text = {};
+  std::size_t column = indent;
+
+  void add(std::string_view name, const std::string& value) {
+    const std::string entry = fmt::format("{}{}{}", name, value.empty() ? "" : " ", value);
+    if (!text.empty()) {
+      text += ",";
+      column += 1;
+    }
+    if (text.empty() || column + 1 + entry.size() > width) {
+      text += fmt::format("{}{:{}}", text.empty() ? "" : "\n", "", indent);
+      column = indent;
+    } else {
+      text += " ";
+      column += 1;
+    }
+    text += entry;
+    column += entry.size();
+  }
+  template <class T>
+  void field(std::string_view name, Presence presence, const T& member, std::string_view) {
+    add(name, presence == Presence::required ? "(required)" : write(member));
+  }
+  template <class T>
+  void field(std::string_view name, Presence, const std::optional<T>&, std::string_view) {
+    add(name, "");
+  }
+  template <class E>
+  void choice(std::string_view name, const E& member, std::span<const Choice<E>> choices, std::string_view) {
+    add(name, fmt::format("\"{}\"", name_of(member, choices)));
+  }
+  template <class E>
+  void choice(std::string_view name, const std::optional<E>&, std::span<const Choice<E>>, std::string_view) {
+    add(name, "");
   }
 };
 
@@ -363,14 +403,36 @@ std::string script_json(const std::vector<Command>& commands) {
   return text + (commands.empty() ? "]}\n" : "\n]}\n");
 }
 
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for_each_command([&names]<class C>(const C&) { names.emplace_back(CommandInfo<C>::name); });
+  return names;
+}
+
 std::string command_help() {
   std::string text;
   for_each_command([&text]<class C>(const C& command) {
-    HelpWriter writer;
+    BriefWriter writer;
     CommandInfo<C>::visit(command, writer);
-    text += fmt::format("  {:<10} {}\n{}", CommandInfo<C>::name, CommandInfo<C>::help, writer.text);
+    text += fmt::format("  {:<11} {}\n{}{}", CommandInfo<C>::name, CommandInfo<C>::help, writer.text,
+                        writer.text.empty() ? "" : "\n");
   });
   return text;
+}
+
+Expected<std::string> command_help(const std::string& name) {
+  std::string text;
+  for_each_command([&]<class C>(const C& command) {
+    if (CommandInfo<C>::name != name) return;
+    HelpWriter writer;
+    CommandInfo<C>::visit(command, writer);
+    text = fmt::format("{}: {}\n{}", name, CommandInfo<C>::help, writer.text.empty() ? "  (no fields)\n" : writer.text);
+  });
+  if (!text.empty()) return text;
+  std::string known;
+  for (const std::string& other : command_names()) known += (known.empty() ? "" : ", ") + other;
+  return std::unexpected(
+      Error{ErrorKind::usage, "there is no command \"" + name + "\"", "NAME", "the commands are: " + known});
 }
 
 }  // namespace knead

@@ -109,7 +109,7 @@ Expected<void> Executor::operator()(const ToolCommand& c) {
 
 Expected<void> Executor::operator()(const RemoveCommand& c) {
   const auto force = std::ranges::find_if(
-      state.forces, [&](const ForceCommand& f) { return c.tool ? f.name == *c.tool : state.tools.empty(); });
+      state.forces, [&](const PlacedForce& f) { return c.tool ? f.force.name == *c.tool : state.tools.empty(); });
   if (force != state.forces.end() && (c.tool || state.forces.size() == 1)) {
     state.forces.erase(force);
     return {};
@@ -173,11 +173,11 @@ Expected<void> Executor::operator()(const ForceCommand& c) {
   if (!(std::isfinite(c.core) && c.core > 0)) {
     return input_error(fmt::format("{} is not a length", c.core), "core", "use a number > 0");
   }
-  const auto same = std::ranges::find(state.forces, c.name, [](const ForceCommand& f) { return f.name; });
+  const auto same = std::ranges::find(state.forces, c.name, [](const PlacedForce& f) { return f.force.name; });
   if (same != state.forces.end()) {
-    *same = c;
+    *same = {c, *state.selected};
   } else {
-    state.forces.push_back(c);
+    state.forces.push_back({c, *state.selected});
   }
   return {};
 }

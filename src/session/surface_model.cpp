@@ -11,7 +11,7 @@
 namespace knead {
 namespace {
 
-constexpr double pole_tolerance = 1e-9;   // of the surface's size
+constexpr double pole_tolerance = 1e-9;  // of the surface's size
 constexpr double pole_flatness = 1e-6;
 constexpr double symmetry_tolerance = 1e-6;
 constexpr double symmetry_angle = 1e-3;
@@ -24,11 +24,6 @@ double detail_of(const std::vector<Tool>& tools) {
     if (std::isfinite(size) && (detail == 0 || size < detail)) detail = size;
   }
   return detail;
-}
-
-/// The present displacement of a surface from its rest shape.
-Points displacement(const SurfaceState& s) {
-  return s.current->control_points() - s.rest->control_points();
 }
 
 std::vector<SurfaceEdge> edges_of(EdgeChoice which) {
@@ -50,6 +45,7 @@ std::vector<SurfaceEdge> edges_of(EdgeChoice which) {
 /// Appends what one request asks for.
 struct Asked {
   const SurfaceState& surface;
+  const Surface& where;
   ConstraintList& list;
 
   Expected<void> operator()(const EdgeCommand& c) const {
@@ -111,7 +107,8 @@ struct Asked {
     if (c.point) plane.point = Point((*c.point)[0], (*c.point)[1], (*c.point)[2]);
     if (c.edge) {
       for (SurfaceEdge edge : edges_of(*c.edge)) {
-        auto done = hold_symmetry_plane(*surface.reference, edge, plane, 1, symmetry_tolerance * size, symmetry_angle, list);
+        auto done =
+            hold_symmetry_plane(*surface.reference, edge, plane, 1, symmetry_tolerance * size, symmetry_angle, list);
         if (!done) return done;
       }
       return {};
@@ -128,12 +125,12 @@ struct Asked {
   }
 
  private:
-  /// What `f` appends is held where it is now, not where it was at rest.
+  /// What `f` appends is held where it was when that was asked for, not where it is at rest.
   template <class F>
   Expected<void> holding(const F& f) const {
     const std::size_t first = list.constraints.size();
     if (auto done = f(); !done) return done;
-    keep_present(list, displacement(surface), first);
+    keep_present(list, where.control_points() - surface.rest->control_points(), first);
     return {};
   }
 };
@@ -149,8 +146,8 @@ Expected<ConstraintList> constraints_of(const SurfaceState& s, std::vector<std::
     }
   }
   for (const auto& [i, j] : s.pins) list.hold(i * n + j, fmt::format("pin ({}, {})", i, j));
-  for (const ConstraintRequest& request : s.constraints) {
-    if (auto done = std::visit(Asked{s, list}, request); !done) return std::unexpected(done.error());
+  for (const auto& [request, where] : s.constraints) {
+    if (auto done = std::visit(Asked{s, *where, list}, request); !done) return std::unexpected(done.error());
   }
   if (s.mode == RestMode::none) return list;  // the energy acts on the shape itself: there is no rest to stay smooth to
   if (s.smooth_knot_lines) {
@@ -158,7 +155,8 @@ Expected<ConstraintList> constraints_of(const SurfaceState& s, std::vector<std::
     if (!lines) return std::unexpected(lines.error());
     for (const SmoothLine& line : *lines) {
       if (line.state == SmoothLine::State::crease) {
-        notes.push_back(fmt::format("{}: the crease at {} = {:.6g} may bend", s.id, line.direction == 0 ? "u" : "v", line.knot));
+        notes.push_back(
+            fmt::format("{}: the crease at {} = {:.6g} may bend", s.id, line.direction == 0 ? "u" : "v", line.knot));
       }
     }
   }
@@ -199,7 +197,8 @@ Expected<std::array<Interval, 2>> region_at(const Surface& surface, const std::a
   std::array<Interval, 2> result;
   for (std::size_t d = 0; d < 2; ++d) {
     if ((*upper)[d] < (*lower)[d]) {
-      return input_error("a side of the region decreases", "region", "write [[s0, s1], [t0, t1]] with s0 <= s1, t0 <= t1");
+      return input_error("a side of the region decreases", "region",
+                         "write [[s0, s1], [t0, t1]] with s0 <= s1, t0 <= t1");
     }
     result[d] = {(*lower)[d], (*upper)[d]};
   }
@@ -226,6 +225,12 @@ std::vector<std::pair<int, double>> basis_terms(const Surface& surface, const st
   }
   for (auto& term : terms) term.second /= sum;
   return terms;
+}
+
+Expected<FoundSeams> seams_between(const SessionState& state, std::span<const Surface* const> patches) {
+  const double tolerance = state.seams.tolerance.value_or(suggested_seam_tolerance(patches));
+  if (tolerance == 0) return FoundSeams{};  // surfaces that are one point
+  return find_seams(patches, tolerance);
 }
 
 ModelInput model_input(const SessionState& state, const EvolveCommand& evolve) {
@@ -273,7 +278,8 @@ Expected<SurfaceModel> make_model(const SessionState& state, ModelInput input) {
     }
     for (const Coefficient<2>& c : s.material.alpha) varying = varying || !std::holds_alternative<double>(c);
     for (const Coefficient<2>& c : s.material.beta) varying = varying || !std::holds_alternative<double>(c);
-    varying = varying || !std::holds_alternative<double>(s.material.mass) || !std::holds_alternative<double>(s.material.damping);
+    varying = varying || !std::holds_alternative<double>(s.material.mass) ||
+              !std::holds_alternative<double>(s.material.damping);
     varying = varying || !(s.material == input.materials.front());
     patches.push_back(*s.reference);
     pointers.push_back(s.reference.get());
@@ -283,13 +289,17 @@ Expected<SurfaceModel> make_model(const SessionState& state, ModelInput input) {
 
   std::vector<SeamReport> reports;
   if (state.seams.couple) {
-    const double tolerance = state.seams.tolerance.value_or(suggested_seam_tolerance(pointers));
-    const auto found = find_seams(pointers, tolerance);
+    const auto found = seams_between(state, pointers);
     if (!found) return std::unexpected(found.error());
     auto coupled = couple_seams(pointers, rows, found->seams);
     if (!coupled) return std::unexpected(coupled.error());
     settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
     reports = std::move(coupled->reports);
+    const std::vector<int> selection = state.selection();
+    for (SeamReport& report : reports) {
+      for (PatchEdge* edge : {&report.seam.a, &report.seam.b})
+        edge->patch = selection[static_cast<std::size_t>(edge->patch)];
+    }
   }
 
   const MaterialFieldOf<2>& material = input.materials.front();
@@ -345,13 +355,21 @@ Expected<ActiveLoads> active_loads(const SessionState& state) {
   loads.gravity = vector(state.load.gravity);
   loads.pressure = state.load.pressure;
   loads.wind = vector(state.load.wind);
-  for (const ForceCommand& f : state.forces) {
-    const SurfaceState& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
+  for (const auto& [f, surface] : state.forces) {
+    int first = 0;
+    bool selected = false;
+    for (int k : state.selection()) {
+      selected = k == surface;
+      if (selected) break;
+      first += state.surfaces[static_cast<std::size_t>(k)].current->size();
+    }
+    if (!selected) continue;
+    const SurfaceState& s = state.surfaces[static_cast<std::size_t>(surface)];
     const auto u = parameters_at(*s.current, f.at);
     if (!u) return std::unexpected(u.error());
     PointForce force;
     force.kind = f.kind == PointForceKind::spring ? PointForce::Kind::spring : PointForce::Kind::volcano;
-    force.terms = basis_terms(*s.current, *u, 0);
+    force.terms = basis_terms(*s.current, *u, first);
     force.to = vector(f.to);
     force.strength = f.strength;
     force.core = f.core;

@@ -93,8 +93,8 @@ struct KeepCommand {
   friend bool operator==(const KeepCommand&, const KeepCommand&) = default;
 };
 
-/// Half a symmetric model: an edge stays in a plane and the surface perpendicular to it; or a whole surface that stays its
-/// own mirror image.
+/// Half a symmetric model: an edge stays in a plane and the surface perpendicular to it; or a whole surface that stays
+/// its own mirror image.
 struct SymmetryCommand {
   std::optional<EdgeChoice> edge;
   std::optional<std::string> mirror;  ///< "u" or "v"
@@ -112,7 +112,7 @@ struct SmoothCommand {
 /// How patches that are selected together are coupled.
 struct SeamsCommand {
   bool couple = true;
-  std::optional<double> tolerance;  ///< a length; default: 1e-5 of the diagonal
+  std::optional<double> tolerance;  ///< a length; default: 1e-4 of the diagonal
 
   friend bool operator==(const SeamsCommand&, const SeamsCommand&) = default;
 };
@@ -124,18 +124,18 @@ struct ReleaseCommand {};
 struct ToolCommand {
   std::string name = "tool";
   std::string shape = "sphere";
-  std::optional<double> radius;                  ///< default: a tenth of the surface's bounding-box diagonal
+  std::optional<double> radius;  ///< default: a tenth of the surface's bounding-box diagonal
   std::optional<double> minor, height, rounding, thickness, top_radius;
-  std::optional<Vector3> sizes;                  ///< semi-axes or half sizes
+  std::optional<Vector3> sizes;  ///< semi-axes or half sizes
   std::optional<std::array<double, 2>> exponents;
-  std::optional<std::string> surface;            ///< of shape "surface": its id
-  std::optional<Vector3> axis;                   ///< where the tool's own z points
-  std::optional<Vector3> scale;                  ///< along its own axes
-  std::optional<Vector3> position;               ///< of the centre; or:
-  std::optional<Fractions> at;                   ///< centre on the surface
+  std::optional<std::string> surface;  ///< of shape "surface": its id
+  std::optional<Vector3> axis;         ///< where the tool's own z points
+  std::optional<Vector3> scale;        ///< along its own axes
+  std::optional<Vector3> position;     ///< of the centre; or:
+  std::optional<Fractions> at;         ///< centre on the surface
   ToolMode mode = ToolMode::collision;
-  std::optional<double> stiffness;               ///< default: 1e4 for collision, 100 for proximity
-  std::optional<double> range;                   ///< default: half the size
+  std::optional<double> stiffness;  ///< default: 1e4 for collision, 100 for proximity
+  std::optional<double> range;      ///< default: half the size
   ToolDirection direction = ToolDirection::pull;
   bool rigid = false;
   double friction = 0;
