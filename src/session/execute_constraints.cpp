@@ -35,10 +35,10 @@ Expected<void> Executor::operator()(const HoldCommand& c) {
 Expected<void> Executor::operator()(const PinCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
+  if (c.to && !c.at) return input_error("there is no point to bring there", "to", "give at, the surface point");
   if (c.control_points.empty() && !c.at) {
     return input_error("nothing is pinned", "control_points", "give control_points, or at");
   }
-  if (c.to && !c.at) return input_error("there is no point to bring there", "to", "give at, the surface point");
   const auto [m, n] = (*surface)->rest->net();
   for (std::size_t k = 0; k < c.control_points.size(); ++k) {
     const auto [i, j] = c.control_points[k];

@@ -229,7 +229,7 @@ TEST(Sculpt, LeftOutFieldsMeanTheirDocumentedDefaults) {
                                       {"relative", false}}),
                      command("move", {{"tool", "tool"}, {"by", {1, 2, 3}}, {"relative", false}}),
                      command("step", {{"count", 1}, {"lambda", 1}, {"weight", "mass"}})};
-  const std::stskin a = content_of(sculpted(workshop, brief, "a.step"));
+  const std::string a = content_of(sculpted(workshop, brief, "a.step"));
   EXPECT_TRUE(identical(a, content_of(sculpted(workshop, full, "b.step"))));
   EXPECT_FALSE(identical(a, content_of(bonnet())));
 }

@@ -66,7 +66,7 @@ TEST(CommandJson, ReadsEveryCommand) {
 const std::vector<std::string> all_commands = {
     R"({"do":"new","shape":"plane","size":[2,3],"degree":[2,4],"net":[5,6],"knots_u":[0,0,1,1],"knots_v":[0,1],"name":"a \"b\""})",
     R"({"do":"select","surface":"#1","surfaces":["#2","#3"],"connected":true})",
-    R"({"do":"material","alpha":[0.10000000000000001,0.5,1],"beta":[1e-300,2,3],"mass":2,"damping":3,"region":[[0,0.5],[0.25,1]],"falloff":0.2})",
+    R"({"do":"material","alpha":[0.10000000000000001,0.5,1],"beta":[1e-300,2,3],"mass":2,"damping":3,"region":[[0,0.5],[0.25,1]],"falloff":0.25})",
     R"({"do":"rest","mode":"none"})",
     R"({"do":"scaling","mode":"raw"})",
     R"({"do":"hold","rows":3})",
@@ -177,7 +177,7 @@ TEST(CommandJson, ScriptErrorsSayWhere) {
 }
 
 TEST(CommandJson, HelpNamesEveryCommandAndField) {
-  const std::string brief = command_help();
+  const std::string brief = "\n" + command_help();
   for (const std::string& text : all_commands) {
     const nlohmann::json command = nlohmann::json::parse(text);
     const std::string name = command.at("do");

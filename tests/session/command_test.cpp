@@ -237,7 +237,7 @@ TEST(Command, EveryShapeOfToolPressesItsDent) {
                                            R"("capsule","radius":1.5,"height":2,"axis":[1,0,0])",
                                            R"("torus","radius":2,"minor":1.5)",
                                            R"("plane","axis":[0,0,1])",
-                                           R"("bowl","radius":2,"thickness":0.5)",
+                                           R"("bowl","radius":2,"thickness":0.5,"axis":[0,0,-1])",
                                            R"("superellipsoid","sizes":[2,2,1.5],"exponents":[0.5,0.5])",
                                            R"("supertoroid","radius":2,"minor":1.5,"exponents":[1,1])"};
   for (const std::string& shape : shapes) {
