@@ -76,6 +76,19 @@ TEST(Errors, ASingularStepIsANumericalFailure) {
   EXPECT_TRUE(refused(nothing_to_hold_it, 4, {"commands[2]", "lambda"}));
 }
 
+TEST(Errors, ABalanceThatNothingHoldsIsANumericalFailure) {
+  const Json loose = {skin, command("load", {{"vector", {0, 0, 1}}}), command("evolve", {{"mode", "static"}})};
+  EXPECT_TRUE(refused(loose, 4, {"commands[2]", "evolve", "hold an edge or pin points"}));
+}
+
+TEST(Errors, AFileOrNewIsNeeded) {
+  const Workshop workshop;
+  const std::string script = workshop.script(Json::array()), out = workshop / "out.step";
+  EXPECT_TRUE(fails_with(knead({"sculpt", "-o", out, "--script", script}), 2, {"FILE", "--new"}));
+  EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "--new", "-o", out, "--script", script}), 2, {"FILE", "--new"}));
+  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", out, "--script", script}), 3, {"no surface"}));
+}
+
 TEST(Errors, ABrokenFileIsNamedWithLineAndEntityAndNothingIsWritten) {
   const Workshop workshop;
   const std::string whole = content_of(bonnet());

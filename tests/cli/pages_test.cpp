@@ -35,6 +35,25 @@ TEST(Pages, EveryScriptShownSculptsTheSample) {
   }
 }
 
+TEST(Pages, ThePlateShownHasTheDeflectionStated) {
+  const std::string text = page("docs/scripts.md"), begin = "\n    {\"knead\":1,", end = "\n    ]}";
+  const std::size_t at = text.find(begin);
+  ASSERT_NE(at, std::string::npos);
+  const std::string script = text.substr(at, text.find(end, at) + end.size() - at);
+  const auto deflection = [](const std::string& script_text) {
+    const Workshop workshop;
+    const Outcome run = knead({"sculpt", "--new", "-o", workshop / "plate.step", "--script",
+                               workshop.file("script.json", script_text), "--report", workshop / "report.json"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(knead({"info", workshop / "plate.step"}).code, 0);
+    return Json::parse(content_of(workshop / "report.json")).at("largest_displacement").get<double>();
+  };
+  EXPECT_NEAR(deflection(script), 0.00126532, 5e-9);
+  std::string supported = script;
+  supported.replace(supported.find("clamped"), 7, "position");
+  EXPECT_NEAR(deflection(supported), 0.00406235, 5e-9);
+}
+
 TEST(Pages, EveryCommandAndFieldOfTheHelpIsExplained) {
   const std::string text = page("docs/scripts.md");
   int fields = 0;
