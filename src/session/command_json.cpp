@@ -275,6 +275,13 @@ struct Writer {
   }
 };
 
+/// A default for people: as few digits as it takes; nothing for an empty list.
+template <class T>
+std::string shown(const T& value) {
+  const Json json = Json::parse(write(value), nullptr, false);
+  return json.is_array() && json.empty() ? "" : json.dump();
+}
+
 /// One line of help per field: name, meaning, default.
 struct HelpWriter {
   std::string text;
@@ -283,7 +290,8 @@ struct HelpWriter {
   }
   template <class T>
   void field(std::string_view name, Presence presence, const T& member, std::string_view help) {
-    add(name, presence == Presence::required ? " (required)" : " (default " + write(member) + ")", help);
+    const std::string value = shown(member);
+    add(name, presence == Presence::required ? " (required)" : value.empty() ? "" : " (default " + value + ")", help);
   }
   template <class T>
   void field(std::string_view name, Presence, const std::optional<T>&, std::string_view help) {
@@ -328,7 +336,7 @@ struct BriefWriter {
   }
   template <class T>
   void field(std::string_view name, Presence presence, const T& member, std::string_view) {
-    add(name, presence == Presence::required ? "(required)" : write(member));
+    add(name, presence == Presence::required ? "(required)" : shown(member));
   }
   template <class T>
   void field(std::string_view name, Presence, const std::optional<T>&, std::string_view) {

@@ -66,7 +66,11 @@ TEST(RealFiles, SurfacesOfEveryKindBendWithoutCreasesAndKeepTheirConstraints) {
       SCOPED_TRACE(entry.path().filename().string() + " " + s.id);
       run(session, {R"({"do":"select","surface":")" + s.id + R"("})",
                     R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})",
-                    R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})", R"({"do":"step","lambda":3})"});
+                    R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
+      if (const auto done = session.execute(StepCommand{1, 3, {}}); !done) {
+        EXPECT_NE(done.error().what.find("no area"), std::string::npos) << done.error().message();
+        continue;
+      }
       const StepRecord& step = session.state().steps.back();
       EXPECT_LE(step.violation, 1e-10 * size);
       EXPECT_TRUE(std::isfinite(step.energy));
@@ -75,7 +79,7 @@ TEST(RealFiles, SurfacesOfEveryKindBendWithoutCreasesAndKeepTheirConstraints) {
         EXPECT_LT(largest_crease(*session.state().surfaces[k].current), 1e-3) << "degrees";
         ++lines;
       }
-      run(session, {R"({"do":"edge","hold":"clamped"})", R"({"do":"step","lambda":3})"});
+      run(session, {R"({"do":"undo"})", R"({"do":"edge","hold":"clamped"})", R"({"do":"step","lambda":3})"});
       EXPECT_LE(session.state().steps.back().violation, 1e-10 * size);
       const auto bytes = session.save();
       ASSERT_TRUE(bytes) << bytes.error().message();
