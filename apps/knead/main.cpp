@@ -71,9 +71,9 @@ int main(int argc, char** argv) {
   app.footer(std::string(knead::cli::exit_codes) +
              "\nErrors are one line on standard error: file, place, what is wrong; remedy."
              "\n`knead COMMAND --help` tells more about a command.");
-  const std::array<knead::cli::Action, 5> actions = {knead::cli::add_info(app), knead::cli::add_sculpt(app),
-                                                     knead::cli::add_gramian(app), knead::cli::add_stiffness(app),
-                                                     knead::cli::add_basis(app)};
+  const std::array<knead::cli::Action, 6> actions = {knead::cli::add_info(app),      knead::cli::add_sculpt(app),
+                                                     knead::cli::add_commands(app),  knead::cli::add_gramian(app),
+                                                     knead::cli::add_stiffness(app), knead::cli::add_basis(app)};
   try {
     app.parse(joined_arguments(argc, argv));
   } catch (const CLI::Success& done) {

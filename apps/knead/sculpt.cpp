@@ -101,8 +101,7 @@ const char* continuity_name(SeamContinuity continuity) {
 }
 
 std::string edge_of(const SessionState& state, const PatchEdge& edge) {
-  const auto index = static_cast<std::size_t>(state.selection()[static_cast<std::size_t>(edge.patch)]);
-  return fmt::format("{} {}", state.surfaces[index].id, edge_name(edge.edge));
+  return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id, edge_name(edge.edge));
 }
 
 std::string report_json(const SessionState& state, const Outcome& o) {
@@ -260,7 +259,8 @@ Action add_sculpt(CLI::App& app) {
   command->add_option("--report", options->report, "JSON file to write what every step did to, see below");
   command->add_option("--picture", options->picture, "SVG file to draw the displacement over (u, v) to");
   command->footer(
-      R"(The script is {"knead": 1, "commands": [{"do": "...", ...}, ...]}. Lengths are in file units. The commands:
+      R"(The script is {"knead": 1, "commands": [{"do": "...", ...}, ...]}. Lengths are in file units. The commands, and under each
+its fields with their defaults (`knead commands NAME` explains them):
 
 )" + command_help() +
       R"(

@@ -128,7 +128,7 @@ KNEAD_COMMAND(SmoothCommand, "smooth", "keep what is smooth smooth; on unless sw
 KNEAD_COMMAND(SeamsCommand, "seams", "couple selected surfaces, and each with itself, along shared edges") {
   v.field("couple", Presence::optional, c.couple, "false: they may tear apart");
   v.field("tolerance", Presence::optional, c.tolerance,
-          "length; default: 1e-5 of the diagonal of the selected surfaces");
+          "length; default: 1e-4 of the diagonal of the selected surfaces");
 }
 KNEAD_COMMAND(ReleaseCommand, "release", "free all that is held, pinned, frozen or kept") {}
 KNEAD_COMMAND(ToolCommand, "tool", "put a tool into the scene, or replace the one of that name") {
@@ -225,7 +225,7 @@ KNEAD_COMMAND(DragCommand, "drag", "take hold of a surface point, drag it and le
   v.field("at", Presence::required, c.at, "[s, t]: the surface point, at fractions of its domain");
   v.field("by", Presence::required, c.by, "[dx, dy, dz]");
   v.field("radius", Presence::optional, c.radius, "of the footprint, a length; default: 0.1 of the diagonal");
-  v.field("strength", Presence::optional, c.strength, "spring constant of the grip, per area");
+  v.field("strength", Presence::optional, c.strength, "spring constant of the grip");
   v.field("steps", Presence::optional, c.steps, "steps on the way");
   v.field("plasticity", Presence::optional, c.plasticity, "share of the result that stays, 0 to 1");
   v.field("relative", Presence::optional, c.relative, "`by` and radius are fractions of the bounding-box diagonal");

@@ -6,27 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "command_fields.hpp"
+#include "command_text.hpp"
 
 namespace knead {
 namespace {
-
-using Json = nlohmann::json;
-
-/// Calls f(CommandInfo<C>{}, C{}) for every kind of command.
-template <class F, std::size_t I = 0>
-void for_each_command(F&& f) {
-  if constexpr (I < std::variant_size_v<Command>) {
-    f(std::variant_alternative_t<I, Command>{});
-    for_each_command<F, I + 1>(std::forward<F>(f));
-  }
-}
-
-std::string joined(const std::vector<std::string_view>& names) {
-  std::string text;
-  for (std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
 
 // --- reading -------------------------------------------------------------------------------------------------------
 
@@ -213,45 +196,6 @@ Expected<Json> parse_json(std::string_view text) {
 
 // --- writing -------------------------------------------------------------------------------------------------------
 
-std::string number(double value) { return fmt::format("{:.17g}", value); }
-std::string write(double value) { return number(value); }
-std::string write(int value) { return fmt::format("{}", value); }
-std::string write(bool value) { return value ? "true" : "false"; }
-std::string write(EdgeChoice value);
-std::string write(const std::string& value) { return Json(value).dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-template <class T, std::size_t N>
-std::string write(const std::array<T, N>& value);
-template <class T>
-std::string write(const std::vector<T>& value);
-
-template <class Range>
-std::string write_list(const Range& value) {
-  std::string text;
-  for (const auto& entry : value) text += (text.empty() ? "" : ",") + write(entry);
-  return "[" + text + "]";
-}
-template <class T, std::size_t N>
-std::string write(const std::array<T, N>& value) {
-  return write_list(value);
-}
-template <class T>
-std::string write(const std::vector<T>& value) {
-  return write_list(value);
-}
-
-template <class E>
-std::string_view name_of(E value, std::span<const Choice<E>> choices) {
-  for (const Choice<E>& c : choices) {
-    if (c.value == value) return c.name;
-  }
-  return {};
-}
-
-std::string write(EdgeChoice value) {
-  return fmt::format("\"{}\"", name_of(value, std::span<const Choice<EdgeChoice>>(edge_choices)));
-}
-
 struct Writer {
   std::string text;
   void add(std::string_view name, const std::string& value) { text += fmt::format(",\"{}\":{}", name, value); }
@@ -272,35 +216,6 @@ struct Writer {
   void choice(std::string_view name, const std::optional<E>& member, std::span<const Choice<E>> choices,
               std::string_view help) {
     if (member) choice(name, *member, choices, help);
-  }
-};
-
-/// One line of help per field: name, default, meaning.
-struct HelpWriter {
-  std::string text;
-  void add(std::string_view name, const std::string& value, std::string_view help) {
-    text += fmt::format("      {:<15} {}{}\n", name, help, value);
-  }
-  template <class T>
-  void field(std::string_view name, Presence presence, const T& member, std::string_view help) {
-    add(name, presence == Presence::required ? " (required)" : " (default " + write(member) + ")", help);
-  }
-  template <class T>
-  void field(std::string_view name, Presence, const std::optional<T>&, std::string_view help) {
-    add(name, "", help);
-  }
-  template <class E>
-  void choice(std::string_view name, const E& member, std::span<const Choice<E>> choices, std::string_view help) {
-    std::vector<std::string_view> names;
-    for (const Choice<E>& c : choices) names.push_back(c.name);
-    add(name, fmt::format(" ({}; default {})", joined(names), name_of(member, choices)), help);
-  }
-  template <class E>
-  void choice(std::string_view name, const std::optional<E>&, std::span<const Choice<E>> choices,
-              std::string_view help) {
-    std::vector<std::string_view> names;
-    for (const Choice<E>& c : choices) names.push_back(c.name);
-    add(name, fmt::format(" ({})", joined(names)), help);
   }
 };
 
@@ -363,14 +278,10 @@ std::string script_json(const std::vector<Command>& commands) {
   return text + (commands.empty() ? "]}\n" : "\n]}\n");
 }
 
-std::string command_help() {
-  std::string text;
-  for_each_command([&text]<class C>(const C& command) {
-    HelpWriter writer;
-    CommandInfo<C>::visit(command, writer);
-    text += fmt::format("  {:<10} {}\n{}", CommandInfo<C>::name, CommandInfo<C>::help, writer.text);
-  });
-  return text;
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for_each_command([&names]<class C>(const C&) { names.emplace_back(CommandInfo<C>::name); });
+  return names;
 }
 
 }  // namespace knead

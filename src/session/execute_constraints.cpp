@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "executor.hpp"
 #include "knead/sculpt/constraints.hpp"
 
@@ -7,7 +9,14 @@ namespace knead {
 
 Expected<void> Executor::ask(const ConstraintRequest& request) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  for (int k : state.selection()) state.surfaces[static_cast<std::size_t>(k)].constraints.push_back(request);
+  for (int k : state.selection()) {
+    SurfaceState& s = state.surfaces[static_cast<std::size_t>(k)];
+    s.constraints.push_back({request, s.current});
+  }
+  return check_constraints();
+}
+
+Expected<void> Executor::check_constraints() {
   // What cannot be made is refused now and not at the next step. A large lambda makes a model of whatever can step.
   EvolveCommand evolve;
   evolve.lambda = 1e6;
@@ -26,10 +35,10 @@ Expected<void> Executor::operator()(const HoldCommand& c) {
 Expected<void> Executor::operator()(const PinCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
+  if (c.to && !c.at) return input_error("there is no point to bring there", "to", "give at, the surface point");
   if (c.control_points.empty() && !c.at) {
     return input_error("nothing is pinned", "control_points", "give control_points, or at");
   }
-  if (c.to && !c.at) return input_error("there is no point to bring there", "to", "give at, the surface point");
   const auto [m, n] = (*surface)->rest->net();
   for (std::size_t k = 0; k < c.control_points.size(); ++k) {
     const auto [i, j] = c.control_points[k];
@@ -52,14 +61,18 @@ Expected<void> Executor::operator()(const PinCommand& c) {
 
 Expected<void> Executor::operator()(const EdgeCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  if (c.hold != EdgeHold::free) return ask(c);
+  std::vector<EdgeChoice> edges = {c.which};  // one by one, so that they can be freed so
+  if (c.which == EdgeChoice::all) edges = {EdgeChoice::u0, EdgeChoice::u1, EdgeChoice::v0, EdgeChoice::v1};
   for (int k : state.selection()) {
-    std::erase_if(state.surfaces[static_cast<std::size_t>(k)].constraints, [&](const ConstraintRequest& r) {
-      const auto* edge = std::get_if<EdgeCommand>(&r);
-      return edge != nullptr && (c.which == EdgeChoice::all || edge->which == c.which);
+    SurfaceState& s = state.surfaces[static_cast<std::size_t>(k)];
+    std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
+      const auto* edge = std::get_if<EdgeCommand>(&kept.request);
+      return edge != nullptr && std::ranges::find(edges, edge->which) != edges.end();
     });
+    if (c.hold == EdgeHold::free) continue;
+    for (EdgeChoice edge : edges) s.constraints.push_back({EdgeCommand{edge, c.hold}, s.current});
   }
-  return {};
+  return c.hold == EdgeHold::free ? Expected<void>() : check_constraints();
 }
 
 Expected<void> Executor::operator()(const FreezeCommand& c) {

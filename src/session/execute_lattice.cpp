@@ -13,8 +13,8 @@ Expected<std::vector<Tool>> Executor::all_tools() {
   std::vector<Tool> tools = state.tools;
   if (!state.selected) return tools;
   const SurfaceState& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
-  for (const ConstraintRequest& request : s.constraints) {
-    const auto* symmetry = std::get_if<SymmetryCommand>(&request);
+  for (const KeptConstraint& kept : s.constraints) {
+    const auto* symmetry = std::get_if<SymmetryCommand>(&kept.request);
     if (symmetry == nullptr || !symmetry->mirror) continue;
     const auto plane = plane_of(*symmetry, *s.reference);
     if (!plane) return std::unexpected(plane.error());

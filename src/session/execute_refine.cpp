@@ -56,7 +56,10 @@ Expected<void> Executor::reshape(SurfaceState& surface, const F& change) {
   }
   // Shapes that are one object stay one.
   std::map<const Surface*, std::shared_ptr<const Surface>> changed;
-  for (auto* shape : {&surface.opened, &surface.reference, &surface.rest, &surface.current}) {
+  std::vector<std::shared_ptr<const Surface>*> shapes = {&surface.opened, &surface.reference, &surface.rest,
+                                                         &surface.current};
+  for (KeptConstraint& kept : surface.constraints) shapes.push_back(&kept.where);
+  for (auto* shape : shapes) {
     auto& made = changed[shape->get()];
     if (!made) {
       auto result = change(**shape);
@@ -91,10 +94,11 @@ Expected<void> Executor::refine_seams() {
   std::vector<const Surface*> patches;
   const std::vector<int> selection = state.selection();
   for (int index : selection) patches.push_back(state.surfaces[static_cast<std::size_t>(index)].reference.get());
-  const auto found = find_seams(patches, state.seams.tolerance.value_or(suggested_seam_tolerance(patches)));
+  const auto found = seams_between(state, patches);
   if (!found) return std::unexpected(found.error());
   std::vector<Seam> whole;
-  std::ranges::copy_if(found->seams, std::back_inserter(whole), [](const Seam& s) { return s.kind == SeamKind::whole; });
+  std::ranges::copy_if(found->seams, std::back_inserter(whole),
+                       [](const Seam& s) { return s.kind == SeamKind::whole; });
   for (const SeamRefinement& r : seam_refinements(patches, whole)) {
     SurfaceState& s = state.surfaces[static_cast<std::size_t>(selection[static_cast<std::size_t>(r.patch)])];
     auto done = reshape(s, [&](const Surface& shape) -> Expected<Surface> {
@@ -113,7 +117,8 @@ Expected<void> Executor::refine_seams() {
 Expected<void> Executor::operator()(const RefineCommand& c) {
   if (c.permission) state.permission = *c.permission;
   const bool knots = !c.knots_u.empty() || !c.knots_v.empty();
-  const int ways = static_cast<int>(c.region.has_value()) + static_cast<int>(c.under.has_value()) + static_cast<int>(knots);
+  const int ways =
+      static_cast<int>(c.region.has_value()) + static_cast<int>(c.under.has_value()) + static_cast<int>(knots);
   if (ways == 0 && c.permission) return {};
   if (ways != 1) {
     return input_error("what to refine is not clear", "region", "give one of region, under, and knots_u with knots_v");
@@ -124,7 +129,8 @@ Expected<void> Executor::operator()(const RefineCommand& c) {
     if (!tool) return std::unexpected(tool.error());
     const auto any = refine_under(**tool);
     if (!any) return std::unexpected(any.error());
-    if (!*any) return input_error(fmt::format("the tool {} does not reach the surface", *c.under), "under", "move it nearer");
+    if (!*any)
+      return input_error(fmt::format("the tool {} does not reach the surface", *c.under), "under", "move it nearer");
     return {};
   }
   for (int index : state.selection()) {
@@ -146,14 +152,15 @@ Expected<void> Executor::operator()(const ElevateCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   if (c.by[0] < 0 || c.by[1] < 0) return input_error("a degree cannot be lowered", "by", "use numbers >= 0");
   for (int index : state.selection()) {
-    auto done = reshape(state.surfaces[static_cast<std::size_t>(index)], [&](const Surface& shape) -> Expected<Surface> {
-      Expected<Surface> result = shape;
-      for (int d = 0; d < 2; ++d) {
-        const int times = c.by[static_cast<std::size_t>(d)];
-        if (result && times > 0) result = elevate_degree<2>(*result, d, times);
-      }
-      return result;
-    });
+    auto done =
+        reshape(state.surfaces[static_cast<std::size_t>(index)], [&](const Surface& shape) -> Expected<Surface> {
+          Expected<Surface> result = shape;
+          for (int d = 0; d < 2; ++d) {
+            const int times = c.by[static_cast<std::size_t>(d)];
+            if (result && times > 0) result = elevate_degree<2>(*result, d, times);
+          }
+          return result;
+        });
     if (!done) return done;
   }
   return {};
@@ -171,29 +178,31 @@ Expected<void> Executor::operator()(const CoarsenCommand& c) {
     std::size_t removed = 0;
     for (int d = 0; d < 2; ++d) {
       // Each direction may spend half of the tolerance.
-      const std::vector<Points> others = {s.opened->control_points(), s.reference->control_points(), s.rest->control_points()};
+      std::vector<std::shared_ptr<const Surface>*> shapes = {&s.opened, &s.reference, &s.rest};
+      for (KeptConstraint& kept : s.constraints) shapes.push_back(&kept.where);
+      std::vector<Points> others;
+      for (const auto* shape : shapes) others.push_back((*shape)->control_points());
       auto result = remove_knots<2>(*s.current, d, 0.5 * c.tolerance, others);
       if (!result) return std::unexpected(result.error());
       if (result->removed.empty()) continue;
       removed += result->removed.size();
       bound += result->error_bound;
       const auto current = std::make_shared<const Surface>(std::move(result->spline));
-      std::array<std::shared_ptr<const Surface>, 3> made;
-      for (std::size_t k = 0; k < 3; ++k) {
-        auto other = current->with_control_points(std::move(result->companions[k]));
-        if (!other) return std::unexpected(other.error());
-        made[k] = std::make_shared<const Surface>(std::move(*other));
+      std::map<const Surface*, std::shared_ptr<const Surface>> made = {{s.current.get(), current}};
+      for (std::size_t k = 0; k < shapes.size(); ++k) {
+        auto& other = made[shapes[k]->get()];
+        if (!other) {
+          auto coarser = current->with_control_points(std::move(result->companions[k]));
+          if (!coarser) return std::unexpected(coarser.error());
+          other = std::make_shared<const Surface>(std::move(*coarser));
+        }
       }
-      if (s.opened == s.current) made[0] = current;
-      if (s.reference == s.current) made[1] = current;
-      if (s.rest == s.current) made[2] = current;
+      for (auto* shape : shapes) *shape = made[shape->get()];
       s.current = current;
-      s.opened = made[0];
-      s.reference = made[1];
-      s.rest = made[2];
       s.velocity.resize(0, 3);
     }
-    state.notes.push_back(fmt::format("{}: {} knots removed, the shape moved by less than {:.3g}", s.id, removed, bound));
+    state.notes.push_back(
+        fmt::format("{}: {} knots removed, the shape moved by less than {:.3g}", s.id, removed, bound));
     if (removed > 0) state.notes.push_back(net_of(s));
   }
   return {};

@@ -50,11 +50,13 @@ Expected<void> Executor::operator()(const NewCommand& c) {
     return input_error("surfaces can be made in a document without a file only", {},
                        "start with `knead sculpt --new`, without a FILE");
   }
-  if (c.shape != "plane") return input_error(fmt::format("\"{}\" is not a shape", c.shape), "shape", "the shapes are: plane");
+  if (c.shape != "plane")
+    return input_error(fmt::format("\"{}\" is not a shape", c.shape), "shape", "the shapes are: plane");
   std::vector<KnotVector> knots;
   for (std::size_t d = 0; d < 2; ++d) {
     const std::vector<double>& given = d == 0 ? c.knots_u : c.knots_v;
-    auto made = given.empty() ? KnotVector::clamped_uniform(c.degree[d], c.net[d]) : KnotVector::create(c.degree[d], given);
+    auto made =
+        given.empty() ? KnotVector::clamped_uniform(c.degree[d], c.net[d]) : KnotVector::create(c.degree[d], given);
     if (!made) return std::unexpected(made.error().within(given.empty() ? "net" : d == 0 ? "knots_u" : "knots_v"));
     if (!(std::isfinite(c.size[d]) && c.size[d] > 0)) {
       return input_error(fmt::format("{} is not a size", c.size[d]), "size", "use two numbers > 0");
@@ -62,7 +64,8 @@ Expected<void> Executor::operator()(const NewCommand& c) {
     knots.push_back(std::move(*made));
   }
   const int m = knots[0].count(), n = knots[1].count();
-  if (static_cast<double>(m) * n > 4e6) return input_error("the net has more than 4 million control points", "net", "use fewer");
+  if (static_cast<double>(m) * n > 4e6)
+    return input_error("the net has more than 4 million control points", "net", "use fewer");
   Points points(static_cast<Eigen::Index>(m) * n, 3);
   const Interval u = knots[0].domain(), v = knots[1].domain();
   for (int i = 0; i < m; ++i) {
@@ -88,17 +91,20 @@ Expected<void> Executor::operator()(const NewCommand& c) {
 Expected<void> Executor::operator()(const SelectCommand& c) {
   std::vector<std::string> ids = c.surfaces.value_or(std::vector<std::string>{});
   if (c.surface) ids.insert(ids.begin(), *c.surface);
-  if (ids.empty()) return input_error("no surface is named", "surface", "give \"surface\" or \"surfaces\"");
+  if (ids.empty()) return input_error("the field is missing", "surface", "give \"surface\" or \"surfaces\"");
   std::vector<int> chosen;
   for (const std::string& id : ids) {
-    const auto index = find_surface(id);
-    if (!index) return std::unexpected(index.error());
+    auto index = find_surface(id);
+    if (!index) {
+      if (&id - ids.data() >= (c.surface ? 1 : 0) && index.error().where == "surface") index.error().where = "surfaces";
+      return std::unexpected(index.error());
+    }
     if (std::ranges::find(chosen, *index) == chosen.end()) chosen.push_back(*index);
   }
   if (c.connected) {
     std::vector<const Surface*> all;
     for (const SurfaceState& s : state.surfaces) all.push_back(s.reference.get());
-    const auto found = find_seams(all, state.seams.tolerance.value_or(suggested_seam_tolerance(all)));
+    const auto found = seams_between(state, all);
     if (!found) return std::unexpected(found.error());
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       for (const Seam& seam : found->seams) {
@@ -146,7 +152,8 @@ Expected<void> Executor::operator()(const MaterialCommand& c) {
       std::vector<KnotVector> hint;
       for (std::size_t d = 0; d < 2; ++d) {
         const Interval domain = s.reference->knots()[d].domain();
-        hint.push_back(*KnotVector::create(2, {domain.lower, domain.lower, domain.lower, domain.upper, domain.upper, domain.upper}));
+        hint.push_back(*KnotVector::create(
+            2, {domain.lower, domain.lower, domain.lower, domain.upper, domain.upper, domain.upper}));
       }
       auto painted = paint<2>(s.material, values, region, {hint[0], hint[1]});
       if (!painted) return std::unexpected(painted.error());
@@ -184,7 +191,8 @@ Expected<void> Executor::operator()(const LimitCommand& c) {
     return {};
   }
   if (!(std::isfinite(*c.distance) && *c.distance > 0)) {
-    return input_error(fmt::format("{} is not a distance", *c.distance), "distance", "use a number > 0, or leave it out");
+    return input_error(fmt::format("{} is not a distance", *c.distance), "distance",
+                       "use a number > 0, or leave it out");
   }
   double unit = 1;
   if (c.relative) {

@@ -11,7 +11,8 @@
 namespace knead {
 namespace {
 
-constexpr double coarse = 0.5;         // spans longer than this share of a tool cannot follow it
+constexpr double coarse = 0.5;         // spans longer than this share of a tool follow it with a loss
+constexpr double too_coarse = 1;       // longer than this, they cannot follow it
 constexpr int max_refinements = 5;     // of the net under a tool, where refining is permitted
 constexpr int footprint_samples = 13;  // of a drag, in either direction
 
@@ -120,7 +121,7 @@ Expected<void> Executor::run(int count, const EvolveCommand& evolve, const std::
           continue;
         }
       }
-      if (note.empty()) {
+      if (note.empty() && step->coarseness > too_coarse) {
         note = fmt::format(
             "the net is too coarse to follow the tool: its spans are up to {:.2g} times the tool's size; "
             "halve them {} with {{\"do\":\"refine\",\"under\":\"…\"}}",
@@ -215,6 +216,7 @@ Expected<void> Executor::operator()(const StepCommand& c) {
 Expected<void> Executor::operator()(const StrokeCommand& c) {
   auto tool = find_tool(c.tool);
   if (!tool) return std::unexpected(tool.error());
+  if (c.path.empty()) return input_error("the path has no positions", "path", "give one or more: [[x, y, z], ...]");
   if (c.steps < 1) return input_error(fmt::format("{} steps are too few", c.steps), "steps", "use 1 or more");
   if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
     return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");

@@ -12,6 +12,20 @@ namespace {
 
 Point point_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
+/// Whether lengths that were given can be; errors speak of the fields of the command.
+Expected<void> check_lengths(const ToolCommand& c) {
+  const std::pair<const char*, std::optional<double>> lengths[] = {
+      {"radius", c.radius}, {"minor", c.minor}, {"height", c.height}, {"thickness", c.thickness}};
+  for (const auto& [field, value] : lengths) {
+    if (value && !(*value > 0))
+      return input_error(fmt::format("{} is not a length", *value), field, "use a number > 0");
+  }
+  for (double size : c.sizes.value_or(Vector3{1, 1, 1})) {
+    if (!(size > 0)) return input_error(fmt::format("{} is not a length", size), "sizes", "use three numbers > 0");
+  }
+  return {};
+}
+
 /// The shape that a command describes, lengths times `unit`.
 Expected<Shape> shape_of(const ToolCommand& c, double unit, double diagonal, const Executor& executor) {
   const double radius = c.radius ? *c.radius * unit : 0.1 * diagonal;
@@ -69,6 +83,7 @@ Expected<void> Executor::operator()(const ToolCommand& c) {
   const auto length = diagonal();
   if (!length) return std::unexpected(length.error());
   const double unit = c.relative ? *length : 1;
+  if (auto done = check_lengths(c); !done) return done;
   const auto shape = shape_of(c, unit, *length, *this);
   if (!shape) return std::unexpected(shape.error());
   Placement placement;
@@ -89,7 +104,11 @@ Expected<void> Executor::operator()(const ToolCommand& c) {
   }
   if (!placement.position.allFinite()) return input_error("a coordinate is not a finite number", "position");
   auto placed = PlacedShape::create(*shape, placement);
-  if (!placed) return std::unexpected(placed.error());
+  if (!placed) {
+    Error error = placed.error();
+    if (error.where == "e1" || error.where == "e2") error.where = "exponents";
+    return std::unexpected(error);
+  }
   const double stiffness = c.stiffness.value_or(c.mode == ToolMode::proximity ? 100 : 1e4);
   const double size = std::isfinite(placed->size()) ? placed->size() : 0.1 * *length;
   Tool made{c.name, std::move(*placed), c.mode, stiffness, c.range ? *c.range * unit : 0.5 * size};
@@ -109,7 +128,7 @@ Expected<void> Executor::operator()(const ToolCommand& c) {
 
 Expected<void> Executor::operator()(const RemoveCommand& c) {
   const auto force = std::ranges::find_if(
-      state.forces, [&](const ForceCommand& f) { return c.tool ? f.name == *c.tool : state.tools.empty(); });
+      state.forces, [&](const PlacedForce& f) { return c.tool ? f.force.name == *c.tool : state.tools.empty(); });
   if (force != state.forces.end() && (c.tool || state.forces.size() == 1)) {
     state.forces.erase(force);
     return {};
@@ -155,7 +174,10 @@ Expected<void> Executor::operator()(const ScaleCommand& c) {
   auto tool = find_tool(c.tool);
   if (!tool) return std::unexpected(tool.error());
   Placement at = (*tool)->shape.placement();
-  for (std::size_t k = 0; k < 3; ++k) at.scale[k] *= c.by[k];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(c.by[k] > 0)) return input_error(fmt::format("{} is not a factor", c.by[k]), "by", "use three numbers > 0");
+    at.scale[k] *= c.by[k];
+  }
   auto scaled = PlacedShape::create((*tool)->shape.shape(), at);
   if (!scaled) return std::unexpected(scaled.error());
   (*tool)->shape = std::move(*scaled);
@@ -173,11 +195,11 @@ Expected<void> Executor::operator()(const ForceCommand& c) {
   if (!(std::isfinite(c.core) && c.core > 0)) {
     return input_error(fmt::format("{} is not a length", c.core), "core", "use a number > 0");
   }
-  const auto same = std::ranges::find(state.forces, c.name, [](const ForceCommand& f) { return f.name; });
+  const auto same = std::ranges::find(state.forces, c.name, [](const PlacedForce& f) { return f.force.name; });
   if (same != state.forces.end()) {
-    *same = c;
+    *same = {c, *state.selected};
   } else {
-    state.forces.push_back(c);
+    state.forces.push_back({c, *state.selected});
   }
   return {};
 }

@@ -65,6 +65,8 @@ struct Executor {
 
   /// Asks for a constraint on the selected surfaces, after trying that it can be made.
   Expected<void> ask(const ConstraintRequest& request);
+  /// Whether a model can be made under the constraints there are.
+  Expected<void> check_constraints();
 
   /// `count` steps with the forces of the scene and these.
   Expected<void> run(int count, const EvolveCommand& evolve, const std::vector<PointForce>& more = {}, int done = 0,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <span>
 #include "knead/sculpt/constraints.hpp"
+
 #include "knead/session/session.hpp"
 
 namespace knead {
@@ -13,7 +15,7 @@ struct ModelInput {
   std::vector<MaterialFieldOf<2>> materials;
   std::vector<int> hold_rows;
   std::vector<std::set<std::array<int, 2>>> pins;
-  std::vector<std::vector<ConstraintRequest>> constraints;
+  std::vector<std::vector<KeptConstraint>> constraints;
   std::vector<std::array<bool, 2>> smooth;
   SeamsCommand seams;
   ScalingMode scaling = ScalingMode::normalised;
@@ -34,6 +36,9 @@ struct SurfaceModel {
 };
 
 [[nodiscard]] Expected<SurfaceModel> make_model(const SessionState& state, ModelInput input);
+
+/// Seams between these patches (and of each with itself) to the tolerance that was asked for, or the suggested one.
+[[nodiscard]] Expected<FoundSeams> seams_between(const SessionState& state, std::span<const Surface* const> patches);
 
 /// The selected surfaces' control points, one below the other.
 [[nodiscard]] ActiveState active_state(const SessionState& state);

@@ -38,9 +38,9 @@ TEST(Errors, AScriptThatIsNoScript) {
 }
 
 TEST(Errors, AnUnknownCommandOrFieldListsTheKnownOnes) {
-  EXPECT_TRUE(refused(
-      Json{command("squash")}, 3,
-      {"commands[0]", "squash", "select", "material", "rest", "hold", "pin", "tool", "move", "step", "undo", "redo"}));
+  EXPECT_TRUE(refused(Json{command("squash")}, 3,
+                      {"commands[0]", "squash", "new", "select", "material", "rest", "hold", "pin", "tool", "move",
+                       "step", "undo", "redo"}));
   EXPECT_TRUE(
       refused(Json{skin, command("step", {{"counts", 3}})}, 3, {"commands[1]", "counts", "count", "lambda", "weight"}));
   EXPECT_TRUE(refused(Json{skin, command("rest", {{"mode", "x"}})}, 3, {"commands[1].mode", "shape", "none"}));
@@ -53,7 +53,7 @@ TEST(Errors, AWrongValueIsNamedWithItsPlaceAndRemedy) {
   };
   EXPECT_TRUE(refused(Json{command("step")}, 3, {"commands[0]", "#285"}));
   EXPECT_TRUE(refused(Json{command("select", {{"surface", "#1"}})}, 3, {"#1", "#285", "#1044"}));
-  EXPECT_TRUE(refused(Json{command("select")}, 3, {"commands[0].surface", "missing"}));
+  EXPECT_TRUE(refused(Json{command("select")}, 3, {"commands[0]", "surface", "missing"}));
   EXPECT_TRUE(refused(Json{skin, command("hold", {{"rows", -1}})}, 3, {"commands[1]", "rows", "0 or more"}));
   EXPECT_TRUE(refused(Json{skin, command("hold", {{"rows", 1.5}})}, 3, {"commands[1].rows", "whole"}));
   EXPECT_TRUE(refused(Json{skin, command("pin", {{"control_points", {{0, 0}, {14, 0}}}})}, 3,
@@ -74,6 +74,19 @@ TEST(Errors, ASingularStepIsANumericalFailure) {
   const Json nothing_to_hold_it = {skin, command("material", {{"alpha", {0, 0, 0}}, {"beta", {0, 0, 0}}}),
                                    command("step", {{"lambda", 0}})};
   EXPECT_TRUE(refused(nothing_to_hold_it, 4, {"commands[2]", "lambda"}));
+}
+
+TEST(Errors, ABalanceThatNothingHoldsIsANumericalFailure) {
+  const Json loose = {skin, command("load", {{"vector", {0, 0, 1}}}), command("evolve", {{"mode", "static"}})};
+  EXPECT_TRUE(refused(loose, 4, {"commands[2]", "evolve", "hold an edge or pin points"}));
+}
+
+TEST(Errors, AFileOrNewIsNeeded) {
+  const Workshop workshop;
+  const std::string script = workshop.script(Json::array()), out = workshop / "out.step";
+  EXPECT_TRUE(fails_with(knead({"sculpt", "-o", out, "--script", script}), 2, {"FILE", "--new"}));
+  EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "--new", "-o", out, "--script", script}), 2, {"FILE", "--new"}));
+  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", out, "--script", script}), 3, {"no surface"}));
 }
 
 TEST(Errors, ABrokenFileIsNamedWithLineAndEntityAndNothingIsWritten) {
@@ -117,7 +130,7 @@ TEST(Errors, NoOutputOverwritesAnotherFileOfTheCall) {
 
 TEST(Errors, WrongUsageIsNamed) {
   EXPECT_TRUE(fails_with(knead({}), 2, {"--help"}));
-  EXPECT_TRUE(fails_with(knead({"squash"}), 2, {"squash", "info, sculpt, gramian, stiffness"}));
+  EXPECT_TRUE(fails_with(knead({"squash"}), 2, {"squash", "info, sculpt, commands, gramian, stiffness"}));
   EXPECT_TRUE(fails_with(knead({"info"}), 2, {"FILE", "knead info --help"}));
   EXPECT_TRUE(fails_with(knead({"info", bonnet(), "--colour"}), 2, {"--colour", "knead info --help"}));
   EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "--script", "x"}), 2, {"--output", "knead sculpt --help"}));

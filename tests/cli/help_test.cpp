@@ -1,3 +1,5 @@
+#include <sstream>
+
 #include "knead/session/command_json.hpp"
 #include "program.hpp"
 
@@ -5,7 +7,7 @@ namespace knead::testing {
 namespace {
 
 TEST(Help, TellsTheExitCodesEverywhere) {
-  for (const char* name : {"", "info", "sculpt", "gramian", "stiffness"}) {
+  for (const char* name : {"", "info", "sculpt", "commands", "gramian", "stiffness"}) {
     std::vector<std::string> arguments{name, "--help"};
     if (*name == '\0') arguments.erase(arguments.begin());
     const Outcome run = knead(arguments);
@@ -17,39 +19,38 @@ TEST(Help, TellsTheExitCodesEverywhere) {
 
 TEST(Help, SculptNamesEveryCommandAndField) {
   const std::string help = knead({"sculpt", "--help"}).out;
-  // The command room writes every field of a command that was given all of them.
-  const char* const commands[] = {R"({"do":"select","surface":"#1"})",
-                                  R"({"do":"material"})",
-                                  R"({"do":"rest"})",
-                                  R"({"do":"hold"})",
-                                  R"({"do":"pin","control_points":[[0,0]]})",
-                                  R"({"do":"release"})",
-                                  R"({"do":"tool","radius":1,"position":[0,0,0],"range":1})",
-                                  R"({"do":"tool","at":[0,0]})",
-                                  R"({"do":"remove","tool":"a"})",
-                                  R"({"do":"move","tool":"a","by":[0,0,0],"relative":true})",
-                                  R"({"do":"step"})",
-                                  R"({"do":"undo"})",
-                                  R"({"do":"redo"})"};
-  for (const char* text : commands) {
-    const auto command = parse_command(text);
-    ASSERT_TRUE(command) << text << ": " << command.error().message();
-    const Json json = Json::parse(to_json(*command));
-    const std::string name = json.at("do");
+  for (const std::string& name : command_names()) {
     const std::size_t at = help.find("\n  " + name + " ");
     ASSERT_NE(at, std::string::npos) << name;
-    for (const auto& [field, value] : json.items()) {
-      if (field != "do") {
-        EXPECT_NE(help.find("\n      " + field + " ", at), std::string::npos) << name << "." << field;
-      }
+    const Outcome run = knead({"commands", name});
+    EXPECT_EQ(run.code, 0);
+    EXPECT_TRUE(run.out.starts_with(name + ": ")) << run.out;
+    std::istringstream lines(run.out);
+    std::string line, field;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      ASSERT_TRUE(line.starts_with("  ")) << line;
+      std::istringstream(line) >> field;
+      if (field == "(no") continue;
+      const std::size_t found = help.find(" " + field, at);
+      EXPECT_LT(found, help.find("\n\n", at)) << name << "." << field;
     }
   }
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 130U) << line;
+}
+
+TEST(Help, CommandsListsAllOrExplainsOne) {
+  const std::string all = knead({"commands"}).out;
+  for (const std::string& name : command_names()) EXPECT_NE(all.find("  " + name + " "), std::string::npos) << name;
+  EXPECT_TRUE(fails_with(knead({"commands", "hammer"}), 2, {"hammer", "the commands are: new, select"}));
 }
 
 TEST(Help, SculptNamesEveryFieldOfTheReport) {
   const std::string help = knead({"sculpt", "--help"}).out;
   for (const char* field : {"steps", "time", "energy", "residual", "largest_displacement", "energy_before",
-                            "energy_after", "control_points_moved"}) {
+                            "energy_after", "control_points_moved", "stretch", "bend", "kinetic", "contact", "gap",
+                            "constraint_violation", "converged", "limited", "note", "seams", "notes"}) {
     EXPECT_NE(help.find('"' + std::string(field) + '"'), std::string::npos) << field;
   }
 }

@@ -118,7 +118,9 @@ Points sculpted(const Surface& s, const Press& press, bool hold = true) {
   const std::string file = workshop.file("sheet.step", step_sheet(s)), out = workshop / "out.step";
   const Outcome run = knead({"sculpt", file, "-o", out, "--script", workshop.script(commands)});
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
+  if (!run.err.empty()) {  // the ring's spans are five times the tool
+    EXPECT_TRUE(run.err.starts_with("knead: warning: the net is too coarse to follow the tool")) << run.err;
+  }
   return surface_of(out, sheet_id).control_points();
 }
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+#include <set>
+
 namespace knead {
 namespace {
 
@@ -59,20 +62,75 @@ TEST(CommandJson, ReadsEveryCommand) {
   parsed<RedoCommand>(R"({"do":"redo"})");
 }
 
+/// Every command with all of its fields, none at its default.
+const std::vector<std::string> all_commands = {
+    R"({"do":"new","shape":"plane","size":[2,3],"degree":[2,4],"net":[5,6],"knots_u":[0,0,1,1],"knots_v":[0,1],"name":"a \"b\""})",
+    R"({"do":"select","surface":"#1","surfaces":["#2","#3"],"connected":true})",
+    R"({"do":"material","alpha":[0.10000000000000001,0.5,1],"beta":[1e-300,2,3],"mass":2,"damping":3,"region":[[0,0.5],[0.25,1]],"falloff":0.25})",
+    R"({"do":"rest","mode":"none"})",
+    R"({"do":"scaling","mode":"raw"})",
+    R"({"do":"hold","rows":3})",
+    R"({"do":"pin","control_points":[[1,2],[3,4]],"at":[0.5,0.25],"to":[1,2,3]})",
+    R"({"do":"edge","which":"v1","hold":"curvature"})",
+    R"({"do":"freeze","region":[[0.25,0.5],[0,0.125]]})",
+    R"({"do":"keep","u":0.5,"v":0.25,"curve":[[0,0],[1,1]],"tolerance":0.001})",
+    R"({"do":"symmetry","edge":"u1","mirror":"v","point":[1,2,3],"normal":[0,0,1]})",
+    R"({"do":"smooth","knot_lines":false,"poles":false})",
+    R"({"do":"seams","couple":false,"tolerance":0.5})",
+    R"({"do":"release"})",
+    R"({"do":"tool","name":"t","shape":"torus","radius":1,"minor":0.25,"height":3,"top_radius":0.5,"thickness":0.125,"rounding":0.0625,"sizes":[1,2,3],"exponents":[0.5,2],"surface":"#9","axis":[1,0,0],"scale":[1,2,3],"position":[1,2,3],"at":[0.5,1],"mode":"proximity","stiffness":5,"range":2,"direction":"push","rigid":true,"friction":0.5,"plasticity":0.25,"relative":true})",
+    R"({"do":"tool","name":"u","shape":"box","at":[0,1],"mode":"imprint","direction":"pull","rigid":false,"friction":0,"plasticity":0,"relative":false})",
+    R"({"do":"remove","tool":"a"})",
+    R"({"do":"remove"})",
+    R"({"do":"move","tool":"a","by":[0.33333333333333331,0,0],"relative":true})",
+    R"({"do":"turn","tool":"a","axis":[0,1,0],"angle":30})",
+    R"({"do":"scale","tool":"a","by":[1,2,3]})",
+    R"({"do":"force","name":"f","kind":"volcano","at":[0.25,0.75],"to":[1,2,3],"strength":7,"core":0.5})",
+    R"({"do":"load","vector":[1,2,3],"gravity":[0,0,-9],"pressure":2,"wind":[3,0,0]})",
+    R"({"do":"limit","distance":0.5,"relative":true})",
+    R"({"do":"limit","relative":false})",
+    R"({"do":"evolve","mode":"dynamic","lambda":3,"time_step":0.5,"weight":"identity"})",
+    R"({"do":"evolve","mode":"static","lambda":1,"time_step":0.125,"weight":"mass"})",
+    R"({"do":"step","count":3,"lambda":1,"weight":"mass"})",
+    R"({"do":"stroke","tool":"a","path":[[1,2,3],[4,5,6]],"steps":3,"plasticity":0.5,"relative":true})",
+    R"({"do":"drag","at":[0.5,0.25],"by":[1,2,3],"radius":0.5,"strength":5,"steps":3,"plasticity":0.5,"relative":true})",
+    R"({"do":"refine","region":[[0,0.5],[0,1]],"under":"a","knots_u":[0.5,0.5],"knots_v":[0.25],"permission":"auto"})",
+    R"({"do":"elevate","by":[0,2]})",
+    R"({"do":"coarsen","tolerance":0.001})",
+    R"({"do":"undo"})",
+    R"({"do":"redo"})"};
+
 TEST(CommandJson, WritesWhatItReads) {
-  for (
-      const std::string json :
-      {R"({"do":"select","surface":"#1"})",
-       R"({"do":"material","alpha":[0.10000000000000001,0,1],"beta":[1e-300,2,3]})", R"({"do":"rest","mode":"shape"})",
-       R"({"do":"hold","rows":2})", R"({"do":"pin","control_points":[[1,2]]})", R"({"do":"release"})",
-       R"({"do":"tool","name":"a \"b\"","shape":"sphere","radius":1,"position":[1,2,3],"mode":"collision","stiffness":5,"range":2,"relative":false})",
-       R"({"do":"tool","name":"t","shape":"sphere","at":[0,1],"mode":"proximity","relative":true})",
-       R"({"do":"remove"})", R"({"do":"move","by":[0.33333333333333331,0,0],"relative":true})",
-       R"({"do":"step","count":3,"lambda":1,"weight":"mass"})", R"({"do":"undo"})", R"({"do":"redo"})"}) {
+  std::set<std::string> names;
+  for (const std::string& json : all_commands) {
     const auto command = parse_command(json);
-    ASSERT_TRUE(command) << json;
+    ASSERT_TRUE(command) << json << ": " << command.error().message();
     EXPECT_EQ(to_json(*command), json);
+    names.insert(nlohmann::json::parse(json).at("do"));
   }
+  const std::vector<std::string> known = command_names();
+  EXPECT_EQ(names, std::set<std::string>(known.begin(), known.end())) << "every command is here";
+}
+
+TEST(CommandJson, EveryFieldOfEveryCommandIsNamedWhereItsValueIsWrong) {
+  int fields = 0;
+  for (const std::string& text : all_commands) {
+    const nlohmann::json whole = nlohmann::json::parse(text);
+    for (const auto& [field, value] : whole.items()) {
+      if (field == "do") continue;
+      for (const nlohmann::json& wrong :
+           {nlohmann::json::object(), nlohmann::json(nullptr), nlohmann::json({"x", 1})}) {
+        nlohmann::json json = whole;
+        json[field] = wrong;
+        const Error e = error_of(json.dump());
+        EXPECT_EQ(e.where, field) << text;
+        EXPECT_EQ(e.kind, ErrorKind::input);
+        EXPECT_FALSE(e.remedy.empty());
+      }
+      ++fields;
+    }
+  }
+  EXPECT_GT(fields, 90);
 }
 
 TEST(CommandJson, AScriptOfItsOwnWritingIsReadBack) {
@@ -104,7 +162,6 @@ TEST(CommandJson, WrongValuesAreNamed) {
   EXPECT_EQ(error_of(R"({"do":"tool","position":[1,2]})").where, "position");
   EXPECT_EQ(error_of(R"({"do":"tool","mode":"glue"})").where, "mode");
   EXPECT_EQ(error_of(R"({"do":"pin","control_points":[[1,2,3]]})").where, "control_points");
-  EXPECT_EQ(error_of(R"({"do":"select"})").where, "surface");
   EXPECT_EQ(error_of(R"({"count":3})").where, "do");
   EXPECT_EQ(error_of(R"([1])").kind, ErrorKind::input);
 }
@@ -120,13 +177,19 @@ TEST(CommandJson, ScriptErrorsSayWhere) {
 }
 
 TEST(CommandJson, HelpNamesEveryCommandAndField) {
-  const std::string help = command_help();
-  for (const char* word : {"select",   "surface", "material",  "alpha",          "beta",     "rest",   "mode",
-                           "hold",     "rows",    "pin",       "control_points", "release",  "tool",   "radius",
-                           "position", "at",      "stiffness", "range",          "relative", "remove", "move",
-                           "by",       "step",    "count",     "lambda",         "weight",   "undo",   "redo"}) {
-    EXPECT_NE(help.find(std::string(" ") + word + " "), std::string::npos) << word;
+  const std::string brief = "\n" + command_help();
+  for (const std::string& text : all_commands) {
+    const nlohmann::json command = nlohmann::json::parse(text);
+    const std::string name = command.at("do");
+    const auto help = command_help(name);
+    ASSERT_TRUE(help);
+    for (const auto& [field, value] : command.items()) {
+      if (field == "do") continue;
+      EXPECT_NE(help->find("\n  " + field + " "), std::string::npos) << name << "." << field;
+      EXPECT_NE(brief.find(" " + field, brief.find("\n  " + name + " ")), std::string::npos) << name << "." << field;
+    }
   }
+  EXPECT_EQ(command_help("hammer").error().kind, ErrorKind::usage);
 }
 
 }  // namespace

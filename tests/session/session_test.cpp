@@ -4,40 +4,17 @@
 
 #include <random>
 
-#include "knead/session/command_json.hpp"
 #include "knead/spline/extremum.hpp"
+#include "support.hpp"
 
 namespace knead {
 namespace {
 
-const std::string sample = std::string(KNEAD_SOURCE_DIR) + "/samples/bonnet.step";
+using testing::open_sample;
+using testing::refusal;
+using testing::run;
+
 const char* const skin = "#285";
-
-Session open_sample() {
-  auto document = Document::open(sample);
-  if (!document) ADD_FAILURE() << document.error().message();
-  return Session(std::move(*document));
-}
-
-void run(Session& session, const std::vector<std::string>& commands) {
-  for (const std::string& json : commands) {
-    const auto command = parse_command(json);
-    ASSERT_TRUE(command) << json;
-    const auto done = session.execute(*command);
-    ASSERT_TRUE(done) << json << ": " << done.error().message();
-  }
-}
-
-Error refusal(Session& session, const std::string& json) {
-  const auto command = parse_command(json);
-  if (!command) return command.error();
-  const auto done = session.execute(*command);
-  if (done) {
-    ADD_FAILURE() << json << " was accepted";
-    return {};
-  }
-  return done.error();
-}
 
 const std::vector<std::string> press = {R"({"do":"select","surface":"#285"})", R"({"do":"hold","rows":2})",
                                         R"({"do":"tool","name":"ball","radius":160,"at":[0.4,0.5]})",
@@ -168,10 +145,10 @@ TEST(Session, RelativeLengthsAreFractionsOfTheDiagonal) {
   run(relative, {press[0], R"({"do":"tool","radius":0.1,"range":0.2,"position":[0.5,0.25,0],"relative":true})",
                  R"({"do":"move","by":[0,0,0.5],"relative":true})", R"({"do":"move","by":[7,0,0]})"});
   const Tool& tool = relative.state().tools.front();
-  EXPECT_DOUBLE_EQ(tool.shape.radius, 0.1 * diagonal);
+  EXPECT_DOUBLE_EQ(std::get<SphereShape>(tool.shape.shape()).radius, 0.1 * diagonal);
   EXPECT_DOUBLE_EQ(tool.range, 0.2 * diagonal);
-  EXPECT_DOUBLE_EQ(tool.shape.centre.x(), 0.5 * diagonal + 7);
-  EXPECT_DOUBLE_EQ(tool.shape.centre.z(), 0.5 * diagonal);
+  EXPECT_DOUBLE_EQ(tool.shape.placement().position.x(), 0.5 * diagonal + 7);
+  EXPECT_DOUBLE_EQ(tool.shape.placement().position.z(), 0.5 * diagonal);
 }
 
 TEST(Session, PinnedControlPointsKeepTheirBits) {

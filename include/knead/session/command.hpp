@@ -112,7 +112,7 @@ struct SmoothCommand {
 /// How patches that are selected together are coupled.
 struct SeamsCommand {
   bool couple = true;
-  std::optional<double> tolerance;  ///< a length; default: 1e-5 of the diagonal
+  std::optional<double> tolerance;  ///< a length; default: 1e-4 of the diagonal
 
   friend bool operator==(const SeamsCommand&, const SeamsCommand&) = default;
 };

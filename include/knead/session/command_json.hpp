@@ -22,7 +22,13 @@ namespace knead {
 /// A script of these commands, one per line.
 [[nodiscard]] std::string script_json(const std::vector<Command>& commands);
 
-/// A table of all commands, their fields and defaults, for help texts.
+/// All commands, in the order of the help.
+[[nodiscard]] std::vector<std::string> command_names();
+
+/// For help texts: every command in a line, and below it the names of its fields with their defaults.
 [[nodiscard]] std::string command_help();
+
+/// What one command does, and every field in a line: name, meaning, default. Error (usage): no such command.
+[[nodiscard]] Expected<std::string> command_help(const std::string& name);
 
 }  // namespace knead

@@ -16,14 +16,14 @@ namespace knead {
 
 /// What one step did.
 struct StepRecord {
-  int surface = 0;      ///< index into the state's surfaces: the first one selected
-  double time = 0;      ///< seconds
-  double energy = 0;    ///< Σ Xᵀ K X after the step, normalised units: stretch + bend
+  int surface = 0;    ///< index into the state's surfaces: the first one selected
+  double time = 0;    ///< seconds
+  double energy = 0;  ///< Σ Xᵀ K X after the step, normalised units: stretch + bend
   double stretch = 0, bend = 0, kinetic = 0, contact = 0;  ///< by term, see ActiveStep
-  double residual = 0;  ///< relative imbalance of forces, see ActiveStep
-  double largest_displacement = 0;  ///< from the surface as opened, file units
-  double gap = 0;                   ///< deepest entry into a collision tool, in sizes of that tool
-  double violation = 0;             ///< of the constraints, file units
+  double residual = 0;                                     ///< relative imbalance of forces, see ActiveStep
+  double largest_displacement = 0;                         ///< from the surface as opened, file units
+  double gap = 0;        ///< deepest entry into a collision tool, in sizes of that tool
+  double violation = 0;  ///< of the constraints, file units
   int iterations = 0;
   bool converged = true;
   bool limited = false;  ///< the limit holds something back
@@ -32,6 +32,20 @@ struct StepRecord {
 
 /// A constraint that was asked for and is kept until it is released.
 using ConstraintRequest = std::variant<EdgeCommand, PinCommand, FreezeCommand, KeepCommand, SymmetryCommand>;
+
+/// A request and the shape of the surface when it was made: what is held stays where it was then.
+struct KeptConstraint {
+  ConstraintRequest request;
+  std::shared_ptr<const Surface> where;  ///< on the present net
+
+  friend bool operator==(const KeptConstraint&, const KeptConstraint&) = default;
+};
+
+/// A force and the surface that its point lies on.
+struct PlacedForce {
+  ForceCommand force;
+  int surface = 0;
+};
 
 /// What a session knows about one surface. `opened`, `reference`, `rest` and `current` share their knots and weights.
 struct SurfaceState {
@@ -45,17 +59,17 @@ struct SurfaceState {
   MaterialFieldOf<2> material = {};
   int hold_rows = 0;
   std::set<std::array<int, 2>> pins = {};
-  std::vector<ConstraintRequest> constraints = {};
+  std::vector<KeptConstraint> constraints = {};
   bool smooth_knot_lines = true, smooth_poles = true;
 };
 
 /// The whole state at one moment. A value: undo puts an earlier one back, bit for bit.
 struct SessionState {
-  std::optional<int> selected;    ///< the surface that commands act on
-  std::vector<int> together;      ///< the others that were selected with it
+  std::optional<int> selected;  ///< the surface that commands act on
+  std::vector<int> together;    ///< the others that were selected with it
   std::vector<SurfaceState> surfaces;
   std::vector<Tool> tools;  ///< lengths in file units
-  std::vector<ForceCommand> forces;
+  std::vector<PlacedForce> forces;
   LoadCommand load;
   std::optional<double> limit;  ///< file units
   EvolveCommand evolve;
@@ -63,7 +77,7 @@ struct SessionState {
   SeamsCommand seams;
   RefinePermission permission = RefinePermission::never;
   std::vector<StepRecord> steps;
-  std::vector<SeamReport> seam_reports;  ///< of the model of the last step; patches in the order of selection
+  std::vector<SeamReport> seam_reports;  ///< of the model of the last step; patches are indices of surfaces
   std::vector<std::string> notes;        ///< what commands did on the way: refinements, lines kept smooth
   std::optional<double> energy_before;   ///< energy before the first step
 

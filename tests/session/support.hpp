@@ -1,0 +1,106 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+
+namespace knead::testing {
+
+inline Session open_sample() {
+  auto document = Document::open(std::string(KNEAD_SOURCE_DIR) + "/samples/bonnet.step");
+  if (!document) ADD_FAILURE() << document.error().message();
+  return Session(std::move(*document));
+}
+
+inline Session fresh() { return Session(Document::fresh("test")); }
+
+/// Executes commands; fails the test where one is refused.
+inline void run(Session& session, const std::vector<std::string>& commands) {
+  for (const std::string& json : commands) {
+    const auto command = parse_command(json);
+    ASSERT_TRUE(command) << json << ": " << command.error().message();
+    const auto done = session.execute(*command);
+    ASSERT_TRUE(done) << json << ": " << done.error().message();
+  }
+}
+
+/// The error of a command; fails the test where it is accepted.
+inline Error refusal(Session& session, const std::string& json) {
+  const auto command = parse_command(json);
+  if (!command) return command.error();
+  const auto done = session.execute(*command);
+  if (done) {
+    ADD_FAILURE() << json << " was accepted";
+    return {};
+  }
+  return done.error();
+}
+
+inline bool same_bits(const Points& a, const Points& b) {
+  return a.rows() == b.rows() &&
+         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
+}
+
+inline bool same_bits(const Surface& a, const Surface& b) {
+  for (int d = 0; d < 2; ++d) {
+    if (!std::ranges::equal(a.knots(d).knots(), b.knots(d).knots())) return false;
+  }
+  return std::ranges::equal(a.weights(), b.weights()) && same_bits(a.control_points(), b.control_points());
+}
+
+/// All that a user could see of a state is the same, to the last bit (not the time that steps took).
+inline ::testing::AssertionResult same_state(const SessionState& a, const SessionState& b) {
+  const auto differs = [](const std::string& what) { return ::testing::AssertionFailure() << what << " differs"; };
+  if (a.selected != b.selected || a.together != b.together) return differs("selection");
+  if (a.surfaces.size() != b.surfaces.size()) return differs("number of surfaces");
+  for (std::size_t k = 0; k < a.surfaces.size(); ++k) {
+    const SurfaceState &s = a.surfaces[k], &t = b.surfaces[k];
+    if (s.id != t.id || s.name != t.name || s.unit != t.unit) return differs("label of " + s.id);
+    if (!same_bits(*s.opened, *t.opened)) return differs("opened " + s.id);
+    if (!same_bits(*s.reference, *t.reference)) return differs("reference " + s.id);
+    if (!same_bits(*s.rest, *t.rest)) return differs("rest " + s.id);
+    if (!same_bits(*s.current, *t.current)) return differs("current " + s.id);
+    if (!same_bits(s.velocity, t.velocity)) return differs("velocity " + s.id);
+    if (s.mode != t.mode || !(s.material == t.material)) return differs("material " + s.id);
+    if (s.hold_rows != t.hold_rows || s.pins != t.pins) return differs("hold " + s.id);
+    if (s.smooth_knot_lines != t.smooth_knot_lines || s.smooth_poles != t.smooth_poles) return differs("smooth");
+    if (s.constraints.size() != t.constraints.size()) return differs("constraints of " + s.id);
+    for (std::size_t c = 0; c < s.constraints.size(); ++c) {
+      if (!(s.constraints[c].request == t.constraints[c].request)) return differs("a constraint of " + s.id);
+      if (!same_bits(*s.constraints[c].where, *t.constraints[c].where)) return differs("a constraint's place");
+    }
+  }
+  if (a.tools.size() != b.tools.size()) return differs("number of tools");
+  for (std::size_t k = 0; k < a.tools.size(); ++k) {
+    const Tool &s = a.tools[k], &t = b.tools[k];
+    const Placement &p = s.shape.placement(), &q = t.shape.placement();
+    if (s.name != t.name || !(s.shape.shape() == t.shape.shape())) return differs("tool " + s.name);
+    if (p.position != q.position || p.rotation.coeffs() != q.rotation.coeffs() || p.scale != q.scale)
+      return differs("place of " + s.name);
+    if (s.mode != t.mode || s.stiffness != t.stiffness || s.range != t.range || s.rigid != t.rigid ||
+        s.friction != t.friction || s.plasticity != t.plasticity || s.direction != t.direction)
+      return differs("setting of " + s.name);
+  }
+  if (a.forces.size() != b.forces.size()) return differs("number of forces");
+  if (!(a.load == b.load) || a.limit != b.limit) return differs("load or limit");
+  if (!(a.evolve == b.evolve) || a.scaling != b.scaling || !(a.seams == b.seams) || a.permission != b.permission)
+    return differs("setting");
+  if (a.steps.size() != b.steps.size()) return differs("number of steps");
+  for (std::size_t k = 0; k < a.steps.size(); ++k) {
+    const StepRecord &s = a.steps[k], &t = b.steps[k];
+    if (s.energy != t.energy || s.residual != t.residual || s.largest_displacement != t.largest_displacement ||
+        s.gap != t.gap || s.iterations != t.iterations || s.note != t.note)
+      return differs("record of step " + std::to_string(k));
+  }
+  if (a.notes != b.notes || a.energy_before != b.energy_before) return differs("notes");
+  if (a.seam_reports.size() != b.seam_reports.size()) return differs("seam reports");
+  return ::testing::AssertionSuccess();
+}
+
+}  // namespace knead::testing
