@@ -19,6 +19,7 @@ constexpr double developed_slip = 1e-4;  // friction is fully developed after th
 constexpr double limit_stiffness = 1e8;
 constexpr double limit_tolerance = 1e-6;
 constexpr int max_limit_rounds = 12;
+constexpr double missed_constraint = 1e-9;  // of the size of the model
 constexpr int max_rigid_rounds = 16;
 constexpr int max_route_passes = 60;
 constexpr double route_tolerance = 1e-9;
@@ -71,7 +72,13 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   result.gap = contact.entry;
   if (contact.entered >= 0) result.gap_tool = tools[static_cast<std::size_t>(contact.entered)].name;
   result.coarseness = contact.coarseness;
-  result.violation = length * space.violation(x);
+  const auto [worst, off] = space.worst(x);
+  result.violation = length * off;
+  if (off > missed_constraint * std::max(extent, 1.0)) {
+    result.converged = false;
+    result.note = fmt::format("the constraint \"{}\" is missed by {:.2g}: what is held does not allow it",
+                              space.constraints()[static_cast<std::size_t>(worst)].name, result.violation);
+  }
 }
 
 template <int D>
@@ -270,12 +277,12 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     result.velocity = m.length * after;
   }
   if (run.lagged.rows() > 0) *external += run.lagged;
+  result.converged = run.summary.converged;
+  result.note = run.note;
   m.report(result, x, *external, contact, tools);
   result.limited = contact.limited;
   result.iterations = run.summary.iterations;
   result.solves = run.summary.solves;
-  result.converged = run.summary.converged;
-  result.note = run.note;
   return result;
 }
 

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int max_newton_iterations = 60;
 constexpr int max_cg_iterations = 400;
+constexpr int max_solves = 1500;  // of one minimisation: a step that needs more ends where it is, and says so
 // The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step. It is compared with what the step
 // weighs against each other, |F|, |K X₀| and the first imbalance in the same norm.
 constexpr double relative_tolerance = 1e-11;
@@ -100,7 +101,7 @@ void iterate(const StepProblem& problem, const Potential& potential, double tole
       summary.converged = summary.finite = std::isfinite(decrement);
       return;
     }
-    if (iteration == max_iterations) return;
+    if (iteration == max_iterations || summary.solves > max_solves) return;
     ++summary.iterations;
 
     Points d, ad;

@@ -82,6 +82,10 @@ KNEAD_COMMAND(MaterialCommand, "material", "resistance to stretch and bend, in t
   v.field("damping", Presence::optional, c.damping, "force per velocity and area; default: as it was, at first 0.5");
   v.field("region", Presence::optional, c.region, "[[s0, s1], [t0, t1]]: only there, in fractions of the domain");
   v.field("falloff", Presence::optional, c.falloff, "width of the border of the region, in fractions");
+  v.field("coefficient", Presence::optional, c.coefficient,
+          "alpha11, alpha12, alpha22, beta11, beta12, beta22, mass or damping: that one alone, by samples");
+  v.field("counts", Presence::optional, c.counts, "[m, n] samples over the domain, at least 2 each");
+  v.field("samples", Presence::optional, c.samples, "m n numbers, along v first; linear in between");
 }
 KNEAD_COMMAND(RestCommand, "rest", "make the present shape the rest shape; what the energy acts on") {
   v.choice("mode", c.mode, std::span<const Choice<RestMode>>(rest_modes),
@@ -191,6 +195,8 @@ KNEAD_COMMAND(LoadCommand, "load", "loads everywhere on the selected surfaces; r
   v.field("gravity", Presence::optional, c.gravity, "[x, y, z] acceleration, times the mass");
   v.field("pressure", Presence::optional, c.pressure, "force per area along the normal S_u x S_v");
   v.field("wind", Presence::optional, c.wind, "[x, y, z] velocity of the air");
+  v.field("counts", Presence::optional, c.counts, "[m, n] samples of a force over the domain, at least 2 each");
+  v.field("samples", Presence::optional, c.samples, "m n forces [x, y, z] per area, along v first; linear in between");
 }
 KNEAD_COMMAND(LimitCommand, "limit", "no point moves further from the surface as opened") {
   v.field("distance", Presence::optional, c.distance, "length; left out: no limit");

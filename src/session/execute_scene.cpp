@@ -8,6 +8,20 @@
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
+namespace {
+
+Coefficient<2>* coefficient_named(MaterialFieldOf<2>& material, const std::string& name) {
+  static constexpr const char* suffixes[] = {"11", "12", "22"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (name == fmt::format("alpha{}", suffixes[k])) return &material.alpha[k];
+    if (name == fmt::format("beta{}", suffixes[k])) return &material.beta[k];
+  }
+  if (name == "mass") return &material.mass;
+  if (name == "damping") return &material.damping;
+  return nullptr;
+}
+
+}  // namespace
 
 Expected<SurfaceState*> Executor::selected() {
   if (state.selected) return &state.surfaces[static_cast<std::size_t>(*state.selected)];
@@ -125,7 +139,18 @@ Expected<void> Executor::operator()(const MaterialCommand& c) {
   for (int k : state.selection()) {
     SurfaceState& s = state.surfaces[static_cast<std::size_t>(k)];
     MaterialFieldOf<2> next;
-    if (!c.region) {
+    if (c.coefficient) {
+      next = s.material;
+      auto field =
+          sampled_field<2>({s.reference->knots(0).domain(), s.reference->knots(1).domain()}, c.counts, c.samples);
+      if (!field) return std::unexpected(field.error().within("samples"));
+      Coefficient<2>* const place = coefficient_named(next, *c.coefficient);
+      if (place == nullptr) {
+        return input_error(fmt::format("\"{}\" is not a coefficient", *c.coefficient), "coefficient",
+                           "use alpha11, alpha12, alpha22, beta11, beta12, beta22, mass or damping");
+      }
+      *place = std::move(*field);
+    } else if (!c.region) {
       next = s.material;
       for (std::size_t i = 0; i < 3; ++i) {
         next.alpha[i] = c.material.alpha[i];
@@ -181,6 +206,11 @@ Expected<void> Executor::operator()(const ScalingCommand& c) {
 }
 
 Expected<void> Executor::operator()(const LoadCommand& c) {
+  if (!c.samples.empty() || c.counts != std::array<int, 2>{0, 0}) {
+    auto surface = selected();
+    if (!surface) return std::unexpected(surface.error());
+    if (auto load = load_field(c, *(*surface)->reference); !load) return std::unexpected(load.error());
+  }
   state.load = c;
   return {};
 }

@@ -96,7 +96,7 @@ Expected<void> Executor::run(int count, const EvolveCommand& evolve, const std::
     const ActiveSurface& model = cache->model;
     const auto tools = all_tools();
     if (!tools) return std::unexpected(tools.error());
-    auto loads = active_loads(state);
+    auto loads = active_loads(state, model);
     if (!loads) return std::unexpected(loads.error());
     loads->points.insert(loads->points.end(), more.begin(), more.end());
     const ActiveState before = active_state(state);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "knead/sculpt/loads.hpp"
 #include "surface_model.hpp"
 
 namespace knead {
@@ -85,13 +86,36 @@ ActiveState active_state(const SessionState& state) {
   return result;
 }
 
-Expected<ActiveLoads> active_loads(const SessionState& state) {
+Expected<Surface> load_field(const LoadCommand& load, const Surface& surface) {
+  Points samples(static_cast<Eigen::Index>(load.samples.size()), 3);
+  for (std::size_t k = 0; k < load.samples.size(); ++k) {
+    samples.row(static_cast<Eigen::Index>(k)) << load.samples[k][0], load.samples[k][1], load.samples[k][2];
+  }
+  auto field = sampled_load<2>(surface, load.counts, std::move(samples));
+  if (!field) return std::unexpected(field.error().within("samples"));
+  return field;
+}
+
+Expected<ActiveLoads> active_loads(const SessionState& state, const ActiveSurface& model) {
   const auto vector = [](const Vector3& v) { return Point(v[0], v[1], v[2]); };
   ActiveLoads loads;
   loads.force = vector(state.load.vector);
   loads.gravity = vector(state.load.gravity);
   loads.pressure = state.load.pressure;
   loads.wind = vector(state.load.wind);
+  if (!state.load.samples.empty()) {
+    loads.nodal.resize(model.rows().back(), 3);
+    int patch = 0;
+    for (int k : state.selection()) {
+      const Surface& surface = *state.surfaces[static_cast<std::size_t>(k)].reference;
+      const auto field = load_field(state.load, surface);
+      if (!field) return std::unexpected(field.error());
+      const auto nodal = load_forces<2>(surface, model.scaling(patch), *field);
+      if (!nodal) return std::unexpected(nodal.error());
+      loads.nodal.middleRows(model.rows()[static_cast<std::size_t>(patch)], surface.size()) = *nodal;
+      ++patch;
+    }
+  }
   for (const auto& [f, surface] : state.forces) {
     int first = 0;
     bool selected = false;

@@ -44,7 +44,11 @@ struct SurfaceModel {
 [[nodiscard]] ActiveState active_state(const SessionState& state);
 
 /// Loads, forces and the limit of the scene. Errors: a force on a point that there is not.
-[[nodiscard]] Expected<ActiveLoads> active_loads(const SessionState& state);
+/// `model` is that of the selected surfaces.
+[[nodiscard]] Expected<ActiveLoads> active_loads(const SessionState& state, const ActiveSurface& model);
+
+/// The sampled part of a load, over the domain of a surface.
+[[nodiscard]] Expected<Surface> load_field(const LoadCommand& load, const Surface& surface);
 
 /// The plane of a mirror symmetry: as given, or the best one.
 [[nodiscard]] Expected<MirrorPlane> plane_of(const SymmetryCommand& c, const Surface& surface);

@@ -322,7 +322,8 @@ Points ConstraintSpace::feasible(const Points& x) const {
         sum += term;
         size += std::abs(term);
       };
-      for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it) add(free_[at(static_cast<int>(it.col()))], it.value());
+      for (decltype(rows_)::InnerIterator it(rows_, k); it; ++it)
+        add(free_[at(static_cast<int>(it.col()))], it.value());
       for (decltype(rows_)::InnerIterator it(held_rows_, k); it; ++it) add(static_cast<int>(it.col()), it.value());
       double& entry = coupled_ ? result.data()[unknown] : result(unknown, c);
       if (std::abs(entry - sum) > 1e-15 * size) entry = sum;  // what differs by rounding alone satisfies it already
@@ -331,14 +332,16 @@ Points ConstraintSpace::feasible(const Points& x) const {
   return result;
 }
 
-double ConstraintSpace::violation(const Points& x) const {
-  double largest = 0;
-  for (const LinearConstraint& c : constraints_) {
+std::pair<int, double> ConstraintSpace::worst(const Points& x) const {
+  std::pair<int, double> result{-1, 0};
+  for (std::size_t k = 0; k < constraints_.size(); ++k) {
+    const LinearConstraint& c = constraints_[k];
     Point sum = -c.value;
     for (const auto& [unknown, a] : c.terms) sum += a * x.row(unknown).transpose();
-    largest = std::max(largest, c.normal ? std::abs(c.normal->normalized().dot(sum)) : sum.cwiseAbs().maxCoeff());
+    const double off = c.normal ? std::abs(c.normal->normalized().dot(sum)) : sum.cwiseAbs().maxCoeff();
+    if (off > result.second) result = {static_cast<int>(k), off};
   }
-  return largest;
+  return result;
 }
 
 }  // namespace knead

@@ -40,6 +40,10 @@ struct MaterialCommand {
   std::optional<double> mass, damping;
   std::optional<std::array<Fractions, 2>> region;  ///< [[s0, s1], [t0, t1]]
   double falloff = 0.1;                            ///< width of the way from old to new, in fractions
+  /// One coefficient alone ("alpha11" … "beta22", "mass", "damping") by samples on a grid over the domain.
+  std::optional<std::string> coefficient;
+  std::array<int, 2> counts = {0, 0};
+  std::vector<double> samples;  ///< last direction fastest, linear in between
 };
 
 /// Makes the present shape of the selected surfaces their rest shape, and says what the energy acts on.
@@ -184,6 +188,9 @@ struct LoadCommand {
   Vector3 gravity = {0, 0, 0};
   double pressure = 0;
   Vector3 wind = {0, 0, 0};
+  std::array<int, 2> counts = {
+      0, 0};                     ///< of samples of a force per area on a grid over the domain, each linear in between
+  std::vector<Vector3> samples;  ///< last direction fastest; empty: none
 
   friend bool operator==(const LoadCommand&, const LoadCommand&) = default;
 };

@@ -11,24 +11,25 @@ namespace knead {
 
 /// All X that satisfy a list of linear constraints: X = T y + d with independent unknowns y.
 ///
-/// Some unknowns may be held: they keep whatever value they have, to the last bit, and d depends on it. The constraints are
-/// eliminated one after the other: each gives one unknown that is not held as a combination of others, the pivot being
-/// among its largest coefficients. Constraints that follow from those before, or meet held unknowns only, are passed over.
-/// Without a constraint along a normal the three coordinates share one T (N × m); with one, T maps m numbers to all 3N
-/// coordinates (`coupled`). Immutable.
+/// Some unknowns may be held: they keep whatever value they have, to the last bit, and d depends on it. The constraints
+/// are eliminated one after the other: each gives one unknown that is not held as a combination of others, the pivot
+/// being among its largest coefficients. Constraints that follow from those before, or meet held unknowns only, are
+/// passed over. Without a constraint along a normal the three coordinates share one T (N × m); with one, T maps m
+/// numbers to all 3N coordinates (`coupled`). Immutable.
 class ConstraintSpace {
  public:
   /// Nothing is constrained.
   explicit ConstraintSpace(int size) : size_(size) { number_free(std::vector<Definition>(at(size)), false); }
   /// Only held points.
-  explicit ConstraintSpace(const std::vector<bool>& held) : ConstraintSpace(*create(static_cast<int>(held.size()), {}, held)) {}
+  explicit ConstraintSpace(const std::vector<bool>& held)
+      : ConstraintSpace(*create(static_cast<int>(held.size()), {}, held)) {}
 
   /// \param size number of unknown points N.
   /// \param held one flag per unknown point; empty: none.
-  /// Errors (input): a constraint that contradicts others, both named; an unknown that there is not; a number that is not
-  /// finite, a normal of no length.
-  /// Two constraints count as dependent where elimination leaves less than 1e-11 of the largest coefficient, and as
-  /// contradictory where it then leaves more than 1e-9 of the right sides (or of 1, the model's size).
+  /// Errors (input): a constraint that contradicts others, both named; an unknown that there is not; a number that is
+  /// not finite, a normal of no length. Two constraints count as dependent where elimination leaves less than 1e-11 of
+  /// the largest coefficient, and as contradictory where it then leaves more than 1e-9 of the right sides (or of 1, the
+  /// model's size).
   [[nodiscard]] static Expected<ConstraintSpace> create(int size, std::span<const LinearConstraint> constraints,
                                                         const std::vector<bool>& held = {});
 
@@ -49,15 +50,18 @@ class ConstraintSpace {
   /// Tᵀ A T, or Tᵀ (A ⊗ I) T where `coupled`.
   [[nodiscard]] SparseMatrix restrict(const SparseMatrix& a) const;
 
-  /// A force that does the same work on every T y as b, Tᵀ(lumped b) = Tᵀ b, and acts on independent unknowns alone: what
-  /// the constraints bear is left out.
+  /// A force that does the same work on every T y as b, Tᵀ(lumped b) = Tᵀ b, and acts on independent unknowns alone:
+  /// what the constraints bear is left out.
   [[nodiscard]] Points lumped(const Points& b) const;
 
   /// X with the same independent unknowns that satisfies the constraints. Rows that do already keep their bits.
   [[nodiscard]] Points feasible(const Points& x) const;
 
   /// The largest |Σ c X − value| over the constraints, as given.
-  [[nodiscard]] double violation(const Points& x) const;
+  [[nodiscard]] double violation(const Points& x) const { return worst(x).second; }
+  /// The same with the number of that constraint; −1 where there is none.
+  [[nodiscard]] std::pair<int, double> worst(const Points& x) const;
+  [[nodiscard]] const std::vector<LinearConstraint>& constraints() const { return constraints_; }
 
  private:
   struct Definition {
