@@ -16,14 +16,14 @@ namespace knead {
 
 /// What one step did.
 struct StepRecord {
-  int surface = 0;      ///< index into the state's surfaces: the first one selected
-  double time = 0;      ///< seconds
-  double energy = 0;    ///< Σ Xᵀ K X after the step, normalised units: stretch + bend
+  int surface = 0;    ///< index into the state's surfaces: the first one selected
+  double time = 0;    ///< seconds
+  double energy = 0;  ///< Σ Xᵀ K X after the step, normalised units: stretch + bend
   double stretch = 0, bend = 0, kinetic = 0, contact = 0;  ///< by term, see ActiveStep
-  double residual = 0;  ///< relative imbalance of forces, see ActiveStep
-  double largest_displacement = 0;  ///< from the surface as opened, file units
-  double gap = 0;                   ///< deepest entry into a collision tool, in sizes of that tool
-  double violation = 0;             ///< of the constraints, file units
+  double residual = 0;                                     ///< relative imbalance of forces, see ActiveStep
+  double largest_displacement = 0;                         ///< from the surface as opened, file units
+  double gap = 0;        ///< deepest entry into a collision tool, in sizes of that tool
+  double violation = 0;  ///< of the constraints, file units
   int iterations = 0;
   bool converged = true;
   bool limited = false;  ///< the limit holds something back
@@ -51,8 +51,8 @@ struct SurfaceState {
 
 /// The whole state at one moment. A value: undo puts an earlier one back, bit for bit.
 struct SessionState {
-  std::optional<int> selected;    ///< the surface that commands act on
-  std::vector<int> together;      ///< the others that were selected with it
+  std::optional<int> selected;  ///< the surface that commands act on
+  std::vector<int> together;    ///< the others that were selected with it
   std::vector<SurfaceState> surfaces;
   std::vector<Tool> tools;  ///< lengths in file units
   std::vector<ForceCommand> forces;
@@ -87,6 +87,12 @@ class Session {
 
   [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {});
 
+  /// Makes the last entry of the history one with the entry before it: undo then takes both back at once, and the state
+  /// between them is forgotten. For what is many commands but one act, as a stroke that follows the pointer. Equal
+  /// `step` commands that come to stand side by side become one with the sum of their counts, which is the same.
+  /// Nothing happens where there are fewer than two entries, or where something can be redone.
+  void join();
+
   [[nodiscard]] const Document& document() const { return document_; }
   [[nodiscard]] const SessionState& state() const { return *states_[position_]; }
   /// The commands whose effect stands, in order: with the document, all of the session.
@@ -107,8 +113,8 @@ class Session {
   struct ModelCache;
 
   Document document_;
-  std::vector<std::shared_ptr<const SessionState>> states_;  // one more than commands_
-  std::vector<Command> commands_;
+  std::vector<std::shared_ptr<const SessionState>> states_;  // one more than entries_
+  std::vector<std::vector<Command>> entries_;                // what undo takes back at once
   std::size_t position_ = 0;
   std::unique_ptr<ModelCache> cache_;  // the last model: its factorisation serves until a setting changes
 };
