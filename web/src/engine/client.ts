@@ -15,7 +15,7 @@ export class Client {
 
   private readonly waiting = new Map<number, Waiting>();
   private next = 1;
-  private live: { commands: Command[]; join: boolean } | null = null;
+  private live: { commands: () => Command[]; join: boolean } | null = null;
   private liveUnderWay: Promise<void> | null = null;
 
   constructor(private readonly worker: Worker) {
@@ -72,9 +72,9 @@ export class Client {
 
   /**
    * Commands that follow the pointer: while one act is under way only the newest of those that wait is kept, so that
-   * the page is never more than one ahead.
+   * the page is never more than one ahead. They are asked for at the moment they are sent.
    */
-  follow(commands: Command[], join: boolean): void {
+  follow(commands: () => Command[], join: boolean): void {
     this.live = { commands, join };
     this.liveUnderWay ??= this.followOn();
   }
@@ -89,7 +89,7 @@ export class Client {
       while (this.live) {
         const { commands, join } = this.live;
         this.live = null;
-        await this.execute(commands, join);
+        await this.execute(commands(), join);
       }
     } catch (error) {
       this.live = null;

@@ -32,6 +32,7 @@ function execute(engine: Engine, commands: Command[], join: boolean): void {
     for (const [k, command] of commands.entries()) {
       const joined = k === 0 ? join : !travels(commands[k - 1]!);
       engine.execute(command, joined && !travels(command));
+      if (travels(command)) shownSteps = 0; // the steps are others now
     }
   } finally {
     computeTime = performance.now() - start;
@@ -102,7 +103,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     }
     case 'execute':
       // A command from outside ends the entry that playing has begun.
-      ownEntry = false;
+      if (!request.join) ownEntry = false;
       execute(engine, request.commands, request.join);
       sendFrame(engine);
       break;
