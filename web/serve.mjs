@@ -1,8 +1,9 @@
 // Serves a directory of static files on the loopback address:  node serve.mjs [directory] [port]
-import { createReadStream, statSync } from 'node:fs';
+import { createReadStream, readFileSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
 
 const types = {
   '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm',
@@ -11,6 +12,7 @@ const types = {
 
 /** Starts the server; port 0 takes a free one. Resolves to { url, close }. */
 export function serve(directory, port = 0) {
+  const packed = new Map();
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
     const file = join(directory, path.endsWith('/') ? join(path, 'index.html') : path);
@@ -23,9 +25,16 @@ export function serve(directory, port = 0) {
       response.writeHead(404).end('not found');
       return;
     }
-    response.writeHead(200, {
-      'content-type': types[extname(file)] ?? 'application/octet-stream', 'content-length': size, 'cache-control': 'no-cache',
-    });
+    const head = { 'content-type': types[extname(file)] ?? 'application/octet-stream', 'cache-control': 'no-cache' };
+    // Names in assets/ change with their content: compressed once, kept by the browser.
+    if (path.startsWith('/assets/')) head['cache-control'] = 'max-age=31536000, immutable';
+    if (/\bgzip\b/.test(request.headers['accept-encoding'] ?? '') && /\.(js|css|html|wasm)$/.test(file)) {
+      if (!packed.has(file)) packed.set(file, gzipSync(readFileSync(file)));
+      const bytes = packed.get(file);
+      response.writeHead(200, { ...head, 'content-encoding': 'gzip', 'content-length': bytes.length }).end(bytes);
+      return;
+    }
+    response.writeHead(200, { ...head, 'content-length': size });
     createReadStream(file).pipe(response);
   });
   return new Promise((resolve, reject) => {

@@ -32,6 +32,8 @@ export class App {
   framesPerSecond = 0;
   /** Counts what was done, so that the history knows when to look again. */
   changes = 0;
+  /** Files that the user gave, opened or refused. */
+  filesHandled = 0;
   /** The file that was opened, for documents and the autosave. */
   source: { name: string; bytes: Uint8Array | null } = { name: 'sheet', bytes: null };
 
@@ -178,6 +180,11 @@ export class App {
   }
 
   async openFile(file: File): Promise<void> {
+    await this.read(file);
+    ++this.filesHandled;
+  }
+
+  private async read(file: File): Promise<void> {
     const bytes = new Uint8Array(await file.arrayBuffer());
     if (/\.(knead|json)$/i.test(file.name)) {
       await this.attempt(async () => {

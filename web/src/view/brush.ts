@@ -48,7 +48,7 @@ interface Stroke {
 /** Turns pointer events into strokes: a ball pressed along the surface, or a point dragged. */
 export class Brush {
   mode: Mode = 'push';
-  settings: BrushSettings = { radius: 1, strength: 0.35 };
+  settings: BrushSettings = { radius: 1, strength: 0.5 };
 
   private stroke: Stroke | null = null;
   private readonly ring: THREE.LineLoop<THREE.BufferGeometry, THREE.LineBasicMaterial>;

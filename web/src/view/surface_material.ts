@@ -58,14 +58,14 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
           base = mix(vec3(0.07), vec3(0.93), s);
           gl_FragColor = vec4(base * (0.75 + 0.25 * n.z), 1.0);
         } else {
-          float key = max(dot(n, normalize(vec3(0.35, 0.55, 0.76))), 0.0);
-          float fill = max(dot(n, normalize(vec3(-0.75, 0.1, 0.45))), 0.0);
+          vec3 lamp = normalize(vec3(-0.62, 0.42, 0.66));
+          float key = max(dot(n, lamp), 0.0);
+          float fill = max(dot(n, normalize(vec3(0.8, -0.15, 0.35))), 0.0);
           float sky = 0.5 + 0.5 * n.y;
           float rim = pow(1.0 - max(dot(n, v), 0.0), 3.0);
-          vec3 half_way = normalize(normalize(vec3(0.35, 0.55, 0.76)) + v);
-          float shine = pow(max(dot(n, half_way), 0.0), 60.0);
-          vec3 colour = base * (0.22 + 0.16 * sky + 0.62 * key + 0.18 * fill);
-          if (mode == 0) colour += vec3(0.14) * shine + vec3(0.08) * rim;
+          float shine = pow(max(dot(n, normalize(lamp + v)), 0.0), 40.0);
+          vec3 colour = base * (0.1 + 0.16 * sky + 0.86 * key * key + 0.2 * fill);
+          if (mode == 0) colour += vec3(0.2) * shine + vec3(0.08) * rim;
           else colour = mix(colour, base, 0.45);
           gl_FragColor = vec4(mix(vec3(dot(colour, vec3(0.3, 0.5, 0.2))) * 0.85, colour, selected), 1.0);
         }

@@ -83,7 +83,15 @@ export class Viewer {
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!.net, this.display, this.palette, lit(k)));
     this.showTools();
     if (fresh) this.fit();
+    else this.lowerGround();
     this.redraw();
+  }
+
+  /** The ground stays below whatever is pressed down. */
+  private lowerGround(): void {
+    const { radius, lowest } = this.bounds();
+    const below = lowest - 0.06 * radius;
+    if (this.ground.group.position.z > lowest - 0.02 * radius) this.ground.group.position.z = below;
   }
 
   private showTools(): void {
@@ -142,7 +150,7 @@ export class Viewer {
   fit(): void {
     const { centre, radius, lowest } = this.bounds();
     for (const v of this.viewports) v.fit(centre, radius * 1.02);
-    this.ground.fit(2 * radius, lowest - 0.002 * radius);
+    this.ground.fit(2 * radius, lowest - 0.12 * radius);
     this.ground.group.position.x = -(this.origin[0] % (5 * this.ground.step));
     this.ground.group.position.y = -(this.origin[1] % (5 * this.ground.step));
     this.redraw();

@@ -21,7 +21,7 @@ export class Viewport {
 
   constructor(readonly name: ViewName, scene: THREE.Scene, changed: () => void) {
     this.element = document.createElement('div');
-    this.element.className = `viewport ${name}`;
+    this.element.className = `viewport view-${name}`;
     this.element.tabIndex = -1;
     const label = document.createElement('span');
     label.className = 'viewport-label';
