@@ -2,9 +2,10 @@ import * as THREE from 'three';
 
 import { autosave } from './document/autosave';
 import { readKnead, writeKnead } from './document/knead_file';
+import { clay } from './document/clay';
 import { Client } from './engine/client';
 import type { Frame } from './engine/protocol';
-import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo } from './engine/session_types';
+import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceInfo } from './engine/session_types';
 import { followGizmo } from './view/gizmo';
 import { Brush, type Mode } from './view/brush';
 import { defaultDisplay, type Display, type Theme } from './view/display';
@@ -67,7 +68,7 @@ export class App {
       },
       place: (point, normal) => void this.placeTool(point, normal),
       select: async (surface) => {
-        await this.execute([{ do: 'select', surface: this.state!.surfaces[surface]!.id }]);
+        await this.select(surface);
       },
       pickTool: (name) => {
         this.viewer.selectTool(name);
@@ -155,6 +156,8 @@ export class App {
       await this.client.open(bytes, name, script);
       this.source = { name, bytes };
       this.dirty = false;
+      const [only, ...others] = this.state!.surfaces;
+      if (commands.length === 0 && only && others.length === 0) await this.client.execute(firstSettings(only));
       if (this.state!.surfaces.length > 1 && this.state!.selection.length === 0) {
         this.notify({ kind: 'info', text: `${this.state!.surfaces.length} surfaces: click the one to sculpt.` });
       }
@@ -236,6 +239,7 @@ export class App {
   /** Something changed: it is kept in the browser as soon as the user pauses. */
   private touch(): void {
     this.dirty = true;
+    delete document.documentElement.dataset.kept;
     clearTimeout(this.saveTimer);
     this.saveTimer = window.setTimeout(() => void this.keep(), autosaveDelay);
   }
@@ -259,6 +263,12 @@ export class App {
     const { commands } = JSON.parse(saved.journal) as { commands: Command[] };
     if (saved.source) await this.openStep(saved.source, saved.name, commands);
     else await this.startFresh(saved.name, commands);
+  }
+
+  /** Selects a surface. One that nothing was said about becomes clay with held edges: pressed, it would float away. */
+  async select(surface: number): Promise<void> {
+    const info = this.state!.surfaces[surface]!;
+    await this.execute([{ do: 'select', surface: info.id }, ...firstSettings(info)]);
   }
 
   // --- tools -------------------------------------------------------------------------------------------------------
@@ -317,6 +327,13 @@ export class App {
   togglePlay(toRest = false): void {
     void this.attempt(async () => void (await (this.playing() ? this.client.stop() : this.client.play(toRest))));
   }
+}
+
+/** Clay that is held at its edges, for a surface as it came. */
+function firstSettings(surface: SurfaceInfo): Command[] {
+  if (surface.hold > 0 || surface.pins > 0 || surface.constraints.length > 0 || surface.moved > 0) return [];
+  const rows = Math.min(2, Math.floor((Math.min(...surface.net) - 2) / 2));
+  return [...(rows > 0 ? [{ do: 'hold', rows }] : []), ...clay];
 }
 
 function readKept(): { display?: Partial<Display>; theme?: Theme } {

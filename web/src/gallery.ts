@@ -1,5 +1,6 @@
 import bonnetUrl from '../../samples/bonnet.step?url';
 import type { App } from './app';
+import { clay } from './document/clay';
 import type { Command } from './engine/session_types';
 
 export interface Scene {
@@ -7,11 +8,6 @@ export interface Scene {
   about: string;
   open(app: App): Promise<unknown>;
 }
-
-export const clay: Command[] = [
-  { do: 'material', alpha: [0.1, 0, 0.1], beta: [0.001, 0.001, 0.001] },
-  { do: 'evolve', mode: 'acm', lambda: 100 },
-];
 
 const sheet = (net: number): Command[] => [
   { do: 'new', size: [200, 200], net: [net, net], degree: [3, 3], name: 'sheet' },
@@ -50,6 +46,7 @@ export const scenes: Scene[] = [
     open: async (app) => {
       const bytes = new Uint8Array(await (await fetch(bonnetUrl)).arrayBuffer());
       await app.openStep(bytes, 'bonnet.step');
+      await app.select(0);
     },
   },
 ];

@@ -61,15 +61,18 @@ export const commands = (page: Page): Promise<{ do: string }[]> =>
   page.evaluate(async () => (JSON.parse(await (window as never as { studio: { client: { journal(): Promise<string> } } }).studio.client.journal()) as { commands: { do: string }[] }).commands);
 
 interface App {
-  frame: { pictures: { positions: Float32Array; normals: Float32Array }[]; state: { selection: number[]; undo: boolean }; memory: number };
+  frame: { origin: number[]; pictures: { positions: Float32Array; normals: Float32Array }[]; state: { selection: number[]; undo: boolean }; memory: number };
   brush: { active: boolean; settings: { radius: number; strength: number } };
   viewer: { picture(): Promise<Blob> };
   client: { followed(): Promise<void>; journal(): Promise<string> };
 }
 
-/** All positions that the page draws, in one list. */
+/** All positions that the page draws, file units, in one list. */
 export const positions = (page: Page): Promise<number[]> =>
-  page.evaluate(() => (window as never as { studio: App }).studio.frame.pictures.flatMap((p) => [...p.positions]));
+  page.evaluate(() => {
+    const { pictures, origin } = (window as never as { studio: App }).studio.frame;
+    return pictures.flatMap((p) => [...p.positions].map((x, k) => x + origin[k % 3]!));
+  });
 
 /** Waits until the session has done everything that the page has asked for. */
 export async function settled(page: Page): Promise<void> {

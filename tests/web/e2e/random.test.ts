@@ -22,6 +22,7 @@ it('survives 200 random actions of a user', async () => {
   const keys = ['b', 'u', 'g', 'v', 't', 'p', 'f', 'z', '.', '1', '2', '3', '0', '4', '[', ']', 'Control+z', 'Control+Shift+z', 'Escape', '?',
     'm', 'n', 'k', 'Delete', 'Space'];
   await page.locator('.panel').evaluateAll((all) => all.forEach((e) => ((e as HTMLDetailsElement).open = true)));
+  await page.locator('select[aria-label=Detail]').selectOption('48');
   let memory = 0;
   for (let k = 0; k < 200; ++k) {
     const choice = random();

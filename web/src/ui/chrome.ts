@@ -113,11 +113,11 @@ export function notices(app: App): HTMLElement {
 }
 
 const shortcuts: [string, string][] = [
-  ['Drag on the surface', 'brush; elsewhere: orbit'], ['Right or middle drag', 'pan'], ['Wheel', 'zoom to the pointer'],
+  ['Drag', 'brush on the surface, elsewhere orbit'], ['Right, middle drag', 'pan'], ['Wheel', 'zoom to the pointer'],
   ['Alt with a brush', 'pull instead of push'], ['Shift-wheel, [ ]', 'size of the brush'], ['Esc', 'takes the stroke back'],
   ['V B U G T P', 'look, push, pull, grab, tool, pin'], ['Space', 'play or pause'], ['.', 'one step'], ['R', 'run to rest'],
-  ['Ctrl+Z, Ctrl+Shift+Z', 'undo, redo'], ['Ctrl+S', 'save the STEP file'], ['O', 'open'], ['F', 'fit everything'],
-  ['1 2 3, Shift for the other side', 'front, right, top'], ['0', 'perspective'], ['4', 'four views'], ['M N K', 'move, turn, resize a tool'],
+  ['Ctrl+Z, Shift: redo', 'undo'], ['Ctrl+S', 'save the STEP file'], ['O', 'open'], ['F', 'fit everything'],
+  ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'perspective'], ['4', 'four views'], ['M N K', 'move, turn, resize a tool'],
   ['Delete', 'take the tool away'], ['Z', 'zebra stripes'], ['?', 'this list'],
 ];
 

@@ -31,7 +31,7 @@ export const defaultDisplay: Display = {
   field: 'none',
   limit: 1,
   autoLimit: true,
-  pointSize: 5,
+  pointSize: 4,
   fourViews: false,
   detail: 96,
 };

@@ -18,7 +18,7 @@ export class SurfaceView {
   private readonly net = lines();
   private readonly points = new THREE.Points(
     new THREE.BufferGeometry(),
-    new THREE.PointsMaterial({ size: 7, sizeAttenuation: false, vertexColors: true }),
+    new THREE.PointsMaterial({ size: 7, sizeAttenuation: false, vertexColors: true, alphaMap: disc(), alphaTest: 0.5 }),
   );
   private topology = '';
   private netTopology = '';
@@ -87,7 +87,7 @@ export class SurfaceView {
     this.knotLines.material.opacity = 0.9;
     this.net.material.color.set(palette.net);
     this.net.material.opacity = 0.55;
-    this.points.material.size = display.pointSize * Math.min(window.devicePixelRatio, 2);
+    this.points.material.size = 1.4 * display.pointSize * Math.min(window.devicePixelRatio, 2);
     if (this.picture) {
       const colours = new Float32Array(this.picture.held.length * 3);
       const free = new THREE.Color(palette.point);
@@ -136,6 +136,23 @@ export class SurfaceView {
       (part.material as THREE.Material).dispose();
     }
   }
+}
+
+let discTexture: THREE.CanvasTexture | null = null;
+
+/** Makes points round. */
+function disc(): THREE.CanvasTexture {
+  if (discTexture) return discTexture;
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = 32;
+  const context = canvas.getContext('2d')!;
+  context.fillStyle = '#000';
+  context.fillRect(0, 0, 32, 32);
+  context.fillStyle = '#fff';
+  context.beginPath();
+  context.arc(16, 16, 15, 0, 2 * Math.PI);
+  context.fill();
+  return (discTexture = new THREE.CanvasTexture(canvas));
 }
 
 function lines(): THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial> {
