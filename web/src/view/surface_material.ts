@@ -55,7 +55,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
           float stripe = sin(24.0 * asin(clamp(r.y, -1.0, 1.0)));
           float width = max(fwidth(stripe), 1e-4);
           float s = smoothstep(-width, width, stripe);
-          base = mix(vec3(0.07), vec3(0.93), s);
+          base = mix(vec3(0.02), vec3(0.9), s);
           gl_FragColor = vec4(base * (0.75 + 0.25 * n.z), 1.0);
         } else {
           vec3 lamp = normalize(vec3(-0.62, 0.42, 0.66));

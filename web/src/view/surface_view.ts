@@ -18,7 +18,7 @@ export class SurfaceView {
   private readonly net = lines();
   private readonly points = new THREE.Points(
     new THREE.BufferGeometry(),
-    new THREE.PointsMaterial({ size: 7, sizeAttenuation: false, vertexColors: true, alphaMap: disc(), alphaTest: 0.5 }),
+    new THREE.PointsMaterial({ size: 7, sizeAttenuation: false, vertexColors: true, alphaMap: disc(), alphaTest: 0.5, depthTest: false }),
   );
   private topology = '';
   private netTopology = '';
@@ -27,6 +27,7 @@ export class SurfaceView {
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), surfaceMaterial());
     this.mesh.frustumCulled = false;
     for (const part of [this.isocurves, this.knotLines, this.normals, this.net, this.points]) part.frustumCulled = false;
+    this.net.material.depthTest = false; // points and net lie on, and behind, what they control
     this.knotLines.renderOrder = 1;
     this.net.renderOrder = 2;
     this.points.renderOrder = 3;
