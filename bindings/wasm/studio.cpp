@@ -128,8 +128,9 @@ KNEAD_EXPORT(knead_save) int knead_save() {
 /// Coordinate `axis` of the origin of pictures, file units.
 KNEAD_EXPORT(knead_origin) double knead_origin(int axis) { return held().origin[axis]; }
 
-/// Draws a surface; its buffers are then those of `knead_buffer`. `detail`: grid lines wanted per direction.
-KNEAD_EXPORT(knead_paint) int knead_paint(int surface, int detail, int field) {
+/// Draws a surface, or the shape as it was opened; its buffers are then those of `knead_buffer`. `detail`: grid lines
+/// wanted per direction.
+KNEAD_EXPORT(knead_paint) int knead_paint(int surface, int detail, int field, int opened) {
   auto& session = held().session;
   if (!session) return without_session();
   const SessionState& state = session->state();
@@ -137,7 +138,7 @@ KNEAD_EXPORT(knead_paint) int knead_paint(int surface, int detail, int field) {
     return fail({ErrorKind::usage, "there is no such surface"});
   }
   auto done = held().painter.paint(state.surfaces[static_cast<std::size_t>(surface)], state.tools, held().origin,
-                                   detail, static_cast<PictureField>(field));
+                                   detail, static_cast<PictureField>(field), opened != 0);
   if (!done) return fail(done.error());
   const auto counts = held().painter.picture().counts;
   return answer("{\"counts\":[" + std::to_string(counts[0]) + "," + std::to_string(counts[1]) + "]}");

@@ -48,8 +48,8 @@ Expected<void> Painter::tabulate(const Surface& surface, int detail) {
 }
 
 Expected<void> Painter::paint(const SurfaceState& surface, const std::vector<Tool>& tools, const Point& origin,
-                              int detail, PictureField field) {
-  const Surface& current = *surface.current;
+                              int detail, PictureField field, bool opened) {
+  const Surface& current = opened ? *surface.opened : *surface.current;
   if (auto done = tabulate(current, detail); !done) return done;
   const bool curved = field == PictureField::mean_curvature || field == PictureField::gaussian_curvature;
   const std::array<const BasisTable*, 2> tables = {&tables_[0], &tables_[1]};

@@ -28,8 +28,9 @@ struct Picture {
 class Painter {
  public:
   /// Errors (numerical): a rational denominator that is not positive.
+  /// With `opened`, the shape as it came is drawn instead.
   Expected<void> paint(const SurfaceState& surface, const std::vector<Tool>& tools, const Point& origin, int detail,
-                       PictureField field);
+                       PictureField field, bool opened = false);
   [[nodiscard]] const Picture& picture() const { return picture_; }
 
  private:

@@ -57,7 +57,7 @@ export class App {
     this.viewer = new Viewer(this.display);
     this.brush = new Brush(this.viewer, {
       begin: async (commands) => (await this.execute(commands)) !== null,
-      follow: (commands, join) => this.client.follow(() => commands, join),
+      follow: (commands, join) => this.client.follow(commands, join),
       end: async (commands) => {
         await this.client.followed();
         if (commands.length > 0) await this.execute(commands, commands[0]!.do === 'remove');
@@ -302,6 +302,16 @@ export class App {
     if (repaint) void this.attempt(async () => void (await this.client.paint({ detail: this.display.detail, field: this.display.field })));
     this.keepSettings();
     this.changed();
+  }
+
+  private comparing = false;
+
+  /** While a key is held: the surfaces as they were opened. */
+  compare(opened: boolean): void {
+    if (!this.state || opened === this.comparing) return;
+    this.comparing = opened;
+    document.documentElement.dataset.comparing = String(opened);
+    void this.attempt(async () => void (await this.client.paint({ detail: this.display.detail, field: this.display.field, opened })));
   }
 
   setTheme(theme: Theme): void {

@@ -15,7 +15,7 @@ interface Exports {
   knead_journal(): number;
   knead_save(): number;
   knead_origin(axis: number): number;
-  knead_paint(surface: number, detail: number, field: number): number;
+  knead_paint(surface: number, detail: number, field: number, opened: number): number;
   knead_buffer(which: number): number;
   knead_buffer_size(which: number): number;
   knead_control_points(surface: number): number;
@@ -84,8 +84,8 @@ export class Engine {
     return new Float64Array(this.bytes(this.wasm.knead_control_points(surface)).buffer as ArrayBuffer);
   }
 
-  paint(surface: number, detail: number, field: Field): Picture {
-    const { counts } = this.json(this.wasm.knead_paint(surface, detail, fields.indexOf(field))) as {
+  paint(surface: number, detail: number, field: Field, opened = false): Picture {
+    const { counts } = this.json(this.wasm.knead_paint(surface, detail, fields.indexOf(field), opened ? 1 : 0)) as {
       counts: [number, number];
     };
     const copy = (which: number): ArrayBuffer => {

@@ -4,6 +4,8 @@ import type { Command, EngineErrorInfo, Field, Picture, SessionInfo, StepInfo } 
 export interface PaintSettings {
   detail: number;
   field: Field;
+  /** The shapes as they were opened, for comparison. */
+  opened?: boolean;
 }
 
 /** What the page asks of the worker. Every request is answered by one `Reply` of its number. */

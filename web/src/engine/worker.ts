@@ -48,7 +48,7 @@ function sendFrame(engine: Engine): void {
   frameDue = false;
   const start = performance.now();
   const state = engine.state();
-  const pictures = state.surfaces.map((_, k) => engine.paint(k, settings.detail, settings.field));
+  const pictures = state.surfaces.map((_, k) => engine.paint(k, settings.detail, settings.field, settings.opened));
   if (state.steps < shownSteps) shownSteps = 0;
   const firstStep = Math.max(shownSteps, state.steps - 400);
   const steps = engine.steps(firstStep);

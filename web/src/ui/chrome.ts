@@ -118,7 +118,7 @@ const shortcuts: [string, string][] = [
   ['V B U G T P', 'look, push, pull, grab, tool, pin'], ['Space', 'play or pause'], ['.', 'one step'], ['R', 'run to rest'],
   ['Ctrl+Z, Shift: redo', 'undo'], ['Ctrl+S', 'save the STEP file'], ['O', 'open'], ['F', 'fit everything'],
   ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'perspective'], ['4', 'four views'], ['M N K', 'move, turn, resize a tool'],
-  ['Delete', 'take the tool away'], ['Z', 'zebra stripes'], ['?', 'this list'],
+  ['Delete', 'take the tool away'], ['C, held', 'the shape as it was opened'], ['Z', 'zebra stripes'], ['?', 'this list'],
 ];
 
 export function toggleShortcuts(app: App): void {

@@ -2,6 +2,10 @@ import type { App } from '../app';
 import { modes, toggleShortcuts } from './chrome';
 
 export function listenToKeys(app: App): void {
+  document.addEventListener('keyup', (event) => {
+    if (event.key.toLowerCase() === 'c') app.compare(false);
+  });
+  window.addEventListener('blur', () => app.compare(false));
   document.addEventListener('keydown', (event) => {
     const target = event.target as HTMLElement;
     if (target.closest('input[type=text], textarea')) return;
@@ -56,6 +60,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
   } else if (key === '.' && ready && !app.playing()) void app.execute([{ do: 'step' }]);
   else if (key === 'r' && ready) app.togglePlay(true);
   else if (key === 'f') app.viewer.fit();
+  else if (key === 'c') app.compare(true);
   else if (key === 'o') document.querySelector<HTMLInputElement>('input[type=file]')?.click();
   else if (key === 'z') app.setDisplay({ zebra: !app.display.zebra });
   else if (key === 'm') gizmo('translate');

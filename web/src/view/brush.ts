@@ -18,7 +18,7 @@ export interface BrushActions {
   /** A new act of these commands; resolves once they are done, false if they failed. */
   begin(commands: Command[]): Promise<boolean>;
   /** Goes on with the act; what comes too fast is left out. */
-  follow(commands: Command[], join: boolean): void;
+  follow(commands: () => Command[], join: boolean): void;
   /** Ends the act. */
   end(commands: Command[]): Promise<void>;
   /** Takes the act back. */
@@ -30,6 +30,7 @@ export interface BrushActions {
 }
 
 export const brushName = 'brush';
+const mostSteps = 8; // between two places of the pointer that the session has seen
 
 interface Stroke {
   viewport: Viewport;
@@ -40,6 +41,8 @@ interface Stroke {
   frozen: THREE.Mesh[];
   begun: Promise<boolean>;
   start: THREE.Vector3;
+  /** Where the ball is for the session. */
+  last: { point: THREE.Vector3; normal: THREE.Vector3 };
   at: [number, number];
   cancelled: boolean;
   moved: boolean;
@@ -118,7 +121,7 @@ export class Brush {
     const inward = (this.mode === 'push') !== event.altKey;
     const stroke: Stroke = {
       viewport, pointer: event.pointerId, surface: hit.surface, kind, inward, frozen,
-      begun: Promise.resolve(true), start: hit.point.clone(), at: hit.fractions, cancelled: false, moved: false,
+      begun: Promise.resolve(true), start: hit.point.clone(), last: hit, at: hit.fractions, cancelled: false, moved: false,
     };
     this.stroke = stroke;
     stroke.begun = (async () => {
@@ -140,15 +143,15 @@ export class Brush {
       const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
       if (!hit) return;
       this.showRing(hit.point, hit.normal);
-      void this.followOn(stroke, this.ball(hit.point, hit.normal, stroke.inward), true);
+      void this.followOn(stroke, () => this.towards(stroke, hit), true);
     } else {
       const by = this.inViewPlane(stroke, event).sub(stroke.start);
-      void this.followOn(stroke, [{ do: 'undo' }, this.drag(stroke, by)], false);
+      void this.followOn(stroke, () => [{ do: 'undo' }, this.drag(stroke, by)], false);
     }
     stroke.moved = true;
   }
 
-  private async followOn(stroke: Stroke, commands: Command[], join: boolean): Promise<void> {
+  private async followOn(stroke: Stroke, commands: () => Command[], join: boolean): Promise<void> {
     const begun = await stroke.begun;
     if (begun && !stroke.cancelled && this.stroke === stroke) this.actions.follow(commands, join);
   }
@@ -224,6 +227,15 @@ export class Brush {
         mode: 'collision', plasticity: 1 },
       { do: 'step' },
     ];
+  }
+
+  /** From where the ball is to where the pointer is, so closely that a fast hand leaves a groove and not single dents. */
+  private towards(stroke: Stroke, to: { point: THREE.Vector3; normal: THREE.Vector3 }): Command[] {
+    const from = stroke.last;
+    stroke.last = to;
+    const count = Math.min(mostSteps, Math.max(1, Math.ceil(from.point.distanceTo(to.point) / (0.4 * this.settings.radius))));
+    return Array.from({ length: count }, (_, k) => (k + 1) / count).flatMap((x) =>
+      this.ball(from.point.clone().lerp(to.point, x), from.normal.clone().lerp(to.normal, x).normalize(), stroke.inward));
   }
 
   private drag(stroke: Stroke, by: THREE.Vector3): Command {
