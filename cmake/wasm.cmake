@@ -16,5 +16,3 @@ set(CMAKE_FIND_ROOT_PATH /usr/lib/wasm32-wasi)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
-# A module is loaded over a network: small, but for the loops that a frame waits for (bindings/wasm/CMakeLists.txt).
-set(CMAKE_CXX_FLAGS_RELEASE_INIT "-Os -DNDEBUG")

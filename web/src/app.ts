@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import { autosave } from './document/autosave';
+import { autosave, type Saved } from './document/autosave';
 import { readKnead, writeKnead } from './document/knead_file';
 import { clay } from './document/clay';
 import { Client } from './engine/client';
@@ -257,9 +257,7 @@ export class App {
     }
   }
 
-  async recover(): Promise<void> {
-    const saved = await autosave.read();
-    if (!saved) return;
+  async recover(saved: Saved): Promise<void> {
     const { commands } = JSON.parse(saved.journal) as { commands: Command[] };
     if (saved.source) await this.openStep(saved.source, saved.name, commands);
     else await this.startFresh(saved.name, commands);

@@ -44,7 +44,7 @@ async function start(): Promise<void> {
       kind: 'info',
       text: `“${saved.name}”, ${saved.commands} commands, from ${new Date(saved.when).toLocaleString()}, is still here.`,
       actions: [
-        { label: 'Recover', act: () => void app.recover() },
+        { label: 'Recover', act: () => void app.recover(saved) },
         { label: 'Forget it', act: () => void autosave.forget() },
       ],
     });

@@ -218,6 +218,22 @@ describe('the studio', () => {
     expect(distance(await positions(page), shape)).toBe(0);
   });
 
+  it('shows the shape as it was opened while a key is held', async () => {
+    const { page } = studio;
+    await openFile(join(root, 'samples/bonnet.step'));
+    const original = await positions(page);
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0], [30, 0]);
+    const shape = await positions(page);
+    expect(distance(shape, original)).toBeGreaterThan(1);
+    await page.keyboard.down('c');
+    await settled(page);
+    expect(distance(await positions(page), original)).toBe(0);
+    await page.keyboard.up('c');
+    await settled(page);
+    expect(distance(await positions(page), shape)).toBe(0);
+  });
+
   it('has a name for every control', async () => {
     const nameless = await studio.page.evaluate(() =>
       [...document.querySelectorAll('button, input, select, summary')]
