@@ -52,4 +52,5 @@ if (process.argv[1] === fileURLToPath(import.meta.url)) {
     return serve(directory, 0);
   });
   console.log(`studio: ${url}  (Ctrl+C ends it)`);
+  for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(0));
 }

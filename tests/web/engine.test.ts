@@ -12,7 +12,7 @@ const root = fileURLToPath(new URL('../..', import.meta.url));
 const wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
 const bonnet = new Uint8Array(readFileSync(join(root, 'samples/bonnet.step')));
 const script = JSON.parse(readFileSync(join(root, 'samples/bonnet.json'), 'utf8')) as { commands: Command[] };
-const native = process.env.KNEAD_CLI ?? join(root, 'build/release/knead');
+const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
 
 const load = () => Engine.load(wasm);
 

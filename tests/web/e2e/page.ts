@@ -4,7 +4,7 @@ import { fileURLToPath } from 'node:url';
 import { type Browser, chromium, type Page } from 'playwright-core';
 
 export const root = fileURLToPath(new URL('../../..', import.meta.url));
-export const native = process.env.KNEAD_CLI ?? join(root, 'build/release/knead');
+export const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
 
 interface Server {
   url: string;
