@@ -68,10 +68,10 @@ export function field(label: string, control: HTMLElement, tip?: string): HTMLLa
 
 /** A number that takes effect when the user leaves it or presses Enter. `parse` may know units. */
 export function numberInput(label: string, value: number | null, change: (value: number) => void,
-                            parse: (text: string) => number | null = plainNumber): HTMLInputElement {
+                            parse: (text: string) => number | null = plainNumber, absent = 'varies'): HTMLInputElement {
   const shown = value === null ? '' : format(value);
   const input = h('input', { class: 'number', type: 'text', inputMode: 'decimal', value: shown, spellcheck: false,
-    autocomplete: 'off', placeholder: value === null ? 'varies' : '', aria: { label } });
+    autocomplete: 'off', placeholder: value === null ? absent : '', aria: { label } });
   input.addEventListener('change', () => {
     const typed = parse(input.value);
     input.classList.toggle('wrong', typed === null);

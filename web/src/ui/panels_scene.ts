@@ -158,15 +158,15 @@ export function constraintsPanel(app: App): HTMLElement {
     const holdSelect = select('Continuity', [['position', 'Position'], ['clamped', 'Tangent'], ['curvature', 'Curvature'], ['free', 'Free']], 'position', () => {});
     return [
       field('Held rows', numberInput('Held rows', chosen.hold, (v) => run({ do: 'hold', rows: Math.round(v) })), 'Outer rows of control points that stay'),
-      field('Edge', row(edgeSelect, holdSelect, h('button', { class: 'button small', type: 'button',
-        onclick: () => run({ do: 'edge', which: edgeSelect.value, hold: holdSelect.value }) }, 'Hold'))),
+      row(edgeSelect, holdSelect, h('button', { class: 'button small', type: 'button',
+        onclick: () => run({ do: 'edge', which: edgeSelect.value, hold: holdSelect.value }) }, 'Hold')),
       row(
         h('button', { class: 'button small', type: 'button', title: 'Stays its own mirror image across the middle of u', onclick: () => run({ do: 'symmetry', mirror: 'u' }) }, 'Mirror u'),
         h('button', { class: 'button small', type: 'button', title: 'Stays its own mirror image across the middle of v', onclick: () => run({ do: 'symmetry', mirror: 'v' }) }, 'Mirror v'),
         toggle('Seams', state.coupled, (couple) => run({ do: 'seams', couple }), 'Patches selected together stay together at their seams'),
         h('button', { class: 'button small', type: 'button', title: 'Frees all that is held, pinned, frozen or kept', onclick: () => run({ do: 'release' }) }, 'Release all'),
       ),
-      field('Limit', numberInput('Limit', state.limit, (v) => run(v > 0 ? { do: 'limit', distance: v } : { do: 'limit' }), length(app)),
+      field('Limit', numberInput('Limit', state.limit, (v) => run(v > 0 ? { do: 'limit', distance: v } : { do: 'limit' }), length(app), 'none'),
         'No point moves further from the surface as opened; 0 for no limit'),
       chosen.pins > 0 || chosen.constraints.length > 0
         ? note([chosen.pins > 0 ? `${chosen.pins} control points pinned` : '', ...chosen.constraints.map((c) =>

@@ -20,7 +20,10 @@ export class Ground {
 
   constructor() {
     this.group.add(this.thin, this.strong);
-    for (const part of [this.thin, this.strong]) part.renderOrder = -1;
+    for (const part of [this.thin, this.strong]) {
+      part.renderOrder = -1;
+      part.frustumCulled = false; // what three keeps of its extent is that of the first drawing, when it may be empty
+    }
   }
 
   /** For a scene of this size whose lowest point, in the scene's coordinates, is at z. */

@@ -149,7 +149,7 @@ export class Viewer {
 
   fit(): void {
     const { centre, radius, lowest } = this.bounds();
-    for (const v of this.viewports) v.fit(centre, radius * 0.88);
+    for (const v of this.viewports) v.fit(centre, radius);
     this.ground.fit(2 * radius, lowest - 0.12 * radius);
     this.ground.group.position.x = -(this.origin[0] % (5 * this.ground.step));
     this.ground.group.position.y = -(this.origin[1] % (5 * this.ground.step));

@@ -56,7 +56,8 @@ export class Viewport {
     let distance = 4 * r;
     if (camera instanceof THREE.PerspectiveCamera) {
       const half = THREE.MathUtils.degToRad(camera.fov / 2);
-      distance = r / Math.sin(Math.min(half, Math.atan(Math.tan(half) * aspect)));
+      // A sheet seen from above needs less height than its sphere, but all of the width.
+      distance = r / Math.sin(Math.min(half * 1.14, Math.atan(Math.tan(half) * aspect)));
     } else {
       this.extent = 1.1 * Math.max(r, r / aspect);
       camera.zoom = 1;
