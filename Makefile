@@ -2,7 +2,7 @@
 # The work is done by CMake presets (CMakePresets.json) and the scripts in scripts/.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run test asan noexcept wasm format format-check lint check-long bench figures examples clean
+.PHONY: help setup build run studio test test-studio asan noexcept wasm format format-check lint check-long bench figures examples clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -13,8 +13,14 @@ setup: ## Install the Debian packages that building and testing need
 build: ## Build the command line: build/release/knead
 	@scripts/build.sh
 
-run: ## Sculpt the sample bonnet and write the result to out/
+run: ## Sculpt the sample bonnet into out/, then serve the studio (SERVE=0: do not)
 	@scripts/run.sh
+
+studio: ## Build the studio, static files: web/dist
+	@scripts/studio.sh
+
+test-studio: ## Test the studio alone, in node and in headless Chromium
+	@scripts/studio_test.sh
 
 test: ## Build everything and run all tests
 	@scripts/test.sh release

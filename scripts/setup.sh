@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages a goal needs, and only those that are missing.
-#   scripts/setup.sh build | test | bench | format | lint | wasm
+#   scripts/setup.sh build | test | bench | format | lint | wasm | studio | web
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev)
@@ -9,6 +9,11 @@ build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli1
 tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
 # The library for WebAssembly, and node to run it.
 wasm=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc nodejs)
+# The studio is built by node's tools, whose versions are those of web/package-lock.json. Node from elsewhere brings npm.
+studio=("${wasm[@]}")
+command -v npm >/dev/null || studio+=(npm)
+# And tested in a real browser.
+web=("${build[@]}" "${studio[@]}" chromium)
 
 case "${1:-}" in
   build) needed=("${build[@]}") ;;
@@ -16,8 +21,10 @@ case "${1:-}" in
   bench) needed=("${build[@]}" libbenchmark-dev) ;;
   format) needed=(clang-format) ;;
   wasm) needed=("${build[@]}" "${wasm[@]}") ;;
+  studio) needed=("${build[@]}" "${studio[@]}") ;;
+  web) needed=("${web[@]}") ;;
   lint) needed=("${build[@]}" "${tests[@]}" clang-tidy-19) ;;
-  *) echo "usage: scripts/setup.sh build|test|bench|format|lint|wasm" >&2; exit 2 ;;
+  *) echo "usage: scripts/setup.sh build|test|bench|format|lint|wasm|studio|web" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -1,14 +1,38 @@
 #!/usr/bin/env bash
-# Builds everything in a preset and runs all its tests.
+# Builds everything in a preset and runs all its tests; in the release also those of the studio. Says what took how long.
 #   scripts/test.sh release | asan
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 preset=$1
-scripts/setup.sh test
-scripts/configure.sh "$preset" KNEAD_BUILD_TESTS=ON
-cmake --build "build/$preset"
-scripts/setup.sh wasm
-scripts/configure.sh wasm-test
-cmake --build build/wasm-test
-ctest --preset "$preset" -j "${KNEAD_JOBS:-$(nproc)}"
+report=""
+timed() {  # timed NAME COMMAND...
+  local name=$1 start=$SECONDS
+  shift
+  "$@"
+  report+=$(printf '  %-28s %4d s' "$name" $((SECONDS - start)))$'\n'
+}
+
+build() {
+  scripts/setup.sh test
+  scripts/configure.sh "$preset" KNEAD_BUILD_TESTS=ON
+  cmake --build "build/$preset"
+}
+build_wasm_tests() {
+  scripts/setup.sh wasm
+  scripts/configure.sh wasm-test
+  cmake --build build/wasm-test
+}
+studio_tests() (cd web && npm run --silent "$1")
+
+timed "build" build
+timed "build for WebAssembly" build_wasm_tests
+timed "tests" ctest --preset "$preset" -j "${KNEAD_JOBS:-$(nproc)}"
+if [ "$preset" = release ]; then
+  scripts/setup.sh web
+  timed "build of the studio" scripts/studio.sh
+  timed "studio: in node" studio_tests test
+  timed "studio: in Chromium" studio_tests e2e
+fi
+echo "test: all passed"
+printf '%s' "$report"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "executor.hpp"
 #include "knead/spline/extremum.hpp"
@@ -41,15 +42,35 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   auto next = std::make_shared<SessionState>(state());
   if (auto done = std::visit(Executor{document_, cache_->model, *next, progress}, command); !done) return done;
   states_.resize(position_ + 1);
-  commands_.resize(position_, command);
+  entries_.resize(position_);
   states_.push_back(std::move(next));
-  commands_.push_back(command);
+  entries_.push_back({command});
   ++position_;
   return {};
 }
 
 std::vector<Command> Session::journal() const {
-  return {commands_.begin(), commands_.begin() + static_cast<std::ptrdiff_t>(position_)};
+  std::vector<Command> commands;
+  for (std::size_t k = 0; k < position_; ++k) commands.insert(commands.end(), entries_[k].begin(), entries_[k].end());
+  return commands;
+}
+
+void Session::join() {
+  if (position_ < 2 || can_redo()) return;
+  std::vector<Command> last = std::move(entries_.back());
+  entries_.pop_back();
+  std::vector<Command>& entry = entries_.back();
+  auto first = last.begin();
+  auto* before = std::get_if<StepCommand>(&entry.back());
+  const auto* after = std::get_if<StepCommand>(&*first);
+  if (before && after && before->lambda == after->lambda && before->weight == after->weight &&
+      before->count <= std::numeric_limits<int>::max() - after->count) {
+    before->count += after->count;
+    ++first;
+  }
+  entry.insert(entry.end(), first, last.end());
+  states_.erase(states_.end() - 2);
+  --position_;
 }
 
 Expected<double> Session::energy() {

@@ -101,6 +101,12 @@ class Session {
 
   [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {});
 
+  /// Makes the last entry of the history one with the entry before it: undo then takes both back at once, and the state
+  /// between them is forgotten. For what is many commands but one act, as a stroke that follows the pointer. Equal
+  /// `step` commands that come to stand side by side become one with the sum of their counts, which is the same.
+  /// Nothing happens where there are fewer than two entries, or where something can be redone.
+  void join();
+
   [[nodiscard]] const Document& document() const { return document_; }
   [[nodiscard]] const SessionState& state() const { return *states_[position_]; }
   /// The commands whose effect stands, in order: with the document, all of the session.
@@ -121,8 +127,8 @@ class Session {
   struct ModelCache;
 
   Document document_;
-  std::vector<std::shared_ptr<const SessionState>> states_;  // one more than commands_
-  std::vector<Command> commands_;
+  std::vector<std::shared_ptr<const SessionState>> states_;  // one more than entries_
+  std::vector<std::vector<Command>> entries_;                // what undo takes back at once
   std::size_t position_ = 0;
   std::unique_ptr<ModelCache> cache_;  // the last model: its factorisation serves until a setting changes
 };

@@ -1,0 +1,176 @@
+// The session as WebAssembly exports it: a C interface of numbers and bytes. The caller writes bytes to
+// `knead_input(size)`, calls, and reads what came out from `knead_text()`; every call may grow the memory, so that
+// views of it must be taken anew. Functions that can fail return 0 then, and the text is {"error": …}.
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "knead/session/command_json.hpp"
+#include "studio_picture.hpp"
+#include "studio_state.hpp"
+
+#define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
+
+namespace knead::studio {
+namespace {
+
+struct Studio {
+  std::string input, text;
+  std::optional<Session> session;
+  Point origin = Point::Zero();
+  Painter painter;
+};
+
+Studio& held() {
+  static Studio value;
+  return value;
+}
+
+int fail(const Error& error) {
+  held().text = error_json(error);
+  return 0;
+}
+
+int answer(std::string text) {
+  held().text = std::move(text);
+  return 1;
+}
+
+/// The middle of all control points: what positions of pictures are measured from.
+Point middle(const Document& document) {
+  Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  for (const DocumentSurface& s : document.surfaces()) {
+    lower = lower.cwiseMin(s.surface->control_points().colwise().minCoeff().transpose());
+    upper = upper.cwiseMax(s.surface->control_points().colwise().maxCoeff().transpose());
+  }
+  return document.surfaces().empty() ? Point(Point::Zero()) : Point((lower + upper) / 2);
+}
+
+int start(Document document) {
+  held().origin = middle(document);
+  held().session.emplace(std::move(document));
+  return answer(state_json(*held().session));
+}
+
+}  // namespace
+}  // namespace knead::studio
+
+using namespace knead;
+using namespace knead::studio;
+
+KNEAD_EXPORT(knead_input) char* knead_input(std::size_t size) {
+  held().input.resize(size);
+  return held().input.data();
+}
+
+KNEAD_EXPORT(knead_text) const char* knead_text() { return held().text.data(); }
+KNEAD_EXPORT(knead_text_size) std::size_t knead_text_size() { return held().text.size(); }
+
+/// Input: the bytes of a STEP file, then its name (the last `name_size` bytes).
+KNEAD_EXPORT(knead_open) int knead_open(std::size_t name_size) {
+  std::string bytes = std::move(held().input);
+  held().input.clear();
+  if (name_size > bytes.size()) return fail({ErrorKind::usage, "the name is longer than the input"});
+  std::string name = bytes.substr(bytes.size() - name_size);
+  bytes.resize(bytes.size() - name_size);
+  auto file = StepFile::parse(std::move(bytes), std::move(name));
+  if (!file) return fail(file.error());
+  if (file->surfaces().empty()) {
+    const auto& unreadable = file->unreadable_surfaces();
+    if (!unreadable.empty()) return fail(unreadable.front().reason);
+    return fail({ErrorKind::input,
+                 "the file holds no B-spline surface",
+                 {},
+                 "open a file with freeform faces: planes, cylinders and meshes cannot be sculpted"});
+  }
+  return start(Document::from(std::move(*file)));
+}
+
+/// A document without a file; the input is its name.
+KNEAD_EXPORT(knead_fresh) int knead_fresh() { return start(Document::fresh(held().input)); }
+
+namespace {
+int without_session() {
+  return fail({ErrorKind::usage, "nothing is open", {}, "open a file or start a fresh document"});
+}
+}  // namespace
+
+/// The input is one command. With `join`, it becomes one entry of the history with the command before it.
+KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  const auto command = parse_command(held().input);
+  if (!command) return fail(command.error());
+  if (auto done = session->execute(*command); !done) return fail(done.error());
+  if (join != 0) session->join();
+  return answer("{}");
+}
+
+KNEAD_EXPORT(knead_state) int knead_state() {
+  return held().session ? answer(state_json(*held().session)) : without_session();
+}
+
+KNEAD_EXPORT(knead_steps) int knead_steps(std::size_t first) {
+  return held().session ? answer(steps_json(held().session->state(), first)) : without_session();
+}
+
+KNEAD_EXPORT(knead_journal) int knead_journal() {
+  return held().session ? answer(journal_json(*held().session)) : without_session();
+}
+
+/// The text is the saved file.
+KNEAD_EXPORT(knead_save) int knead_save() {
+  if (!held().session) return without_session();
+  auto bytes = held().session->save();
+  return bytes ? answer(std::move(*bytes)) : fail(bytes.error());
+}
+
+/// Coordinate `axis` of the origin of pictures, file units.
+KNEAD_EXPORT(knead_origin) double knead_origin(int axis) { return held().origin[axis]; }
+
+/// Draws a surface, or the shape as it was opened; its buffers are then those of `knead_buffer`. `detail`: grid lines
+/// wanted per direction.
+KNEAD_EXPORT(knead_paint) int knead_paint(int surface, int detail, int field, int opened) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  const SessionState& state = session->state();
+  if (surface < 0 || surface >= static_cast<int>(state.surfaces.size())) {
+    return fail({ErrorKind::usage, "there is no such surface"});
+  }
+  auto done = held().painter.paint(state.surfaces[static_cast<std::size_t>(surface)], state.tools, held().origin,
+                                   detail, static_cast<PictureField>(field), opened != 0);
+  if (!done) return fail(done.error());
+  const auto counts = held().painter.picture().counts;
+  return answer("{\"counts\":[" + std::to_string(counts[0]) + "," + std::to_string(counts[1]) + "]}");
+}
+
+/// Buffers of the last picture: 0 positions, 1 normals, 2 values, 3 fractions s, 4 fractions t, 5 knot lines u, 6 knot
+/// lines v, 7 net, 8 held. Sizes in bytes.
+KNEAD_EXPORT(knead_buffer) const void* knead_buffer(int which) {
+  const Picture& p = held().painter.picture();
+  const void* all[] = {p.positions.data(),   p.normals.data(),     p.values.data(),
+                       p.fractions_s.data(), p.fractions_t.data(), p.lines_u.data(),
+                       p.lines_v.data(),     p.net.data(),         p.held.data()};
+  return all[which];
+}
+
+KNEAD_EXPORT(knead_buffer_size) std::size_t knead_buffer_size(int which) {
+  const Picture& p = held().painter.picture();
+  const std::size_t all[] = {p.positions.size(),   p.normals.size(),     p.values.size(),
+                             p.fractions_s.size(), p.fractions_t.size(), p.lines_u.size(),
+                             p.lines_v.size(),     p.net.size(),         p.held.size()};
+  return all[which] * (which == 8 ? 1 : 4);
+}
+
+/// Control points of a surface in full precision: the text is raw doubles.
+KNEAD_EXPORT(knead_control_points) int knead_control_points(int surface) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  const auto& surfaces = session->state().surfaces;
+  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) {
+    return fail({ErrorKind::usage, "there is no such surface"});
+  }
+  const Points& points = surfaces[static_cast<std::size_t>(surface)].current->control_points();
+  return answer(
+      {reinterpret_cast<const char*>(points.data()), static_cast<std::size_t>(points.size()) * sizeof(double)});
+}

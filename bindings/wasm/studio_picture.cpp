@@ -1,0 +1,143 @@
+#include "studio_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knead::studio {
+namespace {
+
+constexpr int most_lines = 400;  // per direction, whatever the number of spans
+
+void append(std::vector<float>& to, const Point& p) {
+  for (int d = 0; d < 3; ++d) to.push_back(static_cast<float>(p[d]));
+}
+
+}  // namespace
+
+Expected<void> Painter::tabulate(const Surface& surface, int detail) {
+  if (knots_ && *knots_ == surface.knots() && detail_ == detail) return {};
+  knots_.reset();
+  for (int d = 0; d < 2; ++d) {
+    const KnotVector& knots = surface.knots(d);
+    const Interval domain = knots.domain();
+    const std::vector<int> spans = knots.spans();
+    const int wanted =
+        knots.degree() == 1 ? 1 : (detail + static_cast<int>(spans.size()) - 1) / static_cast<int>(spans.size());
+    const int pieces =
+        std::clamp(wanted, knots.degree() == 1 ? 1 : 2, std::max(1, most_lines / static_cast<int>(spans.size())));
+    std::vector<double> parameters;
+    auto& lines = d == 0 ? picture_.lines_u : picture_.lines_v;
+    auto& fractions = d == 0 ? picture_.fractions_s : picture_.fractions_t;
+    lines.clear();
+    fractions.clear();
+    for (int s : spans) {
+      lines.push_back(static_cast<std::uint32_t>(parameters.size()));
+      for (int k = 0; k < pieces; ++k) parameters.push_back(knots[s] + (knots[s + 1] - knots[s]) * k / pieces);
+    }
+    lines.push_back(static_cast<std::uint32_t>(parameters.size()));
+    parameters.push_back(domain.upper);
+    for (double u : parameters) fractions.push_back(static_cast<float>((u - domain.lower) / domain.length()));
+    picture_.counts[static_cast<std::size_t>(d)] = static_cast<std::uint32_t>(parameters.size());
+    auto table = tabulate_basis(knots, parameters, 2);
+    if (!table) return std::unexpected(table.error());
+    tables_[static_cast<std::size_t>(d)] = std::move(*table);
+  }
+  detail_ = detail;
+  knots_ = surface.knots();
+  return {};
+}
+
+Expected<void> Painter::paint(const SurfaceState& surface, const std::vector<Tool>& tools, const Point& origin,
+                              int detail, PictureField field, bool opened) {
+  const Surface& current = opened ? *surface.opened : *surface.current;
+  if (auto done = tabulate(current, detail); !done) return done;
+  const bool curved = field == PictureField::mean_curvature || field == PictureField::gaussian_curvature;
+  const std::array<const BasisTable*, 2> tables = {&tables_[0], &tables_[1]};
+  if (auto done = evaluate_grid<2>(current, tables, curved ? 2 : 1, evaluation_); !done) return done;
+
+  const Points& points = evaluation_.points();
+  picture_.positions.clear();
+  for (Eigen::Index k = 0; k < points.rows(); ++k) append(picture_.positions, points.row(k).transpose() - origin);
+  paint_normals();
+  if (auto done = paint_values(surface, tools, field); !done) return done;
+
+  const auto [m, n] = current.net();
+  const int rows = surface.hold_rows;
+  picture_.net.clear();
+  picture_.held.clear();
+  for (int i = 0; i < m; ++i) {
+    for (int j = 0; j < n; ++j) {
+      append(picture_.net, current.control_points().row(i * n + j).transpose() - origin);
+      const bool outer = i < rows || j < rows || i >= m - rows || j >= n - rows;
+      picture_.held.push_back(outer || surface.pins.contains({i, j}) ? 1 : 0);
+    }
+  }
+  return {};
+}
+
+void Painter::paint_normals() {
+  const Points &u = evaluation_.at({1, 0}), &v = evaluation_.at({0, 1});
+  const auto rows = static_cast<int>(picture_.counts[0]), columns = static_cast<int>(picture_.counts[1]);
+  const auto normal_at = [&](int k, int l, Point& normal) {
+    const Point a = u.row(k * columns + l), b = v.row(k * columns + l);
+    normal = a.cross(b);
+    const double length = normal.norm();
+    if (!(length > 1e-9 * (a.squaredNorm() + b.squaredNorm()))) return false;
+    normal /= length;
+    return true;
+  };
+  picture_.normals.clear();
+  for (int k = 0; k < rows; ++k) {
+    for (int l = 0; l < columns; ++l) {
+      Point normal;
+      // At a pole the derivatives vanish or are parallel: the next point inside has the limit, up to a pixel.
+      if (!normal_at(k, l, normal)) {
+        const int inner_k = std::clamp(k, 1, std::max(1, rows - 2)),
+                  inner_l = std::clamp(l, 1, std::max(1, columns - 2));
+        if (!normal_at(inner_k, l, normal) && !normal_at(k, inner_l, normal) && !normal_at(inner_k, inner_l, normal)) {
+          normal = Point::UnitZ();
+        }
+      }
+      append(picture_.normals, normal);
+    }
+  }
+}
+
+Expected<void> Painter::paint_values(const SurfaceState& surface, const std::vector<Tool>& tools, PictureField field) {
+  picture_.values.clear();
+  if (field == PictureField::none) return {};
+  const Points& points = evaluation_.points();
+  const auto normal = [this](Eigen::Index k) {
+    const float* n = picture_.normals.data() + 3 * k;
+    return Point(n[0], n[1], n[2]);
+  };
+  if (field == PictureField::deviation) {
+    if (auto done = evaluate_grid<2>(*surface.opened, {&tables_[0], &tables_[1]}, 0, opened_); !done) return done;
+  }
+  for (Eigen::Index k = 0; k < points.rows(); ++k) {
+    double value = 0;
+    if (field == PictureField::deviation) {
+      const Point moved = points.row(k) - opened_.points().row(k);
+      value = std::copysign(moved.norm(), moved.dot(normal(k)));
+    } else if (field == PictureField::gap) {
+      value = std::numeric_limits<double>::infinity();
+      for (const Tool& tool : tools) value = std::min(value, tool.shape.nearest(points.row(k).transpose()).distance);
+      if (!std::isfinite(value)) value = 0;
+    } else {
+      // First and second fundamental forms.
+      const Point u = evaluation_.at({1, 0}).row(k), v = evaluation_.at({0, 1}).row(k), n = normal(k);
+      const double e = u.dot(u), f = u.dot(v), g = v.dot(v);
+      const double l = n.dot(evaluation_.at({2, 0}).row(k)), m = n.dot(evaluation_.at({1, 1}).row(k)),
+                   o = n.dot(evaluation_.at({0, 2}).row(k));
+      const double area = e * g - f * f;
+      if (area > 1e-18 * (e + g) * (e + g)) {
+        value = field == PictureField::gaussian_curvature ? (l * o - m * m) / area
+                                                          : (e * o - 2 * f * m + g * l) / (2 * area);
+      }
+    }
+    picture_.values.push_back(static_cast<float>(value));
+  }
+  return {};
+}
+
+}  // namespace knead::studio

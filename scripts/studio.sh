@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Builds the studio, static files that any host can serve: web/dist
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh studio
+scripts/configure.sh wasm
+cmake --build build/wasm --target knead_studio
+module=web/src/engine/knead_studio.wasm
+cmp -s build/wasm/bindings/wasm/knead_studio.wasm "$module" || cp build/wasm/bindings/wasm/knead_studio.wasm "$module"
+
+cd web
+# What the lock file names, and again only when it changes.
+if ! cmp -s package-lock.json node_modules/.installed; then
+  npm ci --no-audit --no-fund --loglevel=error
+  cp package-lock.json node_modules/.installed
+fi
+inputs=(index.html package-lock.json vite.config.ts tsconfig.json src public ../samples/bonnet.step)
+if [ ! -f dist/index.html ] || [ -n "$(find "${inputs[@]}" -newer dist/index.html -print -quit)" ]; then
+  npm run --silent build
+fi

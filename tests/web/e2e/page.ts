@@ -1,0 +1,107 @@
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { type Browser, chromium, type Page } from 'playwright-core';
+
+export const root = fileURLToPath(new URL('../../..', import.meta.url));
+export const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
+
+interface Server {
+  url: string;
+  close(): Promise<void>;
+}
+
+/** The built page in a headless browser, and everything that went wrong in it. */
+export interface Studio {
+  browser: Browser;
+  server: Server;
+  page: Page;
+  problems: string[];
+  /** Requests that left the page's own origin. */
+  foreign: string[];
+  close(): Promise<void>;
+}
+
+export async function openStudio(width = 900, height = 560): Promise<Studio> {
+  const module = join(root, 'web/serve.mjs');
+  const { serve } = (await import(/* @vite-ignore */ module)) as { serve(directory: string): Promise<Server> };
+  const server = await serve(join(root, 'web/dist'));
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking',
+      '--disable-component-update', '--disable-sync', '--no-first-run'],
+  });
+  const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
+  const page = await context.newPage();
+  const problems: string[] = [];
+  const foreign: string[] = [];
+  page.on('console', (m) => {
+    if (m.type() === 'error' || m.type() === 'warning') problems.push(m.text());
+  });
+  page.on('pageerror', (e) => problems.push(e.message));
+  context.on('request', (r) => {
+    if (!r.url().startsWith(server.url) && !r.url().startsWith('blob:')) foreign.push(r.url());
+  });
+  const studio: Studio = {
+    browser, server, page, problems, foreign,
+    close: async () => {
+      await browser.close();
+      await server.close();
+    },
+  };
+  await page.goto(server.url);
+  await ready(page);
+  return studio;
+}
+
+export const ready = (page: Page) => page.waitForSelector('html[data-ready]', { state: 'attached', timeout: 60_000 });
+
+/** Number of commands that stand. */
+export const commands = (page: Page): Promise<{ do: string }[]> =>
+  page.evaluate(async () => (JSON.parse(await (window as never as { studio: { client: { journal(): Promise<string> } } }).studio.client.journal()) as { commands: { do: string }[] }).commands);
+
+interface App {
+  frame: { origin: number[]; pictures: { positions: Float32Array; normals: Float32Array }[]; state: { selection: number[]; undo: boolean }; memory: number };
+  brush: { active: boolean; settings: { radius: number; strength: number } };
+  viewer: { picture(): Promise<Blob> };
+  client: { followed(): Promise<void>; journal(): Promise<string> };
+}
+
+/** All positions that the page draws, file units, in one list. */
+export const positions = (page: Page): Promise<number[]> =>
+  page.evaluate(() => {
+    const { pictures, origin } = (window as never as { studio: App }).studio.frame;
+    return pictures.flatMap((p) => [...p.positions].map((x, k) => x + origin[k % 3]!));
+  });
+
+/** Waits until the session has done everything that the page has asked for. */
+export async function settled(page: Page): Promise<void> {
+  await page.evaluate(async () => {
+    const { studio } = window as never as { studio: App };
+    for (let k = 0; k < 2; ++k) {
+      await studio.client.followed();
+      await studio.client.journal();
+      await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+    }
+  });
+}
+
+/** Middle of the perspective view, moved by pixels. */
+export async function spot(page: Page, dx = 0, dy = 0): Promise<[number, number]> {
+  const box = (await page.locator('.view-perspective').boundingBox())!;
+  return [box.x + box.width / 2 + dx, box.y + box.height / 2 + dy];
+}
+
+export async function stroke(page: Page, ...places: [number, number][]): Promise<void> {
+  await page.mouse.move(...(await spot(page, ...places[0]!)));
+  await page.mouse.down();
+  for (const place of places) {
+    await page.mouse.move(...(await spot(page, ...place)), { steps: 3 });
+    await page.waitForTimeout(40);
+  }
+  await page.mouse.up();
+  await settled(page);
+}
+
+export const distance = (a: number[], b: number[]): number =>
+  a.length === b.length ? a.reduce((most, x, k) => Math.max(most, Math.abs(x - b[k]!)), 0) : Infinity;

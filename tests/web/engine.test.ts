@@ -1,0 +1,142 @@
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+
+import { Engine } from '@studio/engine/engine';
+import { type Command, EngineError } from '@studio/engine/session_types';
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
+const wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
+const bonnet = new Uint8Array(readFileSync(join(root, 'samples/bonnet.step')));
+const script = JSON.parse(readFileSync(join(root, 'samples/bonnet.json'), 'utf8')) as { commands: Command[] };
+const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
+
+const load = () => Engine.load(wasm);
+
+async function sheet(net = 12): Promise<Engine> {
+  const engine = await load();
+  engine.fresh('sheet');
+  engine.execute({ do: 'new', size: [100, 100], net: [net, net] });
+  return engine;
+}
+
+const press: Command[] = [
+  { do: 'hold', rows: 2 },
+  { do: 'tool', name: 'ball', radius: 20, position: [50, 50, 10], plasticity: 1 },
+  { do: 'step', count: 3 },
+];
+
+describe('the session in WebAssembly', () => {
+  it('is smaller than a megabyte as it goes over the network', () => {
+    expect(gzipSync(wasm).byteLength).toBeLessThan(1_000_000);
+  });
+
+  it('gives the control points of the native one to 1e-9', async () => {
+    const directory = mkdtempSync(join(tmpdir(), 'knead-'));
+    try {
+      const out = join(directory, 'native.step');
+      execFileSync(native, ['sculpt', join(root, 'samples/bonnet.step'), '-o', out, '--script', join(root, 'samples/bonnet.json')]);
+      const engine = await load();
+      engine.openStep(bonnet, 'bonnet.step');
+      for (const command of script.commands) engine.execute(command);
+      const here = engine.controlPoints(engine.state().selection[0]!);
+      const other = await load();
+      other.openStep(new Uint8Array(readFileSync(out)), 'native.step');
+      const there = other.controlPoints(engine.state().selection[0]!);
+      expect(here.length).toBe(there.length);
+      const size = Math.max(...there.map(Math.abs));
+      const worst = here.reduce((most, x, k) => Math.max(most, Math.abs(x - there[k]!)), 0);
+      expect(worst).toBeLessThan(1e-9 * size);
+      expect(engine.state().surfaces[engine.state().selection[0]!]!.moved).toBeGreaterThan(0);
+      // What is saved here is what is there.
+      const saved = join(directory, 'wasm.step');
+      writeFileSync(saved, engine.save());
+      const info = (file: string) => execFileSync(native, ['info', file], { encoding: 'utf8' }).replaceAll(file, '');
+      expect(info(saved)).toBe(info(out));
+    } finally {
+      rmSync(directory, { recursive: true });
+    }
+  });
+
+  it('presses a ball into a sheet, and undo and redo restore it bit for bit', async () => {
+    const engine = await sheet();
+    const before = engine.controlPoints(0);
+    for (const command of press) engine.execute(command);
+    const after = engine.controlPoints(0);
+    expect(after).not.toEqual(before);
+    for (let k = 0; k < press.length; ++k) engine.execute({ do: 'undo' });
+    expect(engine.controlPoints(0)).toEqual(before);
+    for (let k = 0; k < press.length; ++k) engine.execute({ do: 'redo' });
+    expect(engine.controlPoints(0)).toEqual(after);
+  });
+
+  it('takes a joined act back at once, and its journal replays to the same bits', async () => {
+    const engine = await sheet();
+    engine.execute(press[0]!);
+    const before = engine.controlPoints(0);
+    engine.execute(press[1]!);
+    for (let k = 0; k < 5; ++k) engine.execute({ do: 'step' }, true);
+    engine.execute({ do: 'remove' }, true);
+    const after = engine.controlPoints(0);
+    const journal = JSON.parse(engine.journal()) as { commands: Command[] };
+    expect(journal.commands.map((c) => c.do)).toEqual(['new', 'hold', 'tool', 'step', 'remove']);
+    expect(journal.commands[3]!.count).toBe(5);
+    engine.execute({ do: 'undo' });
+    expect(engine.controlPoints(0)).toEqual(before);
+    engine.execute({ do: 'redo' });
+    expect(engine.controlPoints(0)).toEqual(after);
+    const again = await load();
+    again.fresh('sheet');
+    for (const command of journal.commands) again.execute(command);
+    expect(again.controlPoints(0)).toEqual(after);
+  });
+
+  it('draws unit normals, knot lines and a field', async () => {
+    const engine = await sheet();
+    for (const command of press) engine.execute(command);
+    const picture = engine.paint(0, 60, 'deviation');
+    const [m, n] = picture.counts;
+    expect(picture.positions.length).toBe(3 * m * n);
+    expect(picture.linesU.length).toBe(10);
+    for (let k = 0; k < picture.normals.length; k += 3) {
+      expect(Math.hypot(...picture.normals.subarray(k, k + 3))).toBeCloseTo(1, 5);
+    }
+    const deepest = Math.max(...picture.values.map(Math.abs));
+    expect(deepest).toBeCloseTo(engine.state().last!.displacement, 1);
+    expect(picture.positions.every(Number.isFinite)).toBe(true);
+    expect([...picture.held].filter((h) => h === 1).length).toBe(144 - 64);
+    const flat = (await sheet()).paint(0, 60, 'gaussian');
+    expect(Math.max(...flat.values.map(Math.abs))).toBe(0);
+  });
+
+  it('says what is wrong with a file, a command and an order', async () => {
+    const engine = await load();
+    expect(() => engine.state()).toThrow(/nothing is open/);
+    expect(() => engine.openStep(new TextEncoder().encode('solid cube'), 'cube.stl')).toThrow(EngineError);
+    engine.fresh('empty');
+    expect(() => engine.execute({ do: 'step' })).toThrow(EngineError);
+    expect(() => engine.execute({ do: 'stpe' })).toThrow(/not a command/);
+    expect(() => engine.execute({ do: 'undo' })).toThrow(/nothing to undo/);
+    expect(() => engine.paint(7, 10, 'none')).toThrow(/no such surface/);
+    engine.execute({ do: 'new' });
+    expect(engine.state().surfaces.length).toBe(1);
+  });
+
+  it('keeps its memory while a stroke goes on', async () => {
+    const engine = await sheet(32);
+    engine.execute(press[0]!);
+    const stroke = (x: number, join: boolean) => {
+      engine.execute({ do: 'tool', name: 'brush', radius: 15, position: [x, 50, 10], plasticity: 1 }, join);
+      engine.execute({ do: 'step' }, true);
+      engine.paint(0, 96, 'none');
+    };
+    stroke(20, false);
+    for (let k = 0; k < 40; ++k) stroke(20 + k, true);
+    const size = engine.memorySize;
+    for (let k = 0; k < 100; ++k) stroke(60 - 0.2 * k, true);
+    expect(engine.memorySize).toBeLessThanOrEqual(size * 1.1);
+  });
+});

@@ -1,0 +1,75 @@
+// Takes the pictures of docs/ from the real page:  node pictures.mjs
+import { fileURLToPath } from 'node:url';
+
+import { chromium } from 'playwright-core';
+
+import { serve } from './serve.mjs';
+
+const here = (path) => fileURLToPath(new URL(path, import.meta.url));
+const server = await serve(here('dist'));
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking',
+    '--disable-component-update', '--disable-sync', '--no-first-run'],
+});
+const page = await browser.newPage({ viewport: { width: 1180, height: 720 } });
+await page.goto(server.url);
+await page.waitForSelector('html[data-ready]', { state: 'attached' });
+
+const box = await page.locator('.view-perspective').boundingBox();
+const at = ([x, y]) => [box.x + box.width * x, box.y + box.height * y];
+const pause = (milliseconds = 700) => page.waitForTimeout(milliseconds);
+const scene = async (name) => {
+  await page.locator('summary[aria-label^=Gallery]').click();
+  await page.locator('details[open] .menu-item', { hasText: name }).click();
+  await pause(1200);
+};
+const stroke = async (...places) => {
+  await page.mouse.move(...at(places[0]));
+  await page.mouse.down();
+  for (const place of places) {
+    await page.mouse.move(...at(place), { steps: 4 });
+    await pause(100);
+  }
+  await page.mouse.up();
+  await pause(400);
+};
+const picture = async (name) => {
+  await page.mouse.move(...at([0.02, 0.02]));
+  await pause();
+  await page.screenshot({ path: here(`../docs/pictures/${name}.png`) });
+};
+const theme = async (wanted) => {
+  if ((await page.locator('html').getAttribute('data-theme')) !== wanted) await page.locator('button[aria-label="Light or dark"]').click();
+};
+
+await theme('dark');
+await scene('Bonnet');
+await page.keyboard.press('b');
+await stroke([0.42, 0.5], [0.5, 0.47], [0.58, 0.45]);
+await page.keyboard.press('u');
+await stroke([0.5, 0.62], [0.6, 0.6]);
+await picture('studio');
+
+await page.locator('select[aria-label="Colour by"]').selectOption('deviation');
+await picture('studio-deviation');
+await page.locator('select[aria-label="Colour by"]').selectOption('none');
+await page.keyboard.press('z');
+await picture('studio-zebra');
+await page.keyboard.press('z');
+
+await theme('light');
+await scene('Ball on a membrane');
+for (let k = 0; k < 4; ++k) {
+  await page.keyboard.press('.');
+  await pause(150);
+}
+await page.keyboard.press('v');
+await page.locator('.panel[data-panel=Tools] .item').click();
+await page.keyboard.press('4');
+await pause();
+await page.keyboard.press('f');
+await picture('studio-four-views');
+
+await browser.close();
+await server.close();

@@ -1,0 +1,56 @@
+// Serves a directory of static files on the loopback address:  node serve.mjs [directory] [port]
+import { createReadStream, readFileSync, statSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { extname, join, normalize } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+
+const types = {
+  '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm',
+  '.svg': 'image/svg+xml', '.json': 'application/json', '.step': 'model/step',
+};
+
+/** Starts the server; port 0 takes a free one. Resolves to { url, close }. */
+export function serve(directory, port = 0) {
+  const packed = new Map();
+  const server = createServer((request, response) => {
+    const path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
+    const file = join(directory, path.endsWith('/') ? join(path, 'index.html') : path);
+    let size;
+    try {
+      const stat = statSync(file);
+      if (!stat.isFile() || !file.startsWith(join(directory, '/'))) throw new Error('no file');
+      size = stat.size;
+    } catch {
+      response.writeHead(404).end('not found');
+      return;
+    }
+    const head = { 'content-type': types[extname(file)] ?? 'application/octet-stream', 'cache-control': 'no-cache' };
+    // Names in assets/ change with their content: compressed once, kept by the browser.
+    if (path.startsWith('/assets/')) head['cache-control'] = 'max-age=31536000, immutable';
+    if (/\bgzip\b/.test(request.headers['accept-encoding'] ?? '') && /\.(js|css|html|wasm)$/.test(file)) {
+      if (!packed.has(file)) packed.set(file, gzipSync(readFileSync(file)));
+      const bytes = packed.get(file);
+      response.writeHead(200, { ...head, 'content-encoding': 'gzip', 'content-length': bytes.length }).end(bytes);
+      return;
+    }
+    response.writeHead(200, { ...head, 'content-length': size });
+    createReadStream(file).pipe(response);
+  });
+  return new Promise((resolve, reject) => {
+    server.on('error', reject);
+    server.listen(port, '127.0.0.1', () =>
+      resolve({ url: `http://127.0.0.1:${server.address().port}/`, close: () => new Promise((done) => server.close(done)) }));
+  });
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const directory = process.argv[2] ?? fileURLToPath(new URL('dist', import.meta.url));
+  const wanted = Number(process.argv[3] ?? 8642);
+  const { url } = await serve(directory, wanted).catch((error) => {
+    if (error.code !== 'EADDRINUSE') throw error;
+    return serve(directory, 0);
+  });
+  console.log(`studio: ${url}  (Ctrl+C ends it)`);
+  for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(0));
+}

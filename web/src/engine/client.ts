@@ -1,0 +1,101 @@
+import type { Frame, PaintSettings, Reply, Request } from './protocol';
+import { type Command, EngineError, type EngineErrorInfo } from './session_types';
+
+interface Waiting {
+  resolve(reply: { bytes?: Uint8Array; text?: string }): void;
+  reject(error: Error): void;
+}
+
+/** The page's end of the line to the worker. */
+export class Client {
+  onFrame: (frame: Frame) => void = () => {};
+  /** Errors that no request waits for. */
+  onError: (error: EngineErrorInfo) => void = () => {};
+  readonly ready: Promise<void>;
+
+  private readonly waiting = new Map<number, Waiting>();
+  private next = 1;
+  private live: { commands: () => Command[]; join: boolean } | null = null;
+  private liveUnderWay: Promise<void> | null = null;
+
+  constructor(private readonly worker: Worker) {
+    this.ready = new Promise((resolve) => {
+      worker.onmessage = (event: MessageEvent<Reply>) => {
+        const reply = event.data;
+        if (reply.kind === 'ready') resolve();
+        else if (reply.kind === 'frame') this.draw(reply.frame);
+        else this.settle(reply);
+      };
+    });
+    worker.onerror = (event) => {
+      const message = event.message || 'the engine could not be started';
+      this.onError({ kind: 'internal', what: message, where: '', remedy: 'reload the page', message });
+    };
+  }
+
+  private draw(frame: Frame): void {
+    this.onFrame(frame);
+    // The next one after this one is on the screen; a hidden page draws nothing and must not hold up the session.
+    if (document.hidden) setTimeout(() => this.send({ kind: 'drawn' }), 0);
+    else requestAnimationFrame(() => this.send({ kind: 'drawn' }));
+  }
+
+  private settle(reply: Exclude<Reply, { kind: 'ready' } | { kind: 'frame' }>): void {
+    const waiting = this.waiting.get(reply.id);
+    this.waiting.delete(reply.id);
+    if (reply.kind === 'failed') {
+      if (waiting) waiting.reject(new EngineError(reply.error));
+      else this.onError(reply.error);
+    } else waiting?.resolve(reply);
+  }
+
+  private send(request: Request, id = 0): void {
+    this.worker.postMessage({ id, request });
+  }
+
+  private ask(request: Request): Promise<{ bytes?: Uint8Array; text?: string }> {
+    const id = this.next++;
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve, reject });
+      this.send(request, id);
+    });
+  }
+
+  open = (bytes: Uint8Array, name: string, script?: string) => this.ask({ kind: 'open', bytes, name, script });
+  fresh = (name: string, commands: Command[]) => this.ask({ kind: 'fresh', name, commands });
+  execute = (commands: Command[], join = false) => this.ask({ kind: 'execute', commands, join });
+  paint = (settings: PaintSettings) => this.ask({ kind: 'paint', settings });
+  play = (toRest = false) => this.ask({ kind: 'play', toRest });
+  stop = () => this.ask({ kind: 'stop' });
+  save = async (): Promise<Uint8Array> => (await this.ask({ kind: 'save' })).bytes!;
+  journal = async (): Promise<string> => (await this.ask({ kind: 'journal' })).text!;
+
+  /**
+   * Commands that follow the pointer: while one act is under way only the newest of those that wait is kept, so that
+   * the page is never more than one ahead. They are asked for at the moment they are sent.
+   */
+  follow(commands: () => Command[], join: boolean): void {
+    this.live = { commands, join };
+    this.liveUnderWay ??= this.followOn();
+  }
+
+  /** Resolves when everything given to `follow` has been done. */
+  async followed(): Promise<void> {
+    await this.liveUnderWay;
+  }
+
+  private async followOn(): Promise<void> {
+    try {
+      while (this.live) {
+        const { commands, join } = this.live;
+        this.live = null;
+        await this.execute(commands(), join);
+      }
+    } catch (error) {
+      this.live = null;
+      if (error instanceof EngineError) this.onError(error.info);
+    } finally {
+      this.liveUnderWay = null;
+    }
+  }
+}

@@ -1,0 +1,44 @@
+import type { Command, EngineErrorInfo, Field, Picture, SessionInfo, StepInfo } from './session_types';
+
+/** How surfaces are drawn: part of every request for pictures. */
+export interface PaintSettings {
+  detail: number;
+  field: Field;
+  /** The shapes as they were opened, for comparison. */
+  opened?: boolean;
+}
+
+/** What the page asks of the worker. Every request is answered by one `Reply` of its number. */
+export type Request =
+  | { kind: 'open'; bytes: Uint8Array; name: string; script?: string }
+  | { kind: 'fresh'; name: string; commands: Command[] }
+  /** Commands that are one act: with `join` they also belong to the entry of the history before them. */
+  | { kind: 'execute'; commands: Command[]; join: boolean }
+  | { kind: 'paint'; settings: PaintSettings }
+  /** Steps until `stop`, or, to rest, until nothing moves any more. */
+  | { kind: 'play'; toRest: boolean }
+  | { kind: 'stop' }
+  /** The page has drawn the last frame: the next one may come. */
+  | { kind: 'drawn' }
+  | { kind: 'save' }
+  | { kind: 'journal' };
+
+export interface Frame {
+  state: SessionInfo;
+  pictures: Picture[];
+  /** Steps from number `firstStep` on, for the plot. */
+  firstStep: number;
+  steps: StepInfo[];
+  origin: [number, number, number];
+  playing: boolean;
+  /** Milliseconds that the worker took for commands and for pictures. */
+  computeTime: number;
+  paintTime: number;
+  memory: number;
+}
+
+export type Reply =
+  | { kind: 'ready' }
+  | { kind: 'frame'; frame: Frame }
+  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string }
+  | { kind: 'failed'; id: number; error: EngineErrorInfo };

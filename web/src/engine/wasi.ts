@@ -1,0 +1,38 @@
+/**
+ * The few system calls that the compiled C++ library may make. There is no file system and there are no arguments; what
+ * is not listed here answers "not supported" (52), and says so through its return value.
+ */
+export function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memory): WebAssembly.Imports {
+  const view = () => new DataView(memory().buffer);
+  const known: Record<string, (...args: never[]) => number> = {
+    clock_time_get: (_id: number, _precision: bigint, out: number) => {
+      view().setBigUint64(out, BigInt(Math.round(performance.now() * 1e6)), true);
+      return 0;
+    },
+    random_get: (out: number, size: number) => {
+      crypto.getRandomValues(new Uint8Array(memory().buffer, out, size));
+      return 0;
+    },
+    fd_write: (_fd: number, vectors: number, count: number, out: number) => {
+      let written = 0;
+      let text = '';
+      for (let k = 0; k < count; ++k) {
+        const at = view().getUint32(vectors + 8 * k, true);
+        const size = view().getUint32(vectors + 8 * k + 4, true);
+        text += new TextDecoder().decode(new Uint8Array(memory().buffer, at, size).slice());
+        written += size;
+      }
+      if (text.trim() !== '') console.error(text);
+      view().setUint32(out, written, true);
+      return 0;
+    },
+    proc_exit: (code: number) => {
+      throw new Error(`the engine stopped with code ${code}`);
+    },
+  };
+  const imports: WebAssembly.Imports = {};
+  for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+    (imports[from] ??= {})[name] = (known[name] as ((...args: unknown[]) => number) | undefined) ?? (() => 52);
+  }
+  return imports;
+}

@@ -1,0 +1,76 @@
+import type { App } from '../app';
+import { modes, toggleShortcuts } from './chrome';
+
+export function listenToKeys(app: App): void {
+  document.addEventListener('keyup', (event) => {
+    if (event.key.toLowerCase() === 'c') app.compare(false);
+  });
+  window.addEventListener('blur', () => app.compare(false));
+  document.addEventListener('keydown', (event) => {
+    const target = event.target as HTMLElement;
+    if (target.closest('input[type=text], textarea')) return;
+    if (handle(app, event)) event.preventDefault();
+  });
+}
+
+/** True where the key meant something. */
+function handle(app: App, event: KeyboardEvent): boolean {
+  const key = event.key.toLowerCase();
+  const viewport = app.viewer.viewports[0]!;
+  if (event.ctrlKey || event.metaKey) {
+    if (key === 'z' || key === 'y') {
+      const again = key === 'y' || event.shiftKey;
+      if (!app.playing() && !app.brush.active && (again ? app.state?.redo : app.state?.undo)) void app.execute([{ do: again ? 'redo' : 'undo' }]);
+      return true;
+    }
+    if (key === 's') void app.saveStep();
+    return key === 's';
+  }
+  if (key === 'escape') {
+    if (app.brush.active) void app.brush.cancel();
+    else if (document.querySelector('.shortcuts')) toggleShortcuts(app);
+    else if (app.viewer.selectedTool) {
+      app.viewer.selectTool(null);
+      app.changed();
+    }
+    return true;
+  }
+  if (event.key === '?') {
+    toggleShortcuts(app);
+    return true;
+  }
+  const mode = modes.find(([, , k]) => k === key);
+  if (mode && !event.altKey) {
+    app.setMode(mode[0]);
+    return true;
+  }
+  const ready = app.state !== null && app.state.selection.length > 0;
+  const gizmo = (kind: 'translate' | 'rotate' | 'scale') => {
+    for (const v of app.viewer.viewports) v.gizmo.setMode(kind);
+    app.changed();
+  };
+  // Digits by their place on the keyboard, so that Shift does not change them.
+  const view = { Digit1: ['front', 'back'], Digit2: ['right', 'left'], Digit3: ['top', 'bottom'] }[event.code];
+  if (view) viewport.turn(view[event.shiftKey ? 1 : 0] as 'front');
+  else if (event.code === 'Digit0') viewport.turn('perspective');
+  else if (event.code === 'Digit4') app.setDisplay({ fourViews: !app.display.fourViews });
+  else if (key === ' ' && ready) {
+    if (event.target instanceof HTMLButtonElement) return false;
+    app.togglePlay();
+  } else if (key === '.' && ready && !app.playing()) void app.execute([{ do: 'step' }]);
+  else if (key === 'r' && ready) app.togglePlay(true);
+  else if (key === 'f') app.viewer.fit();
+  else if (key === 'c') app.compare(true);
+  else if (key === 'o') document.querySelector<HTMLInputElement>('input[type=file]')?.click();
+  else if (key === 'z') app.setDisplay({ zebra: !app.display.zebra });
+  else if (key === 'm') gizmo('translate');
+  else if (key === 'n') gizmo('rotate');
+  else if (key === 'k') gizmo('scale');
+  else if (key === '[' || key === ']') {
+    app.brush.settings.radius *= key === ']' ? 1.15 : 1 / 1.15;
+    app.changed();
+  } else if ((key === 'delete' || key === 'backspace') && app.viewer.selectedTool) {
+    void app.execute([{ do: 'remove', tool: app.viewer.selectedTool }]);
+  } else return false;
+  return true;
+}

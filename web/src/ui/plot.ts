@@ -1,0 +1,74 @@
+import type { App } from '../app';
+import { format, h } from './dom';
+
+const terms = [
+  ['stretch', '--plot-1'],
+  ['bend', '--plot-2'],
+  ['kinetic', '--plot-3'],
+  ['contact', '--plot-4'],
+] as const;
+
+/** The bar below: energy by term over the last steps, and the numbers of the last one. */
+export function statusBar(app: App): HTMLElement {
+  const canvas = h('canvas', { class: 'plot', width: 220, height: 44, aria: { label: 'Energy by term over the last steps' } });
+  const legend = h('div', { class: 'legend' }, ...terms.map(([name]) => h('span', { class: `key ${name}` }, name)));
+  const numbers = h('div', { class: 'numbers' });
+  const colours = h('div', { class: 'colour-bar', hidden: true }, h('span', {}), h('i', {}), h('span', {}));
+  const message = h('div', { class: 'hint' });
+  const element = h('footer', { class: 'status' }, canvas, legend, numbers, h('div', { class: 'spacer' }), colours, message);
+
+  const update = () => {
+    const { state, frame } = app;
+    drawPlot(app, canvas);
+    const last = state?.last;
+    const cells: [string, string, string][] = [];
+    if (frame) {
+      const points = state!.selection.reduce((n, k) => n + state!.surfaces[k]!.net[0] * state!.surfaces[k]!.net[1], 0);
+      cells.push(['points', String(points), 'Control points of the selected surfaces; three unknowns each']);
+      if (last) {
+        cells.push(['steps', String(state!.steps), 'Steps so far']);
+        cells.push(['step', `${(1000 * last.time).toFixed(1)} ms`, 'Time of the last step alone']);
+        cells.push(['energy', format(last.energy), 'Stretch and bend energy']);
+        cells.push(['residual', format(last.residual), 'Imbalance of forces: 0 at rest']);
+        cells.push(['moved', `${format(last.displacement)} ${state!.surfaces[0]?.unit ?? ''}`, 'Largest distance from the surface as opened']);
+      }
+      cells.push(['frame', `${(frame.computeTime + frame.paintTime).toFixed(1)} ms`, 'Commands, evaluation and transfer in the worker']);
+      if (app.framesPerSecond > 0) cells.push(['fps', app.framesPerSecond.toFixed(0), 'Frames per second']);
+    }
+    numbers.replaceChildren(...cells.map(([name, value, tip]) => h('span', { title: tip }, h('small', {}, name), value)));
+    const coloured = app.display.field !== 'none' && !app.display.zebra;
+    colours.hidden = !coloured;
+    if (coloured) {
+      colours.firstElementChild!.textContent = `−${format(app.display.limit)}`;
+      colours.lastElementChild!.textContent = `+${format(app.display.limit)}`;
+    }
+    const unit = state?.surfaces[0]?.unit ?? '';
+    message.textContent = app.display.grid && state ? `grid ${format(app.viewer.ground.step)} ${unit}` : '';
+  };
+  app.onChange.push(update);
+  return element;
+}
+
+function drawPlot(app: App, canvas: HTMLCanvasElement): void {
+  const context = canvas.getContext('2d');
+  if (!context) return;
+  const scale = Math.min(window.devicePixelRatio, 2);
+  const [width, height] = [220, 44];
+  if (canvas.width !== width * scale) [canvas.width, canvas.height] = [width * scale, height * scale];
+  context.setTransform(scale, 0, 0, scale, 0, 0);
+  context.clearRect(0, 0, width, height);
+  const { steps } = app;
+  if (steps.length < 2) return;
+  const style = getComputedStyle(document.documentElement);
+  const most = Math.max(...steps.flatMap((s) => terms.map(([name]) => s[name])), 1e-300);
+  for (const [name, colour] of terms) {
+    if (steps.every((s) => s[name] === 0)) continue;
+    context.beginPath();
+    steps.forEach((s, k) => {
+      context.lineTo((k / (steps.length - 1)) * width, height - 2 - Math.max(0, s[name] / most) * (height - 4));
+    });
+    context.strokeStyle = style.getPropertyValue(colour);
+    context.lineWidth = 1.5;
+    context.stroke();
+  }
+}

@@ -1,0 +1,68 @@
+import type { Field } from '../engine/session_types';
+
+/** What is shown and how; kept in the browser between visits. */
+export interface Display {
+  surface: boolean;
+  isocurves: boolean;
+  knotLines: boolean;
+  net: boolean;
+  points: boolean;
+  normals: boolean;
+  grid: boolean;
+  zebra: boolean;
+  field: Field;
+  /** Values at ± this have the full colour. */
+  limit: number;
+  autoLimit: boolean;
+  pointSize: number;
+  fourViews: boolean;
+  detail: number;
+}
+
+export const defaultDisplay: Display = {
+  surface: true,
+  isocurves: true,
+  knotLines: false,
+  net: false,
+  points: false,
+  normals: false,
+  grid: true,
+  zebra: false,
+  field: 'none',
+  limit: 1,
+  autoLimit: true,
+  pointSize: 4,
+  fourViews: false,
+  detail: 96,
+};
+
+export interface Palette {
+  background: number;
+  front: number;
+  back: number;
+  isocurve: number;
+  isocurveOpacity: number;
+  knotLine: number;
+  net: number;
+  point: number;
+  held: number;
+  grid: number;
+  gridStrong: number;
+  tool: number;
+  toolSelected: number;
+}
+
+export type Theme = 'light' | 'dark';
+
+export const palettes: Record<Theme, Palette> = {
+  dark: {
+    background: 0x15181c, front: 0xa9bccd, back: 0xb8a08a, isocurve: 0x0d1116, isocurveOpacity: 0.38, knotLine: 0xe8eef4,
+    net: 0x8fa3b5, point: 0xe6edf3, held: 0xf0a35a, grid: 0x252a31, gridStrong: 0x363d47, tool: 0x8b97a5,
+    toolSelected: 0x3fb6a8,
+  },
+  light: {
+    background: 0xf1f3f5, front: 0xb4c4d3, back: 0xc9b29d, isocurve: 0x1a2733, isocurveOpacity: 0.3, knotLine: 0x14202b,
+    net: 0x5b6b7a, point: 0x1d2a36, held: 0xc8641a, grid: 0xdfe3e7, gridStrong: 0xc6ccd3, tool: 0x7b8794,
+    toolSelected: 0x0f8f82,
+  },
+};

@@ -1,0 +1,75 @@
+import * as THREE from 'three';
+
+export type Shading = 'shaded' | 'zebra' | 'field';
+
+/** One material for everything a surface can look like: lit from both sides, zebra stripes, or coloured by a field. */
+export function surfaceMaterial(): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    side: THREE.DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+    uniforms: {
+      mode: { value: 0 },
+      front: { value: new THREE.Color(0x9fb4c8) },
+      back: { value: new THREE.Color(0xb59d86) },
+      limit: { value: 1 },
+      selected: { value: 1 },
+    },
+    vertexShader: /* glsl */ `
+      attribute float value;
+      varying vec3 vNormal;
+      varying vec3 vView;
+      varying float vValue;
+      void main() {
+        vec4 place = modelViewMatrix * vec4(position, 1.0);
+        vNormal = normalMatrix * normal;
+        vView = isOrthographic ? vec3(0.0, 0.0, 1.0) : -place.xyz;
+        vValue = value;
+        gl_Position = projectionMatrix * place;
+      }`,
+    fragmentShader: /* glsl */ `
+      uniform int mode;
+      uniform vec3 front, back;
+      uniform float limit, selected;
+      varying vec3 vNormal, vView;
+      varying float vValue;
+
+      // Blue below, grey at zero, red above; the brightness changes evenly to both sides.
+      vec3 diverging(float x) {
+        x = clamp(x, -1.0, 1.0);
+        vec3 middle = vec3(0.87);
+        vec3 end = x < 0.0 ? vec3(0.17, 0.38, 0.74) : vec3(0.78, 0.23, 0.19);
+        return mix(middle, end, pow(abs(x), 0.8));
+      }
+
+      void main() {
+        vec3 n = normalize(vNormal);
+        if (!gl_FrontFacing) n = -n;
+        vec3 v = normalize(vView);
+        vec3 base = gl_FrontFacing ? front : back;
+        if (mode == 2) base = diverging(vValue / limit);
+        if (mode == 1) {
+          // Stripes of a striped environment: lines where the reflected ray meets bands of equal height.
+          vec3 r = reflect(-v, n);
+          float stripe = sin(24.0 * asin(clamp(r.y, -1.0, 1.0)));
+          float width = max(fwidth(stripe), 1e-4);
+          float s = smoothstep(-width, width, stripe);
+          base = mix(vec3(0.02), vec3(0.9), s);
+          gl_FragColor = vec4(base * (0.75 + 0.25 * n.z), 1.0);
+        } else {
+          vec3 lamp = normalize(vec3(-0.62, 0.42, 0.66));
+          float key = max(dot(n, lamp), 0.0);
+          float fill = max(dot(n, normalize(vec3(0.8, -0.15, 0.35))), 0.0);
+          float sky = 0.5 + 0.5 * n.y;
+          float rim = pow(1.0 - max(dot(n, v), 0.0), 3.0);
+          float shine = pow(max(dot(n, normalize(lamp + v)), 0.0), 40.0);
+          vec3 colour = base * (0.1 + 0.16 * sky + 0.86 * key * key + 0.2 * fill);
+          if (mode == 0) colour += vec3(0.2) * shine + vec3(0.08) * rim;
+          else colour = mix(colour, base, 0.45);
+          gl_FragColor = vec4(mix(vec3(dot(colour, vec3(0.3, 0.5, 0.2))) * 0.85, colour, selected), 1.0);
+        }
+        #include <colorspace_fragment>
+      }`,
+  });
+}

@@ -1,0 +1,198 @@
+import * as THREE from 'three';
+
+import type { Picture } from '../engine/session_types';
+import { surfaceMaterial } from './surface_material';
+import type { Display, Palette } from './display';
+
+const isocurveSpacing = 6; // grid lines between isocurves that are not knot lines
+
+/** Pictures of one surface: triangles, isocurves, knot lines and net, all over the buffers that the worker sends. */
+export class SurfaceView {
+  readonly group = new THREE.Group();
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
+  picture: Picture | null = null;
+
+  private readonly isocurves = lines();
+  private readonly knotLines = lines();
+  private readonly normals = lines();
+  private readonly net = lines();
+  private readonly points = new THREE.Points(
+    new THREE.BufferGeometry(),
+    new THREE.PointsMaterial({ size: 7, sizeAttenuation: false, vertexColors: true, alphaMap: disc(), alphaTest: 0.5, depthTest: false }),
+  );
+  private topology = '';
+  private netTopology = '';
+
+  constructor() {
+    this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), surfaceMaterial());
+    this.mesh.frustumCulled = false;
+    for (const part of [this.isocurves, this.knotLines, this.normals, this.net, this.points]) part.frustumCulled = false;
+    this.net.material.depthTest = false; // points and net lie on, and behind, what they control
+    this.knotLines.renderOrder = 1;
+    this.net.renderOrder = 2;
+    this.points.renderOrder = 3;
+    this.group.add(this.mesh, this.isocurves, this.knotLines, this.normals, this.net, this.points);
+  }
+
+  show(picture: Picture, netCounts: [number, number], display: Display, palette: Palette, selected: boolean): void {
+    this.picture = picture;
+    const [m, n] = picture.counts;
+    const geometry = this.mesh.geometry;
+    setAttribute(geometry, 'position', picture.positions, 3);
+    setAttribute(geometry, 'normal', picture.normals, 3);
+    setAttribute(geometry, 'value', picture.values.length > 0 ? picture.values : new Float32Array(m * n), 1);
+    geometry.boundingSphere = null;
+    geometry.boundingBox = null;
+
+    const topology = `${m} ${n} ${picture.linesU.join()} ${picture.linesV.join()}`;
+    if (topology !== this.topology) {
+      this.topology = topology;
+      geometry.setIndex(new THREE.BufferAttribute(triangles(m, n), 1));
+      const knotsU = [...picture.linesU];
+      const knotsV = [...picture.linesV];
+      this.knotLines.geometry.setIndex(new THREE.BufferAttribute(gridLines(m, n, knotsU, knotsV), 1));
+      this.isocurves.geometry.setIndex(new THREE.BufferAttribute(gridLines(m, n, every(m), every(n)), 1));
+    }
+    for (const part of [this.knotLines, this.isocurves]) {
+      part.geometry.setAttribute('position', geometry.getAttribute('position'));
+    }
+    setAttribute(this.net.geometry, 'position', picture.net, 3);
+    setAttribute(this.points.geometry, 'position', picture.net, 3);
+    const netTopology = netCounts.join();
+    if (netTopology !== this.netTopology) {
+      this.netTopology = netTopology;
+      const [a, b] = netCounts;
+      const all = (count: number) => Array.from({ length: count }, (_, k) => k);
+      this.net.geometry.setIndex(new THREE.BufferAttribute(gridLines(a, b, all(a), all(b)), 1));
+    }
+    this.restyle(display, palette, selected);
+  }
+
+  restyle(display: Display, palette: Palette, selected: boolean): void {
+    const { uniforms } = this.mesh.material;
+    const coloured = display.field !== 'none';
+    uniforms.mode!.value = display.zebra ? 1 : coloured ? 2 : 0;
+    uniforms.limit!.value = display.limit;
+    uniforms.front!.value.set(palette.front);
+    uniforms.back!.value.set(palette.back);
+    uniforms.selected!.value = selected ? 1 : 0;
+    this.mesh.visible = display.surface;
+    this.isocurves.visible = display.isocurves;
+    this.knotLines.visible = display.knotLines;
+    this.net.visible = display.net && selected;
+    this.points.visible = display.points && selected;
+    this.normals.visible = display.normals;
+    this.isocurves.material.color.set(palette.isocurve);
+    this.isocurves.material.opacity = palette.isocurveOpacity;
+    this.knotLines.material.color.set(palette.knotLine);
+    this.knotLines.material.opacity = 0.9;
+    this.net.material.color.set(palette.net);
+    this.net.material.opacity = 0.55;
+    this.points.material.size = 1.4 * display.pointSize * Math.min(window.devicePixelRatio, 2);
+    if (this.picture) {
+      const colours = new Float32Array(this.picture.held.length * 3);
+      const free = new THREE.Color(palette.point);
+      const held = new THREE.Color(palette.held);
+      this.picture.held.forEach((h, k) => (h ? held : free).toArray(colours, 3 * k));
+      setAttribute(this.points.geometry, 'color', colours, 3);
+      if (display.normals) this.showNormals(this.picture, palette);
+    }
+  }
+
+  private showNormals(picture: Picture, palette: Palette): void {
+    const [m, n] = picture.counts;
+    this.mesh.geometry.computeBoundingSphere();
+    const length = 0.04 * (this.mesh.geometry.boundingSphere?.radius ?? 1);
+    const ends: number[] = [];
+    for (const k of every(m)) {
+      for (const l of every(n)) {
+        const at = 3 * (k * n + l);
+        for (const distance of [0, length]) {
+          for (let d = 0; d < 3; ++d) ends.push(picture.positions[at + d]! + distance * picture.normals[at + d]!);
+        }
+      }
+    }
+    setAttribute(this.normals.geometry, 'position', new Float32Array(ends), 3);
+    this.normals.material.color.set(palette.knotLine);
+  }
+
+  /** Fractions (s, t) of the domain at a hit of a ray with the mesh. */
+  fractionsAt(hit: THREE.Intersection): [number, number] | null {
+    if (!this.picture || !hit.face) return null;
+    const { s, t, positions, counts } = this.picture;
+    const n = counts[1];
+    const corner = (k: number) => new THREE.Vector3().fromArray(positions, 3 * k);
+    const { a, b, c } = hit.face;
+    const weights = THREE.Triangle.getBarycoord(hit.point, corner(a), corner(b), corner(c), new THREE.Vector3());
+    if (!weights) return null;
+    const mix = (of: Float32Array, line: (k: number) => number) =>
+      weights.x * of[line(a)]! + weights.y * of[line(b)]! + weights.z * of[line(c)]!;
+    const clamp = (x: number) => Math.min(1, Math.max(0, x));
+    return [clamp(mix(s, (k) => Math.floor(k / n))), clamp(mix(t, (k) => k % n))];
+  }
+
+  dispose(): void {
+    for (const part of [this.mesh, this.isocurves, this.knotLines, this.normals, this.net, this.points]) {
+      part.geometry.dispose();
+      (part.material as THREE.Material).dispose();
+    }
+  }
+}
+
+let discTexture: THREE.CanvasTexture | null = null;
+
+/** Makes points round. */
+function disc(): THREE.CanvasTexture {
+  if (discTexture) return discTexture;
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = 32;
+  const context = canvas.getContext('2d')!;
+  context.fillStyle = '#000';
+  context.fillRect(0, 0, 32, 32);
+  context.fillStyle = '#fff';
+  context.beginPath();
+  context.arc(16, 16, 15, 0, 2 * Math.PI);
+  context.fill();
+  return (discTexture = new THREE.CanvasTexture(canvas));
+}
+
+function lines(): THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial> {
+  return new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true }));
+}
+
+/** Keeps the attribute's memory while its size stays the same. */
+function setAttribute(geometry: THREE.BufferGeometry, name: string, data: Float32Array, size: number): void {
+  const old = geometry.getAttribute(name) as THREE.BufferAttribute | undefined;
+  if (old && old.array.length === data.length) {
+    (old.array as Float32Array).set(data);
+    old.needsUpdate = true;
+  } else {
+    geometry.setAttribute(name, new THREE.BufferAttribute(data.slice(), size));
+  }
+}
+
+/** About every sixth grid line, first and last included. */
+function every(count: number): number[] {
+  const pieces = Math.max(1, Math.round((count - 1) / isocurveSpacing));
+  return Array.from({ length: pieces + 1 }, (_, k) => Math.round((k * (count - 1)) / pieces));
+}
+
+function triangles(m: number, n: number): Uint32Array {
+  const index = new Uint32Array(6 * (m - 1) * (n - 1));
+  let at = 0;
+  for (let k = 0; k + 1 < m; ++k) {
+    for (let l = 0; l + 1 < n; ++l) {
+      const a = k * n + l;
+      index.set([a, a + n, a + n + 1, a, a + n + 1, a + 1], at);
+      at += 6;
+    }
+  }
+  return index;
+}
+
+function gridLines(m: number, n: number, rows: number[], columns: number[]): Uint32Array {
+  const index: number[] = [];
+  for (const k of rows) for (let l = 0; l + 1 < n; ++l) index.push(k * n + l, k * n + l + 1);
+  for (const l of columns) for (let k = 0; k + 1 < m; ++k) index.push(k * n + l, (k + 1) * n + l);
+  return new Uint32Array(index);
+}

@@ -1,0 +1,261 @@
+import * as THREE from 'three';
+
+import type { Frame } from '../engine/protocol';
+import { type Display, type Palette, palettes, type Theme } from './display';
+import { Ground } from './ground';
+import { SurfaceView } from './surface_view';
+import { ToolView } from './tool_view';
+import { type ViewName, Viewport } from './viewport';
+
+export interface Hit {
+  surface: number;
+  point: THREE.Vector3; // scene coordinates
+  normal: THREE.Vector3; // towards the viewer
+  fractions: [number, number];
+}
+
+/** Draws frames of the session in one window or four. Draws only when something has changed. */
+export class Viewer {
+  readonly element = document.createElement('div');
+  readonly scene = new THREE.Scene();
+  readonly viewports: Viewport[];
+  readonly surfaces: SurfaceView[] = [];
+  readonly tools = new Map<string, ToolView>();
+  readonly ground = new Ground();
+  /** Rings round the pointer and the like, drawn on top. */
+  readonly overlay = new THREE.Group();
+  origin: [number, number, number] = [0, 0, 0];
+  frame: Frame | null = null;
+  selectedTool: string | null = null;
+  onDrawn: (milliseconds: number) => void = () => {};
+
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly raycaster = new THREE.Raycaster();
+  private due = false;
+  private theme: Theme = 'dark';
+
+  constructor(public display: Display) {
+    this.element.className = 'viewer';
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.autoClear = false;
+    this.renderer.domElement.className = 'viewer-canvas';
+    this.renderer.domElement.setAttribute('aria-label', 'The scene');
+    const names: ViewName[] = ['perspective', 'top', 'front', 'right'];
+    this.viewports = names.map((name) => new Viewport(name, this.scene, () => this.redraw()));
+    const windows = document.createElement('div');
+    windows.className = 'viewports';
+    windows.append(...this.viewports.map((v) => v.element));
+    this.element.append(this.renderer.domElement, windows);
+    const key = new THREE.DirectionalLight(0xffffff, 2.2);
+    key.position.set(0.4, -0.6, 1);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.group, this.overlay);
+    new ResizeObserver(() => this.resize()).observe(this.element);
+  }
+
+  get palette(): Palette {
+    return palettes[this.theme];
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    this.restyle();
+  }
+
+  /** Takes over a frame of the worker. The views are fitted when `fresh`. */
+  show(frame: Frame, fresh: boolean): void {
+    this.frame = frame;
+    this.origin = frame.origin;
+    const { state, pictures } = frame;
+    while (this.surfaces.length > pictures.length) {
+      const gone = this.surfaces.pop()!;
+      this.scene.remove(gone.group);
+      gone.dispose();
+    }
+    while (this.surfaces.length < pictures.length) {
+      const view = new SurfaceView();
+      view.mesh.userData.surface = this.surfaces.length;
+      this.surfaces.push(view);
+      this.scene.add(view.group);
+    }
+    if (this.display.autoLimit && this.display.field !== 'none') this.display.limit = largestValue(pictures.map((p) => p.values));
+    const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
+    pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!.net, this.display, this.palette, lit(k)));
+    this.showTools();
+    if (fresh) this.fit();
+    else this.lowerGround();
+    this.redraw();
+  }
+
+  /** The ground stays below whatever is pressed down. */
+  private lowerGround(): void {
+    const { radius, lowest } = this.bounds();
+    const below = lowest - 0.06 * radius;
+    if (this.ground.group.position.z > lowest - 0.02 * radius) this.ground.group.position.z = below;
+  }
+
+  private showTools(): void {
+    const infos = this.frame?.state.tools ?? [];
+    for (const [name, view] of this.tools) {
+      if (infos.some((t) => t.name === name)) continue;
+      this.scene.remove(view.object);
+      view.dispose();
+      this.tools.delete(name);
+    }
+    const size = this.bounds().radius;
+    const dragging = this.viewports.some((v) => v.gizmo.dragging);
+    for (const info of infos) {
+      let view = this.tools.get(info.name);
+      if (!view) {
+        view = new ToolView(info);
+        view.object.userData.tool = info.name;
+        this.tools.set(info.name, view);
+        this.scene.add(view.object);
+      }
+      // While a tool is in the user's hand the picture is ahead of the session.
+      if (!(dragging && info.name === this.selectedTool)) {
+        view.show(info, this.origin, size, this.palette, info.name === this.selectedTool);
+      }
+    }
+    if (this.selectedTool && !this.tools.has(this.selectedTool)) this.selectTool(null);
+    else this.attachGizmos();
+  }
+
+  selectTool(name: string | null): void {
+    this.selectedTool = name;
+    for (const [other, view] of this.tools) view.show(view.tool, this.origin, this.bounds().radius, this.palette, other === name);
+    this.attachGizmos();
+    this.redraw();
+  }
+
+  private attachGizmos(): void {
+    const view = this.selectedTool ? this.tools.get(this.selectedTool) : undefined;
+    for (const { gizmo } of this.viewports) {
+      if (view && gizmo.object !== view.object) gizmo.attach(view.object);
+      else if (!view && gizmo.object) gizmo.detach();
+    }
+  }
+
+  /** Centre and radius of everything that is shown. */
+  bounds(): { centre: THREE.Vector3; radius: number; lowest: number } {
+    const box = new THREE.Box3();
+    for (const { picture } of this.surfaces) {
+      if (picture) box.union(new THREE.Box3().setFromArray(picture.positions));
+    }
+    if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    return { centre: sphere.center, radius: Math.max(sphere.radius, 1e-9), lowest: box.min.z };
+  }
+
+  fit(): void {
+    const { centre, radius, lowest } = this.bounds();
+    for (const v of this.viewports) v.fit(centre, radius);
+    this.ground.fit(2 * radius, lowest - 0.12 * radius);
+    this.ground.group.position.x = -(this.origin[0] % (5 * this.ground.step));
+    this.ground.group.position.y = -(this.origin[1] % (5 * this.ground.step));
+    this.redraw();
+  }
+
+  restyle(): void {
+    this.ground.restyle(this.palette);
+    this.ground.group.visible = this.display.grid;
+    const state = this.frame?.state;
+    this.surfaces.forEach((s, k) =>
+      s.restyle(this.display, this.palette, !state || state.selection.length === 0 || state.selection.includes(k)));
+    for (const [name, view] of this.tools) {
+      view.show(view.tool, this.origin, this.bounds().radius, this.palette, name === this.selectedTool);
+    }
+    this.element.classList.toggle('four', this.display.fourViews);
+    this.resize();
+  }
+
+  /** What the pointer is on: the nearest surface, as it was drawn last or as `frozen` meshes were. */
+  pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: THREE.Mesh[]): Hit | null {
+    viewport.ray(event, this.raycaster);
+    const meshes = frozen ?? this.surfaces.map((s) => s.mesh);
+    const hit = this.raycaster.intersectObjects(meshes, false)[0];
+    if (!hit?.face) return null;
+    const surface = hit.object.userData.surface as number;
+    const normal = hit.face.normal.clone();
+    if (normal.dot(this.raycaster.ray.direction) > 0) normal.negate();
+    const fractions = this.surfaces[surface]?.fractionsAt(hit);
+    return fractions ? { surface, point: hit.point, normal, fractions } : null;
+  }
+
+  pickTool(viewport: Viewport, event: { clientX: number; clientY: number }): string | null {
+    viewport.ray(event, this.raycaster);
+    const hit = this.raycaster.intersectObjects([...this.tools.values()].map((t) => t.object), false)[0];
+    return (hit?.object.userData.tool as string | undefined) ?? null;
+  }
+
+  /** Index of the control point of a surface that lies under the pointer, to `reach` pixels. */
+  pickControlPoint(viewport: Viewport, event: { clientX: number; clientY: number }, surface: number, reach = 9): number | null {
+    const net = this.surfaces[surface]?.picture?.net;
+    if (!net) return null;
+    const box = viewport.element.getBoundingClientRect();
+    const place = new THREE.Vector3();
+    let best: number | null = null;
+    let nearest = reach;
+    for (let k = 0; 3 * k < net.length; ++k) {
+      place.fromArray(net, 3 * k).project(viewport.camera);
+      const x = box.left + ((place.x + 1) / 2) * box.width;
+      const y = box.top + ((1 - place.y) / 2) * box.height;
+      const distance = Math.hypot(x - event.clientX, y - event.clientY);
+      if (distance < nearest) [nearest, best] = [distance, k];
+    }
+    return best;
+  }
+
+  redraw(): void {
+    if (this.due) return;
+    this.due = true;
+    requestAnimationFrame(() => {
+      this.due = false;
+      this.draw();
+    });
+  }
+
+  private resize(): void {
+    this.renderer.setSize(Math.max(1, this.element.clientWidth), Math.max(1, this.element.clientHeight), false);
+    for (const v of this.viewports) v.resize();
+    this.redraw();
+  }
+
+  private draw(): void {
+    const start = performance.now();
+    const whole = this.element.getBoundingClientRect();
+    this.renderer.setClearColor(this.palette.background);
+    this.renderer.setScissorTest(false);
+    this.renderer.clear();
+    this.renderer.setScissorTest(true);
+    for (const view of this.viewports) {
+      const box = view.element.getBoundingClientRect();
+      if (box.width === 0 || box.height === 0) continue;
+      const x = box.left - whole.left;
+      const y = whole.bottom - box.bottom;
+      this.renderer.setViewport(x, y, box.width, box.height);
+      this.renderer.setScissor(x, y, box.width, box.height);
+      for (const other of this.viewports) other.gizmo.getHelper().visible = other === view && other.gizmo.object !== undefined;
+      this.ground.group.visible = this.display.grid && (view.name === 'perspective' || view.name === 'top');
+      this.renderer.render(this.scene, view.camera);
+    }
+    this.onDrawn(performance.now() - start);
+  }
+
+  /** The picture on the screen, as a PNG file. */
+  picture(): Promise<Blob> {
+    this.draw();
+    return new Promise((resolve, reject) =>
+      this.renderer.domElement.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture'))), 'image/png'));
+  }
+}
+
+/** Of all but the outermost hundredth, which poles and corners would dominate. */
+function largestValue(fields: Float32Array[]): number {
+  const sizes: number[] = [];
+  for (const field of fields) {
+    for (let k = 0; k < field.length; k += 3) if (Number.isFinite(field[k])) sizes.push(Math.abs(field[k]!));
+  }
+  sizes.sort((a, b) => a - b);
+  return Math.max(sizes[Math.floor(0.99 * (sizes.length - 1))] ?? 0, 1e-9);
+}
