@@ -168,7 +168,8 @@ Action add_gramian(CLI::App& app) {
       ->needs(weights);
   command->add_option("--format", options->format, "json (default) or csv")->check(CLI::IsMember({"json", "csv"}));
   command->footer(
-      "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside of the matrix; 17 significant digits. \"method\" is the\n"
+      "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside of the matrix; 17 significant digits. \"method\" is "
+      "the\n"
       "one used: recurrence knows 00, 10, 01, 11 and 22 and leaves other orders to gauss.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };

@@ -27,8 +27,8 @@ Expected<MaterialOf<D>> validated(const MaterialOf<D>& material) {
         return input_error("the coefficient is not a finite number", name_of<D>("beta", i, j));
       }
       if (beta < 0) {
-        return input_error(fmt::format("{} is negative, so the energy has no minimum", beta),
-                           name_of<D>("beta", i, j), "use a value >= 0");
+        return input_error(fmt::format("{} is negative, so the energy has no minimum", beta), name_of<D>("beta", i, j),
+                           "use a value >= 0");
       }
       if (i == j && alpha < 0) {
         return input_error(fmt::format("{} is negative, so the energy has no minimum", alpha),
@@ -40,11 +40,11 @@ Expected<MaterialOf<D>> validated(const MaterialOf<D>& material) {
     for (int j = i + 1; j < D; ++j) {
       const double ii = material.alpha[place(i, i)], ij = material.alpha[place(i, j)], jj = material.alpha[place(j, j)];
       if (ij * ij > ii * jj) {
-        return input_error(fmt::format("{}² exceeds alpha{}{} alpha{}{} = {}, so the energy has no minimum", ij, i + 1,
-                                       i + 1, j + 1, j + 1, ii * jj),
-                           name_of<D>("alpha", i, j),
-                           fmt::format("use |alpha{}{}| <= sqrt(alpha{}{} alpha{}{})", i + 1, j + 1, i + 1, i + 1,
-                                       j + 1, j + 1));
+        return input_error(
+            fmt::format("{}² exceeds alpha{}{} alpha{}{} = {}, so the energy has no minimum", ij, i + 1, i + 1, j + 1,
+                        j + 1, ii * jj),
+            name_of<D>("alpha", i, j),
+            fmt::format("use |alpha{}{}| <= sqrt(alpha{}{} alpha{}{})", i + 1, j + 1, i + 1, i + 1, j + 1, j + 1));
       }
     }
   }

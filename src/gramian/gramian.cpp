@@ -48,7 +48,8 @@ std::string_view name(GramianMethod method) {
 }
 
 GramianMethod used_gramian_method(const KnotVector& knots, int a, int b, GramianMethod wanted) {
-  const bool other = wanted == GramianMethod::recurrence && !(is_kernel_term(a, b) && detail::within_kernel_range(knots));
+  const bool other =
+      wanted == GramianMethod::recurrence && !(is_kernel_term(a, b) && detail::within_kernel_range(knots));
   return other ? GramianMethod::gauss : wanted;
 }
 

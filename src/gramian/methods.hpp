@@ -8,7 +8,8 @@ namespace knead::detail {
 /// G^ab for any a, b >= 0 by that many Gauss points on each span (thesis Alg. 5.1).
 [[nodiscard]] BandMatrix gauss_gramian(const KnotVector& knots, int a, int b, int points);
 
-/// The Gauss points that integrate G^ab exactly: n points do so for degrees below 2n, and N_i^(a) N_j^(b) has 2p − a − b.
+/// The Gauss points that integrate G^ab exactly: n points do so for degrees below 2n, and N_i^(a) N_j^(b) has 2p − a −
+/// b.
 [[nodiscard]] constexpr int sufficient_points(int degree, int a, int b) {
   return a + b > 2 * degree ? 1 : (2 * degree - a - b) / 2 + 1;
 }

@@ -24,7 +24,7 @@ OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
     Counted sum = 0;
     for (const auto& [a, b] : {std::pair{0, 0}, {1, 1}, {2, 2}, {1, 0}}) {
       detail::accumulate_gauss<Counted>(knots, a, b, detail::sufficient_points(knots.degree(), a, b),
-                                                [&](int, int, Counted share) { sum += share; });
+                                        [&](int, int, Counted share) { sum += share; });
     }
   } else if (detail::within_kernel_range(knots)) {
     GramianSet set;

@@ -38,7 +38,9 @@ Expected<Points> normal_forces(const Surface& surface, const DomainScaling<2>& s
       // R_i = w_i N_i / Σ w N
       const double *nu = q[0].basis.row(k, 0), *nl = q[1].basis.row(l, 0);
       const int i0 = q[0].basis.first[static_cast<std::size_t>(k)], j0 = q[1].basis.first[static_cast<std::size_t>(l)];
-      const auto weight_of = [&](int i) { return surface.rational() ? surface.weights()[static_cast<std::size_t>(i)] : 1; };
+      const auto weight_of = [&](int i) {
+        return surface.rational() ? surface.weights()[static_cast<std::size_t>(i)] : 1;
+      };
       double denominator = 0;
       for (int r = 0; r <= q[0].basis.degree; ++r) {
         for (int c = 0; c <= q[1].basis.degree; ++c) denominator += nu[r] * nl[c] * weight_of((i0 + r) * n + j0 + c);

@@ -96,7 +96,7 @@ void expect_refined(const KnotVector& knots, double u, int s, GramianMethod meth
     // Each sum beside the sizes that its terms may have (Cauchy and Schwarz): where knots lie close these are large and
     // cancel.
     MatrixXd size = gramian(fine.knots, a, a, method)->dense().diagonal().cwiseSqrt() *
-                          gramian(fine.knots, b, b, method)->dense().diagonal().cwiseSqrt().transpose();
+                    gramian(fine.knots, b, b, method)->dense().diagonal().cwiseSqrt().transpose();
     if (method == GramianMethod::analytic) size.setConstant(size.maxCoeff());
     const MatrixXd scale = fine.matrix.transpose() * size * fine.matrix;
     const double worst = ((back - before).cwiseAbs() - tolerance * scale).maxCoeff();

@@ -45,8 +45,8 @@ TEST(DomainScaling, FollowsAffineMapsOfTheKnots) {
     return *KnotVector::create(k.degree(), knots);
   };
   const auto a = normalised_scaling<2>(s);
-  const auto b =
-      normalised_scaling<2>(testing::make_surface(map(s.knots(0), 100, -3), map(s.knots(1), 0.01, 7), s.control_points()));
+  const auto b = normalised_scaling<2>(
+      testing::make_surface(map(s.knots(0), 100, -3), map(s.knots(1), 0.01, 7), s.control_points()));
   EXPECT_NEAR(b->length, a->length, 1e-13 * a->length);
   EXPECT_NEAR(b->factors[0] * 100, a->factors[0], 1e-12 * a->factors[0]);
   EXPECT_NEAR(b->factors[1] * 0.01, a->factors[1], 1e-12 * a->factors[1]);

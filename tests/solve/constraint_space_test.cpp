@@ -133,7 +133,8 @@ TEST(ConstraintSpace, RefusesWhatIsNoConstraint) {
   EXPECT_FALSE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{2, 1}}}}));
   EXPECT_FALSE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{0, nan}}}}));
   EXPECT_FALSE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{0, 1}}, Point(nan, 0, 0)}}));
-  EXPECT_FALSE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{0, 1}}, Point(0, 0, 0), Point(0, 0, 0)}}));
+  EXPECT_FALSE(
+      ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {{0, 1}}, Point(0, 0, 0), Point(0, 0, 0)}}));
   EXPECT_FALSE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {}, Point(1, 0, 0)}}));
   EXPECT_TRUE(ConstraintSpace::create(2, std::vector{LinearConstraint{"a", {}, Point(0, 0, 0)}}));
 }

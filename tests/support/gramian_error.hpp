@@ -22,7 +22,8 @@ inline double worst_error(const BandMatrix& matrix, const QuadGramian& exact, bo
       const Quad error = magnitude(Quad(matrix(i, j)) - exact.value(i, j));
       const Quad scale = beside_largest ? largest : exact.absolute(i, j);
       if (error == 0 || (scale != 0 && scale < smallest_compared)) continue;
-      worst = std::max(worst, scale == 0 ? std::numeric_limits<double>::infinity() : static_cast<double>(error / scale));
+      worst =
+          std::max(worst, scale == 0 ? std::numeric_limits<double>::infinity() : static_cast<double>(error / scale));
     }
   }
   return worst;

@@ -8,7 +8,7 @@
 namespace knead::testing {
 
 inline constexpr std::array listed_families = {
-    "uniform",          "random",         "growing tenfold",    "shrinking tenfold", "thesis",   "cluster of 1e-8",
+    "uniform",          "random",         "growing tenfold",   "shrinking tenfold", "thesis",   "cluster of 1e-8",
     "cluster of 1e-13", "knots near 1e6", "one repeated knot", "repeated knots",    "one span", "unclamped"};
 
 /// A random member of `listed_families[family]`, all its numbers drawn from `random`.

@@ -6,13 +6,13 @@
 
 namespace knead {
 
-/// The constants of the stretch and bend energy of a D-variate spline. The upper triangle of a symmetric D × D matrix, row
-/// by row: 11 for curves, 11, 12, 22 for surfaces, 11, 12, 13, 22, 23, 33 for volumes.
+/// The constants of the stretch and bend energy of a D-variate spline. The upper triangle of a symmetric D × D matrix,
+/// row by row: 11 for curves, 11, 12, 22 for surfaces, 11, 12, 13, 22, 23, 33 for volumes.
 ///
 ///   E(S) = ∫ Σ_i α_ii |S_i|² + 2 Σ_{i<j} α_ij S_i·S_j + Σ_i β_ii |S_ii|² + 2 Σ_{i<j} β_ij |S_ij|² du,
 ///
-/// which is thesis Eq. 4.8 at D = 2 and, with equal constants, 5.43 at D = 3. α resists stretch, β resists bending. Units: those of
-/// the equation; see `DomainScaling` for the normalised ones.
+/// which is thesis Eq. 4.8 at D = 2 and, with equal constants, 5.43 at D = 3. α resists stretch, β resists bending.
+/// Units: those of the equation; see `DomainScaling` for the normalised ones.
 template <int D>
 struct MaterialOf {
   static constexpr std::size_t count = D * (D + 1) / 2;

@@ -11,13 +11,13 @@ namespace knead {
 
 /// How a Gramian is computed; docs/gramians compares them.
 enum class GramianMethod {
-  gauss,          ///< p + 1 Gauss–Legendre points per span (thesis Alg. 5.1): the accurate all-rounder, every order.
+  gauss,  ///< p + 1 Gauss–Legendre points per span (thesis Alg. 5.1): the accurate all-rounder, every order.
   gauss_reduced,  ///< only as many points as the degree 2p − a − b of the integrand needs, ⌈(2p − a − b + 1)/2⌉: p + 1
                   ///< for 00, p for 10 and 11, p − 1 for 22, one for pp. The same numbers to rounding. Cheaper for one
                   ///< term of high order; all four at once are cheaper by gauss, which evaluates the functions once.
-  analytic,       ///< the thesis' Dirac weights (Alg. 5.5), with the jumps of every order that repeated knots need.
-  recurrence,     ///< a recurrence of non-negative terms: exact to the last digits and the fastest. Orders other than
-                  ///< 00, 10, 01, 11 and 22 are taken by gauss.
+  analytic,    ///< the thesis' Dirac weights (Alg. 5.5), with the jumps of every order that repeated knots need.
+  recurrence,  ///< a recurrence of non-negative terms: exact to the last digits and the fastest. Orders other than
+               ///< 00, 10, 01, 11 and 22 are taken by gauss.
 };
 
 inline constexpr GramianMethod default_gramian_method = GramianMethod::recurrence;
@@ -39,8 +39,8 @@ inline constexpr GramianMethod default_gramian_method = GramianMethod::recurrenc
 /// Errors: another order (usage).
 /// Cost: O(n p²) for the Gauss methods and analytic, times the number of points and knots per function respectively.
 /// Accuracy: the Gauss methods below 1e-14 of ∫|N_i^(a) N_j^(b)| to degree 7 and for a, b <= 2; 3e-14 to degree 10 for
-/// other orders, where no derivative above the second changes its sign within a cluster of knots. analytic loses digits as spans shrink: about 1e-12
-/// on uniform knots at p = 3, nothing left where knots cluster 1e-8 apart.
+/// other orders, where no derivative above the second changes its sign within a cluster of knots. analytic loses digits
+/// as spans shrink: about 1e-12 on uniform knots at p = 3, nothing left where knots cluster 1e-8 apart.
 [[nodiscard]] Expected<BandMatrix> gramian(const KnotVector& knots, int a, int b,
                                            GramianMethod method = default_gramian_method);
 

@@ -45,17 +45,17 @@ struct ActiveSettings {
   RestMode rest = RestMode::shape;
   Evolution evolution = Evolution::acm;
   StepWeight weight = StepWeight::mass;
-  double lambda = 1;         ///< acm: inverse step size
-  double time_step = 0.02;   ///< dynamic
-  double mass = 1;           ///< μ, per measure of the parameter domain
-  double damping = 0.5;      ///< γ, force per velocity and measure
+  double lambda = 1;        ///< acm: inverse step size
+  double time_step = 0.02;  ///< dynamic
+  double mass = 1;          ///< μ, per measure of the parameter domain
+  double damping = 0.5;     ///< γ, force per velocity and measure
   /// Coefficients, mass and damping that vary, one per patch; empty: the constants above.
   std::vector<MaterialFieldOf<D>> fields = {};
-  std::vector<bool> fixed;   ///< control points that do not move, one flag each; empty: none
+  std::vector<bool> fixed;                    ///< control points that do not move, one flag each; empty: none
   std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shape, file units
-  double detail = 0;         ///< smallest tool dimension the forces must resolve, file units; 0: no tool
+  double detail = 0;  ///< smallest tool dimension the forces must resolve, file units; 0: no tool
   ForceRoute route = ForceRoute::gauss;
-  bool raw = false;          ///< no normalisation: numbers are those of the equations on the knots as they are
+  bool raw = false;  ///< no normalisation: numbers are those of the equations on the knots as they are
   GramianMethod method = default_gramian_method;
 
   friend bool operator==(const ActiveSettings&, const ActiveSettings&) = default;
@@ -89,8 +89,8 @@ struct ActiveLoads {
   Point wind = Point::Zero();     ///< (n·(wind − velocity)) n at the start of the step; surfaces only
   Points nodal = {};              ///< ∫ R_i f of any other load, N × 3; empty: none
   std::vector<PointForce> points = {};
-  double limit = 0;               ///< no point moves further than this from `original`, file units; 0: no limit
-  Points original = {};           ///< control points the limit is measured from; empty: the rest shape
+  double limit = 0;      ///< no point moves further than this from `original`, file units; 0: no limit
+  Points original = {};  ///< control points the limit is measured from; empty: the rest shape
 };
 
 /// One step of an `ActiveSpline`.
@@ -99,11 +99,11 @@ struct ActiveStep {
   Points velocity;        ///< dynamic: file units per unit of time; else empty
   double energy = 0;      ///< Σ Xᵀ K X after the step (thesis Eq. 4.14), normalised units: stretch + bend
   double stretch = 0, bend = 0;
-  double kinetic = 0;     ///< ½ Σ Vᵀ M V
-  double contact = 0;     ///< Ψ, the potential of tools, friction and limit
-  double residual = 0;    ///< imbalance of forces at the free unknowns, relative to the forces of tools, loads, free part
-                          ///< and held part of the net that meet there: 0 in equilibrium
-  double gap = 0;         ///< deepest entry into a collision tool, in sizes of that tool
+  double kinetic = 0;   ///< ½ Σ Vᵀ M V
+  double contact = 0;   ///< Ψ, the potential of tools, friction and limit
+  double residual = 0;  ///< imbalance of forces at the free unknowns, relative to the forces of tools, loads, free part
+                        ///< and held part of the net that meet there: 0 in equilibrium
+  double gap = 0;       ///< deepest entry into a collision tool, in sizes of that tool
   std::string gap_tool;   ///< its name
   double coarseness = 0;  ///< longest span in contact with a tool, in sizes of that tool
   double violation = 0;   ///< of the constraints, file units
@@ -114,11 +114,12 @@ struct ActiveStep {
   std::string note;       ///< why not, and what would help
 };
 
-/// A spline that resists stretch and bend, pressed on by tools: the active model of thesis chapters 4 and 5, for curves,
-/// surfaces and volumes, one patch or several that constraints couple.
+/// A spline that resists stretch and bend, pressed on by tools: the active model of thesis chapters 4 and 5, for
+/// curves, surfaces and volumes, one patch or several that constraints couple.
 ///
 /// Unknown is X, the displacement of the control points from the rest shape (`RestMode::shape`) or the control points
-/// about a fixed origin (`RestMode::none`), in units of a normalised `DomainScaling` of the first patch. A step minimises
+/// about a fixed origin (`RestMode::none`), in units of a normalised `DomainScaling` of the first patch. A step
+/// minimises
 ///
 ///   Φ(Y) = ½ YᵀAY − Yᵀb + Ψ(X₀ + Y)
 ///
@@ -126,19 +127,19 @@ struct ActiveStep {
 ///   acm         A = K + λW,           b = G − K X₀      (implicit Euler)
 ///   stationary  A = K,                b = G − K X₀
 ///   dynamic     A = K + D/τ + M/τ²,   b = G − K X₀ + M(Δ/τ² + V₀/τ) + DΔ/τ
-/// G the loads, F_i = ∫ R_i f(S) du dv (thesis Eqs. 4.23, 4.25). A dynamic step of size h is two such stages, τ = (1 − √½)h:
-/// the L-stable, stiffly accurate diagonally implicit Runge-Kutta method of second order (Alexander 1977). Being A-stable, it
-/// never lets ½VᵀMV + ½XᵀKX grow without forces, whatever h; waves much shorter than a step die out instead of ringing.
-/// A is factored once; Newton's iteration treats the springs in contact by conjugate gradients on that factor, with a
-/// line search on Φ. Hence a step is stable for any stiffness k and step size, and stiffness does not freeze the sheet.
-/// Without tools it is exactly one back substitution. The analytic force route, which has no potential, is taken as a
-/// lagged correction of the Gauss forces until it no longer changes; where it does not settle (stiff contact on a coarse
-/// net) the Gauss forces stand and the step's note says so. Immutable, const is thread-safe.
+/// G the loads, F_i = ∫ R_i f(S) du dv (thesis Eqs. 4.23, 4.25). A dynamic step of size h is two such stages, τ = (1 −
+/// √½)h: the L-stable, stiffly accurate diagonally implicit Runge-Kutta method of second order (Alexander 1977). Being
+/// A-stable, it never lets ½VᵀMV + ½XᵀKX grow without forces, whatever h; waves much shorter than a step die out
+/// instead of ringing. A is factored once; Newton's iteration treats the springs in contact by conjugate gradients on
+/// that factor, with a line search on Φ. Hence a step is stable for any stiffness k and step size, and stiffness does
+/// not freeze the sheet. Without tools it is exactly one back substitution. The analytic force route, which has no
+/// potential, is taken as a lagged correction of the Gauss forces until it no longer changes; where it does not settle
+/// (stiff contact on a coarse net) the Gauss forces stand and the step's note says so. Immutable, const is thread-safe.
 template <int D>
 class ActiveSpline {
  public:
-  /// Factors the matrices. Errors: a bad material or step size, contradictory constraints (input); no area, not positive
-  /// definite, or nothing that holds a stationary problem (numerical).
+  /// Factors the matrices. Errors: a bad material or step size, contradictory constraints (input); no area, not
+  /// positive definite, or nothing that holds a stationary problem (numerical).
   [[nodiscard]] static Expected<ActiveSpline> create(std::vector<Spline<D>> patches, const ActiveSettings<D>& settings);
   [[nodiscard]] static Expected<ActiveSpline> create(const Spline<D>& rest, const ActiveSettings<D>& settings) {
     return create(std::vector<Spline<D>>{rest}, settings);

@@ -8,11 +8,11 @@ namespace knead {
 
 /// The units a model is computed in.
 ///
-/// Coordinates are divided by `length`, parameters of direction d are multiplied by `factors[d]`. As it is made, it changes
-/// nothing: raw units. The normalised scaling makes the model scale-free: `length` is the D-th root of the rest shape's
-/// measure (length, area, volume), and the sides of the parameter domain become the mean lengths of the isocurves in that
-/// unit, so that a unit square sheet and its copy of any size, position and affine parametrisation obey the same numbers,
-/// and a dent keeps its proportions on a long strip.
+/// Coordinates are divided by `length`, parameters of direction d are multiplied by `factors[d]`. As it is made, it
+/// changes nothing: raw units. The normalised scaling makes the model scale-free: `length` is the D-th root of the rest
+/// shape's measure (length, area, volume), and the sides of the parameter domain become the mean lengths of the
+/// isocurves in that unit, so that a unit square sheet and its copy of any size, position and affine parametrisation
+/// obey the same numbers, and a dent keeps its proportions on a long strip.
 template <int D>
 struct DomainScaling {
   double length = 1;

@@ -9,12 +9,13 @@
 
 namespace knead {
 
-/// Free-form deformation: a box of space as a B-spline volume, V(u) = lower + u ∘ (upper − lower) at rest, and points that
-/// live in it (thesis 5.7). Made active as `ActiveSpline<3>`, geometry embedded in it deforms with it:
-/// x ↦ V(u(x)), u(x) = (x − lower) / (upper − lower).
+/// Free-form deformation: a box of space as a B-spline volume, V(u) = lower + u ∘ (upper − lower) at rest, and points
+/// that live in it (thesis 5.7). Made active as `ActiveSpline<3>`, geometry embedded in it deforms with it: x ↦
+/// V(u(x)), u(x) = (x − lower) / (upper − lower).
 class Lattice {
  public:
-  /// \param box    what it must hold, file units. It is widened by `margin` of its diagonal on every side, so that a flat
+  /// \param box    what it must hold, file units. It is widened by `margin` of its diagonal on every side, so that a
+  /// flat
   ///               box has a thickness.
   /// \param degree, net per direction: knots are clamped and uniform on [0, 1], control points at Greville abscissae.
   /// Errors (input): a degree or net that knots refuse; a margin that is not positive; a box that is not finite.

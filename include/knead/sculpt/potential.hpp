@@ -20,10 +20,10 @@ struct PotentialState {
   double potential = 0;
   Points force;  ///< N × 3
   std::vector<ContactPoint> contacts;
-  double entry = 0;         ///< deepest entry into a collision tool, in sizes of that tool
-  int entered = -1;         ///< that tool, as an index
-  double coarseness = 0;    ///< longest span in contact with a tool, in sizes of that tool
-  bool limited = false;     ///< some point is held back by a limit
+  double entry = 0;       ///< deepest entry into a collision tool, in sizes of that tool
+  int entered = -1;       ///< that tool, as an index
+  double coarseness = 0;  ///< longest span in contact with a tool, in sizes of that tool
+  bool limited = false;   ///< some point is held back by a limit
 };
 
 /// A potential of the positions of all control points: what tools, friction and limits are to the solver.
