@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "tool_load_elements.hpp"
@@ -7,7 +8,7 @@
 namespace knead {
 namespace {
 
-constexpr int samples_per_gauss_point = 3;
+constexpr int samples_per_gauss_point[] = {3, 2, 1};  // in one, two and three directions
 constexpr std::size_t refined = 12;
 
 }  // namespace
@@ -44,17 +45,19 @@ double ToolLoad<D>::deepest_entry(const Points& x, int first, const ModelTool& t
     Element element;
     std::array<double, D> u, spacing;
   };
-  std::vector<Candidate> candidates;
+  std::vector<Candidate> candidates;  // the deepest samples, deepest first
   for_each_element([&](const Element& element) {
     Point lower, upper;
     box_of(element, x, first, lower, upper);
     if (in_hull_ && !tool.may_reach(lower, upper)) return;
     Candidate c{0, element, {}, {}};
+    // Between samples the shape may reach further in, but not by more than its control points are apart.
+    const double reach = (upper - lower).norm();
     std::array<int, D> counts, k{};
     std::array<double, D> begin;
     for (std::size_t d = 0; d < D; ++d) {
       const int span = spans[d][static_cast<std::size_t>(element.span[d])];
-      counts[d] = samples_per_gauss_point * (element.end[d] - element.begin[d]);
+      counts[d] = samples_per_gauss_point[D - 1] * (element.end[d] - element.begin[d]);
       begin[d] = knots_[d][span];
       c.spacing[d] = (knots_[d][span + 1] - begin[d]) / counts[d];
     }
@@ -64,7 +67,10 @@ double ToolLoad<D>::deepest_entry(const Points& x, int first, const ModelTool& t
         c.u[d] = k[d] == counts[d] ? knots_[d][span + 1] : begin[d] + k[d] * c.spacing[d];
       }
       c.depth = depth_at(element, c.u);
-      candidates.push_back(c);
+      if (c.depth > -reach && (candidates.size() < refined || c.depth > candidates.back().depth)) {
+        if (candidates.size() == refined) candidates.pop_back();
+        candidates.insert(std::ranges::upper_bound(candidates, c.depth, std::greater{}, &Candidate::depth), c);
+      }
       std::size_t d = D;
       while (d-- > 0) {
         if (++k[d] <= counts[d]) break;
@@ -73,12 +79,8 @@ double ToolLoad<D>::deepest_entry(const Points& x, int first, const ModelTool& t
       }
     }
   });
-  const std::size_t count = std::min(refined, candidates.size());
-  std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count), candidates.end(),
-                    [](const Candidate& a, const Candidate& b) { return a.depth > b.depth; });
   double deepest = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    Candidate& c = candidates[k];
+  for (Candidate& c : candidates) {
     for (double h = 1; h > 1e-6; h /= 2) {
       for (std::size_t d = 0; d < D; ++d) {
         const int span = spans[d][static_cast<std::size_t>(c.element.span[d])];
