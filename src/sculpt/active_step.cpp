@@ -103,18 +103,18 @@ struct ActiveSpline<D>::Run {
       summary.converged = part.converged;
       if (!summary.finite) return {};
       PotentialState contact = potential.evaluate(problem.start + y);
-      if (contact.entered < 0) return contact;
-      bool again = false;
+      bool again = false, deeper = false;
       double gap = 0;
       int entered = -1;
       for (std::size_t t = 0; t < potential.tool_count(); ++t) {
-        if (!potential.tool(t).collides()) continue;
+        if (!potential.tool(t).rigid || !potential.tool(t).collides()) continue;
         const double size = potential.size(t), entry = potential.deepest_entry(t, problem.start + y) / size;
+        deeper = deeper || static_cast<int>(t) == contact.entered;
         if (entry > gap) {
           gap = entry;
           entered = static_cast<int>(t);
         }
-        if (!potential.tool(t).rigid || entry <= rigid_gap) continue;
+        if (entry <= rigid_gap) continue;
         if (round == max_rigid_rounds) {
           summary.converged = false;
           note = fmt::format(
@@ -133,8 +133,10 @@ struct ActiveSpline<D>::Run {
           potential.set_offset(t, potential.offset(t) + (entry - 0.5 * rigid_gap) * size);
         }
       }
-      contact.entry = gap;
-      contact.entered = entered;
+      if (deeper || gap > contact.entry) {
+        contact.entry = gap;
+        contact.entered = entered;
+      }
       if (!again) return contact;
     }
   }

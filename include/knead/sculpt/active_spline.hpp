@@ -103,7 +103,8 @@ struct ActiveStep {
   double contact = 0;   ///< Ψ, the potential of tools, friction and limit
   double residual = 0;  ///< imbalance of forces at the free unknowns, relative to the forces of tools, loads, free part
                         ///< and held part of the net that meet there: 0 in equilibrium
-  double gap = 0;       ///< deepest entry into a collision tool, in sizes of that tool
+  double gap =
+      0;  ///< deepest entry into a collision tool, in its sizes: of soft ones at Gauss points, of rigid ones anywhere
   std::string gap_tool;   ///< its name
   double coarseness = 0;  ///< longest span in contact with a tool, in sizes of that tool
   double violation = 0;   ///< of the constraints, file units
