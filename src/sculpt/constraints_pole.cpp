@@ -18,7 +18,7 @@ struct RingRelation {
 
 RingRelation relation(const Eigen::Matrix3Xd& ring, double flatness) {
   RingRelation result;
-  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(ring, Eigen::ComputeThinU);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(ring, Eigen::ComputeThinU);
   const auto& singular = svd.singularValues();
   while (result.rank < singular.size() && singular[result.rank] > flatness * singular[0]) ++result.rank;
   if (result.rank == 0) return result;

@@ -127,9 +127,9 @@ SurfaceMaximum refine(const Surface& surface, const Function& f, Eigen::Vector2d
     }
     Eigen::Vector2d step = Eigen::Vector2d::Zero();
     const double det = here.hessian.determinant();
-    if (!held[0] && !held[1] && here.hessian(0, 0) < 0 && det > 0) {
-      step = -here.hessian.inverse() * g;
-    } else {
+    if (!held[0] && !held[1] && here.hessian(0, 0) < 0 && det > 0) step = -here.hessian.inverse() * g;
+    if (!step.allFinite()) step.setZero();  // all but singular
+    if (step.isZero(0)) {
       for (int d = 0; d < 2; ++d) {
         if (!held[d] && here.hessian(d, d) < 0) step[d] = -g[d] / here.hessian(d, d);
       }
@@ -235,6 +235,19 @@ SampledSurface sample(const Surface& surface) {
 }  // namespace
 
 SurfaceMaximum largest_norm(const Surface& surface) {
+  const double size = surface.control_points().cwiseAbs().maxCoeff();
+  if (std::isfinite(size) && size > 0 && std::abs(std::ilogb(size)) > 100) {
+    // Squares, and products of squares, of numbers far from 1 leave the range of numbers; a power of two costs no
+    // digit.
+    const int half = -std::ilogb(size) / 2, rest = -std::ilogb(size) - half;
+    const auto scaled =
+        surface.with_control_points(surface.control_points() * std::ldexp(1.0, half) * std::ldexp(1.0, rest));
+    if (scaled) {
+      SurfaceMaximum best = largest_norm(*scaled);
+      best.value = std::ldexp(best.value, std::ilogb(size));
+      return best;
+    }
+  }
   const SampledSurface s = sample(surface);
   if (s.u.parameters.empty()) return {s.points.rowwise().norm().maxCoeff(), {}};
   if ((s.points.array() == 0).all() && (surface.control_points().array() == 0).all()) {

@@ -44,7 +44,7 @@ inline Error refusal(Session& session, const std::string& json) {
 
 inline bool same_bits(const Points& a, const Points& b) {
   return a.rows() == b.rows() &&
-         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
+         (a.size() == 0 || std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0);
 }
 
 inline bool same_bits(const Surface& a, const Surface& b) {
