@@ -77,7 +77,7 @@ export function withoutEval(code, forNode) {
     code = code.slice(0, from) + text + code.slice(to);
   }
   // What only node needs would be looked for in the browser.
-  if (!forNode) code = code.replace('await import("module")', 'await Promise.reject(new Error("not in node"))');
+  if (!forNode) code = code.replace('new URL("./",import.meta.url)', '"."').replace('await import("module")', 'await Promise.reject(new Error("not in node"))');
   if (/new Function|new_\(Function|\beval\(/.test(code)) throw new Error('rhino3dm still makes code out of text');
   return code;
 }
