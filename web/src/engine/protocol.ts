@@ -20,6 +20,8 @@ export type Request =
   | { kind: 'stop' }
   /** The page has drawn the last frame: the next one may come. */
   | { kind: 'drawn' }
+  /** The numbers of one surface: `SurfaceNumbers` as text. */
+  | { kind: 'surface'; surface: number }
   | { kind: 'save' }
   | { kind: 'journal' }
   /** The session as bytes, with its journal as text. `kept`: it need not be computed again from here on. */

@@ -147,6 +147,9 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       post({ kind: 'done', id, bytes, text }, [bytes.buffer as ArrayBuffer]);
       return;
     }
+    case 'surface':
+      post({ kind: 'done', id, text: JSON.stringify(engine.surface(request.surface)) });
+      return;
     case 'journal':
       post({ kind: 'done', id, text: engine.journal() });
       return;
