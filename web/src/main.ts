@@ -1,6 +1,7 @@
 import './style.css';
 
 import { App } from './app';
+import { workOffline } from './offline/register';
 import { offerRecovery } from './ui/recovery';
 import { scenes } from './gallery';
 import { notices, toolRail, topBar } from './ui/chrome';
@@ -41,6 +42,7 @@ async function start(): Promise<void> {
   await offerRecovery(app);
   app.changed();
   document.documentElement.dataset.ready = 'true';
+  await workOffline(app);
 }
 
 void start();

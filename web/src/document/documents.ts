@@ -51,8 +51,11 @@ export class Documents {
     const { app } = this;
     return app.attempt(async () => {
       const { rhino } = await import('./rhino/client');
-      const { surfaces, unit, skipped } = await rhino.read(bytes);
-      const left = skipped.length > 0 ? `Not sculptable, and left as they are: ${skipped.join(', ')}.` : '';
+      const { surfaces, unit, otherUnit, skipped } = await rhino.read(bytes);
+      const left = [
+        skipped.length > 0 ? `Not sculptable, and left as they are: ${skipped.join(', ')}.` : '',
+        otherUnit ? `The file's unit, ${otherUnit.toLowerCase()}, is not known here: its numbers are kept, and shown as ${unit}.` : '',
+      ].filter(Boolean).join(' ');
       if (surfaces.length === 0) throw new Error(`“${name}” holds no surface. ${left} Open a file with surfaces or polysurfaces`);
       const create = surfaces.map(({ name: label, patch }): Command => {
         const { weights, ...rest } = patch;

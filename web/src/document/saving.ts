@@ -20,6 +20,22 @@ export class Saving {
     download(writeKnead({ name, source: file, journal, snapshot: long ? snapshot : null }), `${stem}.knead`, 'application/json');
   }, false);
 
+  /** Into the Rhino file that was opened, or a new one. */
+  rhino = () => this.save(async (stem) => {
+    const { client, documents, state } = this.app;
+    const { rhino } = await import('./rhino/client');
+    const surfaces = [];
+    for (const [k, { name, id }] of state!.surfaces.entries()) surfaces.push({ name: name || id, patch: await client.surface(k) });
+    const source = documents.file?.kind === 'rhino' ? documents.file.bytes : null;
+    const { bytes, beside } = await rhino.write(source, surfaces, state!.surfaces[0]?.unit ?? 'mm');
+    download(bytes, `${stem}${source ? '-sculpted' : ''}.3dm`, 'model/vnd.3dm');
+    if (beside.length > 0) {
+      const some = beside.slice(0, 3).join('”, “') + (beside.length > 3 ? '”, “…' : '');
+      return `Saved. Faces of a polysurface, or trimmed ones, cannot be exchanged: “${some}” lie beside it as surfaces on its layer.`;
+    }
+    return undefined;
+  });
+
   script = () => this.save(async (stem) => {
     download(await this.app.client.journal(), `${stem}.json`, 'application/json');
   }, false);
@@ -29,14 +45,15 @@ export class Saving {
   }, false);
 
   /** Says where a tool still holds the shape: `shape` is false for what holds the tools as well. */
-  private async save(act: (stem: string) => Promise<void>, shape = true): Promise<void> {
+  private async save(act: (stem: string) => Promise<string | undefined | void>, shape = true): Promise<void> {
     const { app } = this;
     await app.attempt(async () => {
       const stem = app.documents.name.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'surface';
-      await act(stem);
+      const said = await act(stem);
       const { tools, last } = app.state!;
       const touched = tools.length > 0 && last !== null && (last.gap > 0 || last.contact > 0);
-      app.notify({ kind: 'info', text: shape && touched ? 'Saved with a tool still in contact: the shape is the one it holds.' : 'Saved.' });
+      const contact = 'Saved with a tool still in contact: the shape is the one it holds.';
+      app.notify({ kind: 'info', text: [shape && touched ? contact : '', said ?? ''].filter(Boolean).join(' ') || 'Saved.' });
     });
   }
 }

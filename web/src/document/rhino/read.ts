@@ -11,15 +11,16 @@ export interface RhinoSource {
 
 export interface RhinoContents {
   surfaces: RhinoSource[];
+  /** As the session has it; where it has none like that of the file, mm, and the file's in `otherUnit`. */
   unit: string;
+  otherUnit: string | null;
   /** What cannot be sculpted, as text: "2 meshes". */
   skipped: string[];
 }
 
 /** Names of units as the session has them, and as Rhino has them. */
 export const rhinoUnits: Record<string, string> = {
-  nm: 'Nanometers', um: 'Microns', mm: 'Millimeters', cm: 'Centimeters', dm: 'Decimeters', m: 'Meters', km: 'Kilometers',
-  inch: 'Inches', foot: 'Feet', yard: 'Yards', mile: 'Miles',
+  um: 'Microns', mm: 'Millimeters', cm: 'Centimeters', m: 'Meters', km: 'Kilometers', inch: 'Inches', foot: 'Feet',
 };
 
 export function openRhino(rhino: Rhino, bytes: Uint8Array): RhinoFile {
@@ -64,11 +65,12 @@ export function readRhino(rhino: Rhino, file: RhinoFile): RhinoContents {
     } else if (geometry instanceof rhino.Surface) add(geometry.toNurbsSurface(), null, label);
     else skip(kind(geometry));
   }
-  return { surfaces, unit: unitOf(rhino, file), skipped: [...skipped].map(([what, count]) => `${count} ${what}`) };
+  return { surfaces, ...unitOf(rhino, file), skipped: [...skipped].map(([what, count]) => `${count} ${what}`) };
 }
 
-function unitOf(rhino: Rhino, file: RhinoFile): string {
+function unitOf(rhino: Rhino, file: RhinoFile): { unit: string; otherUnit: string | null } {
   const system = file.settings().modelUnitSystem;
-  const found = Object.entries(rhinoUnits).find(([, name]) => rhino.UnitSystem[name] === system);
-  return found?.[0] ?? 'mm';
+  const name = Object.keys(rhino.UnitSystem).find((key) => rhino.UnitSystem[key] === system) ?? 'unknown';
+  const known = Object.entries(rhinoUnits).find(([, rhinos]) => rhinos === name);
+  return known ? { unit: known[0], otherUnit: null } : { unit: 'mm', otherUnit: name };
 }
