@@ -1,9 +1,10 @@
 import './style.css';
+import './document/document.css';
 
 import { App } from './app';
 import { workOffline } from './offline/register';
 import { offerRecovery } from './ui/recovery';
-import { scenes } from './gallery';
+import { openScene, scenes } from './gallery';
 import { notices, toolRail, topBar } from './ui/chrome';
 import { h } from './ui/dom';
 import { listenToKeys } from './ui/keyboard';
@@ -38,7 +39,7 @@ Object.assign(window, { studio: app });
 async function start(): Promise<void> {
   await app.client.ready;
   await app.attempt(async () => void (await app.client.paint({ detail: app.display.detail, field: app.display.field })));
-  await scenes[0]!.open(app);
+  await openScene(app, scenes[0]!);
   await offerRecovery(app);
   app.changed();
   document.documentElement.dataset.ready = 'true';

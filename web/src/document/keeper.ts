@@ -4,6 +4,7 @@ import { autosave, heldIds, hold, type Kept } from './autosave';
 
 const pause = 800; // milliseconds without a change after which the session is kept
 const mostUnkept = 1200; // milliseconds of computing after which it is kept in any case
+const mostPlayed = 4000; // milliseconds of playing after which it is kept, however little was computed
 const historyBytes = 48 * 2 ** 20; // of shapes that undo can go back to after a recovery
 const mostSessions = 6;
 
@@ -17,6 +18,7 @@ export class Keeper {
   private dirty = false;
   private sourceKept = false;
   private playing = false;
+  private written = 0; // when it was last begun
   private timer = 0;
   private writing: Promise<void> | null = null;
   private failed = false;
@@ -33,6 +35,7 @@ export class Keeper {
     clearTimeout(this.timer);
     this.release();
     this.id = id;
+    delete document.documentElement.dataset.kept;
     this.release = hold(id);
     this.dirty = this.failed = false;
     this.sourceKept = sourceKept;
@@ -50,7 +53,7 @@ export class Keeper {
   computed(unkept: number, playing: boolean): void {
     if (this.playing && !playing) this.touch();
     this.playing = playing;
-    if (unkept <= mostUnkept) return;
+    if (unkept <= mostUnkept && !(playing && performance.now() - this.written > mostPlayed)) return;
     this.dirty = true;
     void this.keep();
   }
@@ -60,6 +63,7 @@ export class Keeper {
     if (!this.dirty || this.failed) return;
     if (this.writing) return this.writing;
     this.dirty = false;
+    this.written = performance.now();
     this.writing = this.write();
     await this.writing;
     this.writing = null;

@@ -21,6 +21,10 @@ export async function workOffline(app: App): Promise<void> {
     registration.addEventListener('updatefound', () => registration.installing && watch(registration.installing));
     await navigator.serviceWorker.ready;
     document.documentElement.dataset.offline = 'ready';
+    // Now, and when the user comes back to a tab that was open for long. Without a network there is nothing newer.
+    const look = () => void registration.update().catch(() => {});
+    document.addEventListener('visibilitychange', () => document.visibilityState === 'visible' && look());
+    look();
   } catch {
     // Private windows and some hosts have none: the studio works, online.
   }

@@ -1,7 +1,7 @@
 import type { App, Notice } from '../app';
-import { scenes } from '../gallery';
 import type { Mode } from '../view/brush';
 import { h, icon, iconButton } from './dom';
+import { galleryMenu } from './gallery_menu';
 import { saveEntries } from './save_menu';
 
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
@@ -14,6 +14,7 @@ export function topBar(app: App): HTMLElement {
     if (file) void app.documents.openFile(file);
   });
   const name = h('span', { class: 'document-name' });
+  const unit = h('span', { class: 'document-unit', title: 'Unit of the document: lengths without a unit are in it' });
   const undo = iconButton('undo', 'Undo (Ctrl+Z)', () => void app.execute([{ do: 'undo' }]));
   const redo = iconButton('redo', 'Redo (Ctrl+Shift+Z)', () => void app.execute([{ do: 'redo' }]));
   const play = iconButton('play', 'Play or pause (Space)', () => app.togglePlay());
@@ -21,12 +22,11 @@ export function topBar(app: App): HTMLElement {
   const rest = iconButton('rest', 'Run to rest (R)', () => app.togglePlay(true));
   const four = iconButton('four', 'Four views or one (4)', () => app.setDisplay({ fourViews: !app.display.fourViews }));
   const save = menu('save', 'Save', 'Save', saveEntries(app));
-  const gallery = menu('gallery', 'Gallery of ready scenes', 'Gallery', scenes.map((s) => [s.name, s.about, () => void s.open(app)]));
   const bar = h('header', { class: 'top' },
     h('span', { class: 'brand' }, 'Knead'),
-    iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), gallery, save, picker,
+    iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), save, picker,
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
-    h('span', { class: 'spacer' }), name, h('span', { class: 'spacer' }),
+    h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
     iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
     iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
     iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app)));
@@ -41,6 +41,7 @@ export function topBar(app: App): HTMLElement {
     play.classList.toggle('on', app.playing());
     four.classList.toggle('on', app.display.fourViews);
     name.textContent = state ? app.documents.name : '';
+    unit.textContent = state?.surfaces[0]?.unit ?? '';
     document.title = state ? `${app.documents.name} – Knead studio` : 'Knead studio';
   });
   return bar;
