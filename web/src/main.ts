@@ -11,6 +11,7 @@ import { listenToKeys } from './ui/keyboard';
 import { brushPanel, constraintsPanel, surfacesPanel, toolsPanel } from './ui/panels_scene';
 import { displayPanel, evolutionPanel, historyPanel, materialPanel } from './ui/panels_model';
 import { statusBar } from './ui/plot';
+import { offerTour } from './ui/tour';
 
 const app = new App();
 
@@ -41,6 +42,7 @@ async function start(): Promise<void> {
   await app.attempt(async () => void (await app.client.paint({ detail: app.display.detail, field: app.display.field })));
   await openScene(app, scenes[0]!);
   await offerRecovery(app);
+  offerTour(app);
   app.changed();
   document.documentElement.dataset.ready = 'true';
   await workOffline(app);

@@ -46,7 +46,7 @@ it('works without the server once it was loaded', async () => {
 it('stays the version that it is until a whole new one is there and asked for', async () => {
   const directory = mkdtempSync(join(tmpdir(), 'knead-dist-'));
   cpSync(join(root, 'web/dist'), directory, { recursive: true });
-  const studio = await openStudio(900, 560, directory);
+  const studio = await openStudio(900, 560, false, directory);
   const { page } = studio;
   await offlineReady(page);
   const versions = () => page.evaluate(() => caches.keys());

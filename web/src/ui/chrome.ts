@@ -3,6 +3,7 @@ import type { Mode } from '../view/brush';
 import { h, icon, iconButton } from './dom';
 import { galleryMenu } from './gallery_menu';
 import { saveEntries } from './save_menu';
+import { toggleTour } from './tour';
 
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
 
@@ -29,6 +30,7 @@ export function topBar(app: App): HTMLElement {
     h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
     iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
     iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
+    iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),
     iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app)));
   app.onChange.push(() => {
     const { state } = app;
