@@ -127,11 +127,12 @@ describe('what a closed tab leaves behind', () => {
     expect(distance(await positions(page), shape)).toBe(0);
   });
 
-  it('is kept while steps run: never more than about a second of them is lost', async () => {
+  it('is kept while steps run, without a pause', async () => {
     const { page } = studio;
     await scene(page, 'Trampoline');
     await page.keyboard.press('Space');
     await page.waitForSelector('html[data-kept]', { state: 'attached', timeout: 60_000 });
+    const before = await page.evaluate(() => (window as never as { studio: { frame: { state: { steps: number } } } }).studio.frame.state.steps);
     // Without a pause in which it could be kept.
     await page.reload();
     await ready(page);
@@ -139,12 +140,13 @@ describe('what a closed tab leaves behind', () => {
     await settled(page);
     const steps = (await commands(page)).filter((c) => c.do === 'step') as unknown as { count: number }[];
     expect(steps.length).toBe(1);
-    expect(steps[0]!.count).toBeGreaterThan(10);
+    expect(steps[0]!.count).toBeGreaterThan(0.5 * before);
   });
 
   it('is each tab its own', async () => {
     const { page, browser, server } = studio;
     const context = await browser.newContext();
+    await context.addInitScript(() => localStorage.setItem('knead-tour', '1'));
     const tabs = [await context.newPage(), await context.newPage()];
     const shapes: number[][] = [];
     for (const [k, tab] of tabs.entries()) {

@@ -13,7 +13,7 @@ const workerOf = (directory: string) => join(directory, 'service-worker.js');
 /** Changes the page as a new build would, and the worker's hashes with it; `hash` only for one that does not fit. */
 function rebuild(directory: string, title: string, hash?: string): void {
   const index = join(directory, 'index.html');
-  writeFileSync(index, readFileSync(index, 'utf8').replace(/<title>.*<\/title>/, `<title>${title}</title>`).replace('<div id="studio">', `<div id="studio" data-build="${title}">`));
+  writeFileSync(index, readFileSync(index, 'utf8').replace(/<title>.*<\/title>/, `<title>${title}</title>`).replace(/<div id="studio"[^>]*>/, `<div id="studio" data-build="${title}">`));
   const right = createHash('sha256').update(readFileSync(index)).digest('hex');
   const code = readFileSync(workerOf(directory), 'utf8');
   const changed = code.replace(/(\\"index\.html\\":\\")[0-9a-f]{64}/, `$1${hash ?? right}`).replace(/(\\"version\\":\\")[0-9a-f]+/, `$1${right.slice(0, 16)}`);
