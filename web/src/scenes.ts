@@ -86,12 +86,12 @@ export const scenes: Scene[] = [
   {
     name: 'Drape', about: 'a cloth over a ball: press play', document: 'drape',
     commands: [
-      { do: 'new', size: [200, 200], net: [32, 32], name: 'cloth' },
+      { do: 'new', size: [200, 200], net: [24, 24], name: 'cloth' },
       { do: 'material', alpha: [1, 0.2, 1], beta: [0.0005, 0.0005, 0.0005], mass: 1, damping: 1 },
-      { do: 'pin', control_points: [[0, 0], [0, 31], [31, 0], [31, 31]] },
-      { do: 'tool', name: 'ball', shape: 'sphere', radius: 45, position: [100, 100, -60], friction: 0.3 },
+      { do: 'pin', control_points: [[0, 0], [0, 23], [23, 0], [23, 23]] },
+      { do: 'tool', name: 'ball', shape: 'sphere', radius: 45, position: [100, 100, -50], friction: 0.3 },
       { do: 'evolve', mode: 'dynamic', time_step: 0.03 },
-      { do: 'load', gravity: [0, 0, -8] },
+      { do: 'load', gravity: [0, 0, -1.5] },
     ],
   },
   {
