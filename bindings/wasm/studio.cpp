@@ -98,8 +98,8 @@ KNEAD_EXPORT(knead_open) int knead_open(std::size_t name_size) {
   return start(Document::from(std::move(*file)));
 }
 
-/// A session that `knead_snapshot` has kept. Input: the bytes of its STEP file (none: a document without one), its name,
-/// the snapshot.
+/// A session that `knead_snapshot` has kept. Input: the bytes of its STEP file (none: a document without one), its
+/// name, the snapshot.
 KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size_t name_size) {
   std::string bytes = std::move(held().input);
   held().input.clear();
