@@ -67,6 +67,50 @@ double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d&
   return (a + share * side - p).norm();
 }
 
+// In the middle of every whole step across a straight direction.
+std::vector<Vector2d> points_between(std::span<const std::vector<Vector2d>> loops, int straight) {
+  std::vector<Vector2d> result;
+  const int across = 1 - straight;
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+  for (const auto& loop : loops) {
+    for (const Vector2d& p : loop) {
+      lower = std::min(lower, p[across]);
+      upper = std::max(upper, p[across]);
+    }
+  }
+  if (upper - lower > most_inside) return result;
+  for (double x = std::floor(lower) + 0.5; x < upper; ++x) {
+    std::vector<double> crossings;
+    for (const auto& loop : loops) {
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vector2d &a = loop[k], &b = loop[(k + 1) % loop.size()];
+        if ((a[across] > x) == (b[across] > x)) continue;
+        crossings.push_back(a[straight] + (b[straight] - a[straight]) * (x - a[across]) / (b[across] - a[across]));
+      }
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+      if (!(crossings[k + 1] - crossings[k] > 1e-3)) continue;
+      Vector2d& p = result.emplace_back();
+      p[across] = x;
+      p[straight] = (crossings[k] + crossings[k + 1]) / 2;
+    }
+  }
+  return result;
+}
+
+// Some triangle reaches over more steps than chords of one step allow.
+bool too_wide(std::span<const std::vector<Vector2d>> loops, std::span<const Triangle> triangles, int across) {
+  std::vector<double> places;
+  for (const auto& loop : loops) {
+    for (const Vector2d& p : loop) places.push_back(p[across]);
+  }
+  return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+    const auto [least, most] = std::minmax({places[t[0]], places[t[1]], places[t[2]]});
+    return most - least > 1.5;
+  });
+}
+
 // Whole steps within the loops, row by row, every other row backwards.
 std::vector<Vector2d> points_inside(std::span<const std::vector<Vector2d>> loops) {
   std::vector<std::pair<Vector2d, Vector2d>> sides;
@@ -177,10 +221,16 @@ class Tessellator {
     outline_of(part.outer);
     for (const auto& hole : part.holes) outline_of(hole);
     const auto straight = surface.straight();
-    const auto inside = straight[0] || straight[1] ? std::vector<Vector2d>() : points_inside(outline);
-    for (const Vector2d& p : inside) append(p, surface.at(chart.from(p)));
-    const auto triangles = triangulate(outline, inside);
+    // Where the surface is straight one way, points on the outline mostly will do.
+    auto inside = straight[0] || straight[1] ? std::vector<Vector2d>() : points_inside(outline);
+    auto triangles = triangulate(outline, inside);
     if (!triangles) return false;
+    if (straight[0] != straight[1] && too_wide(outline, *triangles, straight[0] ? 1 : 0)) {
+      inside = points_between(outline, straight[0] ? 0 : 1);
+      triangles = triangulate(outline, inside);
+      if (!triangles) return false;
+    }
+    for (const Vector2d& p : inside) append(p, surface.at(chart.from(p)));
     for (Triangle t : *triangles) {
       for (auto& k : t) k += first;
       const Point &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];

@@ -81,6 +81,7 @@ Expected<Loop> EdgeSampler::loop(std::uint32_t instance) {
   const auto path = reader.attributes(instance, "PATH", 1, 1);
   if (!reader.is(instance, "EDGE_LOOP") || path.empty())
     return reader.error(instance, "a loop of a known form is needed here");
+  std::unordered_map<std::uint32_t, std::array<int, 2>> ways;  // how often along each edge, against it
   for (const auto oriented : reader.references(path[0])) {
     const auto own = reader.attributes(oriented, "ORIENTED_EDGE", 3, 2);
     const auto element = own.empty() ? std::nullopt : reader.reference(own[0]);
@@ -88,9 +89,14 @@ Expected<Loop> EdgeSampler::loop(std::uint32_t instance) {
     const auto points = edge(*element);
     if (!points) return std::unexpected(points.error());
     Loop piece = **points;
-    if (reader.enumeration(own[1]) == "F") std::reverse(piece.begin(), piece.end());
+    const bool against = reader.enumeration(own[1]) == "F";
+    if (against) std::reverse(piece.begin(), piece.end());
+    ++ways[*element][against ? 1 : 0];
     result.insert(result.end(), piece.begin(), piece.end() - 1);  // the last one begins the next piece
   }
+  const bool seams =
+      std::all_of(ways.begin(), ways.end(), [](const auto& edge) { return edge.second[0] == edge.second[1]; });
+  if (seams) result.clear();
   return result;
 }
 

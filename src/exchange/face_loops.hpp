@@ -22,7 +22,8 @@ class EdgeSampler {
   [[nodiscard]] Expected<const Loop*> edge(std::uint32_t instance);
 
   /// The loops of a list of FACE_BOUNDs, each in the direction that the bound gives it: with the face on its left seen
-  /// from the tip of the face's normal. A VERTEX_LOOP bounds nothing and is left out.
+  /// from the tip of the face's normal. What bounds nothing is left out: a VERTEX_LOOP, and a loop that runs along all
+  /// of its edges both ways, as round the seams of a whole torus (in an order that need not be that of its parameters).
   [[nodiscard]] Expected<std::vector<Loop>> loops(std::uint32_t bounds);
 
  private:

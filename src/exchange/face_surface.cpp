@@ -85,7 +85,8 @@ Expected<FaceSurface> FaceSurface::read(const StepReader& reader, std::uint32_t 
   const auto target = way.empty() ? no_instance : reader.reference(way[0]).value_or(no_instance);
   const auto swept = reader.attributes(instance, "SWEPT_SURFACE", complex ? 0 : 1, 1);
   const auto curve = swept.empty() ? no_instance : reader.reference(swept[0]).value_or(no_instance);
-  if (target == no_instance || curve == no_instance) return reader.error(instance, "it has no swept curve, or no way to sweep it");
+  if (target == no_instance || curve == no_instance)
+    return reader.error(instance, "it has no swept curve, or no way to sweep it");
   std::optional<FaceSurface> surface;
   if (revolution) {
     // AXIS1_PLACEMENT(location, axis)

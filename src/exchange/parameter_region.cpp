@@ -61,11 +61,14 @@ Unwrapped unwrap(const ParameterSpace& space, std::span<const LoopPoint> loop, i
         while (period > 0 && down && next.at[d] <= before[d] - period - near) next.at[d] += period;
         while (period > 0 && !down && next.at[d] < before[d] + near) next.at[d] += period;
         while (period > 0 && !down && next.at[d] >= before[d] + period + near) next.at[d] -= period;
-        RegionPoint a = *pole, b = *pole;
-        a.at[d] = before[d];
-        b.at[d] = next.at[d];
-        result.points.push_back(a);
-        result.points.push_back(b);
+        // In whole steps, as everything else that is curved.
+        const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(next.at[d] - before[d]) - 1e-9)), 1, 1000);
+        for (int i = 0; i <= pieces; ++i) {
+          RegionPoint on = *pole;
+          if (i > 0 && i < pieces) on.loop = on.index = -1;
+          on.at[d] = before[d] + (next.at[d] - before[d]) * i / pieces;
+          result.points.push_back(on);
+        }
       }
       pole.reset();
     }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double single_point = 1e-6;  // of the net's diagonal: an edge of the domain no longer than that is a pole
 constexpr double at_pole = 1e-5;       // fractions
-constexpr int iterations = 20;
+constexpr int iterations = 40;
 constexpr int starts = 4;
 
 }  // namespace
@@ -50,45 +50,49 @@ SurfaceFoot::Result SurfaceFoot::descend(const Point& p, Eigen::Vector2d at) con
     lower[d] = surface_->knots(d).domain().lower;
     length[d] = surface_->knots(d).domain().length();
   }
+  // Levenberg and Marquardt: points lie on the surface nearly, so that Gauss and Newton's step converges quadratically;
+  // damped where it overshoots, as beside a pole.
   Result best{{at}, std::numeric_limits<double>::infinity()};
+  Eigen::Matrix2d matrix = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  double damping = 1e-6;
   for (int k = 0; k < iterations; ++k) {
     Parameters<2> parameters(1, 2);
     for (int d = 0; d < 2; ++d) {
       parameters(0, d) = std::clamp(lower[d] + at[d] * length[d], lower[d], surface_->knots(d).domain().upper);
     }
-    const auto value = evaluate<2>(*surface_, parameters, 2);
+    const auto value = evaluate<2>(*surface_, parameters, 1);
     if (!value) break;
     const auto row = [&](int i, int j) { return Point(value->at({i, j}).row(0).transpose()); };
     const Point off = row(0, 0) - p;
-    if (off.norm() < best.distance)
+    if (off.norm() < best.distance) {
       best = {{at}, off.norm()};
-    else if (k > 4 && off.norm() > 2 * best.distance)
-      break;
-    // In fractions, so that both directions count alike.
-    const Point u = row(1, 0) * length[0], v = row(0, 1) * length[1];
-    Eigen::Matrix2d matrix;
-    matrix << u.dot(u), u.dot(v), u.dot(v), v.dot(v);
-    Eigen::Matrix2d whole = matrix;
-    whole(0, 0) += off.dot(row(2, 0)) * length[0] * length[0];
-    whole(1, 1) += off.dot(row(0, 2)) * length[1] * length[1];
-    whole(0, 1) += off.dot(row(1, 1)) * length[0] * length[1];
-    whole(1, 0) = whole(0, 1);
-    // Newton where the distance is convex, Gauss and Newton elsewhere; both with a little of the trace at a pole.
-    if (whole(0, 0) > 0 && whole.determinant() > 1e-6 * matrix.determinant()) matrix = whole;
-    matrix.diagonal().array() += 1e-12 * matrix.trace() + 1e-300;
-    const Eigen::Vector2d gradient(off.dot(u), off.dot(v));
-    Eigen::Vector2d next = at - matrix.inverse() * gradient;
-    // On an edge of the domain: along it.
+      damping /= 10;
+      // In fractions, so that both directions count alike.
+      const Point u = row(1, 0) * length[0], v = row(0, 1) * length[1];
+      matrix << u.dot(u), u.dot(v), u.dot(v), v.dot(v);
+      gradient = {off.dot(u), off.dot(v)};
+    } else {
+      damping = std::max(10 * damping, 1e-6);
+      if (damping > 1e6) break;
+    }
+    const Eigen::Vector2d& from = best.foot.parameters;
+    Eigen::Matrix2d damped = matrix;
+    damped.diagonal() += damping * matrix.diagonal();
+    damped.diagonal().array() += 1e-14 * matrix.trace() + 1e-300;
+    Eigen::Vector2d next = from - damped.inverse() * gradient;
     for (int d = 0; d < 2; ++d) {
       const bool closed = space_.periods[static_cast<std::size_t>(d)] > 0;
       if (closed && (next[d] < -1e-12 || next[d] > 1 + 1e-12)) next[d] -= std::floor(next[d]);
       if (next[d] >= 0 && next[d] <= 1) continue;
+      // At an edge of the domain: along it.
       next[d] = std::clamp(next[d], 0.0, 1.0);
       const int e = 1 - d;
-      if (matrix(e, e) > 0) next[e] = at[e] - (gradient[e] + matrix(e, d) * (next[d] - at[d])) / matrix(e, e);
+      next[e] = from[e] - (gradient[e] + matrix(e, d) * (next[d] - from[d])) / damped(e, e);
+      if (space_.periods[static_cast<std::size_t>(e)] > 0) next[e] -= std::floor(next[e]);
       next[e] = std::clamp(next[e], 0.0, 1.0);
     }
-    if ((next - at).norm() <= 1e-12) break;
+    if ((next - from).norm() <= 1e-12) break;
     at = next;
   }
   for (int d = 0; d < 2; ++d) {

@@ -38,7 +38,8 @@ Expected<std::vector<RegionPart>> region_of(const StepReader& reader, const Step
       if (!(found.distance <= off_surface * box.diagonal().norm() + on_surface * size)) {
         return reader.error(face.instance, "its edges do not lie on its surface");
       }
-      hint = found.foot.parameters;
+      hint.reset();
+      if (!found.foot.free[0] && !found.foot.free[1]) hint = found.foot.parameters;
       points.push_back({found.foot.parameters, found.foot.free});
     }
   }

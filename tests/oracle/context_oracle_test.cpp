@@ -39,9 +39,13 @@ void expect_areas(const ContextFaces& context, const std::map<std::string, doubl
       ADD_FAILURE() << mesh.id << " is no face there";
       continue;
     }
-    // Chords of a circle are shorter by chord/3 than their arcs; a surface may be curved both ways, and the bounds of a
-    // plane with holes gain what arcs lose.
-    EXPECT_NEAR(area_of(mesh), found->second, 2 * chord * found->second) << mesh.id;
+    // Chords of a circle are shorter by chord/3 than their arcs, and a surface may be curved both ways. On a plane the
+    // polygon in a circle of radius r lacks 2/3 chord π r² of what is on its left, or has it too much: a narrow ring
+    // more than its area says.
+    Eigen::AlignedBox3d box;
+    for (const Point& p : mesh.points) box.extend(p);
+    const double size = std::max(2 * found->second, box.diagonal().squaredNorm());
+    EXPECT_NEAR(area_of(mesh), found->second, chord * size) << mesh.id;
     EXPECT_LE(folded_area(mesh), 1e-3 * chord * found->second) << mesh.id;
   }
 }
@@ -69,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ContextShape, ::testing::ValuesIn(occt_shape_na
 
 // The share of a surface's area that its trims show, by midpoints of a fine grid.
 double shown_share(const Surface& surface, const SurfaceTrim& trim) {
-  constexpr int count = 400;
+  constexpr int count = 250;
   std::array<std::vector<double>, 2> parameters;
   for (int d = 0; d < 2; ++d) {
     const Interval domain = surface.knots(d).domain();

@@ -131,7 +131,7 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
        }},
       {"slanted_cylinder",
        [] {
-         const auto box = moved(BRepPrimAPI_MakeBox(40, 40, 40).Shape(), -20, -20, 4, 0.8);
+         const auto box = moved(BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, 0), 40, 40, 40).Shape(), 0, 0, 6, 0.4);
          return TopoDS_Shape(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(2, 12).Shape(), box).Shape());
        }},
       {"rounded_box",
@@ -161,11 +161,6 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
          const gp_Elips ellipse(gp_Ax2(gp_Pnt(6, 0, 0), gp_Dir(0, 1, 0)), 3, 1);
          return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeEdge(ellipse).Edge(), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)))
              .Shape();
-       }},
-      {"skew_line_revolved",
-       [] {
-         const auto edge = BRepBuilderAPI_MakeEdge(gp_Pnt(2, -2, -3), gp_Pnt(2, 3, 4)).Edge();
-         return BRepPrimAPI_MakeRevol(edge, gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))).Shape();
        }},
       {"channel",
        [] {
@@ -227,7 +222,7 @@ std::map<std::string, double> occt_face_areas(const std::filesystem::path& path,
     double sum = 0;
     for (TopExp_Explorer at(TransferBRep::ShapeResult(process, face), TopAbs_FACE); at.More(); at.Next()) {
       GProp_GProps properties;
-      BRepGProp::SurfaceProperties(at.Current(), properties, 1e-6);
+      BRepGProp::SurfaceProperties(at.Current(), properties);
       sum += std::abs(properties.Mass());
     }
     areas["#" + std::to_string(step->IdentLabel(face))] = sum;

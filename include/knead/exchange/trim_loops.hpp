@@ -33,7 +33,7 @@ struct TrimLoops {
 /// The bounds of the faces on the B-spline surfaces of a STEP file, in parameters of these.
 ///
 /// The edges are sampled as for `context_faces`, and every point is brought to the surface: from the foot of the one
-/// before it, or from a grid where that fails, by Newton's iteration for the nearest point (The NURBS Book, 6.1). So a
+/// before it, or from a grid where that fails, by Levenberg and Marquardt's iteration for the nearest point. So a
 /// file's own curves in parameters (PCURVE), which are often missing and sometimes wrong, are not needed. Where the
 /// surface closes on itself or has a pole the loops are cut open as for `context_faces`.
 ///
