@@ -196,7 +196,8 @@ Point FaceSurface::normal(const Eigen::Vector2d& uv) const {
       return (around(u) - minor_ * z).normalized();
     case Kind::sphere:
     case Kind::torus:
-      return std::cos(v) * around(u) + std::sin(v) * z;
+      // Within a lemon R + r cos v is negative, and turns ∂u × ∂v inwards.
+      return (lemon_ ? -1 : 1) * (std::cos(v) * around(u) + std::sin(v) * z);
     case Kind::extrusion: {
       const Point n = profile_->derivative(u).cross(z);
       return n.norm() > 0 ? Point(n.normalized()) : frame_.x;
@@ -261,7 +262,7 @@ std::array<bool, 2> FaceSurface::straight() const {
     case Kind::torus:
       return {false, false};
     case Kind::revolution:
-      return {false, profile_->straight()};
+      return {false, profile_->straight() && !(waist_ > 0)};
     case Kind::extrusion:
       return {profile_->straight(), true};
   }
@@ -271,6 +272,12 @@ std::array<bool, 2> FaceSurface::straight() const {
 void FaceSurface::set_steps(double chord) {
   angle_step_ = turn / std::ceil(turn / chord_angle(chord));
   if (profile_) steps_ = profile_->subdivided(range_.lower, range_.upper, chord);
+  if (waist_ > 0) {
+    // Rulings that are not parallel: a cell of a by b is off its surface by up to a b / 4 at the waist.
+    const double pieces = std::clamp(std::ceil(2 * range_.length() / (waist_ * angle_step_)), 1.0, 1000.0);
+    steps_.clear();
+    for (double k = 0; k <= pieces; ++k) steps_.push_back(range_.lower + range_.length() * k / pieces);
+  }
 }
 
 namespace {

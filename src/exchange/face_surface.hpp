@@ -48,7 +48,7 @@ class FaceSurface {
   void set_steps(double chord);
   [[nodiscard]] Eigen::Vector2d chart(const Eigen::Vector2d& uv) const;
   [[nodiscard]] Eigen::Vector2d from_chart(const Eigen::Vector2d& steps) const;
-  /// True for directions along which the surface is straight.
+  /// True for directions along which the surface is straight, and its normal the same.
   [[nodiscard]] std::array<bool, 2> straight() const;
 
  private:
@@ -68,6 +68,7 @@ class FaceSurface {
   bool lemon_ = false;  // the inner part of a torus that crosses its axis
   std::optional<EdgeCurve> profile_;
   Interval range_ = {};                    // of the profile
+  double waist_ = 0;                       // of the hyperboloid that a skew line revolves to: its least radius
   bool one_side_ = false;                  // only what of the profile lies on the positive side of the axis
   Point side_ = Point::Zero();             // that side
   std::vector<double> sample_parameters_;  // fine samples of the profile: for `nearest`

@@ -76,7 +76,10 @@ Expected<void> FaceSurface::tabulate(const StepReader& reader, std::uint32_t ins
     const Point across = direction - direction.dot(frame_.z) * frame_.z;
     if (across.norm() > 1e-9) {
       const double t = -(a - a.dot(frame_.z) * frame_.z).dot(across) / across.squaredNorm();
-      if (section(profile_->at(t)).x() <= 1e-9 * range_.length()) {
+      const double waist = section(profile_->at(t)).x();
+      if (waist > 1e-9 * range_.length() && std::abs(direction.dot(frame_.z)) > 1e-9) {
+        waist_ = waist;
+      } else if (waist <= 1e-9 * range_.length()) {
         double middle = 0;
         for (const Point& p : on_it) middle += section(p).y() / static_cast<double>(on_it.size());
         const double at_pole = section(profile_->at(t)).y();
