@@ -10,7 +10,8 @@ namespace {
 using Polygon = std::vector<RegionPoint>;
 using Eigen::Vector2d;
 
-constexpr int trials = 96;  // places for a cut
+constexpr int trials = 96;         // places for a cut
+constexpr int most_pieces = 1000;  // of one straight line
 
 std::unexpected<Error> no_region(std::string what) { return std::unexpected(Error{ErrorKind::input, std::move(what)}); }
 
@@ -22,6 +23,12 @@ struct Unwrapped {
   Polygon points;
   std::array<int, 2> winding = {0, 0};
 };
+
+// Points between `from` and `to`, neither among them, at whole steps. By value: they may be the polygon's own.
+void add_between(Polygon& polygon, Vector2d from, Vector2d to) {
+  const int pieces = std::clamp(static_cast<int>(std::ceil((to - from).cwiseAbs().maxCoeff() - 1e-9)), 1, most_pieces);
+  for (int k = 1; k < pieces; ++k) polygon.push_back({from + (to - from) * k / pieces});
+}
 
 // Follows a loop over the seams. At a pole the direction round it is undetermined: along the upper one a loop with its
 // region on the left goes down, along the lower one up.
@@ -61,14 +68,12 @@ Unwrapped unwrap(const ParameterSpace& space, std::span<const LoopPoint> loop, i
         while (period > 0 && down && next.at[d] <= before[d] - period - near) next.at[d] += period;
         while (period > 0 && !down && next.at[d] < before[d] + near) next.at[d] += period;
         while (period > 0 && !down && next.at[d] >= before[d] + period + near) next.at[d] -= period;
-        // In whole steps, as everything else that is curved.
-        const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(next.at[d] - before[d]) - 1e-9)), 1, 1000);
-        for (int i = 0; i <= pieces; ++i) {
-          RegionPoint on = *pole;
-          if (i > 0 && i < pieces) on.loop = on.index = -1;
-          on.at[d] = before[d] + (next.at[d] - before[d]) * i / pieces;
-          result.points.push_back(on);
-        }
+        RegionPoint a = *pole, b = *pole;
+        a.at[d] = before[d];
+        b.at[d] = next.at[d];
+        result.points.push_back(a);
+        add_between(result.points, a.at, b.at);
+        result.points.push_back(b);
       }
       pole.reset();
     }
@@ -184,7 +189,9 @@ std::optional<Polygon> strip(const Unwrapped& below, const Unwrapped& above, int
     if (same_way) std::reverse(back.begin(), back.end());
     shift(back, d,
           cut.shift + period * below.winding[std::size_t(d)] - (same_way ? period * above.winding[std::size_t(d)] : 0));
+    add_between(result, result.back().at, back.front().at);
     result.insert(result.end(), back.begin(), back.end());
+    add_between(result, result.back().at, result.front().at);
     return result;
   }
   return std::nullopt;
@@ -198,14 +205,13 @@ std::optional<Polygon> cap(const Unwrapped& loop, double end, int d, double peri
     to[1 - d] = end;
     if (!sight.clear(loop.points[k].at, to)) continue;
     Polygon result = round_from(loop, k, d, period);
-    const double from = result.back().at[d], until = result.front().at[d];
-    const int pieces = std::clamp(static_cast<int>(std::abs(until - from)), 4, 1000);
-    for (int i = 0; i <= pieces; ++i) {
-      RegionPoint p;
-      p.at[1 - d] = end;
-      p.at[d] = from + (until - from) * i / pieces;
-      result.push_back(p);
-    }
+    Vector2d corner = result.back().at, last = result.front().at;
+    corner[1 - d] = last[1 - d] = end;
+    add_between(result, result.back().at, corner);
+    result.push_back({corner});
+    add_between(result, corner, last);
+    result.push_back({last});
+    add_between(result, last, result.front().at);
     return result;
   }
   return std::nullopt;
@@ -238,9 +244,8 @@ std::optional<Polygon> everything(const ParameterSpace& space, const Sight& sigh
       Polygon result;
       const std::array<Vector2d, 5> corners = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1), corner(0, 0)};
       for (std::size_t side = 0; side < 4; ++side) {
-        const Vector2d way = corners[side + 1] - corners[side];
-        const int pieces = std::clamp(static_cast<int>(way.norm()), 4, 1000);
-        for (int k = 0; k < pieces; ++k) result.push_back({corners[side] + way * k / pieces});
+        result.push_back({corners[side]});
+        add_between(result, corners[side], corners[side + 1]);
       }
       return result;
     }
