@@ -1,12 +1,15 @@
 import './style.css';
+import './view/view.css';
 
 import { App } from './app';
 import { autosave } from './document/autosave';
 import { scenes } from './gallery';
 import { notices, toolRail, topBar } from './ui/chrome';
 import { h } from './ui/dom';
+import { listenToEdges } from './ui/edge_popover';
 import { listenToKeys } from './ui/keyboard';
-import { brushPanel, constraintsPanel, surfacesPanel, toolsPanel } from './ui/panels_scene';
+import { brushPanel, pointsPanel } from './ui/panels_hand';
+import { constraintsPanel, surfacesPanel, toolsPanel } from './ui/panels_scene';
 import { displayPanel, evolutionPanel, historyPanel, materialPanel } from './ui/panels_model';
 import { statusBar } from './ui/plot';
 
@@ -17,11 +20,12 @@ document.getElementById('studio')!.append(
   toolRail(app),
   h('main', { class: 'stage' }, app.viewer.element, notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
-    brushPanel(app), toolsPanel(app), surfacesPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app),
+    brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app),
     displayPanel(app), historyPanel(app)),
   statusBar(app),
 );
 listenToKeys(app);
+listenToEdges(app);
 
 // Files dropped anywhere are opened.
 document.addEventListener('dragover', (event) => event.preventDefault());

@@ -24,8 +24,20 @@ export interface SurfaceInfo {
   rest: 'shape' | 'none';
   hold: number;
   pins: number;
+  /** The pinned control points, [i, j]. */
+  pinned: [number, number][];
   constraints: Command[];
   moved: number;
+}
+
+/** A surface in full precision; control point (i, j) is number i · net[1] + j. */
+export interface SurfaceNumbers {
+  degree: [number, number];
+  net: [number, number];
+  knots_u: number[];
+  knots_v: number[];
+  weights: number[] | null;
+  points: Vector3[];
 }
 
 export interface ToolInfo {

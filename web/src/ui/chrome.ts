@@ -1,6 +1,6 @@
 import type { App, Notice } from '../app';
 import { scenes } from '../gallery';
-import type { Mode } from '../view/brush';
+import { modes } from '../view/modes';
 import { h, icon, iconButton } from './dom';
 
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
@@ -65,15 +65,6 @@ function menu(iconName: string, label: string, text: string, entries: [string, s
   });
   return element;
 }
-
-export const modes: [Mode, string, string][] = [
-  ['look', 'Look and select (V)', 'v'],
-  ['push', 'Push: a ball into the clay (B). Alt pulls', 'b'],
-  ['pull', 'Pull: a ball from behind (U). Alt pushes', 'u'],
-  ['grab', 'Grab a point and drag it (G)', 'g'],
-  ['place', 'Place a tool (T)', 't'],
-  ['pin', 'Pin control points or surface points (P)', 'p'],
-];
 
 export function toolRail(app: App): HTMLElement {
   const buttons = modes.map(([mode, label]) => {

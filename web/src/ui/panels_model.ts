@@ -101,8 +101,8 @@ export function displayPanel(app: App): HTMLElement {
 }
 
 export function historyPanel(app: App): HTMLElement {
-  return panel(app, 'History', (a) => (a.playing() || a.brush.active ? null : [a.state?.notes, a.state?.last?.note, a.changes]), () => {
-    if (app.playing() || app.brush.active) return [note('…')];
+  return panel(app, 'History', (a) => (a.playing() || a.hand.active ? null : [a.state?.notes, a.state?.last?.note, a.changes]), () => {
+    if (app.playing() || app.hand.active) return [note('…')];
     const list = h('ol', { class: 'history' });
     void app.client.journal().then((text) => {
       const { commands } = JSON.parse(text) as { commands: Command[] };

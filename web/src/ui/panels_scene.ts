@@ -1,6 +1,6 @@
 import type { App } from '../app';
 import type { ToolInfo } from '../engine/session_types';
-import { field, format, h, iconButton, numberInput, select, slider, toggle } from './dom';
+import { field, format, h, iconButton, numberInput, select, toggle } from './dom';
 import { note, panel, row } from './panel';
 import { parseLength } from './units';
 
@@ -38,34 +38,10 @@ export function surfacesPanel(app: App): HTMLElement {
   });
 }
 
-export function brushPanel(app: App): HTMLElement {
-  return panel(app, 'Brush', (a) => [a.brush.mode, a.brush.settings, unitOf(a)], () => {
-    const { settings } = app.brush;
-    return [
-      field('Radius', row(
-        slider('Brush radius', Math.log(settings.radius / app.diagonal), [Math.log(0.005), Math.log(0.5)], (v) => {
-          settings.radius = Math.exp(v) * app.diagonal;
-          app.changed();
-        }),
-        numberInput('Brush radius in units', settings.radius, (v) => {
-          if (v > 0) settings.radius = v;
-          app.changed();
-        }, length(app)),
-      ), 'Shift-wheel over the surface, or the wheel while pressing; [ and ]'),
-      field('Depth', row(
-        slider('Brush depth', settings.strength, [0.02, 1], (v) => {
-          settings.strength = v;
-          app.changed();
-        }),
-        h('output', { class: 'number' }, `${Math.round(100 * settings.strength)} %`),
-      ), 'How far the ball goes in, in radii'),
-    ];
-  });
-}
-
-const shapes = [
+export const shapes = [
   ['sphere', 'Sphere'], ['ellipsoid', 'Ellipsoid'], ['box', 'Box'], ['cylinder', 'Cylinder'], ['cone', 'Cone'], ['capsule', 'Capsule'],
   ['torus', 'Torus'], ['plane', 'Plane'], ['bowl', 'Bowl'], ['superellipsoid', 'Superellipsoid'], ['supertoroid', 'Supertoroid'],
+  ['surface', 'Surface of the document'],
 ] as const;
 
 const lengthsOf: Record<string, ('radius' | 'minor' | 'height' | 'top_radius' | 'rounding' | 'thickness')[]> = {
@@ -98,7 +74,7 @@ function remade(tool: ToolInfo, change: Record<string, unknown>): Record<string,
 
 export function toolsPanel(app: App): HTMLElement {
   return panel(app, 'Tools', (a) => [a.state?.tools, a.viewer.selectedTool, a.viewer.viewports[0]!.gizmo.mode], () => {
-    const tools = app.state?.tools.filter((t) => !(app.brush.active && t.name === 'brush')) ?? [];
+    const tools = app.state?.tools.filter((t) => !(app.hand.active && t.name === 'brush')) ?? [];
     const chosen = tools.find((t) => t.name === app.viewer.selectedTool);
     const pick = (name: string | null) => {
       app.viewer.selectTool(name);

@@ -14,8 +14,7 @@ export function statusBar(app: App): HTMLElement {
   const legend = h('div', { class: 'legend' }, ...terms.map(([name]) => h('span', { class: `key ${name}` }, name)));
   const numbers = h('div', { class: 'numbers' });
   const colours = h('div', { class: 'colour-bar', hidden: true }, h('span', {}), h('i', {}), h('span', {}));
-  const message = h('div', { class: 'hint' });
-  const element = h('footer', { class: 'status' }, canvas, legend, numbers, h('div', { class: 'spacer' }), colours, message);
+  const element = h('footer', { class: 'status' }, canvas, legend, numbers, h('div', { class: 'spacer' }), colours);
 
   const update = () => {
     const { state, frame } = app;
@@ -42,8 +41,6 @@ export function statusBar(app: App): HTMLElement {
       colours.firstElementChild!.textContent = `−${format(app.display.limit)}`;
       colours.lastElementChild!.textContent = `+${format(app.display.limit)}`;
     }
-    const unit = state?.surfaces[0]?.unit ?? '';
-    message.textContent = app.display.grid && state ? `grid ${format(app.viewer.ground.step)} ${unit}` : '';
   };
   app.onChange.push(update);
   return element;

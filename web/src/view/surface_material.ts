@@ -15,9 +15,13 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       back: { value: new THREE.Color(0xb59d86) },
       limit: { value: 1 },
       selected: { value: 1 },
+      marks: { value: null },
+      accent: { value: new THREE.Color(0x3fb6a8) },
     },
     vertexShader: /* glsl */ `
       attribute float value;
+      attribute vec2 span;
+      varying vec2 vSpan;
       varying vec3 vNormal;
       varying vec3 vView;
       varying float vValue;
@@ -26,6 +30,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
         vNormal = normalMatrix * normal;
         vView = isOrthographic ? vec3(0.0, 0.0, 1.0) : -place.xyz;
         vValue = value;
+        vSpan = span;
         gl_Position = projectionMatrix * place;
       }`,
     fragmentShader: /* glsl */ `
@@ -34,6 +39,9 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       uniform float limit, selected;
       varying vec3 vNormal, vView;
       varying float vValue;
+      varying vec2 vSpan;
+      uniform sampler2D marks;
+      uniform vec3 accent;
 
       // Blue below, grey at zero, red above; the brightness changes evenly to both sides.
       vec3 diverging(float x) {
@@ -69,6 +77,12 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
           else colour = mix(colour, base, 0.45);
           gl_FragColor = vec4(mix(vec3(dot(colour, vec3(0.3, 0.5, 0.2))) * 0.85, colour, selected), 1.0);
         }
+        // Frozen spans are hatched, painted ones tinted.
+        vec2 marked = texture2D(marks, vSpan).rg;
+        float hatch = smoothstep(0.55, 0.75, abs(fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0) * 2.0 - 1.0));
+        vec3 ice = vec3(0.16, 0.4, 0.75);
+        gl_FragColor.rgb = mix(gl_FragColor.rgb, ice, marked.r > 0.5 ? 0.22 + 0.5 * hatch : 0.0);
+        if (marked.g > 0.1) gl_FragColor.rgb = mix(gl_FragColor.rgb, marked.g > 0.8 ? accent : vec3(0.9), 0.55);
         #include <colorspace_fragment>
       }`,
   });

@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 
-import type { Picture } from '../engine/session_types';
+import type { Picture, SurfaceInfo } from '../engine/session_types';
+import { mark } from './net';
 import { surfaceMaterial } from './surface_material';
 import type { Display, Palette } from './display';
 
@@ -11,6 +12,8 @@ export class SurfaceView {
   readonly group = new THREE.Group();
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   picture: Picture | null = null;
+  /** Control points are shown whatever the display says. */
+  editing = false;
 
   private readonly isocurves = lines();
   private readonly knotLines = lines();
@@ -20,6 +23,9 @@ export class SurfaceView {
     new THREE.BufferGeometry(),
     new THREE.PointsMaterial({ size: 7, sizeAttenuation: false, vertexColors: true, alphaMap: disc(), alphaTest: 0.5, depthTest: false }),
   );
+  private frozen = '';
+  private frozenCells = new Uint8Array(1);
+  private painted: { cells: Uint8Array; erase: boolean } | null = null;
   private topology = '';
   private netTopology = '';
 
@@ -34,7 +40,8 @@ export class SurfaceView {
     this.group.add(this.mesh, this.isocurves, this.knotLines, this.normals, this.net, this.points);
   }
 
-  show(picture: Picture, netCounts: [number, number], display: Display, palette: Palette, selected: boolean): void {
+  show(picture: Picture, info: SurfaceInfo, display: Display, palette: Palette, selected: boolean): void {
+    const netCounts = info.net;
     this.picture = picture;
     const [m, n] = picture.counts;
     const geometry = this.mesh.geometry;
@@ -48,6 +55,9 @@ export class SurfaceView {
     if (topology !== this.topology) {
       this.topology = topology;
       geometry.setIndex(new THREE.BufferAttribute(triangles(m, n), 1));
+      geometry.setAttribute('span', new THREE.BufferAttribute(spanCoordinates(picture), 2));
+      this.frozen = '';
+      this.painted = null;
       const knotsU = [...picture.linesU];
       const knotsV = [...picture.linesV];
       this.knotLines.geometry.setIndex(new THREE.BufferAttribute(gridLines(m, n, knotsU, knotsV), 1));
@@ -65,7 +75,41 @@ export class SurfaceView {
       const all = (count: number) => Array.from({ length: count }, (_, k) => k);
       this.net.geometry.setIndex(new THREE.BufferAttribute(gridLines(a, b, all(a), all(b)), 1));
     }
+    this.showFrozen(info);
     this.restyle(display, palette, selected);
+  }
+
+  /** Hatches what the session keeps from moving: the whole spans that frozen regions touch. */
+  private showFrozen(info: SurfaceInfo): void {
+    const regions = info.constraints.filter((c) => c.do === 'freeze').map((c) => c.region as number[][]);
+    const frozen = JSON.stringify(regions);
+    if (frozen === this.frozen) return;
+    this.frozen = frozen;
+    const [s, t] = lineFractions(this.picture!);
+    this.frozenCells = new Uint8Array((s.length - 1) * (t.length - 1));
+    for (const region of regions) mark(this.frozenCells, region, s, t);
+    this.showMarks();
+  }
+
+  /** Tints spans while they are painted; null ends that. */
+  showPainted(cells: Uint8Array | null, erase: boolean): void {
+    this.painted = cells && { cells, erase };
+    this.showMarks();
+  }
+
+  private showMarks(): void {
+    const { linesU, linesV } = this.picture!;
+    const [rows, columns] = [linesU.length - 1, linesV.length - 1];
+    const data = new Uint8Array(4 * rows * columns);
+    for (let k = 0; k < rows * columns; ++k) {
+      data[4 * k] = this.frozenCells[k] ? 255 : 0;
+      data[4 * k + 1] = this.painted?.cells[k] ? (this.painted.erase ? 128 : 255) : 0;
+    }
+    const { marks } = this.mesh.material.uniforms;
+    (marks!.value as THREE.DataTexture | null)?.dispose();
+    const texture = new THREE.DataTexture(data, columns, rows);
+    texture.needsUpdate = true; // nearest: a span is marked or not
+    marks!.value = texture;
   }
 
   restyle(display: Display, palette: Palette, selected: boolean): void {
@@ -79,8 +123,8 @@ export class SurfaceView {
     this.mesh.visible = display.surface;
     this.isocurves.visible = display.isocurves;
     this.knotLines.visible = display.knotLines;
-    this.net.visible = display.net && selected;
-    this.points.visible = display.points && selected;
+    this.net.visible = (display.net || this.editing) && selected;
+    this.points.visible = (display.points || this.editing) && selected;
     this.normals.visible = display.normals;
     this.isocurves.material.color.set(palette.isocurve);
     this.isocurves.material.opacity = palette.isocurveOpacity;
@@ -132,6 +176,7 @@ export class SurfaceView {
   }
 
   dispose(): void {
+    (this.mesh.material.uniforms.marks!.value as THREE.DataTexture | null)?.dispose();
     for (const part of [this.mesh, this.isocurves, this.knotLines, this.normals, this.net, this.points]) {
       part.geometry.dispose();
       (part.material as THREE.Material).dispose();
@@ -139,10 +184,38 @@ export class SurfaceView {
   }
 }
 
+/** Fractions of the domain where its knot lines lie, ends included. */
+export function lineFractions({ s, t, linesU, linesV }: Picture): [number[], number[]] {
+  return [[...linesU].map((k) => s[k]!), [...linesV].map((k) => t[k]!)];
+}
+
+/** Where each point of the grid lies among the spans, as texture coordinates: v then u. */
+function spanCoordinates({ counts, linesU, linesV }: Picture): Float32Array {
+  const along = (count: number, lines: Uint32Array) => {
+    const result = new Float32Array(count);
+    for (let a = 0; a + 1 < lines.length; ++a) {
+      const [from, to] = [lines[a]!, lines[a + 1]!];
+      for (let k = from; k <= to; ++k) result[k] = (a + (k - from) / (to - from)) / (lines.length - 1);
+    }
+    return result;
+  };
+  const u = along(counts[0], linesU);
+  const v = along(counts[1], linesV);
+  const result = new Float32Array(2 * counts[0] * counts[1]);
+  let at = 0;
+  for (let k = 0; k < counts[0]; ++k) {
+    for (let l = 0; l < counts[1]; ++l) {
+      result[at++] = v[l]!;
+      result[at++] = u[k]!;
+    }
+  }
+  return result;
+}
+
 let discTexture: THREE.CanvasTexture | null = null;
 
 /** Makes points round. */
-function disc(): THREE.CanvasTexture {
+export function disc(): THREE.CanvasTexture {
   if (discTexture) return discTexture;
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = 32;

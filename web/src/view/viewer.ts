@@ -1,9 +1,11 @@
 import * as THREE from 'three';
 
 import type { Frame } from '../engine/protocol';
+import { format } from '../ui/dom';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
-import { SurfaceView } from './surface_view';
+import { Navigator } from './navigator';
+import { disc, SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
 import { type ViewName, Viewport } from './viewport';
 
@@ -29,9 +31,16 @@ export class Viewer {
   selectedTool: string | null = null;
   onDrawn: (milliseconds: number) => void = () => {};
 
+  readonly navigator = new Navigator((viewport, at) => this.pick(viewport, at)?.point ?? viewport.unproject(at.clientX, at.clientY, viewport.target));
+  /** A double click on the label of a view. */
+  onMaximise: (name: ViewName) => void = () => {};
+
   private readonly renderer: THREE.WebGLRenderer;
   private readonly raycaster = new THREE.Raycaster();
   private due = false;
+  private editsPoints = false;
+  private groundHeight = 0;
+  private sceneRadius = 1;
   private theme: Theme = 'dark';
 
   constructor(public display: Display) {
@@ -43,14 +52,42 @@ export class Viewer {
     this.renderer.domElement.setAttribute('aria-label', 'The scene');
     const names: ViewName[] = ['perspective', 'top', 'front', 'right'];
     this.viewports = names.map((name) => new Viewport(name, this.scene, () => this.redraw()));
+    for (const v of this.viewports) {
+      v.label.addEventListener('dblclick', () => this.onMaximise(v.name));
+      v.label.addEventListener('keydown', (e) => {
+        if (e.key === 'Enter') this.onMaximise(v.name);
+      });
+    }
     const windows = document.createElement('div');
     windows.className = 'viewports';
     windows.append(...this.viewports.map((v) => v.element));
     this.element.append(this.renderer.domElement, windows);
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(0.4, -0.6, 1);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.group, this.overlay);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay);
     new ResizeObserver(() => this.resize()).observe(this.element);
+  }
+
+  /** Makes points round. */
+  get disc(): THREE.Texture {
+    return disc();
+  }
+
+  /** Control points are shown and can be picked. */
+  set editing(on: boolean) {
+    if (this.surfaces.every((s) => s.editing === on) && this.editsPoints === on) return;
+    this.editsPoints = on;
+    for (const s of this.surfaces) s.editing = on;
+    this.restyle();
+  }
+
+  get unit(): string {
+    return this.frame?.state.surfaces[0]?.unit ?? '';
+  }
+
+  /** The view alone, or, of four, the perspective one. */
+  get main(): Viewport {
+    return this.viewports.find((v) => !this.display.fourViews && v.name === this.display.view) ?? this.viewports[0]!;
   }
 
   get palette(): Palette {
@@ -74,13 +111,14 @@ export class Viewer {
     }
     while (this.surfaces.length < pictures.length) {
       const view = new SurfaceView();
+      view.editing = this.editsPoints;
       view.mesh.userData.surface = this.surfaces.length;
       this.surfaces.push(view);
       this.scene.add(view.group);
     }
     if (this.display.autoLimit && this.display.field !== 'none') this.display.limit = largestValue(pictures.map((p) => p.values));
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
-    pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!.net, this.display, this.palette, lit(k)));
+    pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
     this.showTools();
     if (fresh) this.fit();
     else this.lowerGround();
@@ -90,8 +128,8 @@ export class Viewer {
   /** The ground stays below whatever is pressed down. */
   private lowerGround(): void {
     const { radius, lowest } = this.bounds();
-    const below = lowest - 0.06 * radius;
-    if (this.ground.group.position.z > lowest - 0.02 * radius) this.ground.group.position.z = below;
+    if (this.groundHeight > lowest - 0.02 * radius) this.groundHeight = lowest - 0.06 * radius;
+    this.sceneRadius = radius;
   }
 
   private showTools(): void {
@@ -150,15 +188,13 @@ export class Viewer {
   fit(): void {
     const { centre, radius, lowest } = this.bounds();
     for (const v of this.viewports) v.fit(centre, radius);
-    this.ground.fit(2 * radius, lowest - 0.12 * radius);
-    this.ground.group.position.x = -(this.origin[0] % (5 * this.ground.step));
-    this.ground.group.position.y = -(this.origin[1] % (5 * this.ground.step));
+    this.groundHeight = lowest - 0.12 * radius;
+    this.sceneRadius = radius;
     this.redraw();
   }
 
   restyle(): void {
     this.ground.restyle(this.palette);
-    this.ground.group.visible = this.display.grid;
     const state = this.frame?.state;
     this.surfaces.forEach((s, k) =>
       s.restyle(this.display, this.palette, !state || state.selection.length === 0 || state.selection.includes(k)));
@@ -166,6 +202,7 @@ export class Viewer {
       view.show(view.tool, this.origin, this.bounds().radius, this.palette, name === this.selectedTool);
     }
     this.element.classList.toggle('four', this.display.fourViews);
+    for (const v of this.viewports) v.element.hidden = !this.display.fourViews && v.name !== this.display.view;
     this.resize();
   }
 
@@ -192,15 +229,11 @@ export class Viewer {
   pickControlPoint(viewport: Viewport, event: { clientX: number; clientY: number }, surface: number, reach = 9): number | null {
     const net = this.surfaces[surface]?.picture?.net;
     if (!net) return null;
-    const box = viewport.element.getBoundingClientRect();
-    const place = new THREE.Vector3();
+    const places = viewport.projectAll(net);
     let best: number | null = null;
     let nearest = reach;
-    for (let k = 0; 3 * k < net.length; ++k) {
-      place.fromArray(net, 3 * k).project(viewport.camera);
-      const x = box.left + ((place.x + 1) / 2) * box.width;
-      const y = box.top + ((1 - place.y) / 2) * box.height;
-      const distance = Math.hypot(x - event.clientX, y - event.clientY);
+    for (let k = 0; 2 * k < places.length; ++k) {
+      const distance = Math.hypot(places[2 * k]! - event.clientX, places[2 * k + 1]! - event.clientY);
       if (distance < nearest) [nearest, best] = [distance, k];
     }
     return best;
@@ -236,7 +269,9 @@ export class Viewer {
       this.renderer.setViewport(x, y, box.width, box.height);
       this.renderer.setScissor(x, y, box.width, box.height);
       for (const other of this.viewports) other.gizmo.getHelper().visible = other === view && other.gizmo.object !== undefined;
-      this.ground.group.visible = this.display.grid && (view.name === 'perspective' || view.name === 'top');
+      this.ground.mesh.visible = this.display.grid;
+      if (this.display.grid) this.ground.prepare(view, this.groundHeight, this.sceneRadius, this.origin);
+      view.showScale(this.display.grid ? `${format(this.ground.step)} ${this.unit}` : '', this.ground.step / view.pixel());
       this.renderer.render(this.scene, view.camera);
     }
     this.onDrawn(performance.now() - start);
