@@ -12,7 +12,7 @@ export function panel(app: App, title: string, key: (app: App) => unknown, draw:
   let drawn = '';
   const update = () => {
     element.hidden = !shown(app);
-    if (element.hidden) return;
+    if (element.hidden || !element.open) return;
     const now = JSON.stringify(key(app)) ?? '';
     if (now === drawn) return;
     const focus = document.activeElement;
@@ -25,6 +25,7 @@ export function panel(app: App, title: string, key: (app: App) => unknown, draw:
     if (name) body.querySelector<HTMLElement>(`[aria-label="${CSS.escape(name)}"]`)?.focus({ preventScroll: true });
   };
   app.onChange.push(update);
+  element.addEventListener('toggle', update);
   update();
   return element;
 }

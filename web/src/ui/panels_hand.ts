@@ -14,6 +14,13 @@ const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? 'mm';
 const length = (app: App) => (text: string) => parseLength(text, unitOf(app));
 const small = (label: string, title: string, onclick: () => void) => h('button', { class: 'button small', type: 'button', title, onclick }, label);
 
+/** A field of several numbers. */
+function wide(label: string, control: HTMLElement, tip?: string): HTMLElement {
+  const element = field(label, control, tip);
+  element.classList.add('wide');
+  return element;
+}
+
 export function brushPanel(app: App): HTMLElement {
   const key = (a: App) => [a.brush.mode, a.brush.settings, a.hand.paint.settings, a.placing, unitOf(a), a.state?.surfaces.map((s) => s.id)];
   return panel(app, 'Brush', key, () => {
@@ -126,8 +133,8 @@ export function pointsPanel(app: App): HTMLElement {
     const delta = ['x', 'y', 'z', 'normal'].map((name, k) => numberInput(`Move by ${name}`, 0, (v) => (by[k] = v), length(app)));
     return [
       note(count === 1 ? `Point ${Math.floor(all[0]! / n)}, ${all[0]! % n} of ${m} × ${n}` : `${count} of ${m} × ${n} points, their middle at`),
-      field('x, y, z', row(...['x', 'y', 'z'].map((name, k) => numberInput(`Position ${name}`, place.getComponent(k), along(k), length(app))))),
-      field('Move by', row(...delta.slice(0, 3)), 'Along x, y, z'),
+      wide('At', row(...['x', 'y', 'z'].map((name, k) => numberInput(`Position ${name}`, place.getComponent(k), along(k), length(app))))),
+      wide('Move', row(...delta.slice(0, 3)), 'Along x, y, z'),
       field('Normal', row(delta[3]!, small('Move', 'Move the chosen points by these lengths', () => {
         const normal = points.normalAt(place.clone().sub(new THREE.Vector3(...app.viewer.origin)));
         run({ by: [0, 1, 2].map((k) => by[k]! + by[3]! * normal.getComponent(k)) });

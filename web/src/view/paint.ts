@@ -4,7 +4,7 @@ import type { Command, SurfaceInfo } from '../engine/session_types';
 import { blocks, mark, region } from './net';
 import type { PointerTool } from './pointers';
 import { Ring } from './ring';
-import { lineFractions } from './surface_view';
+import { disc, lineFractions } from './surface_view';
 import type { Hit, Viewer } from './viewer';
 import type { Viewport } from './viewport';
 
@@ -48,7 +48,7 @@ export class Paint implements PointerTool {
 
   constructor(private readonly viewer: Viewer, private readonly radius: () => number, private readonly actions: PaintActions) {
     this.ring = new Ring(viewer);
-    this.dots = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ sizeAttenuation: false, depthTest: false, transparent: true }));
+    this.dots = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ sizeAttenuation: false, depthTest: false, alphaMap: disc(), alphaTest: 0.5 }));
     this.dots.visible = this.dots.frustumCulled = false;
     this.dots.renderOrder = 12;
     viewer.overlay.add(this.dots);
@@ -131,8 +131,6 @@ export class Paint implements PointerTool {
       if (on) places.push(...net.subarray(3 * k, 3 * k + 3));
     });
     this.dots.geometry.setAttribute('position', new THREE.Float32BufferAttribute(places, 3));
-    this.dots.material.map = this.viewer.disc;
-    this.dots.material.alphaTest = 0.5;
     this.dots.material.color.set(stroke.erase ? this.viewer.palette.point : this.viewer.palette.held);
     this.dots.material.size = (1.4 * this.viewer.display.pointSize + 5) * Math.min(window.devicePixelRatio, 2);
     this.dots.visible = places.length > 0;

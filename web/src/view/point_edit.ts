@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import type { Command } from '../engine/session_types';
 import { gridIndices, wholeRows } from './net';
 import type { PointerTool } from './pointers';
+import { disc } from './surface_view';
 import type { Viewer } from './viewer';
 import type { Viewport } from './viewport';
 
@@ -42,7 +43,7 @@ export class PointEditor implements PointerTool {
   private readonly axis: THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial>;
 
   constructor(private readonly viewer: Viewer, private readonly actions: PointActions) {
-    this.marks = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ sizeAttenuation: false, depthTest: false, transparent: true }));
+    this.marks = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ sizeAttenuation: false, depthTest: false, alphaMap: disc(), alphaTest: 0.5 }));
     this.axis = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ depthTest: false, transparent: true, opacity: 0.8 }));
     for (const part of [this.marks, this.axis]) {
       part.frustumCulled = false;
@@ -78,8 +79,6 @@ export class PointEditor implements PointerTool {
     const places = new Float32Array(3 * this.chosen.size);
     [...this.chosen].forEach((k, at) => places.set(net!.subarray(3 * k, 3 * k + 3), 3 * at));
     this.marks.geometry.setAttribute('position', new THREE.BufferAttribute(places, 3));
-    this.marks.material.map = this.viewer.disc;
-    this.marks.material.alphaTest = 0.5;
     this.marks.material.color.set(this.viewer.palette.toolSelected);
     this.marks.material.size = (1.4 * this.viewer.display.pointSize + 5) * Math.min(window.devicePixelRatio, 2);
   }

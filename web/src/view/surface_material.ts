@@ -48,7 +48,14 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
         x = clamp(x, -1.0, 1.0);
         vec3 middle = vec3(0.87);
         vec3 end = x < 0.0 ? vec3(0.17, 0.38, 0.74) : vec3(0.78, 0.23, 0.19);
-        return mix(middle, end, pow(abs(x), 0.8));
+        return mix(middle, end, abs(x));
+      }
+
+      // From pale to dark, for what is never negative.
+      vec3 rising(float x) {
+        x = clamp(x, 0.0, 1.0);
+        vec3 low = vec3(0.95, 0.94, 0.86), middle = vec3(0.93, 0.6, 0.25), high = vec3(0.55, 0.1, 0.25);
+        return x < 0.5 ? mix(low, middle, 2.0 * x) : mix(middle, high, 2.0 * x - 1.0);
       }
 
       void main() {
@@ -56,7 +63,9 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
         if (!gl_FrontFacing) n = -n;
         vec3 v = normalize(vView);
         vec3 base = gl_FrontFacing ? front : back;
-        if (mode == 2) base = diverging(vValue / limit);
+        // What the legend shows is what leaves here, after the conversion to the screen's colours.
+        if (mode == 2) base = pow(diverging(vValue / limit), vec3(2.2));
+        if (mode == 3) base = pow(rising(vValue / limit), vec3(2.2));
         if (mode == 1) {
           // Stripes of a striped environment: lines where the reflected ray meets bands of equal height.
           vec3 r = reflect(-v, n);
@@ -74,14 +83,14 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
           float shine = pow(max(dot(n, normalize(lamp + v)), 0.0), 40.0);
           vec3 colour = base * (0.1 + 0.16 * sky + 0.86 * key * key + 0.2 * fill);
           if (mode == 0) colour += vec3(0.2) * shine + vec3(0.08) * rim;
-          else colour = mix(colour, base, 0.45);
+          else colour = mix(colour, base, 0.6);
           gl_FragColor = vec4(mix(vec3(dot(colour, vec3(0.3, 0.5, 0.2))) * 0.85, colour, selected), 1.0);
         }
         // Frozen spans are hatched, painted ones tinted.
         vec2 marked = texture2D(marks, vSpan).rg;
-        float hatch = smoothstep(0.55, 0.75, abs(fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0) * 2.0 - 1.0));
+        float hatch = smoothstep(0.5, 0.75, abs(fract((gl_FragCoord.x + gl_FragCoord.y) / 10.0) * 2.0 - 1.0));
         vec3 ice = vec3(0.16, 0.4, 0.75);
-        gl_FragColor.rgb = mix(gl_FragColor.rgb, ice, marked.r > 0.5 ? 0.22 + 0.5 * hatch : 0.0);
+        gl_FragColor.rgb = mix(gl_FragColor.rgb, ice, marked.r > 0.5 ? 0.25 + 0.55 * hatch : 0.0);
         if (marked.g > 0.1) gl_FragColor.rgb = mix(gl_FragColor.rgb, marked.g > 0.8 ? accent : vec3(0.9), 0.55);
         #include <colorspace_fragment>
       }`,

@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { Picture, SurfaceInfo } from '../engine/session_types';
 import { mark } from './net';
 import { surfaceMaterial } from './surface_material';
-import type { Display, Palette } from './display';
+import { type Display, type Palette, palettes } from './display';
 
 const isocurveSpacing = 6; // grid lines between isocurves that are not knot lines
 
@@ -115,7 +115,7 @@ export class SurfaceView {
   restyle(display: Display, palette: Palette, selected: boolean): void {
     const { uniforms } = this.mesh.material;
     const coloured = display.field !== 'none';
-    uniforms.mode!.value = display.zebra ? 1 : coloured ? 2 : 0;
+    uniforms.mode!.value = display.zebra ? 1 : display.field === 'energy' ? 3 : coloured ? 2 : 0;
     uniforms.limit!.value = display.limit;
     uniforms.front!.value.set(palette.front);
     uniforms.back!.value.set(palette.back);
@@ -128,18 +128,20 @@ export class SurfaceView {
     this.normals.visible = display.normals;
     this.isocurves.material.color.set(palette.isocurve);
     this.isocurves.material.opacity = palette.isocurveOpacity;
-    this.knotLines.material.color.set(palette.knotLine);
+    // What lies on a pale surface is dark in either theme.
+    const over = coloured || display.zebra ? palettes.light : palette;
+    this.knotLines.material.color.set(over.knotLine);
     this.knotLines.material.opacity = 0.9;
-    this.net.material.color.set(palette.net);
+    this.net.material.color.set(over.net);
     this.net.material.opacity = 0.55;
     this.points.material.size = 1.4 * display.pointSize * Math.min(window.devicePixelRatio, 2);
     if (this.picture) {
       const colours = new Float32Array(this.picture.held.length * 3);
-      const free = new THREE.Color(palette.point);
-      const held = new THREE.Color(palette.held);
+      const free = new THREE.Color(over.point);
+      const held = new THREE.Color(over.held);
       this.picture.held.forEach((h, k) => (h ? held : free).toArray(colours, 3 * k));
       setAttribute(this.points.geometry, 'color', colours, 3);
-      if (display.normals) this.showNormals(this.picture, palette);
+      if (display.normals) this.showNormals(this.picture, over);
     }
   }
 

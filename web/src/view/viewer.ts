@@ -5,7 +5,7 @@ import { format } from '../ui/dom';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
 import { Navigator } from './navigator';
-import { disc, SurfaceView } from './surface_view';
+import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
 import { type ViewName, Viewport } from './viewport';
 
@@ -66,11 +66,6 @@ export class Viewer {
     key.position.set(0.4, -0.6, 1);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay);
     new ResizeObserver(() => this.resize()).observe(this.element);
-  }
-
-  /** Makes points round. */
-  get disc(): THREE.Texture {
-    return disc();
   }
 
   /** Control points are shown and can be picked. */
@@ -285,6 +280,13 @@ export class Viewer {
   }
 }
 
+/** A number above x that is short to write, and a quarter of it as well. */
+export function roundLimit(x: number): number {
+  const power = 10 ** Math.floor(Math.log10(x) + 1e-9);
+  const digits = [1, 1.2, 1.6, 2, 2.4, 3, 4, 5, 6, 8, 10].find((d) => d * power >= x * (1 - 1e-6)) ?? 10;
+  return Number((digits * power).toPrecision(2));
+}
+
 /** Of all but the outermost hundredth, which poles and corners would dominate. */
 function largestValue(fields: Float32Array[]): number {
   const sizes: number[] = [];
@@ -292,5 +294,5 @@ function largestValue(fields: Float32Array[]): number {
     for (let k = 0; k < field.length; k += 3) if (Number.isFinite(field[k])) sizes.push(Math.abs(field[k]!));
   }
   sizes.sort((a, b) => a - b);
-  return Math.max(sizes[Math.floor(0.99 * (sizes.length - 1))] ?? 0, 1e-9);
+  return roundLimit(Math.max(sizes[Math.floor(0.99 * (sizes.length - 1))] ?? 0, 1e-9));
 }
