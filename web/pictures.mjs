@@ -13,6 +13,7 @@ const browser = await chromium.launch({
     '--disable-component-update', '--disable-sync', '--no-first-run'],
 });
 const page = await browser.newPage({ viewport: { width: 1180, height: 720 } });
+await page.addInitScript(() => localStorage.setItem('knead-tour', '1'));
 await page.goto(server.url);
 await page.waitForSelector('html[data-ready]', { state: 'attached' });
 

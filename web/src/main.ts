@@ -16,6 +16,7 @@ import { brushPanel, pointsPanel } from './ui/panels_hand';
 import { constraintsPanel, surfacesPanel, toolsPanel } from './ui/panels_scene';
 import { evolutionPanel, historyPanel, materialPanel } from './ui/panels_model';
 import { statusBar } from './ui/plot';
+import { offerTour } from './ui/tour';
 
 const app = new App();
 
@@ -57,6 +58,7 @@ async function start(): Promise<void> {
       ],
     });
   }
+  offerTour(app);
   app.changed();
   document.documentElement.dataset.ready = 'true';
 }

@@ -2,6 +2,7 @@ import type { App, Notice } from '../app';
 import { scenes } from '../gallery';
 import { modes } from '../view/modes';
 import { h, icon, iconButton } from './dom';
+import { toggleTour } from './tour';
 
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
 
@@ -33,6 +34,7 @@ export function topBar(app: App): HTMLElement {
     h('span', { class: 'spacer' }), name, h('span', { class: 'spacer' }),
     iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
     iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
+    iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),
     iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app)));
   app.onChange.push(() => {
     const { state } = app;

@@ -31,6 +31,7 @@ const paths: Record<string, string> = {
   fit: 'M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5M9 9h6v6H9z',
   four: 'M4 4h16v16H4zM12 4v16M4 12h16',
   theme: 'M12 4a8 8 0 100 16zM12 4a8 8 0 010 16',
+  tour: 'M5 21V4M5 5c4-3 7 3 13 0v9c-6 3-9-3-13 0',
   help: 'M9 9a3 3 0 115 2c-1 1-2 1.500-2 3M12 18v.5',
   look: 'M5 4l6 16 2.500-6.500L20 11z',
   push: 'M12 3v9M8.500 9L12 12.500 15.500 9M3 14c5 0 4 6 9 6s4-6 9-6',
