@@ -1,5 +1,6 @@
 import type { App, Notice } from '../app';
 import { scenes } from '../gallery';
+import { openLab } from '../lab/door';
 import { modes } from '../view/modes';
 import { h, icon, iconButton } from './dom';
 import { toggleTour } from './tour';
@@ -33,6 +34,7 @@ export function topBar(app: App): HTMLElement {
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
     h('span', { class: 'spacer' }), name, h('span', { class: 'spacer' }),
     iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
+    iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
     iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
     iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),
     iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app)));
@@ -111,7 +113,7 @@ const shortcuts: [string, string][] = [
   ['V B U G T P', 'look, push, pull, grab, tool, pin'], ['Space', 'play or pause'], ['.', 'one step'], ['R', 'run to rest'],
   ['Ctrl+Z, Shift: redo', 'undo'], ['Ctrl+S', 'save the STEP file'], ['O', 'open'], ['F', 'fit everything'],
   ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'perspective'], ['4', 'four views'], ['M N K', 'move, turn, resize a tool'],
-  ['Delete', 'take the tool away'], ['C, held', 'the shape as it was opened'], ['Z', 'zebra stripes'], ['?', 'this list'],
+  ['Delete', 'take the tool away'], ['C, held', 'the shape as it was opened'], ['Z', 'zebra stripes'], ['L', 'basis functions and Gramians'], ['?', 'this list'],
 ];
 
 export function toggleShortcuts(app: App): void {

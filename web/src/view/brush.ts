@@ -2,6 +2,7 @@ import * as THREE from 'three';
 
 import type { Command } from '../engine/session_types';
 import { brushModes, type Mode } from './modes';
+import type { GridPicker } from './picking';
 import type { PointerTool } from './pointers';
 import { Ring } from './ring';
 import type { Hit, Viewer } from './viewer';
@@ -42,7 +43,7 @@ interface Stroke {
   surface: number;
   kind: 'ball' | 'grab' | 'smooth';
   inward: boolean;
-  frozen: THREE.Mesh[];
+  frozen: (GridPicker | null)[];
   begun: Promise<boolean>;
   start: THREE.Vector3;
   /** Where the ball is for the session. */
@@ -93,11 +94,7 @@ export class Brush implements PointerTool {
       return true;
     }
     // The shape at the press is what the pointer moves along, so that a stroke keeps its depth.
-    const frozen = this.viewer.surfaces.map((s) => {
-      const mesh = new THREE.Mesh(s.mesh.geometry.clone(), new THREE.MeshBasicMaterial({ side: THREE.DoubleSide }));
-      mesh.userData.surface = s.mesh.userData.surface;
-      return mesh;
-    });
+    const frozen = this.viewer.pickers;
     const kind = this.mode === 'grab' ? 'grab' : this.mode === 'smooth' || event.shiftKey ? 'smooth' : 'ball';
     const inward = (this.mode === 'push') !== event.altKey;
     const last = { ...hit, press: this.pressure(event) };
@@ -157,7 +154,7 @@ export class Brush implements PointerTool {
     this.sizing = null;
     const { stroke } = this;
     if (!stroke) return;
-    this.finish(stroke);
+    this.stroke = null;
     void (async () => {
       if ((await stroke.begun) && !stroke.cancelled) {
         await this.actions.end(stroke.kind === 'ball' ? [{ do: 'remove', tool: brushName }] : []);
@@ -185,16 +182,8 @@ export class Brush implements PointerTool {
     }
     if (!stroke) return;
     stroke.cancelled = true;
-    this.finish(stroke);
-    if (await stroke.begun) await this.actions.cancel();
-  }
-
-  private finish(stroke: Stroke): void {
     this.stroke = null;
-    for (const mesh of stroke.frozen) {
-      mesh.geometry.dispose();
-      (mesh.material as THREE.Material).dispose();
-    }
+    if (await stroke.begun) await this.actions.cancel();
   }
 
   private ball({ point, normal, press }: Place, inward: boolean): Command[] {

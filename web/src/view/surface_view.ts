@@ -2,6 +2,7 @@ import * as THREE from 'three';
 
 import type { Picture, SurfaceInfo } from '../engine/session_types';
 import { mark } from './net';
+import { GridPicker } from './picking';
 import { surfaceMaterial } from './surface_material';
 import { type Display, type Palette, palettes } from './display';
 
@@ -12,6 +13,8 @@ export class SurfaceView {
   readonly group = new THREE.Group();
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   picture: Picture | null = null;
+  /** Of the present picture. */
+  picker: GridPicker | null = null;
   /** Control points are shown whatever the display says. */
   editing = false;
 
@@ -43,6 +46,7 @@ export class SurfaceView {
   show(picture: Picture, info: SurfaceInfo, display: Display, palette: Palette, selected: boolean): void {
     const netCounts = info.net;
     this.picture = picture;
+    this.picker = new GridPicker(picture);
     const [m, n] = picture.counts;
     const geometry = this.mesh.geometry;
     setAttribute(geometry, 'position', picture.positions, 3);
@@ -160,21 +164,6 @@ export class SurfaceView {
     }
     setAttribute(this.normals.geometry, 'position', new Float32Array(ends), 3);
     this.normals.material.color.set(palette.knotLine);
-  }
-
-  /** Fractions (s, t) of the domain at a hit of a ray with the mesh. */
-  fractionsAt(hit: THREE.Intersection): [number, number] | null {
-    if (!this.picture || !hit.face) return null;
-    const { s, t, positions, counts } = this.picture;
-    const n = counts[1];
-    const corner = (k: number) => new THREE.Vector3().fromArray(positions, 3 * k);
-    const { a, b, c } = hit.face;
-    const weights = THREE.Triangle.getBarycoord(hit.point, corner(a), corner(b), corner(c), new THREE.Vector3());
-    if (!weights) return null;
-    const mix = (of: Float32Array, line: (k: number) => number) =>
-      weights.x * of[line(a)]! + weights.y * of[line(b)]! + weights.z * of[line(c)]!;
-    const clamp = (x: number) => Math.min(1, Math.max(0, x));
-    return [clamp(mix(s, (k) => Math.floor(k / n))), clamp(mix(t, (k) => k % n))];
   }
 
   dispose(): void {

@@ -6,6 +6,7 @@ import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
 import { largestValue } from './limits';
 import { Navigator } from './navigator';
+import type { GridPicker } from './picking';
 import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
 import { type ViewName, Viewport } from './viewport';
@@ -108,7 +109,6 @@ export class Viewer {
     while (this.surfaces.length < pictures.length) {
       const view = new SurfaceView();
       view.editing = this.editsPoints;
-      view.mesh.userData.surface = this.surfaces.length;
       this.surfaces.push(view);
       this.scene.add(view.group);
     }
@@ -202,17 +202,19 @@ export class Viewer {
     this.resize();
   }
 
-  /** What the pointer is on: the nearest surface, as it was drawn last or as `frozen` meshes were. */
-  pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: THREE.Mesh[]): Hit | null {
-    viewport.ray(event, this.raycaster);
-    const meshes = frozen ?? this.surfaces.map((s) => s.mesh);
-    const hit = this.raycaster.intersectObjects(meshes, false)[0];
-    if (!hit?.face) return null;
-    const surface = hit.object.userData.surface as number;
-    const normal = hit.face.normal.clone();
-    if (normal.dot(this.raycaster.ray.direction) > 0) normal.negate();
-    const fractions = this.surfaces[surface]?.fractionsAt(hit);
-    return fractions ? { surface, point: hit.point, normal, fractions } : null;
+  /** What the pointer is on: the nearest surface, as it was drawn last or as it was when `frozen` was taken. */
+  pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: readonly (GridPicker | null)[]): Hit | null {
+    const { ray } = viewport.ray(event, this.raycaster);
+    let best: (Hit & { distance: number }) | null = null;
+    for (const [surface, picker] of (frozen ?? this.pickers).entries()) {
+      const hit = picker?.hit(ray);
+      if (hit && (!best || hit.distance < best.distance)) best = { surface, ...hit };
+    }
+    return best;
+  }
+
+  get pickers(): (GridPicker | null)[] {
+    return this.surfaces.map((s) => s.picker);
   }
 
   pickTool(viewport: Viewport, event: { clientX: number; clientY: number }): string | null {
