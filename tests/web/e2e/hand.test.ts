@@ -219,7 +219,7 @@ describe('paint', () => {
   it('freezes whole spans, that then do not move, and thaws them with Alt', async () => {
     const { page } = studio;
     await scene('Clay sheet');
-    await page.keyboard.press('l');
+    await page.keyboard.press('i');
     await stroke(page, [-40, 0], [40, 0]);
     const frozen = (await commands(page)).filter((c) => c.do === 'freeze').length;
     expect(frozen).toBeGreaterThan(0);
@@ -228,7 +228,7 @@ describe('paint', () => {
     await stroke(page, [-5, 0], [5, 0]);
     expect(distance(before, await positions(page))).toBeLessThan(1e-9);
     await page.keyboard.press('Control+z');
-    await page.keyboard.press('l');
+    await page.keyboard.press('i');
     await page.keyboard.down('Alt');
     await stroke(page, [-60, -20], [60, -20], [60, 0], [-60, 0], [-60, 20], [60, 20]);
     await page.keyboard.up('Alt');
@@ -258,8 +258,15 @@ describe('paint', () => {
     await page.keyboard.press('a');
     await page.locator('.panel[data-panel=Brush] .chip', { hasText: 'Sheet metal' }).click();
     await stroke(page, [-60, -30], [-30, -30]);
-    expect((await commands(page)).at(-1)).toMatchObject({ do: 'material', alpha: [0.05, 0, 0.05] });
+    const painted = (await commands(page)).filter((c) => c.do === 'material' && 'coefficient' in c) as unknown as { coefficient: string; samples: number[] }[];
+    expect(painted.map((c) => c.coefficient)).toEqual(['alpha11', 'alpha22', 'beta11', 'beta12', 'beta22']);
+    expect(new Set(painted[2]!.samples).has(0.05)).toBe(true);
+    expect(painted[2]!.samples.filter((x) => x === 0.001).length).toBeGreaterThan(500);
     expect(await app((s) => s.frame.state.surfaces[0]!.alpha[0])).toBeNull();
+    // A second stroke keeps the first.
+    await stroke(page, [60, 30], [70, 30]);
+    const again = (await commands(page)).filter((c) => c.do === 'material' && 'coefficient' in c).at(-3) as unknown as { samples: number[] };
+    painted[2]!.samples.forEach((x, k) => expect(again.samples[k]).toBeGreaterThanOrEqual(x));
   });
 
   it('asks beside a clicked edge what is to hold there', async () => {
@@ -355,21 +362,38 @@ describe('panels', () => {
   });
 });
 
-it('never blocks the page for more than 50 ms but for drawing in software', async () => {
+/** The page's own work on its main thread, longest task first, milliseconds: without waiting for the processor or for drawing. */
+async function tasks(act: () => Promise<void>): Promise<number[]> {
+  const { browser, page } = studio;
+  await browser.startTracing(page, { categories: ['toplevel', 'disabled-by-default-devtools.timeline', '__metadata'] });
+  await act();
+  interface Event {
+    name: string;
+    pid: number;
+    tid: number;
+    tdur?: number;
+    args?: { name?: string };
+  }
+  const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: Event[] };
+  const pages = new Set(traceEvents.filter((e) => e.name === 'thread_name' && e.args?.name === 'CrRendererMain').map((e) => `${e.pid} ${e.tid}`));
+  return traceEvents.filter((e) => e.tdur !== undefined && pages.has(`${e.pid} ${e.tid}`)).map((e) => e.tdur! / 1000).sort((a, b) => b - a);
+}
+
+it('never keeps the page busy for 50 ms at a time', async () => {
   const { page } = studio;
-  await scene('Clay sheet');
-  await page.evaluate(() => {
-    const w = window as never as { long: number[] };
-    w.long = [];
-    new PerformanceObserver((list) => w.long.push(...list.getEntries().map((e) => e.duration))).observe({ type: 'longtask' });
+  await scene('Fine clay sheet');
+  const all = await tasks(async () => {
+    await page.keyboard.press('b');
+    await stroke(page, [-60, 0], [-20, 10], [20, 0], [60, 10]);
+    for (const panel of ['Evolution', 'Constraints', 'History']) await page.locator(`.panel[data-panel="${panel}"] > summary`).click();
+    await page.locator('select[aria-label="Colour by"]').selectOption('mean');
+    await settled(page);
+    await page.keyboard.press('e');
+    await settled(page);
+    await page.locator('select[aria-label="Colour by"]').selectOption('none');
+    await settled(page);
   });
-  await page.keyboard.press('b');
-  await stroke(page, [-60, 0], [-20, 10], [20, 0], [60, 10]);
-  for (const panel of ['Evolution', 'Constraints', 'History']) await page.locator(`.panel[data-panel="${panel}"] > summary`).click();
-  await page.locator('select[aria-label="Colour by"]').selectOption('mean');
-  await settled(page);
-  await page.locator('select[aria-label="Colour by"]').selectOption('none');
-  await settled(page);
-  const long = await page.evaluate(() => (window as never as { long: number[] }).long);
-  expect(Math.max(0, ...long)).toBeLessThan(50);
+  expect(all.length).toBeGreaterThan(100);
+  expect(all[0]).toBeLessThan(50);
+  console.log(`longest tasks of the page: ${all.slice(0, 3).map((t) => t.toFixed(1)).join(', ')} ms`);
 });

@@ -102,7 +102,7 @@ function materialFields(app: App): (Node | null)[] {
     row(...presets.map((p) => toggle(p.name, settings.alpha === p.alpha && settings.beta === p.beta, () => set({ alpha: p.alpha, beta: p.beta }), p.about))),
     field('Stretch α', numberInput('Stretch to paint', settings.alpha, (alpha) => set({ alpha: Math.max(0, alpha) }))),
     field('Bend β', numberInput('Bend to paint', settings.beta, (beta) => set({ beta: Math.max(0, beta) }))),
-    field('Border', numberInput('Border to paint', settings.falloff, (falloff) => set({ falloff: Math.min(0.5, Math.max(0, falloff)) })), 'Width of the border, in fractions of the domain'),
+    field('Softness', slider('Softness of the paint', settings.softness, [0, 1], (softness) => set({ softness })), 'Share of the radius over which the paint fades'),
     note('Drag over what is to be of this material. Alt paints clay.'),
   ];
 }

@@ -107,6 +107,7 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
     field('Shape', select('Shape', shapes, tool.shape as (typeof shapes)[number][0], (shape) => change({ shape }))),
     ...(lengthsOf[tool.shape] ?? []).map((name) =>
       number({ radius: 'Radius', minor: 'Tube', height: 'Height', top_radius: 'Top radius', rounding: 'Rounding', thickness: 'Wall' }[name], tool[name] ?? 0, name, true)),
+    ...sizeFields(app, tool, change),
     field('Mode', select('Mode', [['collision', 'Collision'], ['proximity', 'Proximity'], ['imprint', 'Imprint']], tool.mode, (m) => change({ mode: m })),
       'Collision pushes out what has entered; proximity draws from either side; imprint leaves its shape at once'),
     tool.mode === 'proximity'
@@ -116,6 +117,18 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
     number('Friction', tool.friction, 'friction', false, 'Coulomb’s coefficient'),
     number('Plasticity', tool.plasticity, 'plasticity', false, 'Share of the shape that stays when the tool is taken away, 0 to 1'),
     row(toggle('Rigid', tool.rigid, (rigid) => change({ rigid }), 'Raise the stiffness until nothing enters')),
+  ];
+}
+
+/** Semi-axes or half sides, exponents, and where the tool is. */
+function sizeFields(app: App, tool: ToolInfo, change: (what: Record<string, unknown>) => void): (Node | null)[] {
+  const several = (label: string, name: string, values: readonly number[], isLength: boolean, tip: string) =>
+    field(label, row(...values.map((value, k) => numberInput(`${label} ${k + 1}`, value,
+      (v) => change({ [name]: values.map((x, l) => (l === k ? v : x)) }), isLength ? length(app) : undefined))), tip);
+  return [
+    tool.sizes ? several(tool.shape === 'box' ? 'Half sides' : 'Semi-axes', 'sizes', tool.sizes, true, 'Along its own x, y, z') : null,
+    tool.exponents ? several('Exponents', 'exponents', tool.exponents, false, '1 is round, towards 0 boxlike, 2 a diamond') : null,
+    several('Position', 'position', tool.position, true, 'Of its centre'),
   ];
 }
 

@@ -1,4 +1,5 @@
 import type { App } from '../app';
+import type { Command } from '../engine/session_types';
 import { Brush, type BrushActions } from './brush';
 import { Edges } from './edges';
 import { type Mode, paintModes } from './modes';
@@ -19,7 +20,10 @@ export class Hand {
     const actions = actionsOf(app);
     this.brush = new Brush(viewer, actions);
     this.points = new PointEditor(viewer, { ...actions, changed: () => app.changed() });
-    this.paint = new Paint(viewer, () => this.brush.settings.radius, { execute: (commands) => app.execute(commands), select: actions.select });
+    this.paint = new Paint(viewer, () => this.brush.settings.radius, {
+      execute: (commands) => app.execute(commands), select: actions.select,
+      journal: async () => (JSON.parse(await app.client.journal()) as { commands: Command[] }).commands,
+    });
     this.edges = new Edges(viewer, actions.select);
     this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool());
     app.onChange.push(() => this.refresh());
@@ -52,6 +56,7 @@ export class Hand {
     this.app.viewer.editing = this.mode === 'points' || this.mode === 'pin';
     this.points.refresh(this.mode === 'points');
     this.edges.refresh(this.mode === 'edges');
+    void this.paint.refresh(this.mode === 'material', this.app.changes);
   }
 }
 

@@ -12,7 +12,7 @@ export const modes: readonly (readonly [Mode, string, string])[] = [
   ['points', 'Control points: pick, drag, type (E)', 'e'],
   ['place', 'Place a tool (T)', 't'],
   ['pin', 'Pin: paint over control points, click points of the surface (P). Alt frees', 'p'],
-  ['freeze', 'Freeze: paint what may not move (L). Alt thaws', 'l'],
+  ['freeze', 'Freeze: paint what may not move (I). Alt thaws', 'i'],
   ['material', 'Paint another material (A)', 'a'],
   ['edges', 'Edges: click one to hold it (D)', 'd'],
 ];

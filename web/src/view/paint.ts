@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 
 import type { Command, SurfaceInfo } from '../engine/session_types';
+import { blended, difference, materialOf, samplePlaces, sampleCounts } from './material_paint';
 import { blocks, mark, region } from './net';
 import type { PointerTool } from './pointers';
 import { Ring } from './ring';
@@ -11,14 +12,18 @@ import type { Viewport } from './viewport';
 export interface PaintSettings {
   alpha: number;
   beta: number;
-  /** Width of the border of a painted region, fractions of the domain. */
-  falloff: number;
+  /** Share of the brush's radius over which the paint fades. */
+  softness: number;
 }
 
 export interface PaintActions {
   execute(commands: Command[]): Promise<unknown>;
+  /** The commands that stand. */
+  journal(): Promise<Command[]>;
   select(surface: number): Promise<void>;
 }
+
+const clayMaterial = { alpha: 0.1, beta: 0.001 };
 
 export type PaintKind = 'pin' | 'freeze' | 'material';
 
@@ -29,6 +34,9 @@ interface Stroke {
   erase: boolean;
   /** Spans, row by row; for pins, control points. */
   marked: Uint8Array;
+  /** Of material: where its samples lie, and how much of the paint each has got. */
+  places: Float32Array;
+  share: Float32Array;
   start: Hit;
   at: { x: number; y: number };
   moved: boolean;
@@ -39,10 +47,11 @@ interface Stroke {
  * Released, that becomes commands: one entry of the history.
  */
 export class Paint implements PointerTool {
-  settings: PaintSettings = { alpha: 1, beta: 0.05, falloff: 0.05 };
+  settings: PaintSettings = { alpha: 0.05, beta: 0.05, softness: 0.4 };
   kind: PaintKind = 'freeze';
 
   private stroke: Stroke | null = null;
+  private shown = '';
   private readonly ring: Ring;
   private readonly dots: THREE.Points<THREE.BufferGeometry, THREE.PointsMaterial>;
 
@@ -69,7 +78,9 @@ export class Paint implements PointerTool {
     const { picture } = this.viewer.surfaces[hit.surface]!;
     const [m, n] = state.surfaces[hit.surface]!.net;
     const size = this.kind === 'pin' ? m * n : (picture!.linesU.length - 1) * (picture!.linesV.length - 1);
-    this.stroke = { viewport, surface: hit.surface, kind: this.kind, erase: event.altKey, marked: new Uint8Array(size), start: hit,
+    const counts = sampleCounts(state.surfaces[hit.surface]!);
+    const places = this.kind === 'material' ? samplePlaces(picture!, counts) : new Float32Array(0);
+    this.stroke = { places, share: new Float32Array(places.length / 3), viewport, surface: hit.surface, kind: this.kind, erase: event.altKey, marked: new Uint8Array(size), start: hit,
       at: { x: event.clientX, y: event.clientY }, moved: false };
     this.paint(this.stroke, hit);
     return true;
@@ -120,6 +131,12 @@ export class Paint implements PointerTool {
         }
       }
       view.showPainted(stroke.marked, stroke.erase);
+      const soft = Math.max(1e-3, this.settings.softness) * radius;
+      for (let k = 0; k < stroke.share.length; ++k) {
+        const d = hit.point.distanceTo(new THREE.Vector3().fromArray(stroke.places, 3 * k));
+        const share = Math.min(1, Math.max(0, (radius - d) / soft));
+        stroke.share[k] = Math.max(stroke.share[k]!, share);
+      }
     }
     this.ring.show(hit.point, hit.normal, radius);
   }
@@ -140,11 +157,37 @@ export class Paint implements PointerTool {
   release(): void {
     const { stroke } = this;
     if (!stroke) return;
-    const info = this.viewer.frame!.state.surfaces[stroke.surface]!;
-    const commands = this.commands(stroke, info);
-    const done = commands.length > 0 ? this.actions.execute(commands) : Promise.resolve();
     this.stroke = null;
-    void done.then(() => this.clear(stroke));
+    void this.execute(stroke).finally(() => this.clear(stroke));
+  }
+
+  private async execute(stroke: Stroke): Promise<void> {
+    const { surfaces } = this.viewer.frame!.state;
+    const info = surfaces[stroke.surface]!;
+    let commands: Command[];
+    if (stroke.kind === 'material') {
+      const base = materialOf(await this.actions.journal(), info, surfaces.length === 1);
+      const usual = { alpha: this.settings.alpha, beta: this.settings.beta };
+      const paint = stroke.erase ? clayMaterial : usual;
+      commands = blended(base, stroke.share, paint.alpha, paint.beta);
+    } else commands = this.commands(stroke, info);
+    if (commands.length > 0) await this.actions.execute(commands);
+  }
+
+  /** In the mode `material`: tints what is of another material than most of the surface. */
+  async refresh(shown: boolean, changes: number): Promise<void> {
+    const of = shown ? `${changes}` : '';
+    if (of === this.shown || this.active) return;
+    this.shown = of;
+    const { frame, surfaces } = this.viewer;
+    const commands = shown && frame?.state.surfaces.some((s) => s.beta.includes(null)) ? await this.actions.journal() : [];
+    frame?.state.surfaces.forEach((info, k) => {
+      const view = surfaces[k];
+      if (!view?.picture) return;
+      const painted = commands.length > 0 && info.beta.includes(null);
+      view.showMaterial(painted ? difference(materialOf(commands, info, frame.state.surfaces.length === 1), ...lineFractions(view.picture)) : null);
+    });
+    this.viewer.redraw();
   }
 
   private clear(stroke: Stroke): void {
@@ -166,13 +209,6 @@ export class Paint implements PointerTool {
       }
       if (points.length > 0) return [{ do: 'pin', control_points: points }];
       return stroke.moved ? [] : [{ do: 'pin', at: stroke.start.fractions }];
-    }
-    if (stroke.kind === 'material') {
-      const { alpha, beta, falloff } = this.settings;
-      // Alt paints with what the surface is made of elsewhere, as far as that is known.
-      const [a, b] = stroke.erase ? [0.1, 0.001] : [alpha, beta];
-      return blocks(stroke.marked, rows, columns).map((block) => (
-        { do: 'material', alpha: [a, 0, a], beta: [b, b, b], region: region(block, linesS, linesT, false), falloff }));
     }
     const freeze = (cells: Uint8Array): Command[] =>
       blocks(cells, rows, columns).map((block) => ({ do: 'freeze', region: region(block, linesS, linesT, true) }));

@@ -87,9 +87,10 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
           gl_FragColor = vec4(mix(vec3(dot(colour, vec3(0.3, 0.5, 0.2))) * 0.85, colour, selected), 1.0);
         }
         // Frozen spans are hatched, painted ones tinted.
-        vec2 marked = texture2D(marks, vSpan).rg;
+        vec3 marked = texture2D(marks, vSpan).rgb;
+        gl_FragColor.rgb = mix(gl_FragColor.rgb, vec3(0.75, 0.4, 0.08), 0.6 * marked.b);
         float hatch = smoothstep(0.5, 0.75, abs(fract((gl_FragCoord.x + gl_FragCoord.y) / 10.0) * 2.0 - 1.0));
-        vec3 ice = vec3(0.16, 0.4, 0.75);
+        vec3 ice = vec3(0.05, 0.2, 0.55);
         gl_FragColor.rgb = mix(gl_FragColor.rgb, ice, marked.r > 0.5 ? 0.25 + 0.55 * hatch : 0.0);
         if (marked.g > 0.1) gl_FragColor.rgb = mix(gl_FragColor.rgb, marked.g > 0.8 ? accent : vec3(0.9), 0.55);
         #include <colorspace_fragment>

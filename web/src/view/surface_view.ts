@@ -29,6 +29,7 @@ export class SurfaceView {
   private frozen = '';
   private frozenCells = new Uint8Array(1);
   private painted: { cells: Uint8Array; erase: boolean } | null = null;
+  private material: Float32Array | null = null;
   private topology = '';
   private netTopology = '';
 
@@ -62,6 +63,7 @@ export class SurfaceView {
       geometry.setAttribute('span', new THREE.BufferAttribute(spanCoordinates(picture), 2));
       this.frozen = '';
       this.painted = null;
+      this.material = null;
       const knotsU = [...picture.linesU];
       const knotsV = [...picture.linesV];
       this.knotLines.geometry.setIndex(new THREE.BufferAttribute(gridLines(m, n, knotsU, knotsV), 1));
@@ -101,12 +103,20 @@ export class SurfaceView {
     this.showMarks();
   }
 
+  /** Tints spans by how much their material differs, 0 to 1; null ends that. */
+  showMaterial(amount: Float32Array | null): void {
+    if (!amount && !this.material) return;
+    this.material = amount;
+    this.showMarks();
+  }
+
   private showMarks(): void {
     const { linesU, linesV } = this.picture!;
     const [rows, columns] = [linesU.length - 1, linesV.length - 1];
     const data = new Uint8Array(4 * rows * columns);
     for (let k = 0; k < rows * columns; ++k) {
       data[4 * k] = this.frozenCells[k] ? 255 : 0;
+      data[4 * k + 2] = 255 * (this.material?.[k] ?? 0);
       data[4 * k + 1] = this.painted?.cells[k] ? (this.painted.erase ? 128 : 255) : 0;
     }
     const { marks } = this.mesh.material.uniforms;
