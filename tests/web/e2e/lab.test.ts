@@ -52,6 +52,13 @@ async function dot(k: number, copy = 0): Promise<[number, number]> {
   return [box.x + box.width / 2, box.y + box.height / 2];
 }
 
+/** The pointer points at nothing, and the table begins with its first entry. */
+async function firstEntries(): Promise<void> {
+  await studio.page.locator('.lab-bar h2').hover();
+  await studio.page.locator('.lab-scroll').evaluate((e) => e.scrollTo(0, 0));
+  await drawn();
+}
+
 /** The numbers of the visible part of the table, "i,j" → value, with all digits. */
 const entries = (): Promise<[string, number][]> =>
   studio.page.locator('.lab-table td:not(.beyond)').evaluateAll((cells) =>
@@ -80,10 +87,12 @@ describe('the backend panel', () => {
     await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.4 * box.height);
     await expect.poll(() => page.locator('.lab-readout').textContent()).toMatch(/u 0\.\d+ +N₁[₀-₉] = 0\.\d{16,} +Σ − 1 = /);
     await expect.poll(() => page.locator('.lab-curves path.lit').count()).toBe(1);
+    await expect.poll(() => page.locator('.lab-detail').textContent()).toMatch(/^N₁[₀-₉]: support \[0\.\d+, 0\.\d+\], Greville 0\.\d+, integral 0\.04762, C²$/);
   });
 
   it('moves a knot under the pointer: functions and Gramians follow, and are those of the command line', async () => {
     const { page } = studio;
+    await firstEntries();
     const [before, curves, table] = [await knots(), await paths(), await entries()];
     const [x, y] = await dot(1);
     const [next] = await dot(2);
@@ -131,6 +140,7 @@ describe('the backend panel', () => {
   it('shows entries with all digits by every method, where they are pointed at', async () => {
     const { page } = studio;
     await page.locator('button[aria-label="Gramian of derivatives 2 and 2"]').click();
+    await firstEntries();
     await page.locator('.lab-table td[data-i="1"][data-j="2"]').hover();
     const x = await knots();
     const rows = page.locator('table[aria-label="The methods"] tbody tr');

@@ -57,6 +57,13 @@ export class EntryTable {
 
   select(at: Highlight): void {
     this.selected = at;
+    this.reveal(at);
+    this.draw();
+    this.point(at);
+  }
+
+  /** Scrolls as far as it takes to see an entry. */
+  reveal(at: Highlight): void {
     const { element } = this;
     const [left, top] = [at.j * cellWidth, at.i * rowHeight];
     const [across, down] = [element.clientWidth - headWidth, element.clientHeight - rowHeight];
@@ -64,8 +71,6 @@ export class EntryTable {
     else if (left + cellWidth > element.scrollLeft + across) element.scrollLeft = left + cellWidth - across;
     if (top < element.scrollTop) element.scrollTop = top;
     else if (top + rowHeight > element.scrollTop + down) element.scrollTop = top + rowHeight - down;
-    this.draw();
-    this.point(at);
   }
 
   value(i: number, j: number): number {

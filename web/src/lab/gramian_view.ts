@@ -94,8 +94,9 @@ export class GramianView {
     const p = gramians.bandwidth;
     const values = gramians.values[2]!;
     const band = gramians.size * (2 * p + 1) - p * (p + 1);
-    this.maps[4]![0].caption.textContent = `Spy ${values.filter((x) => x !== 0).length}/${band}`;
+    this.maps[4]![0].caption.textContent = `Spy: ${values.filter((x) => x !== 0).length}`;
     this.maps[4]![0].canvas.setAttribute('aria-label', `Which of the ${band} entries of the band are not zero`);
+    this.maps[4]![0].element.title = `entries that are not zero, of ${band} in the band`;
     this.method.textContent = gramians.used[2] === 'recurrence' ? '' : 'recurrence leaves these orders to gauss';
     this.table.show(this.bands(this.shown), /^(difference|relative)/.test(this.shown));
     this.light();
@@ -120,6 +121,7 @@ export class GramianView {
     const line = style('--text');
     for (const [map] of this.maps) map.paint(highlight, line);
     this.table.light(highlight);
+    if (highlight && !this.table.element.matches(':hover')) this.table.reveal(highlight);
     this.say();
   }
 

@@ -1,7 +1,7 @@
-import { h, iconButton, select } from '../ui/dom';
+import { format, h, iconButton, select } from '../ui/dom';
 import { knotText, moved, parseKnots } from './knots';
 import type { LabModel, What } from './model';
-import { orderName } from './names';
+import { functionName, orderName, sup } from './names';
 
 const mostIntegrals = 8;
 
@@ -51,6 +51,7 @@ export class KnotFields {
   private readonly reset = h('button', { class: 'button small', type: 'button', title: 'Back to the knots of the surface', onclick: () => this.model.reset() }, 'Reset');
   private readonly apply = h('button', { class: 'button small lab-apply', type: 'button', onclick: () => void this.model.apply() }, 'Apply');
   private readonly message = h('p', { class: 'note lab-message', role: 'status' });
+  private readonly detail = h('p', { class: 'note lab-detail', hidden: true });
 
   constructor(private readonly model: LabModel) {
     this.list.addEventListener('change', () => this.takeList());
@@ -70,12 +71,13 @@ export class KnotFields {
     insert.classList.add('small');
     this.element = h('div', { class: 'lab-fields' },
       h('div', { class: 'lab-line tight' }, this.list, this.index, this.one, insert),
-      h('div', { class: 'lab-line tight' }, this.message, this.reset, this.apply));
+      h('div', { class: 'lab-line tight' }, this.message, this.detail, this.reset, this.apply));
     this.write(true);
   }
 
   update(what: Set<What>): void {
     this.write(false);
+    this.describe();
     if (what.has('knots')) this.list.classList.remove('wrong');
   }
 
@@ -97,6 +99,28 @@ export class KnotFields {
         : change.kind === 'command' ? `Edited: ${change.about}.` : `Edited, for looking only: ${change.why}.`;
     this.message.classList.toggle('error', model.error !== '');
     this.message.textContent = model.error ? model.error[0]!.toUpperCase() + model.error.slice(1) : about;
+    this.message.title = this.message.textContent;
+  }
+
+  /** What is pointed at, in words: a function, or two and where both are. */
+  private describe(): void {
+    const { highlight, now, basis, module } = this.model;
+    this.detail.hidden = !highlight || this.model.error !== '';
+    this.message.hidden = !this.detail.hidden;
+    if (!highlight) return;
+    const { i, j } = highlight;
+    const [low, high] = [now.knots[Math.max(i, j)]!, now.knots[Math.min(i, j) + now.degree + 1]!];
+    const support = `[${format(low)}, ${format(high)}]`;
+    if (i !== j) {
+      this.detail.textContent = `${functionName(i, 0)} and ${functionName(j, 0)}: ${low < high ? `both on ${support}` : 'nowhere both'}`;
+      return;
+    }
+    // Jumps of the lowest order tell how smooth a function is at a knot.
+    const smooth = module.jumps(i).map((at) => [at.knot, at.lowest - 1] as const);
+    const usual = Math.max(...smooth.map(([, c]) => c));
+    const less = smooth.filter(([, c]) => c < usual).map(([knot, c]) => `${continuity(c)} at ${format(knot)}`);
+    this.detail.textContent = `${functionName(i, 0)}: support ${support}, Greville ${format(basis.greville[i]!)}, integral ${format(basis.integrals[i]!)}, ` +
+      `${continuity(usual)}${less.length > 0 ? `, ${less.join(', ')}` : ''}`;
   }
 
   private takeList(): void {
@@ -140,3 +164,5 @@ export class KnotFields {
     if (model.edit({ degree, knots: more })) model.touch(longest + 1);
   }
 }
+
+const continuity = (order: number): string => (order < 0 ? 'jumps' : `C${sup(order)}`);

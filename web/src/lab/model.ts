@@ -13,7 +13,7 @@ export interface Highlight {
 export type What = 'knots' | 'order' | 'gramian' | 'highlight' | 'times' | 'surface';
 
 const settleTime = 250; // milliseconds without an edit, after which times are measured
-const budget = 0.003; // seconds per method
+const budget = 0.005; // seconds per method
 
 /** The knots that the panel is about, and all that the module says about them. */
 export class LabModel {
