@@ -2,93 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "unwrapped_loop.hpp"
 
 namespace knead {
 namespace {
 
-using Polygon = std::vector<RegionPoint>;
 using Eigen::Vector2d;
 
-constexpr int trials = 96;         // places for a cut
-constexpr int most_pieces = 1000;  // of one straight line
+constexpr int trials = 96;  // places for a cut
 
 std::unexpected<Error> no_region(std::string what) { return std::unexpected(Error{ErrorKind::input, std::move(what)}); }
 
 double turned(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-struct Unwrapped {
-  Polygon points;
-  std::array<int, 2> winding = {0, 0};
-};
-
-// Points between `from` and `to`, neither among them, at whole steps. By value: they may be the polygon's own.
-void add_between(Polygon& polygon, Vector2d from, Vector2d to) {
-  const int pieces = std::clamp(static_cast<int>(std::ceil((to - from).cwiseAbs().maxCoeff() - 1e-9)), 1, most_pieces);
-  for (int k = 1; k < pieces; ++k) polygon.push_back({from + (to - from) * k / pieces});
-}
-
-// Follows a loop over the seams. At a pole the direction round it is undetermined: along the upper one a loop with its
-// region on the left goes down, along the lower one up.
-Unwrapped unwrap(const ParameterSpace& space, std::span<const LoopPoint> loop, int number) {
-  Unwrapped result;
-  const auto n = loop.size();
-  std::size_t first = 0;
-  while (first < n && (loop[first].free[0] || loop[first].free[1])) ++first;
-  if (first == n) return result;
-  Vector2d before = loop[first].at;
-  std::optional<RegionPoint> pole;
-  std::array<bool, 2> free = {false, false};
-  for (std::size_t k = 0; k <= n; ++k) {
-    const auto index = (first + k) % n;
-    const LoopPoint& p = loop[index];
-    RegionPoint next{p.at, number, static_cast<int>(index)};
-    if (p.free[0] || p.free[1]) {
-      free = p.free;
-      pole = next;
-      continue;
-    }
-    for (int d = 0; d < 2; ++d) {
-      const double period = space.periods[static_cast<std::size_t>(d)];
-      if (period > 0) next.at[d] += period * std::round((before[d] - next.at[d]) / period);
-    }
-    if (pole) {
-      for (int d = 0; d < 2; ++d) {
-        if (!free[static_cast<std::size_t>(d)]) continue;
-        const double period = space.periods[static_cast<std::size_t>(d)];
-        const auto& ends = space.poles[static_cast<std::size_t>(1 - d)];
-        const bool upper =
-            !ends[0] || (ends[1] && std::abs(*ends[1] - pole->at[1 - d]) < std::abs(*ends[0] - pole->at[1 - d]));
-        // Downwards (d = 0) at the upper end; the other way round where the pole is an end of u.
-        const bool down = upper == (d == 0);
-        const double near = 1e-6 * period;
-        while (period > 0 && down && next.at[d] > before[d] - near) next.at[d] -= period;
-        while (period > 0 && down && next.at[d] <= before[d] - period - near) next.at[d] += period;
-        while (period > 0 && !down && next.at[d] < before[d] + near) next.at[d] += period;
-        while (period > 0 && !down && next.at[d] >= before[d] + period + near) next.at[d] -= period;
-        RegionPoint a = *pole, b = *pole;
-        a.at[d] = before[d];
-        b.at[d] = next.at[d];
-        result.points.push_back(a);
-        add_between(result.points, a.at, b.at);
-        result.points.push_back(b);
-      }
-      pole.reset();
-    }
-    before = next.at;
-    if (k < n)
-      result.points.push_back(next);
-    else {
-      for (int d = 0; d < 2; ++d) {
-        const double period = space.periods[static_cast<std::size_t>(d)];
-        const double way = next.at[d] - result.points.front().at[d];
-        if (period > 0) result.winding[static_cast<std::size_t>(d)] = static_cast<int>(std::lround(way / period));
-      }
-    }
-  }
-  return result;
 }
 
 void shift(Polygon& polygon, int direction, double by) {
