@@ -9,6 +9,6 @@ export default defineConfig({
   root: here('..'),
   cacheDir: here('node_modules/.vite'),
   plugins: [rhinoWithoutEval({ forNode: true })],
-  resolve: { alias: { '@studio': here('src') } },
+  resolve: { alias: { '@studio': here('src'), three: here('node_modules/three') } },
   test: { globals: true, server: { deps: { inline: ['rhino3dm'] } }, include: ['tests/web/*.test.ts'], exclude: ['**/e2e/**'], testTimeout: 60_000 },
 });

@@ -94,6 +94,7 @@ const std::vector<std::string> all_commands = {
     R"({"do":"step","count":3,"lambda":1,"weight":"mass"})",
     R"({"do":"stroke","tool":"a","path":[[1,2,3],[4,5,6]],"steps":3,"plasticity":0.5,"relative":true})",
     R"({"do":"lattice","net":[4,5,6],"degree":[2,3,1],"margin":0.5,"steps":2,"lambda":3,"hold":["u0","w1"]})",
+    R"({"do":"relax","at":[0.5,0.25],"radius":0.5,"strength":0.25,"relative":true})",
     R"({"do":"drag","at":[0.5,0.25],"by":[1,2,3],"radius":0.5,"strength":5,"steps":3,"plasticity":0.5,"relative":true})",
     R"({"do":"refine","region":[[0,0.5],[0,1]],"under":"a","knots_u":[0.5,0.5],"knots_v":[0.25],"permission":"auto"})",
     R"({"do":"elevate","by":[0,2]})",
