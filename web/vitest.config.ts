@@ -6,6 +6,6 @@ const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 export default defineConfig({
   root: here('..'),
   cacheDir: here('node_modules/.vite'),
-  resolve: { alias: { '@studio': here('src') } },
+  resolve: { alias: { '@studio': here('src'), three: here('node_modules/three') } },
   test: { globals: true, include: ['tests/web/*.test.ts'], exclude: ['**/e2e/**'], testTimeout: 60_000 },
 });

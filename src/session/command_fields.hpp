@@ -252,6 +252,12 @@ KNEAD_COMMAND(DragCommand, "drag", "take hold of a surface point, drag it and le
   v.field("plasticity", Presence::optional, c.plasticity, "share of the result that stays, 0 to 1");
   v.field("relative", Presence::optional, c.relative, "`by` and radius are fractions of the bounding-box diagonal");
 }
+KNEAD_COMMAND(RelaxCommand, "relax", "smooth the surface around a point") {
+  v.field("at", Presence::required, c.at, "[s, t]: the surface point, at fractions of its domain");
+  v.field("radius", Presence::optional, c.radius, "how far it reaches, a length; default: 0.1 of the diagonal");
+  v.field("strength", Presence::optional, c.strength, "share of a bump of that size that goes, > 0, up to 1");
+  v.field("relative", Presence::optional, c.relative, "radius is a fraction of the bounding-box diagonal");
+}
 KNEAD_COMMAND(LatticeCommand, "lattice", "deform the surfaces with an elastic block of space that the tools act on") {
   v.field("net", Presence::optional, c.net, "control points of the block along x, y, z");
   v.field("degree", Presence::optional, c.degree, "along x, y, z");

@@ -47,6 +47,7 @@ struct Executor {
   Expected<void> operator()(const StepCommand& c);
   Expected<void> operator()(const StrokeCommand& c);
   Expected<void> operator()(const DragCommand& c);
+  Expected<void> operator()(const RelaxCommand& c);
   Expected<void> operator()(const LatticeCommand& c);
 
   Expected<void> operator()(const PointsCommand& c);

@@ -97,6 +97,7 @@ const std::vector<std::string> all_commands = {
     R"({"do":"points","which":[3,4],"rows_u":[1],"rows_v":[0,2],"by":[1,2,3],"to":[[1,2,3],[-0.0,5,6]],"relative":true})",
     R"({"do":"weights","which":[3,4],"rows_u":[1],"rows_v":[0,2],"weight":2,"by":0.5})",
     R"({"do":"knots","direction":"v","knots":[0,0,0.25,1,1]})",
+    R"({"do":"relax","at":[0.5,0.25],"radius":0.5,"strength":0.25,"relative":true})",
     R"({"do":"drag","at":[0.5,0.25],"by":[1,2,3],"radius":0.5,"strength":5,"steps":3,"plasticity":0.5,"relative":true})",
     R"({"do":"refine","region":[[0,0.5],[0,1]],"under":"a","knots_u":[0.5,0.5],"knots_v":[0.25],"permission":"auto"})",
     R"({"do":"elevate","by":[0,2]})",

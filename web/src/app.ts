@@ -5,9 +5,12 @@ import { readKnead, writeKnead } from './document/knead_file';
 import { clay } from './document/clay';
 import { Client } from './engine/client';
 import type { Frame } from './engine/protocol';
-import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceInfo } from './engine/session_types';
+import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceInfo, type SurfaceNumbers } from './engine/session_types';
 import { followGizmo } from './view/gizmo';
-import { Brush, type Mode } from './view/brush';
+import { Hand } from './view/hand';
+import type { Brush } from './view/brush';
+import type { Mode } from './view/modes';
+import { newTool } from './view/new_tool';
 import { defaultDisplay, type Display, type Theme } from './view/display';
 import { Viewer } from './view/viewer';
 
@@ -25,7 +28,7 @@ const keptSteps = 400; // of the plot
 export class App {
   readonly client: Client;
   readonly viewer: Viewer;
-  readonly brush: Brush;
+  readonly hand: Hand;
   display: Display;
   theme: Theme;
   frame: Frame | null = null;
@@ -55,31 +58,17 @@ export class App {
     this.theme = kept.theme ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
     this.client = new Client(new Worker(new URL('./engine/worker.ts', import.meta.url), { type: 'module' }));
     this.viewer = new Viewer(this.display);
-    this.brush = new Brush(this.viewer, {
-      begin: async (commands) => (await this.execute(commands)) !== null,
-      follow: (commands, join) => this.client.follow(commands, join),
-      end: async (commands) => {
-        await this.client.followed();
-        if (commands.length > 0) await this.execute(commands, commands[0]!.do === 'remove');
-      },
-      cancel: async () => {
-        await this.client.followed();
-        await this.execute([{ do: 'undo' }]);
-      },
-      place: (point, normal) => void this.placeTool(point, normal),
-      select: async (surface) => {
-        await this.select(surface);
-      },
-      pickTool: (name) => {
-        this.viewer.selectTool(name);
-        this.changed();
-      },
-      settingsChanged: () => this.changed(),
-    });
+    this.hand = new Hand(this);
+    this.viewer.navigator.convention = this.display.convention;
+    this.viewer.onMaximise = (view) => this.setDisplay({ view, fourViews: !this.display.fourViews });
     this.client.onFrame = (frame) => this.show(frame);
     this.client.onError = (error) => this.fail(error);
     for (const viewport of this.viewer.viewports) followGizmo(this, viewport);
     this.setTheme(this.theme);
+  }
+
+  get brush(): Brush {
+    return this.hand.brush;
   }
 
   get state(): SessionInfo | null {
@@ -245,7 +234,7 @@ export class App {
   }
 
   private async keep(): Promise<void> {
-    if (!this.dirty || this.brush.active || this.frame?.playing) return;
+    if (!this.dirty || this.hand.active || this.frame?.playing) return;
     this.dirty = false;
     try {
       const journal = await this.client.journal();
@@ -271,23 +260,21 @@ export class App {
 
   // --- tools -------------------------------------------------------------------------------------------------------
 
-  /** A new ball, on the near side of the surface point. */
+  /** What a click in the mode `place` puts into the scene. */
+  readonly placing: { shape: string; surface?: string } = { shape: 'sphere' };
+
+  /** A new tool, on the near side of the surface point. */
   async placeTool(point: THREE.Vector3, normal: THREE.Vector3): Promise<void> {
-    const taken = new Set(this.state!.tools.map((t) => t.name));
-    let number = 1;
-    while (taken.has(`tool ${number}`)) ++number;
-    const { radius } = this.brush.settings;
-    const centre = point.clone().addScaledVector(normal, radius).add(new THREE.Vector3(...this.viewer.origin));
-    const name = `tool ${number}`;
-    if (await this.execute([{ do: 'tool', name, shape: 'sphere', radius, position: centre.toArray(), plasticity: 1 }])) {
+    const command = newTool(this, point, normal);
+    if (await this.execute([command])) {
       this.setMode('look');
-      this.viewer.selectTool(name);
+      this.viewer.selectTool(command.name as string);
       this.changed();
     }
   }
 
   setMode(mode: Mode): void {
-    this.brush.mode = mode;
+    this.hand.mode = mode;
     this.changed();
   }
 
@@ -296,6 +283,7 @@ export class App {
   setDisplay(change: Partial<Display>): void {
     const repaint = (change.field !== undefined && change.field !== this.display.field) || change.detail !== undefined;
     Object.assign(this.display, change);
+    this.viewer.navigator.convention = this.display.convention;
     this.viewer.restyle();
     if (repaint) void this.attempt(async () => void (await this.client.paint({ detail: this.display.detail, field: this.display.field })));
     this.keepSettings();
@@ -326,6 +314,15 @@ export class App {
     } catch {
       // Without storage the settings last as long as the page.
     }
+  }
+
+  private numbers: { of: string; data: Promise<SurfaceNumbers> } | null = null;
+
+  /** The numbers of a surface as it is now; asked for once per change. */
+  surfaceData(surface: number): Promise<SurfaceNumbers> {
+    const of = `${surface} ${this.changes}`;
+    if (this.numbers?.of !== of) this.numbers = { of, data: this.client.surface(surface) };
+    return this.numbers.data;
   }
 
   playing(): boolean {

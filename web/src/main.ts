@@ -1,27 +1,36 @@
 import './style.css';
+import './view/view.css';
 
 import { App } from './app';
 import { autosave } from './document/autosave';
 import { scenes } from './gallery';
 import { notices, toolRail, topBar } from './ui/chrome';
 import { h } from './ui/dom';
+import { listenToEdges } from './ui/edge_popover';
 import { listenToKeys } from './ui/keyboard';
-import { brushPanel, constraintsPanel, surfacesPanel, toolsPanel } from './ui/panels_scene';
-import { displayPanel, evolutionPanel, historyPanel, materialPanel } from './ui/panels_model';
+import { legendCard } from './ui/legend';
+import { createPanel } from './ui/panel_create';
+import { displayPanel } from './ui/panel_display';
+import { surfacePanel } from './ui/panel_surface';
+import { brushPanel, pointsPanel } from './ui/panels_hand';
+import { constraintsPanel, surfacesPanel, toolsPanel } from './ui/panels_scene';
+import { evolutionPanel, historyPanel, materialPanel } from './ui/panels_model';
 import { statusBar } from './ui/plot';
+import { offerTour } from './ui/tour';
 
 const app = new App();
 
 document.getElementById('studio')!.append(
   topBar(app),
   toolRail(app),
-  h('main', { class: 'stage' }, app.viewer.element, notices(app)),
+  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
-    brushPanel(app), toolsPanel(app), surfacesPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app),
+    brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app),
     displayPanel(app), historyPanel(app)),
   statusBar(app),
 );
 listenToKeys(app);
+listenToEdges(app);
 
 // Files dropped anywhere are opened.
 document.addEventListener('dragover', (event) => event.preventDefault());
@@ -49,6 +58,7 @@ async function start(): Promise<void> {
       ],
     });
   }
+  offerTour(app);
   app.changed();
   document.documentElement.dataset.ready = 'true';
 }

@@ -248,6 +248,15 @@ struct DragCommand {
   bool relative = false;
 };
 
+/// Smooths the surface around a point: one step of a plate under tension that has no rest shape, all else held.
+/// `strength` is the share of a bump of that radius which goes.
+struct RelaxCommand {
+  Fractions at = {0.5, 0.5};
+  std::optional<double> radius;  ///< default: a tenth of the diagonal
+  double strength = 0.5;
+  bool relative = false;
+};
+
 /// Deforms the selected surfaces with a block of space round them, on which the tools act, as one command (thesis 5.7).
 struct LatticeCommand {
   std::array<int, 3> net = {6, 6, 6};
@@ -312,11 +321,11 @@ struct UndoCommand {};
 /// Does again what was taken back last.
 struct RedoCommand {};
 
-using Command =
-    std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand, PinCommand,
-                 EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand,
-                 ToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand,
-                 LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, LatticeCommand, PointsCommand,
-                 WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand, CoarsenCommand, UndoCommand, RedoCommand>;
+using Command = std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand,
+                             PinCommand, EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand,
+                             SeamsCommand, ReleaseCommand, ToolCommand, RemoveCommand, MoveCommand, TurnCommand,
+                             ScaleCommand, ForceCommand, LoadCommand, LimitCommand, EvolveCommand, StepCommand,
+                             StrokeCommand, DragCommand, RelaxCommand, LatticeCommand, PointsCommand, WeightsCommand,
+                             KnotsCommand, RefineCommand, ElevateCommand, CoarsenCommand, UndoCommand, RedoCommand>;
 
 }  // namespace knead

@@ -1,7 +1,10 @@
 import type { App, Notice } from '../app';
 import { scenes } from '../gallery';
-import type { Mode } from '../view/brush';
+import { openLab } from '../lab/door';
+import { modes } from '../view/modes';
 import { h, icon, iconButton } from './dom';
+import { shortcuts } from './shortcuts';
+import { toggleTour } from './tour';
 
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
 
@@ -32,7 +35,9 @@ export function topBar(app: App): HTMLElement {
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
     h('span', { class: 'spacer' }), name, h('span', { class: 'spacer' }),
     iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
+    iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
     iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
+    iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),
     iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app)));
   app.onChange.push(() => {
     const { state } = app;
@@ -65,15 +70,6 @@ function menu(iconName: string, label: string, text: string, entries: [string, s
   });
   return element;
 }
-
-export const modes: [Mode, string, string][] = [
-  ['look', 'Look and select (V)', 'v'],
-  ['push', 'Push: a ball into the clay (B). Alt pulls', 'b'],
-  ['pull', 'Pull: a ball from behind (U). Alt pushes', 'u'],
-  ['grab', 'Grab a point and drag it (G)', 'g'],
-  ['place', 'Place a tool (T)', 't'],
-  ['pin', 'Pin control points or surface points (P)', 'p'],
-];
 
 export function toolRail(app: App): HTMLElement {
   const buttons = modes.map(([mode, label]) => {
@@ -112,14 +108,6 @@ export function notices(app: App): HTMLElement {
   return stack;
 }
 
-const shortcuts: [string, string][] = [
-  ['Drag', 'brush on the surface, elsewhere orbit'], ['Right, middle drag', 'pan'], ['Wheel', 'zoom to the pointer'],
-  ['Alt with a brush', 'pull instead of push'], ['Shift-wheel, [ ]', 'size of the brush'], ['Esc', 'takes the stroke back'],
-  ['V B U G T P', 'look, push, pull, grab, tool, pin'], ['Space', 'play or pause'], ['.', 'one step'], ['R', 'run to rest'],
-  ['Ctrl+Z, Shift: redo', 'undo'], ['Ctrl+S', 'save the STEP file'], ['O', 'open'], ['F', 'fit everything'],
-  ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'perspective'], ['4', 'four views'], ['M N K', 'move, turn, resize a tool'],
-  ['Delete', 'take the tool away'], ['C, held', 'the shape as it was opened'], ['Z', 'zebra stripes'], ['?', 'this list'],
-];
 
 export function toggleShortcuts(app: App): void {
   const present = document.querySelector('.shortcuts');
@@ -130,6 +118,6 @@ export function toggleShortcuts(app: App): void {
   const close = () => element.remove();
   const element = h('section', { class: 'shortcuts', aria: { label: 'Shortcuts' } },
     h('header', {}, h('h2', {}, 'Shortcuts'), iconButton('close', 'Close', close)),
-    h('dl', {}, ...shortcuts.flatMap(([keys, what]) => [h('dt', {}, keys), h('dd', {}, what)])));
+    h('dl', {}, ...shortcuts(app).flatMap(([keys, what]) => [h('dt', {}, keys), h('dd', {}, what)])));
   app.viewer.element.append(element);
 }
