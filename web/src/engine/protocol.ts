@@ -25,7 +25,10 @@ export type Request =
   /** All surfaces as one mesh file. */
   | { kind: 'mesh'; format: MeshFormat; detail: number }
   | { kind: 'save' }
-  | { kind: 'journal' };
+  | { kind: 'journal' }
+  /** The session as bytes, with its journal as text. `kept`: it need not be computed again from here on. */
+  | { kind: 'snapshot'; historyBytes: number; kept: boolean }
+  | { kind: 'restore'; source: Uint8Array | null; name: string; snapshot: Uint8Array };
 
 export interface Frame {
   state: SessionInfo;
@@ -39,6 +42,8 @@ export interface Frame {
   computeTime: number;
   paintTime: number;
   memory: number;
+  /** Milliseconds of commands since the last snapshot: what a recovery would have to compute again. */
+  unkept: number;
 }
 
 export type Reply =
