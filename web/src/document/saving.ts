@@ -1,7 +1,9 @@
 import type { App } from '../app';
+import type { MeshFormat } from '../engine/session_types';
 import { writeKnead } from './knead_file';
 
 const historyBytes = 16 * 2 ** 20; // of shapes, in a document
+const meshTypes: Record<MeshFormat, string> = { stl: 'model/stl', obj: 'model/obj', ply: 'application/octet-stream' };
 const longSession = 2000; // milliseconds of steps from which on a document carries its snapshot
 
 /** Saving: what the browser downloads, in the formats of the menu. */
@@ -34,6 +36,11 @@ export class Saving {
       return `Saved. Faces of a polysurface, or trimmed ones, cannot be exchanged: “${some}” lie beside it as surfaces on its layer.`;
     }
     return undefined;
+  });
+
+  /** All surfaces as one mesh, as fine as the pictures are. */
+  mesh = (format: MeshFormat) => this.save(async (stem) => {
+    download(await this.app.client.mesh(format, this.app.display.detail), `${stem}.${format}`, meshTypes[format]);
   });
 
   script = () => this.save(async (stem) => {
