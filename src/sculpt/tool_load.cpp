@@ -282,6 +282,11 @@ void ToolLoad<D>::apply_hessian(const ContactPoint& contact, int first, const Po
 }
 
 template <int D>
+void ToolLoad<D>::mark(const ContactPoint& contact, int first, std::vector<char>& marks) const {
+  for_each_function(contact.at, [&](int row, double) { marks[static_cast<std::size_t>(first + row)] = 1; });
+}
+
+template <int D>
 FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip) const {
   FrictionAnchors result;
   Workspace workspace;
