@@ -5,9 +5,11 @@ cd "$(dirname "$0")/.."
 
 scripts/setup.sh studio
 scripts/configure.sh wasm
-cmake --build build/wasm --target knead_studio
-module=web/src/engine/knead_studio.wasm
-cmp -s build/wasm/bindings/wasm/knead_studio.wasm "$module" || cp build/wasm/bindings/wasm/knead_studio.wasm "$module"
+cmake --build build/wasm --target knead_studio knead_lab
+for module in engine/knead_studio lab/knead_lab; do
+  built=build/wasm/bindings/wasm/${module#*/}.wasm
+  cmp -s "$built" "web/src/$module.wasm" || cp "$built" "web/src/$module.wasm"
+done
 
 cd web
 # What the lock file names, and again only when it changes.

@@ -13,6 +13,7 @@ const browser = await chromium.launch({
     '--disable-component-update', '--disable-sync', '--no-first-run'],
 });
 const page = await browser.newPage({ viewport: { width: 1180, height: 720 } });
+await page.addInitScript(() => localStorage.setItem('knead-tour', '1'));
 await page.goto(server.url);
 await page.waitForSelector('html[data-ready]', { state: 'attached' });
 
@@ -57,6 +58,24 @@ await page.locator('select[aria-label="Colour by"]').selectOption('none');
 await page.keyboard.press('z');
 await picture('studio-zebra');
 await page.keyboard.press('z');
+
+// A knot drawn onto its neighbour: the functions are less smooth there.
+await page.locator('button[aria-label^="Basis functions"]').click();
+await page.waitForSelector('.lab[data-drawn]');
+const knot = async (k) => {
+  const dot = await page.locator('.lab-knot').nth(k).locator('circle').first().boundingBox();
+  return [dot.x + dot.width / 2, dot.y + dot.height / 2];
+};
+await page.mouse.move(...(await knot(4)));
+await page.mouse.down();
+await page.mouse.move(...(await knot(5)), { steps: 5 });
+await page.mouse.up();
+await pause(1200);
+const map = await page.locator('.lab-map').first().boundingBox();
+await page.mouse.move(map.x + (map.width * 6.5) / 14, map.y + (map.height * 5.5) / 14);
+await pause();
+await page.screenshot({ path: here('../docs/pictures/studio-backend.png') });
+await page.locator('button[aria-label="Close the panel"]').click();
 
 await theme('light');
 await scene('Ball on a membrane');

@@ -8,6 +8,7 @@
 #include "knead/session/command_json.hpp"
 #include "studio_picture.hpp"
 #include "studio_state.hpp"
+#include "studio_surface.hpp"
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -50,6 +51,17 @@ int start(Document document) {
   held().origin = middle(document);
   held().session.emplace(std::move(document));
   return answer(state_json(*held().session));
+}
+
+/// A fresh document has its first surface somewhere. Far from there single precision would show steps: from this many
+/// sizes of the surface on, pictures are measured from its middle.
+void keep_origin_near(const SessionState& now) {
+  constexpr double far = 100;
+  if (now.surfaces.empty()) return;
+  const Points& points = now.surfaces.front().current->control_points();
+  const Point lower = points.colwise().minCoeff().transpose(), upper = points.colwise().maxCoeff().transpose();
+  const Point centre = (lower + upper) / 2;
+  held().origin = centre.norm() > far * (upper - lower).norm() ? centre : Point(Point::Zero());
 }
 
 }  // namespace
@@ -101,7 +113,9 @@ KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
   if (!session) return without_session();
   const auto command = parse_command(held().input);
   if (!command) return fail(command.error());
+  const bool first = session->document().is_fresh() && session->state().surfaces.empty();
   if (auto done = session->execute(*command); !done) return fail(done.error());
+  if (first) keep_origin_near(session->state());
   if (join != 0) session->join();
   return answer("{}");
 }
@@ -173,4 +187,15 @@ KNEAD_EXPORT(knead_control_points) int knead_control_points(int surface) {
   const Points& points = surfaces[static_cast<std::size_t>(surface)].current->control_points();
   return answer(
       {reinterpret_cast<const char*>(points.data()), static_cast<std::size_t>(points.size()) * sizeof(double)});
+}
+
+/// Degree, net, knots, weights and control points of a surface in full precision, as JSON.
+KNEAD_EXPORT(knead_surface) int knead_surface(int surface) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  const auto& surfaces = session->state().surfaces;
+  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) {
+    return fail({ErrorKind::usage, "there is no such surface"});
+  }
+  return answer(surface_json(*surfaces[static_cast<std::size_t>(surface)].current));
 }

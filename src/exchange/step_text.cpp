@@ -99,6 +99,8 @@ std::string add_surface(Records& records, const StepNewSurface& item) {
 
 }  // namespace
 
+bool is_step_unit(std::string_view name) { return std::ranges::find(units, name, &Unit::name) != units.end(); }
+
 Expected<std::string> step_text(std::span<const StepNewSurface> surfaces, const StepTextOptions& options) {
   const auto unit = std::ranges::find(units, options.unit, &Unit::name);
   if (unit == units.end()) {

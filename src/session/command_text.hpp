@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "command_fields.hpp"
@@ -27,7 +28,10 @@ inline std::string joined(const std::vector<std::string_view>& names) {
   return text;
 }
 
-inline std::string number(double value) { return fmt::format("{:.17g}", value); }
+inline std::string number(double value) {
+  if (value == 0) return std::signbit(value) ? "-0.0" : "0";  // "-0" would be read as the whole number 0
+  return fmt::format("{:.17g}", value);
+}
 inline std::string write(double value) { return number(value); }
 inline std::string write(int value) { return fmt::format("{}", value); }
 inline std::string write(bool value) { return value ? "true" : "false"; }

@@ -35,7 +35,7 @@ Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces) 
     std::vector<StepNewSurface> made;
     for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});
     StepTextOptions options;
-    options.unit = unit_;
+    options.unit = surfaces.empty() ? unit_ : surfaces.front().unit;
     options.product = name_;
     return step_text(made, options);
   }

@@ -59,49 +59,6 @@ Expected<double> Executor::diagonal() {
   return bounding_box(*(*surface)->reference).diagonal();
 }
 
-Expected<void> Executor::operator()(const NewCommand& c) {
-  if (!document.is_fresh()) {
-    return input_error("surfaces can be made in a document without a file only", {},
-                       "start with `knead sculpt --new`, without a FILE");
-  }
-  if (c.shape != "plane")
-    return input_error(fmt::format("\"{}\" is not a shape", c.shape), "shape", "the shapes are: plane");
-  std::vector<KnotVector> knots;
-  for (std::size_t d = 0; d < 2; ++d) {
-    const std::vector<double>& given = d == 0 ? c.knots_u : c.knots_v;
-    auto made =
-        given.empty() ? KnotVector::clamped_uniform(c.degree[d], c.net[d]) : KnotVector::create(c.degree[d], given);
-    if (!made) return std::unexpected(made.error().within(given.empty() ? "net" : d == 0 ? "knots_u" : "knots_v"));
-    if (!(std::isfinite(c.size[d]) && c.size[d] > 0)) {
-      return input_error(fmt::format("{} is not a size", c.size[d]), "size", "use two numbers > 0");
-    }
-    knots.push_back(std::move(*made));
-  }
-  const int m = knots[0].count(), n = knots[1].count();
-  if (static_cast<double>(m) * n > 4e6)
-    return input_error("the net has more than 4 million control points", "net", "use fewer");
-  Points points(static_cast<Eigen::Index>(m) * n, 3);
-  const Interval u = knots[0].domain(), v = knots[1].domain();
-  for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < n; ++j) {
-      points.row(i * n + j) << c.size[0] * ((knots[0].greville(i) - u.lower) / u.length()),
-          c.size[1] * ((knots[1].greville(j) - v.lower) / v.length()), 0;
-    }
-  }
-  auto made = Surface::create({knots[0], knots[1]}, std::move(points));
-  if (!made) return std::unexpected(made.error());
-  const auto surface = std::make_shared<const Surface>(std::move(*made));
-  SurfaceState s;
-  s.id = fmt::format("#{}", state.surfaces.size() + 1);
-  s.name = c.name;
-  s.unit = document.unit();
-  s.opened = s.reference = s.rest = s.current = surface;
-  state.surfaces.push_back(std::move(s));
-  state.selected = static_cast<int>(state.surfaces.size()) - 1;
-  state.together.clear();
-  return {};
-}
-
 Expected<void> Executor::operator()(const SelectCommand& c) {
   std::vector<std::string> ids = c.surfaces.value_or(std::vector<std::string>{});
   if (c.surface) ids.insert(ids.begin(), *c.surface);

@@ -67,6 +67,24 @@ TEST(GramianKernels, copy_rows_of_equal_spans_only_where_they_are_equal) {
   }
 }
 
+TEST(GramianKernels, do_not_look_for_equal_spans_before_the_first_knot) {
+  // Every span is equal, the ends included: only the number of rows ends the search.
+  for (int p = 1; p <= 9; ++p) {
+    for (int count = 30; count < 48; ++count) {
+      std::vector<double> values;
+      for (int k = 0; k < count + p + 1; ++k) values.push_back(k);
+      const KnotVector knots = *KnotVector::create(p, values);
+      const GramianSet gauss = *gramians(knots, GramianMethod::gauss);
+      for (const InstructionSet set : available_instruction_sets()) {
+        GramianSet ours;
+        recompute_gramians(knots, GramianMethod::recurrence, ours, set);
+        EXPECT_LE((gauss.g00.dense() - ours.g00.dense()).cwiseAbs().maxCoeff(), 1e-14) << p << " " << count;
+        EXPECT_LE((gauss.g22.dense() - ours.g22.dense()).cwiseAbs().maxCoeff(), 1e-12) << p << " " << count;
+      }
+    }
+  }
+}
+
 TEST(GramianKernels, write_nothing_but_the_band_into_storage_that_is_used_again) {
   const KnotVector large = testing::uniform_clamped(3, 40), small = testing::thesis_knots(3, 5);
   GramianSet set = *gramians(large);

@@ -49,7 +49,6 @@ TEST(Command, NewRefuses) {
   Session session = fresh();
   EXPECT_EQ(refusal(session, R"({"do":"step"})").what, "there is no surface yet");
   for (const auto& [json, field] : std::vector<std::pair<std::string, std::string>>{
-           {R"({"do":"new","shape":"sphere"})", "shape"},
            {R"({"do":"new","size":[0,1]})", "size"},
            {R"({"do":"new","degree":[0,3]})", "degree"},
            {R"({"do":"new","degree":[3,99]})", "degree"},

@@ -112,6 +112,24 @@ describe('the session in WebAssembly', () => {
     expect(Math.max(...flat.values.map(Math.abs))).toBe(0);
   });
 
+  it('gives all numbers of a surface, from which `new` makes the same one', async () => {
+    const engine = await load();
+    engine.fresh('shapes');
+    engine.execute({ do: 'new', shape: 'torus', radius: 30, minor: 1 / 3, position: [0.1, -1e-7, 1 / 7] });
+    const { degree, net, knots_u, knots_v, weights, points } = engine.surface(0);
+    expect(net).toEqual([9, 9]);
+    expect(points.flat()).toEqual([...engine.controlPoints(0)]);
+    engine.execute({ do: 'new', degree, net, knots_u, knots_v, weights, points });
+    expect(engine.surface(1)).toEqual(engine.surface(0));
+    engine.execute({ do: 'new', size: [2, 2], degree: [2, 3], net: [5, 4] });
+    expect(engine.surface(2).weights).toBeNull();
+    expect(engine.surface(2).degree).toEqual([2, 3]);
+    expect(() => engine.surface(3)).toThrow(/no such surface/);
+    const back = await load();
+    back.openStep(engine.save(), 'back.step');
+    expect(back.surface(0)).toEqual(engine.surface(0));
+  });
+
   it('says what is wrong with a file, a command and an order', async () => {
     const engine = await load();
     expect(() => engine.state()).toThrow(/nothing is open/);

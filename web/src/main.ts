@@ -9,6 +9,7 @@ import { listenToKeys } from './ui/keyboard';
 import { brushPanel, constraintsPanel, surfacesPanel, toolsPanel } from './ui/panels_scene';
 import { displayPanel, evolutionPanel, historyPanel, materialPanel } from './ui/panels_model';
 import { statusBar } from './ui/plot';
+import { offerTour } from './ui/tour';
 
 const app = new App();
 
@@ -49,6 +50,7 @@ async function start(): Promise<void> {
       ],
     });
   }
+  offerTour(app);
   app.changed();
   document.documentElement.dataset.ready = 'true';
 }

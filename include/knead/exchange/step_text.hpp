@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "knead/base/error.hpp"
 #include "knead/spline/spline.hpp"
@@ -20,6 +21,9 @@ struct StepTextOptions {
   std::string file_name = {};        ///< of the header, UTF-8
   std::string time_stamp = {};       ///< of the header, as in "2024-05-17T12:00:00"; the text depends on nothing else
 };
+
+/// Whether `step_text` can write this length unit.
+[[nodiscard]] bool is_step_unit(std::string_view name);
 
 /// A STEP file (ISO 10303-21, AP214: AUTOMOTIVE_DESIGN) that holds these surfaces and nothing else.
 ///

@@ -17,14 +17,23 @@ namespace knead {
 using Vector3 = std::array<double, 3>;
 using Fractions = std::array<double, 2>;
 
-/// Makes a flat sheet in the plane z = 0, in a document without a file, and selects it.
+/// Makes a surface in a document without a file, and selects it: a flat sheet, a surface of revolution about z, or any
+/// control points.
 struct NewCommand {
   std::string shape = "plane";
   std::array<double, 2> size = {1, 1};
+  std::optional<double> radius;    ///< of cylinder, sphere and torus; default: 0.5
+  std::optional<double> height;    ///< of a cylinder; default: twice the radius
+  std::optional<double> minor;     ///< tube radius of a torus; default: a quarter of the radius
+  std::vector<Fractions> profile;  ///< of a revolution: control points (r, z)
   std::array<int, 2> degree = {3, 3};
   std::array<int, 2> net = {8, 8};
   std::vector<double> knots_u, knots_v;  ///< empty: clamped, uniform on [0, 1]
-  std::string name = "sheet";
+  std::vector<Vector3> points;           ///< instead of a shape: all control points, (i, j) at i n + j
+  std::vector<double> weights;           ///< one for each; empty: none
+  Vector3 position = {0, 0, 0};          ///< where the origin of the shape goes
+  std::optional<std::string> unit;       ///< default: that of the surfaces there are, at first mm
+  std::optional<std::string> name;       ///< default: what it is
 };
 
 /// Chooses the surfaces that the following commands act on. A document with one surface has it selected already.

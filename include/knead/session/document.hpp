@@ -29,14 +29,14 @@ class Document {
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] bool is_fresh() const { return !file_; }
-  /// Length unit of a fresh document.
+  /// Length unit of a fresh document, unless the first surface made in it says another one.
   [[nodiscard]] const std::string& unit() const { return unit_; }
   [[nodiscard]] const std::vector<DocumentSurface>& surfaces() const { return *surfaces_; }
   /// Only where there is a file.
   [[nodiscard]] const StepFile& file() const { return *file_; }
 
   /// The bytes of the file with these surfaces in place of the original ones (one each); of a fresh document, a file
-  /// with exactly these.
+  /// with exactly these, in the unit of the first one.
   [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces) const;
 
  private:

@@ -26,7 +26,7 @@ __attribute__((noinline)) inline int equal_rows_found(const KernelKnots& knots, 
     if (!same(row)) return end;
   }
   int begin = end;
-  for (; begin > 0; begin -= row_chunk) {
+  for (; begin >= row_chunk; begin -= row_chunk) {
     bool all = true;
     unrolled<0, row_chunk / lanes>([&](auto c) KNEAD_LAMBDA { all = all && same(begin - row_chunk + c * lanes); });
     if (!all) break;

@@ -22,7 +22,8 @@ export interface Studio {
   close(): Promise<void>;
 }
 
-export async function openStudio(width = 900, height = 560): Promise<Studio> {
+/** With `firstVisit` the page offers its tour, otherwise it takes the visitor for one who has seen it. */
+export async function openStudio(width = 900, height = 560, firstVisit = false): Promise<Studio> {
   const module = join(root, 'web/serve.mjs');
   const { serve } = (await import(/* @vite-ignore */ module)) as { serve(directory: string): Promise<Server> };
   const server = await serve(join(root, 'web/dist'));
@@ -32,6 +33,7 @@ export async function openStudio(width = 900, height = 560): Promise<Studio> {
       '--disable-component-update', '--disable-sync', '--no-first-run'],
   });
   const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
+  if (!firstVisit) await context.addInitScript(() => localStorage.setItem('knead-tour', '1'));
   const page = await context.newPage();
   const problems: string[] = [];
   const foreign: string[] = [];

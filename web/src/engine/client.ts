@@ -1,5 +1,5 @@
 import type { Frame, PaintSettings, Reply, Request } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo } from './session_types';
+import { type Command, EngineError, type EngineErrorInfo, type SurfaceNumbers } from './session_types';
 
 interface Waiting {
   resolve(reply: { bytes?: Uint8Array; text?: string }): void;
@@ -68,6 +68,8 @@ export class Client {
   play = (toRest = false) => this.ask({ kind: 'play', toRest });
   stop = () => this.ask({ kind: 'stop' });
   save = async (): Promise<Uint8Array> => (await this.ask({ kind: 'save' })).bytes!;
+  surface = async (surface: number): Promise<SurfaceNumbers> =>
+    JSON.parse((await this.ask({ kind: 'surface', surface })).text!) as SurfaceNumbers;
   journal = async (): Promise<string> => (await this.ask({ kind: 'journal' })).text!;
 
   /**

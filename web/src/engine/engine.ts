@@ -1,4 +1,4 @@
-import { type Command, EngineError, type Field, fields, type Picture, type SessionInfo, type StepInfo } from './session_types';
+import { type Command, EngineError, type Field, fields, type Picture, type SessionInfo, type StepInfo, type SurfaceNumbers } from './session_types';
 import { wasiImports } from './wasi';
 
 interface Exports {
@@ -19,6 +19,7 @@ interface Exports {
   knead_buffer(which: number): number;
   knead_buffer_size(which: number): number;
   knead_control_points(surface: number): number;
+  knead_surface(surface: number): number;
 }
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
@@ -82,6 +83,11 @@ export class Engine {
 
   controlPoints(surface: number): Float64Array {
     return new Float64Array(this.bytes(this.wasm.knead_control_points(surface)).buffer as ArrayBuffer);
+  }
+
+  /** All numbers of a surface as it is now, in full precision. */
+  surface(surface: number): SurfaceNumbers {
+    return this.json(this.wasm.knead_surface(surface)) as SurfaceNumbers;
   }
 
   paint(surface: number, detail: number, field: Field, opened = false): Picture {

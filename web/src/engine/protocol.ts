@@ -20,6 +20,8 @@ export type Request =
   | { kind: 'stop' }
   /** The page has drawn the last frame: the next one may come. */
   | { kind: 'drawn' }
+  /** The numbers of one surface: `SurfaceNumbers` as text. */
+  | { kind: 'surface'; surface: number }
   | { kind: 'save' }
   | { kind: 'journal' };
 

@@ -28,6 +28,16 @@ export interface SurfaceInfo {
   moved: number;
 }
 
+/** A surface in full precision; control point (i, j) is number i · net[1] + j. */
+export interface SurfaceNumbers {
+  degree: [number, number];
+  net: [number, number];
+  knots_u: number[];
+  knots_v: number[];
+  weights: number[] | null;
+  points: Vector3[];
+}
+
 export interface ToolInfo {
   name: string;
   shape: string;

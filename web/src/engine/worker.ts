@@ -130,6 +130,9 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     case 'save':
       post({ kind: 'done', id, bytes: engine.save() });
       return;
+    case 'surface':
+      post({ kind: 'done', id, text: JSON.stringify(engine.surface(request.surface)) });
+      return;
     case 'journal':
       post({ kind: 'done', id, text: engine.journal() });
       return;

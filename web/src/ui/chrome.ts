@@ -1,7 +1,9 @@
 import type { App, Notice } from '../app';
 import { scenes } from '../gallery';
+import { openLab } from '../lab/door';
 import type { Mode } from '../view/brush';
 import { h, icon, iconButton } from './dom';
+import { toggleTour } from './tour';
 
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
 
@@ -32,7 +34,9 @@ export function topBar(app: App): HTMLElement {
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
     h('span', { class: 'spacer' }), name, h('span', { class: 'spacer' }),
     iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
+    iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
     iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
+    iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),
     iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app)));
   app.onChange.push(() => {
     const { state } = app;
@@ -118,7 +122,7 @@ const shortcuts: [string, string][] = [
   ['V B U G T P', 'look, push, pull, grab, tool, pin'], ['Space', 'play or pause'], ['.', 'one step'], ['R', 'run to rest'],
   ['Ctrl+Z, Shift: redo', 'undo'], ['Ctrl+S', 'save the STEP file'], ['O', 'open'], ['F', 'fit everything'],
   ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'perspective'], ['4', 'four views'], ['M N K', 'move, turn, resize a tool'],
-  ['Delete', 'take the tool away'], ['C, held', 'the shape as it was opened'], ['Z', 'zebra stripes'], ['?', 'this list'],
+  ['Delete', 'take the tool away'], ['C, held', 'the shape as it was opened'], ['Z', 'zebra stripes'], ['L', 'basis functions and Gramians'], ['?', 'this list'],
 ];
 
 export function toggleShortcuts(app: App): void {

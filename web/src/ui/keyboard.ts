@@ -1,4 +1,5 @@
 import type { App } from '../app';
+import { openLab } from '../lab/door';
 import { modes, toggleShortcuts } from './chrome';
 
 export function listenToKeys(app: App): void {
@@ -63,6 +64,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
   else if (key === 'c') app.compare(true);
   else if (key === 'o') document.querySelector<HTMLInputElement>('input[type=file]')?.click();
   else if (key === 'z') app.setDisplay({ zebra: !app.display.zebra });
+  else if (key === 'l') void openLab(app);
   else if (key === 'm') gizmo('translate');
   else if (key === 'n') gizmo('rotate');
   else if (key === 'k') gizmo('scale');

@@ -1,0 +1,98 @@
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { basename, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { Engine } from '@studio/engine/engine';
+import { type Command, EngineError } from '@studio/engine/session_types';
+
+// The scenarios that the native session passes too (tests/session/scenario_test.cpp), and the examples' scripts: the same
+// expectations hold in WebAssembly, and the control points at the end are the native ones to 1e-9 of the size.
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
+const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
+const wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
+
+type Step = Command | { refused: Command; where: string } | { expect: string; is?: unknown; min?: number; max?: number };
+interface Scenario {
+  open?: string;
+  steps: Step[];
+}
+
+/** The falling sheet of Fig. 6.15 takes ninety steps; the way to its first touch will do here. */
+const shortened = (commands: Command[]) => commands.map((c) => (c.do === 'step' && Number(c.count) > 20 ? { ...c, count: 20 } : c));
+const read = (path: string) => JSON.parse(readFileSync(path, 'utf8')) as never;
+const listed = (directory: string) =>
+  readdirSync(join(root, directory)).filter((f) => f.endsWith('.json')).map((f) => join(root, directory, f));
+const scenarios: [string, Scenario][] = [
+  ...listed('tests/scenarios').map((f): [string, Scenario] => [basename(f, '.json'), read(f)]),
+  ...listed('examples/figures').map((f): [string, Scenario] => [
+    basename(f, '.json'),
+    { open: /figure_6_11/.test(f) ? 'examples/figures/patches.step' : undefined, steps: shortened((read(f) as { commands: Command[] }).commands) },
+  ]),
+];
+
+async function begin(open?: string): Promise<Engine> {
+  const engine = await Engine.load(wasm);
+  if (open) engine.openStep(new Uint8Array(readFileSync(join(root, open))), basename(open));
+  else engine.fresh('scenario');
+  return engine;
+}
+
+const at = (value: unknown, pointer: string): unknown =>
+  pointer.split('/').slice(1).reduce<unknown>((v, key) => (v as Record<string, unknown>)[key], value);
+
+function check(engine: Engine, step: Step): void {
+  if ('do' in step) {
+    engine.execute(step as Command);
+  } else if ('refused' in step) {
+    const { refused, where } = step as { refused: Command; where: string };
+    const before = engine.state();
+    let error: unknown;
+    try {
+      engine.execute(refused);
+    } catch (e) {
+      error = e;
+    }
+    expect(error).toBeInstanceOf(EngineError);
+    expect((error as EngineError).info.where).toBe(where);
+    expect(engine.state()).toEqual(before);
+  } else {
+    const { expect: pointer, is, min, max } = step as { expect: string; is?: unknown; min?: number; max?: number };
+    const value = at(engine.state(), pointer);
+    if (is !== undefined) expect(value, pointer).toEqual(is);
+    else {
+      expect(value, pointer).toBeGreaterThanOrEqual(min!);
+      expect(value, pointer).toBeLessThanOrEqual(max!);
+    }
+  }
+}
+
+describe('scenarios in WebAssembly', () => {
+  it.each(scenarios)('%s runs as the native session runs it', async (_name, { open, steps }) => {
+    const engine = await begin(open);
+    for (const step of steps) check(engine, step);
+
+    const directory = mkdtempSync(join(tmpdir(), 'knead-'));
+    try {
+      const script = join(directory, 'script.json');
+      const out = join(directory, 'native.step');
+      writeFileSync(script, JSON.stringify({ knead: 1, commands: steps.filter((s) => 'do' in s) }));
+      execFileSync(native, ['sculpt', ...(open ? [join(root, open)] : ['--new']), '-o', out, '--script', script], { stdio: 'pipe' });
+      const there = await Engine.load(wasm);
+      there.openStep(new Uint8Array(readFileSync(out)), 'native.step');
+      const { surfaces } = engine.state();
+      expect(there.state().surfaces.length).toBe(surfaces.length);
+      surfaces.forEach((_, k) => {
+        const [here, other] = [engine.controlPoints(k), there.controlPoints(k)];
+        expect(here.length).toBe(other.length);
+        const size = other.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+        const worst = here.reduce((most, x, i) => Math.max(most, Math.abs(x - other[i]!)), 0);
+        expect(worst).toBeLessThanOrEqual(1e-9 * size);
+      });
+    } finally {
+      rmSync(directory, { recursive: true });
+    }
+  });
+});
