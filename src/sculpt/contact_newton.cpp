@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact_neighbourhood.hpp"
 
@@ -14,6 +15,8 @@ constexpr int max_solves = 1500;  // of one minimisation: a step that needs more
 // The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step. It is compared with what the step
 // weighs against each other, |F|, |K X₀| and the first imbalance in the same norm.
 constexpr double relative_tolerance = 1e-11;
+constexpr double rounded_tolerance = 1e-9;  // where the rounding of forces computed afresh does not allow more
+constexpr double cancellation = 1e-12;
 constexpr double sufficient_decrease = 1e-4;
 constexpr double rounding = 1e-14;
 constexpr int max_rounded_steps = 4;
@@ -110,15 +113,22 @@ class Minimisation {
   /// measured again from an anchor of its own, with all forces computed afresh.
   void iterate(double tolerance, int max_iterations, bool certain) {
     summary.converged = false;
-    double largest = -1;
+    double largest = -1, before = std::numeric_limits<double>::infinity();
     int rounded_steps = 0;
     for (int iteration = 0;;) {
       ContactNeighbourhood near(problem_.inverse);
       Anchor from = anchor();
       if (largest < 0) largest = std::max(norm_of_b(from), norm_of_force());
-      if (finished(std::sqrt(std::max(0.0, from.rs)), tolerance, largest)) return;
-      if (decide(from, near, tolerance, max_iterations, largest, iteration, rounded_steps) && certain) continue;
-      return;
+      const double decrement = std::sqrt(std::max(0.0, from.rs));
+      if (finished(decrement, tolerance, largest)) return;
+      if (decrement > 0.5 * before && decrement <= rounded_tolerance * largest) {
+        summary.converged = true;  // what is left is the rounding of AY: another round would find the same
+        return;
+      }
+      before = decrement;
+      summary.converged = false;
+      const Round round = decide(from, near, tolerance, max_iterations, largest, iteration, rounded_steps);
+      if (round == Round::over || (round == Round::small && !certain)) return;
     }
   }
 
@@ -128,6 +138,10 @@ class Minimisation {
   Points& y_;
   PotentialState state_;
   double norm_of_b_ = -1;
+
+  /// Why a round ended: the decrement is small enough; it is too small against β r to be known from this anchor; or
+  /// there is nothing more to be done.
+  enum class Round { small, blurred, over };
 
   Anchor anchor() {
     Anchor a{y_, problem_.b, {}, 0, 0, {}, {}};
@@ -182,9 +196,9 @@ class Minimisation {
     return true;
   }
 
-  /// Iterates from one anchor; true where it ended with a decrement that is small enough.
-  bool decide(Anchor& from, ContactNeighbourhood& near, double tolerance, int max_iterations, double& largest,
-              int& iteration, int& rounded_steps) {
+  /// Iterates from one anchor.
+  Round decide(Anchor& from, ContactNeighbourhood& near, double tolerance, int max_iterations, double& largest,
+               int& iteration, int& rounded_steps) {
     from.force_here.resize(0, 3);
     take_in(near, from);
     from.force_here = near.gather(state_.force);
@@ -201,9 +215,11 @@ class Minimisation {
       const double rs = first ? from.rs : r.norm(from, image), decrement = std::sqrt(std::max(0.0, rs));
       if (!first) {
         ++summary.solves;
-        if (finished(decrement, tolerance, largest)) return std::isfinite(decrement);
+        if (finished(decrement, tolerance, largest)) return std::isfinite(decrement) ? Round::small : Round::over;
+        // β r and E e cancel, and so do the squares that the decrement is the root of.
+        if (rs < cancellation * r.beta * r.beta * from.rs) return Round::blurred;
       }
-      if (iteration == max_iterations || summary.solves > max_solves) return false;
+      if (iteration == max_iterations || summary.solves > max_solves) return Round::over;
       ++summary.iterations;
 
       Combination ad = r;
@@ -228,12 +244,14 @@ class Minimisation {
                0.5 * ((1 + left.beta) * dot(u, from.r) + dot(near.gather(u), left.e - from.force_here));
       };
       const double here = quadratic + state_.potential;
-      const bool rounded = -slope <= rounding * (problem_.energy + std::abs(quadratic) + std::abs(state_.potential));
+      const bool rounded =
+          -slope <= rounding * (problem_.energy + std::abs(quadratic) + std::abs(state_.potential) + from.rs);
+      // rᵀA⁻¹r is the size of the numbers that `quadratic_at` takes from each other.
       // Where the gain left is below the rounding of Φ comparing values decides nothing: a few full steps take what the
       // gradient still sees.
       if (rounded && ++rounded_steps > max_rounded_steps) {
         summary.converged = true;
-        return false;
+        return Round::over;
       }
       for (double t = 1;; t /= 2) {
         Points y = y_ + t * d;

@@ -21,7 +21,7 @@ struct Single {
 
 /// Four of them: two vectors of two, which is what WebAssembly and every x86-64 have.
 struct Four {
-  typedef double Pair __attribute__((vector_size(16)));
+  typedef double Pair __attribute__((vector_size(16), may_alias));
   Pair a, b;
 
   static Four load(const double* p) {

@@ -24,16 +24,21 @@ interface Exports {
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
 export class Engine {
-  private constructor(private readonly wasm: Exports) {}
+  private constructor(private readonly wasm: Exports, readonly module: WebAssembly.Module) {}
 
   static async load(bytes: BufferSource | Promise<Response>): Promise<Engine> {
     const module =
       bytes instanceof Promise ? await WebAssembly.compileStreaming(bytes) : await WebAssembly.compile(bytes);
+    return Engine.start(module);
+  }
+
+  /** A session of its own, with code that all sessions of the module share. */
+  static async start(module: WebAssembly.Module): Promise<Engine> {
     let wasm: Exports | undefined;
     const instance = await WebAssembly.instantiate(module, wasiImports(module, () => wasm!.memory));
     wasm = instance.exports as unknown as Exports;
     wasm._initialize();
-    return new Engine(wasm);
+    return new Engine(wasm, module);
   }
 
   /** Bytes of linear memory: it grows, and never shrinks. */

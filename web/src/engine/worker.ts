@@ -1,6 +1,7 @@
 import { Engine } from './engine';
 import type { PaintSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo } from './session_types';
+import { warmUp } from './warm_up';
 import wasmUrl from './knead_studio.wasm?url';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
@@ -161,6 +162,9 @@ self.onmessage = async (event: MessageEvent<{ id: number; request: Request }>) =
 };
 
 engineLoaded.then(
-  () => post({ kind: 'ready' }),
+  (engine) => {
+    post({ kind: 'ready' });
+    void warmUp(engine.module).catch(() => {}); // nothing depends on it; what is wrong the session will say
+  },
   (error) => post({ kind: 'failed', id: 0, error: errorInfo(error) }),
 );
