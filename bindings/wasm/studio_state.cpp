@@ -103,6 +103,7 @@ Json of(const Session& session, int index) {
           {"rest", s.mode == RestMode::none ? "none" : "shape"},
           {"hold", s.hold_rows},
           {"pins", s.pins.size()},
+          {"pinned", s.pins},
           {"constraints", std::move(asked)},
           {"moved", session.moved_control_points(index)}};
 }

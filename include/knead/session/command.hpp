@@ -248,6 +248,15 @@ struct DragCommand {
   bool relative = false;
 };
 
+/// Smooths the surface around a point: one step of a plate under tension that has no rest shape, all else held.
+/// `strength` is the share of a bump of that radius which goes.
+struct RelaxCommand {
+  Fractions at = {0.5, 0.5};
+  std::optional<double> radius;  ///< default: a tenth of the diagonal
+  double strength = 0.5;
+  bool relative = false;
+};
+
 /// Deforms the selected surfaces with a block of space round them, on which the tools act, as one command (thesis 5.7).
 struct LatticeCommand {
   std::array<int, 3> net = {6, 6, 6};
@@ -256,6 +265,35 @@ struct LatticeCommand {
   int steps = 4;
   double lambda = 1;
   std::vector<std::string> hold;  ///< faces: "u0" … "w1", u along x, v along y, w along z
+};
+
+/// Control points of the one selected surface: by numbers i n + j of a net m × n, and by whole rows. In this order,
+/// each once; together at least one.
+struct NamedPoints {
+  std::vector<int> which;
+  std::vector<int> rows_u;  ///< all (i, ·) for these i
+  std::vector<int> rows_v;  ///< all (·, j) for these j
+};
+
+/// Moves control points by hand. The shape that comes is clay: it stays.
+struct PointsCommand {
+  NamedPoints points;
+  std::optional<Vector3> by;  ///< all alike; or:
+  std::vector<Vector3> to;    ///< one place for each
+  bool relative = false;      ///< `by` is in fractions of the bounding-box diagonal
+};
+
+/// Other weights for control points, which stay: the shape changes, for good.
+struct WeightsCommand {
+  NamedPoints points;
+  std::optional<double> weight;  ///< > 0; or:
+  std::optional<double> by;      ///< a factor > 0
+};
+
+/// Other knots for the same control points: the shape changes, for good.
+struct KnotsCommand {
+  std::string direction;      ///< "u" or "v"
+  std::vector<double> knots;  ///< the whole vector, as many as before, on the same domain
 };
 
 enum class RefinePermission { automatic, never };
@@ -283,11 +321,11 @@ struct UndoCommand {};
 /// Does again what was taken back last.
 struct RedoCommand {};
 
-using Command =
-    std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand, PinCommand,
-                 EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand,
-                 ToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand,
-                 LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, LatticeCommand, RefineCommand,
-                 ElevateCommand, CoarsenCommand, UndoCommand, RedoCommand>;
+using Command = std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand,
+                             PinCommand, EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand,
+                             SeamsCommand, ReleaseCommand, ToolCommand, RemoveCommand, MoveCommand, TurnCommand,
+                             ScaleCommand, ForceCommand, LoadCommand, LimitCommand, EvolveCommand, StepCommand,
+                             StrokeCommand, DragCommand, RelaxCommand, LatticeCommand, PointsCommand, WeightsCommand,
+                             KnotsCommand, RefineCommand, ElevateCommand, CoarsenCommand, UndoCommand, RedoCommand>;
 
 }  // namespace knead

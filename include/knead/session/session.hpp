@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct StepRecord {
   bool converged = true;
   bool limited = false;  ///< the limit holds something back
   std::string note;      ///< what stood in the way, and what would help
+
+  friend bool operator==(const StepRecord&, const StepRecord&) = default;
 };
 
 /// A constraint that was asked for and is kept until it is released.
@@ -47,10 +50,11 @@ struct PlacedForce {
   int surface = 0;
 };
 
-/// What a session knows about one surface. `opened`, `reference`, `rest` and `current` share their knots and weights.
+/// What a session knows about one surface. `reference`, `rest` and `current` share their knots and weights, and
+/// `opened` shares them too unless they were edited since (`weights`, `knots`); the domain is always the same.
 struct SurfaceState {
   std::string id, name, unit;
-  std::shared_ptr<const Surface> opened;     ///< as it came, on the present net
+  std::shared_ptr<const Surface> opened;     ///< as it came, on the present net if it has the present basis
   std::shared_ptr<const Surface> reference;  ///< what the units of the model are taken from
   std::shared_ptr<const Surface> rest;       ///< what displacements are measured from
   std::shared_ptr<const Surface> current;
@@ -116,17 +120,27 @@ class Session {
 
   /// Energy of the selected surfaces as they stand, normalised units; 0 without a selection.
   [[nodiscard]] Expected<double> energy();
-  /// max |S − S_opened| of one surface, file units.
+  /// max |S − S_opened| of one surface, file units; accuracy as `largest_distance` (spline/extremum.hpp).
   [[nodiscard]] double largest_displacement(int surface) const;
-  /// Control points of one surface that are no longer where they were opened, bit for bit.
+  /// Control points of one surface that are no longer where they were opened, or no longer weigh as much, bit for bit;
+  /// all of them where its knots are others.
   [[nodiscard]] int moved_control_points(int surface) const;
   /// The document's file with the present surfaces.
   [[nodiscard]] Expected<std::string> save() const;
+
+  /// All of the session but the document's file, as bytes: every state of the history with every number as it is, and
+  /// the commands. What states share is written once. Where the surfaces of the history need more than `history_bytes`
+  /// the oldest states are left out: their commands stay in the journal, but undo goes back no further.
+  [[nodiscard]] std::string snapshot(std::size_t history_bytes = std::size_t{64} << 20U) const;
+  /// The session that `snapshot` was taken of, bit for bit, undo and redo included; nothing is computed. Errors
+  /// (input): bytes that are damaged, of another version, or of a document with other surfaces.
+  [[nodiscard]] static Expected<Session> restore(Document document, std::string_view snapshot);
 
  private:
   struct ModelCache;
 
   Document document_;
+  std::vector<Command> earlier_;  // of a history that was restored in part: they stand, and cannot be taken back
   std::vector<std::shared_ptr<const SessionState>> states_;  // one more than entries_
   std::vector<std::vector<Command>> entries_;                // what undo takes back at once
   std::size_t position_ = 0;

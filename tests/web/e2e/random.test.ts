@@ -19,7 +19,7 @@ it('survives 200 random actions of a user', async () => {
   const { page } = studio;
   const random = dice(20261121);
   const place = () => spot(page, (random() - 0.5) * 260, (random() - 0.5) * 200);
-  const keys = ['b', 'u', 'g', 'v', 't', 'p', 'f', 'z', '.', '1', '2', '3', '0', '4', '[', ']', 'Control+z', 'Control+Shift+z', 'Escape', '?',
+  const keys = ['b', 'u', 's', 'g', 'e', 'i', 'a', 'd', 'v', 't', 'p', 'f', 'z', '.', '1', '2', '3', '0', '4', '[', ']', 'Control+z', 'Control+Shift+z', 'Escape', '?',
     'm', 'n', 'k', 'Delete', 'Space'];
   await page.locator('.panel').evaluateAll((all) => all.forEach((e) => ((e as HTMLDetailsElement).open = true)));
   await page.locator('select[aria-label=Detail]').selectOption('48');

@@ -1,4 +1,7 @@
-import { type Command, EngineError, type Field, fields, type Picture, type SessionInfo, type StepInfo, type SurfaceNumbers } from './session_types';
+import {
+  type Command, EngineError, type Field, fields, type MeshFormat, meshFormats, type Picture, type SessionInfo, type StepInfo,
+  type SurfaceNumbers,
+} from './session_types';
 import { wasiImports } from './wasi';
 
 interface Exports {
@@ -9,6 +12,8 @@ interface Exports {
   knead_text_size(): number;
   knead_open(nameSize: number): number;
   knead_fresh(): number;
+  knead_restore(sourceSize: number, nameSize: number): number;
+  knead_snapshot(historyBytes: number): number;
   knead_execute(join: number): number;
   knead_state(): number;
   knead_steps(first: number): number;
@@ -20,25 +25,21 @@ interface Exports {
   knead_buffer_size(which: number): number;
   knead_control_points(surface: number): number;
   knead_surface(surface: number): number;
+  knead_mesh(format: number, detail: number): number;
 }
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
 export class Engine {
-  private constructor(private readonly wasm: Exports, readonly module: WebAssembly.Module) {}
+  private constructor(private readonly wasm: Exports) {}
 
   static async load(bytes: BufferSource | Promise<Response>): Promise<Engine> {
     const module =
       bytes instanceof Promise ? await WebAssembly.compileStreaming(bytes) : await WebAssembly.compile(bytes);
-    return Engine.start(module);
-  }
-
-  /** A session of its own, with code that all sessions of the module share. */
-  static async start(module: WebAssembly.Module): Promise<Engine> {
     let wasm: Exports | undefined;
     const instance = await WebAssembly.instantiate(module, wasiImports(module, () => wasm!.memory));
     wasm = instance.exports as unknown as Exports;
     wasm._initialize();
-    return new Engine(wasm, module);
+    return new Engine(wasm);
   }
 
   /** Bytes of linear memory: it grows, and never shrinks. */
@@ -77,6 +78,22 @@ export class Engine {
     return this.json(this.wasm.knead_steps(first)) as StepInfo[];
   }
 
+  /** All of the session as bytes: its history goes back as far as `historyBytes` of shapes. */
+  snapshot(historyBytes: number): Uint8Array {
+    return this.bytes(this.wasm.knead_snapshot(historyBytes));
+  }
+
+  /** The session of a snapshot, with undo and redo; nothing is computed. `source`: the STEP file it began with. */
+  restore(source: Uint8Array | null, name: string, snapshot: Uint8Array): void {
+    const nameBytes = new TextEncoder().encode(name), sourceSize = source?.length ?? 0;
+    const all = new Uint8Array(sourceSize + nameBytes.length + snapshot.length);
+    if (source) all.set(source);
+    all.set(nameBytes, sourceSize);
+    all.set(snapshot, sourceSize + nameBytes.length);
+    this.give(all);
+    this.json(this.wasm.knead_restore(sourceSize, nameBytes.length));
+  }
+
   /** The script of everything that stands, one command per line. */
   journal(): string {
     return new TextDecoder().decode(this.bytes(this.wasm.knead_journal()));
@@ -93,6 +110,11 @@ export class Engine {
   /** All numbers of a surface as it is now, in full precision. */
   surface(surface: number): SurfaceNumbers {
     return this.json(this.wasm.knead_surface(surface)) as SurfaceNumbers;
+  }
+
+  /** All surfaces as one mesh file, with about `detail` grid lines per direction. */
+  mesh(format: MeshFormat, detail: number): Uint8Array {
+    return this.bytes(this.wasm.knead_mesh(meshFormats.indexOf(format), detail));
   }
 
   paint(surface: number, detail: number, field: Field, opened = false): Picture {

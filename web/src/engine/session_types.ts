@@ -24,6 +24,8 @@ export interface SurfaceInfo {
   rest: 'shape' | 'none';
   hold: number;
   pins: number;
+  /** The pinned control points, [i, j]. */
+  pinned: [number, number][];
   constraints: Command[];
   moved: number;
 }
@@ -118,7 +120,7 @@ export class EngineError extends Error {
   }
 }
 
-export const fields = ['none', 'deviation', 'mean', 'gaussian', 'gap'] as const;
+export const fields = ['none', 'deviation', 'mean', 'gaussian', 'gap', 'energy'] as const;
 export type Field = (typeof fields)[number];
 
 /** A surface to draw; positions relative to the session's origin. */

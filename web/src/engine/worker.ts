@@ -1,7 +1,6 @@
 import { Engine } from './engine';
 import type { PaintSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo } from './session_types';
-import { warmUp } from './warm_up';
 import wasmUrl from './knead_studio.wasm?url';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
@@ -14,6 +13,7 @@ let frameDrawn = true;
 let frameDue = false;
 let shownSteps = 0;
 let computeTime = 0;
+let unkept = 0;
 let quietSteps = 0;
 
 const post = (reply: Reply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
@@ -37,6 +37,7 @@ function execute(engine: Engine, commands: Command[], join: boolean): void {
     }
   } finally {
     computeTime = performance.now() - start;
+    unkept += computeTime;
   }
 }
 
@@ -57,7 +58,7 @@ function sendFrame(engine: Engine): void {
   frameDrawn = false;
   const frame = {
     state, pictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no',
-    computeTime, paintTime: performance.now() - start, memory: engine.memorySize,
+    computeTime, paintTime: performance.now() - start, memory: engine.memorySize, unkept,
   };
   post(
     { kind: 'frame', frame },
@@ -92,6 +93,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       playing = 'no';
       shownSteps = 0;
       computeTime = 0;
+      const start = performance.now();
       if (request.kind === 'open') engine.openStep(request.bytes, request.name);
       else engine.fresh(request.name);
       const commands =
@@ -99,6 +101,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
         : request.script ? (JSON.parse(request.script) as { commands: Command[] }).commands
         : [];
       for (const command of commands) engine.execute(command);
+      unkept = performance.now() - start;
       sendFrame(engine);
       break;
     }
@@ -131,6 +134,22 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     case 'save':
       post({ kind: 'done', id, bytes: engine.save() });
       return;
+    case 'mesh':
+      post({ kind: 'done', id, bytes: engine.mesh(request.format, request.detail) });
+      return;
+    case 'restore':
+      engine.restore(request.source, request.name, request.snapshot);
+      playing = 'no';
+      shownSteps = computeTime = unkept = 0;
+      sendFrame(engine);
+      break;
+    case 'snapshot': {
+      const text = engine.journal();
+      const bytes = engine.snapshot(request.historyBytes);
+      if (request.kept) unkept = 0;
+      post({ kind: 'done', id, bytes, text }, [bytes.buffer as ArrayBuffer]);
+      return;
+    }
     case 'surface':
       post({ kind: 'done', id, text: JSON.stringify(engine.surface(request.surface)) });
       return;
@@ -162,9 +181,6 @@ self.onmessage = async (event: MessageEvent<{ id: number; request: Request }>) =
 };
 
 engineLoaded.then(
-  (engine) => {
-    post({ kind: 'ready' });
-    void warmUp(engine.module).catch(() => {}); // nothing depends on it; what is wrong the session will say
-  },
+  () => post({ kind: 'ready' }),
   (error) => post({ kind: 'failed', id: 0, error: errorInfo(error) }),
 );

@@ -99,6 +99,7 @@ export class KnotFields {
         : change.kind === 'command' ? `Edited: ${change.about}.` : `Edited, for looking only: ${change.why}.`;
     this.message.classList.toggle('error', model.error !== '');
     this.message.textContent = model.error ? model.error[0]!.toUpperCase() + model.error.slice(1) : about;
+    this.message.title = this.message.textContent;
   }
 
   /** What is pointed at, in words: a function, or two and where both are. */

@@ -48,6 +48,7 @@ export class KnotHandles {
     }
     while (this.lines.children.length < all.length) this.lines.append(s('line'));
     while (this.handles.children.length < all.length) this.handles.append(this.make());
+    this.lines.classList.toggle('crowded', all.length * 4 > frame.right - margin.left);
     all.forEach((g, k) => set(this.lines.children[k]!, { x1: frame.x(g.value), x2: frame.x(g.value), y1: margin.top, y2: y }));
     const focused = [...this.handles.children].indexOf(document.activeElement as SVGGElement);
     all.forEach((g, k) => this.show(this.handles.children[k] as SVGGElement, g));
@@ -87,17 +88,22 @@ export class KnotHandles {
       'aria-valuetext': `${value}, ${copies}`, 'aria-valuemin': finite(low), 'aria-valuemax': finite(high) });
     handle.classList.toggle('active', model.active >= first && model.active < first + count);
     set(handle, { transform: `translate(${x.toFixed(2)} ${y})` });
-    if (handle.children.length > 0 && handle.getAttribute('data-drawn') === `${count}`) {
+    // Many knots have small dots, without the rings that tell those of a few apart.
+    const crowded = model.now.knots.length * 6 > frame.right - margin.left;
+    const atEnd = x > frame.width - 44;
+    const drawn = `${count} ${crowded} ${atEnd}`;
+    if (handle.getAttribute('data-drawn') === drawn) {
       handle.firstElementChild!.textContent = tip(value, copies);
       return;
     }
-    set(handle, { 'data-drawn': count });
+    set(handle, { 'data-drawn': drawn });
     const gap = Math.min(8.5, 27 / Math.max(1, count - 1));
+    handle.classList.toggle('plain', crowded || gap < 6);
     handle.replaceChildren(
       s('title', {}, tip(value, copies)),
       s('rect', { class: 'lab-hit', x: -10, y: -13, width: 20, height: 44, fill: 'transparent' }),
-      ...Array.from({ length: count }, (_, k) => s('circle', { cx: 0, cy: k * gap, r: 4 })),
-      ...(count > 4 ? [s('text', { x: 8, y: 4 }, `×${count}`)] : []));
+      ...Array.from({ length: count }, (_, k) => s('circle', { cx: 0, cy: k * gap, r: crowded ? 2 : gap < 6 ? 3 : 4 })),
+      ...(count > 4 ? [s('text', { x: atEnd ? -7 : 7, y: 31, 'text-anchor': atEnd ? 'end' : 'start' }, `×${count}`)] : []));
   }
 
   private groupOf(handle: Element): Group {

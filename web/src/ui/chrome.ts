@@ -1,38 +1,35 @@
 import type { App, Notice } from '../app';
-import { scenes } from '../gallery';
 import { openLab } from '../lab/door';
-import type { Mode } from '../view/brush';
+import { modes } from '../view/modes';
 import { h, icon, iconButton } from './dom';
+import { galleryMenu } from './gallery_menu';
+import { saveEntries } from './save_menu';
+import { shortcuts } from './shortcuts';
 import { toggleTour } from './tour';
 
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
 
 export function topBar(app: App): HTMLElement {
-  const picker = h('input', { type: 'file', accept: '.step,.stp,.p21,.knead,.json', hidden: true, aria: { label: 'File to open' } });
+  const picker = h('input', { type: 'file', accept: '.step,.stp,.p21,.3dm,.knead,.json', hidden: true, aria: { label: 'File to open' } });
   picker.addEventListener('change', () => {
     const file = picker.files?.[0];
     picker.value = '';
-    if (file) void app.openFile(file);
+    if (file) void app.documents.openFile(file);
   });
   const name = h('span', { class: 'document-name' });
+  const unit = h('span', { class: 'document-unit', title: 'Unit of the document: lengths without a unit are in it' });
   const undo = iconButton('undo', 'Undo (Ctrl+Z)', () => void app.execute([{ do: 'undo' }]));
   const redo = iconButton('redo', 'Redo (Ctrl+Shift+Z)', () => void app.execute([{ do: 'redo' }]));
   const play = iconButton('play', 'Play or pause (Space)', () => app.togglePlay());
   const step = iconButton('step', 'One step (.)', () => void app.execute([{ do: 'step' }]));
   const rest = iconButton('rest', 'Run to rest (R)', () => app.togglePlay(true));
   const four = iconButton('four', 'Four views or one (4)', () => app.setDisplay({ fourViews: !app.display.fourViews }));
-  const save = menu('save', 'Save', 'Save', [
-    ['STEP file', 'the file as it was opened, with the sculpted surfaces in it', () => void app.saveStep()],
-    ['Knead document', 'where it began and every command, to go on later', () => void app.saveKnead()],
-    ['Script', 'the commands alone, for the command line', () => void app.saveScript()],
-    ['Picture', 'the view as PNG', () => void app.savePicture()],
-  ]);
-  const gallery = menu('gallery', 'Gallery of ready scenes', 'Gallery', scenes.map((s) => [s.name, s.about, () => void s.open(app)]));
+  const save = menu('save', 'Save', 'Save', saveEntries(app));
   const bar = h('header', { class: 'top' },
     h('span', { class: 'brand' }, 'Knead'),
-    iconButton('open', 'Open a STEP file or Knead document (O)', () => picker.click(), 'Open'), gallery, save, picker,
+    iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), save, picker,
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
-    h('span', { class: 'spacer' }), name, h('span', { class: 'spacer' }),
+    h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
     iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
     iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
     iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
@@ -48,8 +45,9 @@ export function topBar(app: App): HTMLElement {
     play.replaceChildren(icon(app.playing() ? 'pause' : 'play'));
     play.classList.toggle('on', app.playing());
     four.classList.toggle('on', app.display.fourViews);
-    name.textContent = state ? app.source.name : '';
-    document.title = state ? `${app.source.name} – Knead studio` : 'Knead studio';
+    name.textContent = state ? app.documents.name : '';
+    unit.textContent = state?.surfaces[0]?.unit ?? '';
+    document.title = state ? `${app.documents.name} – Knead studio` : 'Knead studio';
   });
   return bar;
 }
@@ -69,15 +67,6 @@ function menu(iconName: string, label: string, text: string, entries: [string, s
   });
   return element;
 }
-
-export const modes: [Mode, string, string][] = [
-  ['look', 'Look and select (V)', 'v'],
-  ['push', 'Push: a ball into the clay (B). Alt pulls', 'b'],
-  ['pull', 'Pull: a ball from behind (U). Alt pushes', 'u'],
-  ['grab', 'Grab a point and drag it (G)', 'g'],
-  ['place', 'Place a tool (T)', 't'],
-  ['pin', 'Pin control points or surface points (P)', 'p'],
-];
 
 export function toolRail(app: App): HTMLElement {
   const buttons = modes.map(([mode, label]) => {
@@ -116,14 +105,6 @@ export function notices(app: App): HTMLElement {
   return stack;
 }
 
-const shortcuts: [string, string][] = [
-  ['Drag', 'brush on the surface, elsewhere orbit'], ['Right, middle drag', 'pan'], ['Wheel', 'zoom to the pointer'],
-  ['Alt with a brush', 'pull instead of push'], ['Shift-wheel, [ ]', 'size of the brush'], ['Esc', 'takes the stroke back'],
-  ['V B U G T P', 'look, push, pull, grab, tool, pin'], ['Space', 'play or pause'], ['.', 'one step'], ['R', 'run to rest'],
-  ['Ctrl+Z, Shift: redo', 'undo'], ['Ctrl+S', 'save the STEP file'], ['O', 'open'], ['F', 'fit everything'],
-  ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'perspective'], ['4', 'four views'], ['M N K', 'move, turn, resize a tool'],
-  ['Delete', 'take the tool away'], ['C, held', 'the shape as it was opened'], ['Z', 'zebra stripes'], ['L', 'basis functions and Gramians'], ['?', 'this list'],
-];
 
 export function toggleShortcuts(app: App): void {
   const present = document.querySelector('.shortcuts');
@@ -134,6 +115,6 @@ export function toggleShortcuts(app: App): void {
   const close = () => element.remove();
   const element = h('section', { class: 'shortcuts', aria: { label: 'Shortcuts' } },
     h('header', {}, h('h2', {}, 'Shortcuts'), iconButton('close', 'Close', close)),
-    h('dl', {}, ...shortcuts.flatMap(([keys, what]) => [h('dt', {}, keys), h('dd', {}, what)])));
+    h('dl', {}, ...shortcuts(app).flatMap(([keys, what]) => [h('dt', {}, keys), h('dd', {}, what)])));
   app.viewer.element.append(element);
 }

@@ -1,3 +1,5 @@
+import { parseNumber } from './units';
+
 /** Small helpers that make elements; no markup is ever parsed, so that nothing in a file can become code. */
 
 type Child = Node | string | null | undefined | false;
@@ -39,6 +41,11 @@ const paths: Record<string, string> = {
   grab: 'M4 12h16M12 4v16M4 12l3-3M4 12l3 3M20 12l-3-3M20 12l-3 3M12 4L9 7M12 4l3 3M12 20l-3-3M12 20l3-3',
   pin: 'M12 21s-6-6.500-6-11a6 6 0 0112 0c0 4.500-6 11-6 11zM12 12a2 2 0 100-4 2 2 0 000 4z',
   place: 'M12 20a7 7 0 100-14 7 7 0 000 14zM5 13h14M19 3v5M16.500 5.500h5',
+  smooth: 'M3 15c3-7 5-7 7 0M13 13c1.500-1.500 3-2 8-2M3 20h18M5 5h10M12.500 2.500L15 5l-2.500 2.500',
+  points: 'M4 17c5 0 5-10 16-10M6 15.500a1.700 1.700 0 11-3.400 0 1.700 1.700 0 013.400 0zM13.700 11.500a1.700 1.700 0 11-3.400 0 1.700 1.700 0 013.400 0zM21.400 7a1.700 1.700 0 11-3.400 0 1.700 1.700 0 013.400 0z',
+  freeze: 'M12 3v18M4.200 7.500l15.600 9M19.800 7.500l-15.600 9M9.500 4.500L12 7l2.500-2.500M9.500 19.500L12 17l2.500 2.500',
+  material: 'M14 4l6 6-8 8-6-6zM6 12l-2.500 5.500c-.5 1.500 1 3 2.500 2.500L12 18',
+  edges: 'M4 20V6l14-2M4 20l14-3M4 6v14M18 4v13M2.500 6h3M2.500 20h3',
   trash: 'M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13',
   close: 'M6 6l12 12M18 6L6 18',
   move: 'M12 3v18M3 12h18M12 3L9.500 5.500M12 3l2.500 2.500M12 21l-2.500-2.500M12 21l2.500-2.500M3 12l2.500-2.500M3 12l2.500 2.500M21 12l-2.500-2.500M21 12l-2.500 2.500',
@@ -118,7 +125,4 @@ export function format(value: number): string {
   return String(Number(value.toPrecision(4)));
 }
 
-export function plainNumber(text: string): number | null {
-  const value = Number(text.trim().replace(',', '.'));
-  return text.trim() !== '' && Number.isFinite(value) ? value : null;
-}
+export const plainNumber = parseNumber;

@@ -1,6 +1,8 @@
 import type { App } from '../app';
 import { openLab } from '../lab/door';
-import { modes, toggleShortcuts } from './chrome';
+import { modes } from '../view/modes';
+import type { Side } from '../view/viewport';
+import { toggleShortcuts } from './chrome';
 
 export function listenToKeys(app: App): void {
   document.addEventListener('keyup', (event) => {
@@ -17,18 +19,18 @@ export function listenToKeys(app: App): void {
 /** True where the key meant something. */
 function handle(app: App, event: KeyboardEvent): boolean {
   const key = event.key.toLowerCase();
-  const viewport = app.viewer.viewports[0]!;
+  const viewport = app.viewer.main;
   if (event.ctrlKey || event.metaKey) {
     if (key === 'z' || key === 'y') {
       const again = key === 'y' || event.shiftKey;
-      if (!app.playing() && !app.brush.active && (again ? app.state?.redo : app.state?.undo)) void app.execute([{ do: again ? 'redo' : 'undo' }]);
+      if (!app.playing() && !app.hand.active && (again ? app.state?.redo : app.state?.undo)) void app.execute([{ do: again ? 'redo' : 'undo' }]);
       return true;
     }
-    if (key === 's') void app.saveStep();
+    if (key === 's') void app.saving.step();
     return key === 's';
   }
   if (key === 'escape') {
-    if (app.brush.active) void app.brush.cancel();
+    if (app.hand.active) void app.hand.pointers.cancel();
     else if (document.querySelector('.shortcuts')) toggleShortcuts(app);
     else if (app.viewer.selectedTool) {
       app.viewer.selectTool(null);
@@ -39,6 +41,11 @@ function handle(app: App, event: KeyboardEvent): boolean {
   if (event.key === '?') {
     toggleShortcuts(app);
     return true;
+  }
+  if (app.hand.points.active) {
+    const lock = ({ x: 'x', y: 'y', z: 'z', n: 'normal' } as const)[key];
+    if (lock) app.hand.points.setLock(lock);
+    return true; // nothing else while points are in the hand
   }
   const mode = modes.find(([, , k]) => k === key);
   if (mode && !event.altKey) {
@@ -52,8 +59,11 @@ function handle(app: App, event: KeyboardEvent): boolean {
   };
   // Digits by their place on the keyboard, so that Shift does not change them.
   const view = { Digit1: ['front', 'back'], Digit2: ['right', 'left'], Digit3: ['top', 'bottom'] }[event.code];
-  if (view) viewport.turn(view[event.shiftKey ? 1 : 0] as 'front');
-  else if (event.code === 'Digit0') viewport.turn('perspective');
+  if (view) viewport.turn(view[event.shiftKey ? 1 : 0] as Side);
+  else if (event.code === 'Digit0') {
+    if (viewport.axial) app.setDisplay({ view: 'perspective' });
+    app.viewer.viewports[0]!.turn('perspective');
+  } else if (event.code === 'Digit5') app.setDisplay({ view: viewport.axial ? 'perspective' : 'top', fourViews: false });
   else if (event.code === 'Digit4') app.setDisplay({ fourViews: !app.display.fourViews });
   else if (key === ' ' && ready) {
     if (event.target instanceof HTMLButtonElement) return false;

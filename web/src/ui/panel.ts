@@ -3,13 +3,16 @@ import { h } from './dom';
 
 /**
  * A section of the side bar. `draw` makes its content anew when what it depends on, `key`, has changed, but never under
- * the user's hands: not while a control in it has the focus.
+ * the user's hands: not while a control in it has the focus. Hidden while it has nothing to say (`shown`).
  */
-export function panel(app: App, title: string, key: (app: App) => unknown, draw: (app: App) => (Node | null)[], open = true): HTMLElement {
+export function panel(app: App, title: string, key: (app: App) => unknown, draw: (app: App) => (Node | null)[], open = true,
+                      shown: (app: App) => boolean = () => true): HTMLElement {
   const body = h('div', { class: 'panel-body' });
   const element = h('details', { class: 'panel', open, data: { panel: title } }, h('summary', {}, title), body);
   let drawn = '';
   const update = () => {
+    element.hidden = !shown(app);
+    if (element.hidden || !element.open) return;
     const now = JSON.stringify(key(app)) ?? '';
     if (now === drawn) return;
     const focus = document.activeElement;
@@ -22,6 +25,7 @@ export function panel(app: App, title: string, key: (app: App) => unknown, draw:
     if (name) body.querySelector<HTMLElement>(`[aria-label="${CSS.escape(name)}"]`)?.focus({ preventScroll: true });
   };
   app.onChange.push(update);
+  element.addEventListener('toggle', update);
   update();
   return element;
 }

@@ -1,9 +1,8 @@
 import type { App } from '../app';
-import type { Command, Field } from '../engine/session_types';
-import type { Display } from '../view/display';
-import { field, format, h, numberInput, select, slider, toggle } from './dom';
+import type { Command } from '../engine/session_types';
+import { field, h, numberInput, toggle } from './dom';
 import { note, panel, row } from './panel';
-import { parseLength } from './units';
+import { energyChart } from './plot';
 
 interface Preset {
   name: string;
@@ -38,10 +37,12 @@ export function materialPanel(app: App): HTMLElement {
         { do: 'material', alpha: [p.alpha, 0, p.alpha], beta: [p.beta, p.beta, p.beta] },
         { ...app.state!.evolve, do: 'evolve', lambda: p.lambda, ...(app.state!.evolve.mode === 'static' ? { mode: 'acm' } : {}) } as Command,
       ]), p.about))),
+      note(presets.find(fits) ? `${presets.find(fits)!.name} ${presets.find(fits)!.about}.` : s.alpha.includes(null) || s.beta.includes(null)
+        ? 'Varies over the surface: it was painted.' : 'A material of your own.'),
       field('Stretch α', numberInput('Stretch', one(s.alpha), (a) => set({ alpha: [a, 0, a] })), 'Resistance to stretch (Eq. 4.8)'),
       field('Bend β', numberInput('Bend', one(s.beta), (b) => set({ beta: [b, b, b] })), 'Resistance to bending (Eq. 4.8)'),
-      app.state!.evolve.mode === 'dynamic' ? field('Mass', numberInput('Mass', s.mass, (mass) => set({ mass }))) : null,
-      app.state!.evolve.mode === 'dynamic' ? field('Damping', numberInput('Damping', s.damping, (damping) => set({ damping }))) : null,
+      field('Mass', numberInput('Mass', s.mass, (mass) => set({ mass })), 'Per area: for swinging, and for gravity'),
+      field('Damping', numberInput('Damping', s.damping, (damping) => set({ damping })), 'Force per velocity and area: for swinging'),
       row(
         toggle('Keeps its shape', s.rest === 'shape', (on) => void app.execute([{ do: 'rest', mode: on ? 'shape' : 'none' }]),
           'At rest in its own shape; otherwise, as in the thesis, it shrinks without forces'),
@@ -52,7 +53,10 @@ export function materialPanel(app: App): HTMLElement {
   });
 }
 
+const button = (label: string, title: string, onclick: () => void) => h('button', { class: 'button small', type: 'button', title, onclick }, label);
+
 export function evolutionPanel(app: App): HTMLElement {
+  const chart = energyChart(app);
   return panel(app, 'Evolution', (a) => [a.state?.evolve, a.state?.load, a.state?.refine], () => {
     const { state } = app;
     if (!state) return [];
@@ -69,40 +73,21 @@ export function evolutionPanel(app: App): HTMLElement {
       state.evolve.mode === 'dynamic' ? field('Time step', numberInput('Time step', state.evolve.time_step, (time_step) => evolve({ time_step }))) : null,
       field('Gravity z', numberInput('Gravity z', gravity[2] ?? 0, (z) => load({ gravity: [gravity[0] ?? 0, gravity[1] ?? 0, z] }))),
       field('Pressure', numberInput('Pressure', state.load.pressure as number, (pressure) => load({ pressure })), 'Along the normal'),
+      row(
+        button('Play', 'Play or pause (Space)', () => app.togglePlay()),
+        button('Step', 'One step (.)', () => void app.execute([{ do: 'step' }])),
+        button('Run to rest', 'Steps until nothing moves (R)', () => app.togglePlay(true)),
+      ),
+      chart,
       row(toggle('Refine as needed', state.refine === 'auto', (on) => void app.execute([{ do: 'refine', permission: on ? 'auto' : 'never' }]),
         'Steps may halve spans under a tool that the net is too coarse for')),
     ];
   }, false);
 }
 
-const fieldNames: readonly (readonly [Field, string])[] = [
-  ['none', 'Plain'], ['deviation', 'Deviation'], ['mean', 'Mean curvature'], ['gaussian', 'Gaussian curvature'], ['gap', 'Distance to tools'],
-];
-
-export function displayPanel(app: App): HTMLElement {
-  return panel(app, 'Display', (a) => [{ ...a.display, limit: a.display.field === 'none' ? 0 : format(a.display.limit) }], () => {
-    const d = app.display;
-    const chip = (name: keyof Display, label: string, tip?: string) =>
-      toggle(label, d[name] as boolean, (on) => app.setDisplay({ [name]: on }), tip);
-    return [
-      row(chip('isocurves', 'Isocurves'), chip('knotLines', 'Knot lines'), chip('points', 'Points', 'Control points; held ones in orange'),
-        chip('net', 'Net', 'Control net'), chip('normals', 'Normals'), chip('zebra', 'Zebra', 'Reflection stripes: kinks show curvature that jumps'),
-        chip('grid', 'Grid'), chip('surface', 'Surface')),
-      field('Colour', select('Colour by', fieldNames, d.field, (f) => app.setDisplay({ field: f, zebra: false }))),
-      d.field !== 'none' ? field('± limit', row(
-        numberInput('Limit of the colours', d.limit, (limit) => app.setDisplay({ limit: Math.abs(limit) || d.limit, autoLimit: false }),
-          (t) => parseLength(t, app.state?.surfaces[0]?.unit ?? 'mm')),
-        toggle('Auto', d.autoLimit, (autoLimit) => app.setDisplay({ autoLimit })))) : null,
-      d.points ? field('Point size', slider('Point size', d.pointSize, [2, 14], (pointSize) => app.setDisplay({ pointSize }))) : null,
-      field('Detail', select('Detail', [['48', 'Coarse'], ['96', 'Normal'], ['192', 'Fine']], String(d.detail) as '96',
-        (v) => app.setDisplay({ detail: Number(v) })), 'Lines of the picture per direction; the surface itself is exact'),
-    ];
-  });
-}
-
 export function historyPanel(app: App): HTMLElement {
-  return panel(app, 'History', (a) => (a.playing() || a.brush.active ? null : [a.state?.notes, a.state?.last?.note, a.changes]), () => {
-    if (app.playing() || app.brush.active) return [note('…')];
+  return panel(app, 'History', (a) => (a.playing() || a.hand.active ? null : [a.state?.notes, a.state?.last?.note, a.changes]), () => {
+    if (app.playing() || app.hand.active) return [note('…')];
     const list = h('ol', { class: 'history' });
     void app.client.journal().then((text) => {
       const { commands } = JSON.parse(text) as { commands: Command[] };

@@ -1,6 +1,6 @@
 import type { App } from '../app';
 import type { ToolInfo } from '../engine/session_types';
-import { field, format, h, iconButton, numberInput, select, slider, toggle } from './dom';
+import { field, format, h, iconButton, numberInput, select, toggle } from './dom';
 import { note, panel, row } from './panel';
 import { parseLength } from './units';
 
@@ -38,34 +38,10 @@ export function surfacesPanel(app: App): HTMLElement {
   });
 }
 
-export function brushPanel(app: App): HTMLElement {
-  return panel(app, 'Brush', (a) => [a.brush.mode, a.brush.settings, unitOf(a)], () => {
-    const { settings } = app.brush;
-    return [
-      field('Radius', row(
-        slider('Brush radius', Math.log(settings.radius / app.diagonal), [Math.log(0.005), Math.log(0.5)], (v) => {
-          settings.radius = Math.exp(v) * app.diagonal;
-          app.changed();
-        }),
-        numberInput('Brush radius in units', settings.radius, (v) => {
-          if (v > 0) settings.radius = v;
-          app.changed();
-        }, length(app)),
-      ), 'Shift-wheel over the surface, or the wheel while pressing; [ and ]'),
-      field('Depth', row(
-        slider('Brush depth', settings.strength, [0.02, 1], (v) => {
-          settings.strength = v;
-          app.changed();
-        }),
-        h('output', { class: 'number' }, `${Math.round(100 * settings.strength)} %`),
-      ), 'How far the ball goes in, in radii'),
-    ];
-  });
-}
-
-const shapes = [
+export const shapes = [
   ['sphere', 'Sphere'], ['ellipsoid', 'Ellipsoid'], ['box', 'Box'], ['cylinder', 'Cylinder'], ['cone', 'Cone'], ['capsule', 'Capsule'],
   ['torus', 'Torus'], ['plane', 'Plane'], ['bowl', 'Bowl'], ['superellipsoid', 'Superellipsoid'], ['supertoroid', 'Supertoroid'],
+  ['surface', 'Surface of the document'],
 ] as const;
 
 const lengthsOf: Record<string, ('radius' | 'minor' | 'height' | 'top_radius' | 'rounding' | 'thickness')[]> = {
@@ -98,7 +74,7 @@ function remade(tool: ToolInfo, change: Record<string, unknown>): Record<string,
 
 export function toolsPanel(app: App): HTMLElement {
   return panel(app, 'Tools', (a) => [a.state?.tools, a.viewer.selectedTool, a.viewer.viewports[0]!.gizmo.mode], () => {
-    const tools = app.state?.tools.filter((t) => !(app.brush.active && t.name === 'brush')) ?? [];
+    const tools = app.state?.tools.filter((t) => !(app.hand.active && t.name === 'brush')) ?? [];
     const chosen = tools.find((t) => t.name === app.viewer.selectedTool);
     const pick = (name: string | null) => {
       app.viewer.selectTool(name);
@@ -131,6 +107,7 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
     field('Shape', select('Shape', shapes, tool.shape as (typeof shapes)[number][0], (shape) => change({ shape }))),
     ...(lengthsOf[tool.shape] ?? []).map((name) =>
       number({ radius: 'Radius', minor: 'Tube', height: 'Height', top_radius: 'Top radius', rounding: 'Rounding', thickness: 'Wall' }[name], tool[name] ?? 0, name, true)),
+    ...sizeFields(app, tool, change),
     field('Mode', select('Mode', [['collision', 'Collision'], ['proximity', 'Proximity'], ['imprint', 'Imprint']], tool.mode, (m) => change({ mode: m })),
       'Collision pushes out what has entered; proximity draws from either side; imprint leaves its shape at once'),
     tool.mode === 'proximity'
@@ -140,6 +117,18 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
     number('Friction', tool.friction, 'friction', false, 'Coulomb’s coefficient'),
     number('Plasticity', tool.plasticity, 'plasticity', false, 'Share of the shape that stays when the tool is taken away, 0 to 1'),
     row(toggle('Rigid', tool.rigid, (rigid) => change({ rigid }), 'Raise the stiffness until nothing enters')),
+  ];
+}
+
+/** Semi-axes or half sides, exponents, and where the tool is. */
+function sizeFields(app: App, tool: ToolInfo, change: (what: Record<string, unknown>) => void): (Node | null)[] {
+  const several = (label: string, name: string, values: readonly number[], isLength: boolean, tip: string) =>
+    field(label, row(...values.map((value, k) => numberInput(`${label} ${k + 1}`, value,
+      (v) => change({ [name]: values.map((x, l) => (l === k ? v : x)) }), isLength ? length(app) : undefined))), tip);
+  return [
+    tool.sizes ? several(tool.shape === 'box' ? 'Half sides' : 'Semi-axes', 'sizes', tool.sizes, true, 'Along its own x, y, z') : null,
+    tool.exponents ? several('Exponents', 'exponents', tool.exponents, false, '1 is round, towards 0 boxlike, 2 a diamond') : null,
+    several('Position', 'position', tool.position, true, 'Of its centre'),
   ];
 }
 

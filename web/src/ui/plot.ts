@@ -1,4 +1,5 @@
 import type { App } from '../app';
+import type { StepInfo } from '../engine/session_types';
 import { format, h } from './dom';
 
 const terms = [
@@ -13,9 +14,7 @@ export function statusBar(app: App): HTMLElement {
   const canvas = h('canvas', { class: 'plot', width: 220, height: 44, aria: { label: 'Energy by term over the last steps' } });
   const legend = h('div', { class: 'legend' }, ...terms.map(([name]) => h('span', { class: `key ${name}` }, name)));
   const numbers = h('div', { class: 'numbers' });
-  const colours = h('div', { class: 'colour-bar', hidden: true }, h('span', {}), h('i', {}), h('span', {}));
-  const message = h('div', { class: 'hint' });
-  const element = h('footer', { class: 'status' }, canvas, legend, numbers, h('div', { class: 'spacer' }), colours, message);
+  const element = h('footer', { class: 'status' }, canvas, legend, numbers);
 
   const update = () => {
     const { state, frame } = app;
@@ -36,31 +35,41 @@ export function statusBar(app: App): HTMLElement {
       if (app.framesPerSecond > 0) cells.push(['fps', app.framesPerSecond.toFixed(0), 'Frames per second']);
     }
     numbers.replaceChildren(...cells.map(([name, value, tip]) => h('span', { title: tip }, h('small', {}, name), value)));
-    const coloured = app.display.field !== 'none' && !app.display.zebra;
-    colours.hidden = !coloured;
-    if (coloured) {
-      colours.firstElementChild!.textContent = `−${format(app.display.limit)}`;
-      colours.lastElementChild!.textContent = `+${format(app.display.limit)}`;
-    }
-    const unit = state?.surfaces[0]?.unit ?? '';
-    message.textContent = app.display.grid && state ? `grid ${format(app.viewer.ground.step)} ${unit}` : '';
   };
   app.onChange.push(update);
   return element;
 }
 
-function drawPlot(app: App, canvas: HTMLCanvasElement): void {
+/** The same, larger, with the size of the terms: for the panel. */
+export function energyChart(app: App): HTMLElement {
+  const canvas = h('canvas', { class: 'chart', aria: { label: 'Energy by term, large' } });
+  const values = new Map(terms.map(([name]) => [name, h('output', {})]));
+  const most = h('small', { class: 'chart-most' });
+  const element = h('div', { class: 'energy' }, h('div', { class: 'chart-frame' }, canvas, most),
+    h('div', { class: 'energy-terms' }, ...terms.map(([name]) => h('span', { class: `key ${name}` }, name, values.get(name)!))));
+  app.onChange.push(() => {
+    if (element.offsetParent === null) return; // its panel is closed
+    drawPlot(app, canvas, [244, 84]);
+    const last = app.steps.at(-1);
+    for (const [name, output] of values) output.textContent = last ? format(last[name]) : '–';
+    most.textContent = app.steps.length > 1 ? format(largest(app.steps)) : '';
+  });
+  return element;
+}
+
+const largest = (steps: StepInfo[]) => steps.reduce((most, s) => Math.max(most, s.stretch, s.bend, s.kinetic, s.contact), 0);
+
+function drawPlot(app: App, canvas: HTMLCanvasElement, [width, height] = [220, 44] as [number, number]): void {
   const context = canvas.getContext('2d');
   if (!context) return;
   const scale = Math.min(window.devicePixelRatio, 2);
-  const [width, height] = [220, 44];
   if (canvas.width !== width * scale) [canvas.width, canvas.height] = [width * scale, height * scale];
   context.setTransform(scale, 0, 0, scale, 0, 0);
   context.clearRect(0, 0, width, height);
   const { steps } = app;
   if (steps.length < 2) return;
   const style = getComputedStyle(document.documentElement);
-  const most = Math.max(...steps.flatMap((s) => terms.map(([name]) => s[name])), 1e-300);
+  const most = Math.max(largest(steps), 1e-300);
   for (const [name, colour] of terms) {
     if (steps.every((s) => s[name] === 0)) continue;
     context.beginPath();

@@ -43,7 +43,7 @@ const steps: Step[] = [
   },
   {
     title: 'Look around',
-    text: 'Drag beside the surface to orbit, right drag to pan, wheel to zoom. F fits everything, 4 shows four views.',
+    text: 'Drag beside the surface or with the right button to orbit, with the middle button to pan; the wheel zooms. Fingers and other mouse habits: see Display. F fits everything, 4 shows four views.',
     target: '.top [aria-label^="Four"]',
     done: (app, before) => camera(app) !== before.camera,
   },

@@ -1,16 +1,20 @@
 import * as THREE from 'three';
 
 import type { Command } from '../engine/session_types';
-import type { Viewer } from './viewer';
+import { brushModes, type Mode } from './modes';
+import type { GridPicker } from './picking';
+import type { PointerTool } from './pointers';
+import { Ring } from './ring';
+import type { Hit, Viewer } from './viewer';
 import type { Viewport } from './viewport';
-
-export type Mode = 'look' | 'push' | 'pull' | 'grab' | 'pin' | 'place';
 
 export interface BrushSettings {
   /** Radius of the ball, file units. */
   radius: number;
-  /** How deep it goes, in radii. */
+  /** How deep it goes, in radii; how much of a bump smoothing takes. */
   strength: number;
+  /** The pressure of a pen lessens the strength. */
+  pressure: boolean;
 }
 
 /** What the pointer asks of the session. */
@@ -32,123 +36,113 @@ export interface BrushActions {
 export const brushName = 'brush';
 const mostSteps = 8; // between two places of the pointer that the session has seen
 
+type Place = Pick<Hit, 'point' | 'normal' | 'fractions'> & { press: number };
+
 interface Stroke {
   viewport: Viewport;
-  pointer: number;
   surface: number;
-  kind: 'ball' | 'grab';
+  kind: 'ball' | 'grab' | 'smooth';
   inward: boolean;
-  frozen: THREE.Mesh[];
+  frozen: (GridPicker | null)[];
   begun: Promise<boolean>;
   start: THREE.Vector3;
   /** Where the ball is for the session. */
-  last: { point: THREE.Vector3; normal: THREE.Vector3 };
+  last: Place;
   at: [number, number];
   cancelled: boolean;
-  moved: boolean;
 }
 
-/** Turns pointer events into strokes: a ball pressed along the surface, or a point dragged. */
-export class Brush {
+/** Strokes: a ball pressed along the surface, smoothing, a point dragged; also places tools and selects by a click. */
+export class Brush implements PointerTool {
   mode: Mode = 'push';
-  settings: BrushSettings = { radius: 1, strength: 0.5 };
+  settings: BrushSettings = { radius: 1, strength: 0.5, pressure: true };
 
   private stroke: Stroke | null = null;
-  private readonly ring: THREE.LineLoop<THREE.BufferGeometry, THREE.LineBasicMaterial>;
-  private press: { x: number; y: number } | null = null;
+  /** Hold-drag: how far the pointer is from where it began, and what it began with. */
+  private sizing: { x: number; y: number; radius: number; strength: number; hit: Hit | null } | null = null;
+  private readonly ring: Ring;
 
   constructor(private readonly viewer: Viewer, private readonly actions: BrushActions) {
-    const circle = Array.from({ length: 64 }, (_, k) => {
-      const a = (2 * Math.PI * k) / 64;
-      return new THREE.Vector3(Math.cos(a), Math.sin(a), 0);
-    });
-    this.ring = new THREE.LineLoop(
-      new THREE.BufferGeometry().setFromPoints(circle),
-      new THREE.LineBasicMaterial({ depthTest: false, transparent: true, opacity: 0.9 }),
-    );
-    this.ring.renderOrder = 20;
-    this.ring.visible = false;
-    viewer.overlay.add(this.ring);
-    for (const viewport of viewer.viewports) this.listen(viewport);
+    this.ring = new Ring(viewer);
   }
 
   get active(): boolean {
-    return this.stroke !== null;
+    return this.stroke !== null || this.sizing !== null;
   }
 
-  private listen(viewport: Viewport): void {
-    const { element } = viewport;
-    // Before the controls of the camera see it.
-    element.addEventListener('pointerdown', (e) => this.down(viewport, e), { capture: true });
-    element.addEventListener('pointermove', (e) => this.move(viewport, e), { capture: true });
-    element.addEventListener('pointerup', (e) => this.up(viewport, e), { capture: true });
-    element.addEventListener('pointercancel', () => void this.cancel(), { capture: true });
-    element.addEventListener('pointerleave', () => this.hover(null));
-    element.addEventListener('wheel', (e) => this.wheel(e), { capture: true, passive: false });
-    element.addEventListener('contextmenu', (e) => e.preventDefault());
-  }
-
-  private wheel(event: WheelEvent): void {
-    if (!this.active && !event.shiftKey) return;
-    event.preventDefault();
-    event.stopImmediatePropagation();
+  wheel(event: WheelEvent): boolean {
+    const brush = brushModes.includes(this.mode);
+    if (!this.stroke && !(brush && (event.shiftKey || event.altKey))) return false;
     const delta = event.deltaY !== 0 ? event.deltaY : event.deltaX;
-    this.settings.radius *= Math.exp(-Math.sign(delta) * 0.12);
+    const factor = Math.exp(-Math.sign(delta) * 0.12);
+    if (event.altKey) this.settings.strength = Math.min(1, Math.max(0.02, this.settings.strength * factor));
+    else this.settings.radius *= factor;
     this.actions.settingsChanged();
+    return true;
   }
 
-  private down(viewport: Viewport, event: PointerEvent): void {
-    if (event.button !== 0 || this.active) return;
-    this.press = { x: event.clientX, y: event.clientY };
-    if (viewport.gizmo.axis !== null && viewport.gizmo.object) return; // the gizmo takes it
-    if (this.mode === 'look' || this.mode === 'pin') return;
+  press(viewport: Viewport, event: PointerEvent): boolean {
+    if (this.mode === 'look' || (!brushModes.includes(this.mode) && this.mode !== 'place')) return false;
     const hit = this.viewer.pick(viewport, event);
-    if (!hit) return;
-    event.stopImmediatePropagation();
-    event.preventDefault();
+    if (event.ctrlKey && this.mode !== 'place') {
+      this.sizing = { x: event.clientX, y: event.clientY, ...this.settings, hit };
+      return true;
+    }
+    if (!hit) return false;
     if (this.mode === 'place') {
       this.actions.place(hit.point, hit.normal);
-      return;
+      return true;
     }
-    viewport.element.setPointerCapture(event.pointerId);
     // The shape at the press is what the pointer moves along, so that a stroke keeps its depth.
-    const frozen = this.viewer.surfaces.map((s) => {
-      const mesh = new THREE.Mesh(s.mesh.geometry.clone(), new THREE.MeshBasicMaterial({ side: THREE.DoubleSide }));
-      mesh.userData.surface = s.mesh.userData.surface;
-      return mesh;
-    });
-    const kind = this.mode === 'grab' ? 'grab' : 'ball';
+    const frozen = this.viewer.pickers;
+    const kind = this.mode === 'grab' ? 'grab' : this.mode === 'smooth' || event.shiftKey ? 'smooth' : 'ball';
     const inward = (this.mode === 'push') !== event.altKey;
+    const last = { ...hit, press: this.pressure(event) };
     const stroke: Stroke = {
-      viewport, pointer: event.pointerId, surface: hit.surface, kind, inward, frozen,
-      begun: Promise.resolve(true), start: hit.point.clone(), last: hit, at: hit.fractions, cancelled: false, moved: false,
+      viewport, surface: hit.surface, kind, inward, frozen, begun: Promise.resolve(true), start: hit.point.clone(), last,
+      at: hit.fractions, cancelled: false,
     };
     this.stroke = stroke;
     stroke.begun = (async () => {
       if (!this.viewer.frame!.state.selection.includes(hit.surface)) await this.actions.select(hit.surface);
-      const first = kind === 'ball' ? this.ball(hit.point, hit.normal, inward) : [this.drag(stroke, new THREE.Vector3())];
-      return this.actions.begin(first);
+      return this.actions.begin(
+        kind === 'ball' ? this.ball(last, inward)
+        : kind === 'smooth' ? this.smooth(stroke, last)
+        : [this.grab(stroke, new THREE.Vector3())]);
     })();
+    return true;
   }
 
-  private move(viewport: Viewport, event: PointerEvent): void {
-    const { stroke } = this;
-    if (!stroke) {
-      if (event.buttons === 0) this.hover(viewport, event);
+  private pressure(event: PointerEvent): number {
+    return this.settings.pressure && event.pointerType === 'pen' ? Math.max(0.05, event.pressure) : 1;
+  }
+
+  drag(event: PointerEvent): void {
+    const { stroke, sizing } = this;
+    if (sizing) {
+      this.resize(sizing, event);
       return;
     }
-    event.stopImmediatePropagation();
-    if (event.pointerId !== stroke.pointer) return;
-    if (stroke.kind === 'ball') {
-      const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
-      if (!hit) return;
-      this.showRing(hit.point, hit.normal);
-      void this.followOn(stroke, () => this.towards(stroke, hit), true);
-    } else {
-      const by = this.inViewPlane(stroke, event).sub(stroke.start);
-      void this.followOn(stroke, () => [{ do: 'undo' }, this.drag(stroke, by)], false);
+    if (!stroke) return;
+    if (stroke.kind === 'grab') {
+      const by = stroke.viewport.unproject(event.clientX, event.clientY, stroke.start).sub(stroke.start);
+      void this.followOn(stroke, () => [{ do: 'undo' }, this.grab(stroke, by)], false);
+      return;
     }
-    stroke.moved = true;
+    const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
+    if (!hit || hit.surface !== stroke.surface) return;
+    this.showRing(hit);
+    const place = { ...hit, press: this.pressure(event) };
+    if (stroke.kind === 'ball') void this.followOn(stroke, () => this.towards(stroke, place), true);
+    else void this.followOn(stroke, () => this.smooth(stroke, place), true);
+  }
+
+  /** To the right larger, upwards deeper. */
+  private resize(from: NonNullable<Brush['sizing']>, event: PointerEvent): void {
+    this.settings.radius = from.radius * Math.exp((event.clientX - from.x) / 120);
+    this.settings.strength = Math.min(1, Math.max(0.02, from.strength - (event.clientY - from.y) / 300));
+    if (from.hit) this.showRing(from.hit);
+    this.actions.settingsChanged();
   }
 
   private async followOn(stroke: Stroke, commands: () => Command[], join: boolean): Promise<void> {
@@ -156,15 +150,11 @@ export class Brush {
     if (begun && !stroke.cancelled && this.stroke === stroke) this.actions.follow(commands, join);
   }
 
-  private up(viewport: Viewport, event: PointerEvent): void {
+  release(): void {
+    this.sizing = null;
     const { stroke } = this;
-    if (!stroke) {
-      this.click(viewport, event);
-      return;
-    }
-    if (event.pointerId !== stroke.pointer) return;
-    event.stopImmediatePropagation();
-    this.finish(stroke);
+    if (!stroke) return;
+    this.stroke = null;
     void (async () => {
       if ((await stroke.begun) && !stroke.cancelled) {
         await this.actions.end(stroke.kind === 'ball' ? [{ do: 'remove', tool: brushName }] : []);
@@ -173,24 +163,7 @@ export class Brush {
   }
 
   /** A press and release in one place, not a stroke: selects what is there. */
-  private click(viewport: Viewport, event: PointerEvent): void {
-    const { press } = this;
-    this.press = null;
-    if (event.button !== 0 || !press || Math.hypot(event.clientX - press.x, event.clientY - press.y) > 4) return;
-    if (viewport.gizmo.axis !== null && viewport.gizmo.object) return;
-    if (this.mode === 'pin') {
-      const surface = this.viewer.frame?.state.selection[0];
-      if (surface === undefined) return;
-      const point = this.viewer.pickControlPoint(viewport, event, surface);
-      const columns = this.viewer.frame!.state.surfaces[surface]!.net[1];
-      if (point !== null) {
-        void this.actions.end([{ do: 'pin', control_points: [[Math.floor(point / columns), point % columns]] }]);
-      } else {
-        const hit = this.viewer.pick(viewport, event);
-        if (hit && hit.surface === surface) void this.actions.end([{ do: 'pin', at: hit.fractions }]);
-      }
-      return;
-    }
+  click(viewport: Viewport, event: PointerEvent): void {
     const tool = this.viewer.pickTool(viewport, event);
     this.actions.pickTool(tool);
     if (tool) return;
@@ -200,26 +173,22 @@ export class Brush {
 
   /** Esc: as if the stroke had never been. */
   async cancel(): Promise<void> {
-    const { stroke } = this;
+    const { stroke, sizing } = this;
+    if (sizing) {
+      this.settings.radius = sizing.radius;
+      this.settings.strength = sizing.strength;
+      this.sizing = null;
+      this.actions.settingsChanged();
+    }
     if (!stroke) return;
     stroke.cancelled = true;
-    this.finish(stroke);
+    this.stroke = null;
     if (await stroke.begun) await this.actions.cancel();
   }
 
-  private finish(stroke: Stroke): void {
-    this.stroke = null;
-    this.press = null;
-    for (const mesh of stroke.frozen) {
-      mesh.geometry.dispose();
-      (mesh.material as THREE.Material).dispose();
-    }
-    if (stroke.viewport.element.hasPointerCapture(stroke.pointer)) stroke.viewport.element.releasePointerCapture(stroke.pointer);
-  }
-
-  private ball(point: THREE.Vector3, normal: THREE.Vector3, inward: boolean): Command[] {
+  private ball({ point, normal, press }: Place, inward: boolean): Command[] {
     const { radius, strength } = this.settings;
-    const away = (1 - strength) * radius;
+    const away = (1 - strength * press) * radius;
     const centre = point.clone().addScaledVector(normal, inward ? away : -away);
     const [x, y, z] = this.viewer.origin;
     return [
@@ -229,46 +198,35 @@ export class Brush {
     ];
   }
 
+  private smooth(stroke: Stroke, at: Place): Command[] {
+    stroke.last = at;
+    return [{ do: 'relax', at: at.fractions, radius: this.settings.radius, strength: this.settings.strength * at.press }];
+  }
+
   /** From where the ball is to where the pointer is, so closely that a fast hand leaves a groove and not single dents. */
-  private towards(stroke: Stroke, to: { point: THREE.Vector3; normal: THREE.Vector3 }): Command[] {
+  private towards(stroke: Stroke, to: Place): Command[] {
     const from = stroke.last;
     stroke.last = to;
     const count = Math.min(mostSteps, Math.max(1, Math.ceil(from.point.distanceTo(to.point) / (0.4 * this.settings.radius))));
     return Array.from({ length: count }, (_, k) => (k + 1) / count).flatMap((x) =>
-      this.ball(from.point.clone().lerp(to.point, x), from.normal.clone().lerp(to.normal, x).normalize(), stroke.inward));
+      this.ball({ point: from.point.clone().lerp(to.point, x), normal: from.normal.clone().lerp(to.normal, x).normalize(),
+        fractions: to.fractions, press: from.press + (to.press - from.press) * x }, stroke.inward));
   }
 
-  private drag(stroke: Stroke, by: THREE.Vector3): Command {
+  private grab(stroke: Stroke, by: THREE.Vector3): Command {
     return { do: 'drag', at: stroke.at, by: by.toArray(), radius: this.settings.radius, steps: 1 };
   }
 
-  /** Where the pointer is in the plane through the start of the stroke that faces the viewer. */
-  private inViewPlane(stroke: Stroke, event: PointerEvent): THREE.Vector3 {
-    const ray = stroke.viewport.ray(event, new THREE.Raycaster()).ray;
-    const facing = stroke.viewport.camera.getWorldDirection(new THREE.Vector3());
-    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(facing, stroke.start);
-    return ray.intersectPlane(plane, new THREE.Vector3()) ?? stroke.start.clone();
+  hover(viewport: Viewport | null, event?: PointerEvent): void {
+    const hit = brushModes.includes(this.mode) && viewport && event ? this.viewer.pick(viewport, event) : null;
+    if (hit) this.showRing(hit);
+    else this.ring.hide();
   }
 
-  private hover(viewport: Viewport | null, event?: PointerEvent): void {
-    const brush = this.mode === 'push' || this.mode === 'pull' || this.mode === 'grab';
-    const hit = brush && viewport && event && viewport.gizmo.axis === null ? this.viewer.pick(viewport, event) : null;
-    if (hit) this.showRing(hit.point, hit.normal);
-    else if (this.ring.visible) {
-      this.ring.visible = false;
-      this.viewer.redraw();
-    }
-  }
-
-  private showRing(point: THREE.Vector3, normal: THREE.Vector3): void {
+  private showRing({ point, normal }: { point: THREE.Vector3; normal: THREE.Vector3 }): void {
     const { radius, strength } = this.settings;
     // Where a ball that deep cuts the plane.
-    const reach = this.mode === 'grab' ? radius : radius * Math.sqrt(Math.max(0.05, 1 - (1 - strength) ** 2));
-    this.ring.visible = true;
-    this.ring.position.copy(point);
-    this.ring.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), normal);
-    this.ring.scale.setScalar(reach);
-    this.ring.material.color.set(this.viewer.palette.toolSelected);
-    this.viewer.redraw();
+    const ball = this.mode === 'push' || this.mode === 'pull';
+    this.ring.show(point, normal, ball ? radius * Math.sqrt(Math.max(0.05, 1 - (1 - strength) ** 2)) : radius);
   }
 }

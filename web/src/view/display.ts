@@ -1,4 +1,6 @@
 import type { Field } from '../engine/session_types';
+import type { Convention } from './conventions';
+import type { ViewName } from './viewport';
 
 /** What is shown and how; kept in the browser between visits. */
 export interface Display {
@@ -16,6 +18,10 @@ export interface Display {
   autoLimit: boolean;
   pointSize: number;
   fourViews: boolean;
+  /** Which one is shown where there are not four. */
+  view: ViewName;
+  /** What the mouse does to a view. */
+  convention: Convention;
   detail: number;
 }
 
@@ -33,6 +39,8 @@ export const defaultDisplay: Display = {
   autoLimit: true,
   pointSize: 4,
   fourViews: false,
+  view: 'perspective',
+  convention: 'knead',
   detail: 96,
 };
 

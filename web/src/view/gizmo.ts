@@ -41,7 +41,6 @@ export function followGizmo(app: App, viewport: Viewport): void {
   };
 
   gizmo.addEventListener('dragging-changed', (event) => {
-    viewport.controls.enabled = !event.value;
     if (event.value && gizmo.object) {
       take(gizmo.object);
       begun = used = false;

@@ -15,9 +15,13 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       back: { value: new THREE.Color(0xb59d86) },
       limit: { value: 1 },
       selected: { value: 1 },
+      marks: { value: null },
+      accent: { value: new THREE.Color(0x3fb6a8) },
     },
     vertexShader: /* glsl */ `
       attribute float value;
+      attribute vec2 span;
+      varying vec2 vSpan;
       varying vec3 vNormal;
       varying vec3 vView;
       varying float vValue;
@@ -26,6 +30,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
         vNormal = normalMatrix * normal;
         vView = isOrthographic ? vec3(0.0, 0.0, 1.0) : -place.xyz;
         vValue = value;
+        vSpan = span;
         gl_Position = projectionMatrix * place;
       }`,
     fragmentShader: /* glsl */ `
@@ -34,13 +39,23 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       uniform float limit, selected;
       varying vec3 vNormal, vView;
       varying float vValue;
+      varying vec2 vSpan;
+      uniform sampler2D marks;
+      uniform vec3 accent;
 
       // Blue below, grey at zero, red above; the brightness changes evenly to both sides.
       vec3 diverging(float x) {
         x = clamp(x, -1.0, 1.0);
         vec3 middle = vec3(0.87);
         vec3 end = x < 0.0 ? vec3(0.17, 0.38, 0.74) : vec3(0.78, 0.23, 0.19);
-        return mix(middle, end, pow(abs(x), 0.8));
+        return mix(middle, end, abs(x));
+      }
+
+      // From pale to dark, for what is never negative.
+      vec3 rising(float x) {
+        x = clamp(x, 0.0, 1.0);
+        vec3 low = vec3(0.95, 0.94, 0.86), middle = vec3(0.93, 0.6, 0.25), high = vec3(0.55, 0.1, 0.25);
+        return x < 0.5 ? mix(low, middle, 2.0 * x) : mix(middle, high, 2.0 * x - 1.0);
       }
 
       void main() {
@@ -48,7 +63,9 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
         if (!gl_FrontFacing) n = -n;
         vec3 v = normalize(vView);
         vec3 base = gl_FrontFacing ? front : back;
-        if (mode == 2) base = diverging(vValue / limit);
+        // What the legend shows is what leaves here, after the conversion to the screen's colours.
+        if (mode == 2) base = pow(diverging(vValue / limit), vec3(2.2));
+        if (mode == 3) base = pow(rising(vValue / limit), vec3(2.2));
         if (mode == 1) {
           // Stripes of a striped environment: lines where the reflected ray meets bands of equal height.
           vec3 r = reflect(-v, n);
@@ -66,9 +83,16 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
           float shine = pow(max(dot(n, normalize(lamp + v)), 0.0), 40.0);
           vec3 colour = base * (0.1 + 0.16 * sky + 0.86 * key * key + 0.2 * fill);
           if (mode == 0) colour += vec3(0.2) * shine + vec3(0.08) * rim;
-          else colour = mix(colour, base, 0.45);
+          else colour = mix(colour, base, 0.6);
           gl_FragColor = vec4(mix(vec3(dot(colour, vec3(0.3, 0.5, 0.2))) * 0.85, colour, selected), 1.0);
         }
+        // Frozen spans are hatched, painted ones tinted.
+        vec3 marked = texture2D(marks, vSpan).rgb;
+        gl_FragColor.rgb = mix(gl_FragColor.rgb, vec3(0.75, 0.4, 0.08), 0.6 * marked.b);
+        float hatch = smoothstep(0.5, 0.75, abs(fract((gl_FragCoord.x + gl_FragCoord.y) / 10.0) * 2.0 - 1.0));
+        vec3 ice = vec3(0.05, 0.2, 0.55);
+        gl_FragColor.rgb = mix(gl_FragColor.rgb, ice, marked.r > 0.5 ? 0.25 + 0.55 * hatch : 0.0);
+        if (marked.g > 0.1) gl_FragColor.rgb = mix(gl_FragColor.rgb, marked.g > 0.8 ? accent : vec3(0.9), 0.55);
         #include <colorspace_fragment>
       }`,
   });

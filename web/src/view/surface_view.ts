@@ -1,8 +1,10 @@
 import * as THREE from 'three';
 
-import type { Picture } from '../engine/session_types';
+import type { Picture, SurfaceInfo } from '../engine/session_types';
+import { mark } from './net';
+import { GridPicker } from './picking';
 import { surfaceMaterial } from './surface_material';
-import type { Display, Palette } from './display';
+import { type Display, type Palette, palettes } from './display';
 
 const isocurveSpacing = 6; // grid lines between isocurves that are not knot lines
 
@@ -11,6 +13,10 @@ export class SurfaceView {
   readonly group = new THREE.Group();
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   picture: Picture | null = null;
+  /** Of the present picture. */
+  picker: GridPicker | null = null;
+  /** Control points are shown whatever the display says. */
+  editing = false;
 
   private readonly isocurves = lines();
   private readonly knotLines = lines();
@@ -20,6 +26,10 @@ export class SurfaceView {
     new THREE.BufferGeometry(),
     new THREE.PointsMaterial({ size: 7, sizeAttenuation: false, vertexColors: true, alphaMap: disc(), alphaTest: 0.5, depthTest: false }),
   );
+  private frozen = '';
+  private frozenCells = new Uint8Array(1);
+  private painted: { cells: Uint8Array; erase: boolean } | null = null;
+  private material: Float32Array | null = null;
   private topology = '';
   private netTopology = '';
 
@@ -34,8 +44,10 @@ export class SurfaceView {
     this.group.add(this.mesh, this.isocurves, this.knotLines, this.normals, this.net, this.points);
   }
 
-  show(picture: Picture, netCounts: [number, number], display: Display, palette: Palette, selected: boolean): void {
+  show(picture: Picture, info: SurfaceInfo, display: Display, palette: Palette, selected: boolean): void {
+    const netCounts = info.net;
     this.picture = picture;
+    this.picker = new GridPicker(picture);
     const [m, n] = picture.counts;
     const geometry = this.mesh.geometry;
     setAttribute(geometry, 'position', picture.positions, 3);
@@ -48,6 +60,10 @@ export class SurfaceView {
     if (topology !== this.topology) {
       this.topology = topology;
       geometry.setIndex(new THREE.BufferAttribute(triangles(m, n), 1));
+      geometry.setAttribute('span', new THREE.BufferAttribute(spanCoordinates(picture), 2));
+      this.frozen = '';
+      this.painted = null;
+      this.material = null;
       const knotsU = [...picture.linesU];
       const knotsV = [...picture.linesV];
       this.knotLines.geometry.setIndex(new THREE.BufferAttribute(gridLines(m, n, knotsU, knotsV), 1));
@@ -65,13 +81,55 @@ export class SurfaceView {
       const all = (count: number) => Array.from({ length: count }, (_, k) => k);
       this.net.geometry.setIndex(new THREE.BufferAttribute(gridLines(a, b, all(a), all(b)), 1));
     }
+    this.showFrozen(info);
     this.restyle(display, palette, selected);
+  }
+
+  /** Hatches what the session keeps from moving: the whole spans that frozen regions touch. */
+  private showFrozen(info: SurfaceInfo): void {
+    const regions = info.constraints.filter((c) => c.do === 'freeze').map((c) => c.region as number[][]);
+    const frozen = JSON.stringify(regions);
+    if (frozen === this.frozen) return;
+    this.frozen = frozen;
+    const [s, t] = lineFractions(this.picture!);
+    this.frozenCells = new Uint8Array((s.length - 1) * (t.length - 1));
+    for (const region of regions) mark(this.frozenCells, region, s, t);
+    this.showMarks();
+  }
+
+  /** Tints spans while they are painted; null ends that. */
+  showPainted(cells: Uint8Array | null, erase: boolean): void {
+    this.painted = cells && { cells, erase };
+    this.showMarks();
+  }
+
+  /** Tints spans by how much their material differs, 0 to 1; null ends that. */
+  showMaterial(amount: Float32Array | null): void {
+    if (!amount && !this.material) return;
+    this.material = amount;
+    this.showMarks();
+  }
+
+  private showMarks(): void {
+    const { linesU, linesV } = this.picture!;
+    const [rows, columns] = [linesU.length - 1, linesV.length - 1];
+    const data = new Uint8Array(4 * rows * columns);
+    for (let k = 0; k < rows * columns; ++k) {
+      data[4 * k] = this.frozenCells[k] ? 255 : 0;
+      data[4 * k + 2] = 255 * (this.material?.[k] ?? 0);
+      data[4 * k + 1] = this.painted?.cells[k] ? (this.painted.erase ? 128 : 255) : 0;
+    }
+    const { marks } = this.mesh.material.uniforms;
+    (marks!.value as THREE.DataTexture | null)?.dispose();
+    const texture = new THREE.DataTexture(data, columns, rows);
+    texture.needsUpdate = true; // nearest: a span is marked or not
+    marks!.value = texture;
   }
 
   restyle(display: Display, palette: Palette, selected: boolean): void {
     const { uniforms } = this.mesh.material;
     const coloured = display.field !== 'none';
-    uniforms.mode!.value = display.zebra ? 1 : coloured ? 2 : 0;
+    uniforms.mode!.value = display.zebra ? 1 : display.field === 'energy' ? 3 : coloured ? 2 : 0;
     uniforms.limit!.value = display.limit;
     uniforms.front!.value.set(palette.front);
     uniforms.back!.value.set(palette.back);
@@ -79,23 +137,25 @@ export class SurfaceView {
     this.mesh.visible = display.surface;
     this.isocurves.visible = display.isocurves;
     this.knotLines.visible = display.knotLines;
-    this.net.visible = display.net && selected;
-    this.points.visible = display.points && selected;
+    this.net.visible = (display.net || this.editing) && selected;
+    this.points.visible = (display.points || this.editing) && selected;
     this.normals.visible = display.normals;
     this.isocurves.material.color.set(palette.isocurve);
     this.isocurves.material.opacity = palette.isocurveOpacity;
-    this.knotLines.material.color.set(palette.knotLine);
+    // What lies on a pale surface is dark in either theme.
+    const over = coloured || display.zebra ? palettes.light : palette;
+    this.knotLines.material.color.set(over.knotLine);
     this.knotLines.material.opacity = 0.9;
-    this.net.material.color.set(palette.net);
+    this.net.material.color.set(over.net);
     this.net.material.opacity = 0.55;
     this.points.material.size = 1.4 * display.pointSize * Math.min(window.devicePixelRatio, 2);
     if (this.picture) {
       const colours = new Float32Array(this.picture.held.length * 3);
-      const free = new THREE.Color(palette.point);
-      const held = new THREE.Color(palette.held);
+      const free = new THREE.Color(over.point);
+      const held = new THREE.Color(over.held);
       this.picture.held.forEach((h, k) => (h ? held : free).toArray(colours, 3 * k));
       setAttribute(this.points.geometry, 'color', colours, 3);
-      if (display.normals) this.showNormals(this.picture, palette);
+      if (display.normals) this.showNormals(this.picture, over);
     }
   }
 
@@ -116,22 +176,8 @@ export class SurfaceView {
     this.normals.material.color.set(palette.knotLine);
   }
 
-  /** Fractions (s, t) of the domain at a hit of a ray with the mesh. */
-  fractionsAt(hit: THREE.Intersection): [number, number] | null {
-    if (!this.picture || !hit.face) return null;
-    const { s, t, positions, counts } = this.picture;
-    const n = counts[1];
-    const corner = (k: number) => new THREE.Vector3().fromArray(positions, 3 * k);
-    const { a, b, c } = hit.face;
-    const weights = THREE.Triangle.getBarycoord(hit.point, corner(a), corner(b), corner(c), new THREE.Vector3());
-    if (!weights) return null;
-    const mix = (of: Float32Array, line: (k: number) => number) =>
-      weights.x * of[line(a)]! + weights.y * of[line(b)]! + weights.z * of[line(c)]!;
-    const clamp = (x: number) => Math.min(1, Math.max(0, x));
-    return [clamp(mix(s, (k) => Math.floor(k / n))), clamp(mix(t, (k) => k % n))];
-  }
-
   dispose(): void {
+    (this.mesh.material.uniforms.marks!.value as THREE.DataTexture | null)?.dispose();
     for (const part of [this.mesh, this.isocurves, this.knotLines, this.normals, this.net, this.points]) {
       part.geometry.dispose();
       (part.material as THREE.Material).dispose();
@@ -139,10 +185,38 @@ export class SurfaceView {
   }
 }
 
+/** Fractions of the domain where its knot lines lie, ends included. */
+export function lineFractions({ s, t, linesU, linesV }: Picture): [number[], number[]] {
+  return [[...linesU].map((k) => s[k]!), [...linesV].map((k) => t[k]!)];
+}
+
+/** Where each point of the grid lies among the spans, as texture coordinates: v then u. */
+function spanCoordinates({ counts, linesU, linesV }: Picture): Float32Array {
+  const along = (count: number, lines: Uint32Array) => {
+    const result = new Float32Array(count);
+    for (let a = 0; a + 1 < lines.length; ++a) {
+      const [from, to] = [lines[a]!, lines[a + 1]!];
+      for (let k = from; k <= to; ++k) result[k] = (a + (k - from) / (to - from)) / (lines.length - 1);
+    }
+    return result;
+  };
+  const u = along(counts[0], linesU);
+  const v = along(counts[1], linesV);
+  const result = new Float32Array(2 * counts[0] * counts[1]);
+  let at = 0;
+  for (let k = 0; k < counts[0]; ++k) {
+    for (let l = 0; l < counts[1]; ++l) {
+      result[at++] = v[l]!;
+      result[at++] = u[k]!;
+    }
+  }
+  return result;
+}
+
 let discTexture: THREE.CanvasTexture | null = null;
 
 /** Makes points round. */
-function disc(): THREE.CanvasTexture {
+export function disc(): THREE.CanvasTexture {
   if (discTexture) return discTexture;
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = 32;

@@ -1,8 +1,12 @@
 import * as THREE from 'three';
 
 import type { Frame } from '../engine/protocol';
+import { format } from '../ui/dom';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
+import { largestValue } from './limits';
+import { Navigator } from './navigator';
+import type { GridPicker } from './picking';
 import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
 import { type ViewName, Viewport } from './viewport';
@@ -29,9 +33,16 @@ export class Viewer {
   selectedTool: string | null = null;
   onDrawn: (milliseconds: number) => void = () => {};
 
+  readonly navigator = new Navigator((viewport, at) => this.pick(viewport, at)?.point ?? viewport.unproject(at.clientX, at.clientY, viewport.target));
+  /** A double click on the label of a view. */
+  onMaximise: (name: ViewName) => void = () => {};
+
   private readonly renderer: THREE.WebGLRenderer;
   private readonly raycaster = new THREE.Raycaster();
   private due = false;
+  private editsPoints = false;
+  private groundHeight = 0;
+  private sceneRadius = 1;
   private theme: Theme = 'dark';
 
   constructor(public display: Display) {
@@ -43,14 +54,37 @@ export class Viewer {
     this.renderer.domElement.setAttribute('aria-label', 'The scene');
     const names: ViewName[] = ['perspective', 'top', 'front', 'right'];
     this.viewports = names.map((name) => new Viewport(name, this.scene, () => this.redraw()));
+    for (const v of this.viewports) {
+      v.label.addEventListener('dblclick', () => this.onMaximise(v.name));
+      v.label.addEventListener('keydown', (e) => {
+        if (e.key === 'Enter') this.onMaximise(v.name);
+      });
+    }
     const windows = document.createElement('div');
     windows.className = 'viewports';
     windows.append(...this.viewports.map((v) => v.element));
     this.element.append(this.renderer.domElement, windows);
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(0.4, -0.6, 1);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.group, this.overlay);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay);
     new ResizeObserver(() => this.resize()).observe(this.element);
+  }
+
+  /** Control points are shown and can be picked. */
+  set editing(on: boolean) {
+    if (this.surfaces.every((s) => s.editing === on) && this.editsPoints === on) return;
+    this.editsPoints = on;
+    for (const s of this.surfaces) s.editing = on;
+    this.restyle();
+  }
+
+  get unit(): string {
+    return this.frame?.state.surfaces[0]?.unit ?? '';
+  }
+
+  /** The view alone, or, of four, the perspective one. */
+  get main(): Viewport {
+    return this.viewports.find((v) => !this.display.fourViews && v.name === this.display.view) ?? this.viewports[0]!;
   }
 
   get palette(): Palette {
@@ -74,13 +108,13 @@ export class Viewer {
     }
     while (this.surfaces.length < pictures.length) {
       const view = new SurfaceView();
-      view.mesh.userData.surface = this.surfaces.length;
+      view.editing = this.editsPoints;
       this.surfaces.push(view);
       this.scene.add(view.group);
     }
     if (this.display.autoLimit && this.display.field !== 'none') this.display.limit = largestValue(pictures.map((p) => p.values));
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
-    pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!.net, this.display, this.palette, lit(k)));
+    pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
     this.showTools();
     if (fresh) this.fit();
     else this.lowerGround();
@@ -90,8 +124,8 @@ export class Viewer {
   /** The ground stays below whatever is pressed down. */
   private lowerGround(): void {
     const { radius, lowest } = this.bounds();
-    const below = lowest - 0.06 * radius;
-    if (this.ground.group.position.z > lowest - 0.02 * radius) this.ground.group.position.z = below;
+    if (this.groundHeight > lowest - 0.02 * radius) this.groundHeight = lowest - 0.06 * radius;
+    this.sceneRadius = radius;
   }
 
   private showTools(): void {
@@ -150,15 +184,13 @@ export class Viewer {
   fit(): void {
     const { centre, radius, lowest } = this.bounds();
     for (const v of this.viewports) v.fit(centre, radius);
-    this.ground.fit(2 * radius, lowest - 0.12 * radius);
-    this.ground.group.position.x = -(this.origin[0] % (5 * this.ground.step));
-    this.ground.group.position.y = -(this.origin[1] % (5 * this.ground.step));
+    this.groundHeight = lowest - 0.12 * radius;
+    this.sceneRadius = radius;
     this.redraw();
   }
 
   restyle(): void {
     this.ground.restyle(this.palette);
-    this.ground.group.visible = this.display.grid;
     const state = this.frame?.state;
     this.surfaces.forEach((s, k) =>
       s.restyle(this.display, this.palette, !state || state.selection.length === 0 || state.selection.includes(k)));
@@ -166,20 +198,23 @@ export class Viewer {
       view.show(view.tool, this.origin, this.bounds().radius, this.palette, name === this.selectedTool);
     }
     this.element.classList.toggle('four', this.display.fourViews);
+    for (const v of this.viewports) v.element.hidden = !this.display.fourViews && v.name !== this.display.view;
     this.resize();
   }
 
-  /** What the pointer is on: the nearest surface, as it was drawn last or as `frozen` meshes were. */
-  pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: THREE.Mesh[]): Hit | null {
-    viewport.ray(event, this.raycaster);
-    const meshes = frozen ?? this.surfaces.map((s) => s.mesh);
-    const hit = this.raycaster.intersectObjects(meshes, false)[0];
-    if (!hit?.face) return null;
-    const surface = hit.object.userData.surface as number;
-    const normal = hit.face.normal.clone();
-    if (normal.dot(this.raycaster.ray.direction) > 0) normal.negate();
-    const fractions = this.surfaces[surface]?.fractionsAt(hit);
-    return fractions ? { surface, point: hit.point, normal, fractions } : null;
+  /** What the pointer is on: the nearest surface, as it was drawn last or as it was when `frozen` was taken. */
+  pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: readonly (GridPicker | null)[]): Hit | null {
+    const { ray } = viewport.ray(event, this.raycaster);
+    let best: (Hit & { distance: number }) | null = null;
+    for (const [surface, picker] of (frozen ?? this.pickers).entries()) {
+      const hit = picker?.hit(ray);
+      if (hit && (!best || hit.distance < best.distance)) best = { surface, ...hit };
+    }
+    return best;
+  }
+
+  get pickers(): (GridPicker | null)[] {
+    return this.surfaces.map((s) => s.picker);
   }
 
   pickTool(viewport: Viewport, event: { clientX: number; clientY: number }): string | null {
@@ -192,15 +227,11 @@ export class Viewer {
   pickControlPoint(viewport: Viewport, event: { clientX: number; clientY: number }, surface: number, reach = 9): number | null {
     const net = this.surfaces[surface]?.picture?.net;
     if (!net) return null;
-    const box = viewport.element.getBoundingClientRect();
-    const place = new THREE.Vector3();
+    const places = viewport.projectAll(net);
     let best: number | null = null;
     let nearest = reach;
-    for (let k = 0; 3 * k < net.length; ++k) {
-      place.fromArray(net, 3 * k).project(viewport.camera);
-      const x = box.left + ((place.x + 1) / 2) * box.width;
-      const y = box.top + ((1 - place.y) / 2) * box.height;
-      const distance = Math.hypot(x - event.clientX, y - event.clientY);
+    for (let k = 0; 2 * k < places.length; ++k) {
+      const distance = Math.hypot(places[2 * k]! - event.clientX, places[2 * k + 1]! - event.clientY);
       if (distance < nearest) [nearest, best] = [distance, k];
     }
     return best;
@@ -236,26 +267,23 @@ export class Viewer {
       this.renderer.setViewport(x, y, box.width, box.height);
       this.renderer.setScissor(x, y, box.width, box.height);
       for (const other of this.viewports) other.gizmo.getHelper().visible = other === view && other.gizmo.object !== undefined;
-      this.ground.group.visible = this.display.grid && (view.name === 'perspective' || view.name === 'top');
+      this.ground.mesh.visible = this.display.grid;
+      if (this.display.grid) this.ground.prepare(view, this.groundHeight, this.sceneRadius, this.origin);
+      view.showScale(this.display.grid ? `${format(this.ground.step)} ${this.unit}` : '', this.ground.step / view.pixel());
       this.renderer.render(this.scene, view.camera);
     }
     this.onDrawn(performance.now() - start);
   }
 
-  /** The picture on the screen, as a PNG file. */
-  picture(): Promise<Blob> {
+  /** The picture on the screen as a PNG file, with `scale` pixels for each of the page's. */
+  picture(scale = 1): Promise<Blob> {
+    const usual = this.renderer.getPixelRatio();
+    this.renderer.setPixelRatio(scale);
     this.draw();
-    return new Promise((resolve, reject) =>
+    const picture = new Promise<Blob>((resolve, reject) =>
       this.renderer.domElement.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture'))), 'image/png'));
+    this.renderer.setPixelRatio(usual);
+    this.draw();
+    return picture;
   }
-}
-
-/** Of all but the outermost hundredth, which poles and corners would dominate. */
-function largestValue(fields: Float32Array[]): number {
-  const sizes: number[] = [];
-  for (const field of fields) {
-    for (let k = 0; k < field.length; k += 3) if (Number.isFinite(field[k])) sizes.push(Math.abs(field[k]!));
-  }
-  sizes.sort((a, b) => a - b);
-  return Math.max(sizes[Math.floor(0.99 * (sizes.length - 1))] ?? 0, 1e-9);
 }

@@ -1,0 +1,22 @@
+import { open } from './shots_tmp.mjs';
+const s = await open(900, 560);
+const { page, at, settled } = s;
+await page.evaluate(() => {
+  window.log = [];
+  const wrap = (o, name, label) => { const f = o[name]; o[name] = function (...a) { const t = performance.now(); try { return f.apply(this, a); } finally { const d = performance.now() - t; if (d > 4) window.log.push(`${label} ${d.toFixed(1)}`); } }; };
+  const a = window.studio;
+  wrap(a.viewer, 'draw', 'draw'); wrap(a.viewer, 'show', 'show'); wrap(a, 'changed', 'changed'); wrap(a.viewer, 'pick', 'pick'); wrap(a.viewer, 'restyle', 'restyle');
+  wrap(a.viewer.renderer, 'render', 'render');
+  new PerformanceObserver((list) => window.log.push(...list.getEntries().map((e) => `LONG ${e.duration}`))).observe({ type: 'longtask' });
+});
+await page.keyboard.press('b');
+await page.mouse.move(...await at(0.4, 0.5)); await page.mouse.down();
+await page.mouse.move(...await at(0.6, 0.55), { steps: 12 });
+await page.mouse.up(); await settled();
+console.log((await page.evaluate(() => window.log.splice(0))).join('\n'));
+console.log('--- panels');
+for (const panel of ['Evolution', 'Constraints', 'History', 'Create', 'Knots and net']) await page.locator(`.panel[data-panel="${panel}"] > summary`).click();
+await page.locator('select[aria-label="Colour by"]').selectOption('mean');
+await settled();
+console.log((await page.evaluate(() => window.log.splice(0))).join('\n'));
+await s.close();

@@ -1,0 +1,14 @@
+import { open } from './shots_tmp.mjs';
+const s = await open();
+await s.drag(await s.at(0.45, 0.5), await s.at(0.6, 0.5));
+await s.shot('a1');
+await s.drag(await s.at(0.5, 0.5), await s.at(0.3, 0.4), 'right');
+await s.page.mouse.wheel(0, -700);
+await s.page.mouse.wheel(0, -700);
+await s.shot('a2');
+await s.page.keyboard.press('4');
+await s.page.keyboard.press('f');
+await s.shot('a3');
+await s.page.locator('.view-front .viewport-label').dblclick();
+await s.shot('a4');
+await s.close();

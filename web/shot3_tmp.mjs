@@ -1,0 +1,26 @@
+import { open } from './shots_tmp.mjs';
+const s = await open();
+const { page, at, drag, shot } = s;
+await page.locator('button[aria-label="Light or dark"]').click();
+await page.keyboard.press('b');
+await drag(await at(0.4, 0.5), await at(0.6, 0.55));
+const z = () => page.evaluate(() => Math.min(...window.studio.frame.pictures[0].positions.filter((_, k) => k % 3 === 2)));
+console.log('depth', await z());
+await page.locator('select[aria-label="Colour by"]').selectOption('deviation');
+await shot('c1');
+await page.keyboard.press('s');
+for (let k = 0; k < 3; ++k) { await drag(await at(0.4, 0.5), await at(0.6, 0.55)); console.log('smoothed', await z(), await page.evaluate(() => window.studio.frame.computeTime)); }
+await shot('c2');
+await page.locator('select[aria-label="Colour by"]').selectOption('mean');
+await shot('c3');
+await page.locator('select[aria-label="Colour by"]').selectOption('gaussian');
+await page.locator('button.chip', { hasText: 'Knot lines' }).click();
+await page.locator('button.chip', { hasText: 'Isocurves' }).click();
+await page.locator('button.chip', { hasText: 'Net' }).click();
+await shot('c4');
+await page.locator('select[aria-label="Colour by"]').selectOption('none');
+await page.locator('button.chip', { hasText: 'Normals' }).click();
+await page.locator('button.chip', { hasText: 'Points' }).click();
+await page.locator('button.chip', { hasText: 'Zebra' }).click();
+await shot('c5');
+await s.close();

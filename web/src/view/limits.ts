@@ -1,0 +1,16 @@
+/** A number above x that is short to write, and a quarter of it as well. */
+export function roundLimit(x: number): number {
+  const power = 10 ** Math.floor(Math.log10(x) + 1e-9);
+  const digits = [1, 1.2, 1.6, 2, 2.4, 3, 4, 5, 6, 8, 10].find((d) => d * power >= x * (1 - 1e-6)) ?? 10;
+  return Number((digits * power).toPrecision(2));
+}
+
+/** Of all but the outermost hundredth, which poles and corners would dominate. */
+export function largestValue(fields: Float32Array[]): number {
+  const sizes: number[] = [];
+  for (const field of fields) {
+    for (let k = 0; k < field.length; k += 3) if (Number.isFinite(field[k])) sizes.push(Math.abs(field[k]!));
+  }
+  sizes.sort((a, b) => a - b);
+  return roundLimit(Math.max(sizes[Math.floor(0.99 * (sizes.length - 1))] ?? 0, 1e-9));
+}

@@ -1,0 +1,26 @@
+import * as THREE from 'three';
+
+import type { App } from '../app';
+import type { Command } from '../engine/session_types';
+
+const lying = ['plane', 'bowl', 'cylinder', 'cone', 'capsule', 'torus', 'supertoroid', 'box', 'ellipsoid', 'superellipsoid'];
+
+/** The command that puts a tool of the chosen shape beside a point of the surface, its axis along the normal. */
+export function newTool(app: App, point: THREE.Vector3, normal: THREE.Vector3): Command {
+  const taken = new Set(app.state!.tools.map((t) => t.name));
+  let number = 1;
+  while (taken.has(`tool ${number}`)) ++number;
+  const { shape, surface } = app.placing;
+  const name = `tool ${number}`;
+  const common = { do: 'tool', name, shape, plasticity: 1 };
+  if (shape === 'surface') return { ...common, surface };
+  const { radius } = app.brush.settings;
+  // How far the shape reaches along its axis from its centre, towards the surface.
+  const reach = shape === 'plane' || shape === 'cone' ? 0 : shape === 'torus' || shape === 'supertoroid' ? 0.25 * radius : shape === 'capsule' ? 2 * radius : radius;
+  const centre = point.clone().addScaledVector(normal, reach * 1.02).add(new THREE.Vector3(...app.viewer.origin));
+  // The material of a plane lies below it: it looks at the surface.
+  const axis = shape === 'plane' ? normal.clone().negate() : normal;
+  const boxlike = shape === 'box' || shape === 'ellipsoid' || shape === 'superellipsoid';
+  return { ...common, position: centre.toArray(), ...(lying.includes(shape) ? { axis: axis.toArray() } : {}),
+    ...(shape === 'plane' ? {} : boxlike ? { sizes: [radius, radius, radius] } : { radius }) };
+}
