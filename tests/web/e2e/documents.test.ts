@@ -92,6 +92,14 @@ describe('saving', () => {
     await expect.poll(() => page.locator('.notice.info').last().textContent()).toContain('tool still in contact');
   });
 
+  it('gives meshes', async () => {
+    const stl = readFileSync(await save(studio.page, 'Mesh, STL'));
+    expect(stl.readUInt32LE(80)).toBeGreaterThan(1000);
+    expect(stl.length).toBe(84 + 50 * stl.readUInt32LE(80));
+    expect(readFileSync(await save(studio.page, 'Mesh, OBJ'), 'utf8')).toMatch(/^f /m);
+    expect(readFileSync(await save(studio.page, 'Mesh, PLY'), 'latin1')).toMatch(/^ply\r?\n/);
+  });
+
   it('gives a picture of the size on the screen, and one twice as large', async () => {
     const { page } = studio;
     const size = (path: string) => {
