@@ -255,6 +255,29 @@ describe('the brush', () => {
   });
 });
 
+describe('a tool', () => {
+  it('is dragged by its gizmo in a view along an axis too', async () => {
+    const { page } = studio;
+    await scene('Ball on a membrane');
+    await page.keyboard.press('v');
+    await page.keyboard.press('4');
+    await page.locator('.panel[data-panel=Tools] .item').click();
+    const handle = await page.evaluate(() => {
+      const { viewer } = (window as never as { studio: { viewer: {
+        viewports: { name: string; projectAll(points: number[]): Float32Array }[]; tools: Map<string, { object: { position: { toArray(): number[] } } }> } } }).studio;
+      const view = viewer.viewports.find((v) => v.name === 'front')!;
+      return [...view.projectAll(viewer.tools.get('ball')!.object.position.toArray())];
+    });
+    // The arrow along x.
+    await drag([handle[0]! + 20, handle[1]!], [handle[0]! + 60, handle[1]!]);
+    const move = (await commands(page)).find((c) => c.do === 'move') as unknown as { by: number[] };
+    expect(move.by[0]).toBeGreaterThan(0);
+    expect(move.by[1]).toBe(0);
+    expect(move.by[2]).toBe(0);
+    await page.keyboard.press('4');
+  });
+});
+
 describe('panels', () => {
   it('create a surface, and change its knots', async () => {
     const { page } = studio;
