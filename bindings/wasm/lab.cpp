@@ -111,7 +111,7 @@ KNEAD_EXPORT(lab_curves) int lab_curves(int order, int pixels) {
   return answer({{"lowest", c.lowest}, {"highest", c.highest}, {"weight", c.largest_weight}, {"unity", c.unity}});
 }
 
-/// Values of all functions at u, buffer 3, and their sum. With nothing outside of the domain but integrals.
+/// Values of all functions at u, anywhere on the line: buffer 3, and their sum.
 KNEAD_EXPORT(lab_probe) int lab_probe(int order, double u) {
   if (!held().knots) return without_knots();
   if (const auto wrong = wrong_order(order)) return fail(*wrong);
