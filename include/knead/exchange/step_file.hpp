@@ -136,6 +136,7 @@ class StepFile {
   [[nodiscard]] Expected<std::string> with_surfaces(std::span<const StepReplacement> replacements) const;
 
   struct Data;  ///< private to the exchange room
+  [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
   explicit StepFile(std::shared_ptr<const Data> data) : data_(std::move(data)) {}

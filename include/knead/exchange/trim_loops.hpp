@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "knead/base/error.hpp"
+#include "knead/exchange/context_faces.hpp"
+#include "knead/exchange/step_file.hpp"
+
+namespace knead {
+
+/// A closed polygon in fractions of a surface's parameter domain: (0, 0) and (1, 1) are the corners of the domain. The
+/// last corner is not the first one again. Polygons of closed surfaces may reach beyond 0 … 1 by up to one turn.
+using TrimLoop = std::vector<Eigen::Vector2d>;
+
+/// What one face shows of its surface: the points that an odd number of the loops encloses.
+using TrimFace = std::vector<TrimLoop>;
+
+/// What the faces on one surface show of it, together.
+struct SurfaceTrim {
+  /// Nothing is cut away: the surface is untrimmed, or no face lies on it, or one of its faces is in `skipped`.
+  bool whole = true;
+  /// Otherwise: the union of these. Faces over the seam of a closed surface come once for each turn that shows some of
+  /// them in 0 … 1.
+  std::vector<TrimFace> faces;
+};
+
+struct TrimLoops {
+  std::vector<SurfaceTrim> surfaces;  ///< in the order of `StepFile::surfaces()`
+  std::vector<SkippedFace> skipped;   ///< faces whose bounds could not be followed, and why
+};
+
+/// The bounds of the faces on the B-spline surfaces of a STEP file, in parameters of these.
+///
+/// The edges are sampled as for `context_faces`, and every point is brought to the surface: from the foot of the one
+/// before it, or from a grid where that fails, by Levenberg and Marquardt's iteration for the nearest point. So a
+/// file's own curves in parameters (PCURVE), which are often missing and sometimes wrong, are not needed. Where the
+/// surface closes on itself or has a pole the loops are cut open as for `context_faces`.
+///
+/// \param chord as in `context_faces`
+/// Errors (usage): chord out of its range.
+/// Cost: O((p + 1)²) per point and iteration, and a grid of about 4 points per span and direction per trimmed surface.
+[[nodiscard]] Expected<TrimLoops> trim_loops(const StepFile& file, double chord = 1e-3);
+
+}  // namespace knead

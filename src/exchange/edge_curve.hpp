@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "knead/spline/spline.hpp"
+#include "step_curves.hpp"
+#include "step_entity.hpp"
+#include "step_instances.hpp"
+
+namespace knead {
+
+/// Axes of a placement, orthonormal: x is the reference direction made normal to the axis z, and y = z × x.
+struct Frame {
+  Point origin = Point::Zero();
+  Point x = Point::UnitX(), y = Point::UnitY(), z = Point::UnitZ();
+};
+
+/// None where the axis has no length, or the reference direction is along it.
+[[nodiscard]] std::optional<Frame> frame_of(const StepPlacement& placement);
+
+/// A curve of a STEP file as its parameter gives it (ISO 10303-42): LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA,
+/// POLYLINE and B-spline curves; TRIMMED_CURVE, and SURFACE_CURVE with its subtypes, by the curve they are made of.
+class EdgeCurve {
+ public:
+  /// Errors (input): the entity is of another form, or lacks what its form has.
+  [[nodiscard]] static Expected<EdgeCurve> read(const StepReader& reader, std::uint32_t instance);
+
+  [[nodiscard]] Point at(double t) const;
+  /// Central difference where the curve is a spline, exact elsewhere.
+  [[nodiscard]] Point derivative(double t) const;
+  /// Of the point of the curve nearest to p; of conics that on the ray from the centre.
+  [[nodiscard]] double parameter(const Point& p) const;
+  /// The domain of splines; 0 … 2π of circles and ellipses.
+  [[nodiscard]] std::optional<Interval> domain() const { return domain_; }
+  /// The curve is closed: t and t + the length of the domain are the same point.
+  [[nodiscard]] bool closed() const { return closed_; }
+  /// A straight line.
+  [[nodiscard]] bool straight() const { return std::holds_alternative<Line>(form_); }
+  /// An odd number of TRIMMED_CURVEs runs against the curve.
+  [[nodiscard]] bool turned() const { return turned_; }
+
+  /// Parameters from `from` to `to` > from, both among them. Of circles and ellipses at even steps of no more than
+  /// 2 acos(1 − chord): chords are then within `chord` · radius. Of others so close that chords are within `chord` ·
+  /// half the extent of the whole piece, and turn no more than a circle's would, but where that moves less than a
+  /// fiftieth of the tolerance. `to` may lie up to one period behind the domain of a closed curve.
+  [[nodiscard]] std::vector<double> subdivided(double from, double to, double chord) const;
+
+ private:
+  struct Line {
+    Point origin, direction;
+  };
+  enum class ConicForm { ellipse, hyperbola, parabola };
+  struct Conic {
+    ConicForm form;
+    Point centre, a, b;  // a, b: the semi-axes; of a parabola focal length times axis
+  };
+  explicit EdgeCurve(std::variant<Line, Conic, CurveTable> form) : form_(std::move(form)) {}
+  static Expected<EdgeCurve> read_nested(const StepReader& reader, std::uint32_t instance, int depth);
+  static std::optional<Conic> conic(const StepReader& reader, std::uint32_t instance, ConicForm form);
+
+  std::variant<Line, Conic, CurveTable> form_;
+  std::optional<Interval> domain_;
+  bool closed_ = false, turned_ = false;
+};
+
+/// Angle between neighbouring points of a circle whose chords keep `chord` · radius: 2 acos(1 − chord).
+[[nodiscard]] double chord_angle(double chord);
+
+}  // namespace knead

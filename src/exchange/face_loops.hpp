@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "edge_curve.hpp"
+
+namespace knead {
+
+/// Points round a bound of a face, the last one not the first again.
+using Loop = std::vector<Point>;
+
+/// The edges of a file as points, each sampled once: two faces that meet at an edge have the same points there.
+class EdgeSampler {
+ public:
+  /// \param chord as in `EdgeCurve::subdivided`
+  EdgeSampler(const StepReader& reader, double chord) : reader_(&reader), chord_(chord) {}
+
+  /// From the start vertex of an EDGE_CURVE to its end vertex. Errors (input): the curve's form is not known, or
+  /// something is missing.
+  [[nodiscard]] Expected<const Loop*> edge(std::uint32_t instance);
+
+  /// The loops of a list of FACE_BOUNDs, each in the direction that the bound gives it: with the face on its left seen
+  /// from the tip of the face's normal. What bounds nothing is left out: a VERTEX_LOOP, and a loop that runs along all
+  /// of its edges both ways, as round the seams of a whole torus (in an order that need not be that of its parameters).
+  [[nodiscard]] Expected<std::vector<Loop>> loops(std::uint32_t bounds);
+
+ private:
+  [[nodiscard]] Expected<Loop> sample(std::uint32_t instance) const;
+  [[nodiscard]] Expected<Loop> loop(std::uint32_t instance);
+
+  const StepReader* reader_;
+  double chord_;
+  std::unordered_map<std::uint32_t, Expected<Loop>> edges_;
+};
+
+}  // namespace knead

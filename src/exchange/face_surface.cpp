@@ -1,0 +1,336 @@
+#include "face_surface.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace knead {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+std::optional<Frame> position_of(const StepReader& reader, std::uint32_t instance) {
+  const bool complex = reader.file().instance(instance).complex;
+  const auto own = reader.attributes(instance, "ELEMENTARY_SURFACE", complex ? 0 : 1, 1);
+  const auto position = own.empty() ? std::nullopt : reader.reference(own[0]);
+  const auto placement = position ? read_placement(reader, *position) : std::nullopt;
+  return placement ? frame_of(*placement) : std::nullopt;
+}
+
+}  // namespace
+
+Expected<FaceSurface> FaceSurface::read(const StepReader& reader, std::uint32_t instance, std::span<const Point> on_it,
+                                        std::span<const double> angle_units) {
+  struct Elementary {
+    const char* entity;
+    Kind kind;
+    std::size_t lengths;
+  };
+  constexpr std::array<Elementary, 6> forms = {{{"PLANE", Kind::plane, 0},
+                                                {"CYLINDRICAL_SURFACE", Kind::cylinder, 1},
+                                                {"CONICAL_SURFACE", Kind::cone, 2},
+                                                {"SPHERICAL_SURFACE", Kind::sphere, 1},
+                                                {"TOROIDAL_SURFACE", Kind::torus, 2},
+                                                {"DEGENERATE_TOROIDAL_SURFACE", Kind::torus, 3}}};
+  for (const auto& form : forms) {
+    if (!reader.is(instance, form.entity)) continue;
+    const auto frame = position_of(reader, instance);
+    if (!frame) return reader.error(instance, "its position cannot be read");
+    FaceSurface surface(form.kind, *frame);
+    if (form.kind != Kind::plane) {
+      const auto own = reader.attributes(instance, form.entity, 2, form.lengths);
+      const auto radius = own.empty() ? std::nullopt : reader.real(own[0]);
+      if (!radius || !(*radius > 0 || (*radius == 0 && form.kind == Kind::cone))) {
+        return reader.error(instance, "its radius cannot be read");
+      }
+      surface.radius_ = *radius;
+      if (form.lengths > 1) {
+        const auto second = reader.real(own[1]);
+        if (!second || !(*second != 0)) return reader.error(instance, "its second measure cannot be read");
+        surface.minor_ = *second;
+      }
+      surface.lemon_ = form.lengths == 3 && reader.enumeration(own[2]) == "F" && surface.minor_ > surface.radius_;
+      surface.periods_[0] = turn;
+    }
+    if (form.kind == Kind::cone) {
+      const double angle = surface.minor_;
+      double best = std::numeric_limits<double>::infinity();
+      for (const double unit : angle_units) {
+        if (!(std::abs(angle * unit) < turn / 4)) continue;
+        const double tangent = std::tan(angle * unit);
+        double off = 0;
+        for (const Point& p : on_it) {
+          const Point d = p - frame->origin;
+          const double z = d.dot(frame->z);
+          off = std::max(off, std::abs((d - z * frame->z).norm() - std::abs(surface.radius_ + z * tangent)));
+        }
+        if (off >= best) continue;
+        best = off;
+        surface.minor_ = tangent;
+      }
+      if (!std::isfinite(best)) return reader.error(instance, "its half angle is not below a right angle");
+    }
+    surface.set_poles();
+    return surface;
+  }
+
+  const bool revolution = reader.is(instance, "SURFACE_OF_REVOLUTION");
+  if (!revolution && !reader.is(instance, "SURFACE_OF_LINEAR_EXTRUSION")) {
+    return reader.error(instance, "faces on surfaces of this form are not drawn");
+  }
+  const bool complex = reader.file().instance(instance).complex;
+  const auto way =
+      reader.attributes(instance, revolution ? "SURFACE_OF_REVOLUTION" : "SURFACE_OF_LINEAR_EXTRUSION", 2, 1);
+  const auto target = way.empty() ? no_instance : reader.reference(way[0]).value_or(no_instance);
+  const auto swept = reader.attributes(instance, "SWEPT_SURFACE", complex ? 0 : 1, 1);
+  const auto curve = swept.empty() ? no_instance : reader.reference(swept[0]).value_or(no_instance);
+  if (target == no_instance || curve == no_instance)
+    return reader.error(instance, "it has no swept curve, or no way to sweep it");
+  std::optional<FaceSurface> surface;
+  if (revolution) {
+    // AXIS1_PLACEMENT(location, axis)
+    const auto own = reader.attributes(target, "AXIS1_PLACEMENT", 1, 2);
+    const auto location = own.empty() ? std::nullopt : reader.reference(own[0]);
+    const auto axis = own.empty() ? std::nullopt : reader.reference(own[1]);
+    const auto origin =
+        location ? reader.point(*location) : Expected<Point>(reader.error(target, "it has no location"));
+    const Point z = (axis ? reader.direction(*axis) : std::nullopt).value_or(Point::UnitZ());
+    if (!origin) return std::unexpected(origin.error());
+    if (!(z.norm() > 0)) return reader.error(target, "its axis has no length");
+    Frame frame{*origin};
+    frame.z = z.normalized();
+    frame.x = frame.z.unitOrthogonal();
+    frame.y = frame.z.cross(frame.x);
+    surface = FaceSurface(Kind::revolution, frame);
+    surface->periods_[0] = turn;
+  } else {
+    const auto own = reader.attributes(target, "VECTOR", 1, 2);
+    const auto orientation = own.empty() ? std::nullopt : reader.reference(own[0]);
+    const auto direction = orientation ? reader.direction(*orientation) : std::nullopt;
+    if (!direction || !(direction->norm() > 0)) return reader.error(target, "it has no direction");
+    Frame frame;
+    frame.z = direction->normalized();
+    frame.x = frame.z.unitOrthogonal();
+    frame.y = frame.z.cross(frame.x);
+    surface = FaceSurface(Kind::extrusion, frame);
+  }
+  if (auto done = surface->tabulate(reader, curve, on_it); !done) return std::unexpected(std::move(done.error()));
+  surface->set_poles();
+  return *std::move(surface);
+}
+
+std::optional<FaceSurface> FaceSurface::plane_of(std::span<const Point> loop) {
+  Point normal = Point::Zero(), middle = Point::Zero();
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    normal += (loop[k] - loop[0]).cross(loop[(k + 1) % loop.size()] - loop[0]);
+    middle += loop[k] / static_cast<double>(loop.size());
+  }
+  if (!(normal.norm() > 0)) return std::nullopt;
+  Frame frame{middle};
+  frame.z = normal.normalized();
+  frame.x = frame.z.unitOrthogonal();
+  frame.y = frame.z.cross(frame.x);
+  return FaceSurface(Kind::plane, frame);
+}
+
+void FaceSurface::set_poles() {
+  constexpr double quarter = turn / 4;
+  if (kind_ == Kind::sphere) poles_ = {-quarter, quarter};
+  if (kind_ == Kind::cone) {
+    // One nappe: that on which the radius is positive.
+    const double apex = -radius_ / minor_;
+    poles_[minor_ > 0 ? 0 : 1] = apex;
+  }
+  if (kind_ == Kind::torus) {
+    if (minor_ <= radius_) {
+      periods_[1] = turn;
+    } else {
+      const double v = std::acos(-radius_ / minor_);
+      poles_ = lemon_ ? std::array<std::optional<double>, 2>{v, turn - v} : std::array<std::optional<double>, 2>{-v, v};
+    }
+  }
+  if (kind_ == Kind::revolution) {
+    double size = 0;
+    for (const auto& q : samples_) size = std::max(size, std::abs(q.x()));
+    if (!(periods_[1] > 0)) {
+      if (std::abs(samples_.front().x()) <= 1e-6 * size) poles_[0] = sample_parameters_.front();
+      if (std::abs(samples_.back().x()) <= 1e-6 * size) poles_[1] = sample_parameters_.back();
+    }
+  }
+}
+
+Point FaceSurface::at(const Eigen::Vector2d& uv) const {
+  const double u = uv.x(), v = uv.y();
+  const auto& [origin, x, y, z] = frame_;
+  switch (kind_) {
+    case Kind::plane:
+      return origin + u * x + v * y;
+    case Kind::cylinder:
+      return origin + radius_ * around(u) + v * z;
+    case Kind::cone:
+      return origin + (radius_ + v * minor_) * around(u) + v * z;
+    case Kind::sphere:
+      return origin + radius_ * std::cos(v) * around(u) + radius_ * std::sin(v) * z;
+    case Kind::torus:
+      return origin + (radius_ + minor_ * std::cos(v)) * around(u) + minor_ * std::sin(v) * z;
+    case Kind::revolution: {
+      const Point d = profile_->at(v) - origin;
+      return origin + std::cos(u) * d + (1 - std::cos(u)) * d.dot(z) * z + std::sin(u) * z.cross(d);
+    }
+    case Kind::extrusion:
+      return profile_->at(u) + v * z;
+  }
+  return origin;
+}
+
+Point FaceSurface::normal(const Eigen::Vector2d& uv) const {
+  const double u = uv.x(), v = uv.y();
+  const Point& z = frame_.z;
+  switch (kind_) {
+    case Kind::plane:
+      return z;
+    case Kind::cylinder:
+      return around(u);
+    case Kind::cone:
+      return (around(u) - minor_ * z).normalized();
+    case Kind::sphere:
+    case Kind::torus:
+      // Within a lemon R + r cos v is negative, and turns ∂u × ∂v inwards.
+      return (lemon_ ? -1 : 1) * (std::cos(v) * around(u) + std::sin(v) * z);
+    case Kind::extrusion: {
+      const Point n = profile_->derivative(u).cross(z);
+      return n.norm() > 0 ? Point(n.normalized()) : frame_.x;
+    }
+    case Kind::revolution:
+      break;
+  }
+  // ∂u = z × d, turned by u; both turned by u.
+  for (const double w : {v, v + 1e-4 * range_.length(), v - 1e-4 * range_.length()}) {
+    const Point across = z.cross(profile_->at(w) - frame_.origin);
+    const Point n = across.cross(profile_->derivative(w));
+    if (n.norm() > 1e-9 * across.norm() * profile_->derivative(w).norm() && across.norm() > 0) {
+      return Eigen::AngleAxisd(u, z) * n.normalized();
+    }
+  }
+  return z;
+}
+
+Foot FaceSurface::foot(const Point& p) const {
+  const Point d = p - frame_.origin;
+  const double x = d.dot(frame_.x), y = d.dot(frame_.y), z = d.dot(frame_.z);
+  if (kind_ == Kind::plane) return {{x, y}};
+  if (kind_ == Kind::extrusion) {
+    const double u = nearest(section(p));
+    return {{u, (p - profile_->at(u)).dot(frame_.z)}};
+  }
+  const double rho = std::hypot(x, y);
+  Foot foot{{std::atan2(y, x), z}};
+  double& u = foot.parameters.x();
+  double& v = foot.parameters.y();
+  double size = radius_;
+  if (kind_ == Kind::cone) {
+    size = std::max(radius_, std::abs(z * minor_));
+  } else if (kind_ == Kind::sphere) {
+    v = std::atan2(z, rho);
+  } else if (kind_ == Kind::torus) {
+    size = radius_ + minor_;
+    v = std::atan2(z, (lemon_ ? -rho : rho) - radius_);
+    if (lemon_) {
+      if (v < 0) v += turn;
+      u += turn / 2;
+    }
+  } else if (kind_ == Kind::revolution) {
+    v = nearest({rho, z});
+    const Point q = profile_->at(v) - frame_.origin;
+    u -= std::atan2(q.dot(frame_.y), q.dot(frame_.x));
+    size = std::max(rho, std::hypot(q.dot(frame_.x), q.dot(frame_.y)));
+    for (const auto& s : samples_) size = std::max(size, std::abs(s.x()));
+  }
+  foot.free[0] = rho <= 1e-7 * size;
+  return foot;
+}
+
+std::array<bool, 2> FaceSurface::straight() const {
+  switch (kind_) {
+    case Kind::plane:
+      return {true, true};
+    case Kind::cylinder:
+    case Kind::cone:
+      return {false, true};
+    case Kind::sphere:
+    case Kind::torus:
+      return {false, false};
+    case Kind::revolution:
+      return {false, profile_->straight() && !(waist_ > 0)};
+    case Kind::extrusion:
+      return {profile_->straight(), true};
+  }
+  return {false, false};
+}
+
+void FaceSurface::set_steps(double chord) {
+  angle_step_ = turn / std::ceil(turn / chord_angle(chord));
+  if (profile_) steps_ = profile_->subdivided(range_.lower, range_.upper, chord);
+  if (waist_ > 0) {
+    // Rulings that are not parallel: a cell of a by b is off its surface by up to a b / 4 at the waist.
+    const double pieces = std::clamp(std::ceil(2 * range_.length() / (waist_ * angle_step_)), 1.0, 1000.0);
+    steps_.clear();
+    for (double k = 0; k <= pieces; ++k) steps_.push_back(range_.lower + range_.length() * k / pieces);
+  }
+}
+
+namespace {
+
+// Piecewise linear between whole steps, and on as in the outermost ones.
+double steps_at(const std::vector<double>& steps, double t) {
+  auto k = std::upper_bound(steps.begin() + 1, steps.end() - 1, t) - steps.begin() - 1;
+  const auto i = static_cast<std::size_t>(k);
+  return static_cast<double>(k) + (t - steps[i]) / (steps[i + 1] - steps[i]);
+}
+
+double parameter_at(const std::vector<double>& steps, double s) {
+  const auto last = static_cast<double>(steps.size() - 2);
+  const auto i = static_cast<std::size_t>(std::clamp(std::floor(s), 0.0, last));
+  return steps[i] + (s - static_cast<double>(i)) * (steps[i + 1] - steps[i]);
+}
+
+}  // namespace
+
+Eigen::Vector2d FaceSurface::chart(const Eigen::Vector2d& uv) const {
+  switch (kind_) {
+    case Kind::plane:
+      return uv;
+    case Kind::cylinder:
+    case Kind::cone:
+      return {uv.x() / angle_step_, uv.y()};
+    case Kind::sphere:
+    case Kind::torus:
+      return uv / angle_step_;
+    case Kind::revolution:
+      return {uv.x() / angle_step_, steps_at(steps_, uv.y())};
+    case Kind::extrusion:
+      return {steps_at(steps_, uv.x()), uv.y()};
+  }
+  return uv;
+}
+
+Eigen::Vector2d FaceSurface::from_chart(const Eigen::Vector2d& steps) const {
+  switch (kind_) {
+    case Kind::plane:
+      return steps;
+    case Kind::cylinder:
+    case Kind::cone:
+      return {steps.x() * angle_step_, steps.y()};
+    case Kind::sphere:
+    case Kind::torus:
+      return steps * angle_step_;
+    case Kind::revolution:
+      return {steps.x() * angle_step_, parameter_at(steps_, steps.y())};
+    case Kind::extrusion:
+      return {parameter_at(steps_, steps.x()), steps.y()};
+  }
+  return steps;
+}
+
+}  // namespace knead

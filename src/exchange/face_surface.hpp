@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "edge_curve.hpp"
+
+namespace knead {
+
+/// Where a point of a surface lies in its parameters.
+struct Foot {
+  Eigen::Vector2d parameters = Eigen::Vector2d::Zero();
+  /// At a pole: any u is right. (On a B-spline surface: either direction.)
+  std::array<bool, 2> free = {false, false};
+};
+
+/// A surface of a STEP file that is not a B-spline: PLANE, CYLINDRICAL_, CONICAL_, SPHERICAL_ and TOROIDAL_SURFACE,
+/// SURFACE_OF_REVOLUTION, SURFACE_OF_LINEAR_EXTRUSION, with the parameters that ISO 10303-42 gives it; but that the u
+/// of an extrusion and the v of a revolution are those of the swept curve.
+class FaceSurface {
+ public:
+  /// \param on_it points of the edges of the face: how much of an unbounded swept curve is needed, and what unit the
+  ///   angle of a cone is in (the one of `angle_units`, radians each, that brings the cone closest to these points)
+  /// Errors (input): the form is another, or lacks what it has.
+  [[nodiscard]] static Expected<FaceSurface> read(const StepReader& reader, std::uint32_t instance,
+                                                  std::span<const Point> on_it, std::span<const double> angle_units);
+  /// Of a face without surface (FACE with a POLY_LOOP): the plane of the loop by Newell's normal.
+  [[nodiscard]] static std::optional<FaceSurface> plane_of(std::span<const Point> loop);
+
+  [[nodiscard]] bool plane() const { return kind_ == Kind::plane; }
+  [[nodiscard]] Point at(const Eigen::Vector2d& uv) const;
+  /// Unit normal ∂u × ∂v; at a pole that of the neighbourhood.
+  [[nodiscard]] Point normal(const Eigen::Vector2d& uv) const;
+  /// Parameters of the point of the surface nearest to p (closed form; on swept curves a search and Newton's
+  /// iteration).
+  [[nodiscard]] Foot foot(const Point& p) const;
+
+  /// Length of one turn in u, in v; 0 where it is not closed.
+  [[nodiscard]] const std::array<double, 2>& periods() const { return periods_; }
+  /// The v below and above which there is nothing, where u is a single point.
+  [[nodiscard]] const std::array<std::optional<double>, 2>& poles() const { return poles_; }
+
+  /// Steps such that chords of one step keep `chord` times the radius (of swept curves: half their extent). Chart
+  /// coordinates count steps; 0 stands for straight directions, which need none.
+  void set_steps(double chord);
+  [[nodiscard]] Eigen::Vector2d chart(const Eigen::Vector2d& uv) const;
+  [[nodiscard]] Eigen::Vector2d from_chart(const Eigen::Vector2d& steps) const;
+  /// True for directions along which the surface is straight, and its normal the same.
+  [[nodiscard]] std::array<bool, 2> straight() const;
+
+ private:
+  enum class Kind { plane, cylinder, cone, sphere, torus, revolution, extrusion };
+  FaceSurface(Kind kind, Frame frame) : kind_(kind), frame_(frame) {}
+
+  [[nodiscard]] Point around(double u) const { return std::cos(u) * frame_.x + std::sin(u) * frame_.y; }
+  void set_poles();
+  [[nodiscard]] Expected<void> tabulate(const StepReader& reader, std::uint32_t instance, std::span<const Point> on_it);
+  [[nodiscard]] Eigen::Vector2d section(const Point& p) const;
+  [[nodiscard]] double nearest(const Eigen::Vector2d& q) const;
+
+  Kind kind_;
+  Frame frame_;
+  double radius_ = 0,
+         minor_ = 0;    // minor: of a cone the tangent of its half angle; of an extrusion the length of v = 1
+  bool lemon_ = false;  // the inner part of a torus that crosses its axis
+  std::optional<EdgeCurve> profile_;
+  Interval range_ = {};                    // of the profile
+  double waist_ = 0;                       // of the hyperboloid that a skew line revolves to: its least radius
+  bool one_side_ = false;                  // only what of the profile lies on the positive side of the axis
+  Point side_ = Point::Zero();             // that side
+  std::vector<double> sample_parameters_;  // fine samples of the profile: for `nearest`
+  std::vector<Eigen::Vector2d> samples_;
+  std::vector<double> steps_;  // parameters of whole steps along the profile
+  double angle_step_ = 1;
+  std::array<double, 2> periods_ = {0, 0};
+  std::array<std::optional<double>, 2> poles_ = {};
+};
+
+/// The radians of every unit of plane angles that a file assigns; 1 (radians) where it assigns none.
+[[nodiscard]] std::vector<double> plane_angle_units(const StepReader& reader);
+
+}  // namespace knead

@@ -1,0 +1,34 @@
+#include "step_faces.hpp"
+
+namespace knead {
+
+std::vector<StepFace> read_faces(const StepReader& reader) {
+  constexpr int max_nesting = 4;
+  std::vector<StepFace> result;
+  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
+    const bool on_surface = reader.is(k, "ADVANCED_FACE") || reader.is(k, "FACE_SURFACE");
+    if (!on_surface && !reader.is(k, "FACE")) continue;
+    const auto bounds = reader.attributes(k, "FACE", 1, 1);
+    if (bounds.empty()) continue;
+    StepFace face{k, bounds[0]};
+    if (on_surface) {
+      const auto own = reader.attributes(k, "FACE_SURFACE", 2, 2);
+      auto target = own.empty() ? std::nullopt : reader.reference(own[0]);
+      for (int depth = 0; depth < max_nesting && target; ++depth) {
+        const char* cut = reader.is(*target, "RECTANGULAR_TRIMMED_SURFACE") ? "RECTANGULAR_TRIMMED_SURFACE"
+                          : reader.is(*target, "CURVE_BOUNDED_SURFACE")     ? "CURVE_BOUNDED_SURFACE"
+                                                                            : nullptr;
+        if (cut == nullptr) break;
+        const auto basis = reader.attributes(*target, cut, 1, 1);
+        target = basis.empty() ? std::nullopt : reader.reference(basis[0]);
+      }
+      if (!target) continue;
+      face.surface = *target;
+      face.same_sense = reader.enumeration(own[1]) != "F";
+    }
+    result.push_back(face);
+  }
+  return result;
+}
+
+}  // namespace knead

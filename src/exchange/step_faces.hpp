@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "step_entity.hpp"
+
+namespace knead {
+
+/// An ADVANCED_FACE, FACE_SURFACE or FACE as its record gives it.
+struct StepFace {
+  std::uint32_t instance = no_instance;
+  std::uint32_t bounds = 0;             ///< the value of its list of FACE_BOUNDs
+  std::uint32_t surface = no_instance;  ///< none: a FACE has no geometry but that of its loops
+  bool same_sense = true;
+};
+
+/// All faces, in the order of the file. RECTANGULAR_TRIMMED_SURFACE and CURVE_BOUNDED_SURFACE stand for the surface
+/// that they cut: the bounds of the face say more.
+[[nodiscard]] std::vector<StepFace> read_faces(const StepReader& reader);
+
+}  // namespace knead
