@@ -3,6 +3,7 @@ import { fileURLToPath } from 'node:url';
 
 import { chromium } from 'playwright-core';
 
+import { drawGallery } from './gallery_pictures.mjs';
 import { serve } from './serve.mjs';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
@@ -89,6 +90,9 @@ await page.keyboard.press('4');
 await pause();
 await page.keyboard.press('f');
 await picture('studio-four-views');
+
+await theme('dark');
+await drawGallery(page, here('../docs/pictures/gallery'));
 
 await browser.close();
 await server.close();

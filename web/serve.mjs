@@ -16,11 +16,12 @@ export function serve(directory, port = 0) {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
     const file = join(directory, path.endsWith('/') ? join(path, 'index.html') : path);
-    let size;
+    let size, version;
     try {
       const stat = statSync(file);
       if (!stat.isFile() || !file.startsWith(join(directory, '/'))) throw new Error('no file');
       size = stat.size;
+      version = `${file} ${stat.mtimeMs} ${size}`;
     } catch {
       response.writeHead(404).end('not found');
       return;
@@ -29,8 +30,8 @@ export function serve(directory, port = 0) {
     // Names in assets/ change with their content: compressed once, kept by the browser.
     if (path.startsWith('/assets/')) head['cache-control'] = 'max-age=31536000, immutable';
     if (/\bgzip\b/.test(request.headers['accept-encoding'] ?? '') && /\.(js|css|html|wasm)$/.test(file)) {
-      if (!packed.has(file)) packed.set(file, gzipSync(readFileSync(file)));
-      const bytes = packed.get(file);
+      if (!packed.has(version)) packed.set(version, gzipSync(readFileSync(file)));
+      const bytes = packed.get(version);
       response.writeHead(200, { ...head, 'content-encoding': 'gzip', 'content-length': bytes.length }).end(bytes);
       return;
     }

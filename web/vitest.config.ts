@@ -1,11 +1,14 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
 
+import { rhinoWithoutEval } from './plugins/rhino_without_eval.mjs';
+
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
 export default defineConfig({
   root: here('..'),
   cacheDir: here('node_modules/.vite'),
+  plugins: [rhinoWithoutEval({ forNode: true })],
   resolve: { alias: { '@studio': here('src'), three: here('node_modules/three') } },
-  test: { globals: true, include: ['tests/web/*.test.ts'], exclude: ['**/e2e/**'], testTimeout: 60_000 },
+  test: { globals: true, server: { deps: { inline: ['rhino3dm'] } }, include: ['tests/web/*.test.ts'], exclude: ['**/e2e/**'], testTimeout: 60_000 },
 });

@@ -98,6 +98,28 @@ KNEAD_EXPORT(knead_open) int knead_open(std::size_t name_size) {
   return start(Document::from(std::move(*file)));
 }
 
+/// A session that `knead_snapshot` has kept. Input: the bytes of its STEP file (none: a document without one), its
+/// name, the snapshot.
+KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size_t name_size) {
+  std::string bytes = std::move(held().input);
+  held().input.clear();
+  if (source_size + name_size > bytes.size()) return fail({ErrorKind::usage, "the input is too short"});
+  std::string name = bytes.substr(source_size, name_size), snapshot = bytes.substr(source_size + name_size);
+  bytes.resize(source_size);
+  Document document = Document::fresh(name);
+  if (source_size > 0) {
+    auto file = StepFile::parse(std::move(bytes), std::move(name));
+    if (!file) return fail(file.error());
+    document = Document::from(std::move(*file));
+  }
+  const Point origin = middle(document);
+  auto session = Session::restore(std::move(document), snapshot);
+  if (!session) return fail(session.error());
+  held().origin = origin;
+  held().session = std::move(*session);
+  return answer("{}");
+}
+
 /// A document without a file; the input is its name.
 KNEAD_EXPORT(knead_fresh) int knead_fresh() { return start(Document::fresh(held().input)); }
 
@@ -126,6 +148,11 @@ KNEAD_EXPORT(knead_state) int knead_state() {
 
 KNEAD_EXPORT(knead_steps) int knead_steps(std::size_t first) {
   return held().session ? answer(steps_json(held().session->state(), first)) : without_session();
+}
+
+/// The text is the session as bytes; the history goes back as far as `history_bytes` allow.
+KNEAD_EXPORT(knead_snapshot) int knead_snapshot(std::size_t history_bytes) {
+  return held().session ? answer(held().session->snapshot(history_bytes)) : without_session();
 }
 
 KNEAD_EXPORT(knead_journal) int knead_journal() {

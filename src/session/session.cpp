@@ -50,7 +50,7 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
 }
 
 std::vector<Command> Session::journal() const {
-  std::vector<Command> commands;
+  std::vector<Command> commands = earlier_;
   for (std::size_t k = 0; k < position_; ++k) commands.insert(commands.end(), entries_[k].begin(), entries_[k].end());
   return commands;
 }

@@ -1,14 +1,23 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
 import { format } from '@studio/ui/dom';
 import { parseLength } from '@studio/ui/units';
-import { readKnead, toBase64, fromBase64, writeKnead } from '@studio/document/knead_file';
+import { fromBase64, toBase64 } from '@studio/document/base64';
+import { readKnead, type Source, writeKnead } from '@studio/document/knead_file';
 import { roundStep } from '@studio/view/ground';
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
 
 describe('typed lengths', () => {
   it.each([
     ['3', 'mm', 3], ['3mm', 'mm', 3], [' 0.1 in ', 'mm', 2.54], ['2,5 cm', 'mm', 25], ['1e-3m', 'mm', 1], ['1"', 'inch', 1],
-    ['-4', 'mm', -4], ['.5', 'm', 0.5], ['10 mm', 'm', 0.01],
+    ['-4', 'mm', -4], ['.5', 'm', 0.5], ['10 mm', 'm', 0.01], ['2 cm', 'mm', 20], ['1/2', 'mm', 0.5], ['1/2in', 'mm', 12.7],
+    ['1 1/2 in', 'inch', 1.5], ['-3/4"', 'mm', -19.05], ['2 1/4 ft', 'foot', 2.25], ["1'", 'inch', 12], ['1E2MM', 'cm', 10], ['5 thou', 'inch', 0.005],
   ])('%s in a file of %s is %d', (text, unit, length) => expect(parseLength(text, unit)).toBeCloseTo(length, 12));
-  it.each([['', 'mm'], ['three', 'mm'], ['3 parsec', 'mm'], ['3mm', 'unknown'], ['1/2', 'mm'], ['1e999', 'mm']])(
+  it.each([['', 'mm'], ['three', 'mm'], ['3 parsec', 'mm'], ['3mm', 'unknown'], ['1/0', 'mm'], ['1e999', 'mm'], ['1 2', 'mm'], ['mm', 'mm'],
+    ['1/2/3', 'mm'], ['--1', 'mm'], ['1.5/2', 'mm'], ['3 mm mm', 'mm']])(
     '%s in a file of %s is none', (text, unit) => expect(parseLength(text, unit)).toBeNull());
 });
 
@@ -22,24 +31,51 @@ describe('numbers for people', () => {
 describe('Knead documents', () => {
   const journal = '{"knead": 1, "commands": [\n  {"do":"hold","rows":2},\n  {"do":"step","count":3}\n]}\n';
 
-  it('come back as they were written', () => {
-    const source = Uint8Array.from({ length: 100_000 }, (_, k) => (k * 37) % 256);
-    const read = readKnead(writeKnead('a "name"', source, journal));
-    expect(read.name).toBe('a "name"');
-    expect(read.source).toEqual(source);
-    expect(read.commands).toEqual([{ do: 'hold', rows: 2 }, { do: 'step', count: 3 }]);
-    expect(readKnead(writeKnead('fresh', null, journal)).source).toBeNull();
+  const bytes = Uint8Array.from({ length: 20_000 }, (_, k) => (k * 37) % 256);
+  const commands = [{ do: 'hold', rows: 2 }, { do: 'step', count: 3 }];
+
+  it.each<Source | null>([null, { kind: 'step', name: 'a "b".step', bytes }, { kind: 'rhino', name: 'c.3dm', bytes }])(
+    'come back as they were written', (source) => {
+      for (const snapshot of [null, bytes.slice(7)]) {
+        const read = readKnead(writeKnead({ name: 'a "name"', source, journal, snapshot }));
+        expect(read).toEqual({ name: 'a "name"', source, commands, snapshot });
+      }
+    });
+
+  it('of version 1 are read: the source is a STEP file', () => {
+    const old = `{"knead": 1, "name": "old.step", "source": "${toBase64(bytes)}", "commands": [{"do": "hold", "rows": 2}, {"do": "step", "count": 3}]}`;
+    expect(readKnead(old)).toEqual({ name: 'old.step', source: { kind: 'step', name: 'old.step', bytes }, commands, snapshot: null });
   });
 
-  it('are scripts of the command line as well, where they began empty', () => {
-    expect(readKnead(journal).commands.length).toBe(2);
+  it('are scripts of the command line as well', () => expect(readKnead(journal).commands).toEqual(commands));
+
+  it('may have no command yet', () => {
+    expect(readKnead(writeKnead({ name: 'n', source: null, journal: '{"knead": 1, "commands": []}' })).commands).toEqual([]);
   });
 
+  const two = (fields: object) => JSON.stringify({ knead: 2, commands: [], ...fields });
   it.each([
-    ['', /not JSON/], ['[]', /version 1/], ['null', /version 1/], ['{"knead": 2}', /version 1/], ['{"knead": 1}', /no list of commands/],
-    ['{"knead": 1, "commands": [{}]}', /no list of commands/], ['{"knead": 1, "commands": [], "source": 3}', /no text/],
-    ['{"knead": 1, "commands": [], "source": "%"}', /not base64/],
+    ['', /not JSON/], ['[]', /version, is missing/], ['null', /version, is missing/], ['{"knead": 3}', /version 3; this studio reads 1 and 2/],
+    ['{"knead": 1}', /list of commands is missing/], ['{"knead": 2, "commands": [{"do": "step"}, {}]}', /commands\[1\]\.do/],
+    ['{"knead": 1, "commands": [7]}', /commands\[0\]/], ['{"knead": 1, "commands": [], "source": 3}', /"source": this is no text/],
+    ['{"knead": 1, "commands": [], "source": "%"}', /"source": this is not base64/], [two({ source: 'abc' }), /"source": write/],
+    [two({ source: { kind: 'iges', name: 'a', bytes: '' } }), /source\.kind: "iges"/], [two({ source: { kind: 'step', bytes: '' } }), /source\.name/],
+    [two({ source: { kind: 'step', name: 'a', bytes: '*' } }), /source\.bytes/], [two({ snapshot: 1 }), /"snapshot"/], [two({ name: 1 }), /"name"/],
+    [two({ undo: [] }), /"undo": a Knead document has no such field/],
   ])('%s is refused', (text, message) => expect(() => readKnead(text)).toThrow(message));
+
+  it('have the fields of their schema', () => {
+    const schema = JSON.parse(readFileSync(join(root, 'docs/knead-document.schema.json'), 'utf8')) as {
+      properties: Record<string, { properties?: object; enum?: unknown[] }>; required: string[];
+    };
+    const written = JSON.parse(writeKnead({ name: 'n', source: { kind: 'step', name: 'a', bytes }, journal, snapshot: bytes })) as Record<string, object>;
+    expect(Object.keys(schema.properties).sort()).toEqual(Object.keys(written).sort());
+    expect(Object.keys(schema.properties.source!.properties!).sort()).toEqual(Object.keys(written.source!).sort());
+    for (const field of schema.required) {
+      const { [field]: _, ...rest } = written;
+      expect(() => readKnead(JSON.stringify(rest))).toThrow();
+    }
+  });
 
   it('carry any bytes in base64', () => {
     for (const length of [0, 1, 2, 3, 0x8001]) {

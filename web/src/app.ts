@@ -1,11 +1,10 @@
 import * as THREE from 'three';
 
-import { autosave, type Saved } from './document/autosave';
-import { readKnead, writeKnead } from './document/knead_file';
-import { clay } from './document/clay';
+import { Documents, firstSettings } from './document/documents';
+import { Saving } from './document/saving';
 import { Client } from './engine/client';
 import type { Frame } from './engine/protocol';
-import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceInfo, type SurfaceNumbers } from './engine/session_types';
+import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from './engine/session_types';
 import { followGizmo } from './view/gizmo';
 import { Hand } from './view/hand';
 import type { Brush } from './view/brush';
@@ -21,7 +20,6 @@ export interface Notice {
   actions?: { label: string; act: () => void }[];
 }
 
-const autosaveDelay = 800; // milliseconds without a change
 const keptSteps = 400; // of the plot
 
 /** What the page knows and can do: the line to the session, the viewer, and what the user has chosen. */
@@ -36,20 +34,17 @@ export class App {
   framesPerSecond = 0;
   /** Counts what was done, so that the history knows when to look again. */
   changes = 0;
-  /** Files that the user gave, opened or refused. */
-  filesHandled = 0;
-  /** The file that was opened, for documents and the autosave. */
-  source: { name: string; bytes: Uint8Array | null } = { name: 'sheet', bytes: null };
+  readonly documents = new Documents(this);
+  readonly saving = new Saving(this);
+  /** Milliseconds that the worker took for this session's commands. */
+  computedTime = 0;
 
   /** Panels draw themselves anew on these. */
   readonly onChange: ((app: App) => void)[] = [];
   notify: (notice: Notice) => void = () => {};
 
   private fresh = false;
-  private dirty = false;
-  private saveTimer = 0;
   private lastFrame = 0;
-  private wasPlaying = false;
   private stepsEnd = 0;
 
   constructor() {
@@ -106,8 +101,8 @@ export class App {
       this.fresh = false;
       this.brush.settings.radius = 0.08 * this.diagonal;
     }
-    if (this.wasPlaying && !frame.playing) this.touch();
-    this.wasPlaying = frame.playing;
+    this.computedTime += frame.computeTime;
+    this.documents.keeper.computed(frame.unkept, frame.playing);
     this.changed();
   }
 
@@ -115,7 +110,7 @@ export class App {
   async execute(commands: Command[], join = false): Promise<true | null> {
     return this.attempt(async () => {
       await this.client.execute(commands, join);
-      this.touch();
+      this.documents.keeper.touch();
     });
   }
 
@@ -136,120 +131,21 @@ export class App {
     this.notify({ kind: 'error', text: text[0]!.toUpperCase() + text.slice(1), remedy: error.remedy });
   }
 
-  // --- documents ---------------------------------------------------------------------------------------------------
+  // --- documents: document/documents.ts, document/saving.ts ---------------------------------------------------------
 
-  async openStep(bytes: Uint8Array, name: string, commands: Command[] = []): Promise<true | null> {
-    return this.attempt(async () => {
-      this.begin();
-      const script = JSON.stringify({ knead: 1, commands });
-      await this.client.open(bytes, name, script);
-      this.source = { name, bytes };
-      this.dirty = false;
-      const [only, ...others] = this.state!.surfaces;
-      if (commands.length === 0 && only && others.length === 0) await this.client.execute(firstSettings(only));
-      if (this.state!.surfaces.length > 1 && this.state!.selection.length === 0) {
-        this.notify({ kind: 'info', text: `${this.state!.surfaces.length} surfaces: click the one to sculpt.` });
-      }
-      this.changed();
-    });
-  }
+  openStep = (bytes: Uint8Array, name: string) => this.documents.openStep(bytes, name);
+  startFresh = (name: string, commands: Command[]) => this.documents.startFresh(name, commands);
 
-  async startFresh(name: string, commands: Command[]): Promise<true | null> {
-    return this.attempt(async () => {
-      this.begin();
-      await this.client.fresh(name, commands);
-      this.source = { name, bytes: null };
-      this.dirty = false;
-      this.changed();
-    });
-  }
-
-  private begin(): void {
-    this.fresh = true;
-    this.steps = [];
-    this.stepsEnd = 0;
+  /** The next frame is of another session. Gives back what takes that back. */
+  begin(): () => void {
+    const { fresh, steps, stepsEnd, computedTime } = this;
+    const tool = this.viewer.selectedTool;
+    Object.assign(this, { fresh: true, steps: [], stepsEnd: 0, computedTime: 0 });
     this.viewer.selectTool(null);
-  }
-
-  async openFile(file: File): Promise<void> {
-    await this.read(file);
-    ++this.filesHandled;
-  }
-
-  private async read(file: File): Promise<void> {
-    const bytes = new Uint8Array(await file.arrayBuffer());
-    if (/\.(knead|json)$/i.test(file.name)) {
-      await this.attempt(async () => {
-        const { name, source, commands } = readKnead(new TextDecoder().decode(bytes));
-        if (source) await this.openStep(source, name, commands);
-        else await this.startFresh(name, commands);
-      });
-    } else if (/\.(stp|step|p21)$/i.test(file.name)) {
-      await this.openStep(bytes, file.name);
-    } else {
-      this.notify({ kind: 'error', text: `“${file.name}” is not a kind of file that the studio reads`,
-        remedy: 'open a STEP file (.step, .stp) or a Knead document (.knead)' });
-    }
-  }
-
-  async saveStep(): Promise<void> {
-    await this.attempt(async () => {
-      const bytes = await this.client.save();
-      const stem = this.stem();
-      download(new Blob([bytes.slice().buffer as ArrayBuffer], { type: 'model/step' }), `${stem}-sculpted.step`);
-      const touching = this.state!.tools.filter((t) => t.plasticity < 1);
-      this.notify({ kind: 'info', text: touching.length > 0 && this.state!.last !== null && this.state!.last.gap > 0
-        ? 'Saved with a tool still in contact: the shape is the one it holds.'
-        : 'Saved.' });
-    });
-  }
-
-  async saveKnead(): Promise<void> {
-    await this.attempt(async () => {
-      const text = writeKnead(this.source.name, this.source.bytes, await this.client.journal());
-      download(new Blob([text], { type: 'application/json' }), `${this.stem()}.knead`);
-    });
-  }
-
-  async saveScript(): Promise<void> {
-    await this.attempt(async () => {
-      download(new Blob([await this.client.journal()], { type: 'application/json' }), `${this.stem()}.json`);
-    });
-  }
-
-  async savePicture(): Promise<void> {
-    await this.attempt(async () => download(await this.viewer.picture(), `${this.stem()}.png`));
-  }
-
-  private stem(): string {
-    return this.source.name.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'surface';
-  }
-
-  /** Something changed: it is kept in the browser as soon as the user pauses. */
-  private touch(): void {
-    this.dirty = true;
-    delete document.documentElement.dataset.kept;
-    clearTimeout(this.saveTimer);
-    this.saveTimer = window.setTimeout(() => void this.keep(), autosaveDelay);
-  }
-
-  private async keep(): Promise<void> {
-    if (!this.dirty || this.hand.active || this.frame?.playing) return;
-    this.dirty = false;
-    try {
-      const journal = await this.client.journal();
-      const commands = (JSON.parse(journal) as { commands: Command[] }).commands.length;
-      await autosave.write({ name: this.source.name, source: this.source.bytes, journal, when: Date.now(), commands });
-      document.documentElement.dataset.kept = String(commands);
-    } catch (error) {
-      this.notify({ kind: 'error', text: `The browser could not keep a copy: ${String(error)}`, remedy: 'save a Knead document' });
-    }
-  }
-
-  async recover(saved: Saved): Promise<void> {
-    const { commands } = JSON.parse(saved.journal) as { commands: Command[] };
-    if (saved.source) await this.openStep(saved.source, saved.name, commands);
-    else await this.startFresh(saved.name, commands);
+    return () => {
+      Object.assign(this, { fresh, steps, stepsEnd, computedTime });
+      this.viewer.selectTool(tool);
+    };
   }
 
   /** Selects a surface. One that nothing was said about becomes clay with held edges: pressed, it would float away. */
@@ -334,25 +230,10 @@ export class App {
   }
 }
 
-/** Clay that is held at its edges, for a surface as it came. */
-function firstSettings(surface: SurfaceInfo): Command[] {
-  if (surface.hold > 0 || surface.pins > 0 || surface.constraints.length > 0 || surface.moved > 0) return [];
-  const rows = Math.min(2, Math.floor((Math.min(...surface.net) - 2) / 2));
-  return [...(rows > 0 ? [{ do: 'hold', rows }] : []), ...clay];
-}
-
 function readKept(): { display?: Partial<Display>; theme?: Theme } {
   try {
     return JSON.parse(localStorage.getItem('knead') ?? '{}') as { display?: Partial<Display>; theme?: Theme };
   } catch {
     return {};
   }
-}
-
-function download(blob: Blob, name: string): void {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

@@ -1,9 +1,11 @@
 import './style.css';
+import './document/document.css';
 import './view/view.css';
 
 import { App } from './app';
-import { autosave } from './document/autosave';
-import { scenes } from './gallery';
+import { workOffline } from './offline/register';
+import { offerRecovery } from './ui/recovery';
+import { openScene, scenes } from './gallery';
 import { notices, toolRail, topBar } from './ui/chrome';
 import { h } from './ui/dom';
 import { listenToEdges } from './ui/edge_popover';
@@ -37,7 +39,7 @@ document.addEventListener('dragover', (event) => event.preventDefault());
 document.addEventListener('drop', (event) => {
   event.preventDefault();
   const file = event.dataTransfer?.files[0];
-  if (file) void app.openFile(file);
+  if (file) void app.documents.openFile(file);
 });
 
 // For tests and the curious.
@@ -46,21 +48,12 @@ Object.assign(window, { studio: app });
 async function start(): Promise<void> {
   await app.client.ready;
   await app.attempt(async () => void (await app.client.paint({ detail: app.display.detail, field: app.display.field })));
-  const saved = await autosave.read().catch(() => undefined);
-  await scenes[0]!.open(app);
-  if (saved && saved.commands > 0) {
-    app.notify({
-      kind: 'info',
-      text: `“${saved.name}”, ${saved.commands} commands, from ${new Date(saved.when).toLocaleString()}, is still here.`,
-      actions: [
-        { label: 'Recover', act: () => void app.recover(saved) },
-        { label: 'Forget it', act: () => void autosave.forget() },
-      ],
-    });
-  }
+  await openScene(app, scenes[0]!);
+  await offerRecovery(app);
   offerTour(app);
   app.changed();
   document.documentElement.dataset.ready = 'true';
+  await workOffline(app);
 }
 
 void start();

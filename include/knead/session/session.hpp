@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct StepRecord {
   bool converged = true;
   bool limited = false;  ///< the limit holds something back
   std::string note;      ///< what stood in the way, and what would help
+
+  friend bool operator==(const StepRecord&, const StepRecord&) = default;
 };
 
 /// A constraint that was asked for and is kept until it is released.
@@ -125,10 +128,19 @@ class Session {
   /// The document's file with the present surfaces.
   [[nodiscard]] Expected<std::string> save() const;
 
+  /// All of the session but the document's file, as bytes: every state of the history with every number as it is, and
+  /// the commands. What states share is written once. Where the surfaces of the history need more than `history_bytes`
+  /// the oldest states are left out: their commands stay in the journal, but undo goes back no further.
+  [[nodiscard]] std::string snapshot(std::size_t history_bytes = std::size_t{64} << 20U) const;
+  /// The session that `snapshot` was taken of, bit for bit, undo and redo included; nothing is computed. Errors
+  /// (input): bytes that are damaged, of another version, or of a document with other surfaces.
+  [[nodiscard]] static Expected<Session> restore(Document document, std::string_view snapshot);
+
  private:
   struct ModelCache;
 
   Document document_;
+  std::vector<Command> earlier_;  // of a history that was restored in part: they stand, and cannot be taken back
   std::vector<std::shared_ptr<const SessionState>> states_;  // one more than entries_
   std::vector<std::vector<Command>> entries_;                // what undo takes back at once
   std::size_t position_ = 0;

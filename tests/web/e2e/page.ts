@@ -23,10 +23,10 @@ export interface Studio {
 }
 
 /** With `firstVisit` the page offers its tour, otherwise it takes the visitor for one who has seen it. */
-export async function openStudio(width = 900, height = 560, firstVisit = false): Promise<Studio> {
+export async function openStudio(width = 900, height = 560, firstVisit = false, directory = join(root, 'web/dist')): Promise<Studio> {
   const module = join(root, 'web/serve.mjs');
   const { serve } = (await import(/* @vite-ignore */ module)) as { serve(directory: string): Promise<Server> };
-  const server = await serve(join(root, 'web/dist'));
+  const server = await serve(directory);
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking',
@@ -67,6 +67,13 @@ interface App {
   brush: { active: boolean; settings: { radius: number; strength: number } };
   viewer: { picture(): Promise<Blob> };
   client: { followed(): Promise<void>; journal(): Promise<string> };
+}
+
+/** Opens a scene of the gallery. */
+export async function scene(page: Page, name: string): Promise<void> {
+  await page.locator('summary[aria-label^=Gallery]').click();
+  await page.locator('details[open] .menu-item').filter({ has: page.locator(`b:text-is("${name}")`) }).click();
+  await settled(page);
 }
 
 /** All positions that the page draws, file units, in one list. */

@@ -24,7 +24,7 @@ afterEach(() => {
 });
 
 const openFile = async (path: string) => {
-  const count = () => studio.page.evaluate(() => (window as never as { studio: { filesHandled: number } }).studio.filesHandled);
+  const count = () => studio.page.evaluate(() => (window as never as { studio: { documents: { handled: number } } }).studio.documents.handled);
   const before = await count();
   await studio.page.locator('input[type=file]').setInputFiles(path);
   await expect.poll(count, { timeout: 10_000 }).toBe(before + 1);

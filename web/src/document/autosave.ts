@@ -1,27 +1,44 @@
-/** The last session, kept in the browser: what a closed tab or a crash leaves behind. */
-export interface Saved {
+import type { Source } from './knead_file';
+
+/** A session as it is kept in the browser: what a closed tab or a crash leaves behind. */
+export interface Kept {
+  id: string;
   name: string;
-  source: Uint8Array | null;
-  journal: string;
   when: number;
+  /** How many commands stand. */
   commands: number;
+  journal: string;
+  snapshot: Uint8Array;
+  hasSource: boolean;
 }
+
+const stores = ['sessions', 'sources'] as const;
+type Store = (typeof stores)[number];
 
 function database(): Promise<IDBDatabase> {
   return new Promise((resolve, reject) => {
-    const request = indexedDB.open('knead', 1);
-    request.onupgradeneeded = () => request.result.createObjectStore('sessions');
-    request.onsuccess = () => resolve(request.result);
+    // Version 1 kept a single session under the key "last", without a snapshot.
+    const request = indexedDB.open('knead', 2);
+    request.onupgradeneeded = () => {
+      for (const name of [...request.result.objectStoreNames]) request.result.deleteObjectStore(name);
+      for (const name of stores) request.result.createObjectStore(name);
+    };
+    request.onblocked = () => reject(new Error('an older version of the studio is open in another tab'));
+    request.onsuccess = () => {
+      request.result.onversionchange = () => request.result.close();
+      resolve(request.result);
+    };
     request.onerror = () => reject(request.error);
   });
 }
 
-async function inStore<T>(mode: IDBTransactionMode, act: (store: IDBObjectStore) => IDBRequest<T>): Promise<T> {
+/** One transaction: all of it is kept, or nothing. */
+async function transact<T>(mode: IDBTransactionMode, act: (store: (name: Store) => IDBObjectStore) => IDBRequest<T>): Promise<T> {
   const db = await database();
   try {
     return await new Promise<T>((resolve, reject) => {
-      const transaction = db.transaction('sessions', mode);
-      const request = act(transaction.objectStore('sessions'));
+      const transaction = db.transaction(stores, mode);
+      const request = act((name) => transaction.objectStore(name));
       transaction.oncomplete = () => resolve(request.result);
       transaction.onerror = () => reject(transaction.error);
       transaction.onabort = () => reject(transaction.error);
@@ -32,7 +49,34 @@ async function inStore<T>(mode: IDBTransactionMode, act: (store: IDBObjectStore)
 }
 
 export const autosave = {
-  write: (saved: Saved) => inStore('readwrite', (store) => store.put(saved, 'last')),
-  read: () => inStore('readonly', (store) => store.get('last') as IDBRequest<Saved | undefined>),
-  forget: () => inStore('readwrite', (store) => store.delete('last')),
+  /** The source, which never changes, is written the first time only. */
+  write: (kept: Kept, source: Source | null) =>
+    transact('readwrite', (store) => {
+      if (source) store('sources').put(source, kept.id);
+      return store('sessions').put(kept, kept.id);
+    }),
+  source: (id: string) => transact('readonly', (store) => store('sources').get(id) as IDBRequest<Source | undefined>),
+  all: () => transact('readonly', (store) => store('sessions').getAll() as IDBRequest<Kept[]>),
+  forget: (id: string) =>
+    transact('readwrite', (store) => {
+      store('sources').delete(id);
+      return store('sessions').delete(id);
+    }),
 };
+
+/** The mark of a session that is open in some tab: held as long as the tab lives, gone with it however it ends. */
+const lockOf = (id: string) => `knead session ${id}`;
+
+/** Marks a session as this tab's; gives back what ends that. */
+export function hold(id: string): () => void {
+  let release = () => {};
+  const until = new Promise<void>((resolve) => (release = resolve));
+  void navigator.locks?.request(lockOf(id), () => until);
+  return release;
+}
+
+/** Ids of the sessions that some tab holds. */
+export async function heldIds(): Promise<Set<string>> {
+  const { held = [] } = (await navigator.locks?.query()) ?? {};
+  return new Set(held.map((lock) => lock.name ?? '').filter((name) => name.startsWith(lockOf(''))).map((name) => name.slice(lockOf('').length)));
+}

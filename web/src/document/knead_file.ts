@@ -1,51 +1,83 @@
 import type { Command } from '../engine/session_types';
+import { fromBase64, toBase64 } from './base64';
 
-/** A Knead document: where the session began, and its commands (docs/studio.md). */
-export interface KneadDocument {
-  knead: 1;
+/** A file that a session began with. */
+export interface Source {
+  kind: 'step' | 'rhino';
   name: string;
-  /** The STEP file as it was opened, base64; left out for a document that began empty. */
-  source?: string;
+  bytes: Uint8Array;
+}
+
+/** A Knead document: where the session began, its commands, and its state (docs/knead-document.md). */
+export interface KneadDocument {
+  name: string;
+  source: Source | null;
   commands: Command[];
+  /** The session as bytes; what it holds follows from source and commands, but takes no computing. */
+  snapshot: Uint8Array | null;
 }
 
-export function writeKnead(name: string, source: Uint8Array | null, journal: string): string {
-  const { commands } = JSON.parse(journal) as { commands: Command[] };
+export function writeKnead(document: { name: string; source: Source | null; journal: string; snapshot?: Uint8Array | null }): string {
+  const { commands } = JSON.parse(document.journal) as { commands: Command[] };
   const lines = commands.map((c) => `  ${JSON.stringify(c)}`).join(',\n');
-  const base64 = source ? `,\n"source": "${toBase64(source)}"` : '';
-  return `{"knead": 1,\n"name": ${JSON.stringify(name)}${base64},\n"commands": [\n${lines}\n]}\n`;
+  const { source, snapshot } = document;
+  return [
+    '{"knead": 2',
+    `"name": ${JSON.stringify(document.name)}`,
+    ...(source ? [`"source": {"kind": "${source.kind}", "name": ${JSON.stringify(source.name)}, "bytes": "${toBase64(source.bytes)}"}`] : []),
+    `"commands": [${lines && `\n${lines}\n`}]`,
+    ...(snapshot ? [`"snapshot": "${toBase64(snapshot)}"`] : []),
+  ].join(',\n') + '}\n';
 }
 
-/** Throws an Error whose message says what is wrong with the file. */
-export function readKnead(text: string): { name: string; source: Uint8Array | null; commands: Command[] } {
-  let json: Partial<KneadDocument>;
+const isObject = (x: unknown): x is Record<string, unknown> => typeof x === 'object' && x !== null && !Array.isArray(x);
+const fields = ['knead', 'name', 'source', 'commands', 'snapshot'];
+
+/** Throws an Error whose message says where in the document something is wrong, and what would be right. */
+export function readKnead(text: string): KneadDocument {
+  let json: unknown;
   try {
-    json = JSON.parse(text) as Partial<KneadDocument>;
-  } catch {
-    throw new Error('this is no Knead document: it is not JSON');
+    json = JSON.parse(text);
+  } catch (error) {
+    throw new Error(`this is no Knead document: it is not JSON (${(error as Error).message})`);
   }
-  if (json === null || typeof json !== 'object' || json.knead !== 1) {
-    throw new Error('this is no Knead document of version 1: "knead": 1 is missing');
+  if (!isObject(json) || json.knead === undefined) throw new Error('this is no Knead document: its "knead", the version, is missing');
+  if (json.knead !== 1 && json.knead !== 2) {
+    throw new Error(`"knead": the document is of version ${JSON.stringify(json.knead)}; this studio reads 1 and 2: reload the page for a newer one`);
   }
-  if (!Array.isArray(json.commands) || json.commands.some((c) => typeof c?.do !== 'string')) {
-    throw new Error('the Knead document has no list of commands');
-  }
-  if (json.source !== undefined && typeof json.source !== 'string') throw new Error('"source" of the Knead document is no text');
-  let source: Uint8Array | null = null;
+  const unknown = Object.keys(json).find((key) => !fields.includes(key));
+  if (unknown !== undefined && json.knead === 2) throw new Error(`"${unknown}": a Knead document has no such field; they are ${fields.join(', ')}`);
+  if (!Array.isArray(json.commands)) throw new Error('"commands": the list of commands is missing');
+  const commands = json.commands.map((c: unknown, k): Command => {
+    if (!isObject(c)) throw new Error(`commands[${k}]: a command is an object like {"do": "step"}`);
+    if (typeof c.do !== 'string') throw new Error(`commands[${k}].do: the name of the command is missing`);
+    return c as Command;
+  });
+  if (json.name !== undefined && typeof json.name !== 'string') throw new Error('"name": this is no text');
+  const name = json.name ?? 'document';
+  const source = json.source === undefined ? null : json.knead === 1 ? oldSource(json.source, name) : readSource(json.source);
+  const snapshot = json.snapshot === undefined ? null : bytesOf(json.snapshot, '"snapshot"');
+  return { name, source, commands, snapshot };
+}
+
+/** Of version 1: the bytes of a STEP file. */
+function oldSource(source: unknown, name: string): Source {
+  return { kind: 'step', name, bytes: bytesOf(source, '"source"') };
+}
+
+function readSource(source: unknown): Source {
+  if (!isObject(source)) throw new Error('"source": write {"kind": …, "name": …, "bytes": …}');
+  const { kind, name, bytes } = source;
+  if (kind !== 'step' && kind !== 'rhino') throw new Error(`source.kind: ${JSON.stringify(kind)} is not known; it is "step" or "rhino"`);
+  if (typeof name !== 'string') throw new Error('source.name: the name of the file is missing');
+  return { kind, name, bytes: bytesOf(bytes, 'source.bytes') };
+}
+
+function bytesOf(text: unknown, where: string): Uint8Array {
+  if (typeof text !== 'string') throw new Error(`${where}: this is no text`);
   try {
-    source = json.source !== undefined ? fromBase64(json.source) : null;
+    return fromBase64(text);
   } catch {
-    throw new Error('"source" of the Knead document is not base64');
+    throw new Error(`${where}: this is not base64`);
   }
-  return { name: typeof json.name === 'string' ? json.name : 'document', source, commands: json.commands };
-}
-
-export function toBase64(bytes: Uint8Array): string {
-  let text = '';
-  for (let k = 0; k < bytes.length; k += 0x8000) text += String.fromCharCode(...bytes.subarray(k, k + 0x8000));
-  return btoa(text);
-}
-
-export function fromBase64(text: string): Uint8Array {
-  return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 }

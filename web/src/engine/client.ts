@@ -67,6 +67,11 @@ export class Client {
   paint = (settings: PaintSettings) => this.ask({ kind: 'paint', settings });
   play = (toRest = false) => this.ask({ kind: 'play', toRest });
   stop = () => this.ask({ kind: 'stop' });
+  snapshot = async (historyBytes: number, kept: boolean): Promise<{ snapshot: Uint8Array; journal: string }> => {
+    const { bytes, text } = await this.ask({ kind: 'snapshot', historyBytes, kept });
+    return { snapshot: bytes!, journal: text! };
+  };
+  restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array) => this.ask({ kind: 'restore', source, name, snapshot });
   save = async (): Promise<Uint8Array> => (await this.ask({ kind: 'save' })).bytes!;
   surface = async (surface: number): Promise<SurfaceNumbers> =>
     JSON.parse((await this.ask({ kind: 'surface', surface })).text!) as SurfaceNumbers;

@@ -9,6 +9,8 @@ interface Exports {
   knead_text_size(): number;
   knead_open(nameSize: number): number;
   knead_fresh(): number;
+  knead_restore(sourceSize: number, nameSize: number): number;
+  knead_snapshot(historyBytes: number): number;
   knead_execute(join: number): number;
   knead_state(): number;
   knead_steps(first: number): number;
@@ -70,6 +72,22 @@ export class Engine {
 
   steps(first: number): StepInfo[] {
     return this.json(this.wasm.knead_steps(first)) as StepInfo[];
+  }
+
+  /** All of the session as bytes: its history goes back as far as `historyBytes` of shapes. */
+  snapshot(historyBytes: number): Uint8Array {
+    return this.bytes(this.wasm.knead_snapshot(historyBytes));
+  }
+
+  /** The session of a snapshot, with undo and redo; nothing is computed. `source`: the STEP file it began with. */
+  restore(source: Uint8Array | null, name: string, snapshot: Uint8Array): void {
+    const nameBytes = new TextEncoder().encode(name), sourceSize = source?.length ?? 0;
+    const all = new Uint8Array(sourceSize + nameBytes.length + snapshot.length);
+    if (source) all.set(source);
+    all.set(nameBytes, sourceSize);
+    all.set(snapshot, sourceSize + nameBytes.length);
+    this.give(all);
+    this.json(this.wasm.knead_restore(sourceSize, nameBytes.length));
   }
 
   /** The script of everything that stands, one command per line. */

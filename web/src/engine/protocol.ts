@@ -23,7 +23,10 @@ export type Request =
   /** The numbers of one surface: `SurfaceNumbers` as text. */
   | { kind: 'surface'; surface: number }
   | { kind: 'save' }
-  | { kind: 'journal' };
+  | { kind: 'journal' }
+  /** The session as bytes, with its journal as text. `kept`: it need not be computed again from here on. */
+  | { kind: 'snapshot'; historyBytes: number; kept: boolean }
+  | { kind: 'restore'; source: Uint8Array | null; name: string; snapshot: Uint8Array };
 
 export interface Frame {
   state: SessionInfo;
@@ -37,6 +40,8 @@ export interface Frame {
   computeTime: number;
   paintTime: number;
   memory: number;
+  /** Milliseconds of commands since the last snapshot: what a recovery would have to compute again. */
+  unkept: number;
 }
 
 export type Reply =

@@ -13,6 +13,7 @@ let frameDrawn = true;
 let frameDue = false;
 let shownSteps = 0;
 let computeTime = 0;
+let unkept = 0;
 let quietSteps = 0;
 
 const post = (reply: Reply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
@@ -36,6 +37,7 @@ function execute(engine: Engine, commands: Command[], join: boolean): void {
     }
   } finally {
     computeTime = performance.now() - start;
+    unkept += computeTime;
   }
 }
 
@@ -56,7 +58,7 @@ function sendFrame(engine: Engine): void {
   frameDrawn = false;
   const frame = {
     state, pictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no',
-    computeTime, paintTime: performance.now() - start, memory: engine.memorySize,
+    computeTime, paintTime: performance.now() - start, memory: engine.memorySize, unkept,
   };
   post(
     { kind: 'frame', frame },
@@ -91,6 +93,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       playing = 'no';
       shownSteps = 0;
       computeTime = 0;
+      const start = performance.now();
       if (request.kind === 'open') engine.openStep(request.bytes, request.name);
       else engine.fresh(request.name);
       const commands =
@@ -98,6 +101,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
         : request.script ? (JSON.parse(request.script) as { commands: Command[] }).commands
         : [];
       for (const command of commands) engine.execute(command);
+      unkept = performance.now() - start;
       sendFrame(engine);
       break;
     }
@@ -130,6 +134,19 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     case 'save':
       post({ kind: 'done', id, bytes: engine.save() });
       return;
+    case 'restore':
+      engine.restore(request.source, request.name, request.snapshot);
+      playing = 'no';
+      shownSteps = computeTime = unkept = 0;
+      sendFrame(engine);
+      break;
+    case 'snapshot': {
+      const text = engine.journal();
+      const bytes = engine.snapshot(request.historyBytes);
+      if (request.kept) unkept = 0;
+      post({ kind: 'done', id, bytes, text }, [bytes.buffer as ArrayBuffer]);
+      return;
+    }
     case 'surface':
       post({ kind: 'done', id, text: JSON.stringify(engine.surface(request.surface)) });
       return;

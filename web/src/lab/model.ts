@@ -90,7 +90,7 @@ export class LabModel {
     const directions = await readDirections(this.app, index);
     if (this.closed) return;
     const untouched = !this.surface || !this.edited;
-    const identity = `${this.app.source.name} ${info.id}`;
+    const identity = `${this.app.documents.name} ${info.id}`;
     const other = identity !== this.shown;
     this.shown = identity;
     const was = this.original;

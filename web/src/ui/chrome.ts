@@ -1,39 +1,35 @@
 import type { App, Notice } from '../app';
-import { scenes } from '../gallery';
 import { openLab } from '../lab/door';
 import { modes } from '../view/modes';
 import { h, icon, iconButton } from './dom';
+import { galleryMenu } from './gallery_menu';
+import { saveEntries } from './save_menu';
 import { shortcuts } from './shortcuts';
 import { toggleTour } from './tour';
 
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
 
 export function topBar(app: App): HTMLElement {
-  const picker = h('input', { type: 'file', accept: '.step,.stp,.p21,.knead,.json', hidden: true, aria: { label: 'File to open' } });
+  const picker = h('input', { type: 'file', accept: '.step,.stp,.p21,.3dm,.knead,.json', hidden: true, aria: { label: 'File to open' } });
   picker.addEventListener('change', () => {
     const file = picker.files?.[0];
     picker.value = '';
-    if (file) void app.openFile(file);
+    if (file) void app.documents.openFile(file);
   });
   const name = h('span', { class: 'document-name' });
+  const unit = h('span', { class: 'document-unit', title: 'Unit of the document: lengths without a unit are in it' });
   const undo = iconButton('undo', 'Undo (Ctrl+Z)', () => void app.execute([{ do: 'undo' }]));
   const redo = iconButton('redo', 'Redo (Ctrl+Shift+Z)', () => void app.execute([{ do: 'redo' }]));
   const play = iconButton('play', 'Play or pause (Space)', () => app.togglePlay());
   const step = iconButton('step', 'One step (.)', () => void app.execute([{ do: 'step' }]));
   const rest = iconButton('rest', 'Run to rest (R)', () => app.togglePlay(true));
   const four = iconButton('four', 'Four views or one (4)', () => app.setDisplay({ fourViews: !app.display.fourViews }));
-  const save = menu('save', 'Save', 'Save', [
-    ['STEP file', 'the file as it was opened, with the sculpted surfaces in it', () => void app.saveStep()],
-    ['Knead document', 'where it began and every command, to go on later', () => void app.saveKnead()],
-    ['Script', 'the commands alone, for the command line', () => void app.saveScript()],
-    ['Picture', 'the view as PNG', () => void app.savePicture()],
-  ]);
-  const gallery = menu('gallery', 'Gallery of ready scenes', 'Gallery', scenes.map((s) => [s.name, s.about, () => void s.open(app)]));
+  const save = menu('save', 'Save', 'Save', saveEntries(app));
   const bar = h('header', { class: 'top' },
     h('span', { class: 'brand' }, 'Knead'),
-    iconButton('open', 'Open a STEP file or Knead document (O)', () => picker.click(), 'Open'), gallery, save, picker,
+    iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), save, picker,
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
-    h('span', { class: 'spacer' }), name, h('span', { class: 'spacer' }),
+    h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
     iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
     iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
     iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
@@ -49,8 +45,9 @@ export function topBar(app: App): HTMLElement {
     play.replaceChildren(icon(app.playing() ? 'pause' : 'play'));
     play.classList.toggle('on', app.playing());
     four.classList.toggle('on', app.display.fourViews);
-    name.textContent = state ? app.source.name : '';
-    document.title = state ? `${app.source.name} – Knead studio` : 'Knead studio';
+    name.textContent = state ? app.documents.name : '';
+    unit.textContent = state?.surfaces[0]?.unit ?? '';
+    document.title = state ? `${app.documents.name} – Knead studio` : 'Knead studio';
   });
   return bar;
 }

@@ -1,3 +1,5 @@
+import { parseNumber } from './units';
+
 /** Small helpers that make elements; no markup is ever parsed, so that nothing in a file can become code. */
 
 type Child = Node | string | null | undefined | false;
@@ -123,7 +125,4 @@ export function format(value: number): string {
   return String(Number(value.toPrecision(4)));
 }
 
-export function plainNumber(text: string): number | null {
-  const value = Number(text.trim().replace(',', '.'));
-  return text.trim() !== '' && Number.isFinite(value) ? value : null;
-}
+export const plainNumber = parseNumber;

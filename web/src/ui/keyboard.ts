@@ -26,7 +26,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
       if (!app.playing() && !app.hand.active && (again ? app.state?.redo : app.state?.undo)) void app.execute([{ do: again ? 'redo' : 'undo' }]);
       return true;
     }
-    if (key === 's') void app.saveStep();
+    if (key === 's') void app.saving.step();
     return key === 's';
   }
   if (key === 'escape') {

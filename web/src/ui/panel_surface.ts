@@ -1,6 +1,7 @@
 import type { App } from '../app';
 import type { SurfaceNumbers } from '../engine/session_types';
 import { field, h, numberInput, plainNumber } from './dom';
+import { parseLength } from './units';
 import { note, panel, row } from './panel';
 import { numbers } from './panel_create';
 
@@ -80,7 +81,8 @@ export function surfacePanel(app: App): HTMLElement {
       weights,
       ...knots.map(({ direction, area }) => field(`Knots ${direction}`, area, 'Another vector of the same length: the points stay, the shape changes. 0×4 means four times')),
       field('Insert', row(input, at('u'), at('v')), 'New knots, the same shape'),
-      field('Coarsen', row(numberInput('Tolerance of coarsening', tolerance, (v) => (tolerance = Math.abs(v))),
+      field('Coarsen', row(numberInput('Tolerance of coarsening', tolerance, (v) => (tolerance = Math.abs(v)),
+        (text) => parseLength(text, s.unit)),
         small('Remove', 'Remove knots where the shape moves by no more than this', () => void app.execute([{ do: 'coarsen', tolerance }])))),
       row(
         small('Halve spans', 'Halve every span: the same shape on a finer net', () => void app.execute([{ do: 'refine', region: [[0, 1], [0, 1]] }])),

@@ -279,10 +279,15 @@ export class Viewer {
     this.onDrawn(performance.now() - start);
   }
 
-  /** The picture on the screen, as a PNG file. */
-  picture(): Promise<Blob> {
+  /** The picture on the screen as a PNG file, with `scale` pixels for each of the page's. */
+  picture(scale = 1): Promise<Blob> {
+    const usual = this.renderer.getPixelRatio();
+    this.renderer.setPixelRatio(scale);
     this.draw();
-    return new Promise((resolve, reject) =>
+    const picture = new Promise<Blob>((resolve, reject) =>
       this.renderer.domElement.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture'))), 'image/png'));
+    this.renderer.setPixelRatio(usual);
+    this.draw();
+    return picture;
   }
 }

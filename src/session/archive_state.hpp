@@ -1,0 +1,300 @@
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+#include "archive.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+
+// One function per type that says what it is made of, for writing and for reading. Structured bindings name all
+// members: a new one does not compile until it is here too.
+
+namespace knead::archive {
+
+template <class A, class T>
+using Of = std::conditional_t<A::writing, const T, T>;
+
+template <class A>
+void pass(A& a, Of<A, double>& x) {
+  a.number(x);
+}
+template <class A>
+void pass(A& a, Of<A, int>& x) {
+  a.integer(x);
+}
+template <class A>
+void pass(A& a, Of<A, bool>& x) {
+  a.flag(x);
+}
+template <class A>
+void pass(A& a, Of<A, std::string>& x) {
+  a.text(x);
+}
+template <class A>
+void pass(A& a, Of<A, Points>& x) {
+  a.points(x);
+}
+template <class A>
+void pass(A& a, Of<A, std::shared_ptr<const Surface>>& x) {
+  a.surface(x);
+}
+
+/// Enumerations as integers, 0 to `last`.
+template <class A, class E>
+void choice(A& a, E& x, std::remove_const_t<E> last) {
+  int value = static_cast<int>(x);
+  a.integer(value);
+  if constexpr (!A::writing) {
+    if (value < 0 || value > static_cast<int>(last)) return a.fail();
+    x = static_cast<E>(value);
+  }
+}
+
+template <class A, class T>
+void optional(A& a, T& x) {
+  bool present = x.has_value();
+  a.flag(present);
+  if constexpr (!A::writing) {
+    if (present && !a.bad()) x.emplace();
+  }
+  if (x) pass(a, *x);
+}
+
+/// A list of things of at least `least` bytes each.
+template <class A, class T>
+void list(A& a, T& x, std::size_t least = 4) {
+  if constexpr (A::writing) {
+    a.count(x.size());
+  } else {
+    x.resize(a.length(least));
+  }
+  for (auto& element : x) pass(a, element);
+}
+
+/// A command as its JSON form, which parses to the same command.
+template <class C>
+void command(Writer& a, const C& x) {
+  a.text(to_json(Command(x)));
+}
+template <class C>
+void command(Reader& a, C& x) {
+  std::string json;
+  a.text(json);
+  if (a.bad()) return;
+  auto parsed = parse_command(json);
+  if (!parsed || !std::holds_alternative<C>(*parsed)) return a.fail();
+  x = std::get<C>(std::move(*parsed));
+}
+
+template <class A>
+void pass(A& a, Of<A, StepRecord>& s) {
+  auto& [surface, time, energy, stretch, bend, kinetic, contact, residual, largest_displacement, gap, violation,
+         iterations, converged, limited, note] = s;
+  pass(a, surface);
+  for (auto* x :
+       {&time, &energy, &stretch, &bend, &kinetic, &contact, &residual, &largest_displacement, &gap, &violation}) {
+    pass(a, *x);
+  }
+  pass(a, iterations);
+  pass(a, converged);
+  pass(a, limited);
+  pass(a, note);
+}
+
+template <class A>
+void pass(A& a, Of<A, PatchEdge>& e) {
+  pass(a, e.patch);
+  choice(a, e.edge, SurfaceEdge::v1);
+}
+
+template <class A>
+void pass(A& a, Of<A, SeamReport>& r) {
+  auto& [seam, continuity, reason, rigid, restricted, mismatch, angle, ratio, deviation, constraints] = r;
+  auto& [first, second, reversed, kind, gap] = seam;
+  pass(a, first);
+  pass(a, second);
+  pass(a, reversed);
+  choice(a, kind, SeamKind::partial);
+  pass(a, gap);
+  choice(a, continuity, SeamContinuity::periodic);
+  pass(a, reason);
+  pass(a, rigid);
+  pass(a, restricted);
+  for (auto* x : {&mismatch, &angle, &ratio, &deviation}) pass(a, *x);
+  pass(a, constraints);
+}
+
+inline void pass(Writer& a, const KnotVector& x) {
+  a.integer(x.degree());
+  a.numbers({x.knots().begin(), x.knots().end()});
+}
+inline std::optional<KnotVector> read_knots(Reader& a) {
+  int degree = 0;
+  std::vector<double> knots;
+  a.integer(degree);
+  a.numbers(knots);
+  if (a.bad()) return std::nullopt;
+  auto made = KnotVector::create(degree, std::move(knots));
+  if (!made) a.fail();
+  return made ? std::optional(std::move(*made)) : std::nullopt;
+}
+
+inline void pass(Writer& a, const Coefficient<2>& x) {
+  const auto* field = std::get_if<SplineField<2>>(&x);
+  a.flag(field != nullptr);
+  if (field == nullptr) return a.number(std::get<double>(x));
+  for (const KnotVector& knots : field->knots()) pass(a, knots);
+  a.numbers(field->coefficients());
+}
+inline void pass(Reader& a, Coefficient<2>& x) {
+  bool varies = false;
+  a.flag(varies);
+  if (!varies) return a.number(x.emplace<double>());
+  auto u = read_knots(a), v = read_knots(a);
+  std::vector<double> coefficients;
+  a.numbers(coefficients);
+  if (!u || !v || a.bad()) return a.fail();
+  auto made = SplineField<2>::create({std::move(*u), std::move(*v)}, std::move(coefficients));
+  if (!made) return a.fail();
+  x = std::move(*made);
+}
+
+template <class A>
+void pass(A& a, Of<A, MaterialFieldOf<2>>& m) {
+  for (auto& x : m.alpha) pass(a, x);
+  for (auto& x : m.beta) pass(a, x);
+  pass(a, m.mass);
+  pass(a, m.damping);
+}
+
+inline void pass(Writer& a, const KeptConstraint& x) {
+  std::visit([&](const auto& c) { command(a, c); }, x.request);
+  a.surface(x.where);
+}
+inline void pass(Reader& a, KeptConstraint& x) {
+  std::string json;
+  a.text(json);
+  a.surface(x.where);
+  if (a.bad()) return;
+  auto parsed = parse_command(json);
+  if (!parsed) return a.fail();
+  std::visit(
+      [&](auto& c) {
+        if constexpr (std::is_constructible_v<ConstraintRequest, decltype(c)>) {
+          x.request = std::move(c);
+        } else {
+          a.fail();
+        }
+      },
+      *parsed);
+}
+
+template <class A>
+void pass(A& a, Of<A, PlacedForce>& f) {
+  auto& [force, surface] = f;
+  command(a, force);
+  pass(a, surface);
+}
+
+template <class A>
+void pass(A& a, Of<A, SurfaceState>& s) {
+  auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, hold_rows, pins, constraints,
+         smooth_knot_lines, smooth_poles] = s;
+  for (auto* x : {&id, &name, &unit}) pass(a, *x);
+  for (auto* x : {&opened, &reference, &rest, &current}) pass(a, *x);
+  pass(a, velocity);
+  choice(a, mode, RestMode::none);
+  pass(a, material);
+  pass(a, hold_rows);
+  if constexpr (A::writing) {
+    a.count(pins.size());
+    for (const auto& [i, j] : pins) {
+      a.integer(i);
+      a.integer(j);
+    }
+  } else {
+    for (std::size_t k = a.length(8); k > 0; --k) {
+      std::array<int, 2> pin = {0, 0};
+      for (int& i : pin) a.integer(i);
+      pins.insert(pin);
+    }
+  }
+  list(a, constraints);
+  pass(a, smooth_knot_lines);
+  pass(a, smooth_poles);
+}
+
+/// Numbers of every shape, in the order of the variant.
+template <class A>
+struct ShapeNumbers {
+  A& a;
+  void all(auto&... x) const { (pass(a, x), ...); }
+  void operator()(Of<A, SphereShape>& s) const { all(s.radius); }
+  void operator()(Of<A, EllipsoidShape>& s) const { all(s.semi_axes[0], s.semi_axes[1], s.semi_axes[2]); }
+  void operator()(Of<A, BoxShape>& s) const { all(s.half_sizes[0], s.half_sizes[1], s.half_sizes[2], s.rounding); }
+  void operator()(Of<A, CylinderShape>& s) const { all(s.radius, s.half_height); }
+  void operator()(Of<A, ConeShape>& s) const { all(s.radius, s.height, s.top_radius); }
+  void operator()(Of<A, CapsuleShape>& s) const { all(s.radius, s.half_height); }
+  void operator()(Of<A, TorusShape>& s) const { all(s.major, s.minor); }
+  void operator()(Of<A, PlaneShape>&) const {}
+  void operator()(Of<A, BowlShape>& s) const { all(s.radius, s.thickness); }
+  void operator()(Of<A, SuperellipsoidShape>& s) const {
+    all(s.semi_axes[0], s.semi_axes[1], s.semi_axes[2], s.e1, s.e2);
+  }
+  void operator()(Of<A, SupertoroidShape>& s) const { all(s.major, s.semi_axes[0], s.semi_axes[1], s.e1, s.e2); }
+  void operator()(Of<A, SplineShape>& s) const { all(s.surface); }
+};
+
+/// A shape of alternative number `index`.
+template <std::size_t K = 0>
+Shape shape_number(int index) {
+  if constexpr (K + 1 < std::variant_size_v<Shape>) {
+    if (index != static_cast<int>(K)) return shape_number<K + 1>(index);
+  }
+  return Shape(std::in_place_index<K>);
+}
+
+template <class A>
+void pass(A& a, Of<A, Placement>& p) {
+  auto& [rotation, position, scale] = p;
+  for (Eigen::Index k = 0; k < 4; ++k) pass(a, rotation.coeffs()[k]);
+  for (Eigen::Index k = 0; k < 3; ++k) pass(a, position[k]);
+  for (auto& x : scale) pass(a, x);
+}
+
+inline void pass(Writer& a, const Tool& t) {
+  const auto& [name, shape, mode, stiffness, range, rigid, friction, plasticity, direction] = t;
+  a.text(name);
+  a.integer(static_cast<int>(shape.shape().index()));
+  std::visit(ShapeNumbers<Writer>{a}, shape.shape());
+  pass(a, shape.placement());
+  choice(a, mode, ToolMode::imprint);
+  for (const double* x : {&stiffness, &range, &friction, &plasticity}) a.number(*x);
+  a.flag(rigid);
+  choice(a, direction, ToolDirection::push);
+}
+inline std::optional<Tool> read_tool(Reader& a) {
+  std::string name;
+  int index = 0;
+  a.text(name);
+  a.integer(index);
+  Shape shape = shape_number(index);
+  std::visit(ShapeNumbers<Reader>{a}, shape);
+  Placement at;
+  pass(a, at);
+  if (a.bad()) return std::nullopt;
+  auto placed = PlacedShape::create(shape, at);
+  if (!placed) {
+    a.fail();
+    return std::nullopt;
+  }
+  Tool t{.name = std::move(name), .shape = std::move(*placed)};
+  choice(a, t.mode, ToolMode::imprint);
+  for (double* x : {&t.stiffness, &t.range, &t.friction, &t.plasticity}) a.number(*x);
+  a.flag(t.rigid);
+  choice(a, t.direction, ToolDirection::push);
+  return t;
+}
+
+}  // namespace knead::archive

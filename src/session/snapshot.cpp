@@ -1,0 +1,235 @@
+// A session as bytes: all states of its history, with every number as it is.
+#include "archive_state.hpp"
+#include "executor.hpp"
+#include "knead/session/session.hpp"
+
+namespace knead {
+namespace {
+
+using archive::choice;
+using archive::list;
+using archive::pass;
+using archive::Reader;
+using archive::Writer;
+
+constexpr std::string_view magic = "Knead snapshot 1\n";
+
+/// FNV-1a over words of eight bytes: damage is found, not tampering.
+std::uint64_t checksum(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (std::size_t k = 0; k < bytes.size(); k += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + k, std::min<std::size_t>(8, bytes.size() - k));
+    hash = (hash ^ word) * 0x100000001b3U;
+  }
+  return hash ^ bytes.size();
+}
+
+std::size_t size_of(const Surface& s) {
+  return static_cast<std::size_t>(s.size()) * sizeof(double) * (s.rational() ? 4 : 3) +
+         (s.knots(0).knots().size() + s.knots(1).knots().size()) * sizeof(double);
+}
+
+void write_surface(Writer& a, const Surface& s) {
+  for (const KnotVector& knots : s.knots()) pass(a, knots);
+  a.points(s.control_points());
+  a.numbers({s.weights().begin(), s.weights().end()});
+}
+
+std::shared_ptr<const Surface> read_surface(Reader& a) {
+  auto u = archive::read_knots(a), v = archive::read_knots(a);
+  Points points;
+  std::vector<double> weights;
+  a.points(points);
+  a.numbers(weights);
+  if (a.bad() || !u || !v) return nullptr;
+  auto made = Surface::create({std::move(*u), std::move(*v)}, std::move(points), std::move(weights));
+  if (!made) a.fail();
+  return made ? std::make_shared<const Surface>(std::move(*made)) : nullptr;
+}
+
+/// The part of a state that is not shared with the one before it: steps are appended, most surfaces stay.
+struct Neighbour {
+  const std::vector<StepRecord>* steps = nullptr;
+  std::vector<std::string> surfaces;  // as bytes
+};
+
+void write_state(Writer& a, const SessionState& state, Neighbour& before) {
+  const auto& [selected, together, surfaces, tools, forces, load, limit, evolve, scaling, seams, permission, steps,
+               seam_reports, notes, energy_before] = state;
+  archive::optional(a, selected);
+  list(a, together);
+  std::vector<std::string> written;
+  a.count(surfaces.size());
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    const std::string sofar = a.take();
+    pass(a, surfaces[k]);
+    written.push_back(a.take());
+    const bool same = k < before.surfaces.size() && before.surfaces[k] == written.back();
+    a.bytes(sofar.data(), sofar.size());
+    a.flag(same);
+    if (!same) a.bytes(written.back().data(), written.back().size());
+  }
+  before.surfaces = std::move(written);
+  a.count(tools.size());
+  for (const Tool& tool : tools) pass(a, tool);
+  list(a, forces);
+  archive::command(a, load);
+  archive::optional(a, limit);
+  archive::command(a, evolve);
+  choice(a, scaling, ScalingMode::raw);
+  archive::command(a, seams);
+  choice(a, permission, RefinePermission::never);
+  std::size_t shared = 0;
+  if (before.steps != nullptr) {
+    const std::size_t most = std::min(steps.size(), before.steps->size());
+    while (shared < most && steps[shared] == (*before.steps)[shared]) ++shared;
+  }
+  before.steps = &steps;
+  a.count(shared);
+  a.count(steps.size() - shared);
+  for (std::size_t k = shared; k < steps.size(); ++k) pass(a, steps[k]);
+  list(a, seam_reports);
+  list(a, notes);
+  archive::optional(a, energy_before);
+}
+
+/// Reads a state into one that begins as a copy of the one before it.
+void read_state(Reader& a, SessionState& state) {
+  auto& [selected, together, surfaces, tools, forces, load, limit, evolve, scaling, seams, permission, steps,
+         seam_reports, notes, energy_before] = state;
+  selected.reset();
+  archive::optional(a, selected);
+  list(a, together);
+  const std::size_t known = surfaces.size();
+  surfaces.resize(a.length(1));
+  for (std::size_t k = 0; k < surfaces.size() && !a.bad(); ++k) {
+    bool same = false;
+    a.flag(same);
+    if (same && k >= known) return a.fail();
+    if (same) continue;
+    surfaces[k] = {};
+    pass(a, surfaces[k]);
+    if (a.bad()) return;
+    const SurfaceState& s = surfaces[k];
+    for (const auto& other : {s.opened, s.reference, s.rest}) {
+      if (other->net() != s.current->net()) return a.fail();
+    }
+  }
+  tools.clear();
+  for (std::size_t k = a.length(4); k > 0 && !a.bad(); --k) {
+    if (auto tool = archive::read_tool(a)) tools.push_back(std::move(*tool));
+  }
+  list(a, forces);
+  archive::command(a, load);
+  limit.reset();
+  archive::optional(a, limit);
+  archive::command(a, evolve);
+  choice(a, scaling, ScalingMode::raw);
+  archive::command(a, seams);
+  choice(a, permission, RefinePermission::never);
+  std::size_t shared = 0;
+  a.count(shared);
+  if (shared > steps.size()) return a.fail();
+  steps.resize(shared);
+  const std::size_t more = a.length(4);
+  steps.resize(shared + more);
+  for (std::size_t k = shared; k < steps.size() && !a.bad(); ++k) pass(a, steps[k]);
+  list(a, seam_reports);
+  notes.clear();
+  list(a, notes);
+  energy_before.reset();
+  archive::optional(a, energy_before);
+  for (int k : state.selection()) {
+    if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
+  }
+  for (const PlacedForce& f : forces) {
+    if (f.surface < 0 || f.surface >= static_cast<int>(surfaces.size())) a.fail();
+  }
+}
+
+std::unexpected<Error> damaged(const std::string& what) {
+  return input_error(what, "snapshot", "replay the commands of the session instead");
+}
+
+}  // namespace
+
+std::string Session::snapshot(std::size_t history_bytes) const {
+  // How far back: the newest states whose surfaces fit.
+  std::size_t first = position_, bytes = 0;
+  std::unordered_map<const Surface*, bool> seen;
+  for (std::size_t k = states_.size(); k-- > 0;) {
+    for (const SurfaceState& s : states_[k]->surfaces) {
+      for (const auto& shape : {s.opened, s.reference, s.rest, s.current}) {
+        if (seen.try_emplace(shape.get(), true).second) bytes += size_of(*shape);
+      }
+      bytes += static_cast<std::size_t>(s.velocity.size()) * sizeof(double);
+    }
+    if (k < position_ && bytes > history_bytes) break;
+    first = std::min(first, k);
+  }
+  Writer a;
+  std::vector<Command> earlier = earlier_;
+  for (std::size_t k = 0; k < first; ++k) earlier.insert(earlier.end(), entries_[k].begin(), entries_[k].end());
+  a.text(script_json(earlier));
+  a.count(position_ - first);
+  a.count(entries_.size() - first);
+  for (std::size_t k = first; k < entries_.size(); ++k) a.text(script_json(entries_[k]));
+  Neighbour before;
+  for (std::size_t k = first; k < states_.size(); ++k) write_state(a, *states_[k], before);
+  const std::string body = a.take();
+  a.count(document_.surfaces().size());
+  const std::vector<std::shared_ptr<const Surface>> surfaces = a.surfaces();
+  a.count(surfaces.size());
+  for (const auto& s : surfaces) write_surface(a, *s);
+  a.bytes(body.data(), body.size());
+  const std::string content = a.take();
+  a.bytes(magic.data(), magic.size());
+  const std::uint64_t sum = checksum(content);
+  a.bytes(&sum, sizeof sum);
+  a.bytes(content.data(), content.size());
+  return a.take();
+}
+
+Expected<Session> Session::restore(Document document, std::string_view bytes) {
+  if (!bytes.starts_with(magic)) return damaged("these bytes are no snapshot of this version");
+  bytes.remove_prefix(magic.size());
+  std::uint64_t sum = 0;
+  std::vector<std::shared_ptr<const Surface>> surfaces;
+  Reader head(bytes, surfaces);
+  head.bytes(&sum, sizeof sum);
+  if (head.bad() || checksum(head.rest()) != sum) return damaged("the snapshot is damaged");
+  std::size_t opened = 0;
+  head.count(opened);
+  if (opened != document.surfaces().size()) return damaged("the snapshot belongs to another document");
+  for (std::size_t k = head.length(8); k > 0; --k) {
+    auto surface = read_surface(head);
+    if (!surface) return damaged("the snapshot holds a surface that cannot be");
+    surfaces.push_back(std::move(surface));
+  }
+  Reader a(head.rest(), surfaces);
+  Session session(std::move(document));
+  session.states_.clear();
+  const auto commands = [&a]() -> std::vector<Command> {
+    std::string script;
+    a.text(script);
+    if (a.bad()) return {};
+    auto parsed = parse_script(script, "snapshot");
+    if (!parsed) a.fail();
+    return parsed ? std::move(*parsed) : std::vector<Command>{};
+  };
+  session.earlier_ = commands();
+  a.count(session.position_);
+  for (std::size_t k = a.length(8); k > 0 && !a.bad(); --k) session.entries_.push_back(commands());
+  SessionState state;
+  for (std::size_t k = 0; k <= session.entries_.size() && !a.bad(); ++k) {
+    read_state(a, state);
+    session.states_.push_back(std::make_shared<const SessionState>(state));
+  }
+  if (a.bad() || !a.at_end() || session.position_ > session.entries_.size()) {
+    return damaged("the snapshot holds what this program does not know");
+  }
+  return session;
+}
+
+}  // namespace knead

@@ -1,0 +1,125 @@
+// A session as bytes, and the same session again.
+#include <gtest/gtest.h>
+
+#include "sheet.hpp"
+
+namespace knead {
+namespace {
+
+using testing::fresh;
+using testing::on_sheet;
+using testing::run;
+using testing::same_state;
+
+/// Something of everything that a state can hold.
+const std::vector<std::string> rich = {
+    R"({"do":"material","alpha":[0.1,0,0.1],"beta":[0.001,0.001,0.001]})",
+    R"({"do":"material","alpha":[1,0,1],"beta":[0.01,0.01,0.01],"region":[[0.2,0.6],[0.2,0.6]],"falloff":0.2})",
+    R"({"do":"refine","region":[[0,0.5],[0,0.5]]})",
+    R"({"do":"pin","control_points":[[4,4],[5,4]]})",
+    R"({"do":"pin","at":[0.3,0.3]})",
+    R"({"do":"freeze","region":[[0.8,1],[0.8,1]]})",
+    R"({"do":"evolve","mode":"dynamic","time_step":0.03})",
+    R"({"do":"load","gravity":[0,0,-2],"pressure":0.1})",
+    R"({"do":"force","name":"pull","at":[0.5,0.5],"to":[5,5,2],"strength":3})",
+    R"({"do":"tool","name":"ball","radius":2,"position":[5,5,-1.5],"plasticity":0.5})",
+    R"({"do":"tool","name":"box","shape":"box","sizes":[1,2,0.5],"rounding":0.1,"axis":[1,1,1],"position":[2,2,-0.2]})",
+    R"({"do":"step","count":3})",
+    R"({"do":"turn","tool":"box","axis":[1,2,3],"angle":30})",
+    R"({"do":"step","count":2})",
+    R"({"do":"remove","tool":"ball"})",
+    R"({"do":"limit","distance":3})",
+    R"({"do":"step"})",
+};
+
+Session again(const Session& session, std::size_t history = std::size_t{64} << 20U) {
+  auto restored = Session::restore(session.document(), session.snapshot(history));
+  EXPECT_TRUE(restored) << (restored ? "" : restored.error().message());
+  return std::move(*restored);
+}
+
+TEST(Snapshot, RestoresEveryStateOfTheHistoryBitForBit) {
+  Session session = on_sheet(rich);
+  Session restored = again(session);
+  EXPECT_EQ(script_json(restored.journal()), script_json(session.journal()));
+  while (session.can_undo()) {
+    ASSERT_TRUE(restored.can_undo());
+    EXPECT_TRUE(same_state(session.state(), restored.state()));
+    EXPECT_EQ(session.state().steps, restored.state().steps);
+    EXPECT_EQ(session.state().notes, restored.state().notes);
+    run(session, {R"({"do":"undo"})"});
+    run(restored, {R"({"do":"undo"})"});
+  }
+  EXPECT_FALSE(restored.can_undo());
+  while (session.can_redo()) {
+    run(session, {R"({"do":"redo"})"});
+    run(restored, {R"({"do":"redo"})"});
+  }
+  EXPECT_TRUE(same_state(session.state(), restored.state()));
+  EXPECT_FALSE(restored.can_redo());
+}
+
+TEST(Snapshot, GoesOnToTheSameBits) {
+  Session session = on_sheet(rich);
+  Session restored = again(session);
+  const std::vector<std::string> more = {R"({"do":"step","count":3})", R"({"do":"move","tool":"box","by":[0.2,0,0]})",
+                                         R"({"do":"step","count":2})", R"({"do":"remove"})"};
+  run(session, more);
+  run(restored, more);
+  EXPECT_TRUE(same_state(session.state(), restored.state()));
+  EXPECT_EQ(session.snapshot().size(), restored.snapshot().size());
+}
+
+TEST(Snapshot, KeepsWhatIsToBeRedone) {
+  Session session = on_sheet(rich);
+  for (int k = 0; k < 5; ++k) run(session, {R"({"do":"undo"})"});
+  Session restored = again(session);
+  for (int k = 0; k < 5; ++k) {
+    ASSERT_TRUE(restored.can_redo());
+    run(session, {R"({"do":"redo"})"});
+    run(restored, {R"({"do":"redo"})"});
+    EXPECT_TRUE(same_state(session.state(), restored.state()));
+  }
+  EXPECT_FALSE(restored.can_redo());
+}
+
+TEST(Snapshot, LeavesOutTheOldestStatesButNoCommand) {
+  Session session = on_sheet(rich);
+  Session restored = again(session, 0);
+  EXPECT_TRUE(same_state(session.state(), restored.state()));
+  EXPECT_EQ(script_json(restored.journal()), script_json(session.journal()));
+  EXPECT_FALSE(restored.can_undo());
+  EXPECT_LT(session.snapshot(0).size(), session.snapshot().size());
+  // What was left out once stays in the journal the next time.
+  run(restored, {R"({"do":"step"})"});
+  EXPECT_EQ(again(restored).journal().size(), session.journal().size() + 1);
+}
+
+TEST(Snapshot, SharesWhatTheHistoryShares) {
+  Session session = on_sheet();
+  const std::size_t before = session.snapshot().size();
+  for (int k = 0; k < 50; ++k) run(session, {R"({"do":"limit","distance":3})"});
+  // Fifty entries without a new shape: no control point is written again.
+  EXPECT_LT(session.snapshot().size() - before, 50U * 1000U);
+}
+
+TEST(Snapshot, RefusesBytesThatAreNotItsOwn) {
+  Session session = on_sheet(rich);
+  const std::string good = session.snapshot();
+  EXPECT_FALSE(Session::restore(session.document(), ""));
+  EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot 7\n"));
+  for (std::size_t size = 0; size < good.size(); size += 997) {
+    EXPECT_FALSE(Session::restore(session.document(), std::string_view(good).substr(0, size))) << size;
+  }
+  for (std::size_t k = 0; k < good.size(); k += 1009) {
+    std::string bad = good;
+    bad[k] = static_cast<char>(bad[k] ^ 0x10);
+    EXPECT_FALSE(Session::restore(session.document(), bad)) << k;
+  }
+  const auto other = Session::restore(session.document(), "garbage");
+  ASSERT_FALSE(other);
+  EXPECT_NE(other.error().message().find("snapshot"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace knead

@@ -1,0 +1,179 @@
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+
+import type { Page } from 'playwright-core';
+
+import { commands, distance, openStudio, positions, ready, root, scene, settled, stroke, type Studio } from './page';
+
+let studio: Studio;
+let directory: string;
+
+beforeAll(async () => {
+  directory = mkdtempSync(join(tmpdir(), 'knead-documents-'));
+  studio = await openStudio();
+});
+afterAll(async () => {
+  await studio.close();
+  rmSync(directory, { recursive: true });
+});
+afterEach(() => {
+  expect(studio.problems).toEqual([]);
+  expect(studio.foreign).toEqual([]);
+});
+
+async function open(page: Page, path: string): Promise<void> {
+  const count = () => page.evaluate(() => (window as never as { studio: { documents: { handled: number } } }).studio.documents.handled);
+  const before = await count();
+  await page.locator('input[type=file]').setInputFiles(path);
+  await expect.poll(count, { timeout: 20_000 }).toBe(before + 1);
+  await settled(page);
+}
+
+async function save(page: Page, entry: string): Promise<string> {
+  await page.locator('summary[aria-label=Save]').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item').filter({ has: page.locator(`b:text-is("${entry}")`) }).click()]);
+  const path = join(directory, download.suggestedFilename());
+  await download.saveAs(path);
+  return path;
+}
+
+const kept = async (page: Page) => {
+  const count = (await commands(page)).length;
+  await page.waitForSelector(`html[data-kept="${count}"]`, { state: 'attached' });
+};
+const recover = (page: Page) => page.locator('.notice button', { hasText: 'Recover' }).click();
+
+describe('Rhino files', () => {
+  it('are saved, opened, sculpted and saved again', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0], [30, 0]);
+    const shape = await positions(page);
+    const saved = await save(page, 'Rhino file');
+    expect(saved).toMatch(/\.3dm$/);
+    await scene(page, 'Clay sheet');
+    await open(page, saved);
+    expect(distance(await positions(page), shape)).toBeLessThan(1e-3); // drawn in single precision
+    await stroke(page, [-30, 0], [-10, 0]);
+    const again = await positions(page);
+    expect(distance(again, shape)).toBeGreaterThan(1);
+    const sculpted = await save(page, 'Rhino file');
+    expect(sculpted).toMatch(/-sculpted\.3dm$/);
+    await open(page, sculpted);
+    expect(distance(await positions(page), again)).toBeLessThan(1e-3);
+  });
+
+  it.skipIf(!existsSync(join(root, '../shared/data/cad')) && !existsSync(join(root, '../../shared/data/cad')))('of polysurfaces open too', async () => {
+    const cad = [join(root, '../shared/data/cad'), join(root, '../../shared/data/cad')].find(existsSync)!;
+    const { page } = studio;
+    await open(page, join(cad, 'v2_HumanHead2.3dm'));
+    expect(await page.locator('.panel[data-panel=Surfaces] .item').count()).toBe(10);
+    await expect.poll(() => page.locator('.document-name').textContent()).toContain('v2_HumanHead2.3dm');
+  });
+
+  it('that are none are refused with a reason', async () => {
+    const path = join(directory, 'bad.3dm');
+    writeFileSync(path, '3D Geometry File Format, but not really');
+    await open(studio.page, path);
+    await expect.poll(() => studio.page.locator('.notice.error').textContent()).toContain('no Rhino file');
+    await studio.page.locator('.notice.error button[aria-label=Dismiss]').click();
+  });
+});
+
+describe('saving', () => {
+  it('says so where a tool is still in contact', async () => {
+    const { page } = studio;
+    await scene(page, 'Ball on a membrane');
+    await page.keyboard.press('.');
+    await settled(page);
+    await save(page, 'STEP file');
+    await expect.poll(() => page.locator('.notice.info').last().textContent()).toContain('tool still in contact');
+  });
+
+  it('gives a picture of the size on the screen, and one twice as large', async () => {
+    const { page } = studio;
+    const size = (path: string) => {
+      const png = readFileSync(path);
+      return [png.readUInt32BE(16), png.readUInt32BE(20)];
+    };
+    const [width, height] = size(await save(page, 'Picture'));
+    const stage = (await page.locator('.stage').boundingBox())!;
+    expect([width, height]).toEqual([Math.floor(stage.width), Math.floor(stage.height)]);
+    expect(size(await save(page, 'Picture, twice as large'))).toEqual([2 * width!, 2 * height!]);
+  });
+});
+
+describe('what a closed tab leaves behind', () => {
+  it('comes back with its history', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    const flat = await positions(page);
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0], [30, 0]);
+    const shape = await positions(page);
+    await kept(page);
+    await page.reload();
+    await ready(page);
+    await recover(page);
+    await settled(page);
+    expect(distance(await positions(page), shape)).toBe(0);
+    await page.keyboard.press('Control+z');
+    await settled(page);
+    expect(distance(await positions(page), flat)).toBe(0);
+    await page.keyboard.press('Control+Shift+z');
+    await settled(page);
+    expect(distance(await positions(page), shape)).toBe(0);
+  });
+
+  it('is kept while steps run, without a pause', async () => {
+    const { page } = studio;
+    await scene(page, 'Trampoline');
+    await page.keyboard.press('Space');
+    await page.waitForSelector('html[data-kept]', { state: 'attached', timeout: 60_000 });
+    const before = await page.evaluate(() => (window as never as { studio: { frame: { state: { steps: number } } } }).studio.frame.state.steps);
+    // Without a pause in which it could be kept.
+    await page.reload();
+    await ready(page);
+    await recover(page);
+    await settled(page);
+    const steps = (await commands(page)).filter((c) => c.do === 'step') as unknown as { count: number }[];
+    expect(steps.length).toBe(1);
+    expect(steps[0]!.count).toBeGreaterThan(0.5 * before);
+  });
+
+  it('is each tab its own', async () => {
+    const { page, browser, server } = studio;
+    const context = await browser.newContext();
+    await context.addInitScript(() => localStorage.setItem('knead-tour', '1'));
+    const tabs = [await context.newPage(), await context.newPage()];
+    const shapes: number[][] = [];
+    for (const [k, tab] of tabs.entries()) {
+      await tab.goto(server.url);
+      await ready(tab);
+      expect(await tab.locator('.notice').count()).toBe(0); // what is open in a tab is not offered in another
+      await scene(tab, k === 0 ? 'Clay sheet' : 'Trampoline');
+      if (k === 1) await tab.keyboard.press('.');
+      else {
+        await tab.keyboard.press('b');
+        await stroke(tab, [0, 0], [30, 0]);
+      }
+      await settled(tab);
+      shapes.push(await positions(tab));
+      await kept(tab);
+    }
+    for (const tab of tabs) await tab.close();
+    const later = await context.newPage();
+    await later.goto(server.url);
+    await ready(later);
+    expect(await later.locator('.notice').textContent()).toContain('trampoline');
+    await later.locator('.notice button', { hasText: 'Older (1)' }).click();
+    expect(await later.locator('.notice').textContent()).toContain('sheet');
+    await recover(later);
+    await settled(later);
+    expect(distance(await positions(later), shapes[0]!)).toBe(0);
+    await context.close();
+    await page.bringToFront();
+  });
+});

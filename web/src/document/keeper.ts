@@ -1,0 +1,97 @@
+import type { App } from '../app';
+import type { Command } from '../engine/session_types';
+import { autosave, heldIds, hold, type Kept } from './autosave';
+
+const pause = 800; // milliseconds without a change after which the session is kept
+const mostUnkept = 1200; // milliseconds of computing after which it is kept in any case
+const mostPlayed = 4000; // milliseconds of playing after which it is kept, however little was computed
+const historyBytes = 48 * 2 ** 20; // of shapes that undo can go back to after a recovery
+const mostSessions = 6;
+
+/**
+ * Keeps the session in the browser: source, commands, and a snapshot of all states. A recovery computes nothing again
+ * but what came after the last snapshot, which is never much more than `mostUnkept`.
+ */
+export class Keeper {
+  private id = '';
+  private release = () => {};
+  private dirty = false;
+  private sourceKept = false;
+  private playing = false;
+  private written = 0; // when it was last begun
+  private timer = 0;
+  private writing: Promise<void> | null = null;
+  private failed = false;
+
+  constructor(private readonly app: App) {
+    // What is not kept yet when the page goes away: the browser lets a transaction that has begun end.
+    document.addEventListener('visibilitychange', () => {
+      if (document.visibilityState === 'hidden') void this.keep();
+    });
+  }
+
+  /** From here on the session is another one: a new one, or one that was kept. */
+  begin(id: string = crypto.randomUUID(), sourceKept = false): void {
+    clearTimeout(this.timer);
+    this.release();
+    this.id = id;
+    delete document.documentElement.dataset.kept;
+    this.release = hold(id);
+    this.dirty = this.failed = false;
+    this.sourceKept = sourceKept;
+  }
+
+  /** Something changed. */
+  touch(): void {
+    this.dirty = true;
+    delete document.documentElement.dataset.kept;
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.keep(), pause);
+  }
+
+  /** A frame came: so much has been computed since the last snapshot, by strokes and by playing too. */
+  computed(unkept: number, playing: boolean): void {
+    if (this.playing && !playing) this.touch();
+    this.playing = playing;
+    if (unkept <= mostUnkept && !(playing && performance.now() - this.written > mostPlayed)) return;
+    this.dirty = true;
+    void this.keep();
+  }
+
+  /** One at a time; what changes meanwhile waits for the next. */
+  async keep(): Promise<void> {
+    if (!this.dirty || this.failed) return;
+    if (this.writing) return this.writing;
+    this.dirty = false;
+    this.written = performance.now();
+    this.writing = this.write();
+    await this.writing;
+    this.writing = null;
+    if (this.dirty) this.touch();
+  }
+
+  private async write(): Promise<void> {
+    const { id, app } = this;
+    try {
+      const { snapshot, journal } = await app.client.snapshot(historyBytes, true);
+      if (id !== this.id) return; // another document since
+      const commands = (JSON.parse(journal) as { commands: Command[] }).commands.length;
+      const { file, name } = app.documents;
+      const kept: Kept = { id, name, when: Date.now(), commands, journal, snapshot, hasSource: file !== null };
+      await autosave.write(kept, this.sourceKept ? null : file);
+      this.sourceKept = true;
+      if (id === this.id) document.documentElement.dataset.kept = String(commands);
+    } catch (error) {
+      this.failed = true;
+      app.notify({ kind: 'error', text: `The browser could not keep a copy: ${String(error)}`, remedy: 'save a Knead document from time to time' });
+    }
+  }
+
+  /** Sessions that no tab has open, the newest first; too old ones are forgotten. */
+  async left(): Promise<Kept[]> {
+    const held = await heldIds();
+    const all = (await autosave.all()).filter((k) => k.id !== this.id && !held.has(k.id) && k.commands > 0).sort((a, b) => b.when - a.when);
+    for (const old of all.slice(mostSessions)) await autosave.forget(old.id);
+    return all.slice(0, mostSessions);
+  }
+}
