@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "knead/exchange/mesh_writer.hpp"
 #include "knead/session/command_json.hpp"
 #include "studio_picture.hpp"
 #include "studio_state.hpp"
@@ -178,8 +179,8 @@ KNEAD_EXPORT(knead_paint) int knead_paint(int surface, int detail, int field, in
   if (surface < 0 || surface >= static_cast<int>(state.surfaces.size())) {
     return fail({ErrorKind::usage, "there is no such surface"});
   }
-  auto done = held().painter.paint(state.surfaces[static_cast<std::size_t>(surface)], state.tools, held().origin,
-                                   detail, static_cast<PictureField>(field), opened != 0);
+  auto done =
+      held().painter.paint(state, surface, held().origin, detail, static_cast<PictureField>(field), opened != 0);
   if (!done) return fail(done.error());
   const auto counts = held().painter.picture().counts;
   return answer("{\"counts\":[" + std::to_string(counts[0]) + "," + std::to_string(counts[1]) + "]}");
@@ -225,4 +226,20 @@ KNEAD_EXPORT(knead_surface) int knead_surface(int surface) {
     return fail({ErrorKind::usage, "there is no such surface"});
   }
   return answer(surface_json(*surfaces[static_cast<std::size_t>(surface)].current));
+}
+
+/// All surfaces as one mesh; format 0 binary STL, 1 OBJ, 2 binary PLY. The text is the file.
+KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  if (format < 0 || format > 2) return fail({ErrorKind::usage, "there is no such mesh format"});
+  std::vector<MeshSurface> surfaces;
+  MeshOptions options;
+  options.detail = detail;
+  for (const SurfaceState& s : session->state().surfaces) {
+    surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
+    options.unit = s.unit;
+  }
+  auto bytes = mesh_file(surfaces, static_cast<MeshFormat>(format), options);
+  return bytes ? answer(std::move(*bytes)) : fail(bytes.error());
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knead/session/energy_density.hpp"
+#include "knead/session/held_points.hpp"
+#include "knead/spline/grid_lines.hpp"
+
 namespace knead::studio {
 namespace {
-
-constexpr int most_lines = 400;  // per direction, whatever the number of spans
 
 void append(std::vector<float>& to, const Point& p) {
   for (int d = 0; d < 3; ++d) to.push_back(static_cast<float>(p[d]));
@@ -20,22 +22,11 @@ Expected<void> Painter::tabulate(const Surface& surface, int detail) {
   for (int d = 0; d < 2; ++d) {
     const KnotVector& knots = surface.knots(d);
     const Interval domain = knots.domain();
-    const std::vector<int> spans = knots.spans();
-    const int wanted =
-        knots.degree() == 1 ? 1 : (detail + static_cast<int>(spans.size()) - 1) / static_cast<int>(spans.size());
-    const int pieces =
-        std::clamp(wanted, knots.degree() == 1 ? 1 : 2, std::max(1, most_lines / static_cast<int>(spans.size())));
-    std::vector<double> parameters;
-    auto& lines = d == 0 ? picture_.lines_u : picture_.lines_v;
+    GridLines grid = grid_lines(knots, std::max(1, detail));
+    std::vector<double>& parameters = grid.parameters;
     auto& fractions = d == 0 ? picture_.fractions_s : picture_.fractions_t;
-    lines.clear();
     fractions.clear();
-    for (int s : spans) {
-      lines.push_back(static_cast<std::uint32_t>(parameters.size()));
-      for (int k = 0; k < pieces; ++k) parameters.push_back(knots[s] + (knots[s + 1] - knots[s]) * k / pieces);
-    }
-    lines.push_back(static_cast<std::uint32_t>(parameters.size()));
-    parameters.push_back(domain.upper);
+    (d == 0 ? picture_.lines_u : picture_.lines_v) = std::move(grid.knot_lines);
     for (double u : parameters) fractions.push_back(static_cast<float>((u - domain.lower) / domain.length()));
     picture_.counts[static_cast<std::size_t>(d)] = static_cast<std::uint32_t>(parameters.size());
     auto table = tabulate_basis(knots, parameters, 2);
@@ -48,8 +39,9 @@ Expected<void> Painter::tabulate(const Surface& surface, int detail) {
   return {};
 }
 
-Expected<void> Painter::paint(const SurfaceState& surface, const std::vector<Tool>& tools, const Point& origin,
-                              int detail, PictureField field, bool opened) {
+Expected<void> Painter::paint(const SessionState& state, int index, const Point& origin, int detail, PictureField field,
+                              bool opened) {
+  const SurfaceState& surface = state.surfaces[static_cast<std::size_t>(index)];
   const Surface& current = opened ? *surface.opened : *surface.current;
   if (auto done = tabulate(current, detail); !done) return done;
   const bool curved = field == PictureField::mean_curvature || field == PictureField::gaussian_curvature;
@@ -60,19 +52,54 @@ Expected<void> Painter::paint(const SurfaceState& surface, const std::vector<Too
   picture_.positions.clear();
   for (Eigen::Index k = 0; k < points.rows(); ++k) append(picture_.positions, points.row(k).transpose() - origin);
   paint_normals();
-  if (auto done = paint_values(surface, tools, field); !done) return done;
+  if (auto done = paint_values(state, index, field, opened); !done) return done;
 
-  const auto [m, n] = current.net();
-  const int rows = surface.hold_rows;
   picture_.net.clear();
-  picture_.held.clear();
-  for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < n; ++j) {
-      append(picture_.net, current.control_points().row(i * n + j).transpose() - origin);
-      const bool outer = i < rows || j < rows || i >= m - rows || j >= n - rows;
-      picture_.held.push_back(outer || surface.pins.contains({i, j}) ? 1 : 0);
-    }
+  for (Eigen::Index k = 0; k < current.size(); ++k) {
+    append(picture_.net, current.control_points().row(k).transpose() - origin);
   }
+  return paint_held(surface);
+}
+
+Expected<void> Painter::paint_held(const SurfaceState& surface) {
+  const HeldBy by{surface.current->net(), surface.hold_rows, surface.pins, surface.constraints};
+  for (const auto& [known, held] : held_) {  // kept curves take their time
+    if (!(known == by)) continue;
+    picture_.held = held;
+    return {};
+  }
+  auto held = held_points(surface);
+  if (!held) return std::unexpected(held.error());
+  picture_.held = std::move(*held);
+  constexpr std::size_t most_kept = 64;
+  if (held_.size() == most_kept) held_.erase(held_.begin());
+  held_.emplace_back(by, picture_.held);
+  return {};
+}
+
+Expected<void> Painter::paint_energy(const SessionState& state, int index) {
+  const SurfaceState& surface = state.surfaces[static_cast<std::size_t>(index)];
+  // Its units change when the rest shape is set anew, or the selection.
+  EnergyBy by{surface.reference, nullptr, state.scaling};
+  if (std::ranges::find(state.together, index) != state.together.end()) {
+    by.first = state.surfaces[static_cast<std::size_t>(*state.selected)].reference;
+  }
+  auto known = std::ranges::find(scalings_, by, &std::pair<EnergyBy, DomainScaling<2>>::first);
+  if (known == scalings_.end()) {
+    const auto scaling = energy_scaling(state, index);
+    if (!scaling) {  // a surface without area has no energy
+      picture_.values.assign(picture_.positions.size() / 3, 0);
+      return {};
+    }
+    constexpr std::size_t most_kept = 64;
+    if (scalings_.size() == most_kept) scalings_.erase(scalings_.begin());
+    scalings_.emplace_back(by, *scaling);
+    known = scalings_.end() - 1;
+  }
+  const auto density =
+      energy_density(surface, known->second, {parameters_[0], parameters_[1]}, {&tables_[0], &tables_[1]});
+  if (!density) return std::unexpected(density.error());
+  picture_.values.assign(density->begin(), density->end());
   return {};
 }
 
@@ -116,9 +143,15 @@ Expected<void> Painter::evaluate_opened(const Surface& opened) {
   return evaluate_grid<2>(opened, {&tables[0], &tables[1]}, 0, opened_);
 }
 
-Expected<void> Painter::paint_values(const SurfaceState& surface, const std::vector<Tool>& tools, PictureField field) {
+Expected<void> Painter::paint_values(const SessionState& state, int index, PictureField field, bool opened) {
+  const SurfaceState& surface = state.surfaces[static_cast<std::size_t>(index)];
   picture_.values.clear();
   if (field == PictureField::none) return {};
+  if (field == PictureField::energy) {
+    if (!opened) return paint_energy(state, index);
+    picture_.values.assign(picture_.positions.size() / 3, 0);  // as it was opened it was at rest
+    return {};
+  }
   const Points& points = evaluation_.points();
   const auto normal = [this](Eigen::Index k) {
     const float* n = picture_.normals.data() + 3 * k;
@@ -134,7 +167,8 @@ Expected<void> Painter::paint_values(const SurfaceState& surface, const std::vec
       value = std::copysign(moved.norm(), moved.dot(normal(k)));
     } else if (field == PictureField::gap) {
       value = std::numeric_limits<double>::infinity();
-      for (const Tool& tool : tools) value = std::min(value, tool.shape.nearest(points.row(k).transpose()).distance);
+      for (const Tool& tool : state.tools)
+        value = std::min(value, tool.shape.nearest(points.row(k).transpose()).distance);
       if (!std::isfinite(value)) value = 0;
     } else {
       // First and second fundamental forms.

@@ -4,13 +4,15 @@
 #include <optional>
 #include <vector>
 
+#include "knead/sculpt/domain_scaling.hpp"
 #include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::studio {
 
 /// What colours the surface.
-enum class PictureField { none, deviation, mean_curvature, gaussian_curvature, gap };
+/// Energy: the integrand of the energy per area of the parameter domain, in normalised units (`energy_density`).
+enum class PictureField { none, deviation, mean_curvature, gaussian_curvature, gap, energy };
 
 /// A surface as a grid of points to draw: `pieces` per span, so that every knot line is a line of the grid. Grid point
 /// (k, l) is row k · counts[1] + l. Positions are relative to the origin asked for, so that single precision suffices.
@@ -21,7 +23,7 @@ struct Picture {
   std::vector<float> fractions_s, fractions_t;  ///< of the domain, per grid line
   std::vector<std::uint32_t> lines_u, lines_v;  ///< grid lines that are knot lines, ends of the domain included
   std::vector<float> net;                       ///< control points, 3 each
-  std::vector<std::uint8_t> held;               ///< per control point: 1 where it is held or pinned
+  std::vector<std::uint8_t> held;  ///< per control point, by whatever holds it: 0, 1 or 2 as of `held_points`
 };
 
 /// Draws one surface again and again; tables and memory are kept while the knots stay the same.
@@ -29,8 +31,8 @@ class Painter {
  public:
   /// Errors (numerical): a rational denominator that is not positive.
   /// With `opened`, the shape as it came is drawn instead.
-  Expected<void> paint(const SurfaceState& surface, const std::vector<Tool>& tools, const Point& origin, int detail,
-                       PictureField field, bool opened = false);
+  Expected<void> paint(const SessionState& state, int index, const Point& origin, int detail, PictureField field,
+                       bool opened = false);
   [[nodiscard]] const Picture& picture() const { return picture_; }
 
  private:
@@ -38,7 +40,23 @@ class Painter {
   void paint_normals();
   /// The opened shape at the parameters of the picture.
   Expected<void> evaluate_opened(const Surface& opened);
-  Expected<void> paint_values(const SurfaceState& surface, const std::vector<Tool>& tools, PictureField field);
+  Expected<void> paint_held(const SurfaceState& surface);
+  Expected<void> paint_energy(const SessionState& state, int index);
+  Expected<void> paint_values(const SessionState& state, int index, PictureField field, bool opened);
+
+  /// What the held control points depend on, and the units of the energy.
+  struct HeldBy {
+    std::array<int, 2> net;
+    int rows;
+    std::set<std::array<int, 2>> pins;
+    std::vector<KeptConstraint> constraints;
+    friend bool operator==(const HeldBy&, const HeldBy&) = default;
+  };
+  struct EnergyBy {
+    std::shared_ptr<const Surface> reference, first;
+    ScalingMode scaling;
+    friend bool operator==(const EnergyBy&, const EnergyBy&) = default;
+  };
 
   std::optional<std::array<KnotVector, 2>> knots_;
   int detail_ = 0;
@@ -46,6 +64,8 @@ class Painter {
   std::array<BasisTable, 2> tables_;
   Evaluation<2> evaluation_, opened_;
   Picture picture_;
+  std::vector<std::pair<HeldBy, std::vector<std::uint8_t>>> held_;
+  std::vector<std::pair<EnergyBy, DomainScaling<2>>> scalings_;
 };
 
 }  // namespace knead::studio

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "knead/sculpt/constraints.hpp"
+#include "knead/session/held_points.hpp"
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
@@ -95,10 +96,9 @@ struct Asked {
   }
 };
 
-/// All constraints on one surface; terms count its own control points.
-Expected<ConstraintList> constraints_of(const SurfaceState& s, std::vector<std::string>& notes) {
+/// Rows and control points that are held by their numbers.
+void hold_numbered(const SurfaceState& s, ConstraintList& list) {
   const auto [m, n] = s.reference->net();
-  ConstraintList list(s.reference->size());
   const int rows = s.hold_rows;
   for (int i = 0; i < m && rows > 0; ++i) {
     for (int j = 0; j < n; ++j) {
@@ -106,6 +106,12 @@ Expected<ConstraintList> constraints_of(const SurfaceState& s, std::vector<std::
     }
   }
   for (const auto& [i, j] : s.pins) list.hold(i * n + j, fmt::format("pin ({}, {})", i, j));
+}
+
+/// All constraints on one surface; terms count its own control points.
+Expected<ConstraintList> constraints_of(const SurfaceState& s, std::vector<std::string>& notes) {
+  ConstraintList list(s.reference->size());
+  hold_numbered(s, list);
   for (const auto& [request, where] : s.constraints) {
     if (auto done = std::visit(Asked{s, *where, list}, request); !done) return std::unexpected(done.error());
   }
@@ -129,6 +135,25 @@ Expected<ConstraintList> constraints_of(const SurfaceState& s, std::vector<std::
 }
 
 }  // namespace
+
+Expected<std::vector<std::uint8_t>> held_points(const SurfaceState& surface) {
+  ConstraintList list(surface.reference->size());
+  hold_numbered(surface, list);
+  for (const auto& [request, where] : surface.constraints) {
+    if (std::holds_alternative<SymmetryCommand>(request)) continue;
+    if (auto done = std::visit(Asked{surface, *where, list}, request); !done) return std::unexpected(done.error());
+  }
+  std::vector<std::uint8_t> held(list.held.size(), 0);
+  for (const LinearConstraint& c : list.constraints) {
+    for (const auto& [row, coefficient] : c.terms) {
+      if (coefficient != 0) held[static_cast<std::size_t>(row)] = 2;
+    }
+  }
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    if (list.held[k]) held[k] = 1;
+  }
+  return held;
+}
 
 std::vector<int> SessionState::selection() const {
   std::vector<int> result;

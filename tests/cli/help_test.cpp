@@ -7,7 +7,7 @@ namespace knead::testing {
 namespace {
 
 TEST(Help, TellsTheExitCodesEverywhere) {
-  for (const char* name : {"", "info", "sculpt", "commands", "gramian", "stiffness"}) {
+  for (const char* name : {"", "info", "sculpt", "commands", "gramian", "stiffness", "mesh"}) {
     std::vector<std::string> arguments{name, "--help"};
     if (*name == '\0') arguments.erase(arguments.begin());
     const Outcome run = knead(arguments);

@@ -130,6 +130,52 @@ describe('the session in WebAssembly', () => {
     expect(back.surface(0)).toEqual(engine.surface(0));
   });
 
+  it('shows what holds control points, deviations of edited shapes and the density of the energy', async () => {
+    const engine = await sheet();
+    engine.execute({ do: 'freeze', region: [[0.5, 0.5], [0.5, 0.5]] });
+    engine.execute({ do: 'edge', which: 'u0' });
+    expect(engine.paint(0, 20, 'none').held.filter((h) => h === 1).length).toBe(16 + 12);
+    expect(Math.max(...engine.paint(0, 20, 'energy').values)).toBe(0);
+    engine.execute({ do: 'tool', name: 'ball', radius: 20, position: [25, 25, 10] });
+    engine.execute({ do: 'step', count: 3 });
+    const density = engine.paint(0, 20, 'energy').values;
+    expect(Math.min(...density)).toBeGreaterThan(-1e-6);
+    expect(Math.max(...density)).toBeGreaterThan(0);
+    engine.execute({ do: 'remove' });
+    engine.execute({ do: 'release' });
+    engine.execute({ do: 'rest' });
+    const before = engine.paint(0, 20, 'deviation').values;
+    engine.execute({ do: 'weights', rows_u: [5], weight: 3 });
+    engine.execute({ do: 'knots', direction: 'v', knots: [0, 0, 0, 0, 0.1, 0.2, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1, 1, 1] });
+    const after = engine.paint(0, 20, 'deviation').values;
+    expect(after.every(Number.isFinite)).toBe(true);
+    expect(after).not.toEqual(before);
+    // In the plane the knots move points by no more than a span and a half.
+    expect(Math.max(...after.map(Math.abs))).toBeLessThan(30);
+    expect(engine.paint(0, 20, 'deviation', true).values.every((v) => v === 0)).toBe(true);
+  });
+
+  it('writes meshes of every format', async () => {
+    const engine = await sheet(8);
+    const stl = engine.mesh('stl', 10);
+    const triangles = new DataView(stl.buffer, stl.byteOffset).getUint32(80, true);
+    expect(stl.length).toBe(84 + 50 * triangles);
+    expect(triangles).toBe(2 * 10 * 10);
+    expect(new TextDecoder().decode(engine.mesh('obj', 10).subarray(0, 30))).toMatch(/^# Knead, lengths in mm/);
+    expect(new TextDecoder().decode(engine.mesh('ply', 10).subarray(0, 3))).toBe('ply');
+    expect(() => engine.mesh('stl', 0)).toThrow(/detail/);
+  });
+
+  it('measures pictures from the middle of a first surface that is far away', async () => {
+    const engine = await load();
+    engine.fresh('far');
+    engine.execute({ do: 'new', size: [2, 2], position: [1e6, -3e6, 10] });
+    expect(engine.origin).toEqual([1e6 + 1, -3e6 + 1, 10]);
+    expect(Math.max(...engine.paint(0, 10, 'none').positions.map(Math.abs))).toBe(1);
+    const near = await sheet();
+    expect(near.origin).toEqual([0, 0, 0]);
+  });
+
   it('says what is wrong with a file, a command and an order', async () => {
     const engine = await load();
     expect(() => engine.state()).toThrow(/nothing is open/);

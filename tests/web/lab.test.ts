@@ -230,8 +230,11 @@ describe('editing of knots', () => {
     expect(change('u', surface, { degree: 3, knots: moved(uniform, 5, 5, 0.6) })).toMatchObject({ kind: 'command', command: { do: 'knots', direction: 'u' } });
     expect(change('v', surface, { degree: 3, knots: inserted(inserted(uniform, 0.5), 0.1) }))
       .toMatchObject({ command: { do: 'refine', knots_v: [0.1, 0.5] } });
-    for (const knots of [removed(uniform, 5), inserted(moved(uniform, 5, 5, 0.6), 0.1), inserted(uniform, 1)]) {
-      expect(change('u', surface, { degree: 3, knots }).kind).toBe('impossible');
+    const torn = [0.5, 0.5, 0.5].reduce<number[]>(inserted, uniform);
+    const impossible: [number[], RegExp][] = [[removed(uniform, 5), /missing/], [inserted(moved(uniform, 5, 5, 0.6), 0.1), /moved and inserted/],
+      [moved(uniform, 0, 3, -1), /\[0, 1\], has to stay/], [inserted(uniform, 2), /inside the domain/], [torn, /torn at 0.5/]];
+    for (const [knots, why] of impossible) {
+      expect(change('u', surface, { degree: 3, knots })).toMatchObject({ kind: 'impossible', why: expect.stringMatching(why) as string });
     }
     expect(change('u', surface, { degree: 2, knots: uniform }).kind).toBe('impossible');
   });

@@ -247,6 +247,22 @@ describe('the backend panel', () => {
     expect(await knots()).toEqual(before);
   });
 
+  it('gives the surface other knots for the same net, as a command that can be undone', async () => {
+    const { page } = studio;
+    const before = await knots();
+    const wanted = before.map((x, k) => (k === 6 ? (x + before[7]!) / 2 : x));
+    await list().fill(wanted.join(', '));
+    await list().press('Enter');
+    await drawn();
+    await apply().click();
+    await settled(page);
+    expect((await commands(page)).at(-1)).toMatchObject({ do: 'knots', direction: 'u', knots: wanted });
+    await expect.poll(message).toMatch(/^Direction u/);
+    expect(await knots()).toEqual(wanted);
+    await page.keyboard.press('Control+z');
+    await expect.poll(knots).toEqual(before);
+  });
+
   it('gives away its plot and its numbers', async () => {
     const { page } = studio;
     const [download] = await Promise.all([page.waitForEvent('download'), page.locator('button[aria-label="Save the plot as SVG"]').click()]);

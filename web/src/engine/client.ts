@@ -1,5 +1,5 @@
 import type { Frame, PaintSettings, Reply, Request } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo, type SurfaceNumbers } from './session_types';
+import { type Command, EngineError, type EngineErrorInfo, type MeshFormat, type SurfaceNumbers } from './session_types';
 
 interface Waiting {
   resolve(reply: { bytes?: Uint8Array; text?: string }): void;
@@ -73,6 +73,7 @@ export class Client {
   };
   restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array) => this.ask({ kind: 'restore', source, name, snapshot });
   save = async (): Promise<Uint8Array> => (await this.ask({ kind: 'save' })).bytes!;
+  mesh = async (format: MeshFormat, detail = 96): Promise<Uint8Array> => (await this.ask({ kind: 'mesh', format, detail })).bytes!;
   surface = async (surface: number): Promise<SurfaceNumbers> =>
     JSON.parse((await this.ask({ kind: 'surface', surface })).text!) as SurfaceNumbers;
   journal = async (): Promise<string> => (await this.ask({ kind: 'journal' })).text!;

@@ -1,4 +1,7 @@
-import { type Command, EngineError, type Field, fields, type Picture, type SessionInfo, type StepInfo, type SurfaceNumbers } from './session_types';
+import {
+  type Command, EngineError, type Field, fields, type MeshFormat, meshFormats, type Picture, type SessionInfo, type StepInfo,
+  type SurfaceNumbers,
+} from './session_types';
 import { wasiImports } from './wasi';
 
 interface Exports {
@@ -22,6 +25,7 @@ interface Exports {
   knead_buffer_size(which: number): number;
   knead_control_points(surface: number): number;
   knead_surface(surface: number): number;
+  knead_mesh(format: number, detail: number): number;
 }
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
@@ -106,6 +110,11 @@ export class Engine {
   /** All numbers of a surface as it is now, in full precision. */
   surface(surface: number): SurfaceNumbers {
     return this.json(this.wasm.knead_surface(surface)) as SurfaceNumbers;
+  }
+
+  /** All surfaces as one mesh file, with about `detail` grid lines per direction. */
+  mesh(format: MeshFormat, detail: number): Uint8Array {
+    return this.bytes(this.wasm.knead_mesh(meshFormats.indexOf(format), detail));
   }
 
   paint(surface: number, detail: number, field: Field, opened = false): Picture {

@@ -1,4 +1,4 @@
-import type { Command, EngineErrorInfo, Field, Picture, SessionInfo, StepInfo } from './session_types';
+import type { Command, EngineErrorInfo, Field, MeshFormat, Picture, SessionInfo, StepInfo } from './session_types';
 
 /** How surfaces are drawn: part of every request for pictures. */
 export interface PaintSettings {
@@ -22,6 +22,8 @@ export type Request =
   | { kind: 'drawn' }
   /** The numbers of one surface: `SurfaceNumbers` as text. */
   | { kind: 'surface'; surface: number }
+  /** All surfaces as one mesh file. */
+  | { kind: 'mesh'; format: MeshFormat; detail: number }
   | { kind: 'save' }
   | { kind: 'journal' }
   /** The session as bytes, with its journal as text. `kept`: it need not be computed again from here on. */

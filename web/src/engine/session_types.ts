@@ -135,5 +135,9 @@ export interface Picture {
   linesU: Uint32Array;
   linesV: Uint32Array;
   net: Float32Array;
+  /** Per control point: 0 free, 1 does not move, 2 bound to others (pinned surface points, kept curves). */
   held: Uint8Array;
 }
+
+export const meshFormats = ['stl', 'obj', 'ply'] as const;
+export type MeshFormat = (typeof meshFormats)[number];

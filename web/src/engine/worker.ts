@@ -134,6 +134,9 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     case 'save':
       post({ kind: 'done', id, bytes: engine.save() });
       return;
+    case 'mesh':
+      post({ kind: 'done', id, bytes: engine.mesh(request.format, request.detail) });
+      return;
     case 'restore':
       engine.restore(request.source, request.name, request.snapshot);
       playing = 'no';

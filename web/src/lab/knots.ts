@@ -105,15 +105,21 @@ export function change(direction: Direction, surface: Direct, wanted: Direct): C
   }
   const from = surface.knots;
   const to = wanted.knots;
+  const p = surface.degree;
+  if (from.length === to.length && from.every((x, k) => x === to[k])) return { kind: 'same' };
+  const [low, high] = [from[p]!, from[from.length - p - 1]!];
+  if (to[p] !== low || to[to.length - p - 1] !== high) {
+    return { kind: 'impossible', why: `the domain of the surface, [${low}, ${high}], has to stay: trimming and painted materials live in it` };
+  }
+  const torn = groups(to).find((g) => g.count > p && g.value > low && g.value < high);
+  if (torn) return { kind: 'impossible', why: `the surface would be torn at ${torn.value}, which stands ${torn.count} times` };
   if (from.length === to.length) {
-    if (from.every((x, k) => x === to[k])) return { kind: 'same' };
     return { kind: 'command', command: { do: 'knots', direction, knots: [...to] }, about: 'the same control points on these knots: the shape changes' };
   }
   if (to.length < from.length) return { kind: 'impossible', why: 'knots are missing: the net would lose control points' };
   const more = additions(from, to);
-  const p = surface.degree;
   if (!more) return { kind: 'impossible', why: 'knots were moved and inserted: apply one before the other' };
-  if (more.some((x) => x <= from[p]! || x >= from[from.length - p - 1]!)) {
+  if (more.some((x) => x <= low || x >= high)) {
     return { kind: 'impossible', why: 'knots can be inserted inside the domain only' };
   }
   const plural = more.length === 1 ? 'one more knot' : `${more.length} more knots`;
