@@ -1,8 +1,12 @@
 #include "part21_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "iso8859.hpp"
@@ -218,22 +222,36 @@ std::optional<double> parse_real(std::string_view text) {
 }
 
 std::string format_real(double value) {
-  std::array<char, 32> buffer{};
-  const auto [end, error] =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::scientific, 16);
-  std::string text(buffer.data(), error == std::errc() ? end : buffer.data());
+  std::string text = fmt::format("{:.16e}", value);
   std::replace(text.begin(), text.end(), 'e', 'E');
   return text;
 }
 
+// As std::to_chars would have it: fixed notation, or scientific where that is shorter. Its tables alone would be an
+// eighth of what the studio's module takes over a network.
 std::string format_shortest_real(double value) {
-  std::array<char, 32> buffer{};
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  std::string text(buffer.data(), error == std::errc() ? end : buffer.data());
-  const auto exponent = std::min(text.find('e'), text.size());
-  if (exponent < text.size()) text[exponent] = 'E';
-  if (text.find('.') == std::string::npos) text.insert(exponent, ".");
-  return text;
+  if (!std::isfinite(value)) return fmt::format("{}", value);
+  const std::string shortest = fmt::format("{}", std::abs(value)), sign = std::signbit(value) ? "-" : "";
+  const std::size_t marker = std::min(shortest.find('e'), shortest.size());
+  int exponent = marker < shortest.size() ? std::atoi(shortest.c_str() + marker + 1) : 0;
+  std::string digits = shortest.substr(0, marker);
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  exponent += static_cast<int>(point) - 1;  // of the first digit
+  if (point < digits.size()) digits.erase(point, 1);
+  const std::size_t zeros = std::min(digits.find_first_not_of('0'), digits.size());
+  digits.erase(0, zeros);
+  exponent -= static_cast<int>(zeros);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.empty()) return sign + "0.";
+
+  const auto count = static_cast<int>(digits.size());
+  const std::string scientific = fmt::format("{}.{}E{:+03}", digits[0], digits.substr(1), exponent);
+  const int scientific_length = static_cast<int>(scientific.size()) - (count == 1 ? 1 : 0);  // without a bare point
+  const int fixed_length = exponent < 0 ? count - exponent + 1 : exponent + 1 < count ? count + 1 : exponent + 1;
+  if (scientific_length < fixed_length) return sign + scientific;
+  if (exponent < 0) return sign + "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
+  if (exponent + 1 > count) return sign + fmt::format("{:.0f}.", std::abs(value));  // all digits of the integer
+  return sign + digits.insert(static_cast<std::size_t>(exponent) + 1, ".");
 }
 
 std::string encode_string(std::string_view text) {

@@ -70,7 +70,7 @@ InstructionSet best_instruction_set() { return available_instruction_sets().back
 
 const detail::GramianKernels& detail::kernels_of(InstructionSet set) {
   const GramianKernels* kernels = compiled(set);
-  return kernels != nullptr && runs_here(set) ? *kernels : *scalar_kernels;
+  return kernels != nullptr && runs_here(set) ? *kernels : *compiled(available_instruction_sets().front());
 }
 
 }  // namespace knead

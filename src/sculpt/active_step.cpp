@@ -57,17 +57,21 @@ template <int D>
 void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const Points& external,
                                     const PotentialState& contact, std::span<const Tool> tools) const {
   const ConstraintSpace& space = inverse.space();
-  // Forces on what is free: of tools and loads, of the free part of the net, and of the part that is held.
-  Points free_part = x;
+  // Forces on what is free: of tools and loads, of the free part of the net, and of the part that is held. K
+  // annihilates constants: without their mean the numbers are smaller, and so is the rounding.
+  const Points y = x.rowwise() - x.colwise().mean();
+  const Points stretching = stretch * y, bending = bend * y;
+  Points held_part = Points::Zero(x.rows(), 3);
   for (int i = 0; i < space.size(); ++i) {
-    if (space.is_fixed(i)) free_part.row(i).setZero();
+    if (space.is_fixed(i)) held_part.row(i) = x.row(i);
   }
-  const Points from_free = stiffness * free_part, from_held = stiffness * (x - free_part);
+  const Points from_held = (held_part.array() == 0).all() ? held_part : Points(stiffness * held_part);
+  const Points from_free = stretching + bending - from_held;
   const double scale = contact.force.norm() + external.norm() + from_free.norm() + from_held.norm();
   result.residual = scale > 0 ? space.reduce(contact.force + external - from_free - from_held).norm() / scale : 0;
-  result.stretch = energy(stretch, x);
-  result.bend = energy(bend, x);
-  result.energy = energy(stiffness, x);
+  result.stretch = std::max(0.0, dot(y, stretching));
+  result.bend = std::max(0.0, dot(y, bending));
+  result.energy = result.stretch + result.bend;
   result.contact = contact.potential;
   result.gap = contact.entry;
   if (contact.entered >= 0) result.gap_tool = tools[static_cast<std::size_t>(contact.entered)].name;

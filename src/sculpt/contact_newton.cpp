@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "contact_neighbourhood.hpp"
 
 namespace knead {
 namespace {
@@ -12,6 +15,8 @@ constexpr int max_solves = 1500;  // of one minimisation: a step that needs more
 // The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step. It is compared with what the step
 // weighs against each other, |F|, |K X₀| and the first imbalance in the same norm.
 constexpr double relative_tolerance = 1e-11;
+constexpr double rounded_tolerance = 1e-9;  // where the rounding of forces computed afresh does not allow more
+constexpr double cancellation = 1e-12;
 constexpr double sufficient_decrease = 1e-4;
 constexpr double rounding = 1e-14;
 constexpr int max_rounded_steps = 4;
@@ -24,140 +29,267 @@ constexpr int max_stage_iterations = 20;
 
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
-/// sqrt(bᵀ A⁻¹ b) over the free unknowns.
-double dual_norm(const StepProblem& problem, const Points& b) {
-  return std::sqrt(std::max(0.0, dot(b, problem.inverse.solve(b))));
-}
-
-/// Φ and what is known of it at one Y.
-struct At {
-  Points y, ay;
-  PotentialState state;
-  double quadratic = 0;
-  [[nodiscard]] double value() const { return quadratic + state.potential; }
+/// Contacts act on few control points, and the minimum is sought in what those see. Let r be the imbalance of forces
+/// b − AY + F at some Y₀, the anchor, and s = A⁻¹r: that takes the whole net, once. From there on all directions, and
+/// so all residuals, are combinations β r + E e, with forces e in the neighbourhood (E puts them there) whose images
+/// A⁻¹E e need only be known there as well. Only a new Y is again wanted everywhere.
+struct Anchor {
+  Points y, r, s;
+  double rs;         // rᵀ A⁻¹ r
+  double quadratic;  // ½ YᵀAY − Yᵀb
+  Points s_here, force_here;
 };
 
-At at(const StepProblem& problem, const Potential& potential, Points y, Points ay) {
-  PotentialState state = potential.evaluate(problem.start + y);
-  At here{std::move(y), std::move(ay), std::move(state), 0};
-  here.quadratic = 0.5 * dot(here.y, here.ay) - dot(here.y, problem.b);
-  return here;
-}
+/// β r + E e.
+struct Combination {
+  double beta = 0;
+  Points e;
 
-Points gradient(const StepProblem& problem, const At& here) {
-  return problem.inverse.space().lumped(here.ay - problem.b - here.state.force);
-}
+  /// (β r + E e)ᵀ A⁻¹ (β r + E e), given what A⁻¹ makes of it in the neighbourhood.
+  [[nodiscard]] double norm(const Anchor& anchor, const Points& image) const {
+    return beta * (beta * anchor.rs + dot(anchor.s_here, e)) + dot(e, image);
+  }
+  [[nodiscard]] Points image(const Anchor& anchor, const ContactNeighbourhood& near) const {
+    return beta * anchor.s_here + near.inverse(e);
+  }
+  void add(double t, const Combination& other) {
+    beta += t * other.beta;
+    e += t * other.e;
+  }
+};
 
-/// (A + H) d = −g by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
-/// `z` = A⁻¹ g is known already. Where A + H turns out not to be positive the way gone so far is the answer, or −z: a
-/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). Residuals are kept lumped:
-/// what constraints bear does no work here, but its rounding would.
-Points newton_direction(const StepProblem& problem, const Potential& potential, const PotentialState& state,
-                        const Points& g, const Points& z, double tolerance, Points& a_direction, int& solves) {
-  Points d = Points::Zero(g.rows(), 3), ad = d;
-  Points r = -g, s = -z, p = s;
-  double rs = dot(r, s);
+/// (A + H) d = r by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
+/// returns A d. Where A + H turns out not to be positive the way gone so far is the answer, or A⁻¹r: a direction of
+/// descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). \param image of r.
+Combination newton_direction(const Potential& potential, const PotentialState& state, const Anchor& anchor,
+                             const ContactNeighbourhood& near, Combination r, const Points& image, double tolerance,
+                             int& solves) {
+  Combination ad{0, Points::Zero(near.size(), 3)}, ap = r;
+  Points p = image;
+  double rs = r.norm(anchor, image);
   const double target = tolerance * tolerance * rs;
   for (int iteration = 0; iteration < max_cg_iterations && rs > target && rs > 0; ++iteration) {
-    Points ap = problem.a * p;
-    const Points hp = problem.inverse.space().lumped(ap + potential.apply_hessian(state, p));
-    const double curvature = dot(p, hp);
-    if (curvature <= 1e-12 * dot(p, ap)) {
-      if (iteration > 0) break;
-      d = p;
-      ad = std::move(ap);
+    const Points hp = near.gather(potential.apply_hessian(state, near.scatter(p)));
+    const double pap = ap.norm(anchor, p), curvature = pap + dot(p, hp);
+    if (curvature <= 1e-12 * pap) {
+      if (iteration == 0) ad = std::move(ap);
       break;
     }
     const double step = rs / curvature;
-    d += step * p;
-    ad += step * ap;
-    r -= step * hp;
-    s = problem.inverse.solve(r);
+    ad.add(step, ap);
+    r.add(-step, ap);
+    r.e -= step * hp;
+    const Points s = r.image(anchor, near);
     ++solves;
-    const double next = dot(r, s);
+    const double next = r.norm(anchor, s);
     if (!(next < 1e6 * target / (tolerance * tolerance))) break;  // nothing but rounding is left
-    p = s + (next / rs) * p;
+    const double share = next / rs;
+    ap.beta = r.beta + share * ap.beta;
+    ap.e = r.e + share * ap.e;
+    p = s + share * p;
     rs = next;
   }
-  a_direction = std::move(ad);
-  return d;
+  return ad;
 }
 
-/// Newton's iteration on Φ from `here` on, until the decrement is `tolerance` of what the step weighs against each
-/// other.
-void iterate(const StepProblem& problem, const Potential& potential, double tolerance, int max_iterations, At& here,
-             ContactSummary& summary) {
-  double largest = std::max(dual_norm(problem, problem.b), dual_norm(problem, here.state.force));
-  summary.solves += 2;
-  int rounded_steps = 0;
-  summary.converged = false;
-  for (int iteration = 0;; ++iteration) {
-    const Points g = gradient(problem, here);
-    const Points z = problem.inverse.solve(g);
-    ++summary.solves;
-    const double decrement = std::sqrt(std::max(0.0, dot(g, z)));
-    largest = std::max(largest, decrement);
-    if (decrement <= tolerance * largest || !std::isfinite(decrement)) {
-      summary.converged = summary.finite = std::isfinite(decrement);
-      return;
-    }
-    if (iteration == max_iterations || summary.solves > max_solves) return;
-    ++summary.iterations;
+/// Newton's iteration on Φ.
+class Minimisation {
+ public:
+  Minimisation(const StepProblem& problem, Potential& potential, Points& y)
+      : problem_(problem), potential_(potential), y_(y), state_(potential.evaluate(problem.start + y)) {}
 
-    Points d, ad;
-    if (here.state.contacts.empty()) {
-      d = -z;
-      ad = problem.a * d;
-    } else {
-      // Loose while far away, tight near the end, where a step must not undo what the one before it gained.
-      // Never below what counts as converged: in what is left then there is rounding only, and directions made of it
-      // leave the constraints.
-      const double cg_tolerance =
-          std::clamp(0.1 * decrement / largest, std::clamp(0.1 * tolerance * largest / decrement, 1e-8, 1e-2), 1e-2);
-      d = newton_direction(problem, potential, here.state, g, z, cg_tolerance, ad, summary.solves);
-    }
-    const double slope = dot(g, d);
-    At next = at(problem, potential, here.y + d, here.ay + ad);
-    if (-slope <= rounding * (problem.energy + std::abs(here.quadratic) + std::abs(here.state.potential))) {
-      // The gain left is below the rounding of Φ, so that comparing values decides nothing: a few full steps take what
-      // the gradient still sees.
-      if (++rounded_steps > max_rounded_steps) {
-        summary.converged = true;
+  ContactSummary summary;
+
+  /// To be called after the potential has changed.
+  void renew() { state_ = potential_.evaluate(problem_.start + y_); }
+
+  /// The imbalance of forces, as a share of the norm of b.
+  double imbalance() {
+    const Anchor here = anchor();
+    return std::sqrt(std::max(0.0, here.rs)) / norm_of_b(here);
+  }
+
+  /// Until the decrement is `tolerance` of what the step weighs against each other. With `certain` what was found is
+  /// measured again from an anchor of its own, with all forces computed afresh.
+  void iterate(double tolerance, int max_iterations, bool certain) {
+    summary.converged = false;
+    double largest = -1, before = std::numeric_limits<double>::infinity();
+    int rounded_steps = 0;
+    for (int iteration = 0;;) {
+      ContactNeighbourhood near(problem_.inverse);
+      Anchor from = anchor();
+      if (largest < 0) largest = std::max(norm_of_b(from), norm_of_force());
+      const double decrement = std::sqrt(std::max(0.0, from.rs));
+      if (finished(decrement, tolerance, largest)) return;
+      if (decrement > 0.5 * before && decrement <= rounded_tolerance * largest) {
+        summary.converged = true;  // what is left is the rounding of AY: another round would find the same
         return;
       }
-    } else {
-      double t = 1;
-      while (next.value() > here.value() + sufficient_decrease * t * slope && t > 1e-10) {
-        t /= 2;
-        next = at(problem, potential, here.y + t * d, here.ay + t * ad);
-      }
+      before = decrement;
+      summary.converged = false;
+      const Round round = decide(from, near, tolerance, max_iterations, largest, iteration, rounded_steps);
+      if (round == Round::over || (round == Round::small && !certain)) return;
     }
-    here = std::move(next);
   }
-}
+
+ private:
+  const StepProblem& problem_;
+  Potential& potential_;
+  Points& y_;
+  PotentialState state_;
+  double norm_of_b_ = -1;
+
+  /// Why a round ended: the decrement is small enough; it is too small against β r to be known from this anchor; or
+  /// there is nothing more to be done.
+  enum class Round { small, blurred, over };
+
+  Anchor anchor() {
+    Anchor a{y_, problem_.b, {}, 0, 0, {}, {}};
+    if (!(y_.array() == 0).all()) {
+      const Points ay = problem_.a * y_;
+      a.quadratic = 0.5 * dot(y_, ay) - dot(y_, problem_.b);
+      a.r -= ay;
+    }
+    a.r = problem_.inverse.space().lumped(a.r + state_.force);
+    a.s = problem_.inverse.solve(a.r);
+    ++summary.solves;
+    a.rs = dot(a.r, a.s);
+    return a;
+  }
+
+  void take_in(ContactNeighbourhood& near, Anchor& from) const {
+    std::vector<char> marks(static_cast<std::size_t>(y_.rows()), 0);
+    potential_.mark(state_, marks);
+    near.extend(marks);
+    from.s_here = near.gather(from.s);
+    from.force_here = near.grown(from.force_here);
+  }
+
+  /// sqrt(bᵀ A⁻¹ b) over the free unknowns.
+  double norm_of_b(const Anchor& from) {
+    if (norm_of_b_ >= 0) return norm_of_b_;
+    if (state_.contacts.empty() && (y_.array() == 0).all()) {
+      norm_of_b_ = std::sqrt(std::max(0.0, from.rs));  // r is b
+    } else {
+      norm_of_b_ = std::sqrt(std::max(0.0, dot(problem_.b, problem_.inverse.solve(problem_.b))));
+      ++summary.solves;
+    }
+    return norm_of_b_;
+  }
+
+  double norm_of_force() {
+    if (state_.contacts.empty()) return 0;
+    ContactNeighbourhood near(problem_.inverse);
+    std::vector<char> marks(static_cast<std::size_t>(y_.rows()), 0);
+    potential_.mark(state_, marks);
+    near.extend(marks);
+    const Points force = near.gather(state_.force);
+    ++summary.solves;
+    return std::sqrt(std::max(0.0, dot(force, near.inverse(force))));
+  }
+
+  /// Whether to stop here, and how that counts.
+  bool finished(double decrement, double tolerance, double& largest) {
+    largest = std::max(largest, decrement);
+    if (decrement > tolerance * largest && std::isfinite(decrement)) return false;
+    summary.converged = summary.finite = std::isfinite(decrement);
+    return true;
+  }
+
+  /// Iterates from one anchor.
+  Round decide(Anchor& from, ContactNeighbourhood& near, double tolerance, int max_iterations, double& largest,
+               int& iteration, int& rounded_steps) {
+    from.force_here.resize(0, 3);
+    take_in(near, from);
+    from.force_here = near.gather(state_.force);
+    Combination ay{1, -from.force_here};  // b − AY
+    double quadratic = from.quadratic;
+    for (bool first = true;; first = false, ++iteration) {
+      Combination r = ay;
+      if (first) {
+        r.e.setZero();
+      } else {
+        r.e += near.gather(state_.force);
+      }
+      const Points image = first ? from.s_here : r.image(from, near);
+      const double rs = first ? from.rs : r.norm(from, image), decrement = std::sqrt(std::max(0.0, rs));
+      if (!first) {
+        ++summary.solves;
+        if (finished(decrement, tolerance, largest)) return std::isfinite(decrement) ? Round::small : Round::over;
+        // β r and E e cancel, and so do the squares that the decrement is the root of.
+        if (rs < cancellation * r.beta * r.beta * from.rs) return Round::blurred;
+      }
+      if (iteration == max_iterations || summary.solves > max_solves) return Round::over;
+      ++summary.iterations;
+
+      Combination ad = r;
+      if (!state_.contacts.empty()) {
+        // Loose while far away, tight near the end, where a step must not undo what the one before it gained.
+        // Never below what counts as converged: in what is left then there is rounding only, and directions made of it
+        // leave the constraints.
+        const double cg_tolerance =
+            std::clamp(0.1 * decrement / largest, std::clamp(0.1 * tolerance * largest / decrement, 1e-8, 1e-2), 1e-2);
+        ad = newton_direction(potential_, state_, from, near, r, image, cg_tolerance, summary.solves);
+      }
+      Points d = ad.beta * from.s;
+      if (!(ad.e.array() == 0).all()) {
+        d += near.inverse_everywhere(ad.e);
+        ++summary.solves;
+      }
+      const double slope = -r.beta * dot(from.r, d) - dot(r.e, near.gather(d));
+      // Φ's quadratic part at Y = Y₀ + u: there b − AY is known, so that no product with A is needed.
+      const auto quadratic_at = [&](const Points& y, const Combination& left) {
+        const Points u = y - from.y;
+        return from.quadratic -
+               0.5 * ((1 + left.beta) * dot(u, from.r) + dot(near.gather(u), left.e - from.force_here));
+      };
+      const double here = quadratic + state_.potential;
+      const bool rounded =
+          -slope <= rounding * (problem_.energy + std::abs(quadratic) + std::abs(state_.potential) + from.rs);
+      // rᵀA⁻¹r is the size of the numbers that `quadratic_at` takes from each other.
+      // Where the gain left is below the rounding of Φ comparing values decides nothing: a few full steps take what the
+      // gradient still sees.
+      if (rounded && ++rounded_steps > max_rounded_steps) {
+        summary.converged = true;
+        return Round::over;
+      }
+      for (double t = 1;; t /= 2) {
+        Points y = y_ + t * d;
+        PotentialState state = potential_.evaluate(problem_.start + y);
+        Combination left = ay;
+        left.add(-t, ad);
+        const double next = quadratic_at(y, left);
+        if (!rounded && next + state.potential > here + sufficient_decrease * t * slope && t > 1e-10) continue;
+        y_ = std::move(y);
+        state_ = std::move(state);
+        ay = std::move(left);
+        quadratic = next;
+        break;
+      }
+      take_in(near, from);
+      ay.e = near.grown(ay.e);
+    }
+  }
+};
 
 }  // namespace
 
 ContactSummary minimise_step(const StepProblem& problem, Potential& potential, Points& y) {
-  ContactSummary summary;
-  At here = at(problem, potential, y, problem.a * y);
-
+  Minimisation minimisation(problem, potential, y);
   // A very stiff tool is met by way of softer ones: from afar its springs would throw the surface about. A step that
   // starts near its balance, as most do, has nothing to gain from that.
   const double stiffest = potential.stiffest();
-  const double imbalance = dual_norm(problem, gradient(problem, here));
-  if (stiffest > soft_stiffness && imbalance > far_from_balance * dual_norm(problem, problem.b)) {
+  if (stiffest > soft_stiffness && minimisation.imbalance() > far_from_balance) {
     for (double cap = soft_stiffness; cap < stiffest; cap *= stiffening) {
       potential.soften(cap);
-      here = at(problem, potential, std::move(here.y), std::move(here.ay));
-      iterate(problem, potential, stage_tolerance, max_stage_iterations, here, summary);
+      minimisation.renew();
+      minimisation.iterate(stage_tolerance, max_stage_iterations, false);
     }
     potential.soften(stiffest);
-    here = at(problem, potential, std::move(here.y), std::move(here.ay));
+    minimisation.renew();
   }
-  iterate(problem, potential, relative_tolerance, max_newton_iterations, here, summary);
-  y = std::move(here.y);
-  return summary;
+  minimisation.iterate(relative_tolerance, max_newton_iterations, true);
+  return minimisation.summary;
 }
 
 }  // namespace knead

@@ -78,6 +78,18 @@ class PatchPotential final : public Potential {
     return result;
   }
 
+  void mark(const PotentialState& state, std::vector<char>& marks) const override {
+    for (const ContactPoint& c : state.contacts) {
+      if (c.patch < 0) {
+        for (const auto& [row, r] : points_[static_cast<std::size_t>(c.at[0])].terms)
+          marks[static_cast<std::size_t>(row)] = 1;
+      } else {
+        const auto k = static_cast<std::size_t>(c.patch);
+        loads_[k].mark(c, rows_[k], marks);
+      }
+    }
+  }
+
   void soften(double cap) override {
     for (std::size_t t = 0; t < tools_.size(); ++t) tools_[t].set_stiffness(std::min(given_[t], cap));
   }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "knead/spline/evaluate.hpp"
 #include "tool_load_elements.hpp"
@@ -201,14 +203,25 @@ void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& 
     for_each_control_point(element, [&](int row) { result = result || ways[row] > actors.limit->distance; });
     return result;
   };
+  const auto count = static_cast<std::size_t>(std::accumulate(net_.begin(), net_.end(), 1, std::multiplies{}));
+  std::vector<unsigned char> sides(count * actors.tools.size());  // tool after tool
+  for (std::size_t t = 0; t < actors.tools.size(); ++t) {
+    const double* at = x.data() + 3 * static_cast<std::ptrdiff_t>(first);
+    for (std::size_t i = 0; i < count; ++i, at += 3) sides[t * count + i] = actors.tools[t].sides(at);
+  }
   Workspace workspace;
   std::vector<std::size_t> near;
   for_each_element([&](const Element& element) {
-    Point lower, upper;
-    box_of(element, x, first, lower, upper);
     near.clear();
     for (std::size_t t = 0; t < actors.tools.size(); ++t) {
-      if (!in_hull_ || actors.tools[t].may_reach(lower, upper)) near.push_back(t);
+      unsigned char beyond = 0xff;
+      for_each_control_point(element, [&](int row) { beyond &= sides[t * count + static_cast<std::size_t>(row)]; });
+      if (!in_hull_ || beyond == 0) near.push_back(t);
+    }
+    if (in_hull_ && !near.empty()) {
+      Point lower, upper;
+      box_of(element, x, first, lower, upper);
+      std::erase_if(near, [&](std::size_t t) { return !actors.tools[t].may_reach(lower, upper); });
     }
     const bool limited = actors.limit != nullptr && may_exceed(element);
     if (near.empty() && !limited) return;
@@ -279,6 +292,11 @@ void ToolLoad<D>::apply_hessian(const ContactPoint& contact, int first, const Po
     double* to = out.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
     for (int c = 0; c < 3; ++c) to[c] += n * h[c];
   });
+}
+
+template <int D>
+void ToolLoad<D>::mark(const ContactPoint& contact, int first, std::vector<char>& marks) const {
+  for_each_function(contact.at, [&](int row, double) { marks[static_cast<std::size_t>(first + row)] = 1; });
 }
 
 template <int D>

@@ -80,11 +80,17 @@ Expected<void> Executor::operator()(const ToolCommand& c) {
     return input_error(c.at ? "both position and at are given" : "neither position nor at is given", "position",
                        "give one of them");
   }
-  const auto length = diagonal();
-  if (!length) return std::unexpected(length.error());
-  const double unit = c.relative ? *length : 1;
   if (auto done = check_lengths(c); !done) return done;
-  const auto shape = shape_of(c, unit, *length, *this);
+  // Measuring the surface costs as much as a step of a small net: a tool whose lengths are all given needs it not.
+  const bool infinite = c.shape == "plane";
+  double length = 0;
+  if (c.relative || !c.radius || infinite) {
+    const auto measured = diagonal();
+    if (!measured) return std::unexpected(measured.error());
+    length = *measured;
+  }
+  const double unit = c.relative ? length : 1;
+  const auto shape = shape_of(c, unit, length, *this);
   if (!shape) return std::unexpected(shape.error());
   Placement placement;
   if (c.axis) {
@@ -110,7 +116,7 @@ Expected<void> Executor::operator()(const ToolCommand& c) {
     return std::unexpected(error);
   }
   const double stiffness = c.stiffness.value_or(c.mode == ToolMode::proximity ? 100 : 1e4);
-  const double size = std::isfinite(placed->size()) ? placed->size() : 0.1 * *length;
+  const double size = std::isfinite(placed->size()) ? placed->size() : 0.1 * length;
   Tool made{c.name, std::move(*placed), c.mode, stiffness, c.range ? *c.range * unit : 0.5 * size};
   made.rigid = c.rigid;
   made.friction = c.friction;

@@ -112,7 +112,7 @@ void read_state(Reader& a, SessionState& state) {
     pass(a, surfaces[k]);
     if (a.bad()) return;
     const SurfaceState& s = surfaces[k];
-    for (const auto& other : {s.opened, s.reference, s.rest}) {
+    for (const auto& other : {s.reference, s.rest}) {  // `opened` may have another, once the basis was edited
       if (other->net() != s.current->net()) return a.fail();
     }
   }

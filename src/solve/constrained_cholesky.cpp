@@ -31,6 +31,58 @@ Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a,
   return ConstrainedCholesky(std::move(space), std::move(cholesky));
 }
 
+ConstrainedCholesky::Part ConstrainedCholesky::part(std::vector<int> points) const {
+  Part part{std::move(points), {}, 0, {}};
+  if (!cholesky_) return part;
+  part.terms = space_.terms(part.points);
+  std::vector<int> unknowns, place(static_cast<std::size_t>(space_.free_count()), -1);
+  for (ConstraintSpace::Term& term : part.terms) {
+    int& at = place[static_cast<std::size_t>(term.unknown)];
+    if (at < 0) {
+      at = static_cast<int>(unknowns.size());
+      unknowns.push_back(term.unknown);
+    }
+    term.unknown = at;
+  }
+  part.count = static_cast<int>(unknowns.size());
+  part.factor = cholesky_->part(unknowns);
+  return part;
+}
+
+namespace {
+
+/// Tᵀ b over the unknowns of a part.
+template <class Values>
+Values reduced(const ConstrainedCholesky::Part& part, const Values& b) {
+  Values y = Values::Zero(part.count, b.cols());
+  for (const ConstraintSpace::Term& t : part.terms) y.row(t.unknown) += t.coefficient * b.row(t.row);
+  return y;
+}
+
+template <class Values>
+Values expanded(const ConstrainedCholesky::Part& part, const Values& y, Eigen::Index rows) {
+  Values x = Values::Zero(rows, y.cols());
+  for (const ConstraintSpace::Term& t : part.terms) x.row(t.row) += t.coefficient * y.row(t.unknown);
+  return x;
+}
+
+Eigen::VectorXd flat(const Points& b) { return Eigen::Map<const Eigen::VectorXd>(b.data(), b.size()); }
+
+}  // namespace
+
+Points ConstrainedCholesky::solve_within(const Part& part, const Points& b) const {
+  if (!cholesky_) return Points::Zero(b.rows(), 3);
+  if (!space_.coupled()) return expanded(part, cholesky_->solve_within(part.factor, reduced(part, b)), b.rows());
+  const Eigen::VectorXd x = expanded(part, cholesky_->solve_within(part.factor, reduced(part, flat(b))), b.size());
+  return Eigen::Map<const Points>(x.data(), b.rows(), 3);
+}
+
+Points ConstrainedCholesky::solve_from(const Part& part, const Points& b) const {
+  if (!cholesky_) return Points::Zero(space_.size(), 3);
+  if (!space_.coupled()) return space_.expand_points(cholesky_->solve_from(part.factor, reduced(part, b)));
+  return space_.expand(cholesky_->solve_from(part.factor, reduced(part, flat(b))));
+}
+
 Points ConstrainedCholesky::solve(const Points& b) const {
   if (!cholesky_) return Points::Zero(b.rows(), 3);
   if (!space_.coupled()) return space_.expand_points(cholesky_->solve(space_.reduce_points(b)));

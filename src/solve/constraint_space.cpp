@@ -248,6 +248,24 @@ Points ConstraintSpace::expand_points(const Points& y) const {
   return x;
 }
 
+std::vector<ConstraintSpace::Term> ConstraintSpace::terms(std::span<const int> points) const {
+  std::vector<int> place(position_.size(), -1);  // in dependent_
+  for (std::size_t k = 0; k < dependent_.size(); ++k) place[at(dependent_[k])] = static_cast<int>(k);
+  std::vector<Term> result;
+  int row = 0;
+  for (const int point : points) {
+    for (int c = 0; c < (coupled_ ? 3 : 1); ++c, ++row) {
+      const std::size_t unknown = at(coupled_ ? 3 * point + c : point);
+      if (position_[unknown] >= 0) result.push_back({row, position_[unknown], 1});
+      if (place[unknown] < 0) continue;
+      for (decltype(rows_)::InnerIterator it(rows_, place[unknown]); it; ++it) {
+        result.push_back({row, static_cast<int>(it.col()), it.value()});
+      }
+    }
+  }
+  return result;
+}
+
 Eigen::MatrixXd ConstraintSpace::reduce(const Points& b) const {
   if (!coupled_) return reduce_points(b);
   const Eigen::Map<const Eigen::VectorXd> flat(b.data(), b.size());

@@ -3,10 +3,12 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 
+#include "panels.hpp"
+
 namespace knead {
 
 struct SparseCholesky::Factor {
-  SparseMatrix lower;     // L, columns sorted, diagonal first
+  Panels panels;          // L
   Eigen::VectorXi order;  // order[i] = place of unknown i in the reordered system
 };
 
@@ -14,66 +16,102 @@ Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) {
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower> llt;
   llt.compute(a);
   auto factor = std::make_shared<Factor>();
+  SparseMatrix lower;
   if (llt.info() == Eigen::Success) {
-    factor->lower = llt.matrixL();
+    lower = llt.matrixL();
     factor->order = llt.permutationP().indices();
   }
   // A NaN passes the sign test of the factorisation and shows in L.
-  const bool finite =
-      Eigen::Map<const Eigen::ArrayXd>(factor->lower.valuePtr(), factor->lower.nonZeros()).isFinite().all();
+  const bool finite = Eigen::Map<const Eigen::ArrayXd>(lower.valuePtr(), lower.nonZeros()).isFinite().all();
   if (llt.info() != Eigen::Success || !finite) {
     return numerical_error("the system matrix is not positive definite", "Cholesky factorisation",
                            "hold more control points, or use a larger lambda or positive material coefficients");
   }
+  factor->panels = Panels(lower);
   return SparseCholesky(std::move(factor), static_cast<int>(a.rows()));
 }
 
 namespace {
 
-/// L y = b, Lᵀ x = y with the columns side by side: L is read once per sweep instead of once per column.
-template <int columns>
-void substitute(const SparseMatrix& l, double* x) {
-  const auto* start = l.outerIndexPtr();
-  const auto* row = l.innerIndexPtr();
-  const double* value = l.valuePtr();
-  const auto size = static_cast<int>(l.cols());
-  for (int j = 0; j < size; ++j) {
-    double* xj = x + columns * static_cast<std::ptrdiff_t>(j);
-    double known[columns];
-    for (int c = 0; c < columns; ++c) known[c] = xj[c] /= value[start[j]];
-    for (auto k = start[j] + 1; k < start[j + 1]; ++k) {
-      double* xi = x + columns * static_cast<std::ptrdiff_t>(row[k]);
-      for (int c = 0; c < columns; ++c) xi[c] -= value[k] * known[c];
-    }
-  }
-  for (int j = size; j-- > 0;) {
-    double* xj = x + columns * static_cast<std::ptrdiff_t>(j);
-    double sum[columns];
-    for (int c = 0; c < columns; ++c) sum[c] = xj[c];
-    for (auto k = start[j] + 1; k < start[j + 1]; ++k) {
-      const double* xi = x + columns * static_cast<std::ptrdiff_t>(row[k]);
-      for (int c = 0; c < columns; ++c) sum[c] -= value[k] * xi[c];
-    }
-    for (int c = 0; c < columns; ++c) xj[c] = sum[c] / value[start[j]];
-  }
+/// Columns side by side as `Panels` wants them: three and one more.
+template <class Values>
+inline constexpr int columns = Values::ColsAtCompileTime == 1 ? 1 : 4;
+template <class Values>
+using Work =
+    Eigen::Matrix<double, Eigen::Dynamic, columns<Values>, columns<Values> == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+
+template <class Values>
+void put(Work<Values>& y, int row, const Values& b, Eigen::Index from) {
+  double* to = y.data() + columns<Values> * static_cast<std::ptrdiff_t>(row);
+  for (int c = 0; c < columns<Values>; ++c) to[c] = c < b.cols() ? b(from, c) : 0;
+}
+
+template <class Values>
+void take(const Work<Values>& y, int row, Values& x, Eigen::Index to) {
+  const double* from = y.data() + columns<Values> * static_cast<std::ptrdiff_t>(row);
+  for (int c = 0; c < x.cols(); ++c) x(to, c) = from[c];
+}
+
+template <class Values>
+Values whole(const Panels& panels, const Eigen::VectorXi& order, const Values& b) {
+  Work<Values> y(b.rows(), columns<Values>);
+  for (Eigen::Index i = 0; i < b.rows(); ++i) put<Values>(y, order[i], b, i);
+  panels.forward<columns<Values>>(y.data(), panels.all());
+  panels.backward<columns<Values>>(y.data(), panels.all());
+  Values x(b.rows(), b.cols());
+  for (Eigen::Index i = 0; i < b.rows(); ++i) take<Values>(y, order[i], x, i);
+  return x;
+}
+
+template <class Values>
+Values within(const Panels& panels, const SparseCholesky::Part& part, int size, const Values& b) {
+  Work<Values> y(size, columns<Values>);
+  panels.clear<columns<Values>>(y.data(), part.panels);
+  for (std::size_t k = 0; k < part.rows.size(); ++k) put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
+  panels.forward<columns<Values>>(y.data(), part.panels);
+  panels.backward<columns<Values>>(y.data(), part.panels);
+  Values x(b.rows(), b.cols());
+  for (std::size_t k = 0; k < part.rows.size(); ++k) take<Values>(y, part.rows[k], x, static_cast<Eigen::Index>(k));
+  return x;
+}
+
+template <class Values>
+Values from(const Panels& panels, const Eigen::VectorXi& order, const SparseCholesky::Part& part, const Values& b) {
+  Work<Values> y = Work<Values>::Zero(order.size(), columns<Values>);
+  for (std::size_t k = 0; k < part.rows.size(); ++k) put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
+  panels.forward<columns<Values>>(y.data(), part.panels);
+  panels.backward<columns<Values>>(y.data(), panels.all());
+  Values x(order.size(), b.cols());
+  for (Eigen::Index i = 0; i < order.size(); ++i) take<Values>(y, order[i], x, i);
+  return x;
 }
 
 }  // namespace
 
-Points SparseCholesky::solve(const Points& b) const {
-  Points y(size_, 3), result(size_, 3);
-  for (int i = 0; i < size_; ++i) y.row(factor_->order[i]) = b.row(i);
-  substitute<3>(factor_->lower, y.data());
-  for (int i = 0; i < size_; ++i) result.row(i) = y.row(factor_->order[i]);
-  return result;
+Points SparseCholesky::solve(const Points& b) const { return whole(factor_->panels, factor_->order, b); }
+Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {
+  return whole(factor_->panels, factor_->order, b);
 }
 
-Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd y(size_), result(size_);
-  for (int i = 0; i < size_; ++i) y[factor_->order[i]] = b[i];
-  substitute<1>(factor_->lower, y.data());
-  for (int i = 0; i < size_; ++i) result[i] = y[factor_->order[i]];
-  return result;
+SparseCholesky::Part SparseCholesky::part(std::span<const int> unknowns) const {
+  Part part;
+  for (const int i : unknowns) part.rows.push_back(factor_->order[i]);
+  part.panels = factor_->panels.reach(part.rows);
+  return part;
+}
+
+Points SparseCholesky::solve_within(const Part& part, const Points& b) const {
+  return within(factor_->panels, part, size_, b);
+}
+Eigen::VectorXd SparseCholesky::solve_within(const Part& part, const Eigen::VectorXd& b) const {
+  return within(factor_->panels, part, size_, b);
+}
+
+Points SparseCholesky::solve_from(const Part& part, const Points& b) const {
+  return from(factor_->panels, factor_->order, part, b);
+}
+Eigen::VectorXd SparseCholesky::solve_from(const Part& part, const Eigen::VectorXd& b) const {
+  return from(factor_->panels, factor_->order, part, b);
 }
 
 }  // namespace knead

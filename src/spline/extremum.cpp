@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
 
 #include "homogeneous.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -116,6 +119,10 @@ SurfaceMaximum refine(const Surface& surface, const Function& f, Eigen::Vector2d
     return Eigen::Vector2d(std::clamp(y[0], du.lower, du.upper), std::clamp(y[1], dv.lower, dv.upper));
   };
   const auto value_at = [&](const Eigen::Vector2d& y) { return f.at(jet_at(surface, y[0], y[1]).d[0]); };
+  const auto on_knot = [&surface](int d, double t) {
+    const auto knots = surface.knots(d).knots();
+    return std::binary_search(knots.begin(), knots.end(), t);
+  };
   for (int iteration = 0; iteration < 20; ++iteration) {
     const Value here = f.at(jet_at(surface, x[0], x[1]));
     Eigen::Vector2d g = here.gradient;
@@ -129,6 +136,12 @@ SurfaceMaximum refine(const Surface& surface, const Function& f, Eigen::Vector2d
     const double det = here.hessian.determinant();
     if (!held[0] && !held[1] && here.hessian(0, 0) < 0 && det > 0) step = -here.hessian.inverse() * g;
     if (!step.allFinite()) step.setZero();  // all but singular
+    // A Newton step that short changes f by its square; inside a span nothing but a maximum is there.
+    constexpr double arrived = 1e-7;
+    if (!step.isZero(0) && std::abs(step[0]) <= arrived * spacing[0] && std::abs(step[1]) <= arrived * spacing[1] &&
+        !on_knot(0, x[0]) && !on_knot(1, x[1])) {
+      return {value, {x[0], x[1]}};
+    }
     if (step.isZero(0)) {
       for (int d = 0; d < 2; ++d) {
         if (!held[d] && here.hessian(d, d) < 0) step[d] = -g[d] / here.hessian(d, d);
@@ -170,67 +183,138 @@ SurfaceMaximum refine(const Surface& surface, const Function& f, Eigen::Vector2d
   return {value, {x[0], x[1]}};
 }
 
-/// The maximum of f from a grid of sampled points.
-template <class Function>
-SurfaceMaximum maximise(const Surface& surface, const Function& f, const Samples& u, const Samples& v,
-                        const Points& points) {
-  const int m = u.table.size(), n = v.table.size();
-  std::vector<double> values(static_cast<std::size_t>(m) * static_cast<std::size_t>(n));
-  for (std::size_t k = 0; k < values.size(); ++k) values[k] = f.at(Point(points.row(static_cast<Eigen::Index>(k))));
-  const auto at = [&](int i, int j) {
-    return values[static_cast<std::size_t>(i) * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)];
-  };
-  std::vector<std::pair<double, std::pair<int, int>>> peaks;
-  for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < n; ++j) {
-      bool peak = true;
-      for (int a = std::max(0, i - 1); peak && a <= std::min(m - 1, i + 1); ++a) {
-        for (int b = std::max(0, j - 1); peak && b <= std::min(n - 1, j + 1); ++b) peak = at(a, b) <= at(i, j);
-      }
-      if (peak) peaks.push_back({at(i, j), {i, j}});
-    }
-  }
-  // A plateau makes every sample a peak: the best few will do, since equal values refine to equal values.
-  constexpr std::size_t refined = 8;
-  const std::size_t count = std::min(refined, peaks.size());
-  std::partial_sort(peaks.begin(), peaks.begin() + static_cast<std::ptrdiff_t>(count), peaks.end(),
-                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  SurfaceMaximum best;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto [i, j] = peaks[k].second;
-    const auto spacing = [](const Samples& s, int at_sample) {
-      double h = 0;
-      if (at_sample > 0)
-        h = std::max(h, s.parameters[static_cast<std::size_t>(at_sample)] -
-                            s.parameters[static_cast<std::size_t>(at_sample - 1)]);
-      if (at_sample + 1 < s.table.size())
-        h = std::max(h, s.parameters[static_cast<std::size_t>(at_sample + 1)] -
-                            s.parameters[static_cast<std::size_t>(at_sample)]);
-      return h;
-    };
-    const SurfaceMaximum found =
-        refine(surface, f, {u.parameters[static_cast<std::size_t>(i)], v.parameters[static_cast<std::size_t>(j)]},
-               peaks[k].first, {spacing(u, i), spacing(v, j)});
-    if (k == 0 || found.value > best.value) best = found;
-  }
-  return best;
-}
-
-struct SampledSurface {
-  Samples u, v;
-  Points points;
+/// A local maximum of the samples of one span.
+struct Peak {
+  double value;
+  Eigen::Vector2d at, spacing;
 };
 
-SampledSurface sample(const Surface& surface) {
-  SampledSurface s{sample_spans(surface.knots(0)), sample_spans(surface.knots(1)), {}};
-  if (auto grid = evaluate_grid<2>(surface, std::array<const BasisTable*, 2>{&s.u.table, &s.v.table})) {
-    s.points = std::move(grid->derivatives.front());
-  } else {
-    s.points = surface.control_points();  // no positive denominator: the net is all there is
-    s.u = s.v = {};
+/// The spans of a surface and their samples; one for several functions.
+class SampledSpans {
+ public:
+  explicit SampledSpans(const Surface& surface)
+      : surface_(surface),
+        u_(sample_spans(surface.knots(0))),
+        v_(sample_spans(surface.knots(1))),
+        in_hull_(std::ranges::all_of(surface.weights(), [](double w) { return w > 0; })) {}
+
+  /// False where a denominator is not positive: then the net is all there is.
+  [[nodiscard]] bool valid() const {
+    if (in_hull_) return true;
+    return evaluate_grid<2>(surface_, std::array<const BasisTable*, 2>{&u_.table, &v_.table}).has_value();
   }
-  return s;
-}
+
+  template <class Function>
+  [[nodiscard]] SurfaceMaximum maximise(const Function& f) const {
+    std::vector<Peak> peaks = peaks_of(f);
+    std::ranges::sort(peaks, std::ranges::greater{}, &Peak::value);
+    // A plateau makes every sample a peak: the best few will do, since equal values refine to equal values.
+    constexpr std::size_t refined = 8;
+    std::vector<Eigen::Vector2d> begun;  // a peak on a knot line is one of both its spans
+    SurfaceMaximum best;
+    for (const Peak& peak : peaks) {
+      if (std::ranges::find(begun, peak.at) != begun.end()) continue;
+      const SurfaceMaximum found = refine(surface_, f, peak.at, peak.value, peak.spacing);
+      if (begun.empty() || found.value > best.value) best = found;
+      begun.push_back(peak.at);
+      if (begun.size() == refined) break;
+    }
+    return best;
+  }
+
+ private:
+  const Surface& surface_;
+  Samples u_, v_;
+  bool in_hull_;
+
+  /// f is convex and the surface of a span lies in the hull of its control points, so that f is nowhere larger than at
+  /// those: spans that cannot reach what others have are not sampled.
+  template <class Function>
+  std::vector<Peak> peaks_of(const Function& f) const {
+    const int n = surface_.net()[1], p = u_.table.degree, q = v_.table.degree, rows = p + 3, columns = q + 3;
+    std::vector<double> values(static_cast<std::size_t>(surface_.size()));
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      values[k] = f.at(Point(surface_.control_points().row(static_cast<Eigen::Index>(k)).transpose()));
+    }
+    struct Span {
+      double bound;
+      int i, j;  // first samples
+    };
+    std::vector<Span> spans;
+    for (int i = 0; i < u_.table.size(); i += rows) {
+      for (int j = 0; j < v_.table.size(); j += columns) {
+        double bound = -std::numeric_limits<double>::infinity();
+        for (int r = 0; r <= p; ++r) {
+          const auto first = values.begin() + (u_.table.first[static_cast<std::size_t>(i)] + r) * n +
+                             v_.table.first[static_cast<std::size_t>(j)];
+          bound = std::max(bound, *std::max_element(first, first + q + 1));
+        }
+        spans.push_back({bound, i, j});
+      }
+    }
+    std::ranges::sort(spans, std::ranges::greater{}, &Span::bound);
+    std::vector<Peak> peaks;
+    double best = -std::numeric_limits<double>::infinity();
+    std::vector<double> samples(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+    for (const Span& span : spans) {
+      if (in_hull_ && !(span.bound > best)) break;
+      sample(f, span.i, span.j, samples);
+      const auto at = [&](int k, int l) {
+        return samples[static_cast<std::size_t>(k) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(l)];
+      };
+      for (int k = 0; k < rows; ++k) {
+        for (int l = 0; l < columns; ++l) {
+          bool peak = true;
+          for (int a = std::max(0, k - 1); peak && a <= std::min(rows - 1, k + 1); ++a) {
+            for (int b = std::max(0, l - 1); peak && b <= std::min(columns - 1, l + 1); ++b)
+              peak = at(a, b) <= at(k, l);
+          }
+          if (!peak) continue;
+          best = std::max(best, at(k, l));
+          peaks.push_back({at(k, l),
+                           {parameter(u_, span.i + k), parameter(v_, span.j + l)},
+                           {spacing(u_, span.i + k), spacing(v_, span.j + l)}});
+        }
+      }
+    }
+    return peaks;
+  }
+
+  static double parameter(const Samples& s, int k) { return s.parameters[static_cast<std::size_t>(k)]; }
+  static double spacing(const Samples& s, int k) {
+    double h = 0;
+    if (k > 0) h = std::max(h, parameter(s, k) - parameter(s, k - 1));
+    if (k + 1 < s.table.size()) h = std::max(h, parameter(s, k + 1) - parameter(s, k));
+    return h;
+  }
+
+  /// f at the samples of one span, those of u outermost.
+  template <class Function>
+  void sample(const Function& f, int first_u, int first_v, std::vector<double>& values) const {
+    const int n = surface_.net()[1], p = u_.table.degree, q = v_.table.degree;
+    std::size_t to = 0;
+    std::array<Eigen::Vector4d, max_degree + 1> line;
+    for (int k = first_u; k < first_u + p + 3; ++k) {
+      for (int c = 0; c <= q; ++c) {
+        Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+        for (int r = 0; r <= p; ++r) {
+          const int index = (u_.table.first[static_cast<std::size_t>(k)] + r) * n +
+                            v_.table.first[static_cast<std::size_t>(first_v)] + c;
+          const double weight = surface_.rational() ? surface_.weights()[static_cast<std::size_t>(index)] : 1;
+          Eigen::Vector4d point;
+          point << weight * surface_.control_points().row(index).transpose(), weight;
+          sum += u_.table.row(k, 0)[r] * point;
+        }
+        line[static_cast<std::size_t>(c)] = sum;
+      }
+      for (int l = first_v; l < first_v + q + 3; ++l) {
+        Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+        for (int c = 0; c <= q; ++c) sum += v_.table.row(l, 0)[c] * line[static_cast<std::size_t>(c)];
+        values[to++] = f.at(Point(surface_.rational() ? Point(sum.head<3>() / sum[3]) : Point(sum.head<3>())));
+      }
+    }
+  }
+};
 
 }  // namespace
 
@@ -248,27 +332,28 @@ SurfaceMaximum largest_norm(const Surface& surface) {
       return best;
     }
   }
-  const SampledSurface s = sample(surface);
-  if (s.u.parameters.empty()) return {s.points.rowwise().norm().maxCoeff(), {}};
-  if ((s.points.array() == 0).all() && (surface.control_points().array() == 0).all()) {
+  if ((surface.control_points().array() == 0).all()) {
     return {0, {surface.knots(0).domain().lower, surface.knots(1).domain().lower}};
   }
-  SurfaceMaximum best = maximise(surface, SquaredNorm{}, s.u, s.v, s.points);
+  const SampledSpans spans(surface);
+  if (!spans.valid()) return {surface.control_points().rowwise().norm().maxCoeff(), {}};
+  SurfaceMaximum best = spans.maximise(SquaredNorm{});
   best.value = std::sqrt(best.value);
   return best;
 }
 
 BoundingBox bounding_box(const Surface& surface) {
-  const SampledSurface s = sample(surface);
+  const SampledSpans spans(surface);
   BoundingBox box;
+  const bool valid = spans.valid();
   for (int axis = 0; axis < 3; ++axis) {
-    if (s.u.parameters.empty()) {
-      box.lower[axis] = s.points.col(axis).minCoeff();
-      box.upper[axis] = s.points.col(axis).maxCoeff();
+    if (!valid) {
+      box.lower[axis] = surface.control_points().col(axis).minCoeff();
+      box.upper[axis] = surface.control_points().col(axis).maxCoeff();
       continue;
     }
-    box.lower[axis] = 0.0 - maximise(surface, Coordinate{axis, -1}, s.u, s.v, s.points).value;  // never -0
-    box.upper[axis] = maximise(surface, Coordinate{axis, 1}, s.u, s.v, s.points).value;
+    box.lower[axis] = 0.0 - spans.maximise(Coordinate{axis, -1}).value;  // never -0
+    box.upper[axis] = spans.maximise(Coordinate{axis, 1}).value;
   }
   return box;
 }

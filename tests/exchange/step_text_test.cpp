@@ -2,7 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
 
 #include "exchange/new_surfaces.hpp"
 #include "exchange/support.hpp"
@@ -30,6 +37,41 @@ TEST(StepText, ReadsBackToTheLastBit) {
     EXPECT_TRUE(testing::same_bits(read.surface.control_points(), surfaces[k].surface.control_points()));
     EXPECT_TRUE(std::ranges::equal(read.surface.weights(), surfaces[k].surface.weights()));
     EXPECT_EQ(read.closed, (std::array{read.name == "tube", read.name == "cone"})) << read.name;
+  }
+}
+
+/// As std::to_chars writes them, with the point that the format wants.
+TEST(StepText, RealsAreTheShortestThatReadBack) {
+  constexpr int columns = 4000;
+  std::mt19937_64 random(7);
+  std::vector<double> weights = {1,    10,   1e4, 1e5,  123456, 0.1,   1e-4, 1e-5, 0.00012, 123456789012345680000.0,
+                                 1e21, 1e23, -1,  -0.5, 1e300,  1e-300};
+  while (weights.size() < 2 * columns) {
+    const auto bits = random();
+    const double any = std::bit_cast<double>(bits);
+    const double choices[] = {any, static_cast<double>(bits >> (bits % 64)),
+                              static_cast<double>(bits % 10000000) * 1e-6};
+    const double value = choices[weights.size() % 3];
+    if (std::isfinite(value) && value != 0) weights.push_back(value);
+  }
+  const StepNewSurface surface{
+      "", *Surface::create({*KnotVector::clamped_uniform(1, 2), *KnotVector::clamped_uniform(1, columns)},
+                           Points::Random(2 * columns, 3), weights)};
+  auto text = knead::step_text({&surface, 1});
+  ASSERT_TRUE(text) << text.error().message();
+  std::erase(*text, '\n');
+  auto at = text->find("RATIONAL_B_SPLINE_SURFACE(");
+  ASSERT_NE(at, std::string::npos);
+  for (const double weight : weights) {
+    std::array<char, 40> buffer{};
+    std::string wanted(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), weight).ptr);
+    const auto exponent = std::min(wanted.find('e'), wanted.size());
+    if (exponent < wanted.size()) wanted[exponent] = 'E';
+    if (wanted.find('.') == std::string::npos) wanted.insert(exponent, ".");
+    at = text->find_first_of("0123456789-", at);
+    const auto end = text->find_first_of(",)", at);
+    EXPECT_EQ(text->substr(at, end - at), wanted);
+    at = end;
   }
 }
 

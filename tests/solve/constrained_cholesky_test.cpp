@@ -33,6 +33,14 @@ TEST(SparseCholesky, SolvesToTheAccuracyOfADenseFactorisation) {
   EXPECT_LE((a * cholesky->solve(b) - b).norm(), 1e-14 * Eigen::MatrixXd(a).norm() * x.norm());
 }
 
+TEST(SparseCholesky, OneColumnIsSolvedAsThreeAre) {
+  const Problem p(testing::relief(testing::uniform_clamped(3, 14), testing::uniform_clamped(3, 11), 1));
+  const auto cholesky = SparseCholesky::factor(p.k + p.mass);
+  ASSERT_TRUE(cholesky);
+  const Points b = random_points(p.surface.size(), 2), x = cholesky->solve(b);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(cholesky->solve(Eigen::VectorXd(b.col(c))), x.col(c));
+}
+
 TEST(SparseCholesky, RefusesWhatIsNotPositiveDefinite) {
   SparseMatrix a(2, 2);
   a.insert(0, 0) = 1;
@@ -75,6 +83,34 @@ TEST(ConstrainedCholesky, CoupledCoordinatesGiveTheSameSolutionWhereNothingCoupl
   EXPECT_TRUE(coupled->space().coupled());
   const Points b = random_points(p.surface.size(), 4), x = simple->solve(b);
   EXPECT_LE((coupled->solve(b) - x).norm(), 1e-11 * x.norm());
+}
+
+/// Right sides that are zero but at a few points: the part of the factor that they touch gives the solution there, and
+/// from there everywhere, to the bits of the whole solve.
+TEST(ConstrainedCholesky, APartOfTheFactorGivesTheBitsOfTheWhole) {
+  const Problem p(testing::relief(testing::uniform_clamped(3, 17), testing::uniform_clamped(2, 13), 5));
+  const SparseMatrix a = p.k + p.mass;
+  const int size = p.surface.size();
+  std::vector<LinearConstraint> axes;
+  for (int k = 0; k < 3; ++k)
+    axes.push_back({"a", {{40, 1}, {41, -1}, {90, 0.5}}, Point::Zero(), Point(Point::Unit(k))});
+  const std::vector<std::vector<int>> choices = {{41, 90, 3}, {0}, {}, {220, 12, 13, 14, 1, 40, 41, 42, 100}};
+  for (const ConstraintSpace& space :
+       {ConstraintSpace(size), some_space(p.surface), *ConstraintSpace::create(size, axes)}) {
+    const auto system = ConstrainedCholesky::factor(a, space);
+    ASSERT_TRUE(system);
+    for (const std::vector<int>& points : choices) {
+      const auto part = system->part(points);
+      const Points here = random_points(static_cast<int>(points.size()), 6);
+      Points b = Points::Zero(size, 3);
+      for (std::size_t k = 0; k < points.size(); ++k) b.row(points[k]) = here.row(static_cast<Eigen::Index>(k));
+      const Points x = system->solve(b), within = system->solve_within(part, here);
+      EXPECT_EQ(system->solve_from(part, here), x);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        EXPECT_EQ(within.row(static_cast<Eigen::Index>(k)), x.row(points[k])) << points[k];
+      }
+    }
+  }
 }
 
 TEST(ConstrainedCholesky, WithEverythingHeldNothingMoves) {

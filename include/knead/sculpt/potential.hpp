@@ -35,6 +35,8 @@ class Potential {
   [[nodiscard]] virtual PotentialState evaluate(const Points& x) const = 0;
   /// H V: the Hessian at `state`, applied to N × 3 directions. It may be indefinite.
   [[nodiscard]] virtual Points apply_hessian(const PotentialState& state, const Points& v) const = 0;
+  /// Sets marks[i] where a contact of `state` acts on control point i: elsewhere force and Hessian are zero.
+  virtual void mark(const PotentialState& state, std::vector<char>& marks) const = 0;
   /// The same potential with no spring stiffer than `cap`.
   virtual void soften(double cap) = 0;
   /// The largest stiffness of a spring.

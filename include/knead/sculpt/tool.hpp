@@ -83,6 +83,16 @@ class ModelTool {
   /// Signed distance to the tool itself.
   [[nodiscard]] double distance(const Point& x) const;
   [[nodiscard]] ToolAction action(const Point& x) const;
+  /// A bit for every side of the tool's box that x lies beyond: points that share a bit have nothing of the tool
+  /// between them.
+  [[nodiscard]] unsigned char sides(const double* x) const {
+    unsigned result = 0;
+    for (int c = 0; c < 3; ++c) {
+      result |= (x[c] < lower_[c] ? 1U : 0U) << (2 * c);
+      result |= (x[c] > upper_[c] ? 2U : 0U) << (2 * c);
+    }
+    return static_cast<unsigned char>(result);
+  }
   /// False where it is certain that nothing in the box is acted on.
   [[nodiscard]] bool may_reach(const Point& lower, const Point& upper) const;
 

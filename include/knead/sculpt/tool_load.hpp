@@ -58,6 +58,9 @@ class ToolLoad {
   /// Adds the Hessian at one contact point of this patch, applied to v, to `out`.
   void apply_hessian(const ContactPoint& contact, int first, const Points& v, Points& out) const;
 
+  /// Sets the marks of the control points that a contact point of this patch depends on.
+  void mark(const ContactPoint& contact, int first, std::vector<char>& marks) const;
+
   /// The anchors of friction where the tools are touched at x.
   [[nodiscard]] FrictionAnchors anchors(const Points& x, int first, std::span<const ModelTool> tools,
                                         double slip) const;

@@ -18,6 +18,20 @@ class ConstrainedCholesky {
   /// The X = T y that solves Tᵀ A X = Tᵀ B, for B of N × 3. Cost: O(nonzeros of the factor).
   [[nodiscard]] Points solve(const Points& b) const;
 
+  /// What solving touches where right sides are zero but at some points.
+  struct Part {
+    std::vector<int> points;
+    std::vector<ConstraintSpace::Term> terms;  ///< rows of T of those points, over `count` unknowns
+    int count = 0;
+    SparseCholesky::Part factor;
+  };
+  [[nodiscard]] Part part(std::vector<int> points) const;
+  /// X at the points of the part, for B given there and zero elsewhere, both in the order of the points. Cost and bits:
+  /// see `SparseCholesky::solve_within`.
+  [[nodiscard]] Points solve_within(const Part& part, const Points& b) const;
+  /// The same for all of X.
+  [[nodiscard]] Points solve_from(const Part& part, const Points& b) const;
+
   [[nodiscard]] const ConstraintSpace& space() const { return space_; }
 
  private:

@@ -47,6 +47,14 @@ class ConstraintSpace {
   /// The same for m × 3, without detour; only where not `coupled`.
   [[nodiscard]] Points reduce_points(const Points& b) const;
   [[nodiscard]] Points expand_points(const Points& y) const;
+  /// One coefficient of T.
+  struct Term {
+    int row;      ///< an index into the rows asked for; three per row and one per coordinate where `coupled`
+    int unknown;  ///< of y
+    double coefficient;
+  };
+  /// The rows of T of some points.
+  [[nodiscard]] std::vector<Term> terms(std::span<const int> points) const;
   /// Tᵀ A T, or Tᵀ (A ⊗ I) T where `coupled`.
   [[nodiscard]] SparseMatrix restrict(const SparseMatrix& a) const;
 

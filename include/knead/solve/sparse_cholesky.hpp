@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "knead/energy/stiffness.hpp"
 
@@ -16,6 +18,21 @@ class SparseCholesky {
   [[nodiscard]] Points solve(const Points& b) const;
   /// The same for one column.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+  /// What solving touches of the factor where right sides are zero but at some unknowns.
+  struct Part {
+    std::vector<int> rows;    ///< those unknowns, as rows of the factor
+    std::vector<int> panels;  ///< of the factor
+  };
+  /// Cost: O(rows of those panels).
+  [[nodiscard]] Part part(std::span<const int> unknowns) const;
+  /// A X = B for B given at the unknowns of the part, in their order, and X wanted there only. Cost: O(nonzeros of the
+  /// part), on a tensor net a fraction of the whole that shrinks with its size. Bits: those of `solve`.
+  [[nodiscard]] Points solve_within(const Part& part, const Points& b) const;
+  [[nodiscard]] Eigen::VectorXd solve_within(const Part& part, const Eigen::VectorXd& b) const;
+  /// The same for all of X: half of `solve`, and half of `solve_within`.
+  [[nodiscard]] Points solve_from(const Part& part, const Points& b) const;
+  [[nodiscard]] Eigen::VectorXd solve_from(const Part& part, const Eigen::VectorXd& b) const;
 
   [[nodiscard]] int size() const { return size_; }
 

@@ -1,0 +1,210 @@
+#include "panels.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <span>
+#include <type_traits>
+
+namespace knead {
+namespace {
+
+/// The columns of one unknown.
+struct Single {
+  double value;
+
+  static Single load(const double* p) { return {*p}; }
+  void store(double* p) const { *p = value; }
+  void subtract(double l, Single x) { value -= l * x.value; }
+  void scale(double l) { value *= l; }
+};
+
+/// Four of them: two vectors of two, which is what WebAssembly and every x86-64 have.
+struct Four {
+  typedef double Pair __attribute__((vector_size(16), may_alias));
+  Pair a, b;
+
+  static Four load(const double* p) {
+    return {*reinterpret_cast<const Pair*>(p), *reinterpret_cast<const Pair*>(p + 2)};
+  }
+  void store(double* p) const {
+    *reinterpret_cast<Pair*>(p) = a;
+    *reinterpret_cast<Pair*>(p + 2) = b;
+  }
+  void subtract(double l, const Four& x) {
+    a -= l * x.a;
+    b -= l * x.b;
+  }
+  void scale(double l) {
+    a *= l;
+    b *= l;
+  }
+};
+
+template <int columns>
+using Values = std::conditional_t<columns == 1, Single, Four>;
+
+template <int columns, int width>
+void down(const double* l, std::span<const int> rows, double* x, double* own) {
+  using V = Values<columns>;
+  V known[width];
+  for (int i = 0; i < width; ++i) {
+    known[i] = V::load(own + columns * i);
+    for (int j = 0; j < i; ++j) known[i].subtract(*l++, known[j]);
+    known[i].scale(*l++);
+    known[i].store(own + columns * i);
+  }
+  for (const int row : rows) {
+    double* at = x + columns * static_cast<std::ptrdiff_t>(row);
+    V sum = V::load(at);
+    for (int j = 0; j < width; ++j) sum.subtract(l[j], known[j]);
+    sum.store(at);
+    l += width;
+  }
+}
+
+template <int columns, int width>
+void up(const double* l, std::span<const int> rows, const double* x, double* own) {
+  using V = Values<columns>;
+  V sum[width];
+  for (int j = 0; j < width; ++j) sum[j] = V::load(own + columns * j);
+  const double* below = l + width * (width + 1) / 2;
+  for (const int row : rows) {
+    const V known = V::load(x + columns * static_cast<std::ptrdiff_t>(row));
+    for (int j = 0; j < width; ++j) sum[j].subtract(below[j], known);
+    below += width;
+  }
+  for (int i = width; i-- > 0;) {
+    const double* row = l + i * (i + 1) / 2;
+    sum[i].scale(row[i]);
+    sum[i].store(own + columns * i);
+    for (int j = 0; j < i; ++j) sum[j].subtract(row[j], sum[i]);
+  }
+}
+
+}  // namespace
+
+Panels::Panels(const SparseMatrix& lower) {
+  const auto* start = lower.outerIndexPtr();
+  const auto* row = lower.innerIndexPtr();
+  const auto size = static_cast<int>(lower.cols());
+  std::vector<int> united, wider;
+  for (int first = 0; first < size;) {
+    // As many columns as fill three quarters of their panel.
+    int width = 1, entries = start[first + 1] - start[first] - 1;
+    united.assign(row + start[first] + 1, row + start[first + 1]);
+    wider = united;
+    for (int next = 1; next < widest && first + next < size; ++next) {
+      const int column = first + next;
+      std::vector<int> merged;
+      std::set_union(wider.begin(), wider.end(), row + start[column] + 1, row + start[column + 1],
+                     std::back_inserter(merged));
+      wider = std::move(merged);
+      entries += start[column + 1] - start[column] - 1;
+      const auto below = static_cast<int>(wider.end() - std::ranges::upper_bound(wider, column));
+      const int stored = (next + 1) * below + next * (next + 1) / 2;
+      if (4 * entries < 3 * stored) continue;
+      width = next + 1;
+      united = wider;
+    }
+    const int last = first + width - 1;
+    Panel panel{first, width, static_cast<int>(rows_.size()), 0, static_cast<int>(values_.size())};
+    rows_.insert(rows_.end(), std::ranges::upper_bound(united, last), united.end());
+    panel.rows = static_cast<int>(rows_.size()) - panel.row;
+    const int triangle = width * (width + 1) / 2;
+    values_.resize(values_.size() + static_cast<std::size_t>(triangle + width * panel.rows), 0.0);
+    double* to = values_.data() + panel.value;
+    const std::span<const int> below(rows_.data() + panel.row, static_cast<std::size_t>(panel.rows));
+    for (int j = 0; j < width; ++j) {
+      for (auto k = start[first + j]; k < start[first + j + 1]; ++k) {
+        const double value = lower.valuePtr()[k];
+        if (const int i = row[k] - first; i < width) {
+          to[i * (i + 1) / 2 + j] = i == j ? 1 / value : value;
+        } else {
+          const auto place = std::ranges::lower_bound(below, row[k]) - below.begin();
+          to[triangle + width * place + j] = value;
+        }
+      }
+    }
+    all_.push_back(static_cast<int>(panels_.size()));
+    panel_of_.insert(panel_of_.end(), static_cast<std::size_t>(width), all_.back());
+    panels_.push_back(panel);
+    first += width;
+  }
+}
+
+std::vector<int> Panels::reach(std::span<const int> rows) const {
+  std::vector<char> marked(panels_.size(), 0);
+  const auto mark = [&](int row) { marked[static_cast<std::size_t>(panel_of_[static_cast<std::size_t>(row)])] = 1; };
+  for (const int row : rows) mark(row);
+  std::vector<int> result;
+  for (std::size_t k = 0; k < panels_.size(); ++k) {
+    if (!marked[k]) continue;
+    result.push_back(static_cast<int>(k));
+    for (int i = 0; i < panels_[k].rows; ++i) mark(rows_[static_cast<std::size_t>(panels_[k].row + i)]);
+  }
+  return result;
+}
+
+template <int columns, class F>
+void Panels::sweep(double* x, const Panel& panel, const F& kernel) const {
+  kernel(values_.data() + panel.value, std::span(rows_.data() + panel.row, static_cast<std::size_t>(panel.rows)), x,
+         x + columns * static_cast<std::ptrdiff_t>(panel.first));
+}
+
+template <int columns>
+void Panels::forward(double* x, std::span<const int> panels) const {
+  for (const int k : panels) {
+    const Panel& p = panels_[static_cast<std::size_t>(k)];
+    switch (p.width) {
+      case 1:
+        sweep<columns>(x, p, down<columns, 1>);
+        break;
+      case 2:
+        sweep<columns>(x, p, down<columns, 2>);
+        break;
+      case 3:
+        sweep<columns>(x, p, down<columns, 3>);
+        break;
+      default:
+        sweep<columns>(x, p, down<columns, 4>);
+    }
+  }
+}
+
+template <int columns>
+void Panels::backward(double* x, std::span<const int> panels) const {
+  for (std::size_t k = panels.size(); k-- > 0;) {
+    const Panel& p = panels_[static_cast<std::size_t>(panels[k])];
+    switch (p.width) {
+      case 1:
+        sweep<columns>(x, p, up<columns, 1>);
+        break;
+      case 2:
+        sweep<columns>(x, p, up<columns, 2>);
+        break;
+      case 3:
+        sweep<columns>(x, p, up<columns, 3>);
+        break;
+      default:
+        sweep<columns>(x, p, up<columns, 4>);
+    }
+  }
+}
+
+template <int columns>
+void Panels::clear(double* x, std::span<const int> panels) const {
+  for (const int k : panels) {
+    const Panel& p = panels_[static_cast<std::size_t>(k)];
+    std::fill_n(x + columns * static_cast<std::ptrdiff_t>(p.first), columns * p.width, 0.0);
+  }
+}
+
+template void Panels::forward<1>(double*, std::span<const int>) const;
+template void Panels::forward<4>(double*, std::span<const int>) const;
+template void Panels::backward<1>(double*, std::span<const int>) const;
+template void Panels::backward<4>(double*, std::span<const int>) const;
+template void Panels::clear<1>(double*, std::span<const int>) const;
+template void Panels::clear<4>(double*, std::span<const int>) const;
+
+}  // namespace knead

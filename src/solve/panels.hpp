@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "knead/energy/stiffness.hpp"
+
+namespace knead {
+
+/// A lower triangular matrix L cut into panels of up to four neighbouring columns that mostly have the same rows: a
+/// panel stores a dense block over the union of their rows. Substitution then reads each row of the unknowns once per
+/// panel instead of once per column, and fills vector registers. A few zeros are stored to make panels wider, never
+/// more than a quarter of a panel.
+class Panels {
+ public:
+  static constexpr int widest = 4;
+
+  Panels() = default;
+  /// \param lower L, columns sorted, diagonal first and not zero.
+  explicit Panels(const SparseMatrix& lower);
+
+  /// The panels that a right side touches which is zero but in these rows, and that the solution in these rows depends
+  /// on: ascending.
+  [[nodiscard]] std::vector<int> reach(std::span<const int> rows) const;
+  [[nodiscard]] const std::vector<int>& all() const { return all_; }
+
+  /// L y = b and Lᵀ x = y, in place, `columns` values per row, by these panels: all of them, or a reach. Every row of
+  /// the forward sweep sums in the order of the columns of L; rows of the backward sweep sum what lies below their
+  /// panel first. `columns`: 1, or 4 for three (the last is carried along; x aligned to 16 bytes).
+  template <int columns>
+  void forward(double* x, std::span<const int> panels) const;
+  template <int columns>
+  void backward(double* x, std::span<const int> panels) const;
+  /// Sets the rows of these panels to zero.
+  template <int columns>
+  void clear(double* x, std::span<const int> panels) const;
+
+ private:
+  struct Panel {
+    int first, width;  // columns
+    int row, rows;     // of those below, in rows_
+    int value;         // in values_: the triangle row by row with 1 / L_jj on its diagonal, then the rows below
+  };
+  template <int columns, class F>
+  void sweep(double* x, const Panel& panel, const F& kernel) const;
+
+  std::vector<Panel> panels_;
+  std::vector<int> all_, panel_of_;  // 0, 1, … and the panel of every column
+  std::vector<int> rows_;
+  std::vector<double> values_;
+};
+
+}  // namespace knead

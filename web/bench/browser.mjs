@@ -1,0 +1,65 @@
+// The same stroke in the built page (dist/), in headless Chromium:  node bench/browser.mjs [directory ...]
+// Worker: commands and pictures of a frame, as the page shows them. Round trip: from the request until the page has drawn.
+import { fileURLToPath } from 'node:url';
+
+import { chromium } from 'playwright-core';
+
+import { serve } from '../serve.mjs';
+import { least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
+
+const directories = process.argv.length > 2 ? process.argv.slice(2) : [fileURLToPath(new URL('../dist', import.meta.url))];
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking',
+    '--disable-component-update', '--disable-sync', '--no-first-run'],
+});
+const pages = [];
+for (const directory of directories) {
+  const server = await serve(directory);
+  const page = await browser.newPage({ viewport: { width: 640, height: 420 } });
+  const begin = performance.now();
+  await page.goto(server.url);
+  await page.waitForSelector('html[data-ready]', { state: 'attached', timeout: 60_000 });
+  pages.push({ directory, server, page, ready: performance.now() - begin });
+}
+
+for (const net of nets) {
+  console.log(`${net} x ${net} control points, milliseconds`);
+  console.log('worker: median    least    worst   round trip  of the first  long tasks  ready  directory');
+  for (const { directory, page, ready } of pages) {
+    await page.bringToFront();
+    const times = await page.evaluate(
+      async ([commands, strokes]) => {
+        const { studio } = window;
+        await studio.startFresh('bench', commands);
+        const worker = [], trip = [], first = [];
+        const long = [];
+        const observer = new PerformanceObserver((list) => long.push(...list.getEntries().map((e) => e.duration)));
+        observer.observe({ type: 'longtask' });
+        for (const measured of [false, true]) {
+          for (const [k, stroke] of strokes.entries()) {
+            const begin = performance.now();
+            const drawn = new Promise((resolve) => requestAnimationFrame(() => resolve()));
+            await studio.client.execute(stroke, k > 0);
+            await drawn;
+            const { computeTime, paintTime } = studio.frame;
+            if (measured) {
+              worker.push(computeTime + paintTime);
+              trip.push(performance.now() - begin);
+            } else first.push(computeTime + paintTime);
+          }
+          await studio.client.execute([{ do: 'undo' }]);
+        }
+        observer.disconnect();
+        return { worker, trip, first, long };
+      },
+      [sheet(net), places],
+    );
+    console.log(
+      `     ${ms(median(times.worker))}${ms(least(times.worker))}${ms(worst(times.worker))}    ${ms(median(times.trip))}     ${ms(worst(times.first))}` +
+        `    ${String(times.long.length).padStart(8)}  ${ready.toFixed(0).padStart(5)}  ${directory}`,
+    );
+  }
+}
+await browser.close();
+for (const { server } of pages) await server.close();

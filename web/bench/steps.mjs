@@ -1,0 +1,52 @@
+// Times of the steps of a stroke in node, with all that a frame costs the worker:  node bench/steps.mjs [module.wasm ...]
+// Several modules take turns, place by place, and are compared with the first.
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+
+import { engineClass } from './engine.mjs';
+import { detail, least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
+
+const modules =
+  process.argv.length > 2 ? process.argv.slice(2) : [fileURLToPath(new URL('../src/engine/knead_studio.wasm', import.meta.url))];
+const Engine = await engineClass();
+
+for (const net of nets) {
+  const runs = [];
+  for (const file of modules) {
+    const engine = await Engine.load(readFileSync(file));
+    engine.fresh('sheet');
+    for (const command of sheet(net)) engine.execute(command);
+    runs.push({ file, engine, first: [], step: [], frame: [], iterations: 0 });
+  }
+  // The first stroke warms up.
+  for (const measured of [false, true]) {
+    for (const [k, commands] of places.entries()) {
+      for (const run of runs) {
+        const { engine } = run;
+        const begin = performance.now();
+        for (const [c, command] of commands.entries()) engine.execute(command, k > 0 || c > 0);
+        const computed = performance.now();
+        const state = engine.state();
+        const picture = engine.paint(0, detail, 'none');
+        structuredClone({ state, picture, steps: engine.steps(state.steps - 1) });
+        const end = performance.now();
+        if (!measured) {
+          run.first.push(end - begin);
+          continue;
+        }
+        run.step.push(computed - begin);
+        run.frame.push(end - begin);
+        run.iterations += state.last.iterations;
+      }
+    }
+    for (const { engine } of runs) engine.execute({ do: 'undo' });
+  }
+  console.log(`${net} x ${net} control points, milliseconds`);
+  console.log('     step    frame: median    least    worst  of the first  Newton  ratio  module');
+  for (const { file, first, step, frame, iterations } of runs) {
+    console.log(
+      `${ms(median(step))}        ${ms(median(frame))}${ms(least(frame))}${ms(worst(frame))}     ${ms(worst(first))}` +
+        `   ${(iterations / places.length).toFixed(2)}   ${(median(frame) / median(runs[0].frame)).toFixed(2)}   ${file}`,
+    );
+  }
+}
