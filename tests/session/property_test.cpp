@@ -86,7 +86,7 @@ std::string list(const Point& p) { return fmt::format("[{:.17g},{:.17g},{:.17g}]
 std::string random_command(Random& random, const Similarity& m, bool settings = true) {
   const double s = random.real(0.2, 0.8), t = random.real(0.2, 0.8), k = m.scale;
   const Point by = m.direction(random.point(0.3));
-  switch (random.whole(0, settings ? 23 : 9)) {
+  switch (random.whole(0, settings ? 24 : 9)) {
     case 0:
     case 1:  // clear of the surface or into it by less than its radius: what is half way through has two sides to go to
       return fmt::format(R"({{"do":"tool","name":"a","radius":{:.17g},"position":{},"stiffness":{}}})",
@@ -139,6 +139,9 @@ std::string random_command(Random& random, const Similarity& m, bool settings = 
     case 21:
       return fmt::format(R"({{"do":"weights","which":[{0}],"rows_u":[{1}],"{2}":{3:.17g}}})", random.whole(0, 30),
                          random.whole(0, 4), random.whole(0, 1) == 0 ? "weight" : "by", random.real(0.7, 1.4));
+    case 22:
+      return fmt::format(R"({{"do":"relax","at":[{:.17g},{:.17g}],"radius":{:.17g},"strength":{:.17g}}})", s, t,
+                         k * random.real(1, 4), random.real(0.1, 1));
     default:
       return R"({"do":"release"})";
   }

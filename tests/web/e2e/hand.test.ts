@@ -38,6 +38,7 @@ const pointAt = async (index: number): Promise<[number, number]> => {
   return [places[0]!, places[1]!];
 };
 const camera = () => app((s) => [...s.viewer.viewports[0]!.camera.position.toArray(), ...s.viewer.viewports[0]!.target.toArray()]);
+const chosen = () => app((s) => [...s.hand.points.chosen].sort((a, b) => a - b));
 const drag = async (from: [number, number], to: [number, number], button: 'left' | 'middle' | 'right' = 'left') => {
   const { page } = studio;
   await page.mouse.move(...from);
@@ -135,6 +136,82 @@ describe('the view', () => {
     await page.keyboard.press('Control+z');
     await settled(page);
     await touch.detach();
+  });
+});
+
+describe('control points', () => {
+  it('are chosen by click, Shift, row and box', async () => {
+    const { page } = studio;
+    await page.keyboard.press('e');
+    await page.mouse.click(...(await pointAt(330)));
+    expect(await chosen()).toEqual([330]);
+    await page.keyboard.down('Shift');
+    await page.mouse.click(...(await pointAt(340)));
+    await page.keyboard.up('Shift');
+    expect(await chosen()).toEqual([330, 340]);
+    await page.mouse.dblclick(...(await pointAt(10 * 32 + 12)));
+    expect(await chosen()).toEqual(Array.from({ length: 32 }, (_, i) => 32 * i + 12));
+    await page.locator('.panel[data-panel="Control points"] button', { hasText: 'None' }).click();
+    const box = (await page.locator('.view-perspective').boundingBox())!;
+    await drag([box.x + 5, box.y + 30], [box.x + box.width - 5, box.y + box.height - 40]);
+    expect((await chosen()).length).toBe(1024);
+  });
+
+  it('are dragged, the surface follows, and it is one entry of the history', async () => {
+    const { page } = studio;
+    const before = await positions(page);
+    await page.locator('.panel[data-panel="Control points"] button', { hasText: 'None' }).click();
+    const from = await pointAt(16 * 32 + 16);
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move(from[0], from[1] - 30, { steps: 4 });
+    await page.keyboard.press('z');
+    await page.mouse.move(from[0] + 15, from[1] - 50, { steps: 4 });
+    await settled(page);
+    expect(distance(before, await positions(page)), 'while dragging').toBeGreaterThan(1);
+    await page.mouse.up();
+    await settled(page);
+    const last = (await commands(page)).at(-1)! as { do: string; which?: number[]; by?: number[] };
+    expect(last).toMatchObject({ do: 'points', which: [16 * 32 + 16] });
+    expect(last.by![0]).toBe(0);
+    expect(last.by![1]).toBe(0);
+    expect(last.by![2]).toBeGreaterThan(1);
+    await page.keyboard.press('Control+z');
+    await settled(page);
+    expect(distance(before, await positions(page))).toBe(0);
+  });
+
+  it('come back on Esc', async () => {
+    const { page } = studio;
+    const before = await positions(page);
+    const count = (await commands(page)).length;
+    const from = await pointAt(8 * 32 + 8);
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move(from[0], from[1] - 30, { steps: 4 });
+    await page.keyboard.press('Escape');
+    await page.mouse.up();
+    await settled(page);
+    expect(distance(before, await positions(page))).toBe(0);
+    expect((await commands(page)).length).toBe(count);
+  });
+
+  it('go by typed lengths, and take weights', async () => {
+    const { page } = studio;
+    await page.mouse.click(...(await pointAt(20 * 32 + 20)));
+    await page.locator('input[aria-label="Move by z"]').fill('1 cm');
+    await page.locator('.panel[data-panel="Control points"] button', { hasText: 'Move' }).click();
+    await settled(page);
+    expect((await commands(page)).at(-1)).toMatchObject({ do: 'points', by: [0, 0, 10] });
+    const before = await positions(page);
+    await page.locator('input[aria-label="Weight"]').fill('4');
+    await page.keyboard.press('Enter');
+    await settled(page);
+    expect((await commands(page)).at(-1)).toMatchObject({ do: 'weights', weight: 4 });
+    expect(distance(before, await positions(page))).toBeGreaterThan(1);
+    await page.keyboard.press('Control+z');
+    await page.keyboard.press('Control+z');
+    await settled(page);
   });
 });
 
@@ -255,6 +332,29 @@ describe('the brush', () => {
   });
 });
 
+describe('a tool', () => {
+  it('is dragged by its gizmo in a view along an axis too', async () => {
+    const { page } = studio;
+    await scene('Ball on a membrane');
+    await page.keyboard.press('v');
+    await page.keyboard.press('4');
+    await page.locator('.panel[data-panel=Tools] .item').click();
+    const handle = await page.evaluate(() => {
+      const { viewer } = (window as never as { studio: { viewer: {
+        viewports: { name: string; projectAll(points: number[]): Float32Array }[]; tools: Map<string, { object: { position: { toArray(): number[] } } }> } } }).studio;
+      const view = viewer.viewports.find((v) => v.name === 'front')!;
+      return [...view.projectAll(viewer.tools.get('ball')!.object.position.toArray())];
+    });
+    // The arrow along x.
+    await drag([handle[0]! + 20, handle[1]!], [handle[0]! + 60, handle[1]!]);
+    const move = (await commands(page)).find((c) => c.do === 'move') as unknown as { by: number[] };
+    expect(move.by[0]).toBeGreaterThan(0);
+    expect(move.by[1]).toBe(0);
+    expect(move.by[2]).toBe(0);
+    await page.keyboard.press('4');
+  });
+});
+
 describe('panels', () => {
   it('create a surface, and change its knots', async () => {
     const { page } = studio;
@@ -273,6 +373,15 @@ describe('panels', () => {
     await settled(page);
     const knots = page.locator('textarea[aria-label="Knots u"]');
     await expect.poll(() => knots.inputValue()).toContain('0×4');
+    const before = await positions(page);
+    await knots.fill('0×4 0.1 0.2 1×4');
+    await knots.blur();
+    await settled(page);
+    expect((await commands(page)).at(-1)).toMatchObject({ do: 'knots', direction: 'u', knots: [0, 0, 0, 0, 0.1, 0.2, 1, 1, 1, 1] });
+    expect(distance(before, await positions(page))).toBeGreaterThan(0);
+    await page.keyboard.press('Control+z');
+    await settled(page);
+    expect(distance(before, await positions(page))).toBe(0);
   });
 });
 
@@ -301,6 +410,8 @@ it('never keeps the page busy for 50 ms at a time', async () => {
     await stroke(page, [-60, 0], [-20, 10], [20, 0], [60, 10]);
     for (const panel of ['Evolution', 'Constraints', 'History']) await page.locator(`.panel[data-panel="${panel}"] > summary`).click();
     await page.locator('select[aria-label="Colour by"]').selectOption('mean');
+    await settled(page);
+    await page.keyboard.press('e');
     await settled(page);
     await page.locator('select[aria-label="Colour by"]').selectOption('none');
     await settled(page);

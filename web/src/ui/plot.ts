@@ -23,7 +23,8 @@ export function statusBar(app: App): HTMLElement {
     const cells: [string, string, string][] = [];
     if (frame) {
       const points = state!.selection.reduce((n, k) => n + state!.surfaces[k]!.net[0] * state!.surfaces[k]!.net[1], 0);
-      cells.push(['points', String(points), 'Control points of the selected surfaces; three unknowns each']);
+      cells.push(['points', String(points), 'Control points of the selected surfaces']);
+      cells.push(['unknowns', String(3 * points), 'Degrees of freedom: three for each control point; what is held is among them']);
       if (last) {
         cells.push(['steps', String(state!.steps), 'Steps so far']);
         cells.push(['step', `${(1000 * last.time).toFixed(1)} ms`, 'Time of the last step alone']);

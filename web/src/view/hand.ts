@@ -37,6 +37,7 @@ export class Hand {
     this.tool().hover?.(null);
     for (const v of this.app.viewer.viewports) v.element.style.cursor = '';
     this.brush.mode = mode;
+    document.querySelector('.side')?.scrollTo({ top: 0 }); // where the panel of the mode is
     if (paintModes.includes(mode)) this.paint.kind = mode as PaintKind;
   }
 

@@ -12,5 +12,5 @@ export function largestValue(fields: Float32Array[]): number {
     for (let k = 0; k < field.length; k += 3) if (Number.isFinite(field[k])) sizes.push(Math.abs(field[k]!));
   }
   sizes.sort((a, b) => a - b);
-  return roundLimit(Math.max(sizes[Math.floor(0.99 * (sizes.length - 1))] ?? 0, 1e-9));
+  return Math.max(sizes[Math.floor(0.99 * (sizes.length - 1))] ?? 0, 1e-9);
 }

@@ -9,6 +9,7 @@ export const modes: readonly (readonly [Mode, string, string])[] = [
   ['pull', 'Pull: a ball from behind (U). Alt pushes, Shift smooths', 'u'],
   ['smooth', 'Smooth what is under the brush (S)', 's'],
   ['grab', 'Grab a point of the surface and drag it (G)', 'g'],
+  ['points', 'Control points: pick, drag, type (E)', 'e'],
   ['place', 'Place a tool (T)', 't'],
   ['pin', 'Pin: paint over control points, click points of the surface (P). Alt frees', 'p'],
   ['freeze', 'Freeze: paint what may not move (I). Alt thaws', 'i'],

@@ -4,7 +4,7 @@ import type { Frame } from '../engine/protocol';
 import { format } from '../ui/dom';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
-import { largestValue } from './limits';
+import { largestValue, roundLimit } from './limits';
 import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
 import { SurfaceView } from './surface_view';
@@ -112,7 +112,11 @@ export class Viewer {
       this.surfaces.push(view);
       this.scene.add(view.group);
     }
-    if (this.display.autoLimit && this.display.field !== 'none') this.display.limit = largestValue(pictures.map((p) => p.values));
+    if (this.display.autoLimit && this.display.field !== 'none') {
+      // Of the distance to tools, what matters is near to them.
+      const share = this.display.field === 'gap' ? 0.1 : 1;
+      this.display.limit = roundLimit(share * largestValue(pictures.map((p) => p.values)));
+    }
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
     this.showTools();
