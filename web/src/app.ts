@@ -2,6 +2,7 @@ import * as THREE from 'three';
 
 import { autosave, type Saved } from './document/autosave';
 import { readKnead, writeKnead } from './document/knead_file';
+import { loadContext } from './document/context';
 import { clay } from './document/clay';
 import { Client } from './engine/client';
 import type { Frame } from './engine/protocol';
@@ -151,6 +152,7 @@ export class App {
         this.notify({ kind: 'info', text: `${this.state!.surfaces.length} surfaces: click the one to sculpt.` });
       }
       this.changed();
+      void loadContext(this);
     });
   }
 
@@ -169,6 +171,7 @@ export class App {
     this.steps = [];
     this.stepsEnd = 0;
     this.viewer.selectTool(null);
+    this.viewer.showContext(null, []);
   }
 
   async openFile(file: File): Promise<void> {

@@ -1,4 +1,5 @@
 import { type Command, EngineError, type Field, fields, type Picture, type SessionInfo, type StepInfo, type SurfaceNumbers } from './session_types';
+import type { Trim } from './context';
 import { wasiImports } from './wasi';
 
 interface Exports {
@@ -20,6 +21,8 @@ interface Exports {
   knead_buffer_size(which: number): number;
   knead_control_points(surface: number): number;
   knead_surface(surface: number): number;
+  knead_context(): number;
+  knead_trims(surface: number): number;
 }
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
@@ -83,6 +86,15 @@ export class Engine {
 
   controlPoints(surface: number): Float64Array {
     return new Float64Array(this.bytes(this.wasm.knead_control_points(surface)).buffer as ArrayBuffer);
+  }
+
+  /** Bytes for `readContext`. */
+  context(): Uint8Array {
+    return this.bytes(this.wasm.knead_context());
+  }
+
+  trims(surface: number): Trim {
+    return this.json(this.wasm.knead_trims(surface)) as Trim;
   }
 
   /** All numbers of a surface as it is now, in full precision. */

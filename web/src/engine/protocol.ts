@@ -22,6 +22,8 @@ export type Request =
   | { kind: 'drawn' }
   /** The numbers of one surface: `SurfaceNumbers` as text. */
   | { kind: 'surface'; surface: number }
+  /** The other faces of the file as bytes, and the trims of the surfaces as text (`Trim[]`). */
+  | { kind: 'context' }
   | { kind: 'save' }
   | { kind: 'journal' };
 
