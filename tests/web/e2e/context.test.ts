@@ -14,8 +14,6 @@ beforeAll(async () => {
   const path = join(directory, 'faces.step');
   writeFileSync(path, facesStep());
   await studio.page.locator('input[type=file]').first().setInputFiles(path);
-  await expect.poll(triangles, { timeout: 10_000 }).toBe(2);
-  await settled(studio.page);
 });
 
 afterAll(async () => {
@@ -58,6 +56,11 @@ const colourAt = (x: number, y: number, z: number) =>
 const same = (a: number[], b: number[]) => Math.max(...a.map((c, k) => Math.abs(c - b[k]!))) <= 2;
 
 describe('faces round the surfaces', () => {
+  it('come after the file has been opened', async () => {
+    await expect.poll(triangles, { timeout: 10_000 }).toBe(2);
+    await settled(studio.page);
+  });
+
   it('are grey, and can be put away', async () => {
     await show({ grid: false, isocurves: false, context: true, trimmed: true });
     const grey = await colourAt(0, -6.5, -4);

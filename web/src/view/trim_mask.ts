@@ -2,10 +2,17 @@ import * as THREE from 'three';
 
 import type { Trim } from '../engine/context';
 
-const size = 1024; // pixels per direction of the domain
+/** Pixels per direction of the domain: many masks together take no more memory than a few. */
+const sizeFor = (masks: number) => (masks <= 8 ? 1024 : masks <= 32 ? 512 : 256);
+
+/** Of all surfaces; only trimmed ones have one. */
+export function trimMasks(trims: Trim[]): (THREE.Texture | null)[] {
+  const size = sizeFor(trims.filter(Boolean).length);
+  return trims.map((trim) => trimMask(trim, size));
+}
 
 /** A picture of what a surface shows: opaque within its trims, over s to the right and t downwards. Null: all of it. */
-export function trimMask(trim: Trim): THREE.Texture | null {
+function trimMask(trim: Trim, size: number): THREE.Texture | null {
   if (!trim) return null;
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = size;

@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
 import { ContextView } from './context_view';
-import { trimMask } from './trim_mask';
+import { trimMasks } from './trim_mask';
 import { format } from '../ui/dom';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
@@ -128,7 +128,8 @@ export class Viewer {
   /** What stands round the surfaces of the frame, and what of each is seen. */
   showContext(context: Context | null, trims: Trim[]): void {
     this.context.show(context);
-    this.surfaces.forEach((s, k) => (s.trim = trimMask(trims[k] ?? null)));
+    const masks = trimMasks(trims);
+    this.surfaces.forEach((s, k) => (s.trim = masks[k] ?? null));
     this.restyle();
   }
 
