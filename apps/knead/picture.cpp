@@ -49,8 +49,6 @@ std::vector<double> cell_centres(const Interval& domain, int count) {
 
 Expected<std::string> displacement_picture(const Surface& before, const Surface& after, const std::string& title,
                                            const std::string& unit) {
-  const auto field = after.with_control_points(after.control_points() - before.control_points());
-  if (!field) return std::unexpected(field.error());
   const auto scaling = normalised_scaling<2>(before);
   if (!scaling) return std::unexpected(scaling.error());
   const Interval du = before.knots(0).domain(), dv = before.knots(1).domain();
@@ -61,9 +59,12 @@ Expected<std::string> displacement_picture(const Surface& before, const Surface&
   const int columns = std::max(8, static_cast<int>(width / cell)), rows = std::max(8, static_cast<int>(height / cell));
 
   const std::vector<double> u = cell_centres(du, columns), v = cell_centres(dv, rows);
-  const auto grid = evaluate_grid<2>(*field, {std::span<const double>(u), std::span<const double>(v)});
-  if (!grid) return std::unexpected(grid.error());
-  const double largest = largest_norm(*field).value;
+  const std::array<std::span<const double>, 2> cells = {u, v};
+  const auto from = evaluate_grid<2>(before, cells), to = evaluate_grid<2>(after, cells);
+  if (!from) return std::unexpected(from.error());
+  if (!to) return std::unexpected(to.error());
+  const Eigen::VectorXd ways = (to->points() - from->points()).rowwise().norm();
+  const double largest = largest_distance(after, before);
 
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" font-family=\"sans-serif\" "
@@ -74,8 +75,7 @@ Expected<std::string> displacement_picture(const Surface& before, const Surface&
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns;) {
       const auto shade = [&](int column) {
-        return colour(largest > 0 ? grid->points().row(static_cast<Eigen::Index>(column) * rows + j).norm() / largest
-                                  : 0);
+        return colour(largest > 0 ? ways[static_cast<Eigen::Index>(column) * rows + j] / largest : 0);
       };
       const std::string fill = shade(i);
       int end = i + 1;  // neighbours of one colour become one rectangle

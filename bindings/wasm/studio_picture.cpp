@@ -40,6 +40,7 @@ Expected<void> Painter::tabulate(const Surface& surface, int detail) {
     picture_.counts[static_cast<std::size_t>(d)] = static_cast<std::uint32_t>(parameters.size());
     auto table = tabulate_basis(knots, parameters, 2);
     if (!table) return std::unexpected(table.error());
+    parameters_[static_cast<std::size_t>(d)] = std::move(parameters);
     tables_[static_cast<std::size_t>(d)] = std::move(*table);
   }
   detail_ = detail;
@@ -103,6 +104,18 @@ void Painter::paint_normals() {
   }
 }
 
+Expected<void> Painter::evaluate_opened(const Surface& opened) {
+  if (*knots_ == opened.knots()) return evaluate_grid<2>(opened, {&tables_[0], &tables_[1]}, 0, opened_);
+  // Its knots were edited: its own basis at the same parameters.
+  std::array<BasisTable, 2> tables;
+  for (std::size_t d = 0; d < 2; ++d) {
+    auto table = tabulate_basis(opened.knots()[d], parameters_[d], 0);
+    if (!table) return std::unexpected(table.error());
+    tables[d] = std::move(*table);
+  }
+  return evaluate_grid<2>(opened, {&tables[0], &tables[1]}, 0, opened_);
+}
+
 Expected<void> Painter::paint_values(const SurfaceState& surface, const std::vector<Tool>& tools, PictureField field) {
   picture_.values.clear();
   if (field == PictureField::none) return {};
@@ -112,7 +125,7 @@ Expected<void> Painter::paint_values(const SurfaceState& surface, const std::vec
     return Point(n[0], n[1], n[2]);
   };
   if (field == PictureField::deviation) {
-    if (auto done = evaluate_grid<2>(*surface.opened, {&tables_[0], &tables_[1]}, 0, opened_); !done) return done;
+    if (auto done = evaluate_opened(*surface.opened); !done) return done;
   }
   for (Eigen::Index k = 0; k < points.rows(); ++k) {
     double value = 0;

@@ -36,10 +36,13 @@ class Painter {
  private:
   Expected<void> tabulate(const Surface& surface, int detail);
   void paint_normals();
+  /// The opened shape at the parameters of the picture.
+  Expected<void> evaluate_opened(const Surface& opened);
   Expected<void> paint_values(const SurfaceState& surface, const std::vector<Tool>& tools, PictureField field);
 
   std::optional<std::array<KnotVector, 2>> knots_;
   int detail_ = 0;
+  std::array<std::vector<double>, 2> parameters_;
   std::array<BasisTable, 2> tables_;
   Evaluation<2> evaluation_, opened_;
   Picture picture_;

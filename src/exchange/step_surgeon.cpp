@@ -168,6 +168,7 @@ Expected<void> Surgeon::replace_surface(std::uint32_t instance, const std::vecto
                      net[0], net[1], [&](int k) { return (*names)[static_cast<std::size_t>(k)]; }, line_break()));
   if (!inserted.empty()) insert(file_.instance(instance).bytes.end, std::move(inserted));
 
+  if (after.rational() && !before.rational()) return become_rational(instance, before, after);
   if (after.rational() && (net != before.net() || !same_bits(after.weights(), before.weights()))) {
     const auto weights = weights_parameter(reader_, instance);
     const auto text = texts(weights);

@@ -28,7 +28,7 @@ class Surgeon {
   [[nodiscard]] Expected<void> move_points(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
                                            const Points& old_points, const Points& new_points);
 
-  /// Another net, other degrees, knots or weights as well (rational as before).
+  /// Another net, other degrees, knots or weights as well (rational if it was).
   [[nodiscard]] Expected<void> replace_surface(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
                                                const Surface& before, const Surface& after);
 
@@ -49,6 +49,8 @@ class Surgeon {
   [[nodiscard]] Expected<std::vector<std::string>> point_names(const std::vector<std::uint32_t>& refs,
                                                                const Points& old_points, const Points& new_points,
                                                                std::string& inserted);
+  /// A record without weights becomes one with them, and with the knots of `after`.
+  [[nodiscard]] Expected<void> become_rational(std::uint32_t instance, const Surface& before, const Surface& after);
   [[nodiscard]] Expected<void> write_knots(std::uint32_t instance, const Surface& before, const Surface& after);
   [[nodiscard]] std::vector<Change> rewritten(const Coordinates& coordinates, const Points& old_points,
                                               Eigen::Index old_row, const Points& points, Eigen::Index row) const;

@@ -46,10 +46,7 @@ Expected<std::size_t> find(const StepFile::Data& data, const std::string& id) {
 
 // What a record of the file cannot say although it can be computed with.
 Expected<void> writable(const Surface& before, const Surface& after) {
-  if (before.rational() != after.rational()) {
-    return input_error(after.rational() ? "the surface of the file has no weights"
-                                        : "the weights of the file's surface are missing");
-  }
+  if (before.rational() && !after.rational()) return input_error("the weights of the file's surface are missing");
   for (int d = 0; d < 2; ++d) {
     if (after.knots(d) == before.knots(d)) continue;
     const int degree = after.knots(d).degree();

@@ -61,6 +61,14 @@ struct CommandInfo;
   template <class C, class V>                                        \
   void CommandInfo<Type>::visit([[maybe_unused]] C& c, [[maybe_unused]] V& v)
 
+/// The fields that say which control points are meant.
+template <class P, class V>
+void visit_points(P& p, V& v) {
+  v.field("which", Presence::optional, p.which, "numbers i n + j of control points, from 0; and:");
+  v.field("rows_u", Presence::optional, p.rows_u, "[i, …]: all control points (i, ·); and:");
+  v.field("rows_v", Presence::optional, p.rows_v, "[j, …]: all control points (·, j)");
+}
+
 KNEAD_COMMAND(NewCommand, "new", "make a surface, in a document without a file, and select it") {
   v.field("shape", Presence::optional, c.shape, "plane, cylinder, sphere, torus or revolution; about z");
   v.field("size", Presence::optional, c.size, "of a plane: [width, height]");
@@ -257,6 +265,21 @@ KNEAD_COMMAND(LatticeCommand, "lattice", "deform the surfaces with an elastic bl
   v.field("steps", Presence::optional, c.steps, "number of steps");
   v.field("lambda", Presence::optional, c.lambda, "inverse step size");
   v.field("hold", Presence::optional, c.hold, "faces that stay: u0, u1 (along x), v0, v1, w0, w1");
+}
+KNEAD_COMMAND(PointsCommand, "points", "move control points of the selected surface by hand, for good") {
+  visit_points(c.points, v);
+  v.field("by", Presence::optional, c.by, "[dx, dy, dz] for all of them; or:");
+  v.field("to", Presence::optional, c.to, "[[x, y, z], …]: a place for each, in the order they are named");
+  v.field("relative", Presence::optional, c.relative, "`by` is in fractions of the bounding-box diagonal");
+}
+KNEAD_COMMAND(WeightsCommand, "weights", "other weights: control points stay, the shape changes for good") {
+  visit_points(c.points, v);
+  v.field("weight", Presence::optional, c.weight, "what each weighs, > 0; 1 where nothing was said; or:");
+  v.field("by", Presence::optional, c.by, "a factor > 0 for the weight of each");
+}
+KNEAD_COMMAND(KnotsCommand, "knots", "other knots for the same control points: the shape changes for good") {
+  v.field("direction", Presence::required, c.direction, "u or v");
+  v.field("knots", Presence::required, c.knots, "the whole knot vector, as long as before, on the same domain");
 }
 KNEAD_COMMAND(RefineCommand, "refine", "a finer net of the same shape") {
   v.field("region", Presence::optional, c.region, "[[s0, s1], [t0, t1]]: halve the spans there; or:");

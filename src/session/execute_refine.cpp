@@ -6,6 +6,7 @@
 #include <map>
 
 #include "executor.hpp"
+#include "knead/spline/extremum.hpp"
 #include "knead/spline/knot_removal.hpp"
 #include "knead/spline/refine.hpp"
 
@@ -56,8 +57,8 @@ Expected<void> Executor::reshape(SurfaceState& surface, const F& change) {
   }
   // Shapes that are one object stay one.
   std::map<const Surface*, std::shared_ptr<const Surface>> changed;
-  std::vector<std::shared_ptr<const Surface>*> shapes = {&surface.opened, &surface.reference, &surface.rest,
-                                                         &surface.current};
+  std::vector<std::shared_ptr<const Surface>*> shapes = {&surface.reference, &surface.rest, &surface.current};
+  if (same_basis(*surface.opened, *surface.current)) shapes.push_back(&surface.opened);
   for (KeptConstraint& kept : surface.constraints) shapes.push_back(&kept.where);
   for (auto* shape : shapes) {
     auto& made = changed[shape->get()];
@@ -178,7 +179,8 @@ Expected<void> Executor::operator()(const CoarsenCommand& c) {
     std::size_t removed = 0;
     for (int d = 0; d < 2; ++d) {
       // Each direction may spend half of the tolerance.
-      std::vector<std::shared_ptr<const Surface>*> shapes = {&s.opened, &s.reference, &s.rest};
+      std::vector<std::shared_ptr<const Surface>*> shapes = {&s.reference, &s.rest};
+      if (same_basis(*s.opened, *s.current)) shapes.push_back(&s.opened);
       for (KeptConstraint& kept : s.constraints) shapes.push_back(&kept.where);
       std::vector<Points> others;
       for (const auto* shape : shapes) others.push_back((*shape)->control_points());

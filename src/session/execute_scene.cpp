@@ -181,6 +181,13 @@ Expected<void> Executor::operator()(const LimitCommand& c) {
     return input_error(fmt::format("{} is not a distance", *c.distance), "distance",
                        "use a number > 0, or leave it out");
   }
+  for (const SurfaceState& s : state.surfaces) {
+    if (same_basis(*s.opened, *s.current)) continue;
+    return input_error(fmt::format("weights or knots of {} were edited, and a limit is measured on those it was opened "
+                                   "with",
+                                   s.id),
+                       "limit", "save the file and open it again, or undo those edits");
+  }
   double unit = 1;
   if (c.relative) {
     const auto length = diagonal();

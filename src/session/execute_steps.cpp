@@ -19,11 +19,6 @@ constexpr int footprint_samples = 13;  // of a drag, in either direction
 /// Rounds of halving after which spans are no longer coarse.
 int halvings(double coarseness) { return static_cast<int>(std::ceil(std::log2(coarseness / coarse))); }
 
-double displacement_of(const Surface& opened, const Surface& current) {
-  const auto field = current.with_control_points(current.control_points() - opened.control_points());
-  return field ? largest_norm(*field).value : std::nan("");
-}
-
 /// The points of a footprint: all samples of the domain whose place is within `radius` of the centre, each with the
 /// share of the force that it takes.
 Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fractions& at, double radius,
@@ -155,7 +150,7 @@ Expected<void> Executor::run(int count, const EvolveCommand& evolve, const std::
     record.residual = step->residual;
     for (int index : state.selection()) {
       const SurfaceState& s = state.surfaces[static_cast<std::size_t>(index)];
-      record.largest_displacement = std::max(record.largest_displacement, displacement_of(*s.opened, *s.current));
+      record.largest_displacement = std::max(record.largest_displacement, largest_distance(*s.current, *s.opened));
     }
     record.gap = step->gap;
     record.violation = step->violation;

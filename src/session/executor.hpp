@@ -50,6 +50,10 @@ struct Executor {
   Expected<void> operator()(const RelaxCommand& c);
   Expected<void> operator()(const LatticeCommand& c);
 
+  Expected<void> operator()(const PointsCommand& c);
+  Expected<void> operator()(const WeightsCommand& c);
+  Expected<void> operator()(const KnotsCommand& c);
+
   Expected<void> operator()(const RefineCommand& c);
   Expected<void> operator()(const ElevateCommand& c);
   Expected<void> operator()(const CoarsenCommand& c);
@@ -76,6 +80,13 @@ struct Executor {
   Expected<std::vector<Tool>> all_tools();
   /// Share `plasticity` of the displacement becomes rest shape.
   Expected<void> yield(double plasticity);
+
+  /// The only selected surface. Error: there are several.
+  Expected<SurfaceState*> selected_alone();
+  /// The same control points on other knots or with other weights: what has the present shape's basis (all but
+  /// perhaps `opened`) gets another one, made by `change` from a shape.
+  template <class F>
+  Expected<void> change_basis(SurfaceState& surface, const F& change);
 
   /// Replaces the four shapes of a surface by what `change` makes of them.
   template <class F>

@@ -3,14 +3,58 @@
 #include <algorithm>
 
 #include "knead/sculpt/loads.hpp"
+#include "knead/spline/extremum.hpp"
 #include "surface_model.hpp"
 
 namespace knead {
+namespace {
+
+constexpr double symmetry_tolerance = 1e-6;
+constexpr double symmetry_angle = 1e-3;
+
+}  // namespace
 
 Expected<MirrorPlane> plane_of(const SymmetryCommand& c, const Surface& surface) {
   if (!c.normal || !c.point) return mirror_plane(surface, c.mirror == "u" ? 0 : 1);
   return MirrorPlane{Point((*c.point)[0], (*c.point)[1], (*c.point)[2]),
                      Point((*c.normal)[0], (*c.normal)[1], (*c.normal)[2])};
+}
+
+std::vector<SurfaceEdge> edges_of(EdgeChoice which) {
+  switch (which) {
+    case EdgeChoice::u0:
+      return {SurfaceEdge::u0};
+    case EdgeChoice::u1:
+      return {SurfaceEdge::u1};
+    case EdgeChoice::v0:
+      return {SurfaceEdge::v0};
+    case EdgeChoice::v1:
+      return {SurfaceEdge::v1};
+    case EdgeChoice::all:
+      break;
+  }
+  return {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1};
+}
+
+Expected<void> symmetry_constraints(const SurfaceState& surface, const SymmetryCommand& c, ConstraintList& list) {
+  MirrorPlane plane;
+  const double size = bounding_box(*surface.reference).diagonal();
+  if (c.normal) plane.normal = Point((*c.normal)[0], (*c.normal)[1], (*c.normal)[2]);
+  if (c.point) plane.point = Point((*c.point)[0], (*c.point)[1], (*c.point)[2]);
+  if (c.edge) {
+    for (SurfaceEdge edge : edges_of(*c.edge)) {
+      auto done =
+          hold_symmetry_plane(*surface.reference, edge, plane, 1, symmetry_tolerance * size, symmetry_angle, list);
+      if (!done) return done;
+    }
+    return {};
+  }
+  const int direction = c.mirror == "u" ? 0 : 1;
+  const auto own = plane_of(c, *surface.reference);
+  if (!own) return std::unexpected(own.error());
+  const auto report = keep_mirror(*surface.reference, direction, *own, 1e-9, list);
+  if (!report) return std::unexpected(report.error());
+  return {};
 }
 
 Expected<std::array<double, 2>> parameters_at(const Surface& surface, const Fractions& at, const char* where) {

@@ -98,16 +98,20 @@ Expected<double> Session::energy() {
 
 double Session::largest_displacement(int surface) const {
   const SurfaceState& s = state().surfaces[static_cast<std::size_t>(surface)];
-  const auto field = s.current->with_control_points(s.current->control_points() - s.opened->control_points());
-  return field ? largest_norm(*field).value : std::nan("");
+  return largest_distance(*s.current, *s.opened);
 }
 
 int Session::moved_control_points(int surface) const {
   const SurfaceState& s = state().surfaces[static_cast<std::size_t>(surface)];
   const Points &opened = s.opened->control_points(), &current = s.current->control_points();
+  if (s.opened->knots() != s.current->knots()) return static_cast<int>(current.rows());
+  const auto weight = [](const Surface& shape, Eigen::Index i) {
+    return shape.rational() ? shape.weights()[static_cast<std::size_t>(i)] : 1;
+  };
   int moved = 0;
   for (Eigen::Index i = 0; i < opened.rows(); ++i) {
-    moved += std::memcmp(opened.data() + 3 * i, current.data() + 3 * i, 3 * sizeof(double)) != 0;
+    moved += std::memcmp(opened.data() + 3 * i, current.data() + 3 * i, 3 * sizeof(double)) != 0 ||
+             weight(*s.opened, i) != weight(*s.current, i);
   }
   return moved;
 }

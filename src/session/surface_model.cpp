@@ -13,8 +13,6 @@ namespace {
 
 constexpr double pole_tolerance = 1e-9;  // of the surface's size
 constexpr double pole_flatness = 1e-6;
-constexpr double symmetry_tolerance = 1e-6;
-constexpr double symmetry_angle = 1e-3;
 
 double detail_of(const std::vector<Tool>& tools) {
   double detail = 0;
@@ -24,22 +22,6 @@ double detail_of(const std::vector<Tool>& tools) {
     if (std::isfinite(size) && (detail == 0 || size < detail)) detail = size;
   }
   return detail;
-}
-
-std::vector<SurfaceEdge> edges_of(EdgeChoice which) {
-  switch (which) {
-    case EdgeChoice::u0:
-      return {SurfaceEdge::u0};
-    case EdgeChoice::u1:
-      return {SurfaceEdge::u1};
-    case EdgeChoice::v0:
-      return {SurfaceEdge::v0};
-    case EdgeChoice::v1:
-      return {SurfaceEdge::v1};
-    case EdgeChoice::all:
-      break;
-  }
-  return {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1};
 }
 
 /// Appends what one request asks for.
@@ -100,27 +82,7 @@ struct Asked {
     });
   }
 
-  Expected<void> operator()(const SymmetryCommand& c) const {
-    MirrorPlane plane;
-    const double size = bounding_box(*surface.reference).diagonal();
-    if (c.normal) plane.normal = Point((*c.normal)[0], (*c.normal)[1], (*c.normal)[2]);
-    if (c.point) plane.point = Point((*c.point)[0], (*c.point)[1], (*c.point)[2]);
-    if (c.edge) {
-      for (SurfaceEdge edge : edges_of(*c.edge)) {
-        auto done =
-            hold_symmetry_plane(*surface.reference, edge, plane, 1, symmetry_tolerance * size, symmetry_angle, list);
-        if (!done) return done;
-      }
-      return {};
-    }
-    const int direction = c.mirror == "u" ? 0 : 1;
-    const auto own = plane_of(c, *surface.reference);
-    if (!own) return std::unexpected(own.error());
-    plane = *own;
-    const auto report = keep_mirror(*surface.reference, direction, plane, 1e-9, list);
-    if (!report) return std::unexpected(report.error());
-    return {};
-  }
+  Expected<void> operator()(const SymmetryCommand& c) const { return symmetry_constraints(surface, c, list); }
 
  private:
   /// What `f` appends is held where it was when that was asked for, not where it is at rest.

@@ -53,6 +53,13 @@ struct SurfaceModel {
 /// The plane of a mirror symmetry: as given, or the best one.
 [[nodiscard]] Expected<MirrorPlane> plane_of(const SymmetryCommand& c, const Surface& surface);
 
+/// Appends what keeps a symmetry of a surface.
+[[nodiscard]] Expected<void> symmetry_constraints(const SurfaceState& surface, const SymmetryCommand& c,
+                                                  ConstraintList& list);
+
+/// The edges that a choice stands for.
+[[nodiscard]] std::vector<SurfaceEdge> edges_of(EdgeChoice which);
+
 /// (u, v) at fractions of the domain. Error (input): a number that is not from 0 to 1, named `where`.
 [[nodiscard]] Expected<std::array<double, 2>> parameters_at(const Surface& surface, const Fractions& at,
                                                             const char* where = "at");

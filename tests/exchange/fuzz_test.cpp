@@ -108,6 +108,11 @@ bool survives(const std::string& bytes) {
     auto finer = insert_knots<2>(surface.surface, middles);
     if (!finer) continue;  // a weight has become zero, or a coordinate too large
     if (const auto higher = elevate_degree(*finer, 1)) finer = *higher;
+    if (!finer->rational()) {
+      std::vector<double> weights(static_cast<std::size_t>(finer->size()), 1.0);
+      weights.front() = 0.5;
+      finer = Surface::create(finer->knots(), finer->control_points(), std::move(weights));
+    }
     replacements.push_back({surface.id, *std::move(finer)});
   }
   const auto refined = file->with_surfaces(replacements);

@@ -162,6 +162,75 @@ TEST(RefinedSurface, WeightsAloneCanChange) {
                                                       {"((1.,2.00),(1.,4.))", "((1.,2.00),\n(1.,0.1))"}}));
 }
 
+Surface weighted(const Surface& s, std::vector<double> weights = {1, 0.5, 1, 3}) {
+  return *Surface::create(s.knots(), s.control_points(), std::move(weights));
+}
+
+const std::string three_weights = "RATIONAL_B_SPLINE_SURFACE(((1.,0.5),\n(1.,3.)))";
+
+TEST(RefinedSurface, ASimpleRecordThatGetsWeightsBecomesAComplexOne) {
+  const auto bytes = step_text(unit_square_points() + bilinear_patch() + "#11=VERTEX_POINT('',#2);\n");
+  EXPECT_EQ(
+      replaced(bytes, weighted(surface_of(bytes))),
+      edited(bytes, {{"#10=B_SPLINE_SURFACE_WITH_KNOTS('patch',1,1,", "#10=(BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,"},
+                     {"((#1,#2),(#3,#4))", "((#1,#2),\n(#3,#4))"},
+                     {".F.,.F.,.F.,(2,2)", ".F.,.F.,.F.)B_SPLINE_SURFACE_WITH_KNOTS((2,2)"},
+                     {".UNSPECIFIED.);", ".UNSPECIFIED.)GEOMETRIC_REPRESENTATION_ITEM()" + three_weights +
+                                             "REPRESENTATION_ITEM('patch')SURFACE());"}}));
+  const auto twice = replaced(bytes, weighted(inserted(bytes, {0.25}), {1, 2, 3, 4, 5, 6}));
+  EXPECT_NE(twice.find("B_SPLINE_SURFACE_WITH_KNOTS((2,1,2),(2,2),(0.,0.25,1.),(0.,1.),.UNSPECIFIED.)GEOMETRIC"),
+            std::string::npos)
+      << "knots at once";
+}
+
+TEST(RefinedSurface, CommentsBetweenAttributesStayWhenWeightsCome) {
+  const auto bytes = step_text(
+      unit_square_points() +
+      "#10 = B_SPLINE_SURFACE_WITH_KNOTS ( 'a,b' , 1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F. /* here, there */ ,"
+      " (2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED. ) ;\n");
+  const auto result = replaced(bytes, weighted(surface_of(bytes)));
+  EXPECT_NE(result.find("#10 = (BOUNDED_SURFACE()B_SPLINE_SURFACE( 1,1,"), std::string::npos) << result;
+  EXPECT_NE(result.find(".F. /* here, there */ )B_SPLINE_SURFACE_WITH_KNOTS( (2,2),"), std::string::npos) << result;
+  EXPECT_NE(result.find("REPRESENTATION_ITEM('a,b')SURFACE()) ;"), std::string::npos) << result;
+}
+
+TEST(RefinedSurface, ImpliedKnotsStayImpliedWhenWeightsCome) {
+  const auto bezier =
+      step_text(unit_square_points() + "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.);\n");
+  const auto own = "BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),\n(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)";
+  const auto tail = three_weights + "REPRESENTATION_ITEM('b')SURFACE()";
+  const std::tuple<const char*, std::string> expected[] = {
+      {"BEZIER_SURFACE",
+       std::string("#10=(BEZIER_SURFACE()") + own + "GEOMETRIC_REPRESENTATION_ITEM()" + tail + ");\n"},
+      {"QUASI_UNIFORM_SURFACE",
+       std::string("#10=(") + own + "GEOMETRIC_REPRESENTATION_ITEM()QUASI_UNIFORM_SURFACE()" + tail + ");\n"},
+      {"UNIFORM_SURFACE",
+       std::string("#10=(") + own + "GEOMETRIC_REPRESENTATION_ITEM()" + tail + "UNIFORM_SURFACE());\n"}};
+  for (const auto& [form, text] : expected) {
+    const auto bytes = edited(bezier, {{"BEZIER_SURFACE", form}});
+    const auto result = replaced(bytes, weighted(surface_of(bytes)));
+    EXPECT_NE(result.find(text), std::string::npos) << result;
+    EXPECT_NE(replaced(bytes, weighted(inserted(bytes, {0.25}), {1, 2, 3, 4, 5, 6}))
+                  .find(std::string(".F.)B_SPLINE_SURFACE_WITH_KNOTS((")),
+              std::string::npos)
+        << form;
+    // And once more, now that it is complex.
+    EXPECT_NE(replaced(result, weighted(surface_of(bytes), {1, 1, 1, 2})).find("SURFACE(((1.,1.),\n(1.,2.)))"),
+              std::string::npos);
+  }
+}
+
+TEST(RefinedSurface, AComplexRecordGetsThePartForItsWeights) {
+  const auto bytes =
+      step_text(unit_square_points() +
+                "#10=(BOUNDED_SURFACE()B_SPLINE_SURFACE(1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.)"
+                "B_SPLINE_SURFACE_WITH_KNOTS((2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.)GEOMETRIC_REPRESENTATION_ITEM()"
+                "REPRESENTATION_ITEM('')SURFACE());\n");
+  EXPECT_EQ(replaced(bytes, weighted(surface_of(bytes))),
+            edited(bytes, {{"((#1,#2),(#3,#4))", "((#1,#2),\n(#3,#4))"},
+                           {"ITEM()REPRESENTATION_ITEM('')", "ITEM()" + three_weights + "REPRESENTATION_ITEM('')"}}));
+}
+
 TEST(RefinedSurface, PolesAndSeamsShareTheirRecords) {
   const auto bytes = step_text(unit_square_points() + bilinear_patch("((#1,#1),(#2,#3))"));
   const auto result = replaced(bytes, inserted(bytes, {}, {0.5}));
@@ -188,12 +257,17 @@ TEST(RefinedSurface, WhatStepCannotSayIsAnError) {
   };
   const auto s = surface_of(bytes);
   EXPECT_NE(what(inserted(bytes, {0.5, 0.5})).find("torn along a knot"), std::string::npos);
-  EXPECT_NE(what(*Surface::create(s.knots(), s.control_points(), {1, 1, 1, 1})).find("no weights"), std::string::npos);
   EXPECT_NE(what(s, "#99").find("#99"), std::string::npos);
   const auto short_record = step_text(unit_square_points() + "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)));\n");
   const StepReplacement finer{"#10", inserted(short_record, {0.5})};
   EXPECT_NE(parse_or_die(short_record).with_surfaces({&finer, 1}).error().message().find("it has 4 attributes"),
             std::string::npos);
+  const StepReplacement heavier{"#10", weighted(surface_of(short_record))};
+  EXPECT_NE(parse_or_die(short_record).with_surfaces({&heavier, 1}).error().message().find("it has 4 attributes"),
+            std::string::npos);
+  const auto with_weights = step_text(complex_surface);
+  const StepReplacement plain{"#10", s};
+  EXPECT_NE(parse_or_die(with_weights).with_surfaces({&plain, 1}).error().message().find("weights"), std::string::npos);
   const StepReplacement twice[] = {{"#10", s}, {"#10", s}};
   EXPECT_NE(file.with_surfaces(twice).error().message().find("twice"), std::string::npos);
 }

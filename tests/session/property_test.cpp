@@ -86,7 +86,7 @@ std::string list(const Point& p) { return fmt::format("[{:.17g},{:.17g},{:.17g}]
 std::string random_command(Random& random, const Similarity& m, bool settings = true) {
   const double s = random.real(0.2, 0.8), t = random.real(0.2, 0.8), k = m.scale;
   const Point by = m.direction(random.point(0.3));
-  switch (random.whole(0, settings ? 20 : 9)) {
+  switch (random.whole(0, settings ? 23 : 9)) {
     case 0:
     case 1:  // clear of the surface or into it by less than its radius: what is half way through has two sides to go to
       return fmt::format(R"({{"do":"tool","name":"a","radius":{:.17g},"position":{},"stiffness":{}}})",
@@ -133,6 +133,12 @@ std::string random_command(Random& random, const Similarity& m, bool settings = 
       return R"({"do":"rest"})";
     case 19:
       return fmt::format(R"({{"do":"evolve","mode":"{}"}})", random.whole(0, 1) == 0 ? "acm" : "dynamic");
+    case 20:
+      return fmt::format(R"({{"do":"points","which":[{}],"rows_v":[{}],"by":{}}})", random.whole(0, 30),
+                         random.whole(0, 4), list(by));
+    case 21:
+      return fmt::format(R"({{"do":"weights","which":[{0}],"rows_u":[{1}],"{2}":{3:.17g}}})", random.whole(0, 30),
+                         random.whole(0, 4), random.whole(0, 1) == 0 ? "weight" : "by", random.real(0.7, 1.4));
     default:
       return R"({"do":"release"})";
   }

@@ -126,11 +126,12 @@ class StepFile {
   ///
   /// Where only control points differ this is `with_control_points`. Otherwise what differs in the surface's record is
   /// rewritten: degrees, the list of control points, weights, and the knots of a direction; forms with implied knots
-  /// become B_SPLINE_SURFACE_WITH_KNOTS unless the new knots are implied as well. Name, surface form and the flags for
-  /// closed and self-intersecting stay. Control points that have a value of the old net keep its record; others take
-  /// over records that only this surface used and no longer needs, or get new ones (docs/step.md). The parameter domain
+  /// become B_SPLINE_SURFACE_WITH_KNOTS unless the new knots are implied as well; a surface that had no weights and
+  /// gets some becomes a complex instance with RATIONAL_B_SPLINE_SURFACE. Name, surface form and the flags for closed
+  /// and self-intersecting stay. Control points that have a value of the old net keep its record; others take over
+  /// records that only this surface used and no longer needs, or get new ones (docs/step.md). The parameter domain
   /// should stay the same, since trimming curves live in it; that is not checked.
-  /// Errors: unknown or repeated id; weights where the file has none, or none where it has; a knot inside the domain
+  /// Errors: unknown or repeated id; no weights where the file has some; a knot inside the domain
   /// repeated more often than the degree (input); the self-check fails (numerical).
   [[nodiscard]] Expected<std::string> with_surfaces(std::span<const StepReplacement> replacements) const;
 

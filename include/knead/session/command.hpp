@@ -267,6 +267,35 @@ struct LatticeCommand {
   std::vector<std::string> hold;  ///< faces: "u0" … "w1", u along x, v along y, w along z
 };
 
+/// Control points of the one selected surface: by numbers i n + j of a net m × n, and by whole rows. In this order,
+/// each once; together at least one.
+struct NamedPoints {
+  std::vector<int> which;
+  std::vector<int> rows_u;  ///< all (i, ·) for these i
+  std::vector<int> rows_v;  ///< all (·, j) for these j
+};
+
+/// Moves control points by hand. The shape that comes is clay: it stays.
+struct PointsCommand {
+  NamedPoints points;
+  std::optional<Vector3> by;  ///< all alike; or:
+  std::vector<Vector3> to;    ///< one place for each
+  bool relative = false;      ///< `by` is in fractions of the bounding-box diagonal
+};
+
+/// Other weights for control points, which stay: the shape changes, for good.
+struct WeightsCommand {
+  NamedPoints points;
+  std::optional<double> weight;  ///< > 0; or:
+  std::optional<double> by;      ///< a factor > 0
+};
+
+/// Other knots for the same control points: the shape changes, for good.
+struct KnotsCommand {
+  std::string direction;      ///< "u" or "v"
+  std::vector<double> knots;  ///< the whole vector, as many as before, on the same domain
+};
+
 enum class RefinePermission { automatic, never };
 /// Finer nets, the same shape: halves spans in a region or under a tool, or inserts knots.
 struct RefineCommand {
@@ -292,11 +321,11 @@ struct UndoCommand {};
 /// Does again what was taken back last.
 struct RedoCommand {};
 
-using Command =
-    std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand, PinCommand,
-                 EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand,
-                 ToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand,
-                 LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, RelaxCommand, LatticeCommand,
-                 RefineCommand, ElevateCommand, CoarsenCommand, UndoCommand, RedoCommand>;
+using Command = std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand,
+                             PinCommand, EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand,
+                             SeamsCommand, ReleaseCommand, ToolCommand, RemoveCommand, MoveCommand, TurnCommand,
+                             ScaleCommand, ForceCommand, LoadCommand, LimitCommand, EvolveCommand, StepCommand,
+                             StrokeCommand, DragCommand, RelaxCommand, LatticeCommand, PointsCommand, WeightsCommand,
+                             KnotsCommand, RefineCommand, ElevateCommand, CoarsenCommand, UndoCommand, RedoCommand>;
 
 }  // namespace knead

@@ -47,10 +47,11 @@ struct PlacedForce {
   int surface = 0;
 };
 
-/// What a session knows about one surface. `opened`, `reference`, `rest` and `current` share their knots and weights.
+/// What a session knows about one surface. `reference`, `rest` and `current` share their knots and weights, and
+/// `opened` shares them too unless they were edited since (`weights`, `knots`); the domain is always the same.
 struct SurfaceState {
   std::string id, name, unit;
-  std::shared_ptr<const Surface> opened;     ///< as it came, on the present net
+  std::shared_ptr<const Surface> opened;     ///< as it came, on the present net if it has the present basis
   std::shared_ptr<const Surface> reference;  ///< what the units of the model are taken from
   std::shared_ptr<const Surface> rest;       ///< what displacements are measured from
   std::shared_ptr<const Surface> current;
@@ -116,9 +117,10 @@ class Session {
 
   /// Energy of the selected surfaces as they stand, normalised units; 0 without a selection.
   [[nodiscard]] Expected<double> energy();
-  /// max |S − S_opened| of one surface, file units.
+  /// max |S − S_opened| of one surface, file units; accuracy as `largest_distance` (spline/extremum.hpp).
   [[nodiscard]] double largest_displacement(int surface) const;
-  /// Control points of one surface that are no longer where they were opened, bit for bit.
+  /// Control points of one surface that are no longer where they were opened, or no longer weigh as much, bit for bit;
+  /// all of them where its knots are others.
   [[nodiscard]] int moved_control_points(int surface) const;
   /// The document's file with the present surfaces.
   [[nodiscard]] Expected<std::string> save() const;

@@ -19,6 +19,17 @@ struct SurfaceMaximum {
 /// the samples see the highest peak (a peak narrower than a third of a span can be missed). Cost: one grid evaluation.
 [[nodiscard]] SurfaceMaximum largest_norm(const Surface& surface);
 
+/// Whether the two have the same knots and the same weights, bit for bit: then their difference is the spline of the
+/// differences of their control points.
+[[nodiscard]] bool same_basis(const Surface& a, const Surface& b);
+
+/// max |a(u, v) − b(u, v)| over their domain. Requires: the same domain (asserted).
+/// With the same basis it is `largest_norm` of the difference. Otherwise both are sampled p + 3 times per span of
+/// either, p the larger degree, and the largest of these is refined by a compass search to 1e-6 of a sample distance;
+/// which is 1e-9 relative under the proviso of `largest_norm`, but for a maximum at a crease: 1e-6. Not a number where
+/// a denominator is not positive.
+[[nodiscard]] double largest_distance(const Surface& a, const Surface& b);
+
 /// The axis-parallel box of the surface itself, not of its control points.
 struct BoundingBox {
   Point lower = Point::Zero(), upper = Point::Zero();
