@@ -7,6 +7,7 @@
 
 #include "knead/exchange/mesh_writer.hpp"
 #include "knead/session/command_json.hpp"
+#include "studio_context.hpp"
 #include "studio_picture.hpp"
 #include "studio_state.hpp"
 #include "studio_surface.hpp"
@@ -21,6 +22,7 @@ struct Studio {
   std::optional<Session> session;
   Point origin = Point::Zero();
   Painter painter;
+  std::optional<TrimLoops> trims;  // of the open file, once asked for
 };
 
 Studio& held() {
@@ -50,6 +52,7 @@ Point middle(const Document& document) {
 
 int start(Document document) {
   held().origin = middle(document);
+  held().trims.reset();
   held().session.emplace(std::move(document));
   return answer(state_json(*held().session));
 }
@@ -242,4 +245,24 @@ KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
   }
   auto bytes = mesh_file(surfaces, static_cast<MeshFormat>(format), options);
   return bytes ? answer(std::move(*bytes)) : fail(bytes.error());
+}
+
+/// The faces of the open file that are no surfaces of the session: `context_bytes`. Without a file there are none.
+KNEAD_EXPORT(knead_context) int knead_context() {
+  auto& session = held().session;
+  if (!session || session->document().is_fresh()) return answer({});
+  return answer(context_bytes(session->document().file(), held().origin));
+}
+
+/// What the faces of the open file show of a surface: `trim_json`.
+KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
+  auto& session = held().session;
+  if (!session || session->document().is_fresh()) return answer("null");
+  if (!held().trims) {
+    auto trims = trim_loops(session->document().file());
+    held().trims = trims ? *std::move(trims) : TrimLoops();
+  }
+  const auto& all = held().trims->surfaces;
+  const bool known = surface >= 0 && surface < static_cast<int>(all.size());
+  return answer(known ? trim_json(all[static_cast<std::size_t>(surface)]) : "null");
 }

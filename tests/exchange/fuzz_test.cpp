@@ -4,8 +4,11 @@
 
 #include <random>
 
+#include "exchange/face_builder.hpp"
 #include "exchange/support.hpp"
+#include "knead/exchange/context_faces.hpp"
 #include "knead/exchange/file_io.hpp"
+#include "knead/exchange/trim_loops.hpp"
 #include "knead/spline/refine.hpp"
 
 namespace knead {
@@ -118,6 +121,9 @@ bool survives(const std::string& bytes) {
     EXPECT_EQ(refined.error().kind, ErrorKind::input) << refined.error().message() << "\n" << bytes;
     EXPECT_NE(refined.error().what.find("attributes"), std::string::npos) << refined.error().message();
   }
+  // Whatever the faces have become, they are drawn or left out.
+  EXPECT_TRUE(context_faces(*file, 0.02));
+  EXPECT_TRUE(trim_loops(*file, 0.02));
   return true;
 }
 
@@ -174,6 +180,33 @@ TEST(StepFuzz, DamagedFilesOfTheCollection) {
   for (const auto* name : {"simple_wing.stp", "test_pipe.step", "ap203_periodic_bspline_triangular_cap.stp"}) {
     damage(*read_file(testing::collection() / name), times(100));
   }
+}
+
+TEST(StepFuzz, DamagedFaces) {
+  testing::FaceBuilder b;
+  const auto on_frame = [&b](const std::string& entity, const std::string& measures) {
+    return b.entity(entity + "('',#" + std::to_string(b.frame()) + measures + ")");
+  };
+  const int below = b.circle(2, 0), above = b.circle(2, 5);
+  b.face(on_frame("CYLINDRICAL_SURFACE", ",2."), {b.bound({below}), b.bound({-above})});
+  b.face(on_frame("PLANE", ""), {b.bound({-below}), b.bound({b.circle(0.5, 0)})}, false);
+  b.face(on_frame("CONICAL_SURFACE", ",2.,0.5"), {b.bound({-below}), b.vertex_bound(0, 0, -4)});
+  b.face(on_frame("SPHERICAL_SURFACE", ",2."), {b.bound({below})});
+  b.face(on_frame("TOROIDAL_SURFACE", ",1.,1."), {b.bound({below})});
+  b.face(on_frame("DEGENERATE_TOROIDAL_SURFACE", ",1.,2.,.F."), {b.vertex_bound(0, 0, 0)});
+  const int line =
+      b.entity("LINE('',#" + std::to_string(b.point(2, 0, 0)) + ",#" +
+               std::to_string(b.entity("VECTOR('',#" + std::to_string(b.direction(0, 0, 1)) + ",1.)")) + ")");
+  const int axis = b.entity("AXIS1_PLACEMENT('',#" + std::to_string(b.point(0, 0, 0)) + ",#" +
+                            std::to_string(b.direction(0, 0, 1)) + ")");
+  b.face(b.entity("SURFACE_OF_REVOLUTION('',#" + std::to_string(line) + ",#" + std::to_string(axis) + ")"),
+         {b.bound({below}), b.bound({-above})});
+  const int ellipse = on_frame("ELLIPSE", ",2.,2.");
+  const int way = b.entity("VECTOR('',#" + std::to_string(b.direction(0, 0, 1)) + ",3.)");
+  b.face(b.entity("SURFACE_OF_LINEAR_EXTRUSION('',#" + std::to_string(ellipse) + ",#" + std::to_string(way) + ")"),
+         {b.bound({below}), b.bound({-above})});
+  b.entity("FACE('',(#" + std::to_string(b.polygon_bound({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) + "))");
+  damage(testing::step_text(b.text()), times(1500));
 }
 
 TEST(StepFuzz, DamagedSamples) {

@@ -2,6 +2,7 @@ import type { App } from '../app';
 import type { Command, SurfaceInfo } from '../engine/session_types';
 import { autosave, type Kept } from './autosave';
 import { clay } from './clay';
+import { loadContext } from './context';
 import { Keeper } from './keeper';
 import { type KneadDocument, readKnead, type Source } from './knead_file';
 
@@ -126,6 +127,8 @@ export class Documents {
     this.name = name;
     this.file = file;
     this.keeper.begin();
+    this.app.viewer.showContext(null, []);
+    if (file?.kind === 'step') void loadContext(this.app);
     this.app.changed();
   }
 

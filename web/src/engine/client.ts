@@ -1,3 +1,4 @@
+import { type Context, readContext, type Trim } from './context';
 import type { Frame, PaintSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo, type MeshFormat, type SurfaceNumbers } from './session_types';
 
@@ -76,6 +77,10 @@ export class Client {
   mesh = async (format: MeshFormat, detail = 96): Promise<Uint8Array> => (await this.ask({ kind: 'mesh', format, detail })).bytes!;
   surface = async (surface: number): Promise<SurfaceNumbers> =>
     JSON.parse((await this.ask({ kind: 'surface', surface })).text!) as SurfaceNumbers;
+  context = async (): Promise<{ context: Context | null; trims: Trim[] }> => {
+    const { bytes, text } = await this.ask({ kind: 'context' });
+    return { context: readContext(bytes!), trims: JSON.parse(text!) as Trim[] };
+  };
   journal = async (): Promise<string> => (await this.ask({ kind: 'journal' })).text!;
 
   /**

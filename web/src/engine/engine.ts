@@ -2,6 +2,7 @@ import {
   type Command, EngineError, type Field, fields, type MeshFormat, meshFormats, type Picture, type SessionInfo, type StepInfo,
   type SurfaceNumbers,
 } from './session_types';
+import type { Trim } from './context';
 import { wasiImports } from './wasi';
 
 interface Exports {
@@ -26,6 +27,8 @@ interface Exports {
   knead_control_points(surface: number): number;
   knead_surface(surface: number): number;
   knead_mesh(format: number, detail: number): number;
+  knead_context(): number;
+  knead_trims(surface: number): number;
 }
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
@@ -105,6 +108,15 @@ export class Engine {
 
   controlPoints(surface: number): Float64Array {
     return new Float64Array(this.bytes(this.wasm.knead_control_points(surface)).buffer as ArrayBuffer);
+  }
+
+  /** Bytes for `readContext`. */
+  context(): Uint8Array {
+    return this.bytes(this.wasm.knead_context());
+  }
+
+  trims(surface: number): Trim {
+    return this.json(this.wasm.knead_trims(surface)) as Trim;
   }
 
   /** All numbers of a surface as it is now, in full precision. */

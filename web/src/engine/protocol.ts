@@ -24,6 +24,8 @@ export type Request =
   | { kind: 'surface'; surface: number }
   /** All surfaces as one mesh file. */
   | { kind: 'mesh'; format: MeshFormat; detail: number }
+  /** The other faces of the file as bytes, and the trims of the surfaces as text (`Trim[]`). */
+  | { kind: 'context' }
   | { kind: 'save' }
   | { kind: 'journal' }
   /** The session as bytes, with its journal as text. `kept`: it need not be computed again from here on. */

@@ -131,6 +131,12 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       if (frameDue) sendFrame(engine);
       else setTimeout(() => playOn(engine), 0);
       return;
+    case 'context': {
+      const bytes = engine.context();
+      const text = JSON.stringify(engine.state().surfaces.map((_, k) => engine.trims(k)));
+      self.postMessage({ kind: 'done', id, bytes, text }, { transfer: [bytes.buffer] });
+      return;
+    }
     case 'save':
       post({ kind: 'done', id, bytes: engine.save() });
       return;

@@ -27,7 +27,9 @@ export function displayPanel(app: App): HTMLElement {
     return [
       row(chip('surface', 'Surface'), chip('isocurves', 'Isocurves'), chip('knotLines', 'Knot lines'),
         chip('points', 'Points', 'Control points; held ones in orange'), chip('net', 'Net', 'Control net'), chip('normals', 'Normals'),
-        chip('zebra', 'Zebra', 'Reflection stripes: kinks show curvature that jumps (Z)'), chip('grid', 'Grid')),
+        chip('zebra', 'Zebra', 'Reflection stripes: kinks show curvature that jumps (Z)'), chip('grid', 'Grid'),
+        chip('context', 'Context', 'The other faces of the file, in grey'),
+        chip('trimmed', 'Trimmed', 'Only what the faces of the file show of their surfaces; all of each can be sculpted')),
       field('Colour', select('Colour by', fieldNames, d.field, (f) => app.setDisplay({ field: f, zebra: false, autoLimit: true }))),
       d.field !== 'none' ? note(about[d.field]!) : null,
       d.field !== 'none' ? field('± limit', row(

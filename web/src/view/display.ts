@@ -11,6 +11,10 @@ export interface Display {
   points: boolean;
   normals: boolean;
   grid: boolean;
+  /** The other faces of the file. */
+  context: boolean;
+  /** Only what the faces of the file show of their surfaces. */
+  trimmed: boolean;
   zebra: boolean;
   field: Field;
   /** Values at ± this have the full colour. */
@@ -33,6 +37,8 @@ export const defaultDisplay: Display = {
   points: false,
   normals: false,
   grid: true,
+  context: true,
+  trimmed: true,
   zebra: false,
   field: 'none',
   limit: 1,
@@ -58,6 +64,7 @@ export interface Palette {
   gridStrong: number;
   tool: number;
   toolSelected: number;
+  context: number;
 }
 
 export type Theme = 'light' | 'dark';
@@ -66,11 +73,11 @@ export const palettes: Record<Theme, Palette> = {
   dark: {
     background: 0x15181c, front: 0xa9bccd, back: 0xb8a08a, isocurve: 0x0d1116, isocurveOpacity: 0.38, knotLine: 0xe8eef4,
     net: 0x8fa3b5, point: 0xe6edf3, held: 0xf0a35a, grid: 0x252a31, gridStrong: 0x363d47, tool: 0x8b97a5,
-    toolSelected: 0x3fb6a8,
+    toolSelected: 0x3fb6a8, context: 0x596069,
   },
   light: {
     background: 0xf1f3f5, front: 0xb4c4d3, back: 0xc9b29d, isocurve: 0x1a2733, isocurveOpacity: 0.3, knotLine: 0x14202b,
     net: 0x5b6b7a, point: 0x1d2a36, held: 0xc8641a, grid: 0xdfe3e7, gridStrong: 0xc6ccd3, tool: 0x7b8794,
-    toolSelected: 0x0f8f82,
+    toolSelected: 0x0f8f82, context: 0xb9bec4,
   },
 };

@@ -16,12 +16,14 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       limit: { value: 1 },
       selected: { value: 1 },
       marks: { value: null },
+      trim: { value: null },
+      trimmed: { value: false },
       accent: { value: new THREE.Color(0x3fb6a8) },
     },
     vertexShader: /* glsl */ `
       attribute float value;
       attribute vec2 span;
-      varying vec2 vSpan;
+      varying vec2 vSpan, vPlace;
       varying vec3 vNormal;
       varying vec3 vView;
       varying float vValue;
@@ -31,6 +33,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
         vView = isOrthographic ? vec3(0.0, 0.0, 1.0) : -place.xyz;
         vValue = value;
         vSpan = span;
+        vPlace = uv;
         gl_Position = projectionMatrix * place;
       }`,
     fragmentShader: /* glsl */ `
@@ -39,8 +42,9 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       uniform float limit, selected;
       varying vec3 vNormal, vView;
       varying float vValue;
-      varying vec2 vSpan;
-      uniform sampler2D marks;
+      varying vec2 vSpan, vPlace;
+      uniform sampler2D marks, trim;
+      uniform bool trimmed;
       uniform vec3 accent;
 
       // Blue below, grey at zero, red above; the brightness changes evenly to both sides.
@@ -86,6 +90,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
           else colour = mix(colour, base, 0.6);
           gl_FragColor = vec4(mix(vec3(dot(colour, vec3(0.3, 0.5, 0.2))) * 0.85, colour, selected), 1.0);
         }
+        if (trimmed && texture2D(trim, vPlace).a < 0.5) discard;
         // Frozen spans are hatched, painted ones tinted.
         vec3 marked = texture2D(marks, vSpan).rgb;
         gl_FragColor.rgb = mix(gl_FragColor.rgb, vec3(0.75, 0.4, 0.08), 0.6 * marked.b);

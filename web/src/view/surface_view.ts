@@ -18,6 +18,7 @@ export class SurfaceView {
   /** Control points are shown whatever the display says. */
   editing = false;
 
+  private mask: THREE.Texture | null = null;
   private readonly isocurves = lines();
   private readonly knotLines = lines();
   private readonly normals = lines();
@@ -81,8 +82,30 @@ export class SurfaceView {
       const all = (count: number) => Array.from({ length: count }, (_, k) => k);
       this.net.geometry.setIndex(new THREE.BufferAttribute(gridLines(a, b, all(a), all(b)), 1));
     }
+    this.placeMask();
     this.showFrozen(info);
     this.restyle(display, palette, selected);
+  }
+
+  /** What the surface shows of itself where it is drawn trimmed; null: all. It is the view's from now on. */
+  set trim(mask: THREE.Texture | null) {
+    this.mask?.dispose();
+    this.mask = mask;
+    this.placeMask();
+  }
+
+  private placeMask(): void {
+    if (!this.mask || !this.picture) return;
+    const { s, t } = this.picture;
+    const places = new Float32Array(2 * s.length * t.length);
+    for (let k = 0, at = 0; k < s.length; ++k) {
+      for (let l = 0; l < t.length; ++l, at += 2) {
+        places[at] = s[k]!;
+        places[at + 1] = t[l]!;
+      }
+    }
+    setAttribute(this.mesh.geometry, 'uv', places, 2);
+    for (const part of [this.knotLines, this.isocurves]) part.geometry.setAttribute('uv', this.mesh.geometry.getAttribute('uv'));
   }
 
   /** Hatches what the session keeps from moving: the whole spans that frozen regions touch. */
@@ -128,6 +151,15 @@ export class SurfaceView {
 
   restyle(display: Display, palette: Palette, selected: boolean): void {
     const { uniforms } = this.mesh.material;
+    const mask = display.trimmed ? this.mask : null;
+    uniforms.trim!.value = mask;
+    uniforms.trimmed!.value = mask !== null;
+    for (const { material } of [this.isocurves, this.knotLines]) {
+      if (material.map === mask) continue;
+      material.map = mask;
+      material.alphaTest = mask ? 0.05 : 0;
+      material.needsUpdate = true;
+    }
     const coloured = display.field !== 'none';
     uniforms.mode!.value = display.zebra ? 1 : display.field === 'energy' ? 3 : coloured ? 2 : 0;
     uniforms.limit!.value = display.limit;
@@ -177,6 +209,7 @@ export class SurfaceView {
   }
 
   dispose(): void {
+    this.mask?.dispose();
     (this.mesh.material.uniforms.marks!.value as THREE.DataTexture | null)?.dispose();
     for (const part of [this.mesh, this.isocurves, this.knotLines, this.normals, this.net, this.points]) {
       part.geometry.dispose();

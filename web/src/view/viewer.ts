@@ -1,6 +1,9 @@
 import * as THREE from 'three';
 
+import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
+import { ContextView } from './context_view';
+import { trimMasks } from './trim_mask';
 import { format } from '../ui/dom';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
@@ -37,6 +40,7 @@ export class Viewer {
   /** A double click on the label of a view. */
   onMaximise: (name: ViewName) => void = () => {};
 
+  readonly context = new ContextView();
   private readonly renderer: THREE.WebGLRenderer;
   private readonly raycaster = new THREE.Raycaster();
   private due = false;
@@ -66,7 +70,7 @@ export class Viewer {
     this.element.append(this.renderer.domElement, windows);
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(0.4, -0.6, 1);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay, this.context.mesh);
     new ResizeObserver(() => this.resize()).observe(this.element);
   }
 
@@ -123,6 +127,14 @@ export class Viewer {
     if (fresh) this.fit();
     else this.lowerGround();
     this.redraw();
+  }
+
+  /** What stands round the surfaces of the frame, and what of each is seen. */
+  showContext(context: Context | null, trims: Trim[]): void {
+    this.context.show(context);
+    const masks = trimMasks(trims);
+    this.surfaces.forEach((s, k) => (s.trim = masks[k] ?? null));
+    this.restyle();
   }
 
   /** The ground stays below whatever is pressed down. */
@@ -194,6 +206,7 @@ export class Viewer {
   }
 
   restyle(): void {
+    this.context.restyle(this.display, this.palette);
     this.ground.restyle(this.palette);
     const state = this.frame?.state;
     this.surfaces.forEach((s, k) =>

@@ -1,0 +1,42 @@
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+
+import { readContext } from '@studio/engine/context';
+import { Engine } from '@studio/engine/engine';
+
+import { facesStep } from './faces_step';
+
+const wasm = readFileSync(fileURLToPath(new URL('../../web/src/engine/knead_studio.wasm', import.meta.url)));
+
+describe('faces round the surfaces', () => {
+  it('come as triangles relative to the origin of the session', async () => {
+    const engine = await Engine.load(wasm);
+    engine.openStep(facesStep(), 'faces.step');
+    const context = readContext(engine.context())!;
+    expect(context.skipped).toEqual([]);
+    expect(context.indices.length).toBe(6); // a square
+    const zs = [...context.positions].filter((_, k) => k % 3 === 2);
+    expect(zs.every((z) => z === -4 - engine.origin[2])).toBe(true);
+    expect([...context.normals].filter((_, k) => k % 3 === 2)).toEqual([1, 1, 1, 1]);
+  });
+
+  it('leave what the faces show of the surfaces, in fractions of the domain', async () => {
+    const engine = await Engine.load(wasm);
+    engine.openStep(facesStep(), 'faces.step');
+    const trim = engine.trims(0)!;
+    expect(trim.faces.length).toBe(1);
+    const [loop] = trim.faces[0]!;
+    // x = -5 + 10 s only where the control points are the Greville abscissae: by symmetry all is within the middle.
+    expect(loop!.every((x) => x > 0.05 && x < 0.95)).toBe(true);
+    expect(Math.min(...loop!) + Math.max(...loop!)).toBeCloseTo(1, 3);
+    expect(engine.trims(7)).toBeNull();
+  });
+
+  it('are none without a file', async () => {
+    const engine = await Engine.load(wasm);
+    engine.fresh('sheet');
+    engine.execute({ do: 'new', size: [10, 10], net: [4, 4] });
+    expect(readContext(engine.context())).toBeNull();
+    expect(engine.trims(0)).toBeNull();
+  });
+});

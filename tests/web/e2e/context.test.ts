@@ -1,0 +1,106 @@
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+
+import { facesStep } from '../faces_step';
+import { openStudio, settled, type Studio } from './page';
+
+let studio: Studio;
+let directory: string;
+
+beforeAll(async () => {
+  directory = mkdtempSync(join(tmpdir(), 'knead-context-'));
+  studio = await openStudio();
+  const path = join(directory, 'faces.step');
+  writeFileSync(path, facesStep());
+  await studio.page.locator('input[type=file]').first().setInputFiles(path);
+});
+
+afterAll(async () => {
+  await studio.close();
+  rmSync(directory, { recursive: true });
+});
+
+afterEach(() => {
+  expect(studio.problems).toEqual([]);
+  expect(studio.foreign).toEqual([]);
+});
+
+const triangles = () =>
+  studio.page.evaluate(() => (window as never as { studio: { viewer: { context: { triangles: number } } } }).studio.viewer.context.triangles);
+
+const show = async (change: Record<string, boolean>) => {
+  await studio.page.evaluate((c) => (window as never as { studio: { setDisplay(c: object): void } }).studio.setDisplay(c), change);
+  await settled(studio.page);
+};
+
+/** Colour of the scene at a place of the file, seen from the top. */
+const colourAt = (x: number, y: number, z: number) =>
+  studio.page.evaluate(async ([px, py, pz]) => {
+    const { viewer } = (window as never as { studio: { viewer: {
+      picture(): Promise<Blob>; origin: number[]; main: { camera: { matrixWorldInverse: { elements: number[] }; projectionMatrix: { elements: number[] } } };
+    } } }).studio;
+    const image = await createImageBitmap(await viewer.picture());
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const context = canvas.getContext('2d')!;
+    context.drawImage(image, 0, 0);
+    const times = (m: number[], v: number[]) => [0, 1, 2, 3].map((r) => [0, 1, 2, 3].reduce((sum, c) => sum + m[4 * c + r]! * v[c]!, 0));
+    const { camera } = viewer.main;
+    const place = [px! - viewer.origin[0]!, py! - viewer.origin[1]!, pz! - viewer.origin[2]!, 1];
+    const clip = times(camera.projectionMatrix.elements, times(camera.matrixWorldInverse.elements, place));
+    const column = Math.round(((clip[0]! / clip[3]! + 1) / 2) * image.width);
+    const row = Math.round(((1 - clip[1]! / clip[3]!) / 2) * image.height);
+    return [...context.getImageData(column, row, 1, 1).data].slice(0, 3);
+  }, [x, y, z]);
+
+/** Colours of the scene on a grid of places. */
+const pixels = (): Promise<number[][]> =>
+  studio.page.evaluate(async () => {
+    const { viewer } = (window as never as { studio: { viewer: { picture(): Promise<Blob> } } }).studio;
+    const image = await createImageBitmap(await viewer.picture());
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d')!;
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    const colours: number[][] = [];
+    for (let y = 0; y < image.height; y += 8) {
+      for (let x = 0; x < image.width; x += 8) colours.push([...data.slice(4 * (y * image.width + x), 4 * (y * image.width + x) + 3)]);
+    }
+    return colours;
+  });
+
+const same = (a: number[], b: number[]) => Math.max(...a.map((c, k) => Math.abs(c - b[k]!))) <= 2;
+
+describe('faces round the surfaces', () => {
+  it('come after the file has been opened', async () => {
+    await expect.poll(triangles, { timeout: 10_000 }).toBe(2);
+    await settled(studio.page);
+  });
+
+  it('are grey, and can be put away', async () => {
+    await show({ grid: false, isocurves: false, context: true, trimmed: true });
+    const grey = await pixels();
+    await show({ context: false });
+    const empty = await pixels();
+    const changed = grey.filter((c, k) => !same(c, empty[k]!));
+    expect(changed.length).toBeGreaterThan(0.05 * grey.length);
+    for (const c of changed) expect(Math.max(...c) - Math.min(...c)).toBeLessThan(40); // hardly coloured
+    await show({ context: true });
+    expect((await pixels()).every((c, k) => same(c, grey[k]!))).toBe(true);
+  });
+
+  it('leave only what the file shows of a surface, unless all is wanted', async () => {
+    // A corner of the patch, outside of the disc.
+    await show({ context: false, trimmed: true });
+    const cut = await colourAt(4.5, 4.5, 0);
+    const kept = await colourAt(0.3, 0.4, 0);
+    await show({ trimmed: false });
+    expect(same(await colourAt(4.5, 4.5, 0), cut)).toBe(false);
+    expect(same(await colourAt(0.3, 0.4, 0), kept)).toBe(true);
+  });
+
+  it('go with the file they came from', async () => {
+    await studio.page.locator('summary[aria-label^=Gallery]').click();
+    await studio.page.locator('details[open] .menu-item').first().click();
+    await expect.poll(triangles).toBe(0);
+  });
+});

@@ -1,0 +1,37 @@
+import * as THREE from 'three';
+
+import type { Context } from '../engine/context';
+import type { Display, Palette } from './display';
+
+/** The other faces of the opened file, in grey: to see what is sculpted in its place, and not to be picked. */
+export class ContextView {
+  readonly mesh = new THREE.Mesh(
+    new THREE.BufferGeometry(),
+    new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }),
+  );
+
+  constructor() {
+    this.mesh.visible = false;
+  }
+
+  /** Null: nothing. */
+  show(context: Context | null): void {
+    this.mesh.geometry.dispose();
+    const geometry = new THREE.BufferGeometry();
+    if (context) {
+      geometry.setAttribute('position', new THREE.BufferAttribute(context.positions, 3));
+      geometry.setAttribute('normal', new THREE.BufferAttribute(context.normals, 3));
+      geometry.setIndex(new THREE.BufferAttribute(context.indices, 1));
+    }
+    this.mesh.geometry = geometry;
+  }
+
+  get triangles(): number {
+    return (this.mesh.geometry.index?.count ?? 0) / 3;
+  }
+
+  restyle(display: Display, palette: Palette): void {
+    this.mesh.visible = display.context && this.triangles > 0;
+    this.mesh.material.color.set(palette.context);
+  }
+}
