@@ -16,9 +16,9 @@ struct SurfaceMaximum {
 ///
 /// The surface is sampled p + 3 times per span and direction, span ends from both sides included; the best local maxima
 /// of the samples are refined by projected Newton steps and a compass search. Accuracy: 1e-9 relative, provided that
-/// the samples see the highest peak (a peak narrower than a third of a span can be missed). Where all weights are positive,
-/// spans whose control points are all shorter than what has been found are passed over. Cost: a pass over the control
-/// points, the samples of the other spans, and eight refinements.
+/// the samples see the highest peak (a peak narrower than a third of a span can be missed). Where all weights are
+/// positive, spans whose control points are all shorter than what has been found are passed over. Cost: a pass over the
+/// control points, the samples of the other spans, and eight refinements.
 [[nodiscard]] SurfaceMaximum largest_norm(const Surface& surface);
 
 /// Whether the two have the same knots and the same weights, bit for bit: then their difference is the spline of the
