@@ -1,4 +1,4 @@
-import { commands, distance, openStudio, positions, settled, spot, stroke, type Studio } from './page';
+import { commands, distance, openScene, openStudio, positions, settled, spot, stroke, type Studio } from './page';
 
 let studio: Studio;
 beforeAll(async () => {
@@ -23,11 +23,7 @@ interface App {
 const app = <T>(ask: (studio: App) => T): Promise<T> =>
   studio.page.evaluate(`(${ask.toString()})(window.studio)`) as Promise<T>;
 
-const scene = async (name: string) => {
-  await studio.page.locator('summary[aria-label^=Gallery]').click();
-  await studio.page.locator('.menu-item', { hasText: name }).first().click();
-  await settled(studio.page);
-};
+const scene = (name: string) => openScene(studio.page, name);
 
 /** Where a control point is on the page. */
 const pointAt = async (index: number): Promise<[number, number]> => {
@@ -353,70 +349,4 @@ describe('a tool', () => {
     expect(move.by[2]).toBe(0);
     await page.keyboard.press('4');
   });
-});
-
-describe('panels', () => {
-  it('create a surface, and change its knots', async () => {
-    const { page } = studio;
-    await page.locator('.panel[data-panel=Create] > summary').click();
-    await page.locator('select[aria-label="Shape to create"]').selectOption('torus');
-    await page.locator('.panel[data-panel=Create] button', { hasText: 'Create' }).click();
-    await settled(page);
-    expect((await commands(page))[0]).toMatchObject({ do: 'new', shape: 'torus' });
-    await page.locator('select[aria-label="Shape to create"]').selectOption('plane');
-    await page.locator('input[aria-label="Net u"]').fill('6');
-    await page.keyboard.press('Enter');
-    await page.locator('.panel[data-panel=Create] button', { hasText: 'Create' }).first().click();
-    await settled(page);
-    expect((await commands(page))[0]).toMatchObject({ do: 'new', shape: 'plane', net: [6, 12] });
-    await page.locator('.panel[data-panel="Knots and net"] > summary').click();
-    await settled(page);
-    const knots = page.locator('textarea[aria-label="Knots u"]');
-    await expect.poll(() => knots.inputValue()).toContain('0×4');
-    const before = await positions(page);
-    await knots.fill('0×4 0.1 0.2 1×4');
-    await knots.blur();
-    await settled(page);
-    expect((await commands(page)).at(-1)).toMatchObject({ do: 'knots', direction: 'u', knots: [0, 0, 0, 0, 0.1, 0.2, 1, 1, 1, 1] });
-    expect(distance(before, await positions(page))).toBeGreaterThan(0);
-    await page.keyboard.press('Control+z');
-    await settled(page);
-    expect(distance(before, await positions(page))).toBe(0);
-  });
-});
-
-/** The page's own work on its main thread, longest task first, milliseconds: without waiting for the processor or for drawing. */
-async function tasks(act: () => Promise<void>): Promise<number[]> {
-  const { browser, page } = studio;
-  await browser.startTracing(page, { categories: ['toplevel', 'disabled-by-default-devtools.timeline', '__metadata'] });
-  await act();
-  interface Event {
-    name: string;
-    pid: number;
-    tid: number;
-    tdur?: number;
-    args?: { name?: string };
-  }
-  const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: Event[] };
-  const pages = new Set(traceEvents.filter((e) => e.name === 'thread_name' && e.args?.name === 'CrRendererMain').map((e) => `${e.pid} ${e.tid}`));
-  return traceEvents.filter((e) => e.tdur !== undefined && pages.has(`${e.pid} ${e.tid}`)).map((e) => e.tdur! / 1000).sort((a, b) => b - a);
-}
-
-it('never keeps the page busy for 50 ms at a time', async () => {
-  const { page } = studio;
-  await scene('Fine clay sheet');
-  const all = await tasks(async () => {
-    await page.keyboard.press('b');
-    await stroke(page, [-60, 0], [-20, 10], [20, 0], [60, 10]);
-    for (const panel of ['Evolution', 'Constraints', 'History']) await page.locator(`.panel[data-panel="${panel}"] > summary`).click();
-    await page.locator('select[aria-label="Colour by"]').selectOption('mean');
-    await settled(page);
-    await page.keyboard.press('e');
-    await settled(page);
-    await page.locator('select[aria-label="Colour by"]').selectOption('none');
-    await settled(page);
-  });
-  expect(all.length).toBeGreaterThan(100);
-  expect(all[0]).toBeLessThan(50);
-  console.log(`longest tasks of the page: ${all.slice(0, 3).map((t) => t.toFixed(1)).join(', ')} ms`);
 });
