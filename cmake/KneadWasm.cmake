@@ -14,5 +14,6 @@ endfunction()
 
 knead_header_library(Eigen3::Eigen Eigen Core)
 knead_header_library(fmt::fmt fmt format.h)
-target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+# Without a fixed separator of thousands, {fmt} brings the locales of the C++ library along, unused.
+target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY "FMT_STATIC_THOUSANDS_SEPARATOR=','")
 knead_header_library(nlohmann_json::nlohmann_json nlohmann json.hpp)
