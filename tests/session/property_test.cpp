@@ -151,44 +151,46 @@ double largest_violation(const Session& session) {
   return session.state().steps.empty() ? 0 : session.state().steps.back().violation;
 }
 
-TEST(Property, UndoRedoAndReplayGiveTheSameBits) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
-    SCOPED_TRACE(fmt::format("seed {}", seed));
-    Random random{std::mt19937(seed)};
-    const Surface surface = random_surface(random);
-    Session session = document_of(surface);
-    int accepted = 0;
-    for (int k = 0; k < 25; ++k) {
-      const auto before = std::make_shared<const SessionState>(session.state());
-      const std::string json = random_command(random, {});
-      const auto done = session.execute(*parse_command(json));
-      if (!done) {
-        ASSERT_TRUE(same_state(session.state(), *before)) << json << " was refused: " << done.error().message();
-        continue;
-      }
-      ++accepted;
-      const auto after = std::make_shared<const SessionState>(session.state());
-      ASSERT_LE(largest_violation(session), 1e-10 * bounding_box(surface).diagonal()) << json;
-      if (random.whole(0, 2) > 0) continue;
+class RandomScript : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(RandomScript, GivesTheSameBitsByUndoRedoAndReplay) {
+  Random random{std::mt19937(GetParam())};
+  const Surface surface = random_surface(random);
+  Session session = document_of(surface);
+  int accepted = 0;
+  for (int k = 0; k < 25; ++k) {
+    const auto before = std::make_shared<const SessionState>(session.state());
+    const std::string json = random_command(random, {});
+    const auto done = session.execute(*parse_command(json));
+    if (!done) {
+      ASSERT_TRUE(same_state(session.state(), *before)) << json << " was refused: " << done.error().message();
+      continue;
+    }
+    ++accepted;
+    const auto after = std::make_shared<const SessionState>(session.state());
+    ASSERT_LE(largest_violation(session), 1e-10 * bounding_box(surface).diagonal()) << json;
+    if (random.whole(0, 2) > 0) continue;
+    run(session, {R"({"do":"undo"})"});
+    ASSERT_TRUE(same_state(session.state(), *before)) << json;
+    if (random.whole(0, 1) == 0) {
+      (void)session.execute(*parse_command(R"({"do":"step"})"));
       run(session, {R"({"do":"undo"})"});
       ASSERT_TRUE(same_state(session.state(), *before)) << json;
-      if (random.whole(0, 1) == 0) {
-        (void)session.execute(*parse_command(R"({"do":"step"})"));
-        run(session, {R"({"do":"undo"})"});
-        ASSERT_TRUE(same_state(session.state(), *before)) << json;
-        const auto again = session.execute(*parse_command(json));
-        ASSERT_TRUE(again) << json;
-      } else {
-        run(session, {R"({"do":"redo"})"});
-      }
-      ASSERT_TRUE(same_state(session.state(), *after)) << json;
+      const auto again = session.execute(*parse_command(json));
+      ASSERT_TRUE(again) << json;
+    } else {
+      run(session, {R"({"do":"redo"})"});
     }
-    EXPECT_GE(accepted, 12);
-    Session replay = document_of(surface);
-    for (const Command& command : session.journal()) ASSERT_TRUE(replay.execute(command)) << to_json(command);
-    EXPECT_TRUE(same_state(replay.state(), session.state()));
+    ASSERT_TRUE(same_state(session.state(), *after)) << json;
   }
+  EXPECT_GE(accepted, 12);
+  Session replay = document_of(surface);
+  for (const Command& command : session.journal()) ASSERT_TRUE(replay.execute(command)) << to_json(command);
+  EXPECT_TRUE(same_state(replay.state(), session.state()));
 }
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomScript, ::testing::Range(1u, 11u),
+                         [](const auto& seed) { return std::to_string(seed.param); });
 
 TEST(Property, NothingMovesAtRestUnderAnyConstraints) {
   for (unsigned seed = 1; seed <= 30; ++seed) {

@@ -80,7 +80,7 @@ describe('the backend panel', () => {
     expect([...loaded, ...requests].filter((url) => /lab|panel/.test(url))).toEqual([]);
     await open();
     expect(requests.filter((url) => /knead_lab.*\.wasm/.test(url)).length).toBe(1);
-    expect(await paths()).toHaveLength(24);
+    await expect.poll(async () => (await paths()).length).toBe(24);
     expect(await knots()).toHaveLength(28);
     expect(Number(await page.locator('.lab-readout').getAttribute('data-unity'))).toBeLessThan(1e-15);
     const box = (await page.locator('.lab-plot').boundingBox())!;
@@ -168,24 +168,24 @@ describe('the backend panel', () => {
     await plotted.selectOption('4');
     await drawn();
     // Five knots of a cubic function: those of the middle ones have an impulse at each.
-    expect(await page.locator('.lab-impulse:not(.higher)[data-function="12"]').count()).toBe(5);
+    await expect.poll(() => page.locator('.lab-impulse:not(.higher)[data-function="12"]').count()).toBe(5);
     await plotted.selectOption('-2');
     await drawn();
-    expect(await page.locator('.lab-impulse').count()).toBe(0);
+    await expect.poll(() => page.locator('.lab-impulse').count()).toBe(0);
     const integrals = await paths();
     await page.locator('button[aria-label=Differentiate]').click();
     await drawn();
     expect(await plotted.inputValue()).toBe('-1');
-    expect(await paths()).not.toEqual(integrals);
+    await expect.poll(paths).not.toEqual(integrals);
     await plotted.selectOption('0');
     await page.locator('select[aria-label=Degree]').selectOption('15');
     await drawn();
-    expect(await paths()).toHaveLength(36);
+    await expect.poll(async () => (await paths()).length).toBe(36);
     expect(await apply().isDisabled()).toBe(true);
     expect(await message()).toMatch(/for looking only.*degree 3/);
     await page.locator('.lab button', { hasText: 'Reset' }).click();
     await drawn();
-    expect(await paths()).toHaveLength(24);
+    await expect.poll(async () => (await paths()).length).toBe(24);
   });
 
   it('says what is wrong with knots and keeps the ones before', async () => {
