@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 
+#include "change_shapes.hpp"
 #include "executor.hpp"
 #include "knead/spline/extremum.hpp"
 #include "named_points.hpp"
@@ -15,19 +15,8 @@ Expected<void> Executor::change_basis(SurfaceState& surface, const F& change) {
     return input_error("a limit is measured on the weights and knots that the surface was opened with", "limit",
                        R"(end it first: {"do":"limit"})");
   }
-  // Shapes that are one object stay one. `opened` stays what it is: deviations are measured from there.
-  std::map<const Surface*, std::shared_ptr<const Surface>> changed;
-  std::vector<std::shared_ptr<const Surface>*> shapes = {&surface.reference, &surface.rest, &surface.current};
-  for (KeptConstraint& kept : surface.constraints) shapes.push_back(&kept.where);
-  for (auto* shape : shapes) {
-    auto& made = changed[shape->get()];
-    if (!made) {
-      auto result = change(**shape);
-      if (!result) return std::unexpected(result.error());
-      made = std::make_shared<const Surface>(std::move(*result));
-    }
-    *shape = made;
-  }
+  // `opened` stays what it is: deviations are measured from there.
+  if (auto done = change_shapes(shapes_of(surface), change); !done) return done;
   surface.velocity.resize(0, 3);  // it is a spline on the old basis
   return surface.constraints.empty() ? Expected<void>() : check_constraints();
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
+#include "change_shapes.hpp"
 #include "executor.hpp"
 #include "knead/spline/extremum.hpp"
 #include "knead/spline/knot_removal.hpp"
@@ -55,20 +55,9 @@ Expected<void> Executor::reshape(SurfaceState& surface, const F& change) {
     return input_error("control points are pinned by their numbers, which change with the net", surface.id,
                        "release them first, or pin surface points (at) instead");
   }
-  // Shapes that are one object stay one.
-  std::map<const Surface*, std::shared_ptr<const Surface>> changed;
-  std::vector<std::shared_ptr<const Surface>*> shapes = {&surface.reference, &surface.rest, &surface.current};
+  auto shapes = shapes_of(surface);
   if (same_basis(*surface.opened, *surface.current)) shapes.push_back(&surface.opened);
-  for (KeptConstraint& kept : surface.constraints) shapes.push_back(&kept.where);
-  for (auto* shape : shapes) {
-    auto& made = changed[shape->get()];
-    if (!made) {
-      auto result = change(**shape);
-      if (!result) return std::unexpected(result.error());
-      made = std::make_shared<const Surface>(std::move(*result));
-    }
-    *shape = made;
-  }
+  if (auto done = change_shapes(shapes, change); !done) return done;
   if (surface.velocity.rows() > 0) {
     // The velocity is a spline on the old net; `opened` and it change alike, but it is no shape of its own.
     surface.velocity.resize(0, 3);
