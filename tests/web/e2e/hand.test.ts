@@ -1,4 +1,4 @@
-import { commands, distance, openScene, openStudio, positions, settled, spot, stroke, type Studio } from './page';
+import { commands, distance, openStudio, positions, scene, settled, spot, stroke, type Studio } from './page';
 
 let studio: Studio;
 beforeAll(async () => {
@@ -22,8 +22,6 @@ interface App {
 }
 const app = <T>(ask: (studio: App) => T): Promise<T> =>
   studio.page.evaluate(`(${ask.toString()})(window.studio)`) as Promise<T>;
-
-const scene = (name: string) => openScene(studio.page, name);
 
 /** Where a control point is on the page. */
 const pointAt = async (index: number): Promise<[number, number]> => {
@@ -214,7 +212,7 @@ describe('control points', () => {
 describe('paint', () => {
   it('freezes whole spans, that then do not move, and thaws them with Alt', async () => {
     const { page } = studio;
-    await scene('Clay sheet');
+    await scene(studio.page, 'Clay sheet');
     await page.keyboard.press('i');
     await stroke(page, [-40, 0], [40, 0]);
     const frozen = (await commands(page)).filter((c) => c.do === 'freeze').length;
@@ -283,7 +281,7 @@ describe('paint', () => {
 describe('the brush', () => {
   it('smooths with Shift', async () => {
     const { page } = studio;
-    await scene('Clay sheet');
+    await scene(studio.page, 'Clay sheet');
     await page.keyboard.press('b');
     await stroke(page, [0, 0], [10, 0]);
     const depth = (all: number[]) => Math.min(...all.filter((_, k) => k % 3 === 2));
@@ -331,7 +329,7 @@ describe('the brush', () => {
 describe('a tool', () => {
   it('is dragged by its gizmo in a view along an axis too', async () => {
     const { page } = studio;
-    await scene('Ball on a membrane');
+    await scene(studio.page, 'Ball on a membrane');
     await page.keyboard.press('v');
     await page.keyboard.press('4');
     await page.locator('.panel[data-panel=Tools] .item').click();

@@ -114,10 +114,3 @@ export async function stroke(page: Page, ...places: [number, number][]): Promise
 
 export const distance = (a: number[], b: number[]): number =>
   a.length === b.length ? a.reduce((most, x, k) => Math.max(most, Math.abs(x - b[k]!)), 0) : Infinity;
-
-/** A scene of the gallery. */
-export async function openScene(page: Page, name: string): Promise<void> {
-  await page.locator('summary[aria-label^=Gallery]').click();
-  await page.locator('.menu-item', { hasText: name }).first().click();
-  await settled(page);
-}

@@ -1,4 +1,4 @@
-import { commands, distance, openScene, openStudio, positions, settled, stroke, type Studio } from './page';
+import { commands, distance, openStudio, positions, scene, settled, stroke, type Studio } from './page';
 
 let studio: Studio;
 beforeAll(async () => {
@@ -59,7 +59,7 @@ async function tasks(act: () => Promise<void>): Promise<number[]> {
 
 it('never keeps the page busy for 50 ms at a time', async () => {
   const { page } = studio;
-  await openScene(page, 'Fine clay sheet');
+  await scene(page, 'Fine clay sheet');
   const all = await tasks(async () => {
     await page.keyboard.press('b');
     await stroke(page, [-60, 0], [-20, 10], [20, 0], [60, 10]);

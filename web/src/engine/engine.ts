@@ -3,7 +3,7 @@ import {
   type SurfaceNumbers,
 } from './session_types';
 import type { Trim } from './context';
-import { wasiImports } from './wasi';
+import { start } from './wasi';
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -36,13 +36,7 @@ export class Engine {
   private constructor(private readonly wasm: Exports) {}
 
   static async load(bytes: BufferSource | Promise<Response>): Promise<Engine> {
-    const module =
-      bytes instanceof Promise ? await WebAssembly.compileStreaming(bytes) : await WebAssembly.compile(bytes);
-    let wasm: Exports | undefined;
-    const instance = await WebAssembly.instantiate(module, wasiImports(module, () => wasm!.memory));
-    wasm = instance.exports as unknown as Exports;
-    wasm._initialize();
-    return new Engine(wasm);
+    return new Engine(await start<Exports>(bytes));
   }
 
   /** Bytes of linear memory: it grows, and never shrinks. */

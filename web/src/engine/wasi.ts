@@ -2,7 +2,7 @@
  * The few system calls that the compiled C++ library may make. There is no file system and there are no arguments; what
  * is not listed here answers "not supported" (52), and says so through its return value.
  */
-export function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memory): WebAssembly.Imports {
+function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memory): WebAssembly.Imports {
   const view = () => new DataView(memory().buffer);
   const known: Record<string, (...args: never[]) => number> = {
     clock_time_get: (_id: number, _precision: bigint, out: number) => {
@@ -35,4 +35,17 @@ export function wasiImports(module: WebAssembly.Module, memory: () => WebAssembl
     (imports[from] ??= {})[name] = (known[name] as ((...args: unknown[]) => number) | undefined) ?? (() => 52);
   }
   return imports;
+}
+
+/** Starts a compiled C++ library, as it arrives or from its bytes, and gives back what it exports. */
+export async function start<Exports extends { memory: WebAssembly.Memory; _initialize(): void }>(
+  bytes: BufferSource | Promise<Response>,
+): Promise<Exports> {
+  const module =
+    bytes instanceof Promise ? await WebAssembly.compileStreaming(bytes) : await WebAssembly.compile(bytes);
+  let wasm: Exports | undefined;
+  const instance = await WebAssembly.instantiate(module, wasiImports(module, () => wasm!.memory));
+  wasm = instance.exports as unknown as Exports;
+  wasm._initialize();
+  return wasm;
 }

@@ -1,5 +1,5 @@
 import { EngineError } from '../engine/session_types';
-import { wasiImports } from '../engine/wasi';
+import { start } from '../engine/wasi';
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -80,13 +80,7 @@ export class LabModule {
   private constructor(private readonly wasm: Exports) {}
 
   static async load(bytes: BufferSource | Promise<Response>): Promise<LabModule> {
-    const module =
-      bytes instanceof Promise ? await WebAssembly.compileStreaming(bytes) : await WebAssembly.compile(bytes);
-    let wasm: Exports | undefined;
-    const instance = await WebAssembly.instantiate(module, wasiImports(module, () => wasm!.memory));
-    wasm = instance.exports as unknown as Exports;
-    wasm._initialize();
-    return new LabModule(wasm);
+    return new LabModule(await start<Exports>(bytes));
   }
 
   get memorySize(): number {
