@@ -17,7 +17,7 @@ struct FieldMatrices {
 
 /// Assembles energies with varying coefficients on one spline, again and again as the coefficients are painted.
 ///
-/// Polynomial splines: exact up to rounding for splines as coefficients (thesis 5.5, MATH of `TripleGramian`), by sum
+/// Polynomial splines: exact up to rounding for splines as coefficients (thesis § 5.5, see `TripleGramian`), by sum
 /// factorisation, one direction after the other: in two directions
 ///   K[(i, j), (i', j')] += factor · Σ_l (Σ_k c_kl T_u[k, i, i']) T_v[l, j, j'].
 /// The triple Gramians depend on the knots alone and are kept from call to call (the last call's; those of knots no

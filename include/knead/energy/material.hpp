@@ -11,7 +11,7 @@ namespace knead {
 ///
 ///   E(S) = ∫ Σ_i α_ii |S_i|² + 2 Σ_{i<j} α_ij S_i·S_j + Σ_i β_ii |S_ii|² + 2 Σ_{i<j} β_ij |S_ij|² du,
 ///
-/// which is thesis Eq. 4.8 at D = 2 and, with equal constants, 5.43 at D = 3. α resists stretch, β resists bending.
+/// which is thesis Eq. 4.8 at D = 2 and, with equal constants, Eq. 5.43 at D = 3. α resists stretch, β resists bending.
 /// Units: those of the equation; see `DomainScaling` for the normalised ones.
 template <int D>
 struct MaterialOf {

@@ -6,7 +6,7 @@
 namespace knead {
 
 /// A material whose coefficients vary over the shape: those of `MaterialOf`, in the same order, with mass μ and damping
-/// γ, each a constant or a spline over the parameter domain (thesis 5.5, Eqs. 5.40 to 5.42). Units as in `MaterialOf`;
+/// γ, each a constant or a spline over the parameter domain (thesis § 5.5, Eqs. 5.41, 5.42). Units as in `MaterialOf`;
 /// μ and γ per measure of the (scaled) parameter domain.
 template <int D>
 struct MaterialFieldOf {
@@ -65,7 +65,7 @@ template <int D>
 [[nodiscard]] FieldEnergy<D> stretch_energy(const MaterialFieldOf<D>& material);
 template <int D>
 [[nodiscard]] FieldEnergy<D> bend_energy(const MaterialFieldOf<D>& material);
-/// ∫ c |S|²: the mass matrix for c = μ (thesis Eq. 5.41), the damping matrix for c = γ (5.42).
+/// ∫ c |S|²: the mass matrix for c = μ (thesis Eq. 5.41), the damping matrix for c = γ (Eq. 5.42).
 template <int D>
 [[nodiscard]] FieldEnergy<D> weighted_mass_energy(const Coefficient<D>& coefficient);
 

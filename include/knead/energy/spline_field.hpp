@@ -9,7 +9,7 @@
 
 namespace knead {
 
-/// A scalar spline over a parameter domain, f(u) = Σ_i c_i N_i(u): a coefficient that varies over a shape (thesis 5.5).
+/// A scalar spline on a parameter domain, f(u) = Σ_i c_i N_i(u): a coefficient that varies over a shape (thesis § 5.5).
 ///
 /// Degrees and knots are its own; the domain must be that of the spline it belongs to, bit for bit. Coefficients are
 /// stored with the last direction fastest. Immutable.

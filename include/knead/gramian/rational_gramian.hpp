@@ -41,7 +41,7 @@ struct RationalGramian {
     const std::array<KnotVector, 2>& knots, std::span<const double> weights, std::array<int, 2> a, std::array<int, 2> b,
     double tolerance);
 
-/// The thesis' approximation (5.8): on each span the denominator is taken as constant, as its value in the middle, so
+/// The thesis' approximation (§ 5.8): on each span the denominator is taken as constant, as its value in the middle, so
 /// that the Gramian is a weighted one of polynomials. It errs by 1 to 3 % on circles and without limit where weights
 /// differ much; it is here under its name for comparison, never used silently. Errors as above.
 [[nodiscard]] Expected<BandMatrix> constant_denominator_gramian(const KnotVector& knots,

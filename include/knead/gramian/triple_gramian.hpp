@@ -11,7 +11,7 @@
 namespace knead {
 
 /// T[k, i, j] = ∫ B_k N_i^(a) N_j^(b) du over the domain: what a Gramian becomes where its coefficient is a spline
-/// Σ_k c_k B_k (thesis 5.5). It depends on the knots alone, so it survives every change of the coefficient.
+/// Σ_k c_k B_k (thesis § 5.5). It depends on the knots alone, so it survives every change of the coefficient.
 ///
 /// A coefficient of two directions, Σ_kl c_kl B_k(u) B_l(v), is contracted one direction after the other
 /// (sum factorisation): ∫∫ c N_i N_j N_i' N_j' = Σ_k T_u[k, i, j] (Σ_l c_kl T_v[l, i', j']).

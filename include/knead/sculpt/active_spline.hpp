@@ -22,7 +22,7 @@ enum class RestMode {
 /// The weight W of the implicit Euler step.
 enum class StepWeight {
   mass,      ///< the mass matrix: refining the net does not change the evolution
-  identity,  ///< the identity, the thesis' Eq. 4.22: the evolution depends on the net
+  identity,  ///< the identity, thesis Eq. 4.22: the evolution depends on the net
 };
 
 /// What a step solves.

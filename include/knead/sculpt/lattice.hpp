@@ -10,7 +10,7 @@
 namespace knead {
 
 /// Free-form deformation: a box of space as a B-spline volume, V(u) = lower + u ∘ (upper − lower) at rest, and points
-/// that live in it (thesis 5.7). Made active as `ActiveSpline<3>`, geometry embedded in it deforms with it: x ↦
+/// that live in it (thesis § 5.7). Made active as `ActiveSpline<3>`, geometry embedded in it deforms with it: x ↦
 /// V(u(x)), u(x) = (x − lower) / (upper − lower).
 class Lattice {
  public:

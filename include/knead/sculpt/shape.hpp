@@ -69,8 +69,8 @@ struct BowlShape {
   friend bool operator==(const BowlShape&, const BowlShape&) = default;
 };
 
-/// x = a cos^e1 η cos^e2 ω, y = b cos^e1 η sin^e2 ω, z = c sin^e1 η (thesis 2.1.6: every trigonometric factor raised to
-/// an exponent, signs kept), solid. e = 1 is round, e → 0 square, 2 straight, above 2 pinched. 0.1 <= e1, e2 <= 4.
+/// x = a cos^e1 η cos^e2 ω, y = b cos^e1 η sin^e2 ω, z = c sin^e1 η (thesis § 2.1.6: every trigonometric factor raised
+/// to an exponent, signs kept), solid. e = 1 is round, e → 0 square, 2 straight, above 2 pinched. 0.1 <= e1, e2 <= 4.
 struct SuperellipsoidShape {
   std::array<double, 3> semi_axes = {1, 1, 1};
   double e1 = 1, e2 = 1;

@@ -7,7 +7,7 @@
 
 namespace knead {
 
-/// How a tool acts on the surface (thesis 4.3 and 6.4).
+/// How a tool acts on the surface (thesis § 4.3, § 6.4.2).
 enum class ToolMode {
   proximity,  ///< the surface is drawn to the tool's surface from either side, within `range`
   collision,  ///< what has entered the tool is pushed out; nothing else is touched

@@ -28,10 +28,10 @@ struct KnotJumps {
 /// the knots other than ξ and m the multiplicity of ξ,
 ///   [N_i^(r)]_ξ = (−1)^(r+1) p!/t! (x_{i+p+1} − x_i) e_{m−1−t},   t = p − r,   1/Q(ξ + h) = Σ e_k h^k.
 /// At a simple knot that is the single jump of order p, the weight of the Dirac impulse in the derivative of order p +
-/// 1 (thesis 5.5); at a knot of multiplicity m the (p + 1)th derivative also holds derivatives of impulses, N_i^(p+1) =
-/// Σ_ξ Σ_r [N_i^(r)]_ξ δ_ξ^(p−r). Requires: 0 <= i < count (asserted). Cost: O(p²) per knot. Accuracy: the jump of the
-/// lowest order at a knot is a product, relative error below 2 (p + 3) ulp (so all jumps at simple knots); those above
-/// it are sums that can cancel where knots stand on both sides.
+/// 1 (thesis § 5.4.1); at a knot of multiplicity m the (p + 1)th derivative also holds derivatives of impulses,
+/// N_i^(p+1) = Σ_ξ Σ_r [N_i^(r)]_ξ δ_ξ^(p−r). Requires: 0 <= i < count (asserted). Cost: O(p²) per knot. Accuracy: the
+/// jump of the lowest order at a knot is a product, relative error below 2 (p + 3) ulp (so all jumps at simple knots);
+/// those above it are sums that can cancel where knots stand on both sides.
 [[nodiscard]] std::vector<KnotJumps> derivative_jumps(const KnotVector& knots, int i);
 
 }  // namespace knead

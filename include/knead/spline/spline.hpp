@@ -13,7 +13,7 @@ namespace knead {
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Point = Eigen::Vector3d;
 
-/// A tensor-product B-spline or NURBS: D = 1 curve, 2 surface, 3 volume (thesis Eqs. 4.1, 4.4, 4.7).
+/// A tensor-product B-spline or NURBS: D = 1 curve, 2 surface, 3 volume (thesis Eqs. 4.1, 4.4, 4.6, 4.7).
 ///
 /// S(u) = Σ_i R_i(u) P_i with R_i = N_i, or R_i = w_i N_i / Σ w N where there are weights; N_i is the product of one
 /// basis function per direction. Control points are Cartesian (never premultiplied by the weight) and stored row by row
