@@ -8,8 +8,8 @@
 // The discrete models that came before: masses joined by springs, and finite differences.
 namespace knead::examples {
 
-/// The matrix A of the closed active contour −α v″ + β v⁗ = f (thesis Eqs. 3.46, 3.49) by central differences at n >= 5
-/// points h apart, row by row of the equation.
+/// The matrix A of the closed active contour −α v″ + β v⁗ = f (thesis Eqs. 3.46, 3.47, 3.49) by central differences at
+/// n >= 5 points h apart, row by row of the equation.
 [[nodiscard]] Eigen::MatrixXd differenced_contour(int n, double alpha, double beta, double h);
 
 /// The stiffness matrix of n >= 5 masses in a ring, spring by spring: springs of constant `stretch` between neighbours,

@@ -149,7 +149,7 @@ void add_totals(Report& report) {
   report.text(
       "\n### Operations per span, all four Gramians\n\nCounted: the difference of 200 and 100 functions. *formula* is "
       "what "
-      "the text of thesis 5.9.1 adds up to per span.\n\n"
+      "the text of thesis § 5.9.1 adds up to per span.\n\n"
       "| degree | Gaussian: formula | Alg. 5.1 counted | analytic: formula | Alg. 5.5 counted | Alg. 5.1 / Alg. 5.5 | "
       "kernel gauss | kernel recurrence | gauss / recurrence | Alg. 5.5 / recurrence | analytic, every multiplicity |\n"
       "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
@@ -177,7 +177,7 @@ void add_counts(Report& report) {
       "\n## Cost: Figs. 5.31 to 5.41\n\n"
       "Solid lines are counted while the thesis' Algs. 5.1 and 5.5 run on numbers that count every operation; dashed "
       "lines "
-      "are the formulas of thesis 5.9.1. Uniform clamped knots; 100 control points where the degree varies, cubic "
+      "are the formulas of thesis § 5.9.1. Uniform clamped knots; 100 control points where the degree varies, cubic "
       "where "
       "the number of points does. The results of those runs are compared with `recurrence` in the tests.\n");
   add_samples(report);

@@ -112,7 +112,7 @@ void add_curves(Report& report) {
     Chart chart("Fig. 5.23: the integral of N₄ is a sum of functions of degree 4", "u", "");
     chart.line("N₄", sampled([](double u, Side) { return basis_function(knots(), 4, 0, u); }));
     chart.line("∫ N₄", sampled([](double u, Side) { return basis_integral(knots(), 4, 1, u); }));
-    // Theorem 5.2 on the same knots, once more at the end.
+    // Thm 5.2 on the same knots, once more at the end.
     const KnotVector higher = *KnotVector::create(4, {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 6, 6, 6, 6});
     for (int j = 4; j < higher.count(); ++j) {
       chart.line(function_name(j) + " of degree 4",

@@ -43,7 +43,7 @@ struct ThesisGramians {
 [[nodiscard]] ThesisGramians thesis_gramians(const KnotVector& knots, ThesisMethod method,
                                              Reuse reuse = Reuse::all_in_one);
 
-/// What thesis 5.9.1 expects by formula, for n control points.
+/// What thesis § 5.9.1 expects by formula, for n control points.
 namespace expected {
 
 /// ⌈(2p + 1)/2⌉ against 1 sample per span.

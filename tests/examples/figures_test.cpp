@@ -1,4 +1,4 @@
-// The scripts of examples/figures leave what the thesis' figures 6.9 to 6.15 show.
+// The scripts of examples/figures leave what the thesis' Figs. 6.9 to 6.15 show.
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>

@@ -1,4 +1,4 @@
-// The published tables: thesis Tables 5.3 to 5.14 and 5.17 to 5.20 and Figures 5.50 to 5.57, against their exact
+// The published tables: thesis Tables 5.3 to 5.14 and 5.17 to 5.20 and Figs. 5.50 to 5.57, against their exact
 // values.
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST(ThesisTables, gauss_gives_every_exact_entry_to_the_last_digits) {
   for (const auto& entry : entries) EXPECT_LE(entry.error(), 1e-14) << entry.table << ", r = " << entry.r;
 }
 
-// Its rounding errors are divided by the distance 10^-r of the two knots, as the thesis found in 5.9.2.
+// Its rounding errors are divided by the distance 10^-r of the two knots, as thesis § 5.9.2 found.
 TEST(ThesisTables, analytic_gives_every_exact_entry_but_loses_up_to_a_digit_with_each_r) {
   const auto entries = table_entries(GramianMethod::analytic);
   if (entries.empty()) GTEST_SKIP() << "the published values are not at " << reference;

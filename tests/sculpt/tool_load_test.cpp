@@ -34,7 +34,7 @@ Tool half_space(double depth) {
 }
 
 TEST(ToolLoad, OfAUniformPressureIsTheIntegralOfEveryBasisFunction) {
-  // F_i = f ∫ N_i, and ∫ N_i = (x_{i+p+1} − x_i)/(p + 1) (thesis Theorem 5.2).
+  // F_i = f ∫ N_i, and ∫ N_i = (x_{i+p+1} − x_i)/(p + 1) (thesis Thm 5.2).
   for (const auto& family : testing::knot_families(3)) {
     if (!family.ordinary() || !family.knots.clamped() || family.knots.count() > 40) continue;
     const KnotVector v = testing::uniform_clamped(2, 3);

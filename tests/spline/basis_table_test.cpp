@@ -78,7 +78,7 @@ TEST_P(Quadrature, WeightsArePositiveAndSumToTheDomain) {
 }
 
 TEST_P(Quadrature, AreaOfEveryFunctionIsExact) {
-  // ∫ N_i = (x_{i+p+1} − x_i) / (p + 1) where the support lies in the domain (thesis, Theorem 5.2).
+  // ∫ N_i = (x_{i+p+1} − x_i) / (p + 1) where the support lies in the domain (thesis Thm 5.2).
   const int p = GetParam();
   for (const auto& [name, knots] : testing::knot_families(p)) {
     if (!knots.clamped()) continue;
