@@ -6,8 +6,8 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh studio
 scripts/configure.sh wasm
 cmake --build build/wasm --target knead_studio knead_lab
-for module in engine/knead_studio lab/knead_lab; do
-  built=build/wasm/bindings/wasm/${module#*/}.wasm
+for module in engine/knead_studio panels/lab/knead_lab; do
+  built=build/wasm/bindings/wasm/${module##*/}.wasm
   cmp -s "$built" "web/src/$module.wasm" || cp "$built" "web/src/$module.wasm"
 done
 

@@ -30,7 +30,7 @@ export async function drawGallery(page, directory) {
     const box = await page.locator('.view-perspective').boundingBox();
     for (const [key, ...places] of strokes[name] ?? []) {
       await page.keyboard.press(key);
-      await page.evaluate((size) => (window.studio.brush.settings.radius = 0.13 * window.studio.diagonal * size), name === 'Fine clay sheet' ? 0.6 : 1);
+      await page.evaluate((size) => (window.studio.hand.brush.settings.radius = 0.13 * window.studio.diagonal * size), name === 'Fine clay sheet' ? 0.6 : 1);
       const at = ([x, y]) => [box.x + box.width * x, box.y + box.height * y];
       await page.mouse.move(...at(places[0]));
       await page.mouse.down();

@@ -75,7 +75,7 @@ await pause(1200);
 const map = await page.locator('.lab-map').first().boundingBox();
 await page.mouse.move(map.x + (map.width * 6.5) / 14, map.y + (map.height * 5.5) / 14);
 await pause();
-await page.screenshot({ path: here('../docs/pictures/studio-backend.png') });
+await page.screenshot({ path: here('../docs/pictures/studio-lab.png') });
 await page.locator('button[aria-label="Close the panel"]').click();
 
 await theme('light');

@@ -11,7 +11,7 @@ export default defineConfig({
   plugins: [offline({ lazy: /rhino/ })],
   build: {
     rollupOptions: {
-      input: { index: fileURLToPath(new URL('index.html', import.meta.url)), 'service-worker': fileURLToPath(new URL('src/offline/service_worker.ts', import.meta.url)) },
+      input: { index: fileURLToPath(new URL('index.html', import.meta.url)), 'service-worker': fileURLToPath(new URL('src/app/offline/service_worker.ts', import.meta.url)) },
       output: { entryFileNames: (chunk) => (chunk.name === 'service-worker' ? '[name].js' : 'assets/[name]-[hash].js') },
     },
     target: 'es2022', modulePreload: { polyfill: false }, assetsInlineLimit: 0, chunkSizeWarningLimit: 1200,

@@ -1,4 +1,4 @@
-// Basis functions and Gramians of one knot vector as WebAssembly exports them: the studio's backend panel. The caller
+// Basis functions and Gramians of one knot vector as WebAssembly exports them: the studio's lab. The caller
 // writes doubles to `lab_input(count)`, calls, and reads JSON from `lab_text()` and doubles from `lab_buffer(which)`;
 // every call may grow the memory, so that views of it must be taken anew. Functions that can fail return 0 then, the
 // text is {"error": …}, and what was there before stays.

@@ -3,7 +3,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 import { Engine } from '@studio/engine/engine';
-import { scenes } from '@studio/scenes';
+import { scenes } from '@studio/document/scenes';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));

@@ -4,11 +4,11 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 import { EngineError } from '@studio/engine/session_types';
-import { change, groups, inserted, knotText, moved, parseKnots, removed, withDegree } from '@studio/lab/knots';
-import { type Jumps, LabModule, methods, pairs } from '@studio/lab/module';
+import { change, groups, inserted, knotText, moved, parseKnots, removed, withDegree } from '@studio/panels/lab/knots';
+import { type Jumps, LabModule, methods, pairs } from '@studio/panels/lab/module';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
-const wasm = readFileSync(join(root, 'web/src/lab/knead_lab.wasm'));
+const wasm = readFileSync(join(root, 'web/src/panels/lab/knead_lab.wasm'));
 const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
 
 const uniform = [0, 0, 0, 0, 0.25, 0.5, 0.75, 1, 1, 1, 1];
@@ -31,7 +31,7 @@ interface Sampled {
   samples: [number, number | null][];
 }
 
-describe('the backend module', () => {
+describe("the lab's module", () => {
   it.each(families)('gives the Gramians of the command line, knots %s', async (_, degree, knots) => {
     const lab = await load();
     const { count } = lab.setKnots(degree, knots);

@@ -2,10 +2,9 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { format } from '@studio/ui/dom';
-import { parseLength } from '@studio/ui/units';
 import { fromBase64, toBase64 } from '@studio/document/base64';
 import { readKnead, type Source, writeKnead } from '@studio/document/knead_file';
+import { format, parseLength } from '@studio/document/units';
 import { roundStep } from '@studio/view/ground';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));

@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 
-import { knotText, readKnots } from '@studio/ui/panel_surface';
-import { newCommand, tuples } from '@studio/ui/panel_create';
+import { knotText, readKnots } from '@studio/panels/panel_surface';
+import { newCommand, tuples } from '@studio/panels/panel_create';
 import { orbit, pan, pixelSize, type View, zoom } from '@studio/view/camera';
 import { conventions, motionOf } from '@studio/view/conventions';
 import { roundStep, roundStepAbove } from '@studio/view/ground';

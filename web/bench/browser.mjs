@@ -31,7 +31,7 @@ for (const net of nets) {
     const times = await page.evaluate(
       async ([commands, strokes]) => {
         const { studio } = window;
-        await studio.startFresh('bench', commands);
+        await studio.documents.startFresh('bench', commands);
         const worker = [], trip = [], first = [];
         const long = [];
         const observer = new PerformanceObserver((list) => long.push(...list.getEntries().map((e) => e.duration)));

@@ -1,4 +1,4 @@
-// What the benchmarks do to the session: the studio's own stroke (src/view/brush.ts), a ball of 0.08 diagonals, half sunk
+// What the benchmarks do to the session: the studio's own stroke (src/tools/brush.ts), a ball of 0.08 diagonals, half sunk
 // into a sheet of clay and moved by 0.4 radii at a time, there and back so that it meets what it left.
 export const size = 200;
 export const nets = [32, 64];

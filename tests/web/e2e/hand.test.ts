@@ -298,7 +298,7 @@ describe('the brush', () => {
 
   it('changes its size and depth by Ctrl-drag and wheel', async () => {
     const { page } = studio;
-    const settings = () => page.evaluate(() => ({ ...(window as never as { studio: { brush: { settings: { radius: number; strength: number } } } }).studio.brush.settings }));
+    const settings = () => page.evaluate(() => ({ ...(window as never as { studio: { hand: { brush: { settings: { radius: number; strength: number } } } } }).studio.hand.brush.settings }));
     const before = await settings();
     await page.keyboard.down('Control');
     await drag(await spot(page), await spot(page, 40, -30));

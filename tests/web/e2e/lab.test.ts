@@ -72,7 +72,7 @@ function nativeGramian(p: string, x: number[], a: number, b: number, method: str
   }));
 }
 
-describe('the backend panel', () => {
+describe('the lab', () => {
   it('costs nothing until it is opened, and then shows the functions of the surface', async () => {
     const { page } = studio;
     await gallery('Ball on a membrane'); // 24 × 24, degree 3

@@ -64,7 +64,6 @@ export const commands = (page: Page): Promise<{ do: string }[]> =>
 
 interface App {
   frame: { origin: number[]; pictures: { positions: Float32Array; normals: Float32Array }[]; state: { selection: number[]; undo: boolean }; memory: number };
-  brush: { active: boolean; settings: { radius: number; strength: number } };
   viewer: { picture(): Promise<Blob> };
   client: { followed(): Promise<void>; journal(): Promise<string> };
 }

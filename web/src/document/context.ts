@@ -1,15 +1,14 @@
-import type { App } from '../app';
+import type { Host } from './host';
 
-/** Asks for what stands round the surfaces of the opened file, once its first picture is there. */
-export async function loadContext(app: App): Promise<void> {
-  const { file } = app.documents;
-  await app.attempt(async () => {
-    const { context, trims } = await app.client.context();
-    if (app.documents.file !== file) return; // another file by now
-    app.viewer.showContext(context, trims);
+/** Asks for what stands round the surfaces of the opened file; `current` is false once another file is open. */
+export async function loadContext(host: Host, current: () => boolean): Promise<void> {
+  await host.attempt(async () => {
+    const { context, trims } = await host.client.context();
+    if (!current()) return;
+    host.showContext(context, trims);
     const skipped = context?.skipped.length ?? 0;
     if (skipped > 0) {
-      app.notify({ kind: 'info', text: `${skipped === 1 ? 'One face' : `${skipped} faces`} round the surfaces could not be drawn (${context!.skipped[0]!.id}: ${context!.skipped[0]!.reason}). Nothing of the file is lost.` });
+      host.notify({ kind: 'info', text: `${skipped === 1 ? 'One face' : `${skipped} faces`} round the surfaces could not be drawn (${context!.skipped[0]!.id}: ${context!.skipped[0]!.reason}). Nothing of the file is lost.` });
     }
   });
 }

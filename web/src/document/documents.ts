@@ -1,8 +1,8 @@
-import type { App } from '../app';
 import type { Command, SurfaceInfo } from '../engine/session_types';
 import { autosave, type Kept } from './autosave';
 import { clay } from './clay';
 import { loadContext } from './context';
+import type { Host } from './host';
 import { Keeper } from './keeper';
 import { type KneadDocument, readKnead, type Source } from './knead_file';
 
@@ -15,42 +15,42 @@ export class Documents {
   /** Files that the user gave, opened or refused. */
   handled = 0;
 
-  constructor(private readonly app: App) {
-    this.keeper = new Keeper(app);
+  constructor(private readonly host: Host) {
+    this.keeper = new Keeper(host, this);
   }
 
   async openFile(file: File): Promise<void> {
     await this.read(file);
     ++this.handled;
-    this.app.changed();
+    this.host.changed();
   }
 
   private async read(file: File): Promise<void> {
-    const { app } = this;
+    const { host } = this;
     const bytes = new Uint8Array(await file.arrayBuffer());
     if (/\.(knead|json)$/i.test(file.name)) {
-      await app.attempt(async () => this.openDocument(readKnead(new TextDecoder().decode(bytes))));
+      await host.attempt(async () => this.openDocument(readKnead(new TextDecoder().decode(bytes))));
     } else if (/\.(stp|step|p21)$/i.test(file.name)) {
       await this.openStep(bytes, file.name);
     } else if (/\.3dm$/i.test(file.name)) {
       await this.openRhino(bytes, file.name);
     } else {
-      app.notify({ kind: 'error', text: `“${file.name}” is not a kind of file that the studio reads`,
+      host.notify({ kind: 'error', text: `“${file.name}” is not a kind of file that the studio reads`,
         remedy: 'open a STEP file (.step, .stp), a Rhino file (.3dm) or a Knead document (.knead)' });
     }
   }
 
   async openStep(bytes: Uint8Array, name: string, commands: Command[] = []): Promise<true | null> {
-    const { app } = this;
-    return app.attempt(async () => {
-      await this.begin(name, { kind: 'step', name, bytes }, () => app.client.open(bytes, name, JSON.stringify({ knead: 1, commands })));
+    const { host } = this;
+    return host.attempt(async () => {
+      await this.begin(name, { kind: 'step', name, bytes }, () => host.client.open(bytes, name, JSON.stringify({ knead: 1, commands })));
       if (commands.length === 0) await this.firstLook();
     });
   }
 
   async openRhino(bytes: Uint8Array, name: string): Promise<true | null> {
-    const { app } = this;
-    return app.attempt(async () => {
+    const { host } = this;
+    return host.attempt(async () => {
       const { rhino } = await import('./rhino/client');
       const { surfaces, unit, otherUnit, skipped } = await rhino.read(bytes);
       const left = [
@@ -62,28 +62,28 @@ export class Documents {
         const { weights, ...rest } = patch;
         return { do: 'new', name: label, unit, ...rest, ...(weights ? { weights } : {}) };
       });
-      await this.begin(name, { kind: 'rhino', name, bytes }, () => app.client.fresh(name, create));
-      if (left) app.notify({ kind: 'info', text: left });
+      await this.begin(name, { kind: 'rhino', name, bytes }, () => host.client.fresh(name, create));
+      if (left) host.notify({ kind: 'info', text: left });
       await this.firstLook();
     });
   }
 
   async startFresh(name: string, commands: Command[]): Promise<true | null> {
-    const { app } = this;
-    return app.attempt(() => this.begin(name, null, () => app.client.fresh(name, commands)));
+    const { host } = this;
+    return host.attempt(() => this.begin(name, null, () => host.client.fresh(name, commands)));
   }
 
   private async openDocument({ name, source, commands, snapshot }: KneadDocument): Promise<void> {
     if (snapshot && (await this.restored(name, source, snapshot))) {
       // What the snapshot holds must be what the commands say.
-      const same = canonical((JSON.parse(await this.app.client.journal()) as { commands: Command[] }).commands) === canonical(commands);
+      const same = canonical((JSON.parse(await this.host.client.journal()) as { commands: Command[] }).commands) === canonical(commands);
       if (same) return;
     }
     await this.replay(name, source, commands);
   }
 
   private replay(name: string, source: Source | null, commands: Command[]): Promise<void> {
-    const { client } = this.app;
+    const { client } = this.host;
     // The surfaces of a Rhino file are among the commands.
     return this.begin(name, source, () =>
       source?.kind === 'step' ? client.open(source.bytes, source.name, JSON.stringify({ knead: 1, commands })) : client.fresh(name, commands));
@@ -92,7 +92,7 @@ export class Documents {
   private async restored(name: string, source: Source | null, snapshot: Uint8Array): Promise<boolean> {
     const step = source?.kind === 'step' ? source : null;
     try {
-      await this.begin(name, source, () => this.app.client.restore(step?.bytes ?? null, step?.name ?? name, snapshot));
+      await this.begin(name, source, () => this.host.client.restore(step?.bytes ?? null, step?.name ?? name, snapshot));
       return true;
     } catch {
       return false; // of another version, or damaged: the commands have it all
@@ -101,23 +101,23 @@ export class Documents {
 
   /** What a tab left behind goes on here, as the same session. */
   async recover(kept: Kept): Promise<void> {
-    const { app } = this;
-    await app.attempt(async () => {
+    const { host } = this;
+    await host.attempt(async () => {
       const source = kept.hasSource ? ((await autosave.source(kept.id)) ?? null) : null;
       if (!(await this.restored(kept.name, source, kept.snapshot))) {
-        app.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands are done again.' });
+        host.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands are done again.' });
         await this.replay(kept.name, source, (JSON.parse(kept.journal) as { commands: Command[] }).commands);
       }
       this.keeper.begin(kept.id, true);
       // A stroke that was cut off ends here: its ball does not stay in the scene.
-      if (app.state?.tools.some((t) => t.name === 'brush')) await app.client.execute([{ do: 'remove', tool: 'brush' }], true);
-      app.changed();
+      if (host.state?.tools.some((t) => t.name === 'brush')) await host.client.execute([{ do: 'remove', tool: 'brush' }], true);
+      host.changed();
     });
   }
 
   /** Begins a session; where `act` fails the one before goes on. */
   private async begin(name: string, file: Source | null, act: () => Promise<unknown>): Promise<void> {
-    const goOn = this.app.begin();
+    const goOn = this.host.begin();
     try {
       await act();
     } catch (error) {
@@ -127,18 +127,18 @@ export class Documents {
     this.name = name;
     this.file = file;
     this.keeper.begin();
-    this.app.viewer.showContext(null, []);
-    if (file?.kind === 'step') void loadContext(this.app);
-    this.app.changed();
+    this.host.showContext(null, []);
+    if (file?.kind === 'step') void loadContext(this.host, () => this.file === file);
+    this.host.changed();
   }
 
   /** A single surface is made ready to sculpt; of several the user chooses. */
   private async firstLook(): Promise<void> {
-    const { app } = this;
-    const surfaces = app.state!.surfaces;
-    if (surfaces.length === 1) await app.client.execute(firstSettings(surfaces[0]!));
-    else if (app.state!.selection.length === 0 || this.file?.kind === 'rhino') {
-      app.notify({ kind: 'info', text: `${surfaces.length} surfaces: click the one to sculpt.` });
+    const { host } = this;
+    const surfaces = host.state!.surfaces;
+    if (surfaces.length === 1) await host.client.execute(firstSettings(surfaces[0]!));
+    else if (host.state!.selection.length === 0 || this.file?.kind === 'rhino') {
+      host.notify({ kind: 'info', text: `${surfaces.length} surfaces: click the one to sculpt.` });
     }
   }
 }

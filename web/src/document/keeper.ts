@@ -1,6 +1,7 @@
-import type { App } from '../app';
 import type { Command } from '../engine/session_types';
 import { autosave, heldIds, hold, type Kept } from './autosave';
+import type { Host } from './host';
+import type { Source } from './knead_file';
 
 const pause = 800; // milliseconds without a change after which the session is kept
 const mostUnkept = 1200; // milliseconds of computing after which it is kept in any case
@@ -23,7 +24,7 @@ export class Keeper {
   private writing: Promise<void> | null = null;
   private failed = false;
 
-  constructor(private readonly app: App) {
+  constructor(private readonly host: Host, private readonly documents: { readonly file: Source | null; readonly name: string }) {
     // What is not kept yet when the page goes away: the browser lets a transaction that has begun end.
     document.addEventListener('visibilitychange', () => {
       if (document.visibilityState === 'hidden') void this.keep();
@@ -71,19 +72,19 @@ export class Keeper {
   }
 
   private async write(): Promise<void> {
-    const { id, app } = this;
+    const { id, host } = this;
     try {
-      const { snapshot, journal } = await app.client.snapshot(historyBytes, true);
+      const { snapshot, journal } = await host.client.snapshot(historyBytes, true);
       if (id !== this.id) return; // another document since
       const commands = (JSON.parse(journal) as { commands: Command[] }).commands.length;
-      const { file, name } = app.documents;
+      const { file, name } = this.documents;
       const kept: Kept = { id, name, when: Date.now(), commands, journal, snapshot, hasSource: file !== null };
       await autosave.write(kept, this.sourceKept ? null : file);
       this.sourceKept = true;
       if (id === this.id) document.documentElement.dataset.kept = String(commands);
     } catch (error) {
       this.failed = true;
-      app.notify({ kind: 'error', text: `The browser could not keep a copy: ${String(error)}`, remedy: 'save a Knead document from time to time' });
+      host.notify({ kind: 'error', text: `The browser could not keep a copy: ${String(error)}`, remedy: 'save a Knead document from time to time' });
     }
   }
 

@@ -1,5 +1,6 @@
-import type { App } from '../app';
 import type { MeshFormat } from '../engine/session_types';
+import type { Documents } from './documents';
+import type { Host } from './host';
 import { writeKnead } from './knead_file';
 
 const historyBytes = 16 * 2 ** 20; // of shapes, in a document
@@ -8,27 +9,28 @@ const longSession = 2000; // milliseconds of steps from which on a document carr
 
 /** Saving: what the browser downloads, in the formats of the menu. */
 export class Saving {
-  constructor(private readonly app: App) {}
+  constructor(private readonly host: Host, private readonly documents: Documents) {}
 
   step = () => this.save(async (stem) => {
-    download(await this.app.client.save(), `${stem}-sculpted.step`, 'model/step');
+    download(await this.host.client.save(), `${stem}-sculpted.step`, 'model/step');
   });
 
   knead = () => this.save(async (stem) => {
-    const { app } = this;
-    const { snapshot, journal } = await app.client.snapshot(historyBytes, false);
-    const { name, file } = app.documents;
-    const long = app.computedTime > longSession;
+    const { host } = this;
+    const { snapshot, journal } = await host.client.snapshot(historyBytes, false);
+    const { name, file } = this.documents;
+    const long = host.computedTime > longSession;
     download(writeKnead({ name, source: file, journal, snapshot: long ? snapshot : null }), `${stem}.knead`, 'application/json');
   }, false);
 
   /** Into the Rhino file that was opened, or a new one. */
   rhino = () => this.save(async (stem) => {
-    const { client, documents, state } = this.app;
+    const { client, state } = this.host;
+    const { file } = this.documents;
     const { rhino } = await import('./rhino/client');
     const surfaces = [];
     for (const [k, { name, id }] of state!.surfaces.entries()) surfaces.push({ name: name || id, patch: await client.surface(k) });
-    const source = documents.file?.kind === 'rhino' ? documents.file.bytes : null;
+    const source = file?.kind === 'rhino' ? file.bytes : null;
     const { bytes, beside } = await rhino.write(source, surfaces, state!.surfaces[0]?.unit ?? 'mm');
     download(bytes, `${stem}${source ? '-sculpted' : ''}.3dm`, 'model/vnd.3dm');
     if (beside.length > 0) {
@@ -40,27 +42,27 @@ export class Saving {
 
   /** All surfaces as one mesh, as fine as the pictures are. */
   mesh = (format: MeshFormat) => this.save(async (stem) => {
-    download(await this.app.client.mesh(format, this.app.display.detail), `${stem}.${format}`, meshTypes[format]);
+    download(await this.host.client.mesh(format, this.host.detail), `${stem}.${format}`, meshTypes[format]);
   });
 
   script = () => this.save(async (stem) => {
-    download(await this.app.client.journal(), `${stem}.json`, 'application/json');
+    download(await this.host.client.journal(), `${stem}.json`, 'application/json');
   }, false);
 
   picture = (scale: number) => this.save(async (stem) => {
-    download(await this.app.viewer.picture(scale), scale === 1 ? `${stem}.png` : `${stem}@${scale}x.png`, 'image/png');
+    download(await this.host.picture(scale), scale === 1 ? `${stem}.png` : `${stem}@${scale}x.png`, 'image/png');
   }, false);
 
   /** Says where a tool still holds the shape: `shape` is false for what holds the tools as well. */
   private async save(act: (stem: string) => Promise<string | undefined | void>, shape = true): Promise<void> {
-    const { app } = this;
-    await app.attempt(async () => {
-      const stem = app.documents.name.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'surface';
+    const { host } = this;
+    await host.attempt(async () => {
+      const stem = this.documents.name.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'surface';
       const said = await act(stem);
-      const { tools, last } = app.state!;
+      const { tools, last } = host.state!;
       const touched = tools.length > 0 && last !== null && (last.gap > 0 || last.contact > 0);
       const contact = 'Saved with a tool still in contact: the shape is the one it holds.';
-      app.notify({ kind: 'info', text: [shape && touched ? contact : '', said ?? ''].filter(Boolean).join(' ') || 'Saved.' });
+      host.notify({ kind: 'info', text: [shape && touched ? contact : '', said ?? ''].filter(Boolean).join(' ') || 'Saved.' });
     });
   }
 }

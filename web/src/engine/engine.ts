@@ -1,8 +1,8 @@
+import type { Trim } from './context';
 import {
   type Command, EngineError, type Field, fields, type MeshFormat, meshFormats, type Picture, type SessionInfo, type StepInfo,
   type SurfaceNumbers,
 } from './session_types';
-import type { Trim } from './context';
 import { start } from './wasi';
 
 interface Exports {

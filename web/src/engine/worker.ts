@@ -1,7 +1,7 @@
 import { Engine } from './engine';
+import wasmUrl from './knead_studio.wasm?url';
 import type { PaintSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo } from './session_types';
-import wasmUrl from './knead_studio.wasm?url';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
 

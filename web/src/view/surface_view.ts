@@ -1,10 +1,10 @@
 import * as THREE from 'three';
 
 import type { Picture, SurfaceInfo } from '../engine/session_types';
+import { type Display, type Palette, palettes } from './display';
 import { mark } from './net';
 import { GridPicker } from './picking';
 import { surfaceMaterial } from './surface_material';
-import { type Display, type Palette, palettes } from './display';
 
 const isocurveSpacing = 6; // grid lines between isocurves that are not knot lines
 

@@ -1,10 +1,9 @@
 import * as THREE from 'three';
 
+import { format } from '../document/units';
 import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
 import { ContextView } from './context_view';
-import { trimMasks } from './trim_mask';
-import { format } from '../ui/dom';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
 import { largestValue, roundLimit } from './limits';
@@ -12,6 +11,7 @@ import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
 import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
+import { trimMasks } from './trim_mask';
 import { type ViewName, Viewport } from './viewport';
 
 export interface Hit {

@@ -1,7 +1,7 @@
 import type { Patch } from './patch';
 import type { RhinoContents } from './read';
-import type { Written } from './write';
 import type { RhinoReply, RhinoRequest } from './worker';
+import type { Written } from './write';
 
 /** The line to the worker that knows Rhino files; it is started, and its module loaded, when the first one is needed. */
 class RhinoClient {

@@ -1,0 +1,59 @@
+import './style.css';
+import '../document/document.css';
+import '../view/view.css';
+
+import { notices, toolRail, topBar } from '../panels/chrome';
+import { h } from '../panels/dom';
+import { listenToEdges } from '../panels/edge_popover';
+import { openScene, scenes } from '../panels/gallery';
+import { listenToKeys } from '../panels/keyboard';
+import { legendCard } from '../panels/legend';
+import { createPanel } from '../panels/panel_create';
+import { displayPanel } from '../panels/panel_display';
+import { surfacePanel } from '../panels/panel_surface';
+import { brushPanel, pointsPanel } from '../panels/panels_hand';
+import { evolutionPanel, historyPanel, materialPanel } from '../panels/panels_model';
+import { constraintsPanel, surfacesPanel, toolsPanel } from '../panels/panels_scene';
+import { statusBar } from '../panels/plot';
+import { offerRecovery } from '../panels/recovery';
+import { offerTour } from '../panels/tour';
+import { workOffline } from './offline/register';
+import { Studio } from './studio';
+
+const app = new Studio();
+
+document.getElementById('studio')!.append(
+  topBar(app),
+  toolRail(app),
+  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), notices(app)),
+  h('aside', { class: 'side', aria: { label: 'Settings' } },
+    brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app),
+    displayPanel(app), historyPanel(app)),
+  statusBar(app),
+);
+listenToKeys(app);
+listenToEdges(app);
+
+// Files dropped anywhere are opened.
+document.addEventListener('dragover', (event) => event.preventDefault());
+document.addEventListener('drop', (event) => {
+  event.preventDefault();
+  const file = event.dataTransfer?.files[0];
+  if (file) void app.documents.openFile(file);
+});
+
+// For tests and the curious.
+Object.assign(window, { studio: app });
+
+async function start(): Promise<void> {
+  await app.client.ready;
+  await app.attempt(async () => void (await app.client.paint({ detail: app.display.detail, field: app.display.field })));
+  await openScene(app, scenes[0]!);
+  await offerRecovery(app);
+  offerTour(app);
+  app.changed();
+  document.documentElement.dataset.ready = 'true';
+  await workOffline(app);
+}
+
+void start();

@@ -1,0 +1,215 @@
+import * as THREE from 'three';
+
+import { Documents, firstSettings } from '../document/documents';
+import type { Notice } from '../document/host';
+import { Saving } from '../document/saving';
+import { Client } from '../engine/client';
+import type { Context, Trim } from '../engine/context';
+import type { Frame } from '../engine/protocol';
+import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
+import type { App } from '../panels/app';
+import { Hand } from '../tools/hand';
+import { defaultDisplay, type Display, type Theme } from '../view/display';
+import { Viewer } from '../view/viewer';
+
+const keptSteps = 400; // of the plot
+
+/** What the page knows and can do: the line to the session, the viewer, and what the user has chosen. */
+export class Studio implements App {
+  readonly client: Client;
+  readonly viewer: Viewer;
+  readonly hand: Hand;
+  display: Display;
+  theme: Theme;
+  frame: Frame | null = null;
+  steps: StepInfo[] = [];
+  framesPerSecond = 0;
+  /** Counts what was done, so that the history knows when to look again. */
+  changes = 0;
+  readonly documents = new Documents(this);
+  readonly saving = new Saving(this, this.documents);
+  /** Milliseconds that the worker took for this session's commands. */
+  computedTime = 0;
+
+  /** Panels draw themselves anew on these. */
+  readonly onChange: (() => void)[] = [];
+  notify: (notice: Notice) => void = () => {};
+
+  private fresh = false;
+  private lastFrame = 0;
+  private stepsEnd = 0;
+
+  constructor() {
+    const kept = readKept();
+    this.display = { ...defaultDisplay, ...kept.display, field: 'none', zebra: false };
+    this.theme = kept.theme ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
+    this.client = new Client(new Worker(new URL('../engine/worker.ts', import.meta.url), { type: 'module' }));
+    this.viewer = new Viewer(this.display);
+    this.hand = new Hand(this);
+    this.viewer.navigator.convention = this.display.convention;
+    this.viewer.onMaximise = (view) => this.setDisplay({ view, fourViews: !this.display.fourViews });
+    this.client.onFrame = (frame) => this.show(frame);
+    this.client.onError = (error) => this.fail(error);
+    this.setTheme(this.theme);
+  }
+
+  get state(): SessionInfo | null {
+    return this.frame?.state ?? null;
+  }
+
+  /** Diagonal of the selected surfaces, or of all. */
+  get diagonal(): number {
+    const { state } = this;
+    if (!state || state.surfaces.length === 0) return 1;
+    const chosen = state.selection.length > 0 ? state.selection.map((k) => state.surfaces[k]!) : state.surfaces;
+    const box = new THREE.Box3();
+    for (const s of chosen) box.expandByPoint(new THREE.Vector3(...s.lower)).expandByPoint(new THREE.Vector3(...s.upper));
+    return box.getSize(new THREE.Vector3()).length() || 1;
+  }
+
+  changed(): void {
+    for (const draw of this.onChange) draw();
+  }
+
+  private show(frame: Frame): void {
+    const now = performance.now();
+    if (this.frame?.playing && frame.playing) {
+      const rate = 1000 / Math.max(1, now - this.lastFrame);
+      this.framesPerSecond = this.framesPerSecond === 0 ? rate : 0.9 * this.framesPerSecond + 0.1 * rate;
+    } else this.framesPerSecond = 0;
+    this.lastFrame = now;
+    this.frame = frame;
+    ++this.changes;
+    this.steps = frame.firstStep === this.stepsEnd ? [...this.steps, ...frame.steps] : frame.steps;
+    this.stepsEnd = frame.state.steps;
+    if (this.steps.length > keptSteps) this.steps = this.steps.slice(-keptSteps);
+    this.viewer.show(frame, this.fresh);
+    if (this.fresh) {
+      this.fresh = false;
+      this.hand.brush.settings.radius = 0.08 * this.diagonal;
+    }
+    this.computedTime += frame.computeTime;
+    this.documents.keeper.computed(frame.unkept, frame.playing);
+    this.changed();
+  }
+
+  /** Executes commands as one entry of the history. Null where something went wrong; the user has been told then. */
+  async execute(commands: Command[], join = false): Promise<true | null> {
+    return this.attempt(async () => {
+      await this.client.execute(commands, join);
+      this.documents.keeper.touch();
+    });
+  }
+
+  async attempt(act: () => Promise<void>): Promise<true | null> {
+    try {
+      await act();
+      return true;
+    } catch (error) {
+      if (error instanceof EngineError) this.fail(error.info);
+      else this.notify({ kind: 'error', text: error instanceof Error ? error.message : String(error) });
+      return null;
+    }
+  }
+
+  private fail(error: EngineErrorInfo): void {
+    const place = error.where ? `${error.where}: ` : '';
+    const text = place + error.what;
+    this.notify({ kind: 'error', text: text[0]!.toUpperCase() + text.slice(1), remedy: error.remedy });
+  }
+
+  // --- documents: document/documents.ts, document/saving.ts ---------------------------------------------------------
+
+  /** The next frame is of another session. Gives back what takes that back. */
+  begin(): () => void {
+    const { fresh, steps, stepsEnd, computedTime } = this;
+    const tool = this.viewer.selectedTool;
+    Object.assign(this, { fresh: true, steps: [], stepsEnd: 0, computedTime: 0 });
+    this.viewer.selectTool(null);
+    return () => {
+      Object.assign(this, { fresh, steps, stepsEnd, computedTime });
+      this.viewer.selectTool(tool);
+    };
+  }
+
+  get detail(): number {
+    return this.display.detail;
+  }
+
+  showContext(context: Context | null, trims: Trim[]): void {
+    this.viewer.showContext(context, trims);
+  }
+
+  picture(scale: number): Promise<Blob> {
+    return this.viewer.picture(scale);
+  }
+
+  /** Selects a surface. One that nothing was said about becomes clay with held edges: pressed, it would float away. */
+  async select(surface: number): Promise<void> {
+    const info = this.state!.surfaces[surface]!;
+    await this.execute([{ do: 'select', surface: info.id }, ...firstSettings(info)]);
+  }
+
+  // --- what is seen ------------------------------------------------------------------------------------------------
+
+  setDisplay(change: Partial<Display>): void {
+    const repaint = (change.field !== undefined && change.field !== this.display.field) || change.detail !== undefined;
+    Object.assign(this.display, change);
+    this.viewer.navigator.convention = this.display.convention;
+    this.viewer.restyle();
+    if (repaint) void this.attempt(async () => void (await this.client.paint({ detail: this.display.detail, field: this.display.field })));
+    this.keepSettings();
+    this.changed();
+  }
+
+  private comparing = false;
+
+  /** While a key is held: the surfaces as they were opened. */
+  compare(opened: boolean): void {
+    if (!this.state || opened === this.comparing) return;
+    this.comparing = opened;
+    document.documentElement.dataset.comparing = String(opened);
+    void this.attempt(async () => void (await this.client.paint({ detail: this.display.detail, field: this.display.field, opened })));
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    document.documentElement.dataset.theme = theme;
+    this.viewer.setTheme(theme);
+    this.keepSettings();
+    this.changed();
+  }
+
+  private keepSettings(): void {
+    try {
+      localStorage.setItem('knead', JSON.stringify({ display: this.display, theme: this.theme }));
+    } catch {
+      // Without storage the settings last as long as the page.
+    }
+  }
+
+  private numbers: { of: string; data: Promise<SurfaceNumbers> } | null = null;
+
+  /** The numbers of a surface as it is now; asked for once per change. */
+  surfaceData(surface: number): Promise<SurfaceNumbers> {
+    const of = `${surface} ${this.changes}`;
+    if (this.numbers?.of !== of) this.numbers = { of, data: this.client.surface(surface) };
+    return this.numbers.data;
+  }
+
+  playing(): boolean {
+    return this.frame?.playing ?? false;
+  }
+
+  togglePlay(toRest = false): void {
+    void this.attempt(async () => void (await (this.playing() ? this.client.stop() : this.client.play(toRest))));
+  }
+}
+
+function readKept(): { display?: Partial<Display>; theme?: Theme } {
+  try {
+    return JSON.parse(localStorage.getItem('knead') ?? '{}') as { display?: Partial<Display>; theme?: Theme };
+  } catch {
+    return {};
+  }
+}

@@ -1,0 +1,121 @@
+import type { Notice } from '../document/host';
+import { modes } from '../tools/modes';
+import type { App } from './app';
+import { h, icon, iconButton } from './dom';
+import { galleryMenu } from './gallery_menu';
+import { openLab } from './lab/door';
+import { saveEntries } from './save_menu';
+import { shortcuts } from './shortcuts';
+import { toggleTour } from './tour';
+
+/** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
+
+export function topBar(app: App): HTMLElement {
+  const picker = h('input', { type: 'file', accept: '.step,.stp,.p21,.3dm,.knead,.json', hidden: true, aria: { label: 'File to open' } });
+  picker.addEventListener('change', () => {
+    const file = picker.files?.[0];
+    picker.value = '';
+    if (file) void app.documents.openFile(file);
+  });
+  const name = h('span', { class: 'document-name' });
+  const unit = h('span', { class: 'document-unit', title: 'Unit of the document: lengths without a unit are in it' });
+  const undo = iconButton('undo', 'Undo (Ctrl+Z)', () => void app.execute([{ do: 'undo' }]));
+  const redo = iconButton('redo', 'Redo (Ctrl+Shift+Z)', () => void app.execute([{ do: 'redo' }]));
+  const play = iconButton('play', 'Play or pause (Space)', () => app.togglePlay());
+  const step = iconButton('step', 'One step (.)', () => void app.execute([{ do: 'step' }]));
+  const rest = iconButton('rest', 'Run to rest (R)', () => app.togglePlay(true));
+  const four = iconButton('four', 'Four views or one (4)', () => app.setDisplay({ fourViews: !app.display.fourViews }));
+  const save = menu('save', 'Save', 'Save', saveEntries(app));
+  const bar = h('header', { class: 'top' },
+    h('span', { class: 'brand' }, 'Knead'),
+    iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), save, picker,
+    h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
+    h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
+    iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
+    iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
+    iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
+    iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),
+    iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app)));
+  app.onChange.push(() => {
+    const { state } = app;
+    undo.disabled = !state?.undo || app.playing();
+    redo.disabled = !state?.redo || app.playing();
+    const idle = !state || state.selection.length === 0;
+    play.disabled = rest.disabled = idle;
+    step.disabled = idle || app.playing();
+    play.replaceChildren(icon(app.playing() ? 'pause' : 'play'));
+    play.classList.toggle('on', app.playing());
+    four.classList.toggle('on', app.display.fourViews);
+    name.textContent = state ? app.documents.name : '';
+    unit.textContent = state?.surfaces[0]?.unit ?? '';
+    document.title = state ? `${app.documents.name} – Knead studio` : 'Knead studio';
+  });
+  return bar;
+}
+
+function menu(iconName: string, label: string, text: string, entries: [string, string, () => void][]): HTMLElement {
+  const list = h('div', { class: 'menu-list' }, ...entries.map(([name, about, act]) =>
+    h('button', { type: 'button', class: 'menu-item', onclick: () => {
+      element.open = false;
+      act();
+    } }, h('b', {}, name), h('small', {}, about))));
+  const element = h('details', { class: 'menu' }, h('summary', { class: 'button labelled', title: label, aria: { label } }, icon(iconName), h('span', {}, text)), list);
+  document.addEventListener('pointerdown', (e) => {
+    if (!element.contains(e.target as Node)) element.open = false;
+  });
+  element.addEventListener('keydown', (e) => {
+    if (e.key === 'Escape') element.open = false;
+  });
+  return element;
+}
+
+export function toolRail(app: App): HTMLElement {
+  const buttons = modes.map(([mode, label]) => {
+    const button = iconButton(mode, label, () => app.hand.choose(mode));
+    button.classList.add('rail-button');
+    return [mode, button] as const;
+  });
+  app.onChange.push(() => {
+    for (const [mode, button] of buttons) {
+      button.classList.toggle('on', app.hand.mode === mode);
+      button.setAttribute('aria-pressed', String(app.hand.mode === mode));
+    }
+    app.viewer.element.dataset.mode = app.hand.mode;
+  });
+  return h('nav', { class: 'rail', aria: { label: 'What the pointer does' } }, ...buttons.map(([, b]) => b));
+}
+
+/** Messages at the lower edge: never in the way of the clay, errors until they are dismissed. */
+export function notices(app: App): HTMLElement {
+  const stack = h('div', { class: 'notices', aria: { live: 'polite' } });
+  app.notify = (notice: Notice) => {
+    const close = () => element.remove();
+    const element = h('div', { class: `notice ${notice.kind}` },
+      h('div', {}, h('p', {}, notice.text), notice.remedy && h('p', { class: 'remedy' }, notice.remedy),
+        ...(notice.actions ?? []).map((a) => h('button', { type: 'button', class: 'button small', onclick: () => {
+          close();
+          a.act();
+        } }, a.label))),
+      iconButton('close', 'Dismiss', close));
+    const same = [...stack.children].find((other) => other.querySelector('p')?.textContent === notice.text);
+    same?.remove();
+    stack.append(element);
+    while (stack.children.length > 3) stack.firstElementChild!.remove();
+    if (!notice.actions) setTimeout(close, notice.kind === 'error' ? 12_000 : 4_000);
+  };
+  return stack;
+}
+
+
+export function toggleShortcuts(app: App): void {
+  const present = document.querySelector('.shortcuts');
+  if (present) {
+    present.remove();
+    return;
+  }
+  const close = () => element.remove();
+  const element = h('section', { class: 'shortcuts', aria: { label: 'Shortcuts' } },
+    h('header', {}, h('h2', {}, 'Shortcuts'), iconButton('close', 'Close', close)),
+    h('dl', {}, ...shortcuts(app).flatMap(([keys, what]) => [h('dt', {}, keys), h('dd', {}, what)])));
+  app.viewer.element.append(element);
+}

@@ -1,0 +1,56 @@
+import type { Command } from '../engine/session_types';
+import { type Continuity, continuityOf, type Edge, edgeTitles } from '../tools/edges';
+import { heldAnew } from '../tools/paint';
+import type { App } from './app';
+import { h, iconButton, toggle } from './dom';
+
+const choices: readonly (readonly [Continuity, string, string])[] = [
+  ['free', 'Free', 'It may move'],
+  ['position', 'Position', 'It stays where it is'],
+  ['clamped', 'Tangent', 'It stays, with its tangent planes'],
+  ['curvature', 'Curvature', 'It stays, with its tangent planes and curvatures'],
+  ['symmetry', 'Symmetry', 'It stays in its plane, and the surface meets that at right angles: half of a symmetric model'],
+];
+
+/** A click on an edge of the surface asks, beside it, what is to hold there. */
+export function listenToEdges(app: App): void {
+  let open: HTMLElement | null = null;
+  const close = () => {
+    open?.remove();
+    open = null;
+  };
+  document.addEventListener('pointerdown', (e) => {
+    if (open && !open.contains(e.target as Node)) close();
+  }, { capture: true });
+  document.addEventListener('keydown', (e) => {
+    if (e.key === 'Escape') close();
+  });
+  app.hand.edges.onEdge = (surface, edge, at) => {
+    close();
+    const info = app.state!.surfaces[surface]!;
+    const now = continuityOf(info, edge);
+    const rows = choices.map(([continuity, name, about]) => toggle(name, continuity === now, () => {
+      close();
+      void app.execute(asking(app, surface, edge, continuity));
+    }, about));
+    open = h('section', { class: 'popover', aria: { label: edgeTitles[edge] } },
+      h('header', {}, h('b', {}, edgeTitles[edge]), iconButton('close', 'Close', close)),
+      h('div', { class: 'row' }, ...rows),
+      info.hold > 0 ? h('p', { class: 'note' }, `The outer ${info.hold} rows of control points are held as well (Constraints, Held rows).`) : null);
+    app.viewer.element.append(open);
+    const stage = app.viewer.element.getBoundingClientRect();
+    const box = open.getBoundingClientRect();
+    open.style.left = `${Math.max(6, Math.min(at.x - stage.left + 10, stage.width - box.width - 6))}px`;
+    open.style.top = `${Math.max(6, Math.min(at.y - stage.top + 10, stage.height - box.height - 6))}px`;
+    open.querySelector('button.chip')?.dispatchEvent(new Event('focus'));
+  };
+}
+
+function asking(app: App, surface: number, edge: Edge, continuity: Continuity): Command[] {
+  const info = app.state!.surfaces[surface]!;
+  const wish: Command[] = continuity === 'symmetry' ? [{ do: 'symmetry', edge, ...app.hand.edges.plane(edge) }]
+    : [{ do: 'edge', which: edge, hold: continuity }];
+  const symmetric = info.constraints.some((c) => c.do === 'symmetry' && c.edge === edge);
+  // Symmetry of an edge ends only when all is freed: the rest is asked for again.
+  return symmetric ? [...heldAnew(info, info.constraints.filter((c) => !(c.do === 'symmetry' && c.edge === edge)), info.pinned), ...wish] : wish;
+}

@@ -1,0 +1,26 @@
+import { type Scene, scenes } from '../document/scenes';
+import type { App } from './app';
+
+/** Drawn by scripts/studio_pictures.sh; fetched when the gallery is opened. */
+const pictures = import.meta.glob<string>('../../../docs/pictures/gallery/*.png', { query: '?url', import: 'default', eager: true });
+
+/** The name of a scene in file names. */
+export const slug = (name: string): string => name.toLowerCase().replace(/\W+/g, '-');
+
+export const pictureOf = (scene: Scene): string | undefined => pictures[`../../../docs/pictures/gallery/${slug(scene.name)}.png`];
+
+export async function openScene(app: App, scene: Scene): Promise<void> {
+  if (!scene.file) {
+    await app.documents.startFresh(scene.document, scene.commands ?? []);
+    return;
+  }
+  const response = await fetch(scene.file).catch(() => null);
+  if (!response?.ok) {
+    app.notify({ kind: 'error', text: `“${scene.name}” could not be loaded`, remedy: 'see whether the network is there, and try again' });
+    return;
+  }
+  await app.documents.openStep(new Uint8Array(await response.arrayBuffer()), scene.document);
+  if (app.state && app.state.selection.length === 0) await app.select(0);
+}
+
+export { scenes };

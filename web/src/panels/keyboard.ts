@@ -1,0 +1,88 @@
+import { modes } from '../tools/modes';
+import type { Side } from '../view/viewport';
+import type { App } from './app';
+import { toggleShortcuts } from './chrome';
+import { openLab } from './lab/door';
+
+export function listenToKeys(app: App): void {
+  document.addEventListener('keyup', (event) => {
+    if (event.key.toLowerCase() === 'c') app.compare(false);
+  });
+  window.addEventListener('blur', () => app.compare(false));
+  document.addEventListener('keydown', (event) => {
+    const target = event.target as HTMLElement;
+    if (target.closest('input[type=text], textarea')) return;
+    if (handle(app, event)) event.preventDefault();
+  });
+}
+
+/** True where the key meant something. */
+function handle(app: App, event: KeyboardEvent): boolean {
+  const key = event.key.toLowerCase();
+  const viewport = app.viewer.main;
+  if (event.ctrlKey || event.metaKey) {
+    if (key === 'z' || key === 'y') {
+      const again = key === 'y' || event.shiftKey;
+      if (!app.playing() && !app.hand.active && (again ? app.state?.redo : app.state?.undo)) void app.execute([{ do: again ? 'redo' : 'undo' }]);
+      return true;
+    }
+    if (key === 's') void app.saving.step();
+    return key === 's';
+  }
+  if (key === 'escape') {
+    if (app.hand.active) void app.hand.pointers.cancel();
+    else if (document.querySelector('.shortcuts')) toggleShortcuts(app);
+    else if (app.viewer.selectedTool) {
+      app.viewer.selectTool(null);
+      app.changed();
+    }
+    return true;
+  }
+  if (event.key === '?') {
+    toggleShortcuts(app);
+    return true;
+  }
+  if (app.hand.points.active) {
+    const lock = ({ x: 'x', y: 'y', z: 'z', n: 'normal' } as const)[key];
+    if (lock) app.hand.points.setLock(lock);
+    return true; // nothing else while points are in the hand
+  }
+  const mode = modes.find(([, , k]) => k === key);
+  if (mode && !event.altKey) {
+    app.hand.choose(mode[0]);
+    return true;
+  }
+  const ready = app.state !== null && app.state.selection.length > 0;
+  const gizmo = (kind: 'translate' | 'rotate' | 'scale') => {
+    for (const v of app.viewer.viewports) v.gizmo.setMode(kind);
+    app.changed();
+  };
+  // Digits by their place on the keyboard, so that Shift does not change them.
+  const view = { Digit1: ['front', 'back'], Digit2: ['right', 'left'], Digit3: ['top', 'bottom'] }[event.code];
+  if (view) viewport.turn(view[event.shiftKey ? 1 : 0] as Side);
+  else if (event.code === 'Digit0') {
+    if (viewport.axial) app.setDisplay({ view: 'perspective' });
+    app.viewer.viewports[0]!.turn('perspective');
+  } else if (event.code === 'Digit5') app.setDisplay({ view: viewport.axial ? 'perspective' : 'top', fourViews: false });
+  else if (event.code === 'Digit4') app.setDisplay({ fourViews: !app.display.fourViews });
+  else if (key === ' ' && ready) {
+    if (event.target instanceof HTMLButtonElement) return false;
+    app.togglePlay();
+  } else if (key === '.' && ready && !app.playing()) void app.execute([{ do: 'step' }]);
+  else if (key === 'r' && ready) app.togglePlay(true);
+  else if (key === 'f') app.viewer.fit();
+  else if (key === 'c') app.compare(true);
+  else if (key === 'o') document.querySelector<HTMLInputElement>('input[type=file]')?.click();
+  else if (key === 'z') app.setDisplay({ zebra: !app.display.zebra });
+  else if (key === 'l') void openLab(app);
+  else if (key === 'm') gizmo('translate');
+  else if (key === 'n') gizmo('rotate');
+  else if (key === 'k') gizmo('scale');
+  else if (key === '[' || key === ']') {
+    app.hand.brush.settings.radius *= key === ']' ? 1.15 : 1 / 1.15;
+    app.changed();
+  } else if ((key === 'delete' || key === 'backspace') && app.viewer.selectedTool) {
+    void app.execute([{ do: 'remove', tool: app.viewer.selectedTool }]);
+  } else return false;
+  return true;
+}

@@ -1,0 +1,163 @@
+import * as THREE from 'three';
+
+import { format, parseLength } from '../document/units';
+import { brushModes, paintModes } from '../tools/modes';
+import type { App } from './app';
+import { field, h, numberInput, select, slider, toggle } from './dom';
+import { note, panel, row } from './panel';
+import { presets } from './panels_model';
+import { shapes } from './panels_scene';
+
+/** What the pointer does, and how: a panel for brushes and paint, one for control points. */
+
+const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? 'mm';
+const length = (app: App) => (text: string) => parseLength(text, unitOf(app));
+const small = (label: string, title: string, onclick: () => void) => h('button', { class: 'button small', type: 'button', title, onclick }, label);
+
+/** A field of several numbers. */
+function wide(label: string, control: HTMLElement, tip?: string): HTMLElement {
+  const element = field(label, control, tip);
+  element.classList.add('wide');
+  return element;
+}
+
+export function brushPanel(app: App): HTMLElement {
+  const key = (a: App) => [a.hand.mode, a.hand.brush.settings, a.hand.paint.settings, a.hand.placing, unitOf(a), a.state?.surfaces.map((s) => s.id)];
+  return panel(app, 'Brush', key, () => {
+    const { mode } = app.hand;
+    const brush = brushModes.includes(mode);
+    return [
+      radiusField(app),
+      brush && mode !== 'grab' ? depthField(app) : null,
+      ...(brush ? brushFields(app) : []),
+      ...(mode === 'place' ? placeFields(app) : []),
+      ...(mode === 'material' ? materialFields(app) : []),
+      mode === 'freeze' ? note('Drag over what may not move: whole knot spans, hatched. Alt thaws.') : null,
+      mode === 'pin' ? note('Drag over control points to pin them, or click the surface to pin that point. Alt frees.') : null,
+    ];
+  }, true, (a) => brushModes.includes(a.hand.mode) || paintModes.includes(a.hand.mode) || a.hand.mode === 'place');
+}
+
+function radiusField(app: App): HTMLElement {
+  const { settings } = app.hand.brush;
+  return field('Radius', row(
+    slider('Brush radius', Math.log(settings.radius / app.diagonal), [Math.log(0.005), Math.log(0.5)], (v) => {
+      settings.radius = Math.exp(v) * app.diagonal;
+      app.changed();
+    }),
+    numberInput('Brush radius in units', settings.radius, (v) => {
+      if (v > 0) settings.radius = v;
+      app.changed();
+    }, length(app)),
+  ), 'Shift-wheel over the surface, or the wheel while pressing; Ctrl-drag to the side; [ and ]');
+}
+
+function depthField(app: App): HTMLElement {
+  const { settings } = app.hand.brush;
+  const smooth = app.hand.mode === 'smooth';
+  return field(smooth ? 'Strength' : 'Depth', row(
+    slider('Brush depth', settings.strength, [0.02, 1], (v) => {
+      settings.strength = v;
+      app.changed();
+    }),
+    h('output', { class: 'number' }, `${Math.round(100 * settings.strength)} %`),
+  ), smooth ? 'How much of a bump goes at each place; Alt-wheel' : 'How far the ball goes in, in radii; Alt-wheel, or Ctrl-drag up and down');
+}
+
+function brushFields(app: App): (Node | null)[] {
+  const { settings } = app.hand.brush;
+  return [
+    row(toggle('Pen pressure', settings.pressure, (pressure) => {
+      settings.pressure = pressure;
+      app.changed();
+    }, 'A pen that is pressed lightly goes less deep')),
+    app.hand.mode === 'push' || app.hand.mode === 'pull' ? note('Alt the other way, Shift smooths, Esc takes the stroke back.') : null,
+  ];
+}
+
+function placeFields(app: App): (Node | null)[] {
+  const { placing } = app.hand;
+  const others = app.state?.surfaces.filter((_, k) => !app.state!.selection.includes(k)) ?? [];
+  return [
+    field('Shape', select('Shape of the new tool', shapes.filter(([s]) => s !== 'surface' || others.length > 0), placing.shape as 'sphere', (shape) => {
+      placing.shape = shape;
+      placing.surface = shape === 'surface' ? (placing.surface ?? others[0]?.id) : undefined;
+      app.changed();
+    })),
+    placing.shape === 'surface' ? field('Surface', select('Surface that is the tool', others.map((s) => [s.id, s.name || s.id] as const), placing.surface ?? '', (id) => {
+      placing.surface = id;
+      app.changed();
+    })) : null,
+    note(placing.shape === 'surface' ? 'Click anywhere: the tool is that surface, where it lies.' : 'Click the surface; the tool is put on the side you look from.'),
+  ];
+}
+
+function materialFields(app: App): (Node | null)[] {
+  const { settings } = app.hand.paint;
+  const set = (change: Partial<typeof settings>) => {
+    Object.assign(settings, change);
+    app.changed();
+  };
+  return [
+    row(...presets.map((p) => toggle(p.name, settings.alpha === p.alpha && settings.beta === p.beta, () => set({ alpha: p.alpha, beta: p.beta }), p.about))),
+    field('Stretch α', numberInput('Stretch to paint', settings.alpha, (alpha) => set({ alpha: Math.max(0, alpha) }))),
+    field('Bend β', numberInput('Bend to paint', settings.beta, (beta) => set({ beta: Math.max(0, beta) }))),
+    field('Softness', slider('Softness of the paint', settings.softness, [0, 1], (softness) => set({ softness })), 'Share of the radius over which the paint fades'),
+    note('Drag over what is to be of this material. Alt paints clay.'),
+  ];
+}
+
+/** Of control points: which are chosen, where they are, by how much to move them, their weights. */
+export function pointsPanel(app: App): HTMLElement {
+  const key = (a: App) => [[...a.hand.points.chosen], a.hand.points.lock, a.hand.points.net, a.changes, unitOf(a)];
+  return panel(app, 'Control points', key, () => {
+    const { points } = app.hand;
+    const [m, n] = points.net;
+    const count = points.chosen.size;
+    const all = [...points.chosen];
+    const choosing = row(
+      small('All', 'Choose all control points', () => points.choose(Array.from({ length: m * n }, (_, k) => k))),
+      small('Row u', 'The rows along u that hold the chosen points', () => points.chooseRows('u')),
+      small('Row v', 'The rows along v that hold the chosen points', () => points.chooseRows('v')),
+      small('None', 'Choose none', () => points.choose([])),
+    );
+    if (count === 0) {
+      return [note('Click a point; Shift adds, a box takes many, a double click its row. Drag what is chosen; X, Y, Z or N while dragging keep to an axis or the normal.'), choosing];
+    }
+    const surface = app.viewer.surfaces[points.surface ?? -1]?.picture;
+    const place = surface ? all.reduce((sum, k) => sum.add(new THREE.Vector3().fromArray(surface.net, 3 * k)), new THREE.Vector3())
+      .divideScalar(count).add(new THREE.Vector3(...app.viewer.origin)) : new THREE.Vector3();
+    const run = (command: Record<string, unknown>) => void app.execute([{ do: 'points', ...points.which(), ...command }]);
+    const along = (axis: number) => (value: number) => run({ by: [0, 1, 2].map((k) => (k === axis ? value - place.getComponent(k) : 0)) });
+    const by = [0, 0, 0, 0];
+    const delta = ['x', 'y', 'z', 'normal'].map((name, k) => numberInput(`Move by ${name}`, 0, (v) => (by[k] = v), length(app)));
+    return [
+      note(count === 1 ? `Point ${Math.floor(all[0]! / n)}, ${all[0]! % n} of ${m} × ${n}` : `${count} of ${m} × ${n} points, their middle at`),
+      wide('At', row(...['x', 'y', 'z'].map((name, k) => numberInput(`Position ${name}`, place.getComponent(k), along(k), length(app))))),
+      wide('Move', row(...delta.slice(0, 3)), 'Along x, y, z'),
+      field('Normal', row(delta[3]!, small('Move', 'Move the chosen points by these lengths', () => {
+        const normal = points.normalAt(place.clone().sub(new THREE.Vector3(...app.viewer.origin)));
+        run({ by: [0, 1, 2].map((k) => by[k]! + by[3]! * normal.getComponent(k)) });
+      })), 'Along the normal of the surface'),
+      ...weightFields(app, all),
+      row(...(['x', 'y', 'z', 'normal'] as const).map((lock) => toggle(lock === 'normal' ? 'Normal' : lock.toUpperCase(), points.lock === lock,
+        () => points.setLock(lock), 'The next drag goes along this only'))),
+      choosing,
+    ];
+  }, true, (a) => a.hand.mode === 'points');
+}
+
+function weightFields(app: App, chosen: number[]): (Node | null)[] {
+  const { points } = app.hand;
+  const input = numberInput('Weight', null, (weight) => void app.execute([{ do: 'weights', ...points.which(), weight }]), undefined, '1');
+  const surface = points.surface!;
+  void app.surfaceData(surface).then(({ weights }) => {
+    const values = chosen.map((k) => weights?.[k] ?? 1);
+    const same = values.every((w) => w === values[0]);
+    input.value = same ? format(values[0]!) : '';
+    input.placeholder = same ? '' : 'several';
+  }, () => {});
+  return [field('Weight', row(input, small('Half', 'Half the weights: the surface leaves these points', () => void app.execute([{ do: 'weights', ...points.which(), by: 0.5 }])),
+    small('Double', 'Double the weights: the surface draws near to these points', () => void app.execute([{ do: 'weights', ...points.which(), by: 2 }]))),
+    'Larger draws the surface to the point; 1 everywhere is a plain B-spline')];
+}

@@ -1,0 +1,103 @@
+import type { Command } from '../engine/session_types';
+import type { App } from './app';
+import { field, h, numberInput, toggle } from './dom';
+import { note, panel, row } from './panel';
+import { energyChart } from './plot';
+
+interface Preset {
+  name: string;
+  about: string;
+  alpha: number;
+  beta: number;
+  lambda: number;
+}
+
+export const presets: Preset[] = [
+  { name: 'Clay', about: 'gives way where it is pressed and nowhere else', alpha: 0.1, beta: 0.001, lambda: 100 },
+  { name: 'Rubber', about: 'stretches far and wants back', alpha: 1, beta: 0.01, lambda: 5 },
+  { name: 'Sheet metal', about: 'resists bending: wide, fair dents', alpha: 0.05, beta: 0.05, lambda: 20 },
+  { name: 'Cloth', about: 'hardly resists bending', alpha: 1, beta: 0.0002, lambda: 5 },
+  { name: 'Membrane', about: 'stretch alone: a soap film', alpha: 1, beta: 0, lambda: 1 },
+];
+
+export function materialPanel(app: App): HTMLElement {
+  const chosen = () => app.state?.surfaces[app.state.selection[0] ?? -1];
+  return panel(app, 'Material', () => {
+    const s = chosen();
+    return s ? [s.alpha, s.beta, s.mass, s.damping, s.rest, app.state!.evolve] : null;
+  }, () => {
+    const s = chosen();
+    if (!s) return [note('Select a surface.')];
+    const set = (change: Record<string, unknown>) =>
+      void app.execute([{ do: 'material', alpha: s.alpha.map((x) => x ?? 1), beta: s.beta.map((x) => x ?? 0.01), ...change }]);
+    const one = (values: (number | null)[]) => (values[0] === values[2] ? values[0]! : null);
+    const fits = (p: Preset) => one(s.alpha) === p.alpha && one(s.beta) === p.beta;
+    return [
+      row(...presets.map((p) => toggle(p.name, fits(p), () => void app.execute([
+        { do: 'material', alpha: [p.alpha, 0, p.alpha], beta: [p.beta, p.beta, p.beta] },
+        { ...app.state!.evolve, do: 'evolve', lambda: p.lambda, ...(app.state!.evolve.mode === 'static' ? { mode: 'acm' } : {}) } as Command,
+      ]), p.about))),
+      note(presets.find(fits) ? `${presets.find(fits)!.name} ${presets.find(fits)!.about}.` : s.alpha.includes(null) || s.beta.includes(null)
+        ? 'Varies over the surface: it was painted.' : 'A material of your own.'),
+      field('Stretch α', numberInput('Stretch', one(s.alpha), (a) => set({ alpha: [a, 0, a] })), 'Resistance to stretch (Eq. 4.8)'),
+      field('Bend β', numberInput('Bend', one(s.beta), (b) => set({ beta: [b, b, b] })), 'Resistance to bending (Eq. 4.8)'),
+      field('Mass', numberInput('Mass', s.mass, (mass) => set({ mass })), 'Per area: for swinging, and for gravity'),
+      field('Damping', numberInput('Damping', s.damping, (damping) => set({ damping })), 'Force per velocity and area: for swinging'),
+      row(
+        toggle('Keeps its shape', s.rest === 'shape', (on) => void app.execute([{ do: 'rest', mode: on ? 'shape' : 'none' }]),
+          'At rest in its own shape; otherwise, as in the thesis, it shrinks without forces'),
+        h('button', { class: 'button small', type: 'button', title: 'The present shape becomes the rest shape',
+          onclick: () => void app.execute([{ do: 'rest', mode: s.rest }]) }, 'Set as rest'),
+      ),
+    ];
+  });
+}
+
+const button = (label: string, title: string, onclick: () => void) => h('button', { class: 'button small', type: 'button', title, onclick }, label);
+
+export function evolutionPanel(app: App): HTMLElement {
+  const chart = energyChart(app);
+  return panel(app, 'Evolution', (a) => [a.state?.evolve, a.state?.load, a.state?.refine], () => {
+    const { state } = app;
+    if (!state) return [];
+    const evolve = (change: Record<string, unknown>) => void app.execute([{ ...state.evolve, ...change } as Command]);
+    const load = (change: Record<string, unknown>) => void app.execute([{ ...state.load, ...change } as Command]);
+    const gravity = state.load.gravity as number[];
+    return [
+      row(
+        toggle('Sink', state.evolve.mode === 'acm', () => evolve({ mode: 'acm' }), 'Sinks towards the balance (Eq. 4.22)'),
+        toggle('Balance', state.evolve.mode === 'static', () => evolve({ mode: 'static' }), 'The balance at once'),
+        toggle('Swing', state.evolve.mode === 'dynamic', () => evolve({ mode: 'dynamic' }), 'Mass and damping (Eq. 5.39)'),
+      ),
+      state.evolve.mode === 'acm' ? field('λ', numberInput('Lambda', state.evolve.lambda, (lambda) => evolve({ lambda })), 'Inverse step size: larger is stiffer clay') : null,
+      state.evolve.mode === 'dynamic' ? field('Time step', numberInput('Time step', state.evolve.time_step, (time_step) => evolve({ time_step }))) : null,
+      field('Gravity z', numberInput('Gravity z', gravity[2] ?? 0, (z) => load({ gravity: [gravity[0] ?? 0, gravity[1] ?? 0, z] }))),
+      field('Pressure', numberInput('Pressure', state.load.pressure as number, (pressure) => load({ pressure })), 'Along the normal'),
+      row(
+        button('Play', 'Play or pause (Space)', () => app.togglePlay()),
+        button('Step', 'One step (.)', () => void app.execute([{ do: 'step' }])),
+        button('Run to rest', 'Steps until nothing moves (R)', () => app.togglePlay(true)),
+      ),
+      chart,
+      row(toggle('Refine as needed', state.refine === 'auto', (on) => void app.execute([{ do: 'refine', permission: on ? 'auto' : 'never' }]),
+        'Steps may halve spans under a tool that the net is too coarse for')),
+    ];
+  }, false);
+}
+
+export function historyPanel(app: App): HTMLElement {
+  return panel(app, 'History', (a) => (a.playing() || a.hand.active ? null : [a.state?.notes, a.state?.last?.note, a.changes]), () => {
+    if (app.playing() || app.hand.active) return [note('…')];
+    const list = h('ol', { class: 'history' });
+    void app.client.journal().then((text) => {
+      const { commands } = JSON.parse(text) as { commands: Command[] };
+      list.replaceChildren(...commands.slice(-40).reverse().map((c) => {
+        const { do: name, ...rest } = c;
+        const details = Object.entries(rest).map(([k, v]) => `${k} ${typeof v === 'string' ? v : JSON.stringify(v)}`).join(', ');
+        return h('li', { title: details }, h('b', {}, name), ` ${details.length > 60 ? `${details.slice(0, 60)}…` : details}`);
+      }));
+    }, () => {});
+    const notes = [...(app.state?.notes ?? []), app.state?.last?.note ?? ''].filter(Boolean);
+    return [notes.length > 0 ? note(notes.join('\n')) : null, list];
+  }, false);
+}

@@ -1,0 +1,167 @@
+import { format, parseLength } from '../document/units';
+import type { ToolInfo } from '../engine/session_types';
+import type { App } from './app';
+import { field, h, iconButton, numberInput, select, toggle } from './dom';
+import { note, panel, row } from './panel';
+
+const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? 'mm';
+const length = (app: App) => (text: string) => parseLength(text, unitOf(app));
+
+export function surfacesPanel(app: App): HTMLElement {
+  return panel(app, 'Surfaces', (a) => [a.state?.surfaces.map((s) => [s.id, s.name, s.net, s.degree, s.moved > 0]), a.state?.selection], () => {
+    const { state } = app;
+    if (!state || state.surfaces.length === 0) return [note('Nothing to sculpt yet.')];
+    return [
+      h('ul', { class: 'list' }, ...state.surfaces.map((s, k) => {
+        const on = state.selection.includes(k);
+        const pick = (e: MouseEvent) => {
+          const together = e.ctrlKey || e.metaKey || e.shiftKey;
+          const ids = together
+            ? [...state.selection.map((i) => state.surfaces[i]!.id).filter((id) => id !== s.id), ...(on ? [] : [s.id])]
+            : [s.id];
+          if (ids.length > 0) void app.execute([ids.length === 1 ? { do: 'select', surface: ids[0]! } : { do: 'select', surfaces: ids }]);
+        };
+        return h('li', {}, h('button', { class: on ? 'item on' : 'item', type: 'button', onclick: pick, title: 'Ctrl-click selects several, which then move together',
+          aria: { pressed: String(on) } },
+          h('span', {}, s.name || s.id),
+          h('small', {}, `${s.degree.join('·')}  ${s.net.join(' × ')}${s.rational ? '  NURBS' : ''}${s.moved > 0 ? '  •' : ''}`)));
+      })),
+      row(
+        h('button', { class: 'button small', type: 'button', title: 'Halve every span: the same shape on a finer net',
+          onclick: () => void app.execute([{ do: 'refine', region: [[0, 1], [0, 1]] }]) }, 'Refine'),
+        h('button', { class: 'button small', type: 'button', title: 'Raise the degree by one: the same shape',
+          onclick: () => void app.execute([{ do: 'elevate' }]) }, 'Elevate'),
+        h('button', { class: 'button small', type: 'button', title: 'Select everything that seams connect with this surface',
+          onclick: () => void app.execute([{ do: 'select', surface: state.surfaces[state.selection[0] ?? 0]!.id, connected: true }]) }, 'Connected'),
+      ),
+    ];
+  });
+}
+
+export const shapes = [
+  ['sphere', 'Sphere'], ['ellipsoid', 'Ellipsoid'], ['box', 'Box'], ['cylinder', 'Cylinder'], ['cone', 'Cone'], ['capsule', 'Capsule'],
+  ['torus', 'Torus'], ['plane', 'Plane'], ['bowl', 'Bowl'], ['superellipsoid', 'Superellipsoid'], ['supertoroid', 'Supertoroid'],
+  ['surface', 'Surface of the document'],
+] as const;
+
+const lengthsOf: Record<string, ('radius' | 'minor' | 'height' | 'top_radius' | 'rounding' | 'thickness')[]> = {
+  sphere: ['radius'], cylinder: ['radius', 'height'], cone: ['radius', 'height', 'top_radius'], capsule: ['radius', 'height'],
+  torus: ['radius', 'minor'], bowl: ['radius', 'thickness'], box: ['rounding'], supertoroid: ['radius'],
+};
+
+/** The command that makes this tool again with some fields changed. Its turn survives as the direction of its axis. */
+function remade(tool: ToolInfo, change: Record<string, unknown>): Record<string, unknown> & { do: string } {
+  const shape = (change.shape as string | undefined) ?? tool.shape;
+  const same = shape === tool.shape;
+  const command: Record<string, unknown> & { do: string } = { do: 'tool', name: tool.name, shape, position: tool.position };
+  const [x, y, z, w] = tool.rotation;
+  if (shape !== 'sphere') command.axis = [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)];
+  command.scale = tool.scale;
+  for (const name of same ? lengthsOf[shape] ?? [] : []) if (tool[name] !== undefined) command[name] = tool[name];
+  const size = tool.radius ?? tool.sizes?.[0] ?? tool.size ?? 1;
+  if (!same && shape !== 'plane') {
+    if (['box', 'ellipsoid', 'superellipsoid'].includes(shape)) command.sizes = [size, size, size];
+    else command.radius = size;
+  }
+  if (same && tool.sizes) command.sizes = tool.sizes;
+  if (same && tool.semi_axes) command.sizes = [tool.semi_axes[0], tool.semi_axes[0], tool.semi_axes[1]];
+  if (same && tool.exponents) command.exponents = tool.exponents;
+  for (const name of ['mode', 'stiffness', 'rigid', 'friction', 'plasticity', 'direction'] as const) command[name] = tool[name];
+  if (tool.mode === 'proximity') command.range = tool.range;
+  if (change.mode !== undefined && change.mode !== tool.mode) delete command.stiffness;
+  return { ...command, ...change };
+}
+
+export function toolsPanel(app: App): HTMLElement {
+  return panel(app, 'Tools', (a) => [a.state?.tools, a.viewer.selectedTool, a.viewer.viewports[0]!.gizmo.mode], () => {
+    const tools = app.state?.tools.filter((t) => !(app.hand.active && t.name === 'brush')) ?? [];
+    const chosen = tools.find((t) => t.name === app.viewer.selectedTool);
+    const pick = (name: string | null) => {
+      app.viewer.selectTool(name);
+      app.changed();
+    };
+    return [
+      tools.length === 0 ? note('No tool in the scene. Choose “Place a tool” and click the surface.') : null,
+      h('ul', { class: 'list' }, ...tools.map((t) =>
+        h('li', { class: 'with-action' },
+          h('button', { class: t === chosen ? 'item on' : 'item', type: 'button', onclick: () => pick(t === chosen ? null : t.name), aria: { pressed: String(t === chosen) } },
+            h('span', {}, t.name), h('small', {}, `${t.shape}  ${t.mode}`)),
+          iconButton('trash', `Take ${t.name} away`, () => void app.execute([{ do: 'remove', tool: t.name }]))))),
+      ...(chosen ? toolFields(app, chosen) : []),
+    ];
+  });
+}
+
+function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
+  const change = (what: Record<string, unknown>) => void app.execute([remade(tool, what)]);
+  const setGizmo = (mode: 'translate' | 'rotate' | 'scale') => {
+    for (const v of app.viewer.viewports) v.gizmo.setMode(mode);
+    app.changed();
+  };
+  const mode = app.viewer.viewports[0]!.gizmo.mode;
+  const number = (label: string, value: number, name: string, isLength = false, tip?: string) =>
+    field(label, numberInput(label, value, (v) => change({ [name]: v }), isLength ? length(app) : undefined), tip);
+  return [
+    row(...(['translate', 'rotate', 'scale'] as const).map((m) =>
+      toggle({ translate: 'Move', rotate: 'Turn', scale: 'Resize' }[m], mode === m, () => setGizmo(m)))),
+    field('Shape', select('Shape', shapes, tool.shape as (typeof shapes)[number][0], (shape) => change({ shape }))),
+    ...(lengthsOf[tool.shape] ?? []).map((name) =>
+      number({ radius: 'Radius', minor: 'Tube', height: 'Height', top_radius: 'Top radius', rounding: 'Rounding', thickness: 'Wall' }[name], tool[name] ?? 0, name, true)),
+    ...sizeFields(app, tool, change),
+    field('Mode', select('Mode', [['collision', 'Collision'], ['proximity', 'Proximity'], ['imprint', 'Imprint']], tool.mode, (m) => change({ mode: m })),
+      'Collision pushes out what has entered; proximity draws from either side; imprint leaves its shape at once'),
+    tool.mode === 'proximity'
+      ? field('Direction', select('Direction', [['pull', 'Pull'], ['push', 'Push']], tool.direction, (d) => change({ direction: d }))) : null,
+    number('Stiffness', tool.stiffness, 'stiffness', false, 'Spring constant k: force per length and area'),
+    tool.mode === 'proximity' ? number('Range', tool.range, 'range', true, 'How far it reaches') : null,
+    number('Friction', tool.friction, 'friction', false, 'Coulomb’s coefficient'),
+    number('Plasticity', tool.plasticity, 'plasticity', false, 'Share of the shape that stays when the tool is taken away, 0 to 1'),
+    row(toggle('Rigid', tool.rigid, (rigid) => change({ rigid }), 'Raise the stiffness until nothing enters')),
+  ];
+}
+
+/** Semi-axes or half sides, exponents, and where the tool is. */
+function sizeFields(app: App, tool: ToolInfo, change: (what: Record<string, unknown>) => void): (Node | null)[] {
+  const several = (label: string, name: string, values: readonly number[], isLength: boolean, tip: string) =>
+    field(label, row(...values.map((value, k) => numberInput(`${label} ${k + 1}`, value,
+      (v) => change({ [name]: values.map((x, l) => (l === k ? v : x)) }), isLength ? length(app) : undefined))), tip);
+  return [
+    tool.sizes ? several(tool.shape === 'box' ? 'Half sides' : 'Semi-axes', 'sizes', tool.sizes, true, 'Along its own x, y, z') : null,
+    tool.exponents ? several('Exponents', 'exponents', tool.exponents, false, '1 is round, towards 0 boxlike, 2 a diamond') : null,
+    several('Position', 'position', tool.position, true, 'Of its centre'),
+  ];
+}
+
+export function constraintsPanel(app: App): HTMLElement {
+  const relevant = (a: App) => a.state?.selection.map((k) => {
+    const s = a.state!.surfaces[k]!;
+    return [s.hold, s.pins, s.constraints];
+  });
+  return panel(app, 'Constraints', (a) => [relevant(a), a.state?.coupled, a.state?.seams, a.state?.limit], () => {
+    const { state } = app;
+    const chosen = state?.surfaces[state.selection[0] ?? -1];
+    if (!state || !chosen) return [note('Select a surface.')];
+    const run = (...commands: { do: string; [k: string]: unknown }[]) => void app.execute(commands);
+    const edges = [['all', 'All edges'], ['u0', 'u = 0'], ['u1', 'u = 1'], ['v0', 'v = 0'], ['v1', 'v = 1']] as const;
+    const edgeSelect = select('Edge', edges, 'all', () => {});
+    const holdSelect = select('Continuity', [['position', 'Position'], ['clamped', 'Tangent'], ['curvature', 'Curvature'], ['free', 'Free']], 'position', () => {});
+    return [
+      field('Held rows', numberInput('Held rows', chosen.hold, (v) => run({ do: 'hold', rows: Math.round(v) })), 'Outer rows of control points that stay'),
+      row(edgeSelect, holdSelect, h('button', { class: 'button small', type: 'button',
+        onclick: () => run({ do: 'edge', which: edgeSelect.value, hold: holdSelect.value }) }, 'Hold')),
+      row(
+        h('button', { class: 'button small', type: 'button', title: 'Stays its own mirror image across the middle of u', onclick: () => run({ do: 'symmetry', mirror: 'u' }) }, 'Mirror u'),
+        h('button', { class: 'button small', type: 'button', title: 'Stays its own mirror image across the middle of v', onclick: () => run({ do: 'symmetry', mirror: 'v' }) }, 'Mirror v'),
+        toggle('Seams', state.coupled, (couple) => run({ do: 'seams', couple }), 'Patches selected together stay together at their seams'),
+        h('button', { class: 'button small', type: 'button', title: 'Frees all that is held, pinned, frozen or kept', onclick: () => run({ do: 'release' }) }, 'Release all'),
+      ),
+      field('Limit', numberInput('Limit', state.limit, (v) => run(v > 0 ? { do: 'limit', distance: v } : { do: 'limit' }), length(app), 'none'),
+        'No point moves further from the surface as opened; 0 for no limit'),
+      chosen.pins > 0 || chosen.constraints.length > 0
+        ? note([chosen.pins > 0 ? `${chosen.pins} control points pinned` : '', ...chosen.constraints.map((c) =>
+            Object.entries(c).filter(([k]) => k !== 'tolerance').map(([k, v]) => (k === 'do' ? String(v) : `${k} ${JSON.stringify(v)}`)).join(' '))]
+            .filter(Boolean).join('\n')) : null,
+      state.seams.length > 0 ? note(state.seams.map((s) => `seam ${s.continuity}, gap ${format(s.gap)}${s.reason ? `: ${s.reason}` : ''}`).join('\n')) : null,
+    ];
+  }, false);
+}

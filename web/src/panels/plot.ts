@@ -1,0 +1,85 @@
+import { format } from '../document/units';
+import type { StepInfo } from '../engine/session_types';
+import type { App } from './app';
+import { h } from './dom';
+
+const terms = [
+  ['stretch', '--plot-1'],
+  ['bend', '--plot-2'],
+  ['kinetic', '--plot-3'],
+  ['contact', '--plot-4'],
+] as const;
+
+/** The bar below: energy by term over the last steps, and the numbers of the last one. */
+export function statusBar(app: App): HTMLElement {
+  const canvas = h('canvas', { class: 'plot', width: 220, height: 44, aria: { label: 'Energy by term over the last steps' } });
+  const legend = h('div', { class: 'legend' }, ...terms.map(([name]) => h('span', { class: `key ${name}` }, name)));
+  const numbers = h('div', { class: 'numbers' });
+  const element = h('footer', { class: 'status' }, canvas, legend, numbers);
+
+  const update = () => {
+    const { state, frame } = app;
+    drawPlot(app, canvas);
+    const last = state?.last;
+    const cells: [string, string, string][] = [];
+    if (frame) {
+      const points = state!.selection.reduce((n, k) => n + state!.surfaces[k]!.net[0] * state!.surfaces[k]!.net[1], 0);
+      cells.push(['points', String(points), 'Control points of the selected surfaces']);
+      cells.push(['unknowns', String(3 * points), 'Degrees of freedom: three for each control point; what is held is among them']);
+      if (last) {
+        cells.push(['steps', String(state!.steps), 'Steps so far']);
+        cells.push(['step', `${(1000 * last.time).toFixed(1)} ms`, 'Time of the last step alone']);
+        cells.push(['energy', format(last.energy), 'Stretch and bend energy']);
+        cells.push(['residual', format(last.residual), 'Imbalance of forces: 0 at rest']);
+        cells.push(['moved', `${format(last.displacement)} ${state!.surfaces[0]?.unit ?? ''}`, 'Largest distance from the surface as opened']);
+      }
+      cells.push(['frame', `${(frame.computeTime + frame.paintTime).toFixed(1)} ms`, 'Commands, evaluation and transfer in the worker']);
+      if (app.framesPerSecond > 0) cells.push(['fps', app.framesPerSecond.toFixed(0), 'Frames per second']);
+    }
+    numbers.replaceChildren(...cells.map(([name, value, tip]) => h('span', { title: tip }, h('small', {}, name), value)));
+  };
+  app.onChange.push(update);
+  return element;
+}
+
+/** The same, larger, with the size of the terms: for the panel. */
+export function energyChart(app: App): HTMLElement {
+  const canvas = h('canvas', { class: 'chart', aria: { label: 'Energy by term, large' } });
+  const values = new Map(terms.map(([name]) => [name, h('output', {})]));
+  const most = h('small', { class: 'chart-most' });
+  const element = h('div', { class: 'energy' }, h('div', { class: 'chart-frame' }, canvas, most),
+    h('div', { class: 'energy-terms' }, ...terms.map(([name]) => h('span', { class: `key ${name}` }, name, values.get(name)!))));
+  app.onChange.push(() => {
+    if (element.offsetParent === null) return; // its panel is closed
+    drawPlot(app, canvas, [244, 84]);
+    const last = app.steps.at(-1);
+    for (const [name, output] of values) output.textContent = last ? format(last[name]) : '–';
+    most.textContent = app.steps.length > 1 ? format(largest(app.steps)) : '';
+  });
+  return element;
+}
+
+const largest = (steps: readonly StepInfo[]) => steps.reduce((most, s) => Math.max(most, s.stretch, s.bend, s.kinetic, s.contact), 0);
+
+function drawPlot(app: App, canvas: HTMLCanvasElement, [width, height] = [220, 44] as [number, number]): void {
+  const context = canvas.getContext('2d');
+  if (!context) return;
+  const scale = Math.min(window.devicePixelRatio, 2);
+  if (canvas.width !== width * scale) [canvas.width, canvas.height] = [width * scale, height * scale];
+  context.setTransform(scale, 0, 0, scale, 0, 0);
+  context.clearRect(0, 0, width, height);
+  const { steps } = app;
+  if (steps.length < 2) return;
+  const style = getComputedStyle(document.documentElement);
+  const most = Math.max(largest(steps), 1e-300);
+  for (const [name, colour] of terms) {
+    if (steps.every((s) => s[name] === 0)) continue;
+    context.beginPath();
+    steps.forEach((s, k) => {
+      context.lineTo((k / (steps.length - 1)) * width, height - 2 - Math.max(0, s[name] / most) * (height - 4));
+    });
+    context.strokeStyle = style.getPropertyValue(colour);
+    context.lineWidth = 1.5;
+    context.stroke();
+  }
+}

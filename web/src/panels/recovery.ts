@@ -1,0 +1,20 @@
+import { autosave, type Kept } from '../document/autosave';
+import type { App } from './app';
+
+const when = (kept: Kept) => new Date(kept.when).toLocaleString(undefined, { dateStyle: 'medium', timeStyle: 'short' });
+
+/** Says at the lower edge what closed tabs have left behind: the last session first, the older ones on request. */
+export async function offerRecovery(app: App): Promise<void> {
+  const left = await app.documents.keeper.left().catch(() => []);
+  const offer = (kept: Kept, older: Kept[]) =>
+    app.notify({
+      kind: 'info',
+      text: `“${kept.name}”, ${kept.commands} ${kept.commands === 1 ? 'command' : 'commands'}, from ${when(kept)}, is still here.`,
+      actions: [
+        { label: 'Recover', act: () => void app.documents.recover(kept) },
+        { label: 'Forget it', act: () => void autosave.forget(kept.id) },
+        ...(older.length > 0 ? [{ label: `Older (${older.length})`, act: () => offer(older[0]!, older.slice(1)) }] : []),
+      ],
+    });
+  if (left.length > 0) offer(left[0]!, left.slice(1));
+}

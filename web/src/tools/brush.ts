@@ -1,0 +1,232 @@
+import * as THREE from 'three';
+
+import type { Command } from '../engine/session_types';
+import type { GridPicker } from '../view/picking';
+import type { Hit, Viewer } from '../view/viewer';
+import type { Viewport } from '../view/viewport';
+import { brushModes, type Mode } from './modes';
+import type { PointerTool } from './pointers';
+import { Ring } from './ring';
+
+export interface BrushSettings {
+  /** Radius of the ball, file units. */
+  radius: number;
+  /** How deep it goes, in radii; how much of a bump smoothing takes. */
+  strength: number;
+  /** The pressure of a pen lessens the strength. */
+  pressure: boolean;
+}
+
+/** What the pointer asks of the session. */
+export interface BrushActions {
+  /** A new act of these commands; resolves once they are done, false if they failed. */
+  begin(commands: Command[]): Promise<boolean>;
+  /** Goes on with the act; what comes too fast is left out. */
+  follow(commands: () => Command[], join: boolean): void;
+  /** Ends the act. */
+  end(commands: Command[]): Promise<void>;
+  /** Takes the act back. */
+  cancel(): Promise<void>;
+  place(point: THREE.Vector3, normal: THREE.Vector3): void;
+  select(surface: number): Promise<void>;
+  pickTool(name: string | null): void;
+  settingsChanged(): void;
+}
+
+export const brushName = 'brush';
+const mostSteps = 8; // between two places of the pointer that the session has seen
+
+type Place = Pick<Hit, 'point' | 'normal' | 'fractions'> & { press: number };
+
+interface Stroke {
+  viewport: Viewport;
+  surface: number;
+  kind: 'ball' | 'grab' | 'smooth';
+  inward: boolean;
+  frozen: (GridPicker | null)[];
+  begun: Promise<boolean>;
+  start: THREE.Vector3;
+  /** Where the ball is for the session. */
+  last: Place;
+  at: [number, number];
+  cancelled: boolean;
+}
+
+/** Strokes: a ball pressed along the surface, smoothing, a point dragged; also places tools and selects by a click. */
+export class Brush implements PointerTool {
+  mode: Mode = 'push';
+  settings: BrushSettings = { radius: 1, strength: 0.5, pressure: true };
+
+  private stroke: Stroke | null = null;
+  /** Hold-drag: how far the pointer is from where it began, and what it began with. */
+  private sizing: { x: number; y: number; radius: number; strength: number; hit: Hit | null } | null = null;
+  private readonly ring: Ring;
+
+  constructor(private readonly viewer: Viewer, private readonly actions: BrushActions) {
+    this.ring = new Ring(viewer);
+  }
+
+  get active(): boolean {
+    return this.stroke !== null || this.sizing !== null;
+  }
+
+  wheel(event: WheelEvent): boolean {
+    const brush = brushModes.includes(this.mode);
+    if (!this.stroke && !(brush && (event.shiftKey || event.altKey))) return false;
+    const delta = event.deltaY !== 0 ? event.deltaY : event.deltaX;
+    const factor = Math.exp(-Math.sign(delta) * 0.12);
+    if (event.altKey) this.settings.strength = Math.min(1, Math.max(0.02, this.settings.strength * factor));
+    else this.settings.radius *= factor;
+    this.actions.settingsChanged();
+    return true;
+  }
+
+  press(viewport: Viewport, event: PointerEvent): boolean {
+    if (this.mode === 'look' || (!brushModes.includes(this.mode) && this.mode !== 'place')) return false;
+    const hit = this.viewer.pick(viewport, event);
+    if (event.ctrlKey && this.mode !== 'place') {
+      this.sizing = { x: event.clientX, y: event.clientY, ...this.settings, hit };
+      return true;
+    }
+    if (!hit) return false;
+    if (this.mode === 'place') {
+      this.actions.place(hit.point, hit.normal);
+      return true;
+    }
+    // The shape at the press is what the pointer moves along, so that a stroke keeps its depth.
+    const frozen = this.viewer.pickers;
+    const kind = this.mode === 'grab' ? 'grab' : this.mode === 'smooth' || event.shiftKey ? 'smooth' : 'ball';
+    const inward = (this.mode === 'push') !== event.altKey;
+    const last = { ...hit, press: this.pressure(event) };
+    const stroke: Stroke = {
+      viewport, surface: hit.surface, kind, inward, frozen, begun: Promise.resolve(true), start: hit.point.clone(), last,
+      at: hit.fractions, cancelled: false,
+    };
+    this.stroke = stroke;
+    stroke.begun = (async () => {
+      if (!this.viewer.frame!.state.selection.includes(hit.surface)) await this.actions.select(hit.surface);
+      return this.actions.begin(
+        kind === 'ball' ? this.ball(last, inward)
+        : kind === 'smooth' ? this.smooth(stroke, last)
+        : [this.grab(stroke, new THREE.Vector3())]);
+    })();
+    return true;
+  }
+
+  private pressure(event: PointerEvent): number {
+    return this.settings.pressure && event.pointerType === 'pen' ? Math.max(0.05, event.pressure) : 1;
+  }
+
+  drag(event: PointerEvent): void {
+    const { stroke, sizing } = this;
+    if (sizing) {
+      this.resize(sizing, event);
+      return;
+    }
+    if (!stroke) return;
+    if (stroke.kind === 'grab') {
+      const by = stroke.viewport.unproject(event.clientX, event.clientY, stroke.start).sub(stroke.start);
+      void this.followOn(stroke, () => [{ do: 'undo' }, this.grab(stroke, by)], false);
+      return;
+    }
+    const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
+    if (!hit || hit.surface !== stroke.surface) return;
+    this.showRing(hit);
+    const place = { ...hit, press: this.pressure(event) };
+    if (stroke.kind === 'ball') void this.followOn(stroke, () => this.towards(stroke, place), true);
+    else void this.followOn(stroke, () => this.smooth(stroke, place), true);
+  }
+
+  /** To the right larger, upwards deeper. */
+  private resize(from: NonNullable<Brush['sizing']>, event: PointerEvent): void {
+    this.settings.radius = from.radius * Math.exp((event.clientX - from.x) / 120);
+    this.settings.strength = Math.min(1, Math.max(0.02, from.strength - (event.clientY - from.y) / 300));
+    if (from.hit) this.showRing(from.hit);
+    this.actions.settingsChanged();
+  }
+
+  private async followOn(stroke: Stroke, commands: () => Command[], join: boolean): Promise<void> {
+    const begun = await stroke.begun;
+    if (begun && !stroke.cancelled && this.stroke === stroke) this.actions.follow(commands, join);
+  }
+
+  release(): void {
+    this.sizing = null;
+    const { stroke } = this;
+    if (!stroke) return;
+    this.stroke = null;
+    void (async () => {
+      if ((await stroke.begun) && !stroke.cancelled) {
+        await this.actions.end(stroke.kind === 'ball' ? [{ do: 'remove', tool: brushName }] : []);
+      }
+    })();
+  }
+
+  /** A press and release in one place, not a stroke: selects what is there. */
+  click(viewport: Viewport, event: PointerEvent): void {
+    const tool = this.viewer.pickTool(viewport, event);
+    this.actions.pickTool(tool);
+    if (tool) return;
+    const hit = this.viewer.pick(viewport, event);
+    if (hit && !this.viewer.frame!.state.selection.includes(hit.surface)) void this.actions.select(hit.surface);
+  }
+
+  /** Esc: as if the stroke had never been. */
+  async cancel(): Promise<void> {
+    const { stroke, sizing } = this;
+    if (sizing) {
+      this.settings.radius = sizing.radius;
+      this.settings.strength = sizing.strength;
+      this.sizing = null;
+      this.actions.settingsChanged();
+    }
+    if (!stroke) return;
+    stroke.cancelled = true;
+    this.stroke = null;
+    if (await stroke.begun) await this.actions.cancel();
+  }
+
+  private ball({ point, normal, press }: Place, inward: boolean): Command[] {
+    const { radius, strength } = this.settings;
+    const away = (1 - strength * press) * radius;
+    const centre = point.clone().addScaledVector(normal, inward ? away : -away);
+    const [x, y, z] = this.viewer.origin;
+    return [
+      { do: 'tool', name: brushName, shape: 'sphere', radius, position: [centre.x + x, centre.y + y, centre.z + z],
+        mode: 'collision', plasticity: 1 },
+      { do: 'step' },
+    ];
+  }
+
+  private smooth(stroke: Stroke, at: Place): Command[] {
+    stroke.last = at;
+    return [{ do: 'relax', at: at.fractions, radius: this.settings.radius, strength: this.settings.strength * at.press }];
+  }
+
+  /** From where the ball is to where the pointer is, so closely that a fast hand leaves a groove and not single dents. */
+  private towards(stroke: Stroke, to: Place): Command[] {
+    const from = stroke.last;
+    stroke.last = to;
+    const count = Math.min(mostSteps, Math.max(1, Math.ceil(from.point.distanceTo(to.point) / (0.4 * this.settings.radius))));
+    return Array.from({ length: count }, (_, k) => (k + 1) / count).flatMap((x) =>
+      this.ball({ point: from.point.clone().lerp(to.point, x), normal: from.normal.clone().lerp(to.normal, x).normalize(),
+        fractions: to.fractions, press: from.press + (to.press - from.press) * x }, stroke.inward));
+  }
+
+  private grab(stroke: Stroke, by: THREE.Vector3): Command {
+    return { do: 'drag', at: stroke.at, by: by.toArray(), radius: this.settings.radius, steps: 1 };
+  }
+
+  hover(viewport: Viewport | null, event?: PointerEvent): void {
+    const hit = brushModes.includes(this.mode) && viewport && event ? this.viewer.pick(viewport, event) : null;
+    if (hit) this.showRing(hit);
+    else this.ring.hide();
+  }
+
+  private showRing({ point, normal }: { point: THREE.Vector3; normal: THREE.Vector3 }): void {
+    const { radius, strength } = this.settings;
+    // Where a ball that deep cuts the plane.
+    const ball = this.mode === 'push' || this.mode === 'pull';
+    this.ring.show(point, normal, ball ? radius * Math.sqrt(Math.max(0.05, 1 - (1 - strength) ** 2)) : radius);
+  }
+}

@@ -1,0 +1,58 @@
+import * as THREE from 'three';
+
+import type { Command } from '../engine/session_types';
+import type { Viewport } from '../view/viewport';
+import type { ToolHost } from './host';
+
+/** Sends what the user's hand does to a tool: by how much it was moved, turned and resized since the last command. */
+export function followGizmo(host: ToolHost, viewport: Viewport): void {
+  const { gizmo } = viewport;
+  const sent = { position: new THREE.Vector3(), turn: new THREE.Quaternion(), scale: new THREE.Vector3(1, 1, 1) };
+  let begun = false;
+  let used = false;
+
+  const take = (object: THREE.Object3D) => {
+    sent.position.copy(object.position);
+    sent.turn.copy(object.quaternion);
+    sent.scale.copy(object.scale);
+  };
+
+  /** From what was sent last to where the object is now, and a step of the surface unless it plays anyway. */
+  const commands = (): Command[] => {
+    const { object } = gizmo;
+    const tool = host.viewer.selectedTool;
+    if (!object || !tool) return [];
+    const list: Command[] = [];
+    const by = object.position.clone().sub(sent.position);
+    if (by.lengthSq() > 0) list.push({ do: 'move', tool, by: by.toArray() });
+    const turn = object.quaternion.clone().multiply(sent.turn.clone().invert());
+    const sine = Math.hypot(turn.x, turn.y, turn.z);
+    if (sine > 1e-9) {
+      list.push({ do: 'turn', tool, axis: [turn.x, turn.y, turn.z],
+        angle: THREE.MathUtils.radToDeg(2 * Math.atan2(sine, turn.w)) });
+    }
+    const ratio = object.scale.clone().divide(sent.scale);
+    if (ratio.toArray().every((x) => Number.isFinite(x) && x > 1e-3) && ratio.distanceTo(new THREE.Vector3(1, 1, 1)) > 1e-9) {
+      list.push({ do: 'scale', tool, by: ratio.toArray() });
+    }
+    take(object);
+    if (list.length > 0 && !host.playing() && host.state!.surfaces.length > 0 && host.state!.selection.length > 0) list.push({ do: 'step' });
+    return list;
+  };
+
+  gizmo.addEventListener('dragging-changed', (event) => {
+    if (event.value && gizmo.object) {
+      take(gizmo.object);
+      begun = used = false;
+    } else if (used) {
+      void host.client.followed().then(() => host.execute([]));
+    }
+  });
+  gizmo.addEventListener('objectChange', () => {
+    if (!gizmo.dragging) return;
+    used = true;
+    // The first command begins an entry of the history; those after it belong to it.
+    host.client.follow(commands, begun);
+    begun = true;
+  });
+}

@@ -1,0 +1,104 @@
+import * as THREE from 'three';
+
+import type { Command } from '../engine/session_types';
+import { Brush, type BrushActions } from './brush';
+import { Edges } from './edges';
+import { followGizmo } from './gizmo';
+import type { Placing, ToolHost } from './host';
+import { type Mode, paintModes } from './modes';
+import { newTool } from './new_tool';
+import { Paint, type PaintKind } from './paint';
+import { PointEditor } from './point_edit';
+import { Pointers, type PointerTool } from './pointers';
+
+/** Everything that the pointer can do, and which of it a press means now. */
+export class Hand {
+  readonly brush: Brush;
+  readonly points: PointEditor;
+  readonly paint: Paint;
+  readonly edges: Edges;
+  readonly pointers: Pointers;
+  readonly placing: Placing = { shape: 'sphere' };
+
+  constructor(private readonly host: ToolHost) {
+    const { viewer } = host;
+    const actions = this.actions();
+    this.brush = new Brush(viewer, actions);
+    this.points = new PointEditor(viewer, { ...actions, changed: () => host.changed() });
+    this.paint = new Paint(viewer, () => this.brush.settings.radius, {
+      execute: (commands) => host.execute(commands), select: actions.select,
+      journal: async () => (JSON.parse(await host.client.journal()) as { commands: Command[] }).commands,
+    });
+    this.edges = new Edges(viewer, actions.select);
+    this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool());
+    for (const viewport of viewer.viewports) followGizmo(host, viewport);
+    host.onChange.push(() => this.refresh());
+  }
+
+  get mode(): Mode {
+    return this.brush.mode;
+  }
+
+  /** What the pointer does from now on. */
+  choose(mode: Mode): void {
+    this.tool().hover?.(null);
+    for (const v of this.host.viewer.viewports) v.element.style.cursor = '';
+    this.brush.mode = mode;
+    document.querySelector('.side')?.scrollTo({ top: 0 }); // where the panel of the mode is
+    if (paintModes.includes(mode)) this.paint.kind = mode as PaintKind;
+    this.host.changed();
+  }
+
+  /** Something that Esc would take back is under way. */
+  get active(): boolean {
+    return [this.brush, this.points, this.paint].some((tool) => tool.active);
+  }
+
+  tool(): PointerTool {
+    if (this.mode === 'points') return this.points;
+    if (this.mode === 'edges') return this.edges;
+    return paintModes.includes(this.mode) ? this.paint : this.brush;
+  }
+
+  /** What is drawn over the surface follows the surface. */
+  private refresh(): void {
+    this.host.viewer.editing = this.mode === 'points' || this.mode === 'pin';
+    this.points.refresh(this.mode === 'points');
+    this.edges.refresh(this.mode === 'edges');
+    void this.paint.refresh(this.mode === 'material', this.host.changes);
+  }
+
+  /** A new tool, on the near side of the surface point. */
+  private async place(point: THREE.Vector3, normal: THREE.Vector3): Promise<void> {
+    const { host } = this;
+    const command = newTool(host, this.placing, this.brush.settings.radius, point, normal);
+    if (!(await host.execute([command]))) return;
+    this.choose('look');
+    host.viewer.selectTool(command.name as string);
+    host.changed();
+  }
+
+  private actions(): BrushActions {
+    const { host } = this;
+    return {
+      begin: async (commands) => (await host.execute(commands)) !== null,
+      follow: (commands, join) => host.client.follow(commands, join),
+      end: async (commands) => {
+        await host.client.followed();
+        if (commands.length > 0) await host.execute(commands, commands[0]!.do === 'remove');
+        else await host.execute([]);
+      },
+      cancel: async () => {
+        await host.client.followed();
+        await host.execute([{ do: 'undo' }]);
+      },
+      place: (point, normal) => void this.place(point, normal),
+      select: (surface) => host.select(surface),
+      pickTool: (name) => {
+        host.viewer.selectTool(name);
+        host.changed();
+      },
+      settingsChanged: () => host.changed(),
+    };
+  }
+}

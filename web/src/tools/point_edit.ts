@@ -1,0 +1,276 @@
+import * as THREE from 'three';
+
+import type { Command } from '../engine/session_types';
+import { gridIndices, wholeRows } from '../view/net';
+import { disc } from '../view/surface_view';
+import type { Viewer } from '../view/viewer';
+import type { Viewport } from '../view/viewport';
+import type { PointerTool } from './pointers';
+
+export interface PointActions {
+  /** A new entry of the history; false where it failed. */
+  begin(commands: Command[]): Promise<boolean>;
+  follow(commands: () => Command[], join: boolean): void;
+  end(commands: Command[]): Promise<void>;
+  cancel(): Promise<void>;
+  select(surface: number): Promise<void>;
+  changed(): void;
+}
+
+export type Lock = 'x' | 'y' | 'z' | 'normal' | null;
+
+interface Hold {
+  viewport: Viewport;
+  start: THREE.Vector3;
+  normal: THREE.Vector3;
+  by: THREE.Vector3;
+  pointer: { x: number; y: number };
+  /** The first command is on its way; null while the pointer has not moved. */
+  begun: Promise<boolean> | null;
+  cancelled: boolean;
+}
+
+/** Picks control points of the selected surface, by click, box and row, and drags them. */
+export class PointEditor implements PointerTool {
+  /** Flat indices i n + j. */
+  readonly chosen = new Set<number>();
+  lock: Lock = null;
+
+  private of = ''; // the surface and net that they are indices of
+  private hold: Hold | null = null;
+  private box: { viewport: Viewport; x: number; y: number; add: boolean; element: HTMLElement } | null = null;
+  private readonly marks: THREE.Points<THREE.BufferGeometry, THREE.PointsMaterial>;
+  private readonly axis: THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial>;
+
+  constructor(private readonly viewer: Viewer, private readonly actions: PointActions) {
+    this.marks = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ sizeAttenuation: false, depthTest: false, alphaMap: disc(), alphaTest: 0.5 }));
+    this.axis = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ depthTest: false, transparent: true, opacity: 0.8 }));
+    for (const part of [this.marks, this.axis]) {
+      part.frustumCulled = false;
+      part.visible = false;
+      part.renderOrder = 12;
+      viewer.overlay.add(part);
+    }
+  }
+
+  get active(): boolean {
+    return this.hold !== null || this.box !== null;
+  }
+
+  /** The surface whose points are picked: the first selected one. */
+  get surface(): number | undefined {
+    return this.viewer.frame?.state.selection[0];
+  }
+
+  get net(): [number, number] {
+    const { surface } = this;
+    return surface === undefined ? [0, 0] : this.viewer.frame!.state.surfaces[surface]!.net;
+  }
+
+  /** After every frame: what is chosen is shown where it is now, and forgotten where the net became another. */
+  refresh(shown: boolean): void {
+    const { surface } = this;
+    const of = surface === undefined ? '' : `${this.viewer.frame!.state.surfaces[surface]!.id} ${this.net.join()}`;
+    if (of !== this.of) this.chosen.clear();
+    this.of = of;
+    const net = surface === undefined ? undefined : this.viewer.surfaces[surface]?.picture?.net;
+    this.marks.visible = shown && this.chosen.size > 0 && net !== undefined;
+    if (!this.marks.visible) return;
+    const places = new Float32Array(3 * this.chosen.size);
+    [...this.chosen].forEach((k, at) => places.set(net!.subarray(3 * k, 3 * k + 3), 3 * at));
+    this.marks.geometry.setAttribute('position', new THREE.BufferAttribute(places, 3));
+    this.marks.material.color.set(this.viewer.palette.toolSelected);
+    this.marks.material.size = (1.4 * this.viewer.display.pointSize + 5) * Math.min(window.devicePixelRatio, 2);
+  }
+
+  choose(points: Iterable<number>, add = false): void {
+    if (!add) this.chosen.clear();
+    for (const k of points) this.chosen.add(k);
+    this.actions.changed();
+  }
+
+  /** The rows, along v (of constant i) or u (of constant j), that hold the chosen points. */
+  chooseRows(direction: 'u' | 'v'): void {
+    const [m, n] = this.net;
+    const rows = new Set([...this.chosen].map((k) => (direction === 'v' ? Math.floor(k / n) : k % n)));
+    this.choose(gridIndices(m, n).filter((k) => rows.has(direction === 'v' ? Math.floor(k / n) : k % n)));
+  }
+
+  /** Which points a command is about. */
+  which(): Record<string, unknown> {
+    const [m, n] = this.net;
+    return wholeRows([...this.chosen].sort((a, b) => a - b), m, n);
+  }
+
+  press(viewport: Viewport, event: PointerEvent): boolean {
+    const { surface } = this;
+    if (surface === undefined) return false;
+    const touch = event.pointerType === 'touch';
+    const point = this.viewer.pickControlPoint(viewport, event, surface, touch ? 20 : 10);
+    if (point === null) {
+      if (touch || event.altKey) return false;
+      const element = document.createElement('div');
+      element.className = 'select-box';
+      viewport.element.append(element);
+      this.box = { viewport, x: event.clientX, y: event.clientY, add: event.shiftKey, element };
+      return true;
+    }
+    if (event.ctrlKey || event.metaKey || event.altKey) {
+      if (!event.shiftKey) this.chosen.clear();
+      this.chosen.add(point);
+      this.chooseRows(event.altKey ? 'v' : 'u');
+      return true;
+    }
+    if (event.shiftKey) {
+      if (!this.chosen.delete(point)) this.chosen.add(point);
+      this.actions.changed();
+      return true;
+    }
+    if (!this.chosen.has(point)) this.choose([point]);
+    const picture = this.viewer.surfaces[surface]!.picture!;
+    const start = new THREE.Vector3().fromArray(picture.net, 3 * point);
+    this.hold = {
+      viewport, start, normal: this.normalAt(start), by: new THREE.Vector3(), pointer: { x: event.clientX, y: event.clientY },
+      begun: null, cancelled: false,
+    };
+    return true;
+  }
+
+  /** Of the drawn surface where it is nearest to a point. */
+  normalAt(point: THREE.Vector3): THREE.Vector3 {
+    const { positions, normals } = this.viewer.surfaces[this.surface!]!.picture!;
+    let nearest = Infinity;
+    let best = 0;
+    for (let k = 0; k < positions.length; k += 3) {
+      const d = (positions[k]! - point.x) ** 2 + (positions[k + 1]! - point.y) ** 2 + (positions[k + 2]! - point.z) ** 2;
+      if (d < nearest) [nearest, best] = [d, k];
+    }
+    return new THREE.Vector3().fromArray(normals, best);
+  }
+
+  drag(event: PointerEvent): void {
+    const { box } = this;
+    if (box) {
+      const corner = box.viewport.element.getBoundingClientRect();
+      const [left, top] = [Math.min(box.x, event.clientX), Math.min(box.y, event.clientY)];
+      box.element.style.left = `${left - corner.left}px`;
+      box.element.style.top = `${top - corner.top}px`;
+      box.element.style.width = `${Math.abs(event.clientX - box.x)}px`;
+      box.element.style.height = `${Math.abs(event.clientY - box.y)}px`;
+      return;
+    }
+    const { hold } = this;
+    if (!hold) return;
+    if (!hold.begun && Math.hypot(event.clientX - hold.pointer.x, event.clientY - hold.pointer.y) < 3) return;
+    hold.pointer = { x: event.clientX, y: event.clientY };
+    this.send(hold);
+  }
+
+  /** A key while dragging: along one axis only, or again freely. */
+  setLock(lock: Lock): void {
+    this.lock = this.lock === lock ? null : lock;
+    if (this.hold) this.send(this.hold);
+    this.actions.changed();
+  }
+
+  private send(hold: Hold): void {
+    hold.by = this.moved(hold);
+    this.showAxis(hold);
+    const command = (): Command => ({ do: 'points', ...this.which(), by: hold.by.toArray() });
+    hold.begun ??= this.actions.begin([command()]);
+    void hold.begun.then((good) => {
+      if (good && !hold.cancelled && this.hold === hold) this.actions.follow(() => [{ do: 'undo' }, command()], false);
+    });
+  }
+
+  private direction(hold: Hold): THREE.Vector3 | null {
+    if (!this.lock) return null;
+    return this.lock === 'normal' ? hold.normal : new THREE.Vector3(Number(this.lock === 'x'), Number(this.lock === 'y'), Number(this.lock === 'z'));
+  }
+
+  /** In the plane that faces the viewer, or to the point of the axis that is nearest to the ray. */
+  private moved(hold: Hold): THREE.Vector3 {
+    const { viewport, start, pointer } = hold;
+    const axis = this.direction(hold);
+    if (!axis) return viewport.unproject(pointer.x, pointer.y, start).sub(start);
+    const { ray } = viewport.ray({ clientX: pointer.x, clientY: pointer.y }, new THREE.Raycaster());
+    const w = start.clone().sub(ray.origin);
+    const [b, d, e] = [axis.dot(ray.direction), axis.dot(w), ray.direction.dot(w)];
+    const denominator = 1 - b * b;
+    return axis.clone().multiplyScalar(denominator > 1e-4 ? (b * e - d) / denominator : 0);
+  }
+
+  private showAxis(hold: Hold | null): void {
+    const axis = hold && this.direction(hold);
+    this.axis.visible = axis !== null;
+    if (!hold || !axis) return;
+    const length = 1000 * hold.viewport.pixel();
+    const ends = [hold.start.clone().addScaledVector(axis, -length), hold.start.clone().addScaledVector(axis, length)];
+    this.axis.geometry.setFromPoints(ends);
+    this.axis.material.color.set(this.viewer.palette.toolSelected);
+    this.viewer.redraw();
+  }
+
+  release(event: PointerEvent): void {
+    const { box, hold } = this;
+    this.box = null;
+    this.hold = null;
+    this.lock = null;
+    this.showAxis(null);
+    if (box) {
+      box.element.remove();
+      this.chooseBox(box, event);
+    } else if (hold?.begun) {
+      void hold.begun.then((good) => (good && !hold.cancelled ? this.actions.end([]) : undefined));
+    }
+  }
+
+  private chooseBox(box: NonNullable<PointEditor['box']>, event: PointerEvent): void {
+    const { surface } = this;
+    if (surface === undefined) return;
+    const places = box.viewport.projectAll(this.viewer.surfaces[surface]!.picture!.net);
+    const [x0, x1] = [Math.min(box.x, event.clientX), Math.max(box.x, event.clientX)];
+    const [y0, y1] = [Math.min(box.y, event.clientY), Math.max(box.y, event.clientY)];
+    if (x1 - x0 < 4 && y1 - y0 < 4) {
+      // A click: on another surface it means that one.
+      const hit = this.viewer.pick(box.viewport, event);
+      if (hit && !this.viewer.frame!.state.selection.includes(hit.surface)) void this.actions.select(hit.surface);
+      else if (!box.add) this.choose([]);
+      return;
+    }
+    const inside: number[] = [];
+    for (let k = 0; 2 * k < places.length; ++k) {
+      const [x, y] = [places[2 * k]!, places[2 * k + 1]!];
+      if (x >= x0 && x <= x1 && y >= y0 && y <= y1) inside.push(k);
+    }
+    this.choose(inside, box.add);
+  }
+
+  /** The row along u through the point; with Shift, along v. */
+  doubleClick(viewport: Viewport, event: MouseEvent): void {
+    const { surface } = this;
+    const point = surface === undefined ? null : this.viewer.pickControlPoint(viewport, event, surface, 10);
+    if (point === null) return;
+    this.chosen.clear();
+    this.chosen.add(point);
+    this.chooseRows(event.shiftKey ? 'v' : 'u');
+  }
+
+  async cancel(): Promise<void> {
+    const { hold } = this;
+    this.box?.element.remove();
+    this.box = null;
+    this.hold = null;
+    this.lock = null;
+    this.showAxis(null);
+    if (!hold?.begun) return;
+    hold.cancelled = true;
+    if (await hold.begun) await this.actions.cancel();
+  }
+
+  hover(viewport: Viewport | null, event?: PointerEvent): void {
+    const { surface } = this;
+    if (!viewport || !event || surface === undefined) return;
+    viewport.element.style.cursor = this.viewer.pickControlPoint(viewport, event, surface, 10) === null ? '' : 'move';
+  }
+}
