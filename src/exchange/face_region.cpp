@@ -1,0 +1,70 @@
+#include "face_region.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace knead {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double off_surface = 0.02;  // of the extent of the face: edges may be that far from its surface
+
+}  // namespace
+
+Expected<std::vector<RegionPart>> region_of(const StepReader& reader, const StepFace& face, EdgeSampler& edges,
+                                            const SurfaceFoot& feet, double size) {
+  auto loops = edges.loops(face.bounds);
+  if (!loops) return std::unexpected(std::move(loops.error()));
+  Eigen::AlignedBox3d box;
+  for (const Loop& loop : *loops) {
+    for (const Point& p : loop) box.extend(p);
+  }
+  std::vector<std::vector<LoopPoint>> in_chart;
+  for (Loop& loop : *loops) {
+    if (!face.same_sense) std::reverse(loop.begin(), loop.end());
+    auto& points = in_chart.emplace_back();
+    std::optional<Vector2d> hint;
+    for (const Point& p : loop) {
+      const auto found = feet.nearest(p, hint, on_surface * size);
+      if (!(found.distance <= off_surface * box.diagonal().norm() + on_surface * size)) {
+        return reader.error(face.instance, "its edges do not lie on its surface");
+      }
+      hint.reset();
+      if (!found.foot.free[0] && !found.foot.free[1]) hint = found.foot.parameters;
+      points.push_back({found.foot.parameters, found.foot.free});
+    }
+  }
+  auto parts = parameter_region(feet.space(), in_chart);
+  if (!parts) return reader.error(face.instance, parts.error().what);
+  return parts;
+}
+
+void add_turns(const RegionPart& part, const ParameterSpace& space, std::vector<TrimFace>& faces) {
+  Vector2d lower = part.outer.front().at, upper = lower;
+  for (const auto& p : part.outer) {
+    lower = lower.cwiseMin(p.at);
+    upper = upper.cwiseMax(p.at);
+  }
+  std::array<int, 2> from = {0, 0}, to = {0, 0};
+  constexpr double near = 1e-6;
+  for (int d = 0; d < 2; ++d) {
+    if (!(space.periods[std::size_t(d)] > 0)) continue;
+    from[std::size_t(d)] = static_cast<int>(std::floor(-upper[d] + near)) + 1;
+    to[std::size_t(d)] = static_cast<int>(std::ceil(1 - lower[d] - near)) - 1;
+  }
+  for (int i = from[0]; i <= to[0]; ++i) {
+    for (int j = from[1]; j <= to[1]; ++j) {
+      TrimFace& face = faces.emplace_back();
+      const auto append = [&](const std::vector<RegionPoint>& polygon) {
+        TrimLoop& loop = face.emplace_back();
+        for (const auto& p : polygon) loop.push_back(p.at + Vector2d(i, j));
+      };
+      append(part.outer);
+      for (const auto& hole : part.holes) append(hole);
+    }
+  }
+}
+
+}  // namespace knead

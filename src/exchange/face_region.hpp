@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "face_loops.hpp"
+#include "knead/exchange/trim_loops.hpp"
+#include "parameter_region.hpp"
+#include "step_faces.hpp"
+#include "surface_foot.hpp"
+
+namespace knead {
+
+/// The bounds of a face as polygons over the plane of the unwrapped parameters of its surface. `size` is the diagonal
+/// of its net. Errors (input): its edges cannot be followed, or do not lie on its surface.
+[[nodiscard]] Expected<std::vector<RegionPart>> region_of(const StepReader& reader, const StepFace& face,
+                                                          EdgeSampler& edges, const SurfaceFoot& feet, double size);
+
+/// Appends a part, once for every turn that brings some of it into the domain.
+void add_turns(const RegionPart& part, const ParameterSpace& space, std::vector<TrimFace>& faces);
+
+/// A point lies on a surface where its foot is no farther than this share of the net's diagonal.
+inline constexpr double on_surface = 1e-5;
+
+}  // namespace knead
