@@ -1,0 +1,350 @@
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "knead/base/error.hpp"
+
+namespace knead {
+
+// Descriptions of types as tables. A record says once what it is made of,
+//
+//   void describe(Ball& b, Fields& fields) {
+//     fields.name("ball", "a round body");
+//     fields.add("radius", b.radius, {.help = "of the ball", .unit = Unit::length, .range = above(0)});
+//   }
+//
+// declared beside the record and compiled in one file. `type_of<Ball>()` is its table: what reads, writes or explains
+// values is one loop over (Type, void*), compiled once for all types.
+
+/// What a value is made of.
+enum class Kind {
+  boolean,   ///< bool
+  integer,   ///< int
+  number,    ///< double
+  text,      ///< std::string
+  choice,    ///< an enumeration whose values have names
+  optional,  ///< std::optional: no element or one
+  list,      ///< std::vector
+  array,     ///< so many elements: std::array, a small vector of Eigen's, neighbouring members
+  record,    ///< fields
+  variant,   ///< std::variant of records, told apart by their names
+  opaque,    ///< what only its owner can read and write, like a shared surface
+};
+
+/// What a number measures.
+enum class Unit { none, length, angle, fraction };
+
+/// Whether a field may be left out.
+enum class Presence { optional, required };
+
+/// Numbers from `least` to `most`, without a bound that is marked open.
+struct Range {
+  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+  bool open_below = false, open_above = false;
+
+  /// False for what is not a number.
+  [[nodiscard]] constexpr bool holds(double x) const {
+    return (open_below ? x > least : x >= least) && (open_above ? x < most : x <= most);
+  }
+  friend bool operator==(const Range&, const Range&) = default;
+};
+constexpr Range at_least(double least) { return {.least = least}; }
+constexpr Range above(double least) { return {.least = least, .open_below = true}; }
+constexpr Range between(double least, double most) { return {.least = least, .most = most}; }
+
+/// "from 0 to 1", "> 0", "at least 2"; empty where every number will do.
+[[nodiscard]] std::string in_words(const Range& range);
+
+/// A named value of an enumeration. An enumeration E is described by `std::span<const Choice> choices(E)`.
+struct Choice {
+  std::string_view name;
+  int value = 0;
+  std::string_view help = {};
+
+  constexpr Choice() = default;
+  template <class E>
+  requires std::is_enum_v<E>
+  constexpr Choice(std::string_view choice_name, E choice, std::string_view text = {})
+      : name(choice_name), value(static_cast<int>(choice)), help(text) {}
+};
+
+/// What is said of a field besides its name and type.
+struct About {
+  std::string_view help = {};
+  Unit unit = Unit::none;
+  Range range = {};  ///< of each number in it
+  Presence presence = Presence::optional;
+  /// What holds where the field is left out, in words, if its default value does not say it.
+  std::string_view fallback = {};
+  /// What is written is this times the member: 2 for a height whose half is kept.
+  double factor = 1;
+  /// An array of numbers that are mostly the same: one number then stands for all.
+  bool uniform = false;
+};
+
+struct Type;
+
+struct Field : About {
+  std::string_view name;
+  const Type* type = nullptr;
+  std::size_t offset = 0;  ///< in bytes, from the beginning of the record
+  /// A variant whose name and fields count as those of the record itself; `name` is then that of the variant's tag.
+  bool flat = false;
+
+  [[nodiscard]] void* of(void* record) const { return static_cast<char*>(record) + offset; }
+  [[nodiscard]] const void* of(const void* record) const { return static_cast<const char*>(record) + offset; }
+};
+
+/// The table of a type. All tables live as long as the program; functions that do not fit the kind are null.
+struct Type {
+  Kind kind = Kind::record;
+  std::string_view name = {};  ///< of a record; of a variant the name of the field that tells which (its tag)
+  std::string_view help = {};
+  const void* initial = nullptr;           ///< a value as it is made by default
+  const Type* element = nullptr;           ///< of optionals, lists and arrays
+  std::size_t length = 0;                  ///< of arrays
+  std::span<const Choice> choices = {};    ///< of choices, in order of their values
+  std::vector<Field> fields = {};          ///< of records
+  std::vector<const Type*> variants = {};  ///< of variants: the records, in order
+
+  std::size_t (*count)(const void*) = nullptr;   ///< elements there are: optional, list, array
+  void (*resize)(void*, std::size_t) = nullptr;  ///< optional (to 0 or 1, made by default) and list
+  void* (*at)(void*, std::size_t) = nullptr;     ///< element k; of variants what it holds, whatever k
+  int (*value)(const void*) = nullptr;           ///< of choices; of variants the index
+  void (*assign)(void*, int) = nullptr;          ///< of choices; makes the variant hold number k by default
+
+  [[nodiscard]] const void* part(const void* whole, std::size_t k = 0) const {
+    return at(const_cast<void*>(whole), k);  // NOLINT: `at` only adds to the address
+  }
+  /// The field of that name, of the record itself; null where there is none.
+  [[nodiscard]] const Field* find(std::string_view field) const;
+  /// The choice of that value or name; null where there is none.
+  [[nodiscard]] const Choice* choice(int choice_value) const;
+  [[nodiscard]] const Choice* choice(std::string_view choice_name) const;
+  /// The number of the variant of that name; −1 where there is none.
+  [[nodiscard]] int variant(std::string_view variant_name) const;
+  /// True for numbers, and for optionals, lists and arrays of nothing else.
+  [[nodiscard]] bool numeric() const;
+  /// The type of what is there at last, below optionals, lists and arrays.
+  [[nodiscard]] const Type& innermost() const;
+};
+
+/// The table of T, made at the first call. A variant is described by the name of its tag,
+/// `std::string_view tag_of(const Variant*)`.
+template <class T>
+[[nodiscard]] const Type& type_of();
+
+/// Collects the fields of a record; what `describe` is given.
+class Fields {
+ public:
+  Fields(Type& type, const void* record) : type_(type), record_(static_cast<const char*>(record)) {}
+
+  void name(std::string_view name, std::string_view help) {
+    type_.name = name;
+    type_.help = help;
+  }
+  template <class M>
+  void add(std::string_view name, M& member, const About& about = {}) {
+    add(name, &member, type_of<M>(), about, false);
+  }
+  /// Two members that lie side by side as one field, an array.
+  template <class M>
+  void add_pair(std::string_view name, M& first, M& second, const About& about = {}) {
+    assert(&first + 1 == &second);
+    static_cast<void>(second);
+    add(name, &first, type_of<std::array<M, 2>>(), about, false);
+  }
+  /// A variant whose name and fields are written among those of this record.
+  template <class V>
+  void add_flat(V& variant, const About& about = {}) {
+    const Type& type = type_of<V>();
+    add(type.name, &variant, type, about, true);
+  }
+
+ private:
+  void add(std::string_view name, const void* member, const Type& type, const About& about, bool flat);
+  Type& type_;
+  const char* record_;
+};
+
+/// Whether all numbers of a value, at any depth, are in the ranges of their fields. Error (input): the first that is
+/// not, with the path of its field. Numbers that are left out (empty optionals) pass. Cost: one look at every number.
+[[nodiscard]] Expected<void> check_ranges(const Type& type, const void* value);
+
+/// Types that only their owner reads and writes.
+template <class T>
+inline constexpr bool is_opaque = false;
+template <class T>
+inline constexpr bool is_opaque<std::shared_ptr<T>> = true;
+
+namespace detail {
+
+template <class T>
+concept Described = requires(T& value, Fields& fields) {
+  describe(value, fields);
+};
+template <class T>
+concept Chosen = std::is_enum_v<T> && requires(T value) {
+  choices(value);
+};
+template <class T>
+concept SmallVector = requires(T& value) {
+  { value.data() } -> std::same_as<typename T::Scalar*>;
+  requires T::SizeAtCompileTime >
+  0;
+};
+
+template <class T>
+T& as(void* value) {
+  return *static_cast<T*>(value);
+}
+template <class T>
+const T& as(const void* value) {
+  return *static_cast<const T*>(value);
+}
+
+template <class T>
+const void* initial_value() {
+  static const T value{};
+  return &value;
+}
+
+template <class T>
+struct TypeMaker;
+
+template <class E, std::size_t N>
+Type array_type() {
+  return {.kind = Kind::array,
+          .element = &type_of<E>(),
+          .length = N,
+          .count = [](const void*) { return N; },
+          .at = [](void* v, std::size_t k) -> void* { return static_cast<E*>(v) + k; }};
+}
+template <class E, std::size_t N>
+struct TypeMaker<std::array<E, N>> {
+  static Type make() { return array_type<E, N>(); }
+};
+template <class T>
+requires SmallVector<T>
+struct TypeMaker<T> {
+  static Type make() { return array_type<typename T::Scalar, static_cast<std::size_t>(T::SizeAtCompileTime)>(); }
+};
+template <class E>
+struct TypeMaker<std::vector<E>> {
+  static_assert(!std::is_same_v<E, bool>);
+  static Type make() {
+    return {.kind = Kind::list,
+            .element = &type_of<E>(),
+            .count = [](const void* v) { return as<std::vector<E>>(v).size(); },
+            .resize = [](void* v, std::size_t n) { as<std::vector<E>>(v).resize(n); },
+            .at = [](void* v, std::size_t k) -> void* { return &as<std::vector<E>>(v)[k]; }};
+  }
+};
+template <class E>
+struct TypeMaker<std::optional<E>> {
+  static Type make() {
+    return {.kind = Kind::optional,
+            .element = &type_of<E>(),
+            .count = [](const void* v) { return as<std::optional<E>>(v).has_value() ? std::size_t(1) : 0; },
+            .resize =
+                [](void* v, std::size_t n) {
+                  auto& optional = as<std::optional<E>>(v);
+                  if (n == 0) {
+                    optional.reset();
+                  } else {
+                    optional.emplace();
+                  }
+                },
+            .at = [](void* v, std::size_t) -> void* { return &*as<std::optional<E>>(v); }};
+  }
+};
+template <class E>
+requires Chosen<E>
+struct TypeMaker<E> {
+  static Type make() {
+    return {.kind = Kind::choice,
+            .choices = choices(E{}),
+            .value = [](const void* v) { return static_cast<int>(as<E>(v)); },
+            .assign = [](void* v, int k) { as<E>(v) = static_cast<E>(k); }};
+  }
+};
+template <class T>
+requires Described<T>
+struct TypeMaker<T> {
+  static Type make() {
+    Type type;
+    T value{};
+    Fields fields(type, &value);
+    describe(value, fields);
+    return type;
+  }
+};
+template <class... T>
+struct TypeMaker<std::variant<T...>> {
+  using Variant = std::variant<T...>;
+  static Type make() {
+    using Make = void (*)(Variant&);
+    static constexpr Make makers[] = {[](Variant& v) { v.template emplace<T>(); }...};
+    return {.kind = Kind::variant,
+            .name = tag_of(static_cast<const Variant*>(nullptr)),
+            .variants = {&type_of<T>()...},
+            .at = [](void* v, std::size_t) -> void* {
+              return std::visit([](auto& held) -> void* { return &held; }, as<Variant>(v));
+            },
+            .value = [](const void* v) { return static_cast<int>(as<Variant>(v).index()); },
+            .assign = [](void* v, int k) { makers[k](as<Variant>(v)); }};
+  }
+};
+template <class T>
+requires is_opaque<T>
+struct TypeMaker<T> {
+  static Type make() { return {.kind = Kind::opaque}; }
+};
+template <>
+struct TypeMaker<bool> {
+  static Type make() { return {.kind = Kind::boolean}; }
+};
+template <>
+struct TypeMaker<int> {
+  static Type make() { return {.kind = Kind::integer}; }
+};
+template <>
+struct TypeMaker<double> {
+  static Type make() { return {.kind = Kind::number}; }
+};
+template <>
+struct TypeMaker<std::string> {
+  static Type make() { return {.kind = Kind::text}; }
+};
+
+}  // namespace detail
+
+/// Makes the table of T where `type_of<T>` is a specialisation that one file defines.
+template <class T>
+const Type& make_type() {
+  static const Type type = [] {
+    Type made = detail::TypeMaker<T>::make();
+    made.initial = detail::initial_value<T>();
+    return made;
+  }();
+  return type;
+}
+
+template <class T>
+const Type& type_of() {
+  return make_type<T>();
+}
+
+}  // namespace knead

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "described_text.hpp"
+
+namespace knead {
+namespace {
+
+std::string bounds(const Range& range) {
+  std::string text;
+  if (std::isfinite(range.least)) {
+    text += fmt::format(",\"{}\":{}", range.open_below ? "exclusiveMinimum" : "minimum", json_number(range.least));
+  }
+  if (std::isfinite(range.most)) {
+    text += fmt::format(",\"{}\":{}", range.open_above ? "exclusiveMaximum" : "maximum", json_number(range.most));
+  }
+  return text;
+}
+
+class Schema {
+ public:
+  explicit Schema(Absent absent) : absent_(absent) {}
+
+  std::string value(const Type& type, const Field* field) {
+    const Range range = field != nullptr ? field->range : Range{};
+    switch (type.kind) {
+      case Kind::boolean:
+        return R"({"type":"boolean"})";
+      case Kind::integer:
+        return R"({"type":"integer")" + bounds(range) + "}";
+      case Kind::number:
+        return R"({"type":"number")" + bounds(range) + "}";
+      case Kind::text:
+        return R"({"type":"string"})";
+      case Kind::choice:
+        return names(names_of(type.choices));
+      case Kind::optional:
+        if (absent_ == Absent::left_out) return value(*type.element, field);
+        return fmt::format(R"({{"anyOf":[{},{{"type":"null"}}]}})", value(*type.element, field));
+      case Kind::list:
+        return fmt::format(R"({{"type":"array","items":{}}})", value(*type.element, field));
+      case Kind::array:
+        return fmt::format(R"({{"type":"array","items":{},"minItems":{},"maxItems":{}}})", value(*type.element, field),
+                           type.length, type.length);
+      case Kind::record:
+        return record(type, {});
+      case Kind::variant: {
+        std::string all;
+        for (const Type* held : type.variants) all += (all.empty() ? "" : ",\n") + record(*held, type.name);
+        return "{\"oneOf\":[" + all + "]}";
+      }
+      case Kind::opaque:
+        return "{}";
+    }
+    return "{}";
+  }
+
+ private:
+  static std::string names(const std::vector<std::string_view>& all) {
+    std::string text;
+    for (std::string_view name : all) text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", name);
+    return "{\"enum\":[" + text + "]}";
+  }
+
+  /// With its description and default put in front.
+  std::string member(const Field& field, const Type& owner) {
+    std::string schema = field.flat ? names(variant_names(*field.type)) : value(*field.type, &field);
+    if (field.uniform) schema = "{\"anyOf\":[" + value(*field.type->element, &field) + "," + schema + "]}";
+    std::string about;
+    if (!field.help.empty()) about += "\"description\":" + json_text(field.help) + ",";
+    const Type& type = *field.type;
+    if (absent_ == Absent::left_out && field.presence == Presence::optional && field.fallback.empty() && !field.flat &&
+        type.kind != Kind::optional && type.kind != Kind::record && type.kind != Kind::variant && field.factor == 1) {
+      about += "\"default\":" + to_json(type, field.of(owner.initial)) + ",";
+    }
+    return "{" + about + schema.substr(1);
+  }
+
+  std::string record(const Type& type, std::string_view tag) {
+    Members members;
+    if (!tag.empty()) {
+      members.properties = fmt::format("\n  \"{}\":{{\"const\":\"{}\"}}", tag, type.name);
+      members.require(tag);
+      members.seen.push_back(tag);
+    }
+    add_members(type, members, true);
+    std::string text = R"({"type":"object",)";
+    if (!type.help.empty()) text += "\"description\":" + json_text(type.help) + ",";
+    if (!members.required.empty()) text += "\"required\":[" + members.required + "],";
+    return text + R"("additionalProperties":false,"properties":{)" + members.properties + "}}";
+  }
+
+  struct Members {
+    std::string properties, required;
+    std::vector<std::string_view> seen;
+    void require(std::string_view name) { required += fmt::format("{}\"{}\"", required.empty() ? "" : ",", name); }
+  };
+
+  void add_members(const Type& type, Members& members, bool always) {
+    for (const Field& field : type.fields) {
+      if (field.type->kind == Kind::opaque || std::ranges::find(members.seen, field.name) != members.seen.end())
+        continue;
+      members.seen.push_back(field.name);
+      members.properties +=
+          fmt::format("{}\n  \"{}\":{}", members.properties.empty() ? "" : ",", field.name, member(field, type));
+      const bool required = field.presence == Presence::required || (absent_ == Absent::null && !field.flat);
+      if (always && required) members.require(field.name);
+      if (!field.flat) continue;
+      for (const Type* held : field.type->variants) add_members(*held, members, false);
+    }
+  }
+
+  Absent absent_;
+};
+
+}  // namespace
+
+std::string schema_of(const Type& type, Absent absent) { return Schema(absent).value(type, nullptr); }
+
+}  // namespace knead

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "knead/base/error.hpp"
+
+namespace knead {
+
+/// A JSON value as it was written. (The parser's library is seen by json.cpp alone.)
+struct Json {
+  enum class Kind { null, boolean, number, text, list, object };
+  Kind kind = Kind::null;
+  bool boolean = false;
+  double number = 0;
+  std::string text = {};
+  std::vector<Json> list = {};
+  std::vector<std::pair<std::string, Json>> members = {};  ///< each name once, the last of equal ones
+
+  [[nodiscard]] bool is(Kind other) const { return kind == other; }
+  /// The member of that name; null where there is none.
+  [[nodiscard]] const Json* find(std::string_view name) const;
+};
+
+/// Errors: what is not JSON, with its line.
+[[nodiscard]] Expected<Json> parse_json(std::string_view text);
+
+/// For messages: the value on one line, numbers with as few digits as it takes.
+[[nodiscard]] std::string shown(const Json& json);
+
+/// Text in quotes with escapes; what is not UTF-8 becomes U+FFFD.
+[[nodiscard]] std::string json_text(std::string_view text);
+
+/// 17 significant digits, which read back to the same bits; null for what is not finite.
+[[nodiscard]] std::string json_number(double value);
+
+}  // namespace knead
