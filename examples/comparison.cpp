@@ -63,7 +63,7 @@ ActiveSettings<2> hinged(int n) {
   settings.raw = true;
   settings.evolution = Evolution::stationary;
   for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) settings.fixed.push_back(i == 0 || j == 0 || i == n - 1 || j == n - 1);
+    for (int j = 0; j < n; ++j) settings.held.push_back(i == 0 || j == 0 || i == n - 1 || j == n - 1);
   }
   return settings;
 }

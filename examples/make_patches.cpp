@@ -7,7 +7,7 @@
 
 #include "knead/exchange/file_io.hpp"
 #include "knead/session/document.hpp"
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 namespace {
 

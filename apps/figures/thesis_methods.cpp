@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "knead/base/gauss_legendre.hpp"
-#include "knead/gramian/counted.hpp"
+#include "base/gauss_legendre.hpp"
+#include "gramian/counted.hpp"
 
 namespace knead::figures {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/gramian/operation_count.hpp"
+#include "gramian/operation_count.hpp"
 #include "knead/spline/knot_vector.hpp"
 
 namespace knead::figures {

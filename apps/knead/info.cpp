@@ -19,11 +19,11 @@ struct Options {
 
 Json to_json(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
-Json to_json(const StepPlacement& p) {
+Json to_json(const step::Placement& p) {
   return {{"origin", to_json(p.origin)}, {"axis", to_json(p.axis)}, {"ref_direction", to_json(p.ref_direction)}};
 }
 
-Json to_json(const StepSurface& s) {
+Json to_json(const step::SurfaceEntity& s) {
   const Surface& surface = s.surface;
   const BoundingBox box = bounding_box(surface);
   Json knots = Json::array();
@@ -45,7 +45,7 @@ Json to_json(const StepSurface& s) {
           {"bounding_box", {to_json(box.lower), to_json(box.upper)}}};
 }
 
-Json to_json(const StepInstance& i) {
+Json to_json(const step::Instance& i) {
   return {{"id", i.id},
           {"name", i.name},
           {"parent", i.parent},
@@ -54,11 +54,11 @@ Json to_json(const StepInstance& i) {
           {"frame", i.frame ? to_json(*i.frame) : Json()}};
 }
 
-void print_text(const StepFile& file) {
+void print_text(const step::File& file) {
   fmt::print("{}: STEP{}, units {}, {} B-spline surface{}\n", file.name(),
              file.schema().empty() ? "" : " " + file.schema(), file.length_unit(), file.surfaces().size(),
              file.surfaces().size() == 1 ? "" : "s");
-  for (const StepSurface& s : file.surfaces()) {
+  for (const step::SurfaceEntity& s : file.surfaces()) {
     const Surface& surface = s.surface;
     const auto [m, n] = surface.net();
     const BoundingBox box = bounding_box(surface);
@@ -71,7 +71,7 @@ void print_text(const StepFile& file) {
     fmt::print("           from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.lower.x(), box.lower.y(),
                box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
   }
-  for (const StepUnreadableSurface& s : file.unreadable_surfaces()) {
+  for (const step::UnreadableSurface& s : file.unreadable_surfaces()) {
     fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
   }
   if (!file.instances().empty()) {
@@ -81,18 +81,18 @@ void print_text(const StepFile& file) {
 }
 
 Expected<void> run(const Options& options) {
-  const auto file = StepFile::read(options.file);
+  const auto file = step::File::read(options.file);
   if (!file) return std::unexpected(file.error());
   if (!options.json) {
     print_text(*file);
     return {};
   }
   Json surfaces = Json::array(), unreadable = Json::array(), instances = Json::array();
-  for (const StepSurface& s : file->surfaces()) surfaces.push_back(to_json(s));
-  for (const StepUnreadableSurface& s : file->unreadable_surfaces()) {
+  for (const step::SurfaceEntity& s : file->surfaces()) surfaces.push_back(to_json(s));
+  for (const step::UnreadableSurface& s : file->unreadable_surfaces()) {
     unreadable.push_back({{"id", s.id}, {"reason", s.reason.message()}});
   }
-  for (const StepInstance& i : file->instances()) instances.push_back(to_json(i));
+  for (const step::Instance& i : file->instances()) instances.push_back(to_json(i));
   const Json info = {{"file", options.file},
                      {"format", "STEP"},
                      {"schema", file->schema()},

@@ -24,10 +24,10 @@ Expected<void> run(const Options& options) {
     return std::unexpected(std::move(error));
   }
   if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
-  const auto file = StepFile::read(options.file);
+  const auto file = step::File::read(options.file);
   if (!file) return std::unexpected(file.error());
   std::vector<MeshSurface> surfaces;
-  for (const StepSurface& s : file->surfaces()) surfaces.push_back({s.name.empty() ? s.id : s.name, s.surface});
+  for (const step::SurfaceEntity& s : file->surfaces()) surfaces.push_back({s.name.empty() ? s.id : s.name, s.surface});
   MeshOptions mesh;
   mesh.detail = options.detail;
   mesh.unit = file->length_unit();

@@ -89,7 +89,7 @@ KNEAD_EXPORT(knead_open) int knead_open(std::size_t name_size) {
   if (name_size > bytes.size()) return fail({ErrorKind::usage, "the name is longer than the input"});
   std::string name = bytes.substr(bytes.size() - name_size);
   bytes.resize(bytes.size() - name_size);
-  auto file = StepFile::parse(std::move(bytes), std::move(name));
+  auto file = step::File::parse(std::move(bytes), std::move(name));
   if (!file) return fail(file.error());
   if (file->surfaces().empty()) {
     const auto& unreadable = file->unreadable_surfaces();
@@ -112,7 +112,7 @@ KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size
   bytes.resize(source_size);
   Document document = Document::fresh(name);
   if (source_size > 0) {
-    auto file = StepFile::parse(std::move(bytes), std::move(name));
+    auto file = step::File::parse(std::move(bytes), std::move(name));
     if (!file) return fail(file.error());
     document = Document::from(std::move(*file));
   }

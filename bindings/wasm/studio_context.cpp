@@ -17,7 +17,7 @@ void append(std::string& to, const std::vector<T>& from) {
 
 }  // namespace
 
-std::string context_bytes(const StepFile& file, const Point& origin) {
+std::string context_bytes(const step::File& file, const Point& origin) {
   ContextFaces context;
   if (auto faces = context_faces(file)) context = *std::move(faces);
   std::vector<float> positions, normals;

@@ -1,4 +1,4 @@
-#include "knead/base/gauss_legendre.hpp"
+#include "gauss_legendre.hpp"
 
 #include <cassert>
 #include <cfloat>

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "knead/spline/greville_interpolation.hpp"
 #include "span_samples.hpp"
+#include "spline/greville_interpolation.hpp"
 
 namespace knead {
 namespace {

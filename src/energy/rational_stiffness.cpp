@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/base/gauss_legendre.hpp"
+#include "base/gauss_legendre.hpp"
 #include "rational_basis.hpp"
 #include "tensor_pattern.hpp"
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "knead/spline/greville_interpolation.hpp"
-#include "knead/spline/tensor_contraction.hpp"
+#include "spline/greville_interpolation.hpp"
+#include "spline/tensor_contraction.hpp"
 
 namespace knead {
 namespace {

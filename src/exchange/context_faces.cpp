@@ -14,6 +14,9 @@
 #include "triangulate.hpp"
 
 namespace knead {
+
+using namespace step;
+
 namespace {
 
 using Eigen::Vector2d;
@@ -150,10 +153,10 @@ std::vector<Vector2d> points_inside(std::span<const std::vector<Vector2d>> loops
 
 class Tessellator {
  public:
-  Tessellator(const StepReader& reader, double chord)
+  Tessellator(const Reader& reader, double chord)
       : reader_(reader), chord_(chord), edges_(reader, chord), angle_units_(plane_angle_units(reader)) {}
 
-  Expected<FaceMesh> mesh(const StepFace& face) {
+  Expected<FaceMesh> mesh(const Face& face) {
     auto loops = edges_.loops(face.bounds);
     if (!loops) return std::unexpected(std::move(loops.error()));
     std::vector<Point> on_it;
@@ -196,7 +199,7 @@ class Tessellator {
   }
 
  private:
-  Expected<FaceSurface> surface_of(const StepFace& face, std::span<const Point> on_it) const {
+  Expected<FaceSurface> surface_of(const Face& face, std::span<const Point> on_it) const {
     if (face.surface != no_instance) return FaceSurface::read(reader_, face.surface, on_it, angle_units_);
     auto plane = FaceSurface::plane_of(on_it);
     if (!plane) return reader_.error(face.instance, "it has no surface, and its bounds span no plane");
@@ -241,7 +244,7 @@ class Tessellator {
     return true;
   }
 
-  const StepReader& reader_;
+  const Reader& reader_;
   double chord_;
   EdgeSampler edges_;
   std::vector<double> angle_units_;
@@ -249,16 +252,16 @@ class Tessellator {
 
 }  // namespace
 
-Expected<ContextFaces> context_faces(const StepFile& file, double chord) {
+Expected<ContextFaces> context_faces(const step::File& file, double chord) {
   if (!(chord >= 1e-6 && chord <= 0.2)) {
     return std::unexpected(Error{ErrorKind::usage, "the tolerance of chords is out of range", {}, "use 1e-6 to 0.2"});
   }
-  const StepFile::Data& data = file.data();
-  const StepReader reader(data.records);
+  const step::File::Data& data = file.data();
+  const Reader reader(data.records);
   const std::unordered_set<std::uint32_t> drawn(data.surface_instances.begin(), data.surface_instances.end());
   Tessellator tessellator(reader, chord);
   ContextFaces result;
-  for (const StepFace& face : read_faces(reader)) {
+  for (const Face& face : read_faces(reader)) {
     if (drawn.contains(face.surface)) continue;
     if (auto mesh = tessellator.mesh(face))
       result.faces.push_back(*std::move(mesh));

@@ -7,21 +7,21 @@
 
 #include "knead/spline/evaluate.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 constexpr int max_nesting = 8;         // curves of curves; more is a loop
 constexpr int max_halvings = 7;        // of one piece of a curve
 constexpr double close_enough = 1e-6;  // of the extent: ends of a closed spline
 
-std::optional<std::uint32_t> reference_at(const StepReader& reader, std::uint32_t instance, const char* entity,
+std::optional<std::uint32_t> reference_at(const Reader& reader, std::uint32_t instance, const char* entity,
                                           std::size_t inherited, std::size_t k) {
   const auto own = reader.attributes(instance, entity, inherited, k + 1);
   return own.empty() ? std::nullopt : reader.reference(own[k]);
 }
 
 // POLYLINE(points) as a spline of degree 1.
-Expected<Curve> polyline(const StepReader& reader, std::uint32_t instance) {
+Expected<Curve> polyline(const Reader& reader, std::uint32_t instance) {
   const auto own = reader.attributes(instance, "POLYLINE", 1, 1);
   const auto targets = own.empty() ? std::vector<std::uint32_t>() : reader.references(own[0]);
   if (targets.size() < 2) return reader.error(instance, "it has fewer than two points");
@@ -41,7 +41,7 @@ Expected<Curve> polyline(const StepReader& reader, std::uint32_t instance) {
 
 }  // namespace
 
-std::optional<Frame> frame_of(const StepPlacement& placement) {
+std::optional<Frame> frame_of(const Placement& placement) {
   Frame frame{placement.origin};
   frame.z = placement.axis.normalized();
   const Point across = placement.ref_direction - placement.ref_direction.dot(frame.z) * frame.z;
@@ -53,7 +53,7 @@ std::optional<Frame> frame_of(const StepPlacement& placement) {
 
 double chord_angle(double chord) { return 2 * std::acos(1 - std::clamp(chord, 1e-8, 0.5)); }
 
-std::optional<EdgeCurve::Conic> EdgeCurve::conic(const StepReader& reader, std::uint32_t instance, ConicForm form) {
+std::optional<EdgeCurve::Conic> EdgeCurve::conic(const Reader& reader, std::uint32_t instance, ConicForm form) {
   // CONIC(position); then CIRCLE(radius), PARABOLA(focal_dist), or both semi-axes.
   const auto position = reference_at(reader, instance, "CONIC", reader.file().instance(instance).complex ? 0 : 1, 0);
   const auto placement = position ? read_placement(reader, *position) : std::nullopt;
@@ -71,11 +71,11 @@ std::optional<EdgeCurve::Conic> EdgeCurve::conic(const StepReader& reader, std::
   return Conic{form, frame->origin, *a * frame->x, *b * frame->y};
 }
 
-Expected<EdgeCurve> EdgeCurve::read(const StepReader& reader, std::uint32_t instance) {
+Expected<EdgeCurve> EdgeCurve::read(const Reader& reader, std::uint32_t instance) {
   return read_nested(reader, instance, 0);
 }
 
-Expected<EdgeCurve> EdgeCurve::read_nested(const StepReader& reader, std::uint32_t instance, int depth) {
+Expected<EdgeCurve> EdgeCurve::read_nested(const Reader& reader, std::uint32_t instance, int depth) {
   if (depth > max_nesting) return reader.error(instance, "it is made of itself");
   if (reader.is(instance, "LINE")) {
     // LINE(pnt, dir) with VECTOR(orientation, magnitude).
@@ -236,4 +236,4 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, double chord) 
   return result;
 }
 
-}  // namespace knead
+}  // namespace knead::step

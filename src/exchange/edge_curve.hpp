@@ -11,7 +11,7 @@
 #include "step_entity.hpp"
 #include "step_instances.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// Axes of a placement, orthonormal: x is the reference direction made normal to the axis z, and y = z × x.
 struct Frame {
@@ -20,14 +20,14 @@ struct Frame {
 };
 
 /// None where the axis has no length, or the reference direction is along it.
-[[nodiscard]] std::optional<Frame> frame_of(const StepPlacement& placement);
+[[nodiscard]] std::optional<Frame> frame_of(const Placement& placement);
 
 /// A curve of a STEP file as its parameter gives it (ISO 10303-42): LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA,
 /// POLYLINE and B-spline curves; TRIMMED_CURVE, and SURFACE_CURVE with its subtypes, by the curve they are made of.
 class EdgeCurve {
  public:
   /// Errors (input): the entity is of another form, or lacks what its form has.
-  [[nodiscard]] static Expected<EdgeCurve> read(const StepReader& reader, std::uint32_t instance);
+  [[nodiscard]] static Expected<EdgeCurve> read(const Reader& reader, std::uint32_t instance);
 
   [[nodiscard]] Point at(double t) const;
   /// Central difference where the curve is a spline, exact elsewhere.
@@ -59,8 +59,8 @@ class EdgeCurve {
     Point centre, a, b;  // a, b: the semi-axes; of a parabola focal length times axis
   };
   explicit EdgeCurve(std::variant<Line, Conic, CurveTable> form) : form_(std::move(form)) {}
-  static Expected<EdgeCurve> read_nested(const StepReader& reader, std::uint32_t instance, int depth);
-  static std::optional<Conic> conic(const StepReader& reader, std::uint32_t instance, ConicForm form);
+  static Expected<EdgeCurve> read_nested(const Reader& reader, std::uint32_t instance, int depth);
+  static std::optional<Conic> conic(const Reader& reader, std::uint32_t instance, ConicForm form);
 
   std::variant<Line, Conic, CurveTable> form_;
   std::optional<Interval> domain_;
@@ -70,4 +70,4 @@ class EdgeCurve {
 /// Angle between neighbouring points of a circle whose chords keep `chord` · radius: 2 acos(1 − chord).
 [[nodiscard]] double chord_angle(double chord);
 
-}  // namespace knead
+}  // namespace knead::step

@@ -10,6 +10,8 @@
 #include "step_units.hpp"
 
 namespace knead {
+
+using namespace step;
 namespace {
 
 using Eigen::Vector2d;
@@ -18,12 +20,12 @@ constexpr double chord = 2e-4;     // of edges in space
 constexpr double straight = 2e-4;  // of an edge's extent: as far as a chord may be from its course
 constexpr int max_halvings = 7;
 
-std::string name_of(const StepReader& reader, std::uint32_t instance) {
+std::string name_of(const Reader& reader, std::uint32_t instance) {
   return "#" + std::to_string(reader.file().instance(instance).id);
 }
 
 /// The EDGE_CURVEs round a face, once for every time that a loop runs along them.
-std::vector<std::uint32_t> edges_of(const StepReader& reader, const StepFace& face) {
+std::vector<std::uint32_t> edges_of(const Reader& reader, const Face& face) {
   std::vector<std::uint32_t> result;
   for (const auto bound : reader.references(face.bounds)) {
     const auto own = reader.attributes(bound, "FACE_BOUND", 1, 2);
@@ -41,7 +43,7 @@ std::vector<std::uint32_t> edges_of(const StepReader& reader, const StepFace& fa
 }
 
 /// Faces that belong to a shell.
-std::set<std::uint32_t> faces_in_shells(const StepReader& reader) {
+std::set<std::uint32_t> faces_in_shells(const Reader& reader) {
   std::set<std::uint32_t> result;
   for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
     if (!reader.is(k, "CLOSED_SHELL") && !reader.is(k, "OPEN_SHELL")) continue;
@@ -128,7 +130,7 @@ class Course {
   double near_, extent_ = 0;
 };
 
-double uncertainty_of(const StepReader& reader, std::uint32_t instance) {
+double uncertainty_of(const Reader& reader, std::uint32_t instance) {
   const auto contexts = read_unit_contexts(reader);
   const auto found = contexts_of(reader, contexts, {instance});
   return found[0] < 0 ? 0 : contexts[static_cast<std::size_t>(found[0])].uncertainty;
@@ -136,12 +138,12 @@ double uncertainty_of(const StepReader& reader, std::uint32_t instance) {
 
 }  // namespace
 
-Expected<VisibleRegion> visible_region(const StepFile& file, const std::string& surface) {
-  const StepFile::Data& data = file.data();
+Expected<VisibleRegion> visible_region(const step::File& file, const std::string& surface) {
+  const step::File::Data& data = file.data();
   const auto index = data.surface_index.find(surface);
   if (index == data.surface_index.end()) return input_error("there is no such surface", surface);
   const std::size_t k = index->second;
-  const StepReader reader(data.records);
+  const Reader reader(data.records);
   const double size = net_diagonal(data.surfaces[k].surface.control_points());
   const auto feet = SurfaceFoot::create(data.surfaces[k].surface);
   if (!feet) return std::unexpected(feet.error());
@@ -157,7 +159,7 @@ Expected<VisibleRegion> visible_region(const StepFile& file, const std::string& 
   Course course(*feet, size);
   std::map<std::uint32_t, std::size_t> known;                    // edges of the result, by instance
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces_at;  // of every edge
-  for (const StepFace& face : read_faces(reader)) {
+  for (const Face& face : read_faces(reader)) {
     const auto edges = edges_of(reader, face);
     for (const auto edge : edges) faces_at[edge].push_back(face.instance);
     if (face.surface != data.surface_instances[k]) continue;

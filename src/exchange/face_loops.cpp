@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-namespace knead {
+namespace knead::step {
 namespace {
 
-Expected<Point> vertex_point(const StepReader& reader, std::uint32_t vertex) {
+Expected<Point> vertex_point(const Reader& reader, std::uint32_t vertex) {
   const auto own = reader.attributes(vertex, "VERTEX_POINT", 1, 1);
   const auto geometry = own.empty() ? std::nullopt : reader.reference(own[0]);
   if (!geometry) return reader.error(vertex, "a VERTEX_POINT is needed here");
@@ -15,7 +15,7 @@ Expected<Point> vertex_point(const StepReader& reader, std::uint32_t vertex) {
 }  // namespace
 
 Expected<Loop> EdgeSampler::sample(std::uint32_t instance) const {
-  const StepReader& reader = *reader_;
+  const Reader& reader = *reader_;
   // EDGE(start, end) and EDGE_CURVE(geometry, same_sense).
   const auto ends = reader.attributes(instance, "EDGE", 1, 2);
   const auto own = reader.attributes(instance, "EDGE_CURVE", 3, 2);
@@ -66,7 +66,7 @@ Expected<const Loop*> EdgeSampler::edge(std::uint32_t instance) {
 }
 
 Expected<Loop> EdgeSampler::loop(std::uint32_t instance) {
-  const StepReader& reader = *reader_;
+  const Reader& reader = *reader_;
   Loop result;
   if (reader.is(instance, "VERTEX_LOOP")) return result;
   if (reader.is(instance, "POLY_LOOP")) {
@@ -115,4 +115,4 @@ Expected<std::vector<Loop>> EdgeSampler::loops(std::uint32_t bounds) {
   return result;
 }
 
-}  // namespace knead
+}  // namespace knead::step

@@ -6,7 +6,7 @@
 
 #include "edge_curve.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// Points round a bound of a face, the last one not the first again.
 using Loop = std::vector<Point>;
@@ -15,7 +15,7 @@ using Loop = std::vector<Point>;
 class EdgeSampler {
  public:
   /// \param chord as in `EdgeCurve::subdivided`
-  EdgeSampler(const StepReader& reader, double chord) : reader_(&reader), chord_(chord) {}
+  EdgeSampler(const Reader& reader, double chord) : reader_(&reader), chord_(chord) {}
 
   /// From the start vertex of an EDGE_CURVE to its end vertex. Errors (input): the curve's form is not known, or
   /// something is missing.
@@ -30,9 +30,9 @@ class EdgeSampler {
   [[nodiscard]] Expected<Loop> sample(std::uint32_t instance) const;
   [[nodiscard]] Expected<Loop> loop(std::uint32_t instance);
 
-  const StepReader* reader_;
+  const Reader* reader_;
   double chord_;
   std::unordered_map<std::uint32_t, Expected<Loop>> edges_;
 };
 
-}  // namespace knead
+}  // namespace knead::step

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 using Eigen::Vector2d;
@@ -13,7 +13,7 @@ constexpr double off_surface = 0.02;  // of the extent of the face: edges may be
 
 }  // namespace
 
-Expected<std::vector<RegionPart>> region_of(const StepReader& reader, const StepFace& face, EdgeSampler& edges,
+Expected<std::vector<RegionPart>> region_of(const Reader& reader, const Face& face, EdgeSampler& edges,
                                             const SurfaceFoot& feet, double size) {
   auto loops = edges.loops(face.bounds);
   if (!loops) return std::unexpected(std::move(loops.error()));
@@ -67,4 +67,4 @@ void add_turns(const RegionPart& part, const ParameterSpace& space, std::vector<
   }
 }
 
-}  // namespace knead
+}  // namespace knead::step

@@ -8,12 +8,12 @@
 #include "step_faces.hpp"
 #include "surface_foot.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// The bounds of a face as polygons over the plane of the unwrapped parameters of its surface. `size` is the diagonal
 /// of its net. Errors (input): its edges cannot be followed, or do not lie on its surface.
-[[nodiscard]] Expected<std::vector<RegionPart>> region_of(const StepReader& reader, const StepFace& face,
-                                                          EdgeSampler& edges, const SurfaceFoot& feet, double size);
+[[nodiscard]] Expected<std::vector<RegionPart>> region_of(const Reader& reader, const Face& face, EdgeSampler& edges,
+                                                          const SurfaceFoot& feet, double size);
 
 /// Appends a part, once for every turn that brings some of it into the domain.
 void add_turns(const RegionPart& part, const ParameterSpace& space, std::vector<TrimFace>& faces);
@@ -21,4 +21,4 @@ void add_turns(const RegionPart& part, const ParameterSpace& space, std::vector<
 /// A point lies on a surface where its foot is no farther than this share of the net's diagonal.
 inline constexpr double on_surface = 1e-5;
 
-}  // namespace knead
+}  // namespace knead::step

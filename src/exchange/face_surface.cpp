@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-std::optional<Frame> position_of(const StepReader& reader, std::uint32_t instance) {
+std::optional<Frame> position_of(const Reader& reader, std::uint32_t instance) {
   const bool complex = reader.file().instance(instance).complex;
   const auto own = reader.attributes(instance, "ELEMENTARY_SURFACE", complex ? 0 : 1, 1);
   const auto position = own.empty() ? std::nullopt : reader.reference(own[0]);
@@ -20,7 +20,7 @@ std::optional<Frame> position_of(const StepReader& reader, std::uint32_t instanc
 
 }  // namespace
 
-Expected<FaceSurface> FaceSurface::read(const StepReader& reader, std::uint32_t instance, std::span<const Point> on_it,
+Expected<FaceSurface> FaceSurface::read(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it,
                                         std::span<const double> angle_units) {
   struct Elementary {
     const char* entity;
@@ -333,4 +333,4 @@ Eigen::Vector2d FaceSurface::from_chart(const Eigen::Vector2d& steps) const {
   return steps;
 }
 
-}  // namespace knead
+}  // namespace knead::step

@@ -8,7 +8,7 @@
 
 #include "edge_curve.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// Where a point of a surface lies in its parameters.
 struct Foot {
@@ -25,7 +25,7 @@ class FaceSurface {
   /// \param on_it points of the edges of the face: how much of an unbounded swept curve is needed, and what unit the
   ///   angle of a cone is in (the one of `angle_units`, radians each, that brings the cone closest to these points)
   /// Errors (input): the form is another, or lacks what it has.
-  [[nodiscard]] static Expected<FaceSurface> read(const StepReader& reader, std::uint32_t instance,
+  [[nodiscard]] static Expected<FaceSurface> read(const Reader& reader, std::uint32_t instance,
                                                   std::span<const Point> on_it, std::span<const double> angle_units);
   /// Of a face without surface (FACE with a POLY_LOOP): the plane of the loop by Newell's normal.
   [[nodiscard]] static std::optional<FaceSurface> plane_of(std::span<const Point> loop);
@@ -57,7 +57,7 @@ class FaceSurface {
 
   [[nodiscard]] Point around(double u) const { return std::cos(u) * frame_.x + std::sin(u) * frame_.y; }
   void set_poles();
-  [[nodiscard]] Expected<void> tabulate(const StepReader& reader, std::uint32_t instance, std::span<const Point> on_it);
+  [[nodiscard]] Expected<void> tabulate(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it);
   [[nodiscard]] Eigen::Vector2d section(const Point& p) const;
   [[nodiscard]] double nearest(const Eigen::Vector2d& q) const;
 
@@ -80,6 +80,6 @@ class FaceSurface {
 };
 
 /// The radians of every unit of plane angles that a file assigns; 1 (radians) where it assigns none.
-[[nodiscard]] std::vector<double> plane_angle_units(const StepReader& reader);
+[[nodiscard]] std::vector<double> plane_angle_units(const Reader& reader);
 
-}  // namespace knead
+}  // namespace knead::step

@@ -1,4 +1,4 @@
-#include "knead/exchange/part21.hpp"
+#include "part21.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "knead/exchange/part21.hpp"
+#include "part21.hpp"
 #include "part21_lexer.hpp"
 
 namespace knead {

@@ -11,7 +11,7 @@
 #include "step_instances.hpp"
 #include "step_knots.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 constexpr int samples_per_edge = 17;
@@ -24,13 +24,13 @@ struct Ends {
 };
 
 // Attribute of an entity whose complex form declares it elsewhere than its simple form counts it.
-std::optional<std::uint32_t> reference_at(const StepReader& reader, std::uint32_t instance,
-                                          std::string_view declared_by, std::size_t inherited, std::size_t k) {
+std::optional<std::uint32_t> reference_at(const Reader& reader, std::uint32_t instance, std::string_view declared_by,
+                                          std::size_t inherited, std::size_t k) {
   const auto own = reader.attributes(instance, declared_by, inherited, k + 1);
   return own.empty() ? std::nullopt : reader.reference(own[k]);
 }
 
-std::optional<Point> vertex_point(const StepReader& reader, std::uint32_t vertex) {
+std::optional<Point> vertex_point(const Reader& reader, std::uint32_t vertex) {
   if (!reader.is(vertex, "VERTEX_POINT")) return std::nullopt;
   const auto geometry = reference_at(reader, vertex, "VERTEX_POINT", 1, 0);
   if (!geometry) return std::nullopt;
@@ -48,7 +48,7 @@ Points segment(const Point& from, const Point& to) {
 }
 
 // CIRCLE(position, radius) and ELLIPSE(position, semi_axis_1, semi_axis_2): C + a cos t X + b sin t Y.
-std::optional<Points> conic(const StepReader& reader, std::uint32_t instance, const Ends& ends) {
+std::optional<Points> conic(const Reader& reader, std::uint32_t instance, const Ends& ends) {
   const bool circle = reader.is(instance, "CIRCLE");
   const auto position = reader.file().instance(instance).complex ? reference_at(reader, instance, "CONIC", 0, 0)
                                                                  : reference_at(reader, instance, "CONIC", 1, 0);
@@ -77,7 +77,7 @@ std::optional<Points> conic(const StepReader& reader, std::uint32_t instance, co
   return result;
 }
 
-std::optional<Points> polyline(const StepReader& reader, std::uint32_t instance) {
+std::optional<Points> polyline(const Reader& reader, std::uint32_t instance) {
   const auto own = reader.attributes(instance, "POLYLINE", 1, 1);
   if (own.empty()) return std::nullopt;
   std::vector<Point> corners;
@@ -93,7 +93,7 @@ std::optional<Points> polyline(const StepReader& reader, std::uint32_t instance)
   return result;
 }
 
-std::optional<Points> spline(const StepReader& reader, std::uint32_t instance, const Ends& ends) {
+std::optional<Points> spline(const Reader& reader, std::uint32_t instance, const Ends& ends) {
   auto curve = read_b_spline_curve(reader, instance);
   if (!curve) return std::nullopt;
   const auto table = CurveTable::create(*std::move(curve));
@@ -122,7 +122,7 @@ std::optional<Points> spline(const StepReader& reader, std::uint32_t instance, c
   return evaluation ? std::optional(evaluation->points()) : std::nullopt;
 }
 
-std::optional<Points> sample_curve(const StepReader& reader, std::uint32_t instance, const Ends& ends, int depth) {
+std::optional<Points> sample_curve(const Reader& reader, std::uint32_t instance, const Ends& ends, int depth) {
   if (depth > max_nesting) return std::nullopt;
   if (reader.is(instance, "LINE")) return segment(ends.start, ends.end);
   if (reader.is(instance, "CIRCLE") || reader.is(instance, "ELLIPSE")) return conic(reader, instance, ends);
@@ -144,7 +144,7 @@ std::optional<Points> sample_curve(const StepReader& reader, std::uint32_t insta
 
 }  // namespace
 
-Expected<Curve> read_b_spline_curve(const StepReader& reader, std::uint32_t instance) {
+Expected<Curve> read_b_spline_curve(const Reader& reader, std::uint32_t instance) {
   constexpr std::size_t attributes_of_curve = 6;
   std::optional<ImpliedKnots> form;
   if (reader.is(instance, "BEZIER_CURVE")) form = ImpliedKnots::bezier;
@@ -179,7 +179,7 @@ Expected<Curve> read_b_spline_curve(const StepReader& reader, std::uint32_t inst
   return Curve::create({*std::move(knots)}, std::move(points), std::move(weights));
 }
 
-std::optional<Points> sample_edge(const StepReader& reader, std::uint32_t edge) {
+std::optional<Points> sample_edge(const Reader& reader, std::uint32_t edge) {
   // EDGE(start, end) and EDGE_CURVE(geometry, same_sense).
   if (!reader.is(edge, "EDGE_CURVE")) return std::nullopt;
   const auto first = reference_at(reader, edge, "EDGE", 1, 0);
@@ -256,4 +256,4 @@ bool CurveTable::closed(double tolerance) const {
   return (points_.row(0) - points_.row(points_.rows() - 1)).norm() <= tolerance;
 }
 
-}  // namespace knead
+}  // namespace knead::step

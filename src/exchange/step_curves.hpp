@@ -9,17 +9,17 @@
 #include "knead/spline/spline.hpp"
 #include "step_entity.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// Reads a B_SPLINE_CURVE in three dimensions in any of its forms, as `read_b_spline_surface` reads surfaces.
-[[nodiscard]] Expected<Curve> read_b_spline_curve(const StepReader& reader, std::uint32_t instance);
+[[nodiscard]] Expected<Curve> read_b_spline_curve(const Reader& reader, std::uint32_t instance);
 
 /// Points along an EDGE_CURVE from its start to its end vertex, one per row, the more the more spans its curve has.
 ///
 /// Known forms of curve: LINE, CIRCLE, ELLIPSE, POLYLINE (taken whole), B-spline curves, TRIMMED_CURVE of these
 /// (between the vertices of the edge), and SURFACE_CURVE, SEAM_CURVE, INTERSECTION_CURVE of these (by their curve in
 /// space). None for other forms and for curves that cannot be read.
-[[nodiscard]] std::optional<Points> sample_edge(const StepReader& reader, std::uint32_t edge);
+[[nodiscard]] std::optional<Points> sample_edge(const Reader& reader, std::uint32_t edge);
 
 /// The parameter of the point of a curve nearest to `point`, and the distance: the best of the tabulated points and
 /// their neighbourhoods, by Newton's iteration.
@@ -47,4 +47,4 @@ class CurveTable {
   Points points_;
 };
 
-}  // namespace knead
+}  // namespace knead::step

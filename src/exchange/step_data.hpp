@@ -5,24 +5,24 @@
 #include <utility>
 #include <vector>
 
-#include "knead/exchange/part21.hpp"
 #include "knead/exchange/step_file.hpp"
+#include "part21.hpp"
 
-namespace knead {
+namespace knead::step {
 
-/// What a `StepFile` holds.
-struct StepFile::Data {
+/// What a `File` holds.
+struct File::Data {
   explicit Data(Part21File parsed) : records(std::move(parsed)) {}
 
   Part21File records;
   std::string schema;
-  std::vector<StepSurface> surfaces;
+  std::vector<SurfaceEntity> surfaces;
   std::vector<std::uint32_t> surface_instances;                // of each of `surfaces`
   std::vector<std::vector<std::uint32_t>> control_point_refs;  // of each: the values that refer to its control points
   std::unordered_map<std::string, std::size_t> surface_index;  // by id
-  std::vector<StepUnreadableSurface> unreadable;
-  std::vector<StepInstance> instances;
-  std::vector<StepLengthUnit> units;
+  std::vector<UnreadableSurface> unreadable;
+  std::vector<Instance> instances;
+  std::vector<LengthUnit> units;
 };
 
-}  // namespace knead
+}  // namespace knead::step

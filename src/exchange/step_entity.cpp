@@ -5,14 +5,14 @@
 
 #include "part21_text.hpp"
 
-namespace knead {
+namespace knead::step {
 
-std::string StepReader::label(std::uint32_t instance) const {
+std::string Reader::label(std::uint32_t instance) const {
   const auto& record = file_->instance(instance);
   return "#" + std::to_string(record.id) + " " + std::string(file_->keyword(record.first));
 }
 
-std::optional<std::uint32_t> StepReader::part(std::uint32_t instance, std::string_view entity) const {
+std::optional<std::uint32_t> Reader::part(std::uint32_t instance, std::string_view entity) const {
   const auto& record = file_->instance(instance);
   for (auto k = record.first; k < record.last; k = file_->value(k).next) {
     if (same_keyword(file_->keyword(k), entity)) return k;
@@ -20,8 +20,8 @@ std::optional<std::uint32_t> StepReader::part(std::uint32_t instance, std::strin
   return std::nullopt;
 }
 
-std::vector<std::uint32_t> StepReader::attributes(std::uint32_t instance, std::string_view entity,
-                                                  std::size_t inherited, std::size_t count) const {
+std::vector<std::uint32_t> Reader::attributes(std::uint32_t instance, std::string_view entity, std::size_t inherited,
+                                              std::size_t count) const {
   const auto& record = file_->instance(instance);
   std::vector<std::uint32_t> result;
   if (record.complex) {
@@ -34,13 +34,13 @@ std::vector<std::uint32_t> StepReader::attributes(std::uint32_t instance, std::s
   return result.size() < count ? std::vector<std::uint32_t>{} : result;
 }
 
-std::optional<double> StepReader::real(std::uint32_t value) const {
+std::optional<double> Reader::real(std::uint32_t value) const {
   const auto kind = file_->value(value).kind;
   if (kind != Part21Kind::real && kind != Part21Kind::integer) return std::nullopt;
   return parse_real(file_->text(value));
 }
 
-std::optional<int> StepReader::integer(std::uint32_t value) const {
+std::optional<int> Reader::integer(std::uint32_t value) const {
   if (file_->value(value).kind != Part21Kind::integer) return std::nullopt;
   auto text = file_->text(value);
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -49,13 +49,13 @@ std::optional<int> StepReader::integer(std::uint32_t value) const {
   return error == std::errc() && last == text.data() + text.size() ? std::optional(result) : std::nullopt;
 }
 
-std::optional<std::uint32_t> StepReader::reference(std::uint32_t value) const {
+std::optional<std::uint32_t> Reader::reference(std::uint32_t value) const {
   const auto& parameter = file_->value(value);
   if (parameter.kind != Part21Kind::reference || parameter.target == no_instance) return std::nullopt;
   return parameter.target;
 }
 
-std::vector<std::uint32_t> StepReader::references(std::uint32_t list) const {
+std::vector<std::uint32_t> Reader::references(std::uint32_t list) const {
   std::vector<std::uint32_t> result;
   if (!is_list(list)) return result;
   for (const auto value : file_->children(list)) {
@@ -64,21 +64,21 @@ std::vector<std::uint32_t> StepReader::references(std::uint32_t list) const {
   return result;
 }
 
-std::string StepReader::string(std::uint32_t value) const {
+std::string Reader::string(std::uint32_t value) const {
   return file_->value(value).kind == Part21Kind::string ? decode_string(file_->text(value)) : std::string();
 }
 
-std::string_view StepReader::enumeration(std::uint32_t value) const {
+std::string_view Reader::enumeration(std::uint32_t value) const {
   const auto text = file_->text(value);
   return file_->value(value).kind == Part21Kind::enumeration ? text.substr(1, text.size() - 2) : std::string_view();
 }
 
-std::string StepReader::item_name(std::uint32_t instance) const {
+std::string Reader::item_name(std::uint32_t instance) const {
   const auto own = attributes(instance, "REPRESENTATION_ITEM", 0, 1);
   return own.empty() ? std::string() : string(own[0]);
 }
 
-Expected<std::array<std::uint32_t, 3>> StepReader::coordinate_values(std::uint32_t instance) const {
+Expected<std::array<std::uint32_t, 3>> Reader::coordinate_values(std::uint32_t instance) const {
   if (!is(instance, "CARTESIAN_POINT")) return error(instance, "a CARTESIAN_POINT is needed here");
   const auto own = attributes(instance, "CARTESIAN_POINT", 1, 1);
   if (own.empty() || !is_list(own[0])) return error(instance, "it has no list of coordinates");
@@ -90,7 +90,7 @@ Expected<std::array<std::uint32_t, 3>> StepReader::coordinate_values(std::uint32
   return std::array<std::uint32_t, 3>{coordinates[0], coordinates[1], coordinates[2]};
 }
 
-Expected<Point> StepReader::point(std::uint32_t instance) const {
+Expected<Point> Reader::point(std::uint32_t instance) const {
   const auto values = coordinate_values(instance);
   if (!values) return std::unexpected(values.error());
   Point result;
@@ -104,7 +104,7 @@ Expected<Point> StepReader::point(std::uint32_t instance) const {
   return result;
 }
 
-std::optional<Point> StepReader::direction(std::uint32_t instance) const {
+std::optional<Point> Reader::direction(std::uint32_t instance) const {
   const auto own = attributes(instance, "DIRECTION", 1, 1);
   if (!is(instance, "DIRECTION") || own.empty() || !is_list(own[0])) return std::nullopt;
   const auto ratios = file_->children(own[0]);
@@ -118,9 +118,9 @@ std::optional<Point> StepReader::direction(std::uint32_t instance) const {
   return result;
 }
 
-std::unexpected<Error> StepReader::error(std::uint32_t instance, std::string what, std::string remedy) const {
+std::unexpected<Error> Reader::error(std::uint32_t instance, std::string what, std::string remedy) const {
   return std::unexpected(Error{ErrorKind::input, std::move(what), label(instance), std::move(remedy), file_->name(),
                                file_->line(file_->instance(instance).bytes.begin)});
 }
 
-}  // namespace knead
+}  // namespace knead::step

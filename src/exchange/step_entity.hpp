@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "knead/base/error.hpp"
-#include "knead/exchange/part21.hpp"
 #include "knead/spline/spline.hpp"
+#include "part21.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// Reads the attributes of entities: the layer between parameters (part21.hpp) and geometry.
 ///
 /// An entity type is found by name in a simple record and in the parts of a complex one alike. In a simple record the
 /// attributes of the supertypes come first (ISO 10303-21, 10.2.5.2); so an attribute is given by the entity that
 /// declares it, by the number of inherited attributes before those, and by its place among them.
-class StepReader {
+class Reader {
  public:
-  explicit StepReader(const Part21File& file) : file_(&file) {}
+  explicit Reader(const Part21File& file) : file_(&file) {}
 
   [[nodiscard]] const Part21File& file() const { return *file_; }
 
@@ -67,4 +67,4 @@ class StepReader {
   const Part21File* file_;
 };
 
-}  // namespace knead
+}  // namespace knead::step

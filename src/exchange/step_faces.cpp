@@ -1,16 +1,16 @@
 #include "step_faces.hpp"
 
-namespace knead {
+namespace knead::step {
 
-std::vector<StepFace> read_faces(const StepReader& reader) {
+std::vector<Face> read_faces(const Reader& reader) {
   constexpr int max_nesting = 4;
-  std::vector<StepFace> result;
+  std::vector<Face> result;
   for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
     const bool on_surface = reader.is(k, "ADVANCED_FACE") || reader.is(k, "FACE_SURFACE");
     if (!on_surface && !reader.is(k, "FACE")) continue;
     const auto bounds = reader.attributes(k, "FACE", 1, 1);
     if (bounds.empty()) continue;
-    StepFace face{k, bounds[0]};
+    Face face{k, bounds[0]};
     if (on_surface) {
       const auto own = reader.attributes(k, "FACE_SURFACE", 2, 2);
       auto target = own.empty() ? std::nullopt : reader.reference(own[0]);
@@ -31,4 +31,4 @@ std::vector<StepFace> read_faces(const StepReader& reader) {
   return result;
 }
 
-}  // namespace knead
+}  // namespace knead::step

@@ -5,10 +5,10 @@
 
 #include "step_entity.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// An ADVANCED_FACE, FACE_SURFACE or FACE as its record gives it.
-struct StepFace {
+struct Face {
   std::uint32_t instance = no_instance;
   std::uint32_t bounds = 0;             ///< the value of its list of FACE_BOUNDs
   std::uint32_t surface = no_instance;  ///< none: a FACE has no geometry but that of its loops
@@ -17,6 +17,6 @@ struct StepFace {
 
 /// All faces, in the order of the file. RECTANGULAR_TRIMMED_SURFACE and CURVE_BOUNDED_SURFACE stand for the surface
 /// that they cut: the bounds of the face say more.
-[[nodiscard]] std::vector<StepFace> read_faces(const StepReader& reader);
+[[nodiscard]] std::vector<Face> read_faces(const Reader& reader);
 
-}  // namespace knead
+}  // namespace knead::step

@@ -11,11 +11,11 @@
 #include "step_trimming.hpp"
 #include "step_units.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 std::string schema_of(const Part21File& file) {
-  const StepReader reader(file);
+  const Reader reader(file);
   for (const auto record : file.header()) {
     if (!same_keyword(file.keyword(record), "FILE_SCHEMA")) continue;
     const auto parameters = file.children(record);
@@ -31,17 +31,17 @@ std::string schema_of(const Part21File& file) {
 
 }  // namespace
 
-Expected<StepFile> StepFile::read(const std::filesystem::path& path) {
+Expected<File> File::read(const std::filesystem::path& path) {
   auto bytes = read_file(path);
   if (!bytes) return std::unexpected(std::move(bytes.error()));
   return parse(*std::move(bytes), path.string());
 }
 
-Expected<StepFile> StepFile::parse(std::string bytes, std::string name) {
+Expected<File> File::parse(std::string bytes, std::string name) {
   auto records = Part21File::parse(std::move(bytes), std::move(name));
   if (!records) return std::unexpected(std::move(records.error()));
   auto data = std::make_shared<Data>(*std::move(records));
-  const StepReader reader(data->records);
+  const Reader reader(data->records);
   data->schema = schema_of(data->records);
 
   std::vector<ReadSurface> read;
@@ -81,18 +81,18 @@ Expected<StepFile> StepFile::parse(std::string bytes, std::string name) {
         {id, reader.item_name(read[k].instance), std::move(unit), std::move(read[k].surface), closed, trimmed[k]});
   }
   data->instances = read_instances(reader);
-  return StepFile(std::move(data));
+  return File(std::move(data));
 }
 
-const std::string& StepFile::name() const { return data_->records.name(); }
-const std::string& StepFile::bytes() const { return data_->records.bytes(); }
-const std::string& StepFile::schema() const { return data_->schema; }
-const std::vector<StepSurface>& StepFile::surfaces() const { return data_->surfaces; }
-const std::vector<StepUnreadableSurface>& StepFile::unreadable_surfaces() const { return data_->unreadable; }
-const std::vector<StepInstance>& StepFile::instances() const { return data_->instances; }
-const std::vector<StepLengthUnit>& StepFile::length_units() const { return data_->units; }
+const std::string& File::name() const { return data_->records.name(); }
+const std::string& File::bytes() const { return data_->records.bytes(); }
+const std::string& File::schema() const { return data_->schema; }
+const std::vector<SurfaceEntity>& File::surfaces() const { return data_->surfaces; }
+const std::vector<UnreadableSurface>& File::unreadable_surfaces() const { return data_->unreadable; }
+const std::vector<Instance>& File::instances() const { return data_->instances; }
+const std::vector<LengthUnit>& File::length_units() const { return data_->units; }
 
-std::string StepFile::length_unit() const {
+std::string File::length_unit() const {
   std::vector<std::string> names;
   for (const auto& unit : data_->units) {
     if (std::find(names.begin(), names.end(), unit.name) == names.end()) names.push_back(unit.name);
@@ -103,9 +103,9 @@ std::string StepFile::length_unit() const {
   return result;
 }
 
-const StepSurface* StepFile::find_surface(const std::string& id) const {
+const SurfaceEntity* File::find_surface(const std::string& id) const {
   const auto found = data_->surface_index.find(id);
   return found == data_->surface_index.end() ? nullptr : &data_->surfaces[found->second];
 }
 
-}  // namespace knead
+}  // namespace knead::step

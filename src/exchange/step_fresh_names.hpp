@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "knead/exchange/part21.hpp"
+#include "part21.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// Names for new records: above all others, so that nothing that was deleted from the file before can be meant; but not
 /// above what readers with 32-bit names understand, where a free name is left below.
@@ -30,4 +30,4 @@ class FreshNames {
   bool exhausted_ = false;
 };
 
-}  // namespace knead
+}  // namespace knead::step

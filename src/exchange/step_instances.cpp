@@ -4,13 +4,13 @@
 #include <string_view>
 #include <unordered_map>
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 using Index = std::uint32_t;
 
 // Attribute k of an entity as an instance of the file.
-std::optional<Index> attribute(const StepReader& reader, Index instance, std::string_view entity, std::size_t inherited,
+std::optional<Index> attribute(const Reader& reader, Index instance, std::string_view entity, std::size_t inherited,
                                std::size_t k) {
   if (!reader.is(instance, entity)) return std::nullopt;
   const auto own = reader.attributes(instance, entity, inherited, k + 1);
@@ -19,7 +19,7 @@ std::optional<Index> attribute(const StepReader& reader, Index instance, std::st
 
 class Assemblies {
  public:
-  explicit Assemblies(const StepReader& reader) : reader_(reader) {
+  explicit Assemblies(const Reader& reader) : reader_(reader) {
     const auto count = static_cast<Index>(reader.file().instances().size());
     for (Index k = 0; k < count; ++k) {
       if (reader.is(k, "SHAPE_DEFINITION_REPRESENTATION")) {
@@ -40,11 +40,11 @@ class Assemblies {
     }
   }
 
-  std::optional<StepInstance> usage(Index k) const {
+  std::optional<Instance> usage(Index k) const {
     // ASSEMBLY_COMPONENT_USAGE: id, name, description, relating and related PRODUCT_DEFINITION.
     const auto own = reader_.attributes(k, "PRODUCT_DEFINITION_RELATIONSHIP", 0, 5);
     if (own.empty()) return std::nullopt;
-    StepInstance result;
+    Instance result;
     result.id = "#" + std::to_string(reader_.file().instance(k).id);
     result.name = reader_.string(own[1]);
     if (result.name.empty()) result.name = reader_.string(own[0]);
@@ -57,11 +57,11 @@ class Assemblies {
     return result;
   }
 
-  std::optional<StepInstance> mapped_item(Index k) const {
+  std::optional<Instance> mapped_item(Index k) const {
     const auto source = attribute(reader_, k, "MAPPED_ITEM", 1, 0);
     const auto target = attribute(reader_, k, "MAPPED_ITEM", 1, 1);
     if (!source || !target) return std::nullopt;
-    StepInstance result;
+    Instance result;
     result.id = "#" + std::to_string(reader_.file().instance(k).id);
     result.name = reader_.item_name(k);
     result.placement = read_placement(reader_, *target);
@@ -111,7 +111,7 @@ class Assemblies {
     return name.empty() ? reader_.string(own[0]) : name;
   }
 
-  void transform(Index relation, std::optional<Index> parent, std::optional<Index> child, StepInstance& result) const {
+  void transform(Index relation, std::optional<Index> parent, std::optional<Index> child, Instance& result) const {
     const auto transformation = attribute(reader_, relation, "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION", 4, 0);
     const auto own = reader_.attributes(relation, "REPRESENTATION_RELATIONSHIP", 0, 4);
     if (!transformation || own.empty()) return;
@@ -131,7 +131,7 @@ class Assemblies {
     result.placement = read_placement(reader_, turned ? *first : *second);
   }
 
-  const StepReader& reader_;
+  const Reader& reader_;
   std::unordered_map<Index, Index> representation_of_;  // of a PRODUCT_DEFINITION
   std::unordered_map<Index, Index> definition_of_;      // and back
   std::unordered_map<Index, Index> relation_of_;        // of a NEXT_ASSEMBLY_USAGE_OCCURRENCE
@@ -139,7 +139,7 @@ class Assemblies {
 };
 
 // For each mapped item the representation among whose items it is.
-std::unordered_map<Index, Index> holders(const StepReader& reader, const std::vector<Index>& mapped) {
+std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector<Index>& mapped) {
   std::unordered_map<Index, Index> result;
   for (const auto k : mapped) result.emplace(k, no_instance);
   if (mapped.empty()) return result;
@@ -159,14 +159,14 @@ std::unordered_map<Index, Index> holders(const StepReader& reader, const std::ve
 
 }  // namespace
 
-std::optional<StepPlacement> read_placement(const StepReader& reader, std::uint32_t instance) {
+std::optional<Placement> read_placement(const Reader& reader, std::uint32_t instance) {
   if (!reader.is(instance, "AXIS2_PLACEMENT_3D")) return std::nullopt;
   const auto record_is_complex = reader.file().instance(instance).complex;
   const auto location = record_is_complex ? attribute(reader, instance, "PLACEMENT", 0, 0)
                                           : attribute(reader, instance, "AXIS2_PLACEMENT_3D", 1, 0);
   const auto origin = location ? reader.point(*location) : Expected<Point>(input_error("no location"));
   if (!origin) return std::nullopt;
-  StepPlacement result{*origin};
+  Placement result{*origin};
   const std::size_t inherited = record_is_complex ? 0 : 2;
   if (const auto axis = attribute(reader, instance, "AXIS2_PLACEMENT_3D", inherited, 0)) {
     result.axis = reader.direction(*axis).value_or(result.axis);
@@ -179,9 +179,9 @@ std::optional<StepPlacement> read_placement(const StepReader& reader, std::uint3
   return result;
 }
 
-std::vector<StepInstance> read_instances(const StepReader& reader) {
+std::vector<Instance> read_instances(const Reader& reader) {
   const Assemblies assemblies(reader);
-  std::vector<StepInstance> result;
+  std::vector<Instance> result;
   std::vector<Index> mapped;
   for (Index k = 0; k < reader.file().instances().size(); ++k) {
     if (reader.is(k, "NEXT_ASSEMBLY_USAGE_OCCURRENCE")) {
@@ -201,4 +201,4 @@ std::vector<StepInstance> read_instances(const StepReader& reader) {
   return result;
 }
 
-}  // namespace knead
+}  // namespace knead::step

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace knead {
+namespace knead::step {
 
 Expected<KnotVector> implied_knots(ImpliedKnots form, int degree, int count) {
   if (degree < 1 || degree > max_degree) {
@@ -32,7 +32,7 @@ Expected<KnotVector> implied_knots(ImpliedKnots form, int degree, int count) {
   return KnotVector::create(degree, std::move(knots));
 }
 
-Expected<KnotVector> read_knots(const StepReader& reader, std::uint32_t instance, int degree, int count,
+Expected<KnotVector> read_knots(const Reader& reader, std::uint32_t instance, int degree, int count,
                                 std::uint32_t multiplicities, std::uint32_t values, const std::string& direction) {
   const std::string prefix = direction.empty() ? std::string() : direction + " ";
   if (!reader.is_list(multiplicities) || !reader.is_list(values)) {
@@ -73,4 +73,4 @@ Expected<KnotVector> read_knots(const StepReader& reader, std::uint32_t instance
   return result;
 }
 
-}  // namespace knead
+}  // namespace knead::step

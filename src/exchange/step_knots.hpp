@@ -6,7 +6,7 @@
 #include "knead/spline/knot_vector.hpp"
 #include "step_entity.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// Which knots an entity without a knot list implies (ISO 10303-42, default_b_spline_knots and
 /// default_b_spline_knot_mult): spaced by 1, beginning
@@ -20,8 +20,8 @@ enum class ImpliedKnots { uniform, quasi_uniform, bezier };
 
 /// Knots listed as multiplicities and values. Equal neighbouring values are accepted and their multiplicities add up.
 /// \param direction for errors: "u", "v", or "" on a curve.
-[[nodiscard]] Expected<KnotVector> read_knots(const StepReader& reader, std::uint32_t instance, int degree, int count,
+[[nodiscard]] Expected<KnotVector> read_knots(const Reader& reader, std::uint32_t instance, int degree, int count,
                                               std::uint32_t multiplicities, std::uint32_t values,
                                               const std::string& direction);
 
-}  // namespace knead
+}  // namespace knead::step

@@ -2,7 +2,7 @@
 
 #include "part21_text.hpp"
 
-namespace knead {
+namespace knead::step {
 
 PrintedKnots print_knots(const KnotVector& knots, const std::function<std::string(double)>& number) {
   PrintedKnots result;
@@ -37,4 +37,4 @@ std::string print_point(std::string_view name, const double* coordinates) {
   return text + "));";
 }
 
-}  // namespace knead
+}  // namespace knead::step

@@ -6,7 +6,7 @@
 
 #include "knead/spline/knot_vector.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// A knot vector as STEP lists it: distinct values and how often each stands.
 struct PrintedKnots {
@@ -25,4 +25,4 @@ struct PrintedKnots {
 /// A CARTESIAN_POINT record, without a line break.
 [[nodiscard]] std::string print_point(std::string_view name, const double* coordinates);
 
-}  // namespace knead
+}  // namespace knead::step

@@ -3,7 +3,7 @@
 #include "step_surfaces.hpp"
 #include "step_surgeon.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 constexpr std::size_t attributes_with_knots = attributes_of_b_spline_surface + 5;
@@ -73,4 +73,4 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
   return {};
 }
 
-}  // namespace knead
+}  // namespace knead::step

@@ -6,7 +6,7 @@
 
 #include "knead/spline/basis.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 constexpr std::array<std::string_view, 6> forms = {
@@ -20,7 +20,7 @@ struct Net {
 };
 
 // A rectangular list of lists.
-Expected<Net> read_net(const StepReader& reader, std::uint32_t instance, std::uint32_t list, const std::string& what) {
+Expected<Net> read_net(const Reader& reader, std::uint32_t instance, std::uint32_t list, const std::string& what) {
   if (!reader.is_list(list)) return reader.error(instance, "its " + what + " are not a list of lists");
   Net net;
   for (const auto row : reader.file().children(list)) {
@@ -39,7 +39,7 @@ Expected<Net> read_net(const StepReader& reader, std::uint32_t instance, std::ui
   return net;
 }
 
-Expected<std::array<KnotVector, 2>> surface_knots(const StepReader& reader, std::uint32_t instance,
+Expected<std::array<KnotVector, 2>> surface_knots(const Reader& reader, std::uint32_t instance,
                                                   std::array<int, 2> degree, std::array<int, 2> count) {
   constexpr std::array<const char*, 2> names = {"u", "v"};
   std::vector<KnotVector> knots;
@@ -65,7 +65,7 @@ Expected<std::array<KnotVector, 2>> surface_knots(const StepReader& reader, std:
   return std::array<KnotVector, 2>{std::move(knots[0]), std::move(knots[1])};
 }
 
-Expected<std::vector<double>> surface_weights(const StepReader& reader, std::uint32_t instance, const Net& points) {
+Expected<std::vector<double>> surface_weights(const Reader& reader, std::uint32_t instance, const Net& points) {
   std::vector<double> weights;
   if (!reader.is(instance, "RATIONAL_B_SPLINE_SURFACE")) return weights;
   const auto own = reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_b_spline_surface, 1);
@@ -87,12 +87,12 @@ Expected<std::vector<double>> surface_weights(const StepReader& reader, std::uin
 
 }  // namespace
 
-std::vector<std::uint32_t> knot_parameters(const StepReader& reader, std::uint32_t instance) {
+std::vector<std::uint32_t> knot_parameters(const Reader& reader, std::uint32_t instance) {
   if (!reader.is(instance, "B_SPLINE_SURFACE_WITH_KNOTS")) return {};
   return reader.attributes(instance, "B_SPLINE_SURFACE_WITH_KNOTS", attributes_of_b_spline_surface, 4);
 }
 
-std::uint32_t weights_parameter(const StepReader& reader, std::uint32_t instance) {
+std::uint32_t weights_parameter(const Reader& reader, std::uint32_t instance) {
   return reader.attributes(instance, "RATIONAL_B_SPLINE_SURFACE", attributes_of_b_spline_surface, 1).front();
 }
 
@@ -107,18 +107,18 @@ const char* implied_keyword(ImpliedKnots form) {
   }
 }
 
-std::optional<ImpliedKnots> implied_form(const StepReader& reader, std::uint32_t instance) {
+std::optional<ImpliedKnots> implied_form(const Reader& reader, std::uint32_t instance) {
   for (const auto form : {ImpliedKnots::bezier, ImpliedKnots::quasi_uniform, ImpliedKnots::uniform}) {
     if (reader.is(instance, implied_keyword(form))) return form;
   }
   return std::nullopt;
 }
 
-bool is_b_spline_surface(const StepReader& reader, std::uint32_t instance) {
+bool is_b_spline_surface(const Reader& reader, std::uint32_t instance) {
   return std::any_of(forms.begin(), forms.end(), [&](std::string_view form) { return reader.is(instance, form); });
 }
 
-Expected<ReadSurface> read_b_spline_surface(const StepReader& reader, std::uint32_t instance) {
+Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t instance) {
   const auto own = reader.attributes(instance, "B_SPLINE_SURFACE", 1, 3);
   if (own.empty()) return reader.error(instance, "it lacks degrees and control points");
   const auto p = reader.integer(own[0]);
@@ -217,4 +217,4 @@ std::array<bool, 2> closed_directions(const Surface& surface) {
   return closed;
 }
 
-}  // namespace knead
+}  // namespace knead::step

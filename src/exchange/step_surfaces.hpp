@@ -9,7 +9,7 @@
 #include "step_entity.hpp"
 #include "step_knots.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// A surface with the parameters its control points come from.
 struct ReadSurface {
@@ -19,26 +19,26 @@ struct ReadSurface {
 };
 
 /// B_SPLINE_SURFACE in any of its forms, simple or as part of a complex instance.
-[[nodiscard]] bool is_b_spline_surface(const StepReader& reader, std::uint32_t instance);
+[[nodiscard]] bool is_b_spline_surface(const Reader& reader, std::uint32_t instance);
 
 /// Reads one (ISO 10303-42, b_spline_surface and its subtypes). Errors (input) with entity and line.
-[[nodiscard]] Expected<ReadSurface> read_b_spline_surface(const StepReader& reader, std::uint32_t instance);
+[[nodiscard]] Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t instance);
 
 /// The number of attributes of B_SPLINE_SURFACE with the name it inherits.
 inline constexpr std::size_t attributes_of_b_spline_surface = 8;
 
 /// The values of its u multiplicities, v multiplicities, u knots, v knots, and whatever follows; empty where it lists
 /// none.
-[[nodiscard]] std::vector<std::uint32_t> knot_parameters(const StepReader& reader, std::uint32_t instance);
+[[nodiscard]] std::vector<std::uint32_t> knot_parameters(const Reader& reader, std::uint32_t instance);
 
 /// The value of the list of its weights; it must be rational.
-[[nodiscard]] std::uint32_t weights_parameter(const StepReader& reader, std::uint32_t instance);
+[[nodiscard]] std::uint32_t weights_parameter(const Reader& reader, std::uint32_t instance);
 
 /// The form that implies its knots, if it has one.
-[[nodiscard]] std::optional<ImpliedKnots> implied_form(const StepReader& reader, std::uint32_t instance);
+[[nodiscard]] std::optional<ImpliedKnots> implied_form(const Reader& reader, std::uint32_t instance);
 [[nodiscard]] const char* implied_keyword(ImpliedKnots form);
 
-/// `StepSurface::closed`.
+/// `SurfaceEntity::closed`.
 [[nodiscard]] std::array<bool, 2> closed_directions(const Surface& surface);
 
 /// The boundary isocurve on which `direction` has its first (end = 0) or last (end = 1) parameter, over the knots of
@@ -49,4 +49,4 @@ inline constexpr std::size_t attributes_of_b_spline_surface = 8;
 /// Diagonal of the bounding box of the control points.
 [[nodiscard]] double net_diagonal(const Points& control_points);
 
-}  // namespace knead
+}  // namespace knead::step

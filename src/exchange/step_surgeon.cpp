@@ -8,7 +8,7 @@
 #include "step_print.hpp"
 #include "step_surfaces.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 using Bits = std::array<std::uint64_t, 3>;
@@ -288,4 +288,4 @@ std::function<std::string(double)> Surgeon::texts(std::uint32_t list) const {
   };
 }
 
-}  // namespace knead
+}  // namespace knead::step

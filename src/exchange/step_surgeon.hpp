@@ -7,12 +7,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "knead/exchange/part21.hpp"
 #include "knead/spline/spline.hpp"
+#include "part21.hpp"
 #include "step_entity.hpp"
 #include "step_fresh_names.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// Equal to the last bit: tells 0 from -0.
 [[nodiscard]] bool same_bits(const Points& a, const Points& b);
@@ -65,9 +65,9 @@ class Surgeon {
   void insert(std::uint32_t at, std::string text) { changes_.push_back({{at, at}, std::move(text)}); }
 
   const Part21File& file_;
-  StepReader reader_;
+  Reader reader_;
   FreshNames names_;
   std::vector<Change> changes_;
 };
 
-}  // namespace knead
+}  // namespace knead::step

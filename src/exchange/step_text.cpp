@@ -7,7 +7,7 @@
 #include "step_print.hpp"
 #include "step_surfaces.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 struct Unit {
@@ -71,7 +71,7 @@ std::string add_context(Records& records, const Unit& unit) {
                      "))REPRESENTATION_CONTEXT('',''))");
 }
 
-std::string add_surface(Records& records, const StepNewSurface& item) {
+std::string add_surface(Records& records, const NewSurface& item) {
   const Surface& surface = item.surface;
   const auto net = surface.net();
   std::vector<std::string> names;
@@ -99,9 +99,9 @@ std::string add_surface(Records& records, const StepNewSurface& item) {
 
 }  // namespace
 
-bool is_step_unit(std::string_view name) { return std::ranges::find(units, name, &Unit::name) != units.end(); }
+bool is_unit(std::string_view name) { return std::ranges::find(units, name, &Unit::name) != units.end(); }
 
-Expected<std::string> step_text(std::span<const StepNewSurface> surfaces, const StepTextOptions& options) {
+Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options) {
   const auto unit = std::ranges::find(units, options.unit, &Unit::name);
   if (unit == units.end()) {
     return input_error("the unit " + options.unit + " is not known", {}, "use um, mm, cm, m, km, inch or foot");
@@ -144,4 +144,4 @@ Expected<std::string> step_text(std::span<const StepNewSurface> surfaces, const 
          "ENDSEC;\nEND-ISO-10303-21;\n";
 }
 
-}  // namespace knead
+}  // namespace knead::step

@@ -9,7 +9,7 @@
 #include "knead/spline/evaluate.hpp"
 #include "step_curves.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 // One of the four boundary isocurves, and how much of it the edges of a face cover.
@@ -115,7 +115,7 @@ class NaturalBoundary {
 };
 
 // The bounds of one face; false where they leave the boundary or are of an unknown form.
-bool add_bounds(const StepReader& reader, std::uint32_t bounds, NaturalBoundary& boundary) {
+bool add_bounds(const Reader& reader, std::uint32_t bounds, NaturalBoundary& boundary) {
   for (const auto bound : reader.references(bounds)) {
     const auto own = reader.attributes(bound, "FACE_BOUND", 1, 1);
     const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
@@ -135,7 +135,7 @@ bool add_bounds(const StepReader& reader, std::uint32_t bounds, NaturalBoundary&
 }
 
 // RECTANGULAR_TRIMMED_SURFACE and CURVE_BOUNDED_SURFACE that cut their basis surface.
-std::optional<std::uint32_t> cut_surface(const StepReader& reader, std::uint32_t instance,
+std::optional<std::uint32_t> cut_surface(const Reader& reader, std::uint32_t instance,
                                          const std::unordered_map<std::uint32_t, std::size_t>& index,
                                          const std::vector<ReadSurface>& surfaces) {
   if (reader.is(instance, "CURVE_BOUNDED_SURFACE")) {
@@ -159,7 +159,7 @@ std::optional<std::uint32_t> cut_surface(const StepReader& reader, std::uint32_t
 
 }  // namespace
 
-std::vector<bool> trimmed_surfaces(const StepReader& reader, const std::vector<ReadSurface>& surfaces,
+std::vector<bool> trimmed_surfaces(const Reader& reader, const std::vector<ReadSurface>& surfaces,
                                    const std::vector<double>& uncertainty) {
   std::vector<bool> trimmed(surfaces.size(), false);
   std::unordered_map<std::uint32_t, std::size_t> index;
@@ -190,4 +190,4 @@ std::vector<bool> trimmed_surfaces(const StepReader& reader, const std::vector<R
   return trimmed;
 }
 
-}  // namespace knead
+}  // namespace knead::step

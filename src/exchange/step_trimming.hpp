@@ -5,10 +5,10 @@
 #include "step_entity.hpp"
 #include "step_surfaces.hpp"
 
-namespace knead {
+namespace knead::step {
 
-/// `StepSurface::trimmed` for each of `surfaces`; `uncertainty` belongs to them one by one.
-[[nodiscard]] std::vector<bool> trimmed_surfaces(const StepReader& reader, const std::vector<ReadSurface>& surfaces,
+/// `SurfaceEntity::trimmed` for each of `surfaces`; `uncertainty` belongs to them one by one.
+[[nodiscard]] std::vector<bool> trimmed_surfaces(const Reader& reader, const std::vector<ReadSurface>& surfaces,
                                                  const std::vector<double>& uncertainty);
 
-}  // namespace knead
+}  // namespace knead::step

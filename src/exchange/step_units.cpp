@@ -9,7 +9,7 @@
 
 #include "part21_text.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 struct Prefix {
@@ -38,14 +38,14 @@ constexpr std::array<Prefix, 16> prefixes = {{{"EXA", "E", 1e18},
 
 constexpr int max_conversions = 8;  // inch of cm of m; more is a loop
 
-std::optional<StepLengthUnit> si_unit(const StepReader& reader, std::uint32_t unit) {
+std::optional<LengthUnit> si_unit(const Reader& reader, std::uint32_t unit) {
   // SI_UNIT(prefix, name); in a simple record NAMED_UNIT's derived dimensions come first.
   const auto own = reader.attributes(unit, "SI_UNIT", 1, 2);
   if (own.empty() || !same_keyword(reader.enumeration(own[1]), "METRE")) return std::nullopt;
   const auto prefix = reader.enumeration(own[0]);
-  if (prefix.empty()) return StepLengthUnit{{}, "m", 1};
+  if (prefix.empty()) return LengthUnit{{}, "m", 1};
   for (const auto& known : prefixes) {
-    if (same_keyword(prefix, known.name)) return StepLengthUnit{{}, std::string(known.symbol) + "m", known.factor};
+    if (same_keyword(prefix, known.name)) return LengthUnit{{}, std::string(known.symbol) + "m", known.factor};
   }
   return std::nullopt;
 }
@@ -56,7 +56,7 @@ struct Measure {
   std::uint32_t unit = no_instance;
 };
 
-std::optional<Measure> measure(const StepReader& reader, const std::vector<std::uint32_t>& attributes) {
+std::optional<Measure> measure(const Reader& reader, const std::vector<std::uint32_t>& attributes) {
   if (attributes.size() < 2 || reader.file().value(attributes[0]).kind != Part21Kind::typed) return std::nullopt;
   const auto number = reader.file().children(attributes[0]);
   const auto unit = reader.reference(attributes[1]);
@@ -66,17 +66,17 @@ std::optional<Measure> measure(const StepReader& reader, const std::vector<std::
   return Measure{*value, *unit};
 }
 
-std::optional<Measure> measure_with_unit(const StepReader& reader, std::uint32_t instance) {
+std::optional<Measure> measure_with_unit(const Reader& reader, std::uint32_t instance) {
   // LENGTH_MEASURE_WITH_UNIT and the others add nothing to MEASURE_WITH_UNIT.
   return measure(reader, reader.attributes(instance, "MEASURE_WITH_UNIT", 0, 2));
 }
 
-std::optional<StepLengthUnit> length_unit(const StepReader& reader, std::uint32_t unit, int depth = 0) {
+std::optional<LengthUnit> length_unit(const Reader& reader, std::uint32_t unit, int depth = 0) {
   if (reader.is(unit, "SI_UNIT")) return si_unit(reader, unit);
   if (!reader.is(unit, "CONVERSION_BASED_UNIT") || !reader.is(unit, "LENGTH_UNIT")) return std::nullopt;
   const auto own = reader.attributes(unit, "CONVERSION_BASED_UNIT", 1, 1);
   if (own.empty()) return std::nullopt;
-  StepLengthUnit result{{}, reader.string(own[0]), 0};
+  LengthUnit result{{}, reader.string(own[0]), 0};
   std::transform(result.name.begin(), result.name.end(), result.name.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const auto factor = own.size() > 1 ? reader.reference(own[1]) : std::nullopt;
@@ -89,7 +89,7 @@ std::optional<StepLengthUnit> length_unit(const StepReader& reader, std::uint32_
   return result;
 }
 
-double uncertainty(const StepReader& reader, std::uint32_t context, const StepLengthUnit& unit) {
+double uncertainty(const Reader& reader, std::uint32_t context, const LengthUnit& unit) {
   double largest = 0;
   const auto own = reader.attributes(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT", 0, 1);
   if (!reader.is(context, "GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT") || own.empty()) return 0;
@@ -103,14 +103,14 @@ double uncertainty(const StepReader& reader, std::uint32_t context, const StepLe
   return largest;
 }
 
-bool is_unit_context(const StepReader& reader, std::uint32_t instance) {
+bool is_unit_context(const Reader& reader, std::uint32_t instance) {
   return reader.is(instance, "GLOBAL_UNIT_ASSIGNED_CONTEXT");
 }
 
 // Marks what the items of one representation lead to.
 class Reach {
  public:
-  Reach(const StepReader& reader, const std::vector<bool>& representation)
+  Reach(const Reader& reader, const std::vector<bool>& representation)
       : reader_(&reader), representation_(&representation), mark_(reader.file().instances().size(), -1) {}
 
   void follow(std::uint32_t from, int context) {
@@ -132,7 +132,7 @@ class Reach {
   [[nodiscard]] const std::vector<std::pair<std::uint32_t, int>>& visited() const { return visited_; }
 
  private:
-  const StepReader* reader_;
+  const Reader* reader_;
   const std::vector<bool>* representation_;
   std::vector<int> mark_;
   std::vector<std::uint32_t> stack_;
@@ -141,7 +141,7 @@ class Reach {
 
 }  // namespace
 
-std::vector<UnitContext> read_unit_contexts(const StepReader& reader) {
+std::vector<UnitContext> read_unit_contexts(const Reader& reader) {
   std::vector<UnitContext> result;
   for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
     if (!is_unit_context(reader, k)) continue;
@@ -159,7 +159,7 @@ std::vector<UnitContext> read_unit_contexts(const StepReader& reader) {
   return result;
 }
 
-std::vector<int> contexts_of(const StepReader& reader, const std::vector<UnitContext>& contexts,
+std::vector<int> contexts_of(const Reader& reader, const std::vector<UnitContext>& contexts,
                              const std::vector<std::uint32_t>& instances) {
   std::vector<int> result(instances.size(), contexts.size() == 1 ? 0 : -1);
   if (contexts.size() < 2 || instances.empty()) return result;
@@ -196,4 +196,4 @@ std::vector<int> contexts_of(const StepReader& reader, const std::vector<UnitCon
   return result;
 }
 
-}  // namespace knead
+}  // namespace knead::step

@@ -7,23 +7,23 @@
 #include "knead/exchange/step_file.hpp"
 #include "step_entity.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// A representation context that assigns a length unit.
 struct UnitContext {
   std::uint32_t instance = no_instance;
-  StepLengthUnit unit;
+  LengthUnit unit;
   double uncertainty = 0;  ///< largest length of its GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT, in `unit`; 0 if none
 };
 
 /// Every GLOBAL_UNIT_ASSIGNED_CONTEXT with a LENGTH_UNIT (ISO 10303-41 and -43), in the order of the file.
-[[nodiscard]] std::vector<UnitContext> read_unit_contexts(const StepReader& reader);
+[[nodiscard]] std::vector<UnitContext> read_unit_contexts(const Reader& reader);
 
 /// For each given instance the context its representation has: an index into `contexts`, or -1 where none leads to it
 /// or contexts that differ in unit do. With one context that is simply it; otherwise references are followed from the
 /// items of each representation (an instance that refers to a context directly), not into other representations.
 /// Cost: linear in the file for each context.
-[[nodiscard]] std::vector<int> contexts_of(const StepReader& reader, const std::vector<UnitContext>& contexts,
+[[nodiscard]] std::vector<int> contexts_of(const Reader& reader, const std::vector<UnitContext>& contexts,
                                            const std::vector<std::uint32_t>& instances);
 
-}  // namespace knead
+}  // namespace knead::step

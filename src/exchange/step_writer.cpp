@@ -6,7 +6,7 @@
 #include "step_surfaces.hpp"
 #include "step_surgeon.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 bool same_surface(const Surface& a, const Surface& b) {
@@ -15,7 +15,7 @@ bool same_surface(const Surface& a, const Surface& b) {
 }
 
 // Reads the result again: every surface must be what was asked for, bit for bit, or what it was before.
-Expected<void> check(const std::string& bytes, const StepFile::Data& before,
+Expected<void> check(const std::string& bytes, const File::Data& before,
                      const std::unordered_map<std::size_t, const Surface*>& wanted) {
   const auto broken = [&](const std::string& id) {
     return std::unexpected(Error{ErrorKind::numerical, "internal: the written file does not read back as it should", id,
@@ -23,7 +23,7 @@ Expected<void> check(const std::string& bytes, const StepFile::Data& before,
   };
   const auto parsed = Part21File::parse(bytes, before.records.name());
   if (!parsed) return broken(parsed.error().message());
-  const StepReader reader(*parsed);
+  const Reader reader(*parsed);
   for (std::size_t k = 0; k < before.surfaces.size(); ++k) {
     const auto& old = before.surfaces[k];
     const auto instance = parsed->find(before.records.instance(before.surface_instances[k]).id);
@@ -37,7 +37,7 @@ Expected<void> check(const std::string& bytes, const StepFile::Data& before,
   return {};
 }
 
-Expected<std::size_t> find(const StepFile::Data& data, const std::string& id) {
+Expected<std::size_t> find(const File::Data& data, const std::string& id) {
   const auto found = data.surface_index.find(id);
   if (found != data.surface_index.end()) return found->second;
   return std::unexpected(Error{ErrorKind::input, "no readable B-spline surface has this name", id,
@@ -61,8 +61,8 @@ Expected<void> writable(const Surface& before, const Surface& after) {
 
 }  // namespace
 
-Expected<std::string> StepFile::with_control_points(std::span<const StepEdit> edits) const {
-  std::vector<StepReplacement> replacements;
+Expected<std::string> File::with_control_points(std::span<const Edit> edits) const {
+  std::vector<Replacement> replacements;
   replacements.reserve(edits.size());
   for (const auto& edit : edits) {
     const auto k = find(*data_, edit.id);
@@ -78,7 +78,7 @@ Expected<std::string> StepFile::with_control_points(std::span<const StepEdit> ed
   return with_surfaces(replacements);
 }
 
-Expected<std::string> StepFile::with_surfaces(std::span<const StepReplacement> replacements) const {
+Expected<std::string> File::with_surfaces(std::span<const Replacement> replacements) const {
   const auto& data = *data_;
   std::unordered_map<std::size_t, const Surface*> wanted;
   Surgeon surgeon(data.records);
@@ -110,4 +110,4 @@ Expected<std::string> StepFile::with_surfaces(std::span<const StepReplacement> r
   return result;
 }
 
-}  // namespace knead
+}  // namespace knead::step

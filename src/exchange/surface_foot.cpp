@@ -6,7 +6,7 @@
 
 #include "step_surfaces.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 constexpr double single_point = 1e-6;  // of the net's diagonal: an edge of the domain no longer than that is a pole
@@ -137,4 +137,4 @@ SurfaceFoot::Result SurfaceFoot::nearest(const Point& p, const std::optional<Eig
   return best;
 }
 
-}  // namespace knead
+}  // namespace knead::step

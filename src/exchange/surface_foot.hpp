@@ -7,7 +7,7 @@
 #include "knead/spline/evaluate.hpp"
 #include "parameter_region.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// Finds the parameters of points that lie on a B-spline surface, in fractions of its domain.
 class SurfaceFoot {
@@ -36,4 +36,4 @@ class SurfaceFoot {
   ParameterSpace space_;
 };
 
-}  // namespace knead
+}  // namespace knead::step

@@ -7,7 +7,7 @@
 #include "face_surface.hpp"
 #include "part21_text.hpp"
 
-namespace knead {
+namespace knead::step {
 namespace {
 
 constexpr int samples_per_piece = 6;
@@ -24,7 +24,7 @@ Eigen::Vector2d FaceSurface::section(const Point& p) const {
   return {one_side_ && d.dot(side_) < 0 ? -rho : rho, d.dot(frame_.z)};
 }
 
-Expected<void> FaceSurface::tabulate(const StepReader& reader, std::uint32_t instance, std::span<const Point> on_it) {
+Expected<void> FaceSurface::tabulate(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it) {
   auto curve = EdgeCurve::read(reader, instance);
   if (!curve) return std::unexpected(std::move(curve.error()));
   profile_ = *std::move(curve);
@@ -169,7 +169,7 @@ double FaceSurface::nearest(const Eigen::Vector2d& q) const {
   return t;
 }
 
-std::vector<double> plane_angle_units(const StepReader& reader) {
+std::vector<double> plane_angle_units(const Reader& reader) {
   std::vector<double> result;
   const auto add = [&](double unit) {
     if (std::find(result.begin(), result.end(), unit) == result.end()) result.push_back(unit);
@@ -193,4 +193,4 @@ std::vector<double> plane_angle_units(const StepReader& reader) {
   return result;
 }
 
-}  // namespace knead
+}  // namespace knead::step

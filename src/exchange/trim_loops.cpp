@@ -8,12 +8,14 @@
 
 namespace knead {
 
-Expected<TrimLoops> trim_loops(const StepFile& file, double chord) {
+using namespace step;
+
+Expected<TrimLoops> trim_loops(const step::File& file, double chord) {
   if (!(chord >= 1e-6 && chord <= 0.2)) {
     return std::unexpected(Error{ErrorKind::usage, "the tolerance of chords is out of range", {}, "use 1e-6 to 0.2"});
   }
-  const StepFile::Data& data = file.data();
-  const StepReader reader(data.records);
+  const step::File::Data& data = file.data();
+  const Reader reader(data.records);
   TrimLoops result;
   result.surfaces.resize(data.surfaces.size());
   std::unordered_map<std::uint32_t, std::size_t> index;
@@ -23,7 +25,7 @@ Expected<TrimLoops> trim_loops(const StepFile& file, double chord) {
   EdgeSampler edges(reader, chord);
   std::unordered_map<std::size_t, Expected<SurfaceFoot>> feet;
   std::vector<bool> failed(data.surfaces.size(), false);
-  for (const StepFace& face : read_faces(reader)) {
+  for (const Face& face : read_faces(reader)) {
     const auto found = index.find(face.surface);
     if (found == index.end()) continue;
     const auto k = found->second;

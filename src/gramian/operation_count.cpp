@@ -1,9 +1,9 @@
-#include "knead/gramian/operation_count.hpp"
+#include "operation_count.hpp"
 
 #include "analytic.hpp"
+#include "counted.hpp"
 #include "gauss.hpp"
 #include "kernel_call.hpp"
-#include "knead/gramian/counted.hpp"
 #include "methods.hpp"
 
 #define KNEAD_COUNTING

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "knead/base/gauss_legendre.hpp"
+#include "base/gauss_legendre.hpp"
 
 namespace knead::detail {
 namespace {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "greville_force.hpp"
 #include "knead/energy/stiffness.hpp"
 #include "knead/sculpt/active_spline.hpp"
-#include "knead/sculpt/greville_force.hpp"
-#include "knead/sculpt/potential.hpp"
-#include "knead/sculpt/tool_load.hpp"
-#include "knead/solve/constrained_cholesky.hpp"
+#include "potential.hpp"
+#include "solve/constrained_cholesky.hpp"
+#include "tool_load.hpp"
 
 namespace knead {
 

@@ -79,8 +79,9 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
   if (!settings.fields.empty() && settings.fields.size() != patches.size()) {
     return usage_error(fmt::format("{} materials do not fit {} patches", settings.fields.size(), patches.size()));
   }
-  if (!settings.fixed.empty() && settings.fixed.size() != static_cast<std::size_t>(size)) {
-    return usage_error(fmt::format("{} fixed flags do not fit {} control points", settings.fixed.size(), size));
+  if (!settings.held.empty() && settings.held.size() != static_cast<std::size_t>(size)) {
+    return usage_error(
+        fmt::format("{} flags of held control points do not fit {} control points", settings.held.size(), size));
   }
   std::vector<DomainScaling<D>> scalings;
   std::vector<ToolLoad<D>> loads;
@@ -141,7 +142,7 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
     }
     c.value /= length;
   }
-  auto space = ConstraintSpace::create(size, constraints, settings.fixed);
+  auto space = ConstraintSpace::create(size, constraints, settings.held);
   if (!space) return std::unexpected(space.error());
 
   SparseMatrix s = block_diagonal(std::move(stretch)), b = block_diagonal(std::move(bend)),
@@ -173,8 +174,7 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
     // A displacement of the whole model that no constraint forbids costs nothing: there is no balance to go to.
     const Points constant = Points::Ones(size, 3);
     bool held = false;
-    for (int i = 0; i < size && !held; ++i)
-      held = !settings.fixed.empty() && settings.fixed[static_cast<std::size_t>(i)];
+    for (int i = 0; i < size && !held; ++i) held = !settings.held.empty() && settings.held[static_cast<std::size_t>(i)];
     if (!held) {
       for (const LinearConstraint& c : constraints) {
         double sum = 0;

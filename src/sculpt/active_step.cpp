@@ -63,7 +63,7 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   const Points stretching = stretch * y, bending = bend * y;
   Points held_part = Points::Zero(x.rows(), 3);
   for (int i = 0; i < space.size(); ++i) {
-    if (space.is_fixed(i)) held_part.row(i) = x.row(i);
+    if (space.is_determined(i)) held_part.row(i) = x.row(i);
   }
   const Points from_held = (held_part.array() == 0).all() ? held_part : Points(stiffness * held_part);
   const Points from_free = stretching + bending - from_held;

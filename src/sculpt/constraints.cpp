@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "constraint_list_space.hpp"
 #include "constraint_rows.hpp"
 
 namespace knead {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "knead/solve/constrained_cholesky.hpp"
+#include "solve/constrained_cholesky.hpp"
 
 namespace knead {
 

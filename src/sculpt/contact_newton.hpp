@@ -1,7 +1,7 @@
 #pragma once
 
-#include "knead/sculpt/potential.hpp"
-#include "knead/solve/constrained_cholesky.hpp"
+#include "potential.hpp"
+#include "solve/constrained_cholesky.hpp"
 
 namespace knead {
 

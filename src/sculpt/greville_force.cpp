@@ -1,10 +1,10 @@
-#include "knead/sculpt/greville_force.hpp"
+#include "greville_force.hpp"
 
 #include <fmt/format.h>
 
 #include <cassert>
 
-#include "knead/spline/tensor_contraction.hpp"
+#include "spline/tensor_contraction.hpp"
 
 namespace knead {
 namespace {

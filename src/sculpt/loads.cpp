@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/base/gauss_legendre.hpp"
+#include "base/gauss_legendre.hpp"
 #include "knead/energy/spline_field.hpp"
 #include "knead/gramian/triple_gramian.hpp"
 #include "knead/spline/evaluate.hpp"

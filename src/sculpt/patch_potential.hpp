@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "knead/sculpt/active_spline.hpp"
-#include "knead/sculpt/tool_load.hpp"
+#include "tool_load.hpp"
 
 namespace knead {
 

@@ -1,4 +1,4 @@
-#include "knead/sculpt/tool_load.hpp"
+#include "tool_load.hpp"
 
 #include <fmt/format.h>
 

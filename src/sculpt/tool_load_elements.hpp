@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "knead/sculpt/tool_load.hpp"
+#include "tool_load.hpp"
 
 namespace knead {
 

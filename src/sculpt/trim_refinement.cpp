@@ -4,7 +4,7 @@
 
 #include "knead/sculpt/trim_hold.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
 namespace {

@@ -4,9 +4,9 @@
 
 namespace knead {
 
-Document Document::from(StepFile file) {
+Document Document::from(step::File file) {
   auto surfaces = std::make_shared<std::vector<DocumentSurface>>();
-  for (const StepSurface& s : file.surfaces()) {
+  for (const step::SurfaceEntity& s : file.surfaces()) {
     surfaces->push_back({s.id, s.name, s.unit, std::make_shared<const Surface>(s.surface)});
   }
   Document document;
@@ -25,21 +25,21 @@ Document Document::fresh(std::string name, std::string unit) {
 }
 
 Expected<Document> Document::open(const std::filesystem::path& path) {
-  auto file = StepFile::read(path);
+  auto file = step::File::read(path);
   if (!file) return std::unexpected(file.error());
   return from(std::move(*file));
 }
 
 Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces) const {
   if (!file_) {
-    std::vector<StepNewSurface> made;
+    std::vector<step::NewSurface> made;
     for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});
-    StepTextOptions options;
+    step::TextOptions options;
     options.unit = surfaces.empty() ? unit_ : surfaces.front().unit;
     options.product = name_;
-    return step_text(made, options);
+    return step::text_of(made, options);
   }
-  std::vector<StepReplacement> replacements;
+  std::vector<step::Replacement> replacements;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const DocumentSurface& original = (*surfaces_)[k];
     if (surfaces[k].surface != original.surface) replacements.push_back({original.id, *surfaces[k].surface});

@@ -50,7 +50,7 @@ Expected<void> Executor::operator()(const LatticeCommand& c) {
   if (!tools) return std::unexpected(tools.error());
   ActiveSettings<3> settings;
   settings.lambda = c.lambda;
-  if (!c.hold.empty()) settings.fixed = std::move(*held);
+  if (!c.hold.empty()) settings.held = std::move(*held);
   for (const Tool& tool : *tools) {
     const double size = tool.collides() ? tool.shape.size() : std::min(tool.shape.size(), tool.range);
     if (std::isfinite(size) && (settings.detail == 0 || size < settings.detail)) settings.detail = size;

@@ -170,7 +170,7 @@ Expected<void> Executor::operator()(const NewCommand& c) {
   }
   const std::string present = state.surfaces.empty() ? document.unit() : state.surfaces.front().unit;
   const std::string unit = c.unit.value_or(present);
-  if (!is_step_unit(unit)) {
+  if (!step::is_unit(unit)) {
     return input_error(fmt::format("\"{}\" is not a unit", unit), "unit", "use um, mm, cm, m, km, inch or foot");
   }
   if (unit != present && !state.surfaces.empty()) {

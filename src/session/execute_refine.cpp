@@ -8,7 +8,7 @@
 #include "executor.hpp"
 #include "knead/spline/extremum.hpp"
 #include "knead/spline/knot_removal.hpp"
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
 namespace {

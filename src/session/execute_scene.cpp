@@ -43,7 +43,7 @@ Expected<int> Executor::find_surface(const std::string& id) const {
     if (k < listed) known += (k == 0 ? "" : ", ") + state.surfaces[k].id;
   }
   if (!document.is_fresh()) {
-    for (const StepUnreadableSurface& s : document.file().unreadable_surfaces()) {
+    for (const step::UnreadableSurface& s : document.file().unreadable_surfaces()) {
       if (s.id == id) return std::unexpected(s.reason);
     }
   }

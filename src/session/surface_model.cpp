@@ -205,7 +205,7 @@ Expected<SurfaceModel> make_model(const SessionState& state, ModelInput input) {
     }
     auto list = constraints_of(s, notes);
     if (!list) return std::unexpected(list.error());
-    settings.fixed.insert(settings.fixed.end(), list->held.begin(), list->held.end());
+    settings.held.insert(settings.held.end(), list->held.begin(), list->held.end());
     for (LinearConstraint& c : list->constraints) {
       for (auto& term : c.terms) term.first += rows.back();
       if (state.together.size() > 0) c.name = s.id + ": " + c.name;
@@ -220,7 +220,7 @@ Expected<SurfaceModel> make_model(const SessionState& state, ModelInput input) {
     pointers.push_back(s.reference.get());
     rows.push_back(rows.back() + s.reference->size());
   }
-  if (std::ranges::none_of(settings.fixed, [](bool f) { return f; })) settings.fixed.clear();
+  if (std::ranges::none_of(settings.held, [](bool f) { return f; })) settings.held.clear();
 
   std::vector<SeamReport> reports;
   if (state.seams.couple) {

@@ -1,4 +1,4 @@
-#include "knead/solve/constrained_cholesky.hpp"
+#include "constrained_cholesky.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "knead/solve/constraint_space.hpp"
+#include "constraint_space.hpp"
 
 #include <fmt/format.h>
 
@@ -212,7 +212,7 @@ void ConstraintSpace::number_free(std::vector<Definition> definitions, bool coup
   held_rows_.setFromTriplets(held.begin(), held.end());
 }
 
-bool ConstraintSpace::is_fixed(int i) const {
+bool ConstraintSpace::is_determined(int i) const {
   const auto fixed = [this](int unknown) {
     if (position_[at(unknown)] >= 0) return false;
     const auto found = std::ranges::lower_bound(dependent_, unknown);

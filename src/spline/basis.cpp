@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "knead/base/gauss_legendre.hpp"
+#include "base/gauss_legendre.hpp"
 
 namespace knead {
 namespace {

@@ -1,4 +1,4 @@
-#include "knead/spline/greville_interpolation.hpp"
+#include "greville_interpolation.hpp"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <optional>
 
-#include "knead/spline/refinement.hpp"
+#include "knead/spline/knot_refinement.hpp"
 
 namespace knead {
 namespace {

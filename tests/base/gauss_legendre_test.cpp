@@ -1,4 +1,4 @@
-#include "knead/base/gauss_legendre.hpp"
+#include "base/gauss_legendre.hpp"
 
 #include <gtest/gtest.h>
 

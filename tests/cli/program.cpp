@@ -82,9 +82,9 @@ std::string content_of(const std::string& path) {
 std::string bonnet() { return (fs::path(KNEAD_SOURCE_DIR) / "samples/bonnet.step").string(); }
 
 Surface surface_of(const std::string& path, const std::string& id) {
-  const auto file = StepFile::read(path);
+  const auto file = step::File::read(path);
   if (!file) throw std::runtime_error(file.error().message());
-  const StepSurface* found = file->find_surface(id);
+  const step::SurfaceEntity* found = file->find_surface(id);
   if (found == nullptr) throw std::runtime_error(path + " has no surface " + id);
   return found->surface;
 }

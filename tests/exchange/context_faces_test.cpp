@@ -248,7 +248,7 @@ TEST(ContextFaces, TheToleranceHasARange) {
 class ContextCorpus : public ::testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(ContextCorpus, NoFaceOfARealFileIsSkipped) {
-  const auto file = StepFile::read(GetParam());
+  const auto file = step::File::read(GetParam());
   ASSERT_TRUE(file) << file.error().message();
   const auto context = context_faces(*file);
   ASSERT_TRUE(context);

@@ -70,7 +70,7 @@ TEST(StepUnits, OfTheCollection) {
       {"dm1-id-214.stp", "inch"}, {"MAINBODY_BACK.stp", "inch"},  {"linkrods.step", "mm"}};
   if (!std::filesystem::exists(testing::collection())) GTEST_SKIP() << "no collection of CAD files beside the project";
   for (const auto& [name, unit] : known) {
-    const auto file = StepFile::read(testing::collection() / name);
+    const auto file = step::File::read(testing::collection() / name);
     ASSERT_TRUE(file) << file.error().message();
     EXPECT_EQ(file->length_unit(), unit) << name;
     for (const auto& surface : file->surfaces()) EXPECT_EQ(surface.unit, unit) << name << surface.id;
@@ -144,11 +144,12 @@ TEST(StepInstances, MappedItemsPlaceARepresentation) {
 TEST(StepInstances, OfTheCollection) {
   const auto path = testing::collection() / "as1-oc-214.stp";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no collection of CAD files beside the project";
-  const auto file = StepFile::read(path);
+  const auto file = step::File::read(path);
   ASSERT_TRUE(file);
   ASSERT_EQ(file->instances().size(), 13U);
-  const auto found = std::find_if(file->instances().begin(), file->instances().end(),
-                                  [](const StepInstance& instance) { return instance.name == "l-bracket-assembly_2"; });
+  const auto found =
+      std::find_if(file->instances().begin(), file->instances().end(),
+                   [](const step::Instance& instance) { return instance.name == "l-bracket-assembly_2"; });
   ASSERT_NE(found, file->instances().end());
   EXPECT_EQ(found->parent, "as1");
   EXPECT_EQ(found->child, "l-bracket-assembly");

@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
+#include "exchange/part21.hpp"
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/part21.hpp"
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
 namespace {
@@ -53,8 +53,8 @@ std::string skeleton(const Part21File& file, const Part21Instance& instance) {
 
 // Everything in `after` that differs from `before`, held against what may differ: numbers and references in records of
 // edited surfaces (anything where they were refined), numbers in points that only these use.
-void expect_only_surfaces_differ(const StepFile& before, const std::string& after, const std::set<std::string>& edited,
-                                 bool refined = false) {
+void expect_only_surfaces_differ(const step::File& before, const std::string& after,
+                                 const std::set<std::string>& edited, bool refined = false) {
   const auto a = *Part21File::parse(before.bytes(), "before");
   const auto b = *Part21File::parse(after, "after");
   std::set<std::uint64_t> surfaces;
@@ -99,8 +99,8 @@ void expect_only_surfaces_differ(const StepFile& before, const std::string& afte
   EXPECT_EQ(a.bytes().substr(end_a), b.bytes().substr(end_b));
 }
 
-void edit_and_compare(const StepFile& file, const std::vector<std::size_t>& which, const std::string& pattern) {
-  std::vector<StepEdit> edits;
+void edit_and_compare(const step::File& file, const std::vector<std::size_t>& which, const std::string& pattern) {
+  std::vector<step::Edit> edits;
   std::set<std::string> ids;
   for (const auto k : which) {
     edits.push_back({file.surfaces()[k].id, moved(file.surfaces()[k].surface, pattern)});
@@ -109,7 +109,7 @@ void edit_and_compare(const StepFile& file, const std::vector<std::size_t>& whic
   const auto written = file.with_control_points(edits);
   ASSERT_TRUE(written) << written.error().message();
   expect_only_surfaces_differ(file, *written, ids);
-  const auto again = StepFile::parse(*written, "again");
+  const auto again = step::File::parse(*written, "again");
   ASSERT_TRUE(again) << again.error().message();
   ASSERT_EQ(again->surfaces().size(), file.surfaces().size());
   std::size_t e = 0;
@@ -130,17 +130,17 @@ void edit_and_compare(const StepFile& file, const std::vector<std::size_t>& whic
 TEST_P(Corpus, WithoutEditsComesBackByteForByte) {
   const auto bytes = read_file(GetParam());
   ASSERT_TRUE(bytes);
-  const auto file = StepFile::read(GetParam());
+  const auto file = step::File::read(GetParam());
   ASSERT_TRUE(file) << file.error().message();
   EXPECT_EQ(file->bytes(), *bytes);
   EXPECT_EQ(file->with_control_points({}), *bytes);
-  std::vector<StepEdit> same;
+  std::vector<step::Edit> same;
   for (const auto& surface : file->surfaces()) same.push_back({surface.id, surface.surface.control_points()});
   EXPECT_EQ(file->with_control_points(same), *bytes);
 }
 
 TEST_P(Corpus, AllSurfacesMovedReadBackExactly) {
-  const auto file = StepFile::read(GetParam());
+  const auto file = step::File::read(GetParam());
   ASSERT_TRUE(file) << file.error().message();
   std::vector<std::size_t> all(file->surfaces().size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
@@ -148,7 +148,7 @@ TEST_P(Corpus, AllSurfacesMovedReadBackExactly) {
 }
 
 TEST_P(Corpus, SingleSurfacesMovedReadBackExactly) {
-  const auto file = StepFile::read(GetParam());
+  const auto file = step::File::read(GetParam());
   ASSERT_TRUE(file) << file.error().message();
   const auto count = file->surfaces().size();
   const std::size_t most = std::getenv("KNEAD_LONG") != nullptr ? count : 3;
@@ -157,9 +157,9 @@ TEST_P(Corpus, SingleSurfacesMovedReadBackExactly) {
 }
 
 TEST_P(Corpus, AllSurfacesRefinedReadBackExactly) {
-  const auto file = StepFile::read(GetParam());
+  const auto file = step::File::read(GetParam());
   ASSERT_TRUE(file) << file.error().message();
-  std::vector<StepReplacement> refined;
+  std::vector<step::Replacement> refined;
   std::set<std::string> ids;
   for (const auto& surface : file->surfaces()) {
     // One knot in the first span of u, all spans of v halved, one degree more along u.
@@ -176,7 +176,7 @@ TEST_P(Corpus, AllSurfacesRefinedReadBackExactly) {
   const auto written = file->with_surfaces(refined);
   ASSERT_TRUE(written) << written.error().message();
   expect_only_surfaces_differ(*file, *written, ids, true);
-  const auto again = StepFile::parse(*written, "again");
+  const auto again = step::File::parse(*written, "again");
   ASSERT_TRUE(again) << again.error().message();
   ASSERT_EQ(again->surfaces().size(), file->surfaces().size());
   for (std::size_t k = 0; k < refined.size(); ++k) {

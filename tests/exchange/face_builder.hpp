@@ -82,7 +82,7 @@ class FaceBuilder {
   }
 
   [[nodiscard]] std::string text() const { return text_.str(); }
-  [[nodiscard]] StepFile file() const { return parse_or_die(step_text(text())); }
+  [[nodiscard]] step::File file() const { return parse_or_die(step_text(text())); }
 
  private:
   std::ostringstream text_;

@@ -12,7 +12,7 @@ using testing::FaceBuilder;
 
 const std::string square = testing::unit_square_points() + testing::bilinear_patch();
 
-StepFile on_square(const FaceBuilder& builder) {
+step::File on_square(const FaceBuilder& builder) {
   return testing::parse_or_die(testing::step_text(square + builder.text()));
 }
 
@@ -100,7 +100,7 @@ TEST(FaceEdges, AStraightEdgeIsDividedWhereItsParametersAreCurved) {
 TEST(VisibleRegion, TheMiddleIsFarthestFromAllEdges) {
   FaceBuilder b;
   b.face(10, {b.bound({b.circle(0.4, 0, 0.5, 0.5)}), b.bound({-b.circle(0.1, 0, 0.6, 0.5)})});
-  const StepFile file = on_square(b);
+  const step::File file = on_square(b);
   const auto region = visible_region(file, "#10");
   ASSERT_TRUE(region);
   const auto middle = visible_middle(file.surfaces()[0].surface, *region);
@@ -113,7 +113,7 @@ TEST(VisibleRegion, TheMiddleIsFarthestFromAllEdges) {
 TEST(VisibleRegion, WhatIsNearestToAHoleIsOnItsRim) {
   FaceBuilder b;
   b.face(10, {b.bound({b.circle(0.4, 0, 0.5, 0.5)}), b.bound({-b.circle(0.1, 0, 0.6, 0.5)})});
-  const StepFile file = on_square(b);
+  const step::File file = on_square(b);
   const auto region = visible_region(file, "#10");
   ASSERT_TRUE(region);
   EXPECT_FALSE(region->contains({0.58, 0.5}));

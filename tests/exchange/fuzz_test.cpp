@@ -9,7 +9,7 @@
 #include "knead/exchange/context_faces.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/trim_loops.hpp"
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
 namespace {
@@ -83,14 +83,14 @@ class Damage {
 
 // Reads, and where that succeeds moves every surface and writes, and refines every surface and writes.
 bool survives(const std::string& bytes) {
-  const auto file = StepFile::parse(bytes, "damaged.step");
+  const auto file = step::File::parse(bytes, "damaged.step");
   if (!file) {
     EXPECT_FALSE(file.error().what.empty());
     EXPECT_EQ(file.error().kind, ErrorKind::input);
     return false;
   }
   EXPECT_EQ(file->with_control_points({}), bytes);
-  std::vector<StepEdit> edits;
+  std::vector<step::Edit> edits;
   for (const auto& surface : file->surfaces()) {
     edits.push_back({surface.id, surface.surface.control_points()});
     edits.back().control_points.array() += 0.125;
@@ -98,7 +98,7 @@ bool survives(const std::string& bytes) {
   const auto written = file->with_control_points(edits);
   EXPECT_TRUE(written) << written.error().message() << "\n" << bytes;
 
-  std::vector<StepReplacement> replacements;
+  std::vector<step::Replacement> replacements;
   for (const auto& surface : file->surfaces()) {
     std::array<std::vector<double>, 2> middles;
     for (int d = 0; d < 2; ++d) {

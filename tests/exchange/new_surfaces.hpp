@@ -9,8 +9,8 @@ namespace knead::testing {
 
 /// Surfaces of several kinds without a file: a wavy sheet, a closed rational tube, a cone with a pole, an unclamped
 /// sheet, and one on knots and weights that are no short decimals.
-inline std::vector<StepNewSurface> new_surfaces() {
-  std::vector<StepNewSurface> result;
+inline std::vector<step::NewSurface> new_surfaces() {
+  std::vector<step::NewSurface> result;
   const auto add = [&](const char* name, std::array<KnotVector, 2> knots, Points points,
                        std::vector<double> weights = {}) {
     result.push_back({name, *Surface::create(std::move(knots), std::move(points), std::move(weights))});

@@ -1,4 +1,4 @@
-#include "knead/exchange/part21.hpp"
+#include "exchange/part21.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "exchange/support.hpp"
 #include "knead/spline/knot_removal.hpp"
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
 namespace {
@@ -18,7 +18,7 @@ using testing::unit_square_points;
 Surface surface_of(const std::string& bytes) { return parse_or_die(bytes).find_surface("#10")->surface; }
 
 std::string replaced(const std::string& bytes, const Surface& surface) {
-  const StepReplacement replacement{"#10", surface};
+  const step::Replacement replacement{"#10", surface};
   const auto result = parse_or_die(bytes).with_surfaces({&replacement, 1});
   if (!result) {
     ADD_FAILURE() << result.error().message();
@@ -63,7 +63,7 @@ TEST(RefinedSurface, TheSameSurfaceGivesTheSameBytesAndTheSameNetTheSameAsAnEdit
   EXPECT_EQ(replaced(bytes, surface_of(bytes)), bytes);
   Points points = surface_of(bytes).control_points();
   points(1, 2) = 7;
-  const StepEdit edit{"#10", points};
+  const step::Edit edit{"#10", points};
   EXPECT_EQ(replaced(bytes, *surface_of(bytes).with_control_points(points)),
             *parse_or_die(bytes).with_control_points({&edit, 1}));
 }
@@ -249,7 +249,7 @@ TEST(RefinedSurface, WhatStepCannotSayIsAnError) {
   const auto bytes = step_text(unit_square_points() + bilinear_patch());
   const auto file = parse_or_die(bytes);
   const auto what = [&](const Surface& surface, const std::string& id = "#10") {
-    const StepReplacement replacement{id, surface};
+    const step::Replacement replacement{id, surface};
     const auto result = file.with_surfaces({&replacement, 1});
     EXPECT_FALSE(result);
     EXPECT_EQ(result.error().kind, ErrorKind::input);
@@ -259,16 +259,16 @@ TEST(RefinedSurface, WhatStepCannotSayIsAnError) {
   EXPECT_NE(what(inserted(bytes, {0.5, 0.5})).find("torn along a knot"), std::string::npos);
   EXPECT_NE(what(s, "#99").find("#99"), std::string::npos);
   const auto short_record = step_text(unit_square_points() + "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)));\n");
-  const StepReplacement finer{"#10", inserted(short_record, {0.5})};
+  const step::Replacement finer{"#10", inserted(short_record, {0.5})};
   EXPECT_NE(parse_or_die(short_record).with_surfaces({&finer, 1}).error().message().find("it has 4 attributes"),
             std::string::npos);
-  const StepReplacement heavier{"#10", weighted(surface_of(short_record))};
+  const step::Replacement heavier{"#10", weighted(surface_of(short_record))};
   EXPECT_NE(parse_or_die(short_record).with_surfaces({&heavier, 1}).error().message().find("it has 4 attributes"),
             std::string::npos);
   const auto with_weights = step_text(complex_surface);
-  const StepReplacement plain{"#10", s};
+  const step::Replacement plain{"#10", s};
   EXPECT_NE(parse_or_die(with_weights).with_surfaces({&plain, 1}).error().message().find("weights"), std::string::npos);
-  const StepReplacement twice[] = {{"#10", s}, {"#10", s}};
+  const step::Replacement twice[] = {{"#10", s}, {"#10", s}};
   EXPECT_NE(file.with_surfaces(twice).error().message().find("twice"), std::string::npos);
 }
 

@@ -22,7 +22,7 @@ using testing::parse_or_die;
 
 TEST(StepText, ReadsBackToTheLastBit) {
   const auto surfaces = new_surfaces();
-  const auto text = knead::step_text(surfaces);
+  const auto text = knead::step::text_of(surfaces);
   ASSERT_TRUE(text) << text.error().message();
   const auto file = parse_or_die(*text);
   EXPECT_EQ(file.schema(), "AUTOMOTIVE_DESIGN");
@@ -54,10 +54,10 @@ TEST(StepText, RealsAreTheShortestThatReadBack) {
     const double value = choices[weights.size() % 3];
     if (std::isfinite(value) && value != 0) weights.push_back(value);
   }
-  const StepNewSurface surface{
+  const step::NewSurface surface{
       "", *Surface::create({*KnotVector::clamped_uniform(1, 2), *KnotVector::clamped_uniform(1, columns)},
                            Points::Random(2 * columns, 3), weights)};
-  auto text = knead::step_text({&surface, 1});
+  auto text = knead::step::text_of({&surface, 1});
   ASSERT_TRUE(text) << text.error().message();
   std::erase(*text, '\n');
   auto at = text->find("RATIONAL_B_SPLINE_SURFACE(");
@@ -77,10 +77,10 @@ TEST(StepText, RealsAreTheShortestThatReadBack) {
 
 TEST(StepText, CanBeEditedLikeAnyFile) {
   const auto surfaces = new_surfaces();
-  const auto file = parse_or_die(*knead::step_text(surfaces));
+  const auto file = parse_or_die(*knead::step::text_of(surfaces));
   EXPECT_EQ(file.with_control_points({}), file.bytes());
-  const StepReplacement other{file.surfaces()[0].id,
-                              *surfaces[0].surface.with_control_points(2 * surfaces[0].surface.control_points())};
+  const step::Replacement other{file.surfaces()[0].id,
+                                *surfaces[0].surface.with_control_points(2 * surfaces[0].surface.control_points())};
   EXPECT_TRUE(file.with_surfaces({&other, 1}));
 }
 
@@ -89,7 +89,7 @@ TEST(StepText, EveryUnitIsReadAsWhatItIs) {
   const std::pair<const char*, double> units[] = {{"um", 1e-6}, {"mm", 1e-3},     {"cm", 1e-2},    {"m", 1},
                                                   {"km", 1e3},  {"inch", 0.0254}, {"foot", 0.3048}};
   for (const auto& [unit, metres] : units) {
-    const auto text = knead::step_text(surfaces, {.unit = unit});
+    const auto text = knead::step::text_of(surfaces, {.unit = unit});
     ASSERT_TRUE(text) << unit;
     const auto file = parse_or_die(*text);
     EXPECT_EQ(file.length_unit(), unit);
@@ -102,31 +102,31 @@ TEST(StepText, EveryUnitIsReadAsWhatItIs) {
 TEST(StepText, NamesOfAllKindsComeBack) {
   const auto surface = new_surfaces().front().surface;
   for (const auto* name : {"", "it's", "a\\b", "\\X2\\", "été αβ 車", "🚗", "line\nbreak\ttab", "#10=X('')"}) {
-    const StepNewSurface item{name, surface};
-    const auto text = knead::step_text({&item, 1}, {.product = name, .file_name = name});
+    const step::NewSurface item{name, surface};
+    const auto text = knead::step::text_of({&item, 1}, {.product = name, .file_name = name});
     ASSERT_TRUE(text);
     EXPECT_EQ(parse_or_die(*text).surfaces()[0].name, name);
     EXPECT_TRUE(std::ranges::all_of(*text, [](char c) { return c == '\n' || (c >= ' ' && c < 127); }));
   }
-  const StepNewSurface broken{"caf\xE9", surface};
-  EXPECT_EQ(parse_or_die(*knead::step_text({&broken, 1})).surfaces()[0].name, "caf\xEF\xBF\xBD");
+  const step::NewSurface broken{"caf\xE9", surface};
+  EXPECT_EQ(parse_or_die(*knead::step::text_of({&broken, 1})).surfaces()[0].name, "caf\xEF\xBF\xBD");
 }
 
 TEST(StepText, DependsOnItsArgumentsOnly) {
   const auto surfaces = new_surfaces();
-  const StepTextOptions options{.time_stamp = "2024-05-17T12:00:00"};
-  EXPECT_EQ(*knead::step_text(surfaces, options), *knead::step_text(surfaces, options));
-  EXPECT_NE(knead::step_text(surfaces, options)->find("FILE_NAME('','2024-05-17T12:00:00',"), std::string::npos);
+  const step::TextOptions options{.time_stamp = "2024-05-17T12:00:00"};
+  EXPECT_EQ(*knead::step::text_of(surfaces, options), *knead::step::text_of(surfaces, options));
+  EXPECT_NE(knead::step::text_of(surfaces, options)->find("FILE_NAME('','2024-05-17T12:00:00',"), std::string::npos);
 }
 
 TEST(StepText, WhatCannotBeWrittenIsAnError) {
-  EXPECT_FALSE(knead::step_text({}));
+  EXPECT_FALSE(knead::step::text_of({}));
   const auto surfaces = new_surfaces();
-  EXPECT_NE(knead::step_text(surfaces, {.unit = "furlong"}).error().message().find("furlong"), std::string::npos);
+  EXPECT_NE(knead::step::text_of(surfaces, {.unit = "furlong"}).error().message().find("furlong"), std::string::npos);
   const auto torn = *KnotVector::create(1, {0, 0, 1, 1, 2, 2});
   const auto line = *KnotVector::create(1, {0, 0, 1, 1});
-  const StepNewSurface item{"torn", *Surface::create({torn, line}, Points::Random(8, 3))};
-  EXPECT_NE(knead::step_text({&item, 1}).error().message().find("surface 0"), std::string::npos);
+  const step::NewSurface item{"torn", *Surface::create({torn, line}, Points::Random(8, 3))};
+  EXPECT_NE(knead::step::text_of({&item, 1}).error().message().find("surface 0"), std::string::npos);
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ inline std::string bilinear_patch(const std::string& net = "((#1,#2),(#3,#4))") 
          ",.UNSPECIFIED.,.F.,.F.,.F.,(2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.);\n";
 }
 
-inline StepFile parse_or_die(const std::string& bytes) {
-  auto file = StepFile::parse(bytes, "test.step");
+inline step::File parse_or_die(const std::string& bytes) {
+  auto file = step::File::parse(bytes, "test.step");
   if (!file) {
     ADD_FAILURE() << file.error().message();
     std::abort();

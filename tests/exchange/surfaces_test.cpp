@@ -33,7 +33,7 @@ std::string net(int rows, int columns) {
   return text + ")";
 }
 
-std::vector<double> knots_of(const StepFile& file, int direction) {
+std::vector<double> knots_of(const step::File& file, int direction) {
   const auto span = file.surfaces().at(0).surface.knots(direction).knots();
   return {span.begin(), span.end()};
 }
@@ -189,7 +189,7 @@ TEST(StepSurfaces, TheCollectionHasTheSurfacesItsIndexLists) {
       }
       columns.push_back(cell);
     }
-    const auto file = StepFile::read(testing::collection() / name);
+    const auto file = step::File::read(testing::collection() / name);
     ASSERT_TRUE(file) << file.error().message();
     EXPECT_EQ(std::to_string(file->surfaces().size()), columns[2]) << name;
     EXPECT_TRUE(file->unreadable_surfaces().empty()) << name;

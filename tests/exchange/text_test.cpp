@@ -86,7 +86,7 @@ TEST(StepReals, AnyDoubleSurvivesWritingToTheLastBit) {
   }
   for (std::size_t k = 0; k + 12 <= values.size(); k += 12) {
     Points points = Eigen::Map<const Points>(values.data() + k, 4, 3);
-    const StepEdit edit{"#10", points};
+    const step::Edit edit{"#10", points};
     const auto bytes = file.with_control_points({&edit, 1});
     ASSERT_TRUE(bytes) << bytes.error().message();
     EXPECT_TRUE(testing::same_bits(parse_or_die(*bytes).surfaces()[0].surface.control_points(), points));
@@ -99,7 +99,7 @@ TEST(StepReals, AreWrittenWithSeventeenDigits) {
   points(0, 0) = -0.1;
   points(0, 1) = -0.0;
   points(0, 2) = 1e100;
-  const StepEdit edit{"#10", points};
+  const step::Edit edit{"#10", points};
   EXPECT_NE(
       file.with_control_points({&edit, 1})
           ->find("#1=CARTESIAN_POINT('',(-1.0000000000000001E-01,-0.0000000000000000E+00,1.0000000000000000E+100));\n"),

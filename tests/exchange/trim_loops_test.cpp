@@ -12,7 +12,7 @@ using testing::FaceBuilder;
 
 const std::string square = testing::unit_square_points() + testing::bilinear_patch();
 
-StepFile on_square(const FaceBuilder& builder) {
+step::File on_square(const FaceBuilder& builder) {
   return testing::parse_or_die(testing::step_text(square + builder.text()));
 }
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "exchange/part21.hpp"
 #include "exchange/support.hpp"
-#include "knead/exchange/part21.hpp"
 
 namespace knead {
 namespace {
@@ -14,7 +14,7 @@ using testing::unit_square_points;
 
 std::string edited(const std::string& bytes, const std::string& id, const std::function<void(Points&)>& change) {
   const auto file = parse_or_die(bytes);
-  StepEdit edit{id, file.find_surface(id)->surface.control_points()};
+  step::Edit edit{id, file.find_surface(id)->surface.control_points()};
   change(edit.control_points);
   const auto result = file.with_control_points({&edit, 1});
   if (!result) {
@@ -42,7 +42,7 @@ TEST(StepWriter, WithoutChangesTheBytesAreTheInput) {
   const auto bytes = step_text(unit_square_points() + bilinear_patch());
   const auto file = parse_or_die(bytes);
   EXPECT_EQ(*file.with_control_points({}), bytes);
-  const StepEdit same{"#10", file.surfaces()[0].surface.control_points()};
+  const step::Edit same{"#10", file.surfaces()[0].surface.control_points()};
   EXPECT_EQ(*file.with_control_points({&same, 1}), bytes);
 }
 
@@ -95,8 +95,8 @@ TEST(StepWriter, APointOfTwoSurfacesGetsARecordForEachThatMoves) {
   EXPECT_EQ(parse_or_die(one).find_surface("#11")->surface.control_points()(0, 0), 0);
   EXPECT_EQ(edited(one, "#10", [](Points& p) { p(0, 0) = 0; }).size(), one.size()) << "the new record is its own";
   const auto file = parse_or_die(bytes);
-  StepEdit edits[] = {{"#10", file.surfaces()[0].surface.control_points()},
-                      {"#11", file.surfaces()[1].surface.control_points()}};
+  step::Edit edits[] = {{"#10", file.surfaces()[0].surface.control_points()},
+                        {"#11", file.surfaces()[1].surface.control_points()}};
   edits[0].control_points(0, 0) = 5;
   edits[1].control_points(0, 0) = 6;
   const auto both = file.with_control_points(edits);
@@ -194,7 +194,7 @@ TEST(StepWriter, AnAnchorCountsAsAReference) {
 TEST(StepWriter, WrongEditsAreErrors) {
   const auto file = parse_or_die(step_text(unit_square_points() + bilinear_patch()));
   const auto points = file.surfaces()[0].surface.control_points();
-  const auto what = [&](std::vector<StepEdit> edits) {
+  const auto what = [&](std::vector<step::Edit> edits) {
     const auto result = file.with_control_points(edits);
     EXPECT_FALSE(result);
     EXPECT_EQ(result.error().kind, ErrorKind::input);

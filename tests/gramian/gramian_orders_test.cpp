@@ -1,8 +1,8 @@
 // Gramians of every order a, b, and who computes them.
 #include <gtest/gtest.h>
 
+#include "gramian/operation_count.hpp"
 #include "knead/gramian/gramian.hpp"
-#include "knead/gramian/operation_count.hpp"
 #include "support/gramian_error.hpp"
 #include "support/knot_families.hpp"
 #include "support/listed_families.hpp"

@@ -1,4 +1,4 @@
-#include "knead/gramian/operation_count.hpp"
+#include "gramian/operation_count.hpp"
 
 #include <gtest/gtest.h>
 

@@ -59,6 +59,32 @@ TEST_F(Tree, HeaderThatIncludesARoomBuiltOnItIsFound) {
   expect_only("include/knead/base/error.hpp:2: the room base must not include the room spline, which is built on it");
 }
 
+TEST_F(Tree, InternalsOfARoomServeTheRoomsBuiltOnIt) {
+  write("src/base/rule.hpp", "#pragma once\n");
+  write("src/spline/detail.hpp", "#pragma once\n#include \"base/rule.hpp\"\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+}
+
+TEST_F(Tree, RoomThatIncludesInternalsOfARoomBuiltOnItIsFound) {
+  write("src/base/rule.hpp", "#pragma once\n#include \"spline/detail.hpp\"\n");
+  expect_only("src/base/rule.hpp:2: the room base must not include the room spline, which is built on it");
+}
+
+TEST_F(Tree, InternalsThatDoNotExistAreFound) {
+  write("src/spline/detail.hpp", "#pragma once\n#include \"base/rule.hpp\"\n");
+  expect_only("src/spline/detail.hpp:2: \"base/rule.hpp\" does not exist");
+}
+
+TEST_F(Tree, PublicHeaderThatIncludesInternalsIsFound) {
+  write("include/knead/spline/basis.hpp", "#pragma once\n#include \"spline/detail.hpp\"\n");
+  expect_only("include/knead/spline/basis.hpp:2: \"spline/detail.hpp\" is no public header");
+}
+
+TEST_F(Tree, SourceThatIncludesItsInternalHeaderLateIsFound) {
+  write("src/spline/detail.cpp", "#include <vector>\n#include \"detail.hpp\"\n");
+  expect_only("src/spline/detail.cpp:1: the first include is not the file's own header");
+}
+
 TEST_F(Tree, UnknownRoomIsFound) {
   write("include/knead/attic/box.hpp", "#pragma once\n");
   expect_only("include/knead/attic: there is no room of this name");

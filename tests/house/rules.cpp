@@ -120,13 +120,16 @@ class Inspection {
       const std::string code = code_of(lines[i], in_comment);
       if (std::regex_search(code, match, exception)) report(file, i + 1, "the core must not " + match[1].str());
     }
-    const fs::path own = root_ / "include/knead" / room / file.stem().concat(".hpp");
-    if (file.extension() == ".cpp" && fs::exists(own) &&
-        first_include != "knead/" + room + "/" + file.stem().string() + ".hpp") {
+    const std::string header = file.stem().string() + ".hpp";
+    const bool is_public = fs::exists(root_ / "include/knead" / room / header);
+    if (file.extension() == ".cpp" && (is_public || fs::exists(file.parent_path() / header)) &&
+        first_include != (is_public ? "knead/" + room + "/" + header : header)) {
       report(file, 1, "the first include is not the file's own header");
     }
   }
 
+  /// Quoted includes: "knead/ROOM/x.hpp" of the public headers; in src also "ROOM/x.hpp" of another room's internals
+  /// and "x.hpp" of the same room's.
   void inspect_include(const fs::path& file, std::size_t line, const std::string& room, std::size_t floor, bool angled,
                        const std::string& name) {
     if (angled) {
@@ -135,21 +138,29 @@ class Inspection {
       if (name.starts_with("knead/")) report(file, line, "<" + name + "> must be written with quotes");
       return;
     }
-    if (!name.starts_with("knead/")) {
-      if (!fs::exists(file.parent_path() / name) || name.find("..") != std::string::npos) {
-        report(file, line, "\"" + name + "\" is no file of this room");
-      }
+    const bool to_public = name.starts_with("knead/");
+    if (!to_public && is_public(file)) {
+      report(file, line, "\"" + name + "\" is no public header");
       return;
     }
-    const std::string other = name.substr(6, name.find('/', 6) - 6);
+    const bool beside = fs::exists(file.parent_path() / name) && name.find("..") == std::string::npos;
+    if (!to_public && beside) return;
+    const std::string path = to_public ? name.substr(6) : name;
+    const std::string other = path.substr(0, path.find('/'));
     const auto other_floor = floor_of(other);
-    if (!other_floor) {
+    if (!to_public && (!other_floor || other == room)) {
+      report(file, line, "\"" + name + "\" is no file of this room");
+    } else if (!other_floor) {
       report(file, line, "\"" + name + "\": there is no room " + other);
     } else if (*other_floor > floor) {
       report(file, line, "the room " + room + " must not include the room " + other + ", which is built on it");
-    } else if (!fs::exists(root_ / "include" / name)) {
+    } else if (!fs::exists(root_ / (to_public ? "include" : "src") / name)) {
       report(file, line, "\"" + name + "\" does not exist");
     }
+  }
+
+  [[nodiscard]] bool is_public(const fs::path& file) const {
+    return fs::relative(file, root_).generic_string().starts_with("include/");
   }
 
   void inspect_form(const fs::path& file) {

@@ -9,8 +9,10 @@ namespace knead::house {
 /// Everything in the source tree at `root` that breaks a rule of the house, one line each, "path:line: what is wrong";
 /// empty where all is well. The rules:
 ///  - every directory of include/knead and src is a room, and holds a room's files only;
-///  - a room includes itself and rooms below it in the list (base first), nothing of the programs on top of it, and
-///    quoted includes name a file that exists;
+///  - a room includes itself and rooms below it in the list (base first), public headers as "knead/ROOM/x.hpp" and
+///    internals as "ROOM/x.hpp" alike, nothing of the programs on top of it, and quoted includes name a file
+///    that exists;
+///  - a public header includes no internal one;
 ///  - x.cpp includes its own header first, so that every header with a source is compiled on its own;
 ///  - headers begin with #pragma once;
 ///  - the core neither throws nor catches;

@@ -56,7 +56,7 @@ TEST_P(ContextShape, HasTheAreasThatOpenCascadeFinds) {
   const auto path =
       fs::temp_directory_path() / ("knead-context-" + std::to_string(getpid()) + "-" + GetParam() + ".step");
   ASSERT_TRUE(occt_write_shape(GetParam(), path));
-  const auto file = StepFile::read(path);
+  const auto file = step::File::read(path);
   ASSERT_TRUE(file) << file.error().message();
   const auto areas = occt_face_areas(path, "mm");
   ASSERT_FALSE(areas.empty());

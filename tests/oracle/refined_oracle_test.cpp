@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "exchange/new_surfaces.hpp"
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 #include "oracle/step_oracle.hpp"
 
 namespace knead::oracle {
@@ -41,7 +41,7 @@ void expect_holds(const OcctSurface& occt, const Surface& surface, const std::st
 }
 
 TEST_P(RefinedOracle, FindsTheSameFacesOnRefinedSurfaces) {
-  std::vector<StepReplacement> refined;
+  std::vector<step::Replacement> refined;
   for (const auto& surface : file_->surfaces()) {
     const auto middles = [&](int d) {
       return span_midpoints(surface.surface.knots(d), surface.surface.knots(d).domain());
@@ -92,7 +92,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RefinedOracle);
 TEST(StepTextOracle, ReadsNewSurfacesAsWholeFaces) {
   const auto surfaces = knead::testing::new_surfaces();
   for (const auto* unit : {"mm", "m"}) {
-    const auto text = step_text(surfaces, {.unit = unit});
+    const auto text = step::text_of(surfaces, {.unit = unit});
     ASSERT_TRUE(text);
     const auto path = fs::temp_directory_path() / ("knead-new-" + std::to_string(getpid()) + ".step");
     ASSERT_TRUE(write_file_atomically(path, *text));
@@ -100,7 +100,7 @@ TEST(StepTextOracle, ReadsNewSurfacesAsWholeFaces) {
     fs::remove(path);
     ASSERT_TRUE(model);
     EXPECT_EQ(model->topology["faces"], static_cast<int>(surfaces.size()));
-    const auto file = *StepFile::parse(*text, "new.step");
+    const auto file = *step::File::parse(*text, "new.step");
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       const auto& name = surfaces[k].name;
       const auto& result = model->results[file.surfaces()[k].id];

@@ -24,9 +24,9 @@ inline std::vector<fs::path> all_files() {
 class StepOracle : public ::testing::TestWithParam<fs::path> {
  protected:
   void SetUp() override {
-    auto read = StepFile::read(GetParam());
+    auto read = step::File::read(GetParam());
     ASSERT_TRUE(read) << read.error().message();
-    file_ = std::make_unique<StepFile>(*std::move(read));
+    file_ = std::make_unique<step::File>(*std::move(read));
     directory_ = fs::temp_directory_path() / ("knead-oracle-" + std::to_string(getpid()));
     fs::create_directories(directory_);
     if (file_->bytes().find("&SCOPE") != std::string::npos) {
@@ -57,7 +57,7 @@ class StepOracle : public ::testing::TestWithParam<fs::path> {
     return model.value_or(OcctModel{});
   }
 
-  std::unique_ptr<StepFile> file_;
+  std::unique_ptr<step::File> file_;
   fs::path directory_;
   std::optional<OcctModel> before_;
 };

@@ -69,7 +69,7 @@ void compare_altered(const OcctSurface& before, const OcctSurface& after, const 
 }
 
 // Surfaces in `edited` (by name) hold their new control points; all others what they held.
-Tally compare(const StepFile& file, const OcctModel& before, const OcctModel& after,
+Tally compare(const step::File& file, const OcctModel& before, const OcctModel& after,
               const std::map<std::string, Points>& edited) {
   Tally tally;
   EXPECT_EQ(before.topology, after.topology);
@@ -107,7 +107,7 @@ Tally compare(const StepFile& file, const OcctModel& before, const OcctModel& af
 }
 
 TEST_P(StepOracle, FindsTheSameFacesAndOnlyTheEditedPolesDiffer) {
-  std::vector<StepEdit> edits;
+  std::vector<step::Edit> edits;
   std::map<std::string, Points> edited;
   for (const auto& surface : file_->surfaces()) {
     edits.push_back({surface.id, moved(surface.surface)});
@@ -127,7 +127,7 @@ TEST_P(StepOracle, FindsTheSameFacesAndOnlyTheEditedPolesDiffer) {
 TEST_P(StepOracle, OneEditedSurfaceLeavesAllOthersAlone) {
   if (file_->surfaces().empty()) GTEST_SKIP() << "no B-spline surfaces";
   const auto& surface = file_->surfaces()[file_->surfaces().size() / 2];
-  const StepEdit edit{surface.id, moved(surface.surface)};
+  const step::Edit edit{surface.id, moved(surface.surface)};
   compare(*file_, *before_, read_written(file_->with_control_points({&edit, 1})), {{surface.id, edit.control_points}});
 }
 

@@ -10,11 +10,11 @@ namespace knead::testing {
 
 inline std::vector<bool> rim(const Surface& s, int rows) {
   const auto [m, n] = s.net();
-  std::vector<bool> fixed;
+  std::vector<bool> held;
   for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < n; ++j) fixed.push_back(i < rows || j < rows || i >= m - rows || j >= n - rows);
+    for (int j = 0; j < n; ++j) held.push_back(i < rows || j < rows || i >= m - rows || j >= n - rows);
   }
-  return fixed;
+  return held;
 }
 
 template <int D>
@@ -34,13 +34,13 @@ Spline<D> box(int degree, int net) {
 /// Both ends of the first direction.
 template <int D>
 std::vector<bool> ends(const Spline<D>& s, int rows) {
-  std::vector<bool> fixed(static_cast<std::size_t>(s.size()));
+  std::vector<bool> held(static_cast<std::size_t>(s.size()));
   const int slab = s.size() / s.net()[0];
   for (int i = 0; i < s.size(); ++i) {
     const int row = i / slab;
-    fixed[static_cast<std::size_t>(i)] = row < rows || row >= s.net()[0] - rows;
+    held[static_cast<std::size_t>(i)] = row < rows || row >= s.net()[0] - rows;
   }
-  return fixed;
+  return held;
 }
 
 template <int D>

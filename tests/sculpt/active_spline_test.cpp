@@ -13,11 +13,11 @@ namespace {
 
 std::vector<bool> rim(const Surface& s, int rows) {
   const auto [m, n] = s.net();
-  std::vector<bool> fixed;
+  std::vector<bool> held;
   for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < n; ++j) fixed.push_back(i < rows || j < rows || i >= m - rows || j >= n - rows);
+    for (int j = 0; j < n; ++j) held.push_back(i < rows || j < rows || i >= m - rows || j >= n - rows);
   }
-  return fixed;
+  return held;
 }
 
 ActiveSurface active(const Surface& s, const ActiveSettings<2>& settings) {
@@ -46,7 +46,7 @@ struct Scene {
   std::vector<Tool> tools;
 
   explicit Scene(Surface s) : surface(std::move(s)) {
-    settings.fixed = rim(surface, 1);
+    settings.held = rim(surface, 1);
     settings.detail = 0.1;
     settings.lambda = 5;
     tools = {{"press", testing::sphere_at(Point(0.55, 0.4, 0.27), 0.3), ToolMode::collision, 500, 1},
@@ -82,7 +82,7 @@ TEST(ActiveSurface, FixedControlPointsKeepTheirBits) {
     const Points after = scene.sculpted();
     int moved = 0;
     for (int i = 0; i < s.size(); ++i) {
-      if (scene.settings.fixed[static_cast<std::size_t>(i)]) {
+      if (scene.settings.held[static_cast<std::size_t>(i)]) {
         EXPECT_EQ(after.row(i), s.control_points().row(i));
       } else {
         moved += after.row(i) != s.control_points().row(i);
@@ -131,7 +131,7 @@ TEST(ActiveSurface, IsStableAndTightAtAnyStiffness) {
   double before = 1;
   for (double k : {1e0, 1e2, 1e4, 1e6, 1e8, max_tool_stiffness}) {
     ActiveSettings<2> settings;
-    settings.fixed = rim(s, 2);
+    settings.held = rim(s, 2);
     settings.detail = 0.2;
     const std::vector<Tool> tools = {
         {"ball", testing::sphere_at(Point(0.5, 0.47, 0.15), 0.2), ToolMode::collision, k, 1}};
@@ -158,7 +158,7 @@ TEST(ActiveSurface, IsStableAndTightAtAnyStiffness) {
 TEST(ActiveSurface, ReleasesWithoutSticking) {
   const Surface s = testing::uniform_sheet(3, 14, 14);
   ActiveSettings<2> settings;
-  settings.fixed = rim(s, 2);
+  settings.held = rim(s, 2);
   settings.detail = 0.2;
   const ActiveSurface model = active(s, settings);
   std::vector<Tool> tools = {{"ball", testing::sphere_at(Point(0.5, 0.5, 0.15), 0.2), ToolMode::collision, 1e5, 1}};
@@ -172,7 +172,7 @@ TEST(ActiveSurface, ReleasesWithoutSticking) {
 TEST(ActiveSurface, ProximityDrawsTheSurfaceToTheTool) {
   const Surface s = testing::uniform_sheet(3, 16, 16);
   ActiveSettings<2> settings;
-  settings.fixed = rim(s, 2);
+  settings.held = rim(s, 2);
   settings.detail = 0.1;
   const std::vector<Tool> tools = {
       {"magnet", testing::sphere_at(Point(0.5, 0.5, 0.25), 0.2), ToolMode::proximity, 100, 0.1}};

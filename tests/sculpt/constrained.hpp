@@ -4,6 +4,7 @@
 
 #include "knead/sculpt/constraints.hpp"
 #include "knead/spline/extremum.hpp"
+#include "sculpt/constraint_list_space.hpp"
 #include "support/surfaces.hpp"
 
 /// Displacements that a list of constraints allows, and what the tests ask of them.

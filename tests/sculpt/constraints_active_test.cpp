@@ -16,7 +16,7 @@ Tool ball(const Point& centre, double radius) {
 
 ActiveSurface active(const Surface& s, const ConstraintList& list) {
   ActiveSettings<2> settings;
-  settings.fixed = list.held;
+  settings.held = list.held;
   settings.constraints = list.constraints;
   settings.detail = 0.1;
   settings.lambda = 5;

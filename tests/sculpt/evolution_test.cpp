@@ -23,7 +23,7 @@ double plate(int net, int rows) {
   settings.raw = true;
   settings.material = {{0, 0, 0}, {1, 1, 1}};
   settings.evolution = Evolution::stationary;
-  settings.fixed = rim(s, rows);
+  settings.held = rim(s, rows);
   ActiveLoads load;
   load.force = Point(0, 0, 1);
   const auto step = active<2>(s, settings).step({s.control_points()}, {}, load);
@@ -63,8 +63,8 @@ TEST(Stationary, WithoutAHoldIsRefused) {
   EXPECT_EQ(free.error().kind, ErrorKind::numerical);
   EXPECT_NE(free.error().remedy.find("hold an edge"), std::string::npos);
   settings.material = {{0, 0, 0}, {1, 1, 1}};  // bending alone: one held corner leaves it free to tilt
-  settings.fixed = std::vector<bool>(64);
-  settings.fixed[0] = true;
+  settings.held = std::vector<bool>(64);
+  settings.held[0] = true;
   EXPECT_EQ(ActiveSpline<2>::create(s, settings).error().kind, ErrorKind::numerical);
 }
 
@@ -73,12 +73,12 @@ void swings() {
   const Spline<D> s = box<D>(3, D == 3 ? 5 : 9);
   ActiveSettings<D> settings;
   settings.evolution = Evolution::dynamic;
-  settings.fixed = ends<D>(s, 1);
+  settings.held = ends<D>(s, 1);
   settings.damping = 0;
   settings.time_step = 0.05;
   Points start = s.control_points() + 0.05 * testing::random_points(s.size(), 3);
   for (int i = 0; i < s.size(); ++i) {
-    if (settings.fixed[static_cast<std::size_t>(i)]) start.row(i) = s.control_points().row(i);
+    if (settings.held[static_cast<std::size_t>(i)]) start.row(i) = s.control_points().row(i);
   }
   for (double damping : {0.0, 0.7}) {
     settings.damping = damping;
@@ -107,7 +107,7 @@ TEST(Dynamic, NeverGainsEnergyAndComesToRestWithDamping) {
   swings<3>();
 }
 
-/// A string fixed at its ends, plucked into its lowest mode: X = sin(πu) cos(πt/√μ) z, α = 1. With the mass as a
+/// A string held at its ends, plucked into its lowest mode: X = sin(πu) cos(πt/√μ) z, α = 1. With the mass as a
 /// constant, or as a field.
 double string_error(double h, double mass = 1, bool field = false) {
   const Curve s = box<1>(5, 24);
@@ -115,7 +115,7 @@ double string_error(double h, double mass = 1, bool field = false) {
   settings.raw = true;
   settings.material = {{1}, {0}};
   settings.evolution = Evolution::dynamic;
-  settings.fixed = ends<1>(s, 1);
+  settings.held = ends<1>(s, 1);
   settings.damping = 0;
   settings.time_step = h;
   settings.mass = mass;
@@ -203,7 +203,7 @@ template <int D>
 void sinks_and_settles() {
   const Spline<D> s = box<D>(2, D == 3 ? 6 : 10);
   ActiveSettings<D> settings;
-  settings.fixed = ends<D>(s, 1);
+  settings.held = ends<D>(s, 1);
   settings.detail = 0.2;
   const Tool ball = {"ball", testing::sphere_at(Point(0.5, D > 1 ? 0.5 : 0.03, D > 2 ? 0.5 : 0.17), 0.2),
                      ToolMode::collision, 1e4, 1};
@@ -222,7 +222,7 @@ void sinks_and_settles() {
   EXPECT_GT(last.energy, 1e-4);
   EXPECT_GT(last.gap, 0);
   for (int i = 0; i < s.size(); ++i) {
-    if (settings.fixed[static_cast<std::size_t>(i)]) {
+    if (settings.held[static_cast<std::size_t>(i)]) {
       EXPECT_EQ(last.control_points.row(i), s.control_points().row(i));
     }
   }
@@ -251,8 +251,8 @@ void sinks_under_constraints() {
     const int n = s.size();
     ActiveSettings<D> settings;
     settings.lambda = 3;
-    settings.fixed = std::vector<bool>(static_cast<std::size_t>(n), false);
-    settings.fixed[seed] = true;
+    settings.held = std::vector<bool>(static_cast<std::size_t>(n), false);
+    settings.held[seed] = true;
     const int a = static_cast<int>(7 * seed) % n, b = (a + 1) % n, c = (a + n / 2) % n;
     if (a == static_cast<int>(seed) || b == static_cast<int>(seed) || c == static_cast<int>(seed)) continue;
     settings.constraints = {{"pair", {{a, 1}, {b, -1}}}, {"plane", {{c, 1}}, Point(0, 0, 0.01), Point(1, 2, -1)}};

@@ -1,4 +1,4 @@
-#include "knead/sculpt/greville_force.hpp"
+#include "sculpt/greville_force.hpp"
 
 #include <gtest/gtest.h>
 

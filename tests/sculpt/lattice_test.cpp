@@ -32,7 +32,7 @@ TEST(Lattice, CarriesASurfaceAlongWithTheToolThatPressesTheSpace) {
   ASSERT_TRUE(lattice);
   const std::vector<std::string> names = {"u0", "u1"};
   ActiveSettings<3> settings;
-  settings.fixed = *lattice->faces(names, 1);
+  settings.held = *lattice->faces(names, 1);
   settings.detail = 0.25;
   const Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.5, 0.3), 0.25), ToolMode::collision, 1e4, 1};
   const auto model = ActiveSpline<3>::create(lattice->rest(), settings);
@@ -93,7 +93,7 @@ struct Sheet {
   Sheet() {
     for (int i = 0; i < 400; ++i) {
       const int a = i / 20, b = i % 20;
-      settings.fixed.push_back(a < 1 || b < 1 || a > 18 || b > 18);
+      settings.held.push_back(a < 1 || b < 1 || a > 18 || b > 18);
     }
     settings.detail = 0.3;
   }

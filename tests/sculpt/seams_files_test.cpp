@@ -11,9 +11,9 @@ namespace {
 
 using namespace knead::testing;
 
-std::vector<Surface> surfaces_of(const StepFile& file) {
+std::vector<Surface> surfaces_of(const step::File& file) {
   std::vector<Surface> patches;
-  for (const StepSurface& s : file.surfaces()) patches.push_back(s.surface);
+  for (const step::SurfaceEntity& s : file.surfaces()) patches.push_back(s.surface);
   return patches;
 }
 
@@ -40,7 +40,7 @@ double milliseconds(std::chrono::steady_clock::time_point since) {
 TEST_F(SeamFiles, ClosedSurfacesAreSeamsWithThemselvesAndNoOthersAre) {
   int closed = 0;
   for (const auto& path : paths) {
-    const auto file = StepFile::read(path);
+    const auto file = step::File::read(path);
     if (!file || file->surfaces().empty()) continue;
     const auto patches = surfaces_of(*file);
     const double tolerance = suggested_seam_tolerance(pointers(patches));
@@ -70,7 +70,7 @@ TEST_F(SeamFiles, ClosedSurfacesAreSeamsWithThemselvesAndNoOthersAre) {
 TEST_F(SeamFiles, HolesMadeOfTwoHalvesHaveTwoSmoothSeamsEach) {
   const auto path = paths.front().parent_path() / "as1-oc-214.stp";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
-  const auto file = StepFile::read(path);
+  const auto file = step::File::read(path);
   ASSERT_TRUE(file);
   const Coupled c(surfaces_of(*file), {}, suggested_seam_tolerance(pointers(surfaces_of(*file))));
   std::vector<int> seams(c.patches.size(), 0);
@@ -85,7 +85,7 @@ TEST_F(SeamFiles, HolesMadeOfTwoHalvesHaveTwoSmoothSeamsEach) {
 
 TEST_F(SeamFiles, EveryCoupledSeamKeepsItsGapAndEverySmoothOneItsAngle) {
   for (const auto& path : paths) {
-    const auto file = StepFile::read(path);
+    const auto file = step::File::read(path);
     if (!file || file->surfaces().empty()) continue;
     const auto patches = surfaces_of(*file);
     const double tolerance = suggested_seam_tolerance(pointers(patches)), size = 1e4 * tolerance;

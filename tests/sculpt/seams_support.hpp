@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "knead/sculpt/seam_coupling.hpp"
-#include "knead/solve/constraint_space.hpp"
+#include "solve/constraint_space.hpp"
 #include "support/surfaces.hpp"
 
 namespace knead::testing {

@@ -18,7 +18,7 @@ using testing::rim;
 TEST(RigidTool, IsEnteredByLessThanAFractionOfItsSize) {
   const Surface s = box<2>(3, 20);
   ActiveSettings<2> settings;
-  settings.fixed = rim(s, 2);
+  settings.held = rim(s, 2);
   settings.detail = 0.2;
   Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.47, 0.15), 0.2), ToolMode::collision, 100, 1};
   ball.rigid = true;
@@ -33,7 +33,7 @@ TEST(RigidTool, IsEnteredByLessThanAFractionOfItsSize) {
 TEST(RigidTool, SaysWhyWhatIsHeldInsideItStaysThere) {
   const Surface s = box<2>(3, 10);
   ActiveSettings<2> settings;
-  settings.fixed = rim(s, 2);
+  settings.held = rim(s, 2);
   settings.detail = 0.2;
   Tool ball = {"ball", testing::sphere_at(Point(0.5, 0, 0.1), 0.2), ToolMode::collision, 1e4, 1};
   ball.rigid = true;
@@ -46,7 +46,7 @@ TEST(RigidTool, SaysWhyWhatIsHeldInsideItStaysThere) {
 TEST(Limit, HoldsToAMillionth) {
   const Surface s = box<2>(3, 16);
   ActiveSettings<2> settings;
-  settings.fixed = rim(s, 1);
+  settings.held = rim(s, 1);
   settings.detail = 0.2;
   const Tool ball = {"ball", testing::sphere_at(Point(0.5, 0.47, 0.1), 0.2), ToolMode::collision, 1e4, 1};
   const ActiveSpline<2> model = active<2>(s, settings);
@@ -72,7 +72,7 @@ TEST(Loads, PressureOnAFlatSheetIsALoadAlongItsNormal) {
   const Surface s = box<2>(3, 9);
   ActiveSettings<2> settings;
   settings.evolution = Evolution::stationary;
-  settings.fixed = rim(s, 1);
+  settings.held = rim(s, 1);
   const ActiveSpline<2> model = active<2>(s, settings);
   ActiveLoads pressure, force;
   pressure.pressure = 0.01;
@@ -174,7 +174,7 @@ TEST(SeveralPatches, CoupledMoveTogetherAndUncoupledTear) {
 TEST(Constraints, APulledPointArrivesAndTheRestFollows) {
   const Surface s = box<2>(3, 10);
   ActiveSettings<2> settings;
-  settings.fixed = rim(s, 1);
+  settings.held = rim(s, 1);
   const auto table_u = tabulate_basis(s.knots(0), std::vector{0.4}, 0),
              table_v = tabulate_basis(s.knots(1), std::vector{0.55}, 0);
   LinearConstraint pin{"pin", {}, Point(0, 0, 0.1)};

@@ -1,4 +1,4 @@
-#include "knead/sculpt/tool_load.hpp"
+#include "sculpt/tool_load.hpp"
 
 #include <gtest/gtest.h>
 

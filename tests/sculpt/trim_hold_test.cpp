@@ -5,7 +5,7 @@
 
 #include "constrained.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
 namespace {

@@ -39,7 +39,7 @@ TEST(Command, NewMakesAFlatSheetAndSelectsIt) {
   }
   EXPECT_EQ(session.state().surfaces[1].current->net(), (std::array<int, 2>{5, 4})) << "from the knots";
   EXPECT_EQ(session.state().selected, 1);
-  const auto saved = StepFile::parse(*session.save(), "saved");
+  const auto saved = step::File::parse(*session.save(), "saved");
   ASSERT_TRUE(saved) << saved.error().message();
   EXPECT_EQ(saved->surfaces().size(), 2U);
   EXPECT_TRUE(same_bits(saved->surfaces()[0].surface, a));

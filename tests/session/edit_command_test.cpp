@@ -176,7 +176,7 @@ TEST(WeightsCommand, OfAFilesSurfaceAreSavedAndReadBack) {
   Session session = open_sample();
   run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"weights","which":[60,61],"weight":3})"});
   ASSERT_FALSE(first(session).opened->rational());
-  const auto saved = StepFile::parse(*session.save(), "saved");
+  const auto saved = step::File::parse(*session.save(), "saved");
   ASSERT_TRUE(saved) << saved.error().message();
   EXPECT_TRUE(same_bits(saved->find_surface("#285")->surface, *first(session).current));
   EXPECT_EQ(saved->surfaces().size(), session.document().surfaces().size());
@@ -195,7 +195,7 @@ TEST(KnotsCommand, ChangeTheShapeForGoodAndAreSaved) {
   EXPECT_EQ(first(session).rest, first(session).current);
   EXPECT_GT(session.largest_displacement(0), 0);
   EXPECT_EQ(session.moved_control_points(0), first(session).current->size());
-  const auto saved = StepFile::parse(*session.save(), "saved");
+  const auto saved = step::File::parse(*session.save(), "saved");
   ASSERT_TRUE(saved) << saved.error().message();
   EXPECT_TRUE(same_bits(saved->find_surface("#285")->surface, *first(session).current));
   Session replay = open_sample();

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "knead/base/gauss_legendre.hpp"
+#include "base/gauss_legendre.hpp"
 #include "knead/session/held_points.hpp"
 #include "sheet.hpp"
 

@@ -40,7 +40,7 @@ TEST(NewCommand, RoundShapesAreExactAndSelectThemselves) {
   }
   const std::vector<std::string> names = {"sphere", "cylinder", "torus", "vase"};
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(surfaces[k].name, names[k]);
-  const auto saved = StepFile::parse(*session.save(), "saved");
+  const auto saved = step::File::parse(*session.save(), "saved");
   ASSERT_TRUE(saved) << saved.error().message();
   EXPECT_EQ(saved->length_unit(), "inch");
   for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(same_bits(saved->surfaces()[k].surface, *surfaces[k].current));

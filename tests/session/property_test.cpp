@@ -72,10 +72,10 @@ Surface placed(const Surface& s, const Similarity& m) {
 }
 
 Session document_of(const Surface& surface) {
-  const std::vector<StepNewSurface> surfaces = {{"s", surface}};
-  auto text = step_text(surfaces, {});
+  const std::vector<step::NewSurface> surfaces = {{"s", surface}};
+  auto text = step::text_of(surfaces, {});
   if (!text) ADD_FAILURE() << text.error().message();
-  auto file = StepFile::parse(*text, "random");
+  auto file = step::File::parse(*text, "random");
   if (!file) ADD_FAILURE() << file.error().message();
   return Session(Document::from(std::move(*file)));
 }

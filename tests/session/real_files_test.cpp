@@ -83,7 +83,7 @@ TEST(RealFiles, SurfacesOfEveryKindBendWithoutCreasesAndKeepTheirConstraints) {
       EXPECT_LE(session.state().steps.back().violation, 1e-10 * size);
       const auto bytes = session.save();
       ASSERT_TRUE(bytes) << bytes.error().message();
-      EXPECT_TRUE(StepFile::parse(*bytes, "saved"));
+      EXPECT_TRUE(step::File::parse(*bytes, "saved"));
     }
   }
   EXPECT_GE(sculpted, 20);

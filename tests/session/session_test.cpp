@@ -29,7 +29,7 @@ TEST(Session, PressesAToolIntoARealFileAndReadsTheSameBitsBack) {
   EXPECT_GT(session.moved_control_points(index), 10);
   const auto bytes = session.save();
   ASSERT_TRUE(bytes);
-  const auto again = StepFile::parse(*bytes, "saved");
+  const auto again = step::File::parse(*bytes, "saved");
   ASSERT_TRUE(again);
   const Points& current = session.state().surfaces[static_cast<std::size_t>(index)].current->control_points();
   EXPECT_EQ(again->find_surface(skin)->surface.control_points(), current);

@@ -1,4 +1,4 @@
-#include "knead/solve/constrained_cholesky.hpp"
+#include "solve/constrained_cholesky.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "knead/solve/constraint_space.hpp"
+#include "solve/constraint_space.hpp"
 
 #include <gtest/gtest.h>
 
@@ -95,9 +95,9 @@ TEST(ConstraintSpace, HeldUnknownsKeepTheirBitsAndCarryOthers) {
   const auto space = ConstraintSpace::create(4, constraints, held);
   ASSERT_TRUE(space);
   EXPECT_EQ(space->free_count(), 1);
-  EXPECT_TRUE(space->is_fixed(1));
-  EXPECT_TRUE(space->is_fixed(0));
-  EXPECT_FALSE(space->is_fixed(3));
+  EXPECT_TRUE(space->is_determined(1));
+  EXPECT_TRUE(space->is_determined(0));
+  EXPECT_FALSE(space->is_determined(3));
   Points x = random_points(4, 3);
   const Points member = space->feasible(x);
   EXPECT_EQ(member.row(1), x.row(1));

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "knead/base/gauss_legendre.hpp"
+#include "base/gauss_legendre.hpp"
 #include "knead/spline/basis.hpp"
 #include "support/knot_families.hpp"
 

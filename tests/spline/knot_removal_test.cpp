@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 #include "spline/sample_splines.hpp"
 
 namespace knead {

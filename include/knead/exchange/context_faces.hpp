@@ -43,6 +43,6 @@ struct ContextFaces {
 ///   so that no gaps show. Between 1e-6 and 0.2.
 /// Errors (usage): chord out of its range. Faces that fail are listed in `skipped`, each with its reason.
 /// Cost: linear in the file and in the triangles, quadratic in the number of points round one face.
-[[nodiscard]] Expected<ContextFaces> context_faces(const StepFile& file, double chord = 1e-3);
+[[nodiscard]] Expected<ContextFaces> context_faces(const step::File& file, double chord = 1e-3);
 
 }  // namespace knead

@@ -15,6 +15,6 @@ namespace knead {
 /// edge comes once. A file's own curves in parameters (PCURVE) are not needed. Without faces there are no edges, and
 /// the whole surface is visible. Errors: there is no such surface; a face on it cannot be followed, named with the
 /// reason (input). Cost: O((p + 1)²) per point and iteration, and a pass over the file.
-[[nodiscard]] Expected<VisibleRegion> visible_region(const StepFile& file, const std::string& surface);
+[[nodiscard]] Expected<VisibleRegion> visible_region(const step::File& file, const std::string& surface);
 
 }  // namespace knead

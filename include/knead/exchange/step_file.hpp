@@ -11,13 +11,13 @@
 #include "knead/base/error.hpp"
 #include "knead/spline/spline.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// One B-spline surface entity of a STEP file.
-struct StepSurface {
+struct SurfaceEntity {
   std::string id;    ///< "#123"
   std::string name;  ///< decoded label of the representation item; empty if it has none
-  std::string unit;  ///< length unit of its coordinates as in `StepLengthUnit::name`; "unknown" if undecidable
+  std::string unit;  ///< length unit of its coordinates as in `LengthUnit::name`; "unknown" if undecidable
 
   /// u is the outer list of control points (slow), v the inner one (fast). Numbers are the correctly rounded doubles of
   /// the file's decimals, in the file's units and in the frame of the surface's own representation.
@@ -39,14 +39,14 @@ struct StepSurface {
 };
 
 /// A B-spline surface entity that could not be made a `Surface`; the rest of the file is usable all the same.
-struct StepUnreadableSurface {
+struct UnreadableSurface {
   std::string id;
   Error reason;
 };
 
 /// AXIS2_PLACEMENT_3D as the file gives it: directions are not normalised; an omitted axis is (0, 0, 1) and an omitted
 /// reference direction (1, 0, 0), or (0, 1, 0) where the axis is along x (ISO 10303-42, first_proj_axis).
-struct StepPlacement {
+struct Placement {
   Point origin = Point::Zero();
   Point axis = Point::UnitZ();
   Point ref_direction = Point::UnitX();
@@ -55,30 +55,30 @@ struct StepPlacement {
 /// One placement of a component in an assembly: a NEXT_ASSEMBLY_USAGE_OCCURRENCE with its
 /// CONTEXT_DEPENDENT_SHAPE_REPRESENTATION, or a MAPPED_ITEM. The component is moved so that `frame` (given in the
 /// child) comes to lie on `placement` (given in the parent). Nothing is applied to the surfaces.
-struct StepInstance {
-  std::string id;                          ///< "#123", of the NEXT_ASSEMBLY_USAGE_OCCURRENCE or MAPPED_ITEM
-  std::string name;                        ///< its label
-  std::string parent;                      ///< product name of the assembly; empty if the file does not lead to one
-  std::string child;                       ///< product name of the component; empty likewise
-  std::optional<StepPlacement> placement;  ///< where the component's frame goes, in the parent; none if not given
-  std::optional<StepPlacement> frame;      ///< the component's own frame
+struct Instance {
+  std::string id;                      ///< "#123", of the NEXT_ASSEMBLY_USAGE_OCCURRENCE or MAPPED_ITEM
+  std::string name;                    ///< its label
+  std::string parent;                  ///< product name of the assembly; empty if the file does not lead to one
+  std::string child;                   ///< product name of the component; empty likewise
+  std::optional<Placement> placement;  ///< where the component's frame goes, in the parent; none if not given
+  std::optional<Placement> frame;      ///< the component's own frame
 };
 
 /// The length unit of one representation context.
-struct StepLengthUnit {
+struct LengthUnit {
   std::string context;  ///< "#123" of the GLOBAL_UNIT_ASSIGNED_CONTEXT
   std::string name;     ///< SI: "m", "mm", "um", …; conversion based: its name in lower case, "inch", "foot", …
   double metres = 0;    ///< length of one unit in metres; 0 if the file does not say
 };
 
 /// New control points of one surface, in the order of `Surface::control_points`.
-struct StepEdit {
+struct Edit {
   std::string id;  ///< "#123"
   Points control_points;
 };
 
 /// Another surface in the place of one of the file: refined, or coarser, over the same parameter domain.
-struct StepReplacement {
+struct Replacement {
   std::string id;  ///< "#123"
   Surface surface;
 };
@@ -87,12 +87,12 @@ struct StepReplacement {
 ///
 /// Reading changes nothing: the bytes are kept. Writing is surgical: only what must differ does (docs/step.md).
 /// Immutable; copies share the data; const access is thread-safe. Cost of reading: linear in the size of the file.
-class StepFile {
+class File {
  public:
   /// Reads and parses a file. Errors (input): it cannot be read; it is not an exchange structure, with line and entity.
-  [[nodiscard]] static Expected<StepFile> read(const std::filesystem::path& path);
+  [[nodiscard]] static Expected<File> read(const std::filesystem::path& path);
   /// Parses bytes; `name` stands for the file in errors.
-  [[nodiscard]] static Expected<StepFile> parse(std::string bytes, std::string name);
+  [[nodiscard]] static Expected<File> parse(std::string bytes, std::string name);
 
   [[nodiscard]] const std::string& name() const;
   /// The input, byte for byte.
@@ -101,15 +101,15 @@ class StepFile {
   [[nodiscard]] const std::string& schema() const;
 
   /// In the order of the file.
-  [[nodiscard]] const std::vector<StepSurface>& surfaces() const;
-  [[nodiscard]] const std::vector<StepUnreadableSurface>& unreadable_surfaces() const;
-  [[nodiscard]] const std::vector<StepInstance>& instances() const;
+  [[nodiscard]] const std::vector<SurfaceEntity>& surfaces() const;
+  [[nodiscard]] const std::vector<UnreadableSurface>& unreadable_surfaces() const;
+  [[nodiscard]] const std::vector<Instance>& instances() const;
   /// One per context that assigns a length unit, in the order of the file.
-  [[nodiscard]] const std::vector<StepLengthUnit>& length_units() const;
+  [[nodiscard]] const std::vector<LengthUnit>& length_units() const;
   /// The distinct names of `length_units`, joined by ", " (nearly always one name); "unknown" where there is none.
   [[nodiscard]] std::string length_unit() const;
   /// The surface with this id, or null.
-  [[nodiscard]] const StepSurface* find_surface(const std::string& id) const;
+  [[nodiscard]] const SurfaceEntity* find_surface(const std::string& id) const;
 
   /// The bytes of this file with the control points of some surfaces replaced and every other byte as it was.
   ///
@@ -119,7 +119,7 @@ class StepFile {
   /// returned. No edits, or edits that change nothing, give the input bytes.
   /// Errors: unknown or repeated id, wrong number of control points, a coordinate that is not finite (input); the
   /// self-check fails (numerical).
-  [[nodiscard]] Expected<std::string> with_control_points(std::span<const StepEdit> edits) const;
+  [[nodiscard]] Expected<std::string> with_control_points(std::span<const Edit> edits) const;
 
   /// The bytes of this file with whole surfaces replaced, other nets, degrees, knots and weights included, and every
   /// other byte as it was.
@@ -133,14 +133,14 @@ class StepFile {
   /// should stay the same, since trimming curves live in it; that is not checked.
   /// Errors: unknown or repeated id; no weights where the file has some; a knot inside the domain
   /// repeated more often than the degree (input); the self-check fails (numerical).
-  [[nodiscard]] Expected<std::string> with_surfaces(std::span<const StepReplacement> replacements) const;
+  [[nodiscard]] Expected<std::string> with_surfaces(std::span<const Replacement> replacements) const;
 
   struct Data;  ///< private to the exchange room
   [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
-  explicit StepFile(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  explicit File(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
 };
 
-}  // namespace knead
+}  // namespace knead::step

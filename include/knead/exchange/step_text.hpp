@@ -7,33 +7,32 @@
 #include "knead/base/error.hpp"
 #include "knead/spline/spline.hpp"
 
-namespace knead {
+namespace knead::step {
 
 /// A surface for a file that does not exist yet.
-struct StepNewSurface {
+struct NewSurface {
   std::string name;  ///< its label, UTF-8
-  Surface surface;   ///< coordinates in `StepTextOptions::unit`
+  Surface surface;   ///< coordinates in `TextOptions::unit`
 };
 
-struct StepTextOptions {
+struct TextOptions {
   std::string unit = "mm";           ///< "um", "mm", "cm", "m", "km", "inch" or "foot"
   std::string product = "surfaces";  ///< name of the product and its representation, UTF-8
   std::string file_name = {};        ///< of the header, UTF-8
   std::string time_stamp = {};       ///< of the header, as in "2024-05-17T12:00:00"; the text depends on nothing else
 };
 
-/// Whether `step_text` can write this length unit.
-[[nodiscard]] bool is_step_unit(std::string_view name);
+/// Whether `text_of` can write this length unit.
+[[nodiscard]] bool is_unit(std::string_view name);
 
 /// A STEP file (ISO 10303-21, AP214: AUTOMOTIVE_DESIGN) that holds these surfaces and nothing else.
 ///
 /// One product with one GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION whose GEOMETRIC_SET lists the surfaces in
 /// order, each on its natural bounds, as B_SPLINE_SURFACE_WITH_KNOTS, with weights as a complex instance with
 /// RATIONAL_B_SPLINE_SURFACE. Coordinates carry 17 significant digits, knots and weights the fewest that give back the
-/// same bits: `StepFile::parse` reads the same surfaces bit for bit. The flags for closed are those of
-/// `StepSurface::closed`. Cost: linear in the number of control points.
+/// same bits: `File::parse` reads the same surfaces bit for bit. The flags for closed are those of
+/// `SurfaceEntity::closed`. Cost: linear in the number of control points.
 /// Errors (input): no surfaces; an unknown unit; a knot inside the domain repeated more often than the degree.
-[[nodiscard]] Expected<std::string> step_text(std::span<const StepNewSurface> surfaces,
-                                              const StepTextOptions& options = {});
+[[nodiscard]] Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options = {});
 
-}  // namespace knead
+}  // namespace knead::step

@@ -26,7 +26,7 @@ struct SurfaceTrim {
 };
 
 struct TrimLoops {
-  std::vector<SurfaceTrim> surfaces;  ///< in the order of `StepFile::surfaces()`
+  std::vector<SurfaceTrim> surfaces;  ///< in the order of `step::File::surfaces()`
   std::vector<SkippedFace> skipped;   ///< faces whose bounds could not be followed, and why
 };
 
@@ -40,6 +40,6 @@ struct TrimLoops {
 /// \param chord as in `context_faces`
 /// Errors (usage): chord out of its range.
 /// Cost: O((p + 1)²) per point and iteration, and a grid of about 4 points per span and direction per trimmed surface.
-[[nodiscard]] Expected<TrimLoops> trim_loops(const StepFile& file, double chord = 1e-3);
+[[nodiscard]] Expected<TrimLoops> trim_loops(const step::File& file, double chord = 1e-3);
 
 }  // namespace knead

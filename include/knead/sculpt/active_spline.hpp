@@ -51,7 +51,7 @@ struct ActiveSettings {
   double damping = 0.5;     ///< γ, force per velocity and measure
   /// Coefficients, mass and damping that vary, one per patch; empty: the constants above.
   std::vector<MaterialFieldOf<D>> fields = {};
-  std::vector<bool> fixed;                    ///< control points that do not move, one flag each; empty: none
+  std::vector<bool> held;                     ///< control points that do not move, one flag each; empty: none
   std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shape, file units
   double detail = 0;  ///< smallest tool dimension the forces must resolve, file units; 0: no tool
   ForceRoute route = ForceRoute::gauss;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "knead/sculpt/surface_edge.hpp"
-#include "knead/solve/constraint_space.hpp"
+#include "knead/solve/linear_constraint.hpp"
 #include "knead/spline/evaluate.hpp"
 
 /// What a designer asks of a surface, as linear conditions on the displacements X_ij of its control points.
@@ -33,14 +33,6 @@ struct ConstraintList {
 /// Lets the constraints from number `first` on hold what they speak of where it is, and not where it was at rest: their
 /// right sides become Σ c X of the present displacements. For holds of edges, lines, points and curves.
 void keep_present(ConstraintList& list, const Points& displacement, std::size_t first = 0);
-
-/// The space of displacements that satisfy the whole list.
-/// \param displacement present displacements: held control points keep theirs.
-/// \param size         the model's size, file units, > 0: the unit in which constraints are compared.
-/// Errors (input): constraints that contradict each other, both named; a constraint that what is held does not allow to
-/// within 1e-9 of the size, with the names of the holds.
-[[nodiscard]] Expected<ConstraintSpace> constraint_space(const ConstraintList& list, const Points& displacement,
-                                                         double size);
 
 /// Keeps the isoparametric line u = c (direction 0) or v = c (direction 1), and the derivatives of D across it up to
 /// `order`: 0 the line, 1 its tangent planes too, 2 its curvatures too.

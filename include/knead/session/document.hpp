@@ -23,7 +23,7 @@ struct DocumentSurface {
 class Document {
  public:
   [[nodiscard]] static Expected<Document> open(const std::filesystem::path& path);
-  [[nodiscard]] static Document from(StepFile file);
+  [[nodiscard]] static Document from(step::File file);
   /// Without a file: surfaces are made by commands, and saving writes a new one.
   [[nodiscard]] static Document fresh(std::string name, std::string unit = "mm");
 
@@ -33,7 +33,7 @@ class Document {
   [[nodiscard]] const std::string& unit() const { return unit_; }
   [[nodiscard]] const std::vector<DocumentSurface>& surfaces() const { return *surfaces_; }
   /// Only where there is a file.
-  [[nodiscard]] const StepFile& file() const { return *file_; }
+  [[nodiscard]] const step::File& file() const { return *file_; }
 
   /// The bytes of the file with these surfaces in place of the original ones (one each); of a fresh document, a file
   /// with exactly these, in the unit of the first one.
@@ -43,7 +43,7 @@ class Document {
   Document() = default;
 
   std::string name_, unit_;
-  std::optional<StepFile> file_;
+  std::optional<step::File> file_;
   std::shared_ptr<const std::vector<DocumentSurface>> surfaces_;
 };
 

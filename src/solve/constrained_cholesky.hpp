@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "knead/solve/constraint_space.hpp"
+#include "constraint_space.hpp"
 #include "knead/solve/sparse_cholesky.hpp"
 
 namespace knead {

@@ -38,7 +38,7 @@ class ConstraintSpace {
   [[nodiscard]] int free_count() const { return static_cast<int>(free_.size()); }
   [[nodiscard]] bool coupled() const { return coupled_; }
   /// True where point i is held, or constrained to one place.
-  [[nodiscard]] bool is_fixed(int i) const;
+  [[nodiscard]] bool is_determined(int i) const;
 
   /// Tᵀ b: m × 3, or m × 1 where `coupled`.
   [[nodiscard]] Eigen::MatrixXd reduce(const Points& b) const;

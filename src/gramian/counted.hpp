@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "knead/gramian/operation_count.hpp"
+#include "operation_count.hpp"
 
 namespace knead {
 

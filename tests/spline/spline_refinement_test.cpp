@@ -1,4 +1,4 @@
-#include "knead/spline/refine.hpp"
+#include "knead/spline/spline_refinement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "knead/spline/refinement.hpp"
+#include "knead/spline/knot_refinement.hpp"
 #include "knead/spline/spline.hpp"
 
 namespace knead {

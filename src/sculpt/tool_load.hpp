@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "knead/sculpt/domain_scaling.hpp"
-#include "knead/sculpt/potential.hpp"
 #include "knead/sculpt/tool.hpp"
 #include "knead/spline/basis.hpp"
+#include "potential.hpp"
 
 namespace knead {
 

@@ -5,7 +5,7 @@
 
 #include "knead/energy/stiffness.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
-#include "knead/spline/greville_interpolation.hpp"
+#include "spline/greville_interpolation.hpp"
 
 namespace knead {
 
