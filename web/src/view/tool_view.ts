@@ -75,7 +75,7 @@ function toolGeometry(tool: ToolInfo, sceneSize: number): THREE.BufferGeometry {
   }
 }
 
-/** Thesis 2.1.6: every trigonometric factor raised to an exponent, its sign kept. */
+/** Thesis § 2.1.6: every trigonometric factor raised to an exponent, its sign kept. */
 function superquadric(tool: ToolInfo): THREE.BufferGeometry {
   const [e1, e2] = tool.exponents ?? [1, 1];
   const power = (x: number, e: number) => Math.sign(x) * Math.abs(x) ** e;
