@@ -15,7 +15,8 @@ class Analytic {
  public:
   explicit Analytic(const KnotVector& knots)
       : knots_(knots), p_(knots.degree()), extended_(knots.knots().begin(), knots.knots().end()) {
-    // Thm 5.2 holds on knots that go on at the end; any will do, and repetitions of the last keep differences small.
+    // Thesis Thm 5.2 holds on knots that go on at the end; any will do, and repetitions of the last keep differences
+    // small.
     extended_.insert(extended_.end(), static_cast<std::size_t>(p_ + 2), extended_.back());
   }
 

@@ -4,7 +4,7 @@ namespace knead::testing {
 namespace {
 
 TEST(StiffnessCommand, ReproducesThePublishedCheckValues) {
-  // Eq. 4.8 with all six terms on open uniform knots, p = 3, 128²: nnz = (7·128 − 12)², norm to 12 digits.
+  // Thesis Eq. 4.8 with all six terms on open uniform knots, p = 3, 128²: nnz = (7·128 − 12)², norm to 12 digits.
   for (const char* method : {"gauss", "analytic", "recurrence"}) {
     const Json out = knead({"stiffness", "--degree", "3", "--net", "128x128", "--alpha", "1,0.3,0.5", "--beta",
                             "1e-3,2e-3,5e-4", "--method", method, "--json"})

@@ -76,7 +76,7 @@ TEST(Gramian, rows_of_00_sum_to_the_areas_and_rows_of_derivatives_to_zero) {
     const VectorXd area = set.g00.dense().rowwise().sum();
     EXPECT_NEAR(area.sum(), knots.domain().length(), tolerance * knots.domain().length());
     if (knots.clamped()) {
-      for (int i = 0; i < knots.count(); ++i) {  // Thm 5.2: d(i,p+1)/(p+1)
+      for (int i = 0; i < knots.count(); ++i) {  // thesis Thm 5.2: d(i,p+1)/(p+1)
         const double exact = (knots[i + knots.degree() + 1] - knots[i]) / (knots.degree() + 1);
         EXPECT_NEAR(area[i], exact, tolerance * largest(set.g00.dense()) * 10);
       }

@@ -90,7 +90,7 @@ TEST(SeamSculpting, TwoPatchesStayTogetherUnderABallOnTheirSeam) {
     EXPECT_LT(smooth.gap, 1e-12);
     EXPECT_LT(smooth.angle, 1e-6);
 
-    // Without tangents a hinge, without coupling the tear of Fig. 6.11.
+    // Without tangents a hinge, without coupling the tear of thesis Fig. 6.11.
     const Sculpted hinge = sculpt(Coupled(patches, {.most = SeamContinuity::c0}), ball, held);
     EXPECT_LT(hinge.gap, 1e-12);
     EXPECT_GT(hinge.angle, 1e-3);
