@@ -1,7 +1,25 @@
+import { availableParallelism } from 'node:os';
+import { basename } from 'node:path';
 import { fileURLToPath } from 'node:url';
+
 import { defineConfig } from 'vitest/config';
+import { BaseSequencer, type TestSpecification } from 'vitest/node';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+
+/** Begun first, so that the workers end together. */
+const longest = ['random', 'hand', 'documents', 'studio'];
+
+class LongestFirst extends BaseSequencer {
+  override async sort(files: TestSpecification[]): Promise<TestSpecification[]> {
+    const rank = ({ moduleId }: TestSpecification) => (longest.indexOf(basename(moduleId, '.test.ts')) + longest.length + 1) % (longest.length + 1);
+    return [...files].sort((a, b) => rank(a) - rank(b));
+  }
+}
+
+// More browsers than cores that draw by software hinder each other.
+const workers = Math.min(2, availableParallelism());
+process.env.STUDIO_WORKERS = String(workers);
 
 export default defineConfig({
   root: here('..'),
@@ -10,7 +28,10 @@ export default defineConfig({
   test: {
     globals: true,
     include: ['tests/web/e2e/*.test.ts'],
-    fileParallelism: false,
+    globalSetup: here('../tests/web/e2e/setup.ts'),
+    pool: 'forks',
+    poolOptions: { forks: { minForks: workers, maxForks: workers } },
+    sequence: { sequencer: LongestFirst },
     testTimeout: 120_000,
     hookTimeout: 120_000,
   },

@@ -2,7 +2,7 @@ import { commands, distance, openStudio, positions, scene, settled, spot, stroke
 
 let studio: Studio;
 beforeAll(async () => {
-  studio = await openStudio(900, 560);
+  studio = await openStudio();
 });
 afterAll(() => studio.close());
 afterEach(() => {

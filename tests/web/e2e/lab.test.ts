@@ -1,13 +1,12 @@
 import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
 
-import { commands, native, openStudio, settled, type Studio } from './page';
+import { commands, downloaded, native, openStudio, settled, type Studio } from './page';
 
 let studio: Studio;
 const requests: string[] = [];
 
 beforeAll(async () => {
-  studio = await openStudio(1180, 760);
+  studio = await openStudio({ width: 1180, height: 760 });
   await studio.page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   studio.page.context().on('request', (r) => requests.push(r.url()));
 });
@@ -266,7 +265,7 @@ describe('the lab', () => {
   it('gives away its plot and its numbers', async () => {
     const { page } = studio;
     const [download] = await Promise.all([page.waitForEvent('download'), page.locator('button[aria-label="Save the plot as SVG"]').click()]);
-    const svg = readFileSync((await download.path())!, 'utf8');
+    const svg = await downloaded(download);
     expect(svg).toMatch(/^<svg [^>]*xmlns="http:\/\/www.w3.org\/2000\/svg"/);
     expect(svg.match(/<path [^>]*stroke="rgb/g)!.length).toBeGreaterThanOrEqual(24);
     expect(svg).not.toMatch(/ class="| style="|var\(/);

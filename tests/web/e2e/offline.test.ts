@@ -5,7 +5,7 @@ import { join } from 'node:path';
 
 import type { Page } from 'playwright-core';
 
-import { distance, openStudio, positions, ready, root, stroke } from './page';
+import { distance, openStudio, positions, ready, root, serve, stroke } from './page';
 
 const offlineReady = (page: Page) => page.waitForSelector('html[data-offline=ready]', { state: 'attached', timeout: 30_000 });
 const workerOf = (directory: string) => join(directory, 'service-worker.js');
@@ -24,10 +24,11 @@ function rebuild(directory: string, title: string, hash?: string): void {
 const build = (page: Page) => page.locator('#studio').getAttribute('data-build');
 
 it('works without the server once it was loaded', async () => {
-  const studio = await openStudio();
+  const server = await serve(join(root, 'web/dist'));
+  const studio = await openStudio({ server });
   const { page } = studio;
   await offlineReady(page);
-  await studio.server.close();
+  await server.close();
   await page.reload();
   await ready(page);
   const flat = await positions(page);
@@ -40,13 +41,14 @@ it('works without the server once it was loaded', async () => {
   await expect.poll(() => page.locator('.document-name').textContent()).toContain('bonnet.step');
   expect(studio.problems).toEqual([]);
   expect(studio.foreign).toEqual([]);
-  await studio.browser.close();
+  await studio.close();
 });
 
 it('stays the version that it is until a whole new one is there and asked for', async () => {
   const directory = mkdtempSync(join(tmpdir(), 'knead-dist-'));
   cpSync(join(root, 'web/dist'), directory, { recursive: true });
-  const studio = await openStudio(900, 560, false, directory);
+  const server = await serve(directory);
+  const studio = await openStudio({ server });
   const { page } = studio;
   await offlineReady(page);
   const versions = () => page.evaluate(() => caches.keys());
@@ -74,5 +76,6 @@ it('stays the version that it is until a whole new one is there and asked for', 
   await ready(page);
   expect(studio.problems).toEqual([]);
   await studio.close();
+  await server.close();
   rmSync(directory, { recursive: true });
 });

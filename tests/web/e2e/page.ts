@@ -1,7 +1,7 @@
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { type Browser, chromium, type Page } from 'playwright-core';
+import { type Browser, chromium, type Download, type Page } from 'playwright-core';
 
 export const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
@@ -14,7 +14,7 @@ interface Server {
 /** The built page in a headless browser, and everything that went wrong in it. */
 export interface Studio {
   browser: Browser;
-  server: Server;
+  url: string;
   page: Page;
   problems: string[];
   /** Requests that left the page's own origin. */
@@ -22,18 +22,28 @@ export interface Studio {
   close(): Promise<void>;
 }
 
-/** With `firstVisit` the page offers its tour, otherwise it takes the visitor for one who has seen it. */
-export async function openStudio(width = 900, height = 560, firstVisit = false, directory = join(root, 'web/dist')): Promise<Studio> {
+/** A server of a copy of the page, which a test may change and close. */
+export async function serve(directory: string): Promise<Server> {
   const module = join(root, 'web/serve.mjs');
-  const { serve } = (await import(/* @vite-ignore */ module)) as { serve(directory: string): Promise<Server> };
-  const server = await serve(directory);
-  const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking',
-      '--disable-component-update', '--disable-sync', '--no-first-run'],
-  });
+  return ((await import(/* @vite-ignore */ module)) as { serve(directory: string): Promise<Server> }).serve(directory);
+}
+
+interface Visit {
+  width?: number;
+  height?: number;
+  /** The page offers its tour; otherwise it takes the visitor for one who has seen it. */
+  first?: boolean;
+  /** Of another build than the one that all files share. */
+  server?: Server;
+}
+
+/** The page in a context of its own, so that nothing is kept from another file, in the browser of this worker. */
+export async function openStudio({ width = 900, height = 560, first = false, server }: Visit = {}): Promise<Studio> {
+  const browsers = process.env.STUDIO_BROWSERS!.split(' '); // setup.ts
+  const browser = await chromium.connect(browsers[(Number(process.env.VITEST_POOL_ID) - 1) % browsers.length]!);
+  const url = server?.url ?? process.env.STUDIO_PAGE!;
   const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
-  if (!firstVisit) await context.addInitScript(() => localStorage.setItem('knead-tour', '1'));
+  if (!first) await context.addInitScript(() => localStorage.setItem('knead-tour', '1'));
   const page = await context.newPage();
   const problems: string[] = [];
   const foreign: string[] = [];
@@ -42,16 +52,16 @@ export async function openStudio(width = 900, height = 560, firstVisit = false, 
   });
   page.on('pageerror', (e) => problems.push(e.message));
   context.on('request', (r) => {
-    if (!r.url().startsWith(server.url) && !r.url().startsWith('blob:')) foreign.push(r.url());
+    if (!r.url().startsWith(url) && !r.url().startsWith('blob:')) foreign.push(r.url());
   });
   const studio: Studio = {
-    browser, server, page, problems, foreign,
+    browser, url, page, problems, foreign,
     close: async () => {
-      await browser.close();
-      await server.close();
+      await context.close();
+      await browser.close(); // this end of the line alone
     },
   };
-  await page.goto(server.url);
+  await page.goto(url);
   await ready(page);
   return studio;
 }
@@ -113,3 +123,10 @@ export async function stroke(page: Page, ...places: [number, number][]): Promise
 
 export const distance = (a: number[], b: number[]): number =>
   a.length === b.length ? a.reduce((most, x, k) => Math.max(most, Math.abs(x - b[k]!)), 0) : Infinity;
+
+/** The text of a file that the page gave away. */
+export async function downloaded(download: Download): Promise<string> {
+  let text = '';
+  for await (const part of await download.createReadStream()) text += String(part);
+  return text;
+}

@@ -2,7 +2,7 @@ import { openStudio, positions, settled, spot, type Studio } from './page';
 
 let studio: Studio;
 beforeAll(async () => {
-  studio = await openStudio(700, 420); // software rendering: small is fast
+  studio = await openStudio({ width: 700, height: 420 }); // software rendering: small is fast
 });
 afterAll(() => studio.close());
 
@@ -52,4 +52,4 @@ it('survives 200 random actions of a user', async () => {
   expect((await positions(page)).every(Number.isFinite)).toBe(true);
   const after = await page.evaluate(() => (window as never as { studio: { frame: { memory: number } } }).studio.frame.memory);
   expect(after).toBeLessThan(Math.max(4 * memory, 256 * 2 ** 20));
-});
+}, 300_000);

@@ -3,7 +3,7 @@ import { openStudio, ready, settled, spot, stroke, type Studio } from './page';
 let studio: Studio;
 
 beforeAll(async () => {
-  studio = await openStudio(1100, 680, true);
+  studio = await openStudio({ width: 1100, height: 680, first: true });
 });
 
 afterAll(async () => {
