@@ -28,7 +28,7 @@ Expected<void> run(const std::string& script, const std::string& out, const std:
     }
   }
   std::vector<Surface> surfaces;
-  for (const SurfaceState& s : session.state().surfaces) surfaces.push_back(*s.current);
+  for (const SceneSurface& s : session.state().surfaces) surfaces.push_back(*s.current);
   const auto svg = examples::draw(surfaces, session.state().tools);
   if (!svg) return std::unexpected(svg.error());
   return write_file_atomically(out, *svg);

@@ -141,7 +141,7 @@ void print_summary(const Options& options, const Session& session, const Outcome
     fmt::print("{}: no surface selected\n", file);
   } else {
     for (int index : state.selection()) {
-      const SurfaceState& s = state.surfaces[static_cast<std::size_t>(index)];
+      const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
       const auto [m, n] = s.current->net();
       fmt::print("{}: surface {}{}, lengths in {}\n", file, s.id, s.name.empty() ? "" : " \"" + s.name + "\"", s.unit);
       fmt::print("  degree {} x {}, net {} x {}, {}\n", s.current->knots(0).degree(), s.current->knots(1).degree(), m,
@@ -191,7 +191,7 @@ Expected<void> write_results(const Options& options, const Session& session, con
       return usage_error("there is no picture without a selected surface", "--picture", "leave it out");
     }
     const auto k = static_cast<std::size_t>(*state.selected);
-    const SurfaceState& s = state.surfaces[k];
+    const SceneSurface& s = state.surfaces[k];
     auto svg =
         displacement_picture(*s.opened, *s.current, "Displacement of " + (s.name.empty() ? s.id : s.name), s.unit);
     if (!svg) return std::unexpected(svg.error());

@@ -239,7 +239,7 @@ KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
   std::vector<MeshSurface> surfaces;
   MeshOptions options;
   options.detail = detail;
-  for (const SurfaceState& s : session->state().surfaces) {
+  for (const SceneSurface& s : session->state().surfaces) {
     surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
     options.unit = s.unit;
   }

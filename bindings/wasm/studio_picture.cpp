@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/session/energy_density.hpp"
-#include "knead/session/held_points.hpp"
 #include "knead/spline/grid_lines.hpp"
 
 namespace knead::studio {
@@ -41,7 +39,7 @@ Expected<void> Painter::tabulate(const Surface& surface, int detail) {
 
 Expected<void> Painter::paint(const SessionState& state, int index, const Point& origin, int detail, PictureField field,
                               bool opened) {
-  const SurfaceState& surface = state.surfaces[static_cast<std::size_t>(index)];
+  const SceneSurface& surface = state.surfaces[static_cast<std::size_t>(index)];
   const Surface& current = opened ? *surface.opened : *surface.current;
   if (auto done = tabulate(current, detail); !done) return done;
   const bool curved = field == PictureField::mean_curvature || field == PictureField::gaussian_curvature;
@@ -61,14 +59,14 @@ Expected<void> Painter::paint(const SessionState& state, int index, const Point&
   return paint_held(surface);
 }
 
-Expected<void> Painter::paint_held(const SurfaceState& surface) {
-  const HeldBy by{surface.current->net(), surface.hold_rows, surface.pins, surface.constraints};
+Expected<void> Painter::paint_held(const SceneSurface& surface) {
+  const HeldInput by = held_input(surface);
   for (const auto& [known, held] : held_) {  // kept curves take their time
     if (!(known == by)) continue;
     picture_.held = held;
     return {};
   }
-  auto held = held_points(surface);
+  auto held = held_points(by);
   if (!held) return std::unexpected(held.error());
   picture_.held = std::move(*held);
   constexpr std::size_t most_kept = 64;
@@ -78,15 +76,12 @@ Expected<void> Painter::paint_held(const SurfaceState& surface) {
 }
 
 Expected<void> Painter::paint_energy(const SessionState& state, int index) {
-  const SurfaceState& surface = state.surfaces[static_cast<std::size_t>(index)];
+  const SceneSurface& surface = state.surfaces[static_cast<std::size_t>(index)];
   // Its units change when the rest shape is set anew, or the selection.
-  EnergyBy by{surface.reference, nullptr, state.scaling};
-  if (std::ranges::find(state.together, index) != state.together.end()) {
-    by.first = state.surfaces[static_cast<std::size_t>(*state.selected)].reference;
-  }
-  auto known = std::ranges::find(scalings_, by, &std::pair<EnergyBy, DomainScaling<2>>::first);
+  const EnergyScalingInput by = energy_scaling_input(state, index);
+  auto known = std::ranges::find(scalings_, by, &std::pair<EnergyScalingInput, DomainScaling<2>>::first);
   if (known == scalings_.end()) {
-    const auto scaling = energy_scaling(state, index);
+    const auto scaling = energy_scaling(by);
     if (!scaling) {  // a surface without area has no energy
       picture_.values.assign(picture_.positions.size() / 3, 0);
       return {};
@@ -144,7 +139,7 @@ Expected<void> Painter::evaluate_opened(const Surface& opened) {
 }
 
 Expected<void> Painter::paint_values(const SessionState& state, int index, PictureField field, bool opened) {
-  const SurfaceState& surface = state.surfaces[static_cast<std::size_t>(index)];
+  const SceneSurface& surface = state.surfaces[static_cast<std::size_t>(index)];
   picture_.values.clear();
   if (field == PictureField::none) return {};
   if (field == PictureField::energy) {

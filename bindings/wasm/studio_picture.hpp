@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "knead/sculpt/domain_scaling.hpp"
+#include "knead/scene/energy_density.hpp"
+#include "knead/scene/held_points.hpp"
 #include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -40,23 +41,9 @@ class Painter {
   void paint_normals();
   /// The opened shape at the parameters of the picture.
   Expected<void> evaluate_opened(const Surface& opened);
-  Expected<void> paint_held(const SurfaceState& surface);
+  Expected<void> paint_held(const SceneSurface& surface);
   Expected<void> paint_energy(const SessionState& state, int index);
   Expected<void> paint_values(const SessionState& state, int index, PictureField field, bool opened);
-
-  /// What the held control points depend on, and the units of the energy.
-  struct HeldBy {
-    std::array<int, 2> net;
-    int rows;
-    std::set<std::array<int, 2>> pins;
-    std::vector<KeptConstraint> constraints;
-    friend bool operator==(const HeldBy&, const HeldBy&) = default;
-  };
-  struct EnergyBy {
-    std::shared_ptr<const Surface> reference, first;
-    ScalingMode scaling;
-    friend bool operator==(const EnergyBy&, const EnergyBy&) = default;
-  };
 
   std::optional<std::array<KnotVector, 2>> knots_;
   int detail_ = 0;
@@ -64,8 +51,8 @@ class Painter {
   std::array<BasisTable, 2> tables_;
   Evaluation<2> evaluation_, opened_;
   Picture picture_;
-  std::vector<std::pair<HeldBy, std::vector<std::uint8_t>>> held_;
-  std::vector<std::pair<EnergyBy, DomainScaling<2>>> scalings_;
+  std::vector<std::pair<HeldInput, std::vector<std::uint8_t>>> held_;
+  std::vector<std::pair<EnergyScalingInput, DomainScaling<2>>> scalings_;
 };
 
 }  // namespace knead::studio

@@ -78,11 +78,10 @@ Json of(const std::array<Coefficient<2>, N>& coefficients) {
 }
 
 Json of(const Session& session, int index) {
-  const SurfaceState& s = session.state().surfaces[static_cast<std::size_t>(index)];
+  const SceneSurface& s = session.state().surfaces[static_cast<std::size_t>(index)];
   Json asked = Json::array();
   for (const KeptConstraint& kept : s.constraints) {
-    std::visit([&asked](const auto& c) { asked.push_back(Json::parse(to_json(Command(c)), nullptr, false)); },
-               kept.request);
+    asked.push_back(Json::parse(to_json(kept.constraint), nullptr, false));
   }
   const Points& points = s.current->control_points();
   const auto constant = [](const Coefficient<2>& c) {
@@ -144,8 +143,7 @@ std::string state_json(const Session& session) {
   Json surfaces = Json::array(), tools = Json::array(), forces = Json::array();
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) surfaces.push_back(of(session, static_cast<int>(k)));
   for (const Tool& tool : state.tools) tools.push_back(of(tool));
-  for (const PlacedForce& placed : state.forces)
-    forces.push_back(Json::parse(to_json(Command(placed.force)), nullptr, false));
+  for (const SceneForce& force : state.forces) forces.push_back(Json::parse(to_json(force), nullptr, false));
   Json seams = Json::array();
   for (const SeamReport& seam : state.seam_reports) {
     constexpr const char* names[] = {"none", "C0", "G1", "periodic"};
@@ -158,8 +156,8 @@ std::string state_json(const Session& session) {
                {"surfaces", std::move(surfaces)},
                {"tools", std::move(tools)},
                {"forces", std::move(forces)},
-               {"load", Json::parse(to_json(Command(state.load)), nullptr, false)},
-               {"evolve", Json::parse(to_json(Command(state.evolve)), nullptr, false)},
+               {"load", Json::parse(to_json(state.load), nullptr, false)},
+               {"evolve", Json::parse(to_json(state.evolution), nullptr, false)},
                {"limit", state.limit ? Json(*state.limit) : Json()},
                {"raw", state.scaling == ScalingMode::raw},
                {"coupled", state.seams.couple},

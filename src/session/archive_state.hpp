@@ -6,6 +6,7 @@
 #include "archive.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
+#include "restated.hpp"
 
 // One function per type that says what it is made of, for writing and for reading. Structured bindings name all
 // members: a new one does not compile until it is here too.
@@ -72,19 +73,21 @@ void list(A& a, T& x, std::size_t least = 4) {
   for (auto& element : x) pass(a, element);
 }
 
-/// A command as its JSON form, which parses to the same command.
-template <class C>
-void command(Writer& a, const C& x) {
-  a.text(to_json(Command(x)));
+/// What a command says, as the JSON form of that command, which parses to the same.
+template <class C, class T>
+void command(Writer& a, const T& x) {
+  a.text(to_json(x));
 }
-template <class C>
-void command(Reader& a, C& x) {
+template <class C, class T>
+void command(Reader& a, T& x) {
   std::string json;
   a.text(json);
   if (a.bad()) return;
-  auto parsed = parse_command(json);
-  if (!parsed || !std::holds_alternative<C>(*parsed)) return a.fail();
-  x = std::get<C>(std::move(*parsed));
+  const auto parsed = parse_command(json);
+  const C* const fields = parsed ? fields_of<C>(*parsed) : nullptr;
+  if (fields == nullptr) return a.fail();
+  const auto& [value] = *fields;
+  x = value;
 }
 
 template <class A>
@@ -169,7 +172,7 @@ void pass(A& a, Of<A, MaterialFieldOf<2>>& m) {
 }
 
 inline void pass(Writer& a, const KeptConstraint& x) {
-  std::visit([&](const auto& c) { command(a, c); }, x.request);
+  a.text(to_json(x.constraint));
   a.surface(x.where);
 }
 inline void pass(Reader& a, KeptConstraint& x) {
@@ -177,28 +180,20 @@ inline void pass(Reader& a, KeptConstraint& x) {
   a.text(json);
   a.surface(x.where);
   if (a.bad()) return;
-  auto parsed = parse_command(json);
-  if (!parsed) return a.fail();
-  std::visit(
-      [&](auto& c) {
-        if constexpr (std::is_constructible_v<ConstraintRequest, decltype(c)>) {
-          x.request = std::move(c);
-        } else {
-          a.fail();
-        }
-      },
-      *parsed);
+  const auto parsed = parse_command(json);
+  auto constraint = parsed ? constraint_of(*parsed) : std::nullopt;
+  if (!constraint) return a.fail();
+  x.constraint = *std::move(constraint);
 }
 
 template <class A>
-void pass(A& a, Of<A, PlacedForce>& f) {
-  auto& [force, surface] = f;
-  command(a, force);
-  pass(a, surface);
+void pass(A& a, Of<A, SceneForce>& f) {
+  command<ForceCommand>(a, f);
+  pass(a, f.surface);
 }
 
 template <class A>
-void pass(A& a, Of<A, SurfaceState>& s) {
+void pass(A& a, Of<A, SceneSurface>& s) {
   auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, hold_rows, pins, constraints,
          smooth_knot_lines, smooth_poles] = s;
   for (auto* x : {&id, &name, &unit}) pass(a, *x);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_text.hpp"
+#include "restated.hpp"
 
 namespace knead {
 namespace {
@@ -154,7 +155,7 @@ Expected<Command> read_command(const Json& json) {
     if (reader.error) {
       result = std::unexpected(*reader.error);
     } else {
-      result = Command(std::move(command));
+      result = make_command(std::move(command));
     }
   });
   if (result) return *result;
@@ -234,8 +235,14 @@ std::string to_json(const Command& command) {
         CommandInfo<C>::visit(c, writer);
         return fmt::format("{{\"do\":\"{}\"{}}}", CommandInfo<C>::name, writer.text);
       },
-      command);
+      command.any().fields);
 }
+
+std::string to_json(const Constraint& constraint) { return to_json(restated(constraint)); }
+std::string to_json(const SceneForce& force) { return to_json(make_command(ForceCommand{force})); }
+std::string to_json(const Load& load) { return to_json(make_command(LoadCommand{load})); }
+std::string to_json(const EvolutionPolicy& evolution) { return to_json(make_command(EvolveCommand{evolution})); }
+std::string to_json(const SeamPolicy& seams) { return to_json(make_command(SeamsCommand{seams})); }
 
 Expected<std::vector<Command>> parse_script(std::string_view text, const std::string& name) {
   const auto fail = [&name](Error error) {
@@ -276,6 +283,12 @@ std::string script_json(const std::vector<Command>& commands) {
   std::string text = "{\"knead\": 1, \"commands\": [";
   for (std::size_t k = 0; k < commands.size(); ++k) text += (k == 0 ? "\n  " : ",\n  ") + to_json(commands[k]);
   return text + (commands.empty() ? "]}\n" : "\n]}\n");
+}
+
+Command::Command(AnyCommand command) : any_(std::make_shared<const AnyCommand>(std::move(command))) {}
+
+std::string_view Command::name() const {
+  return std::visit([]<class C>(const C&) { return CommandInfo<C>::name; }, any_->fields);
 }
 
 std::vector<std::string> command_names() {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "command_fields.hpp"
+#include "commands.hpp"
 
 namespace knead {
 
@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 /// Calls f(CommandInfo<C>{}, C{}) for every kind of command.
 template <class F, std::size_t I = 0>
 void for_each_command(F&& f) {
-  if constexpr (I < std::variant_size_v<Command>) {
-    f(std::variant_alternative_t<I, Command>{});
+  if constexpr (I < std::variant_size_v<CommandVariant>) {
+    f(std::variant_alternative_t<I, CommandVariant>{});
     for_each_command<F, I + 1>(std::forward<F>(f));
   }
 }

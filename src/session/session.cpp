@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "executor.hpp"
+#include "commands.hpp"
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
@@ -13,7 +13,7 @@ namespace knead {
 Session::Session(Document document) : document_(std::move(document)), cache_(std::make_unique<ModelCache>()) {
   auto state = std::make_shared<SessionState>();
   for (const DocumentSurface& s : document_.surfaces()) {
-    SurfaceState surface;
+    SceneSurface surface;
     surface.id = s.id;
     surface.name = s.name;
     surface.unit = s.unit;
@@ -29,18 +29,20 @@ Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
 Expected<void> Session::execute(const Command& command, const Progress& progress) {
-  if (std::holds_alternative<UndoCommand>(command)) {
+  if (fields_of<UndoCommand>(command)) {
     if (!can_undo()) return input_error("there is nothing to undo");
     --position_;
     return {};
   }
-  if (std::holds_alternative<RedoCommand>(command)) {
+  if (fields_of<RedoCommand>(command)) {
     if (!can_redo()) return input_error("there is nothing to redo");
     ++position_;
     return {};
   }
   auto next = std::make_shared<SessionState>(state());
-  if (auto done = std::visit(Executor{document_, cache_->model, *next, progress}, command); !done) return done;
+  Executor executor{document_, cache_->model, *next, progress};
+  const auto execute = [&](const auto& fields) { return executor.execute(fields); };
+  if (auto done = std::visit(execute, command.any().fields); !done) return done;
   states_.resize(position_ + 1);
   entries_.resize(position_);
   states_.push_back(std::move(next));
@@ -61,11 +63,13 @@ void Session::join() {
   entries_.pop_back();
   std::vector<Command>& entry = entries_.back();
   auto first = last.begin();
-  auto* before = std::get_if<StepCommand>(&entry.back());
-  const auto* after = std::get_if<StepCommand>(&*first);
+  const auto* before = fields_of<StepCommand>(entry.back());
+  const auto* after = fields_of<StepCommand>(*first);
   if (before && after && before->lambda == after->lambda && before->weight == after->weight &&
       before->count <= std::numeric_limits<int>::max() - after->count) {
-    before->count += after->count;
+    StepCommand both = *before;
+    both.count += after->count;
+    entry.back() = make_command(both);
     ++first;
   }
   entry.insert(entry.end(), first, last.end());
@@ -77,32 +81,32 @@ Expected<double> Session::energy() {
   if (!state().selected) return 0;
   const std::vector<int> selection = state().selection();
   const bool at_rest = std::ranges::all_of(selection, [this](int k) {
-    const SurfaceState& s = state().surfaces[static_cast<std::size_t>(k)];
+    const SceneSurface& s = state().surfaces[static_cast<std::size_t>(k)];
     return s.mode == RestMode::shape && s.current == s.rest;
   });
   if (at_rest) return 0;  // also where no model can be made
   // The energy does not depend on how steps are made; a large lambda makes a model of whatever can be stepped at all.
-  ModelInput input = model_input(state(), state().evolve);
+  ModelInput input = model_input(state(), state().evolution);
   if (cache_->model) {
     ModelInput same = cache_->model->input;
-    same.evolve = input.evolve;
+    same.evolution = input.evolution;
     same.detail = input.detail;
     if (same == input) return cache_->model->model.energy(active_state(state()));
   }
-  input.evolve = {};
-  input.evolve.lambda = 1e6;
-  const auto made = make_model(state(), std::move(input));
+  input.evolution = {};
+  input.evolution.lambda = 1e6;
+  const auto made = make_model(std::move(input));
   if (!made) return std::unexpected(made.error());
   return made->model.energy(active_state(state()));
 }
 
 double Session::largest_displacement(int surface) const {
-  const SurfaceState& s = state().surfaces[static_cast<std::size_t>(surface)];
+  const SceneSurface& s = state().surfaces[static_cast<std::size_t>(surface)];
   return largest_distance(*s.current, *s.opened);
 }
 
 int Session::moved_control_points(int surface) const {
-  const SurfaceState& s = state().surfaces[static_cast<std::size_t>(surface)];
+  const SceneSurface& s = state().surfaces[static_cast<std::size_t>(surface)];
   const Points &opened = s.opened->control_points(), &current = s.current->control_points();
   if (s.opened->knots() != s.current->knots()) return static_cast<int>(current.rows());
   const auto weight = [](const Surface& shape, Eigen::Index i) {
@@ -118,7 +122,7 @@ int Session::moved_control_points(int surface) const {
 
 Expected<std::string> Session::save() const {
   std::vector<DocumentSurface> surfaces;
-  for (const SurfaceState& s : state().surfaces) surfaces.push_back({s.id, s.name, s.unit, s.current});
+  for (const SceneSurface& s : state().surfaces) surfaces.push_back({s.id, s.name, s.unit, s.current});
   return document_.save(surfaces);
 }
 

@@ -1,6 +1,5 @@
 // A session as bytes: all states of its history, with every number as it is.
 #include "archive_state.hpp"
-#include "executor.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {
@@ -55,8 +54,9 @@ struct Neighbour {
 };
 
 void write_state(Writer& a, const SessionState& state, Neighbour& before) {
-  const auto& [selected, together, surfaces, tools, forces, load, limit, evolve, scaling, seams, permission, steps,
-               seam_reports, notes, energy_before] = state;
+  const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission] =
+      static_cast<const Scene&>(state);
+  const auto& [steps, seam_reports, notes, energy_before] = static_cast<const SessionRecord&>(state);
   archive::optional(a, selected);
   list(a, together);
   std::vector<std::string> written;
@@ -74,11 +74,11 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   a.count(tools.size());
   for (const Tool& tool : tools) pass(a, tool);
   list(a, forces);
-  archive::command(a, load);
+  archive::command<LoadCommand>(a, load);
   archive::optional(a, limit);
-  archive::command(a, evolve);
+  archive::command<EvolveCommand>(a, evolution);
   choice(a, scaling, ScalingMode::raw);
-  archive::command(a, seams);
+  archive::command<SeamsCommand>(a, seams);
   choice(a, permission, RefinePermission::never);
   std::size_t shared = 0;
   if (before.steps != nullptr) {
@@ -96,8 +96,9 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
 
 /// Reads a state into one that begins as a copy of the one before it.
 void read_state(Reader& a, SessionState& state) {
-  auto& [selected, together, surfaces, tools, forces, load, limit, evolve, scaling, seams, permission, steps,
-         seam_reports, notes, energy_before] = state;
+  auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission] =
+      static_cast<Scene&>(state);
+  auto& [steps, seam_reports, notes, energy_before] = static_cast<SessionRecord&>(state);
   selected.reset();
   archive::optional(a, selected);
   list(a, together);
@@ -111,7 +112,7 @@ void read_state(Reader& a, SessionState& state) {
     surfaces[k] = {};
     pass(a, surfaces[k]);
     if (a.bad()) return;
-    const SurfaceState& s = surfaces[k];
+    const SceneSurface& s = surfaces[k];
     for (const auto& other : {s.reference, s.rest}) {  // `opened` may have another, once the basis was edited
       if (other->net() != s.current->net()) return a.fail();
     }
@@ -121,12 +122,12 @@ void read_state(Reader& a, SessionState& state) {
     if (auto tool = archive::read_tool(a)) tools.push_back(std::move(*tool));
   }
   list(a, forces);
-  archive::command(a, load);
+  archive::command<LoadCommand>(a, load);
   limit.reset();
   archive::optional(a, limit);
-  archive::command(a, evolve);
+  archive::command<EvolveCommand>(a, evolution);
   choice(a, scaling, ScalingMode::raw);
-  archive::command(a, seams);
+  archive::command<SeamsCommand>(a, seams);
   choice(a, permission, RefinePermission::never);
   std::size_t shared = 0;
   a.count(shared);
@@ -143,7 +144,7 @@ void read_state(Reader& a, SessionState& state) {
   for (int k : state.selection()) {
     if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
   }
-  for (const PlacedForce& f : forces) {
+  for (const SceneForce& f : forces) {
     if (f.surface < 0 || f.surface >= static_cast<int>(surfaces.size())) a.fail();
   }
 }
@@ -159,7 +160,7 @@ std::string Session::snapshot(std::size_t history_bytes) const {
   std::size_t first = position_, bytes = 0;
   std::unordered_map<const Surface*, bool> seen;
   for (std::size_t k = states_.size(); k-- > 0;) {
-    for (const SurfaceState& s : states_[k]->surfaces) {
+    for (const SceneSurface& s : states_[k]->surfaces) {
       for (const auto& shape : {s.opened, s.reference, s.rest, s.current}) {
         if (seen.try_emplace(shape.get(), true).second) bytes += size_of(*shape);
       }

@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> rooms = {"base",  "spline", "gramian",  "energy",
-                                                   "solve", "sculpt", "exchange", "session"};
+constexpr std::array<std::string_view, 9> rooms = {"base",   "spline",   "gramian", "energy", "solve",
+                                                   "sculpt", "exchange", "scene",   "session"};
 constexpr int longest_file = 400;
 
 std::optional<std::size_t> floor_of(std::string_view room) {
@@ -129,7 +129,7 @@ class Inspection {
   }
 
   /// Quoted includes: "knead/ROOM/x.hpp" of the public headers; in src also "ROOM/x.hpp" of another room's internals
-  /// and "x.hpp" of the same room's.
+  /// and "x.hpp" or "../x.hpp" of the same room's.
   void inspect_include(const fs::path& file, std::size_t line, const std::string& room, std::size_t floor, bool angled,
                        const std::string& name) {
     if (angled) {
@@ -143,7 +143,8 @@ class Inspection {
       report(file, line, "\"" + name + "\" is no public header");
       return;
     }
-    const bool beside = fs::exists(file.parent_path() / name) && name.find("..") == std::string::npos;
+    const fs::path inside = fs::relative(file.parent_path() / name, root_ / "src" / room);
+    const bool beside = fs::exists(file.parent_path() / name) && *inside.begin() != "..";
     if (!to_public && beside) return;
     const std::string path = to_public ? name.substr(6) : name;
     const std::string other = path.substr(0, path.find('/'));

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "session/commands.hpp"
+
 namespace knead {
 namespace {
 
@@ -15,11 +17,12 @@ C parsed(const std::string& json) {
     ADD_FAILURE() << json << ": " << command.error().message();
     return {};
   }
-  if (!std::holds_alternative<C>(*command)) {
+  const C* const fields = fields_of<C>(*command);
+  if (fields == nullptr) {
     ADD_FAILURE() << json << " is another command";
     return {};
   }
-  return std::get<C>(*command);
+  return *fields;
 }
 
 Error error_of(const std::string& json) {
@@ -139,7 +142,8 @@ TEST(CommandJson, EveryFieldOfEveryCommandIsNamedWhereItsValueIsWrong) {
 }
 
 TEST(CommandJson, AScriptOfItsOwnWritingIsReadBack) {
-  const std::vector<Command> commands = {HoldCommand{1}, StepCommand{}, UndoCommand{}};
+  const std::vector<Command> commands = {make_command(HoldCommand{1}), make_command(StepCommand{}),
+                                         make_command(UndoCommand{})};
   const auto read = parse_script(script_json(commands), "script");
   ASSERT_TRUE(read);
   EXPECT_EQ(script_json(*read), script_json(commands));

@@ -32,7 +32,7 @@ TEST(PointsCommand, OnlyNamedPointsChangeABitAndTheShapeStays) {
   Session session = on_sheet();
   const Points before = first(session).current->control_points();
   run(session, {R"({"do":"points","which":[44,45],"by":[0.1,0,1.7]})"});
-  const SurfaceState& s = first(session);
+  const SceneSurface& s = first(session);
   for (Eigen::Index k = 0; k < before.rows(); ++k) {
     const Eigen::RowVector3d expected =
         before.row(k) + (k == 44 || k == 45 ? Eigen::RowVector3d(0.1, 0, 1.7) : Eigen::RowVector3d(0, 0, 0));
@@ -135,7 +135,7 @@ TEST(WeightsCommand, PullTheSurfaceToThePointForGood) {
   const auto opened = first(session).opened;
   const double before = at(*first(session).current, 0.45, 0.45)[2];
   run(session, {R"({"do":"weights","which":[44],"weight":4})", R"({"do":"weights","rows_v":[4],"by":0.5})"});
-  const SurfaceState& s = first(session);
+  const SceneSurface& s = first(session);
   ASSERT_TRUE(s.current->rational());
   for (int k = 0; k < 100; ++k) {
     EXPECT_EQ(s.current->weights()[static_cast<std::size_t>(k)], k == 44 ? 2 : k % 10 == 4 ? 0.5 : 1) << k;
@@ -190,7 +190,7 @@ TEST(KnotsCommand, ChangeTheShapeForGoodAndAreSaved) {
   std::vector<double> knots(before.knots().begin(), before.knots().end());
   const auto middle = static_cast<std::size_t>(before.count() + before.degree()) / 2;
   knots[middle] = 0.5 * (knots[middle] + knots[middle + 1]);
-  ASSERT_TRUE(session.execute(KnotsCommand{"u", knots}));
+  ASSERT_TRUE(session.execute(make_command(KnotsCommand{"u", knots})));
   EXPECT_TRUE(std::ranges::equal(first(session).current->knots(0).knots(), knots));
   EXPECT_EQ(first(session).rest, first(session).current);
   EXPECT_GT(session.largest_displacement(0), 0);

@@ -1,9 +1,9 @@
-#include "knead/session/energy_density.hpp"
+#include "knead/scene/energy_density.hpp"
 
 #include <cmath>
 
 #include "base/gauss_legendre.hpp"
-#include "knead/session/held_points.hpp"
+#include "knead/scene/held_points.hpp"
 #include "sheet.hpp"
 
 namespace knead {
@@ -17,7 +17,7 @@ using testing::run;
 
 /// ∫ density over the scaled domain, by Gauss points in the cells between all knots and `breaks` (fractions).
 double integral(const Session& session, int points, const std::vector<double>& breaks = {}) {
-  const SurfaceState& s = first(session);
+  const SceneSurface& s = first(session);
   const auto rule = gauss_legendre(points);
   std::array<std::vector<double>, 2> at, weights;
   for (std::size_t d = 0; d < 2; ++d) {
@@ -37,7 +37,7 @@ double integral(const Session& session, int points, const std::vector<double>& b
   }
   std::array<BasisTable, 2> tables;
   for (std::size_t d = 0; d < 2; ++d) tables[d] = *tabulate_basis(s.current->knots()[d], at[d], 2);
-  const auto scaling = energy_scaling(session.state(), 0);
+  const auto scaling = energy_scaling(energy_scaling_input(session.state(), 0));
   const auto density = energy_density(s, *scaling, {at[0], at[1]}, {&tables[0], &tables[1]});
   double sum = 0;
   for (std::size_t k = 0; k < at[0].size(); ++k) {
@@ -87,7 +87,7 @@ TEST(HeldPoints, CoverEveryWayOfHolding) {
     Session session = fresh();
     run(session, {testing::new_sheet});
     run(session, commands);
-    return *held_points(first(session));
+    return *held_points(held_input(first(session)));
   };
   const auto count = [](const std::vector<std::uint8_t>& flags, int kind) {
     return std::ranges::count(flags, static_cast<std::uint8_t>(kind));

@@ -67,7 +67,7 @@ TEST(RealFiles, SurfacesOfEveryKindBendWithoutCreasesAndKeepTheirConstraints) {
       run(session, {R"({"do":"select","surface":")" + s.id + R"("})",
                     R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})",
                     R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
-      if (const auto done = session.execute(StepCommand{1, 3, {}}); !done) {
+      if (const auto done = session.execute(make_command(StepCommand{1, 3, {}})); !done) {
         EXPECT_NE(done.error().what.find("no area"), std::string::npos) << done.error().message();
         continue;
       }

@@ -194,7 +194,7 @@ TEST(Session, EveryRealSurfaceCanBeSculptedOrSaysWhyNot) {
       run(session, {R"({"do":"select","surface":")" + s.id + R"("})",
                     R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})",
                     R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
-      const auto done = session.execute(StepCommand{1, 1, StepWeight::mass});
+      const auto done = session.execute(make_command(StepCommand{1, 1, StepWeight::mass}));
       if (!done) {
         EXPECT_EQ(done.error().kind, ErrorKind::numerical) << entry.path() << " " << s.id << done.error().message();
         continue;

@@ -17,7 +17,7 @@ inline Session on_sheet(const std::vector<std::string>& more = {}) {
   return session;
 }
 
-inline const SurfaceState& first(const Session& session) { return session.state().surfaces.front(); }
+inline const SceneSurface& first(const Session& session) { return session.state().surfaces.front(); }
 
 inline Point at(const Surface& s, double a, double b) {
   const Interval u = s.knots(0).domain(), v = s.knots(1).domain();

@@ -9,6 +9,7 @@
 
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
+#include "session/commands.hpp"
 
 namespace knead::testing {
 
@@ -60,7 +61,7 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
   if (a.selected != b.selected || a.together != b.together) return differs("selection");
   if (a.surfaces.size() != b.surfaces.size()) return differs("number of surfaces");
   for (std::size_t k = 0; k < a.surfaces.size(); ++k) {
-    const SurfaceState &s = a.surfaces[k], &t = b.surfaces[k];
+    const SceneSurface &s = a.surfaces[k], &t = b.surfaces[k];
     if (s.id != t.id || s.name != t.name || s.unit != t.unit) return differs("label of " + s.id);
     if (!same_bits(*s.opened, *t.opened)) return differs("opened " + s.id);
     if (!same_bits(*s.reference, *t.reference)) return differs("reference " + s.id);
@@ -72,7 +73,7 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
     if (s.smooth_knot_lines != t.smooth_knot_lines || s.smooth_poles != t.smooth_poles) return differs("smooth");
     if (s.constraints.size() != t.constraints.size()) return differs("constraints of " + s.id);
     for (std::size_t c = 0; c < s.constraints.size(); ++c) {
-      if (!(s.constraints[c].request == t.constraints[c].request)) return differs("a constraint of " + s.id);
+      if (!(s.constraints[c].constraint == t.constraints[c].constraint)) return differs("a constraint of " + s.id);
       if (!same_bits(*s.constraints[c].where, *t.constraints[c].where)) return differs("a constraint's place");
     }
   }
@@ -89,7 +90,7 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
   }
   if (a.forces.size() != b.forces.size()) return differs("number of forces");
   if (!(a.load == b.load) || a.limit != b.limit) return differs("load or limit");
-  if (!(a.evolve == b.evolve) || a.scaling != b.scaling || !(a.seams == b.seams) || a.permission != b.permission)
+  if (!(a.evolution == b.evolution) || a.scaling != b.scaling || !(a.seams == b.seams) || a.permission != b.permission)
     return differs("setting");
   if (a.steps.size() != b.steps.size()) return differs("number of steps");
   for (std::size_t k = 0; k < a.steps.size(); ++k) {

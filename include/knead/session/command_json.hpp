@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "knead/base/error.hpp"
+#include "knead/scene/scene.hpp"
 #include "knead/session/command.hpp"
 
 namespace knead {
@@ -14,6 +16,13 @@ namespace knead {
 /// The JSON form of a command, every field written out, numbers to 17 significant digits; parsing it gives the same
 /// command back.
 [[nodiscard]] std::string to_json(const Command& command);
+
+// The JSON form of what a scene keeps: that of the command that asks for it.
+[[nodiscard]] std::string to_json(const Constraint& constraint);
+[[nodiscard]] std::string to_json(const SceneForce& force);
+[[nodiscard]] std::string to_json(const Load& load);
+[[nodiscard]] std::string to_json(const EvolutionPolicy& evolution);
+[[nodiscard]] std::string to_json(const SeamPolicy& seams);
 
 /// The commands of a script {"knead": 1, "commands": [...]}. `name` stands for the file in errors, which give the line
 /// of a syntax error, or the path of a wrong value ("commands[2].radius").

@@ -3,12 +3,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
+#include "knead/scene/scene.hpp"
 #include "knead/sculpt/seam_coupling.hpp"
 #include "knead/session/command.hpp"
 #include "knead/session/document.hpp"
@@ -33,61 +32,16 @@ struct StepRecord {
   friend bool operator==(const StepRecord&, const StepRecord&) = default;
 };
 
-/// A constraint that was asked for and is kept until it is released.
-using ConstraintRequest = std::variant<EdgeCommand, PinCommand, FreezeCommand, KeepCommand, SymmetryCommand>;
-
-/// A request and the shape of the surface when it was made: what is held stays where it was then.
-struct KeptConstraint {
-  ConstraintRequest request;
-  std::shared_ptr<const Surface> where;  ///< on the present net
-
-  friend bool operator==(const KeptConstraint&, const KeptConstraint&) = default;
-};
-
-/// A force and the surface that its point lies on.
-struct PlacedForce {
-  ForceCommand force;
-  int surface = 0;
-};
-
-/// What a session knows about one surface. `reference`, `rest` and `current` share their knots and weights, and
-/// `opened` shares them too unless they were edited since (`weights`, `knots`); the domain is always the same.
-struct SurfaceState {
-  std::string id, name, unit;
-  std::shared_ptr<const Surface> opened;     ///< as it came, on the present net if it has the present basis
-  std::shared_ptr<const Surface> reference;  ///< what the units of the model are taken from
-  std::shared_ptr<const Surface> rest;       ///< what displacements are measured from
-  std::shared_ptr<const Surface> current;
-  Points velocity = {};  ///< of a dynamic evolution; empty: at rest
-  RestMode mode = RestMode::shape;
-  MaterialFieldOf<2> material = {};
-  int hold_rows = 0;
-  std::set<std::array<int, 2>> pins = {};
-  std::vector<KeptConstraint> constraints = {};
-  bool smooth_knot_lines = true, smooth_poles = true;
-};
-
-/// The whole state at one moment. A value: undo puts an earlier one back, bit for bit.
-struct SessionState {
-  std::optional<int> selected;  ///< the surface that commands act on
-  std::vector<int> together;    ///< the others that were selected with it
-  std::vector<SurfaceState> surfaces;
-  std::vector<Tool> tools;  ///< lengths in file units
-  std::vector<PlacedForce> forces;
-  LoadCommand load;
-  std::optional<double> limit;  ///< file units
-  EvolveCommand evolve;
-  ScalingMode scaling = ScalingMode::normalised;
-  SeamsCommand seams;
-  RefinePermission permission = RefinePermission::never;
+/// What happened so far.
+struct SessionRecord {
   std::vector<StepRecord> steps;
   std::vector<SeamReport> seam_reports;  ///< of the model of the last step; patches are indices of surfaces
   std::vector<std::string> notes;        ///< what commands did on the way: refinements, lines kept smooth
   std::optional<double> energy_before;   ///< energy before the first step
-
-  /// All selected surfaces, the first one first.
-  [[nodiscard]] std::vector<int> selection() const;
 };
+
+/// The whole state at one moment. A value: undo puts an earlier one back, bit for bit.
+struct SessionState : Scene, SessionRecord {};
 
 /// A document and its history of commands: the model and controller of every user interface.
 ///

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "knead/sculpt/constraints.hpp"
+
+namespace knead {
+
+using Vector3 = std::array<double, 3>;
+/// A place in a parameter domain, (s, t) from 0 to 1.
+using Fractions = std::array<double, 2>;
+/// A rectangle of the parameter domain in fractions: [s0, s1] × [t0, t1].
+using FractionBox = std::array<Fractions, 2>;
+
+/// One edge of a surface, or all four.
+enum class EdgeChoice { all, u0, u1, v0, v1 };
+
+/// The edges that a choice stands for.
+[[nodiscard]] std::vector<SurfaceEdge> edges_of(EdgeChoice which);
+
+// What a surface is held by. Each is kept together with the shape of the surface when it was asked for
+// (`KeptConstraint`): what is held stays where it was then.
+
+/// An edge, with the first `order` derivatives across it: 0 its place, 1 its tangent planes too, 2 its curvatures too.
+struct EdgeHold {
+  SurfaceEdge edge = SurfaceEdge::u0;
+  int order = 0;
+  friend bool operator==(const EdgeHold&, const EdgeHold&) = default;
+};
+
+/// A surface point.
+struct PointPin {
+  Fractions at = {0.5, 0.5};
+  std::optional<Vector3> to = {};  ///< where it goes, file units; left out: where it was
+  friend bool operator==(const PointPin&, const PointPin&) = default;
+};
+
+/// All of a region, rounded outward to whole spans.
+struct Freeze {
+  FractionBox region = {{{0, 1}, {0, 1}}};
+  friend bool operator==(const Freeze&, const Freeze&) = default;
+};
+
+/// A curve of the surface: an isoparametric line, or a polyline of (s, t).
+struct Keep {
+  std::optional<double> u = {}, v = {};  ///< the line at this fraction of the domain
+  std::vector<Fractions> curve = {};
+  double tolerance = 1e-6;  ///< of a polyline, as a share of the motion around it
+  friend bool operator==(const Keep&, const Keep&) = default;
+};
+
+/// Half a symmetric model: edges stay in a plane and the surface perpendicular to it.
+struct EdgeSymmetry {
+  EdgeChoice which = EdgeChoice::all;
+  MirrorPlane plane = {};
+  friend bool operator==(const EdgeSymmetry&, const EdgeSymmetry&) = default;
+};
+
+/// A whole surface that stays its own mirror image.
+struct MirrorSymmetry {
+  int direction = 0;                      ///< 0: S(u, v) and S(a + b − u, v) are partners; 1 likewise in v
+  std::optional<MirrorPlane> plane = {};  ///< left out: the best one
+  friend bool operator==(const MirrorSymmetry&, const MirrorSymmetry&) = default;
+};
+
+using Constraint = std::variant<EdgeHold, PointPin, Freeze, Keep, EdgeSymmetry, MirrorSymmetry>;
+
+/// A constraint and the shape of the surface when it was asked for, on the present net.
+struct KeptConstraint {
+  Constraint constraint;
+  std::shared_ptr<const Surface> where;
+
+  friend bool operator==(const KeptConstraint&, const KeptConstraint&) = default;
+};
+
+/// The plane of a mirror symmetry of this surface: as given, or the best one. Errors: those of `mirror_plane`.
+[[nodiscard]] Expected<MirrorPlane> plane_of(const MirrorSymmetry& symmetry, const Surface& surface);
+
+/// The control point that is the mirror image of control point (i, j) of a net.
+[[nodiscard]] std::array<int, 2> mirror_image(const MirrorSymmetry& symmetry, const std::array<int, 2>& net,
+                                              const std::array<int, 2>& point);
+
+}  // namespace knead

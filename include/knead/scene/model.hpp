@@ -1,0 +1,71 @@
+#pragma once
+
+#include <span>
+
+#include "knead/scene/scene.hpp"
+#include "knead/sculpt/seam_coupling.hpp"
+
+namespace knead {
+
+/// What a model depends on of one surface.
+struct SurfaceInput {
+  std::string id;
+  std::shared_ptr<const Surface> reference;
+  std::shared_ptr<const Surface> rest;  ///< where there are constraints, which speak of places; else null
+  RestMode mode = RestMode::shape;
+  MaterialFieldOf<2> material;
+  int hold_rows = 0;
+  std::set<std::array<int, 2>> pins;
+  std::vector<KeptConstraint> constraints;
+  bool smooth_knot_lines = true, smooth_poles = true;
+
+  friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;
+};
+
+/// All that a model of the selected surfaces depends on: equal inputs make equal models.
+struct ModelInput {
+  std::vector<SurfaceInput> surfaces;  ///< the selected ones, in their order
+  SeamPolicy seams;
+  ScalingMode scaling = ScalingMode::normalised;
+  EvolutionPolicy evolution;
+  double detail = 0;  ///< smallest tool dimension that forces must resolve, file units; 0: no tool
+
+  friend bool operator==(const ModelInput&, const ModelInput&) = default;
+};
+
+/// What the model of the selected surfaces depends on, under this evolution.
+[[nodiscard]] ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution);
+
+/// A model of surfaces, coupled and constrained as asked.
+struct SceneModel {
+  ModelInput input;
+  ActiveSurface model;
+  std::vector<SeamReport> seams;   ///< patches are indices into `input.surfaces`
+  std::vector<std::string> notes;  ///< lines that may bend, and the like
+};
+
+/// Makes and factors the model. `input` has at least one surface.
+/// Errors: surfaces of different rest modes, constraints that contradict each other (input), and those of
+/// `ActiveSpline::create`.
+[[nodiscard]] Expected<SceneModel> make_model(ModelInput input);
+
+/// Seams between these patches (and of each with itself) to the tolerance that was asked for, or the suggested one.
+[[nodiscard]] Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches);
+
+/// The selected surfaces' control points, one below the other, with their rest shapes and velocities.
+[[nodiscard]] ActiveState active_state(const Scene& scene);
+
+/// Loads, point forces with their mirror images, and the limit of the scene. `model` is that of the selected surfaces.
+/// Errors (input): a force on a point that there is not.
+[[nodiscard]] Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& model);
+
+/// The sampled part of a load, over the domain of a surface.
+[[nodiscard]] Expected<Surface> load_field(const Load& load, const Surface& surface);
+
+/// The constraints of a surface that one symmetry makes; terms count its own control points.
+[[nodiscard]] Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry& symmetry,
+                                                  ConstraintList& list);
+[[nodiscard]] Expected<void> symmetry_constraints(const Surface& reference, const MirrorSymmetry& symmetry,
+                                                  ConstraintList& list);
+
+}  // namespace knead

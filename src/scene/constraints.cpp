@@ -1,0 +1,167 @@
+#include "constraints.hpp"
+
+#include <fmt/format.h>
+
+#include "knead/scene/held_points.hpp"
+#include "knead/scene/places.hpp"
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double pole_tolerance = 1e-9;  // of the surface's size
+constexpr double pole_flatness = 1e-6;
+constexpr double symmetry_tolerance = 1e-6;  // of the surface's size
+constexpr double symmetry_angle = 1e-3;
+
+/// Appends what one constraint asks for.
+struct Asked {
+  const Surface& reference;
+  const Surface& rest;
+  const Surface& where;
+  ConstraintList& list;
+
+  Expected<void> operator()(const EdgeHold& c) const {
+    return holding([&] { return hold_edge(rest, c.edge, c.order, list); });
+  }
+
+  Expected<void> operator()(const PointPin& c) const {
+    const auto u = parameters_at(rest, c.at);
+    if (!u) return std::unexpected(u.error());
+    if (c.to) return pin_point(rest, (*u)[0], (*u)[1], Point((*c.to)[0], (*c.to)[1], (*c.to)[2]), list);
+    return holding([&] { return pin_point(rest, (*u)[0], (*u)[1], std::nullopt, list); });
+  }
+
+  Expected<void> operator()(const Freeze& c) const {
+    const auto region = region_at(rest, c.region);
+    if (!region) return std::unexpected(region.error());
+    const auto frozen = freeze_region(rest, (*region)[0], (*region)[1], list);
+    if (!frozen) return std::unexpected(frozen.error());
+    return {};
+  }
+
+  Expected<void> operator()(const Keep& c) const {
+    return holding([&]() -> Expected<void> {
+      for (int direction = 0; direction < 2; ++direction) {
+        const std::optional<double>& line = direction == 0 ? c.u : c.v;
+        if (!line) continue;
+        Fractions at = {0, 0};
+        at[static_cast<std::size_t>(direction)] = *line;
+        const auto u = parameters_at(rest, at, direction == 0 ? "u" : "v");
+        if (!u) return std::unexpected(u.error());
+        auto done = hold_isoline(rest, direction, (*u)[static_cast<std::size_t>(direction)], 0, list);
+        if (!done) return done;
+      }
+      if (c.curve.empty()) return {};
+      Parameters<2> polyline(static_cast<Eigen::Index>(c.curve.size()), 2);
+      for (std::size_t k = 0; k < c.curve.size(); ++k) {
+        const auto u = parameters_at(rest, c.curve[k], "curve");
+        if (!u) return std::unexpected(u.error());
+        polyline.row(static_cast<Eigen::Index>(k)) << (*u)[0], (*u)[1];
+      }
+      const auto kept = keep_curve(rest, polyline, c.tolerance, list);
+      if (!kept) return std::unexpected(kept.error());
+      return {};
+    });
+  }
+
+  Expected<void> operator()(const EdgeSymmetry& c) const { return symmetry_constraints(reference, c, list); }
+  Expected<void> operator()(const MirrorSymmetry& c) const { return symmetry_constraints(reference, c, list); }
+
+ private:
+  /// What `f` appends is held where it was when that was asked for, not where it is at rest.
+  template <class F>
+  Expected<void> holding(const F& f) const {
+    const std::size_t first = list.constraints.size();
+    if (auto done = f(); !done) return done;
+    keep_present(list, where.control_points() - rest.control_points(), first);
+    return {};
+  }
+};
+
+/// Rows and control points that are held by their numbers.
+void hold_numbered(const std::array<int, 2>& net, int rows, const std::set<std::array<int, 2>>& pins,
+                   ConstraintList& list) {
+  const auto [m, n] = net;
+  for (int i = 0; i < m && rows > 0; ++i) {
+    for (int j = 0; j < n; ++j) {
+      if (i < rows || i >= m - rows || j < rows || j >= n - rows) list.hold(i * n + j, "hold");
+    }
+  }
+  for (const auto& [i, j] : pins) list.hold(i * n + j, fmt::format("pin ({}, {})", i, j));
+}
+
+}  // namespace
+
+Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry& symmetry, ConstraintList& list) {
+  const double size = bounding_box(reference).diagonal();
+  for (SurfaceEdge edge : edges_of(symmetry.which)) {
+    auto done =
+        hold_symmetry_plane(reference, edge, symmetry.plane, 1, symmetry_tolerance * size, symmetry_angle, list);
+    if (!done) return done;
+  }
+  return {};
+}
+
+Expected<void> symmetry_constraints(const Surface& reference, const MirrorSymmetry& symmetry, ConstraintList& list) {
+  const auto plane = plane_of(symmetry, reference);
+  if (!plane) return std::unexpected(plane.error());
+  const auto report = keep_mirror(reference, symmetry.direction, *plane, 1e-9, list);
+  if (!report) return std::unexpected(report.error());
+  return {};
+}
+
+Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::string>& notes) {
+  ConstraintList list(s.reference->size());
+  hold_numbered(s.reference->net(), s.hold_rows, s.pins, list);
+  for (const auto& [constraint, where] : s.constraints) {
+    if (auto done = std::visit(Asked{*s.reference, *s.rest, *where, list}, constraint); !done) {
+      return std::unexpected(done.error());
+    }
+  }
+  if (s.mode == RestMode::none) return list;  // the energy acts on the shape itself: there is no rest to stay smooth to
+  if (s.smooth_knot_lines) {
+    const auto lines = keep_smooth(*s.reference, {}, list);
+    if (!lines) return std::unexpected(lines.error());
+    for (const SmoothLine& line : *lines) {
+      if (line.state == SmoothLine::State::crease) {
+        notes.push_back(
+            fmt::format("{}: the crease at {} = {:.6g} may bend", s.id, line.direction == 0 ? "u" : "v", line.knot));
+      }
+    }
+  }
+  if (s.smooth_poles) {
+    const double size = bounding_box(*s.reference).diagonal();
+    const auto poles = keep_poles(*s.reference, pole_tolerance * size, pole_flatness, list);
+    if (!poles) return std::unexpected(poles.error());
+  }
+  return list;
+}
+
+HeldInput held_input(const SceneSurface& s) { return {s.current->net(), s.hold_rows, s.pins, s.constraints}; }
+
+Expected<std::vector<std::uint8_t>> held_points(const HeldInput& input) {
+  ConstraintList list(input.net[0] * input.net[1]);
+  hold_numbered(input.net, input.hold_rows, input.pins, list);
+  for (const auto& [constraint, where] : input.constraints) {
+    if (std::holds_alternative<EdgeSymmetry>(constraint) || std::holds_alternative<MirrorSymmetry>(constraint)) {
+      continue;
+    }
+    // Which control points are held depends on the basis alone, which all shapes share.
+    if (auto done = std::visit(Asked{*where, *where, *where, list}, constraint); !done) {
+      return std::unexpected(done.error());
+    }
+  }
+  std::vector<std::uint8_t> held(list.held.size(), 0);
+  for (const LinearConstraint& c : list.constraints) {
+    for (const auto& [row, coefficient] : c.terms) {
+      if (coefficient != 0) held[static_cast<std::size_t>(row)] = 2;
+    }
+  }
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    if (list.held[k]) held[k] = 1;
+  }
+  return held;
+}
+
+}  // namespace knead

@@ -1,0 +1,114 @@
+#include <algorithm>
+
+#include "knead/scene/model.hpp"
+#include "knead/scene/places.hpp"
+#include "knead/sculpt/loads.hpp"
+
+namespace knead {
+
+ActiveState active_state(const Scene& scene) {
+  Eigen::Index size = 0, at = 0;
+  bool moving = false;
+  for (int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    size += s.current->size();
+    moving = moving || s.velocity.rows() > 0;
+  }
+  ActiveState result;
+  result.control_points.resize(size, 3);
+  result.rest.resize(size, 3);
+  if (moving) result.velocity = Points::Zero(size, 3);
+  for (int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    const Eigen::Index n = s.current->size();
+    result.control_points.middleRows(at, n) = s.current->control_points();
+    result.rest.middleRows(at, n) = s.rest->control_points();
+    if (s.velocity.rows() > 0) result.velocity.middleRows(at, n) = s.velocity;
+    at += n;
+  }
+  return result;
+}
+
+Expected<Surface> load_field(const Load& load, const Surface& surface) {
+  Points samples(static_cast<Eigen::Index>(load.samples.size()), 3);
+  for (std::size_t k = 0; k < load.samples.size(); ++k) {
+    samples.row(static_cast<Eigen::Index>(k)) << load.samples[k][0], load.samples[k][1], load.samples[k][2];
+  }
+  auto field = sampled_load<2>(surface, load.counts, std::move(samples));
+  if (!field) return std::unexpected(field.error().within("samples"));
+  return field;
+}
+
+Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& model) {
+  const auto vector = [](const Vector3& v) { return Point(v[0], v[1], v[2]); };
+  ActiveLoads loads;
+  loads.force = vector(scene.load.vector);
+  loads.gravity = vector(scene.load.gravity);
+  loads.pressure = scene.load.pressure;
+  loads.wind = vector(scene.load.wind);
+  if (!scene.load.samples.empty()) {
+    loads.nodal.resize(model.rows().back(), 3);
+    int patch = 0;
+    for (int k : scene.selection()) {
+      const Surface& surface = *scene.surfaces[static_cast<std::size_t>(k)].reference;
+      const auto field = load_field(scene.load, surface);
+      if (!field) return std::unexpected(field.error());
+      const auto nodal = load_forces<2>(surface, model.scaling(patch), *field);
+      if (!nodal) return std::unexpected(nodal.error());
+      loads.nodal.middleRows(model.rows()[static_cast<std::size_t>(patch)], surface.size()) = *nodal;
+      ++patch;
+    }
+  }
+  for (const SceneForce& f : scene.forces) {
+    int first = 0;
+    bool selected = false;
+    for (int k : scene.selection()) {
+      selected = k == f.surface;
+      if (selected) break;
+      first += scene.surfaces[static_cast<std::size_t>(k)].current->size();
+    }
+    if (!selected) continue;
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(f.surface)];
+    const auto u = parameters_at(*s.current, f.at);
+    if (!u) return std::unexpected(u.error());
+    PointForce force;
+    force.kind = f.kind == PointForceKind::spring ? PointForce::Kind::spring : PointForce::Kind::volcano;
+    force.terms = basis_terms(*s.current, *u, first);
+    force.to = vector(f.to);
+    force.strength = f.strength;
+    force.core = f.core;
+    for (const KeptConstraint& kept : s.constraints) {  // and its mirror images
+      const auto* symmetry = std::get_if<MirrorSymmetry>(&kept.constraint);
+      if (symmetry == nullptr) continue;
+      const auto plane = plane_of(*symmetry, *s.reference);
+      if (!plane) return std::unexpected(plane.error());
+      Fractions at = f.at;
+      double& along = at[static_cast<std::size_t>(symmetry->direction)];
+      if (along == 0.5) continue;
+      along = 1 - along;
+      const auto there = parameters_at(*s.current, at);
+      if (!there) return std::unexpected(there.error());
+      PointForce image = force;
+      image.terms = basis_terms(*s.current, *there, 0);
+      const Point n = plane->normal.normalized();
+      image.to -= 2 * n.dot(image.to - plane->point) * n;
+      loads.points.push_back(std::move(image));
+    }
+    loads.points.push_back(std::move(force));
+  }
+  if (scene.limit) {
+    loads.limit = *scene.limit;
+    Eigen::Index size = 0;
+    for (int k : scene.selection()) size += scene.surfaces[static_cast<std::size_t>(k)].opened->size();
+    loads.original.resize(size, 3);
+    Eigen::Index at = 0;
+    for (int k : scene.selection()) {
+      const Points& opened = scene.surfaces[static_cast<std::size_t>(k)].opened->control_points();
+      loads.original.middleRows(at, opened.rows()) = opened;
+      at += opened.rows();
+    }
+  }
+  return loads;
+}
+
+}  // namespace knead

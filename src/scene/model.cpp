@@ -1,0 +1,131 @@
+#include "knead/scene/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "constraints.hpp"
+
+namespace knead {
+namespace {
+
+double detail_of(const std::vector<Tool>& tools) {
+  double detail = 0;
+  for (const Tool& t : tools) {
+    double size = t.shape.size();
+    if (!t.collides()) size = std::min(size, t.range);
+    if (std::isfinite(size) && (detail == 0 || size < detail)) detail = size;
+  }
+  return detail;
+}
+
+bool varies(const MaterialFieldOf<2>& material) {
+  const auto field = [](const Coefficient<2>& c) { return !std::holds_alternative<double>(c); };
+  return std::ranges::any_of(material.alpha, field) || std::ranges::any_of(material.beta, field) ||
+         field(material.mass) || field(material.damping);
+}
+
+/// Coefficients as constants where one material serves all surfaces, else as fields.
+void set_material(const std::vector<SurfaceInput>& surfaces, ActiveSettings<2>& settings) {
+  const MaterialFieldOf<2>& material = surfaces.front().material;
+  const bool varying = std::ranges::any_of(
+      surfaces, [&](const SurfaceInput& s) { return varies(s.material) || !(s.material == material); });
+  if (varying) {
+    for (const SurfaceInput& s : surfaces) settings.fields.push_back(s.material);
+    return;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    settings.material.alpha[k] = std::get<double>(material.alpha[k]);
+    settings.material.beta[k] = std::get<double>(material.beta[k]);
+  }
+  settings.mass = std::get<double>(material.mass);
+  settings.damping = std::get<double>(material.damping);
+}
+
+/// Appends the constraints of every surface; returns the first row of each, and the end.
+Expected<std::vector<int>> hold_surfaces(const std::vector<SurfaceInput>& surfaces, ActiveSettings<2>& settings,
+                                         std::vector<std::string>& notes) {
+  std::vector<int> rows = {0};
+  for (const SurfaceInput& s : surfaces) {
+    if (s.mode != surfaces.front().mode) {
+      return input_error("surfaces that are selected together have different rest modes", "rest",
+                         "give `rest` once with all of them selected");
+    }
+    auto list = constraints_of(s, notes);
+    if (!list) return std::unexpected(list.error());
+    settings.held.insert(settings.held.end(), list->held.begin(), list->held.end());
+    for (LinearConstraint& c : list->constraints) {
+      for (auto& term : c.terms) term.first += rows.back();
+      if (surfaces.size() > 1) c.name = s.id + ": " + c.name;
+      settings.constraints.push_back(std::move(c));
+    }
+    rows.push_back(rows.back() + s.reference->size());
+  }
+  if (std::ranges::none_of(settings.held, [](bool f) { return f; })) settings.held.clear();
+  return rows;
+}
+
+}  // namespace
+
+Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches) {
+  const double tolerance = policy.tolerance.value_or(suggested_seam_tolerance(patches));
+  if (tolerance == 0) return FoundSeams{};  // surfaces that are one point
+  return find_seams(patches, tolerance);
+}
+
+ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
+  ModelInput input;
+  for (int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    input.surfaces.push_back({.id = s.id,
+                              .reference = s.reference,
+                              .rest = s.constraints.empty() ? nullptr : s.rest,
+                              .mode = s.mode,
+                              .material = s.material,
+                              .hold_rows = s.hold_rows,
+                              .pins = s.pins,
+                              .constraints = s.constraints,
+                              .smooth_knot_lines = s.smooth_knot_lines,
+                              .smooth_poles = s.smooth_poles});
+  }
+  input.seams = scene.seams;
+  input.scaling = scene.scaling;
+  input.evolution = evolution;
+  input.detail = detail_of(scene.tools);
+  return input;
+}
+
+Expected<SceneModel> make_model(ModelInput input) {
+  ActiveSettings<2> settings;
+  std::vector<std::string> notes;
+  const auto rows = hold_surfaces(input.surfaces, settings, notes);
+  if (!rows) return std::unexpected(rows.error());
+  std::vector<Surface> patches;
+  std::vector<const Surface*> pointers;
+  for (const SurfaceInput& s : input.surfaces) {
+    patches.push_back(*s.reference);
+    pointers.push_back(s.reference.get());
+  }
+  std::vector<SeamReport> reports;
+  if (input.seams.couple) {
+    const auto found = seams_between(input.seams, pointers);
+    if (!found) return std::unexpected(found.error());
+    auto coupled = couple_seams(pointers, *rows, found->seams);
+    if (!coupled) return std::unexpected(coupled.error());
+    settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
+    reports = std::move(coupled->reports);
+  }
+  set_material(input.surfaces, settings);
+  settings.rest = input.surfaces.front().mode;
+  settings.evolution = input.evolution.mode;
+  settings.weight = input.evolution.weight;
+  settings.lambda = input.evolution.lambda;
+  settings.time_step = input.evolution.time_step;
+  settings.route = input.evolution.route;
+  settings.raw = input.scaling == ScalingMode::raw;
+  settings.detail = input.detail;
+  auto model = ActiveSurface::create(std::move(patches), settings);
+  if (!model) return std::unexpected(model.error());
+  return SceneModel{std::move(input), std::move(*model), std::move(reports), std::move(notes)};
+}
+
+}  // namespace knead

@@ -1,0 +1,95 @@
+#include "knead/scene/reshape.hpp"
+
+#include <map>
+
+#include "knead/spline/knot_removal.hpp"
+
+namespace knead {
+namespace {
+
+using Shape2 = std::shared_ptr<const Surface>;
+
+/// Of all shapes on the present basis but `opened`: those of the surface, and those that its constraints are about.
+std::vector<Shape2*> shapes_of(SceneSurface& surface) {
+  std::vector<Shape2*> shapes = {&surface.reference, &surface.rest, &surface.current};
+  for (KeptConstraint& kept : surface.constraints) shapes.push_back(&kept.where);
+  return shapes;
+}
+
+Expected<void> replace(const std::vector<Shape2*>& shapes, const SurfaceChange& change) {
+  std::map<const Surface*, Shape2> changed;
+  for (Shape2* shape : shapes) {
+    Shape2& made = changed[shape->get()];
+    if (!made) {
+      auto result = change(**shape);
+      if (!result) return std::unexpected(result.error());
+      made = std::make_shared<const Surface>(std::move(*result));
+    }
+    *shape = made;
+  }
+  return {};
+}
+
+Expected<void> check_pins(const SceneSurface& surface) {
+  if (surface.pins.empty()) return {};
+  return input_error("control points are pinned by their numbers, which change with the net", surface.id,
+                     "release them first, or pin surface points (at) instead");
+}
+
+}  // namespace
+
+Expected<void> change_basis(SceneSurface& surface, const SurfaceChange& change) {
+  return replace(shapes_of(surface), change);
+}
+
+Expected<void> change_net(SceneSurface& surface, const SurfaceChange& change) {
+  if (auto free = check_pins(surface); !free) return free;
+  // The velocity is a spline on the present basis, as the shapes are.
+  Points velocity = surface.velocity;
+  if (velocity.rows() > 0) {
+    auto field = surface.current->with_control_points(velocity);
+    if (field) field = change(*field);
+    if (!field) return std::unexpected(field.error());
+    velocity = field->control_points();
+  }
+  auto shapes = shapes_of(surface);
+  if (same_basis(*surface.opened, *surface.current)) shapes.push_back(&surface.opened);
+  if (auto done = replace(shapes, change); !done) return done;
+  surface.velocity = std::move(velocity);
+  return {};
+}
+
+Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
+  if (auto free = check_pins(s); !free) return std::unexpected(free.error());
+  Coarsening done;
+  for (int d = 0; d < 2; ++d) {
+    // Each direction may spend half of the tolerance.
+    std::vector<Shape2*> shapes = {&s.reference, &s.rest};
+    if (same_basis(*s.opened, *s.current)) shapes.push_back(&s.opened);
+    for (KeptConstraint& kept : s.constraints) shapes.push_back(&kept.where);
+    std::vector<Points> others;
+    for (const Shape2* shape : shapes) others.push_back((*shape)->control_points());
+    auto result = remove_knots<2>(*s.current, d, 0.5 * tolerance, others);
+    if (!result) return std::unexpected(result.error());
+    if (result->removed.empty()) continue;
+    done.removed += result->removed.size();
+    done.bound += result->error_bound;
+    const auto current = std::make_shared<const Surface>(std::move(result->spline));
+    std::map<const Surface*, Shape2> made = {{s.current.get(), current}};
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      Shape2& other = made[shapes[k]->get()];
+      if (!other) {
+        auto coarser = current->with_control_points(std::move(result->companions[k]));
+        if (!coarser) return std::unexpected(coarser.error());
+        other = std::make_shared<const Surface>(std::move(*coarser));
+      }
+    }
+    for (Shape2* shape : shapes) *shape = made[shape->get()];
+    s.current = current;
+    done.stopped = done.stopped || s.velocity.rows() > 0;
+    s.velocity.resize(0, 3);
+  }
+  return done;
+}
+
+}  // namespace knead

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <variant>
+
+#include "commands/coarsen.hpp"
+#include "commands/drag.hpp"
+#include "commands/edge.hpp"
+#include "commands/elevate.hpp"
+#include "commands/evolve.hpp"
+#include "commands/force.hpp"
+#include "commands/freeze.hpp"
+#include "commands/history.hpp"
+#include "commands/hold.hpp"
+#include "commands/keep.hpp"
+#include "commands/knots.hpp"
+#include "commands/lattice.hpp"
+#include "commands/limit.hpp"
+#include "commands/load.hpp"
+#include "commands/material.hpp"
+#include "commands/move.hpp"
+#include "commands/new.hpp"
+#include "commands/pin.hpp"
+#include "commands/points.hpp"
+#include "commands/refine.hpp"
+#include "commands/relax.hpp"
+#include "commands/release.hpp"
+#include "commands/remove.hpp"
+#include "commands/rest.hpp"
+#include "commands/scale.hpp"
+#include "commands/scaling.hpp"
+#include "commands/seams.hpp"
+#include "commands/select.hpp"
+#include "commands/smooth.hpp"
+#include "commands/step.hpp"
+#include "commands/stroke.hpp"
+#include "commands/symmetry.hpp"
+#include "commands/tool.hpp"
+#include "commands/turn.hpp"
+#include "commands/weights.hpp"
+#include "knead/session/command.hpp"
+
+namespace knead {
+
+/// All commands there are, in the order of the help. Lengths are in file units unless a command says `relative`;
+/// (s, t) are fractions 0 to 1 of the parameter domain.
+using CommandVariant =
+    std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand, PinCommand,
+                 EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand,
+                 ToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand,
+                 LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, RelaxCommand, LatticeCommand,
+                 PointsCommand, WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand, CoarsenCommand,
+                 UndoCommand, RedoCommand>;
+
+struct AnyCommand {
+  CommandVariant fields;
+};
+
+/// A command of these fields.
+[[nodiscard]] inline Command make_command(CommandVariant fields) { return Command(AnyCommand{std::move(fields)}); }
+
+/// The fields of a command of this kind; null where it is of another one.
+template <class C>
+[[nodiscard]] const C* fields_of(const Command& command) {
+  return std::get_if<C>(&command.any().fields);
+}
+
+}  // namespace knead

@@ -1,0 +1,23 @@
+#include "coarsen.hpp"
+
+#include <fmt/format.h>
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const CoarsenCommand& c) {
+  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  for (int index : state.selection()) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    const auto done = coarsen(s, c.tolerance);
+    if (!done) return std::unexpected(done.error());
+    state.notes.push_back(
+        fmt::format("{}: {} knots removed, the shape moved by less than {:.3g}", s.id, done->removed, done->bound));
+    if (done->removed > 0) state.notes.push_back(net_note(s));
+    if (done->stopped)
+      state.notes.push_back(fmt::format("{}: at rest, as its velocity does not fit the coarser net", s.id));
+  }
+  return {};
+}
+
+}  // namespace knead

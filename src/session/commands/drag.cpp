@@ -1,0 +1,98 @@
+#include "drag.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/scene/places.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+namespace {
+
+constexpr int footprint_samples = 13;  // in either direction
+
+/// The points of a footprint: all samples of the domain whose place is within `radius` of the centre, each with the
+/// share of the force that it takes.
+Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fractions& at, double radius,
+                                            double strength) {
+  const auto centre_at = parameters_at(surface, at);
+  if (!centre_at) return std::unexpected(centre_at.error());
+  const auto centre = evaluate_point<2>(surface, *centre_at);
+  if (!centre) return std::unexpected(centre.error());
+  Parameters<2> here(1, 2);
+  here << (*centre_at)[0], (*centre_at)[1];
+  const auto jet = evaluate<2>(surface, here, 1);
+  if (!jet) return std::unexpected(jet.error());
+  // A rectangle of parameters that holds the disc in the tangent plane, half as much again.
+  std::array<std::vector<double>, 2> parameters;
+  for (std::size_t d = 0; d < 2; ++d) {
+    const double speed = (d == 0 ? jet->at({1, 0}) : jet->at({0, 1})).row(0).norm();
+    const Interval domain = surface.knots()[d].domain();
+    const double reach = speed > 0 ? std::min(1.5 * radius / speed, domain.length()) : domain.length();
+    const double lower = std::max(domain.lower, (*centre_at)[d] - reach);
+    const double upper = std::min(domain.upper, (*centre_at)[d] + reach);
+    for (int k = 0; k < footprint_samples; ++k) {
+      parameters[d].push_back(std::min(lower + (upper - lower) * (k + 0.5) / footprint_samples, domain.upper));
+    }
+  }
+  std::vector<PointForce> forces;
+  double total = 0;
+  for (double u : parameters[0]) {
+    for (double v : parameters[1]) {
+      const auto place = evaluate_point<2>(surface, {u, v});
+      if (!place) return std::unexpected(place.error());
+      const double s = 1 - (*place - *centre).squaredNorm() / (radius * radius);
+      if (s <= 0) continue;
+      PointForce force;
+      force.terms = basis_terms(surface, {u, v}, 0);
+      force.to = *place;
+      force.strength = s * s;
+      total += force.strength;
+      forces.push_back(std::move(force));
+    }
+  }
+  if (forces.empty()) {  // smaller than the distance of the samples: the one point
+    PointForce force;
+    force.terms = basis_terms(surface, *centre_at, 0);
+    force.to = *centre;
+    forces.push_back(std::move(force));
+    total = 1;
+  }
+  for (PointForce& force : forces) force.strength *= strength / total;
+  return forces;
+}
+
+}  // namespace
+
+template <>
+Expected<void> Executor::execute(const DragCommand& c) {
+  auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  if (c.steps < 1) return input_error(fmt::format("{} steps are too few", c.steps), "steps", "use 1 or more");
+  if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
+    return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");
+  }
+  if (!(c.strength >= 0 && c.strength <= max_tool_stiffness)) {
+    return input_error(fmt::format("{} is not a strength", c.strength), "strength",
+                       fmt::format("use a number from 0 to {}", max_tool_stiffness));
+  }
+  const auto length = diagonal();
+  if (!length) return std::unexpected(length.error());
+  const double unit = c.relative ? *length : 1, radius = c.radius ? *c.radius * unit : 0.1 * *length;
+  if (!(std::isfinite(radius) && radius > 0)) {
+    return input_error(fmt::format("{} is not a radius", radius), "radius", "use a number > 0");
+  }
+  const auto grip = footprint(*(*surface)->current, c.at, radius, c.strength);
+  if (!grip) return std::unexpected(grip.error());
+  for (int k = 0; k < c.steps; ++k) {
+    std::vector<PointForce> forces = *grip;
+    const double share = static_cast<double>(k + 1) / c.steps;
+    for (PointForce& force : forces) force.to += share * unit * Point(c.by[0], c.by[1], c.by[2]);
+    if (auto done = run(1, state.evolution, forces, k, c.steps); !done) return done;
+  }
+  return yield(c.plasticity);
+}
+
+}  // namespace knead

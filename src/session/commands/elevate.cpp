@@ -1,0 +1,26 @@
+#include "elevate.hpp"
+
+#include "knead/spline/spline_refinement.hpp"
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const ElevateCommand& c) {
+  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  if (c.by[0] < 0 || c.by[1] < 0) return input_error("a degree cannot be lowered", "by", "use numbers >= 0");
+  for (int index : state.selection()) {
+    auto done =
+        change_net(state.surfaces[static_cast<std::size_t>(index)], [&](const Surface& shape) -> Expected<Surface> {
+          Expected<Surface> result = shape;
+          for (int d = 0; d < 2; ++d) {
+            const int times = c.by[static_cast<std::size_t>(d)];
+            if (result && times > 0) result = elevate_degree<2>(*result, d, times);
+          }
+          return result;
+        });
+    if (!done) return done;
+  }
+  return {};
+}
+
+}  // namespace knead

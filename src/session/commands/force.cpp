@@ -1,0 +1,35 @@
+#include "force.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/scene/places.hpp"
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const ForceCommand& c) {
+  auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  if (auto u = parameters_at(*(*surface)->current, c.force.at); !u) return std::unexpected(u.error());
+  if (!(c.force.strength >= 0 && c.force.strength <= max_tool_stiffness)) {
+    return input_error(fmt::format("{} is not a strength", c.force.strength), "strength",
+                       fmt::format("use a number from 0 to {}", max_tool_stiffness));
+  }
+  if (!(std::isfinite(c.force.core) && c.force.core > 0)) {
+    return input_error(fmt::format("{} is not a length", c.force.core), "core", "use a number > 0");
+  }
+  SceneForce force = c.force;
+  force.surface = *state.selected;
+  const auto same = std::ranges::find(state.forces, force.name, &SceneForce::name);
+  if (same != state.forces.end()) {
+    *same = std::move(force);
+  } else {
+    state.forces.push_back(std::move(force));
+  }
+  return {};
+}
+
+}  // namespace knead

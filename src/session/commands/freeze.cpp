@@ -1,0 +1,23 @@
+#include "freeze.hpp"
+
+#include <fmt/format.h>
+
+#include "knead/scene/places.hpp"
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const FreezeCommand& c) {
+  auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  if (auto done = keep(c.freeze); !done) return done;
+  const auto region = region_at(*(*surface)->rest, c.freeze.region);
+  ConstraintList list((*surface)->rest->size());
+  const auto frozen = freeze_region(*(*surface)->rest, (*region)[0], (*region)[1], list);
+  if (!frozen) return std::unexpected(frozen.error());
+  state.notes.push_back(fmt::format("{}: frozen from u = {:.6g} to {:.6g}, v = {:.6g} to {:.6g}", (*surface)->id,
+                                    frozen->u.lower, frozen->u.upper, frozen->v.lower, frozen->v.upper));
+  return {};
+}
+
+}  // namespace knead

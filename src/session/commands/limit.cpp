@@ -1,0 +1,38 @@
+#include "limit.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const LimitCommand& c) {
+  if (!c.distance) {
+    state.limit.reset();
+    return {};
+  }
+  if (!(std::isfinite(*c.distance) && *c.distance > 0)) {
+    return input_error(fmt::format("{} is not a distance", *c.distance), "distance",
+                       "use a number > 0, or leave it out");
+  }
+  for (const SceneSurface& s : state.surfaces) {
+    if (same_basis(*s.opened, *s.current)) continue;
+    return input_error(fmt::format("weights or knots of {} were edited, and a limit is measured on those it was opened "
+                                   "with",
+                                   s.id),
+                       "limit", "save the file and open it again, or undo those edits");
+  }
+  double unit = 1;
+  if (c.relative) {
+    const auto length = diagonal();
+    if (!length) return std::unexpected(length.error());
+    unit = *length;
+  }
+  state.limit = *c.distance * unit;
+  return {};
+}
+
+}  // namespace knead

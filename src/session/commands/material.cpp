@@ -1,0 +1,82 @@
+#include "material.hpp"
+
+#include <fmt/format.h>
+
+#include "knead/energy/paint.hpp"
+#include "knead/scene/places.hpp"
+
+namespace knead {
+namespace {
+
+Coefficient<2>* coefficient_named(MaterialFieldOf<2>& material, const std::string& name) {
+  static constexpr const char* suffixes[] = {"11", "12", "22"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (name == fmt::format("alpha{}", suffixes[k])) return &material.alpha[k];
+    if (name == fmt::format("beta{}", suffixes[k])) return &material.beta[k];
+  }
+  if (name == "mass") return &material.mass;
+  if (name == "damping") return &material.damping;
+  return nullptr;
+}
+
+}  // namespace
+
+template <>
+Expected<void> Executor::execute(const MaterialCommand& c) {
+  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  if (auto material = validated(c.material); !material) return std::unexpected(material.error());
+  for (int k : state.selection()) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    MaterialFieldOf<2> next;
+    if (c.coefficient) {
+      next = s.material;
+      auto field =
+          sampled_field<2>({s.reference->knots(0).domain(), s.reference->knots(1).domain()}, c.counts, c.samples);
+      if (!field) return std::unexpected(field.error().within("samples"));
+      Coefficient<2>* const place = coefficient_named(next, *c.coefficient);
+      if (place == nullptr) {
+        return input_error(fmt::format("\"{}\" is not a coefficient", *c.coefficient), "coefficient",
+                           "use alpha11, alpha12, alpha22, beta11, beta12, beta22, mass or damping");
+      }
+      *place = std::move(*field);
+    } else if (!c.region) {
+      next = s.material;
+      for (std::size_t i = 0; i < 3; ++i) {
+        next.alpha[i] = c.material.alpha[i];
+        next.beta[i] = c.material.beta[i];
+      }
+      if (c.mass) next.mass = *c.mass;
+      if (c.damping) next.damping = *c.damping;
+    } else {
+      const auto where = region_at(*s.reference, *c.region);
+      if (!where) return std::unexpected(where.error());
+      Region<2> region;
+      const auto& [u, v] = *where;
+      region.shape = ParameterBox<2>{{u.lower, v.lower}, {u.upper, v.upper}};
+      region.falloff = c.falloff;
+      // The fall-off is a fraction of the domain in either direction.
+      for (std::size_t d = 0; d < 2; ++d) region.factors[d] = 1 / s.reference->knots()[d].domain().length();
+      MaterialPaint<2> values;
+      for (std::size_t i = 0; i < 3; ++i) {
+        values.alpha[i] = c.material.alpha[i];
+        values.beta[i] = c.material.beta[i];
+      }
+      values.mass = c.mass;
+      values.damping = c.damping;
+      std::vector<KnotVector> hint;
+      for (std::size_t d = 0; d < 2; ++d) {
+        const Interval domain = s.reference->knots()[d].domain();
+        hint.push_back(*KnotVector::create(
+            2, {domain.lower, domain.lower, domain.lower, domain.upper, domain.upper, domain.upper}));
+      }
+      auto painted = paint<2>(s.material, values, region, {hint[0], hint[1]});
+      if (!painted) return std::unexpected(painted.error());
+      next = std::move(*painted);
+    }
+    if (auto checked = validated<2>(next); !checked) return std::unexpected(checked.error());
+    s.material = std::move(next);
+  }
+  return {};
+}
+
+}  // namespace knead

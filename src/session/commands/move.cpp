@@ -1,0 +1,22 @@
+#include "move.hpp"
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const MoveCommand& c) {
+  auto tool = find_tool(c.tool);
+  if (!tool) return std::unexpected(tool.error());
+  double unit = 1;
+  if (c.relative) {
+    const auto length = diagonal();
+    if (!length) return std::unexpected(length.error());
+    unit = *length;
+  }
+  const Placement& at = (*tool)->shape.placement();
+  auto moved = (*tool)->shape.moved(at.rotation, at.position + unit * Point(c.by[0], c.by[1], c.by[2]));
+  if (!moved) return std::unexpected(moved.error());
+  (*tool)->shape = std::move(*moved);
+  return {};
+}
+
+}  // namespace knead

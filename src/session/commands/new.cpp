@@ -1,0 +1,198 @@
+#include "new.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/exchange/step_text.hpp"
+#include "knead/spline/revolution.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double most_points = 4e6;
+
+Expected<void> positive(double value, const char* where) {
+  if (std::isfinite(value) && value > 0) return {};
+  return input_error(fmt::format("{} is not a length", value), where, "use a number > 0");
+}
+
+/// The knots of one direction, as given, or clamped and uniform with `count` functions.
+Expected<KnotVector> knots_of(const NewCommand& c, std::size_t d, int count, const char* counted_by) {
+  const std::vector<double>& given = d == 0 ? c.knots_u : c.knots_v;
+  auto made = given.empty() ? KnotVector::clamped_uniform(c.degree[d], count) : KnotVector::create(c.degree[d], given);
+  if (!made) return std::unexpected(made.error().within(given.empty() ? counted_by : d == 0 ? "knots_u" : "knots_v"));
+  return made;
+}
+
+Expected<void> check_weights(const std::vector<double>& weights, int count) {
+  if (weights.empty()) return {};
+  if (static_cast<int>(weights.size()) != count) {
+    return input_error(fmt::format("{} weights for {} control points", weights.size(), count), "weights",
+                       "give one for each, or none");
+  }
+  const auto bad = std::ranges::find_if(weights, [](double w) { return !(std::isfinite(w) && w > 0); });
+  if (bad == weights.end()) return {};
+  return input_error(fmt::format("{} is not a weight", *bad), fmt::format("weights[{}]", bad - weights.begin()),
+                     "use finite numbers > 0");
+}
+
+/// A sheet in z = 0, or the control points as given.
+Expected<Surface> net_of(const NewCommand& c) {
+  const bool explicit_points = !c.points.empty();
+  std::vector<KnotVector> knots;
+  for (std::size_t d = 0; d < 2; ++d) {
+    auto made = knots_of(c, d, c.net[d], "net");
+    if (!made) return std::unexpected(made.error());
+    if (!explicit_points && !(std::isfinite(c.size[d]) && c.size[d] > 0)) {
+      return input_error(fmt::format("{} is not a size", c.size[d]), "size", "use two numbers > 0");
+    }
+    knots.push_back(std::move(*made));
+  }
+  const int m = knots[0].count(), n = knots[1].count();
+  if (static_cast<double>(m) * n > most_points) {
+    return input_error("the net has more than 4 million control points", "net", "use fewer");
+  }
+  if (explicit_points && static_cast<double>(c.points.size()) != static_cast<double>(m) * n) {
+    return input_error(fmt::format("{} points for a net of {} x {}", c.points.size(), m, n), "points",
+                       fmt::format("give {}, along v first, or another net", m * n));
+  }
+  if (auto checked = check_weights(c.weights, m * n); !checked) return std::unexpected(checked.error());
+  Points points(static_cast<Eigen::Index>(m) * n, 3);
+  const Interval u = knots[0].domain(), v = knots[1].domain();
+  for (int i = 0; i < m; ++i) {
+    for (int j = 0; j < n; ++j) {
+      if (explicit_points) {
+        const Vector3& p = c.points[static_cast<std::size_t>(i * n + j)];
+        points.row(i * n + j) << p[0], p[1], p[2];
+      } else {
+        points.row(i * n + j) << c.size[0] * ((knots[0].greville(i) - u.lower) / u.length()),
+            c.size[1] * ((knots[1].greville(j) - v.lower) / v.length()), 0;
+      }
+    }
+  }
+  return Surface::create({knots[0], knots[1]}, std::move(points), c.weights);
+}
+
+/// The profile of a surface of revolution: control points (r, 0, z).
+Expected<Curve> profile_of(const NewCommand& c) {
+  const double radius = c.radius.value_or(0.5);
+  if (auto checked = positive(radius, "radius"); !checked) return std::unexpected(checked.error());
+  if (c.shape == "sphere") return circle_quarters({0, 0}, radius, -1, 2);
+  if (c.shape == "torus") {
+    const double minor = c.minor.value_or(radius / 4);
+    if (auto checked = positive(minor, "minor"); !checked) return std::unexpected(checked.error());
+    if (minor >= radius) {
+      return input_error(fmt::format("the tube radius {} is not less than the radius {}", minor, radius), "minor",
+                         "use a smaller one, or a larger radius");
+    }
+    return circle_quarters({radius, 0}, minor, 0, 4);
+  }
+  if (c.shape == "cylinder") {
+    const double height = c.height.value_or(2 * radius);
+    if (auto checked = positive(height, "height"); !checked) return std::unexpected(checked.error());
+    auto knots = knots_of(c, 1, c.net[1], "net");
+    if (!knots) return std::unexpected(knots.error());
+    Points points(knots->count(), 3);
+    const Interval v = knots->domain();
+    for (int j = 0; j < knots->count(); ++j) {
+      points.row(j) << radius, 0, height * ((knots->greville(j) - v.lower) / v.length());
+    }
+    return Curve::create({*std::move(knots)}, std::move(points));
+  }
+  const int count = static_cast<int>(c.profile.size());
+  auto knots = knots_of(c, 1, count, "profile");
+  if (!knots) return std::unexpected(knots.error());
+  if (knots->count() != count) {
+    return input_error(fmt::format("{} points of the profile for knots of {}", count, knots->count()), "profile",
+                       "give as many as the knots ask for: their number less degree and one");
+  }
+  if (auto checked = check_weights(c.weights, count); !checked) return std::unexpected(checked.error());
+  Points points(count, 3);
+  for (int j = 0; j < count; ++j) {
+    const auto& [r, z] = c.profile[static_cast<std::size_t>(j)];
+    if (r < 0) {
+      return input_error(fmt::format("the radius {} is negative", r), fmt::format("profile[{}]", j), "use r >= 0");
+    }
+    points.row(j) << r, 0, z;
+  }
+  return Curve::create({*std::move(knots)}, std::move(points), c.weights);
+}
+
+Expected<Surface> turned(const NewCommand& c) {
+  // What the circle has already.
+  if (!c.knots_u.empty()) {
+    return input_error("round shapes have their own knots in u", "knots_u", "leave it out: u is a circle of degree 2");
+  }
+  const bool own_profile = c.shape == "sphere" || c.shape == "torus";
+  if (own_profile && !c.knots_v.empty()) {
+    return input_error(fmt::format("a {} has its own knots", c.shape), "knots_v", "leave it out: v is a circle too");
+  }
+  if (c.shape != "revolution" && !c.weights.empty()) {
+    return input_error(fmt::format("a {} has its own weights", c.shape), "weights", "leave them out");
+  }
+  const auto profile = profile_of(c);
+  if (!profile) return std::unexpected(profile.error());
+  if (profile->size() * 9.0 > most_points) {
+    return input_error("the net has more than 4 million control points", "net", "use fewer");
+  }
+  return revolve(*profile);
+}
+
+Expected<Surface> shape_of(const NewCommand& c) {
+  static constexpr std::array<std::string_view, 5> shapes = {"plane", "cylinder", "sphere", "torus", "revolution"};
+  if (std::ranges::find(shapes, c.shape) == shapes.end()) {
+    return input_error(fmt::format("\"{}\" is not a shape", c.shape), "shape",
+                       "the shapes are: plane, cylinder, sphere, torus, revolution");
+  }
+  if (c.shape == "plane") return net_of(c);
+  if (!c.points.empty()) {
+    return input_error(fmt::format("both points and the shape \"{}\" are given", c.shape), "points",
+                       "leave one of them out");
+  }
+  return turned(c);
+}
+
+/// The surface with its origin at `position`; bits stay where that is zero.
+Expected<Surface> placed(Surface surface, const Vector3& position) {
+  if (position == Vector3{0, 0, 0}) return surface;
+  Points points = surface.control_points();
+  points.rowwise() += Eigen::RowVector3d(position[0], position[1], position[2]);
+  return surface.with_control_points(std::move(points));
+}
+
+}  // namespace
+
+template <>
+Expected<void> Executor::execute(const NewCommand& c) {
+  if (!document.is_fresh()) {
+    return input_error("surfaces can be made in a document without a file only", {},
+                       "start with `knead sculpt --new`, without a FILE");
+  }
+  const std::string present = state.surfaces.empty() ? document.unit() : state.surfaces.front().unit;
+  const std::string unit = c.unit.value_or(present);
+  if (!step::is_unit(unit)) {
+    return input_error(fmt::format("\"{}\" is not a unit", unit), "unit", "use um, mm, cm, m, km, inch or foot");
+  }
+  if (unit != present && !state.surfaces.empty()) {
+    return input_error(fmt::format("the surfaces of this document are in {}", present), "unit",
+                       "give lengths in that unit: a file has one");
+  }
+  auto made = shape_of(c);
+  if (!made) return std::unexpected(made.error());
+  auto at = placed(*std::move(made), c.position);
+  if (!at) return std::unexpected(at.error().within("position"));
+  const auto surface = std::make_shared<const Surface>(*std::move(at));
+  SceneSurface s;
+  s.id = fmt::format("#{}", state.surfaces.size() + 1);
+  s.name = c.name.value_or(!c.points.empty() ? "surface" : c.shape == "plane" ? "sheet" : c.shape);
+  s.unit = unit;
+  s.opened = s.reference = s.rest = s.current = surface;
+  state.surfaces.push_back(std::move(s));
+  state.selected = static_cast<int>(state.surfaces.size()) - 1;
+  state.together.clear();
+  return {};
+}
+
+}  // namespace knead

@@ -1,0 +1,45 @@
+#include "refine.hpp"
+
+#include <fmt/format.h>
+
+#include "knead/scene/places.hpp"
+#include "knead/spline/spline_refinement.hpp"
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const RefineCommand& c) {
+  if (c.permission) state.permission = *c.permission;
+  const bool knots = !c.knots_u.empty() || !c.knots_v.empty();
+  const int ways =
+      static_cast<int>(c.region.has_value()) + static_cast<int>(c.under.has_value()) + static_cast<int>(knots);
+  if (ways == 0 && c.permission) return {};
+  if (ways != 1) {
+    return input_error("what to refine is not clear", "region", "give one of region, under, and knots_u with knots_v");
+  }
+  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  if (c.under) {
+    auto tool = find_tool(c.under);
+    if (!tool) return std::unexpected(tool.error());
+    const auto any = refine_under(**tool);
+    if (!any) return std::unexpected(any.error());
+    if (!*any)
+      return input_error(fmt::format("the tool {} does not reach the surface", *c.under), "under", "move it nearer");
+    return {};
+  }
+  for (int index : state.selection()) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    Expected<void> done;
+    if (c.region) {
+      const auto region = region_at(*s.current, *c.region);
+      if (!region) return std::unexpected(region.error());
+      done = change_net(s, [&](const Surface& shape) { return refine_region<2>(shape, *region); });
+    } else {
+      done = change_net(s, [&](const Surface& shape) { return insert_knots<2>(shape, {c.knots_u, c.knots_v}); });
+    }
+    if (!done) return done;
+  }
+  return {};
+}
+
+}  // namespace knead

@@ -1,0 +1,125 @@
+#include "relax.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/scene/places.hpp"
+#include "knead/sculpt/domain_scaling.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+namespace {
+
+/// Of the bump w = (1 - ρ²)² on a disc of radius 1, clamped at its edge: ∫|∇w|² / ∫w² = 20/3 and ∫(Δw)² / ∫w² = 320/3.
+/// A plate under tension with β = r²/16 · α resists it by stretch and by bend alike, with 2 · 20/3 · α / r².
+constexpr double bend_share = 1. / 16;
+constexpr double resistance = 2 * 20. / 3;
+
+/// Whether each control point acts chiefly within the ball: the surface point at its Greville abscissae lies there.
+/// That whose point is nearest to the centre always does.
+Expected<std::vector<bool>> within(const Surface& surface, const Point& centre, double radius) {
+  const auto [m, n] = surface.net();
+  Parameters<2> places(surface.size(), 2);
+  for (int i = 0; i < m; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const Interval u = surface.knots(0).domain(), v = surface.knots(1).domain();
+      places.row(i * n + j) << std::clamp(surface.knots(0).greville(i), u.lower, u.upper),
+          std::clamp(surface.knots(1).greville(j), v.lower, v.upper);
+    }
+  }
+  const auto points = evaluate<2>(surface, places, 0);
+  if (!points) return std::unexpected(points.error());
+  const Eigen::VectorXd distances = (points->points().rowwise() - centre.transpose()).rowwise().norm();
+  std::vector<bool> result(static_cast<std::size_t>(surface.size()));
+  for (Eigen::Index k = 0; k < distances.size(); ++k) result[static_cast<std::size_t>(k)] = distances[k] <= radius;
+  Eigen::Index nearest = 0;
+  distances.minCoeff(&nearest);
+  result[static_cast<std::size_t>(nearest)] = true;
+  return result;
+}
+
+/// Partners move together.
+void add_mirror_images(const SceneSurface& surface, std::vector<bool>& free) {
+  const auto [m, n] = surface.current->net();
+  for (const KeptConstraint& kept : surface.constraints) {
+    const auto* symmetry = std::get_if<MirrorSymmetry>(&kept.constraint);
+    if (!symmetry) continue;
+    const std::vector<bool> own = free;
+    for (int i = 0; i < m; ++i) {
+      for (int j = 0; j < n; ++j) {
+        const auto [k, l] = mirror_image(*symmetry, {m, n}, {i, j});
+        if (own[static_cast<std::size_t>(i * n + j)]) free[static_cast<std::size_t>(k * n + l)] = true;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+template <>
+Expected<void> Executor::execute(const RelaxCommand& c) {
+  auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  if (!(c.strength > 0 && c.strength <= 1)) {
+    return input_error(fmt::format("{} is not a strength", c.strength), "strength", "use a number > 0, up to 1");
+  }
+  const auto length = diagonal();
+  if (!length) return std::unexpected(length.error());
+  const double radius = c.radius ? *c.radius * (c.relative ? *length : 1) : 0.1 * *length;
+  if (!(std::isfinite(radius) && radius > 0)) {
+    return input_error(fmt::format("{} is not a radius", radius), "radius", "use a number > 0");
+  }
+  const auto centre_at = parameters_at(*(*surface)->current, c.at);
+  if (!centre_at) return std::unexpected(centre_at.error());
+  const auto centre = evaluate_point<2>(*(*surface)->current, *centre_at);
+  if (!centre) return std::unexpected(centre.error());
+  auto free = within(*(*surface)->current, *centre, radius);
+  if (!free) return std::unexpected(free.error());
+  add_mirror_images(**surface, *free);
+  const auto scaling = normalised_scaling(*(*surface)->reference);
+  if (!scaling) return std::unexpected(scaling.error());
+
+  // A thin plate that has no rest shape, with all that lies outside pinned: the step of the model in a state of its
+  // own.
+  const double unit_radius = radius / scaling->length, bend = bend_share * unit_radius * unit_radius;
+  SessionState trial = state;
+  trial.tools.clear();
+  trial.forces.clear();
+  trial.load = {};
+  trial.scaling = ScalingMode::normalised;
+  trial.permission = RefinePermission::never;
+  for (int index : trial.selection()) {
+    SceneSurface& s = trial.surfaces[static_cast<std::size_t>(index)];
+    s.mode = RestMode::none;
+    s.material = MaterialFieldOf<2>(MaterialOf<2>{{1, 0, 1}, {bend, bend, bend}});
+    s.velocity = Points(0, 3);
+    const auto [m, n] = s.current->net();
+    for (int i = 0; i < m; ++i) {
+      for (int j = 0; j < n; ++j) {
+        if (index != *trial.selected || !(*free)[static_cast<std::size_t>(i * n + j)]) s.pins.insert({i, j});
+      }
+    }
+  }
+  EvolutionPolicy plate;
+  const double share = std::min(c.strength, 0.999);  // all of it would be the static solution
+  plate.lambda = resistance / (unit_radius * unit_radius) * (1 - share) / share;
+  std::optional<SceneModel> model;  // the one that steps use stays as it is
+  Executor own{document, model, trial, progress};
+  if (auto done = own.run(1, plate); !done) return done;
+
+  for (int index : state.selection()) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    const auto& relaxed = trial.surfaces[static_cast<std::size_t>(index)].current;
+    if (relaxed->control_points() == s.current->control_points()) continue;
+    auto rest =
+        s.rest->with_control_points(s.rest->control_points() + relaxed->control_points() - s.current->control_points());
+    if (!rest) return std::unexpected(rest.error());
+    s.rest = s.rest == s.current ? relaxed : std::make_shared<const Surface>(std::move(*rest));
+    s.current = relaxed;
+  }
+  return {};
+}
+
+}  // namespace knead

@@ -1,0 +1,22 @@
+#include "scale.hpp"
+
+#include <fmt/format.h>
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const ScaleCommand& c) {
+  auto tool = find_tool(c.tool);
+  if (!tool) return std::unexpected(tool.error());
+  Placement at = (*tool)->shape.placement();
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(c.by[k] > 0)) return input_error(fmt::format("{} is not a factor", c.by[k]), "by", "use three numbers > 0");
+    at.scale[k] *= c.by[k];
+  }
+  auto scaled = PlacedShape::create((*tool)->shape.shape(), at);
+  if (!scaled) return std::unexpected(scaled.error());
+  (*tool)->shape = std::move(*scaled);
+  return {};
+}
+
+}  // namespace knead

@@ -1,0 +1,39 @@
+#include "select.hpp"
+
+#include <algorithm>
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const SelectCommand& c) {
+  std::vector<std::string> ids = c.surfaces.value_or(std::vector<std::string>{});
+  if (c.surface) ids.insert(ids.begin(), *c.surface);
+  if (ids.empty()) return input_error("the field is missing", "surface", "give \"surface\" or \"surfaces\"");
+  std::vector<int> chosen;
+  for (const std::string& id : ids) {
+    auto index = find_surface(id);
+    if (!index) {
+      if (&id - ids.data() >= (c.surface ? 1 : 0) && index.error().where == "surface") index.error().where = "surfaces";
+      return std::unexpected(index.error());
+    }
+    if (std::ranges::find(chosen, *index) == chosen.end()) chosen.push_back(*index);
+  }
+  if (c.connected) {
+    std::vector<const Surface*> all;
+    for (const SceneSurface& s : state.surfaces) all.push_back(s.reference.get());
+    const auto found = seams_between(state.seams, all);
+    if (!found) return std::unexpected(found.error());
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      for (const Seam& seam : found->seams) {
+        if (seam.kind == SeamKind::partial) continue;
+        const int other = seam.a.patch == chosen[k] ? seam.b.patch : seam.b.patch == chosen[k] ? seam.a.patch : -1;
+        if (other >= 0 && std::ranges::find(chosen, other) == chosen.end()) chosen.push_back(other);
+      }
+    }
+  }
+  state.selected = chosen.front();
+  state.together.assign(chosen.begin() + 1, chosen.end());
+  return {};
+}
+
+}  // namespace knead

@@ -1,0 +1,42 @@
+#include "symmetry.hpp"
+
+#include <fmt/format.h>
+
+#include "knead/sculpt/constraints.hpp"
+#include "refine.hpp"
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const SymmetryCommand& c) {
+  auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  if (c.edge.has_value() == c.mirror.has_value()) {
+    return input_error("one of edge and mirror is needed", "symmetry", "give exactly one of them");
+  }
+  if (c.edge && !(c.point && c.normal)) return input_error("the plane is missing", "normal", "give point and normal");
+  if (c.mirror && *c.mirror != "u" && *c.mirror != "v") {
+    return input_error(fmt::format("\"{}\" is not a direction", *c.mirror), "mirror", "use u or v");
+  }
+  if (c.mirror && state.permission == RefinePermission::automatic) {
+    // Exactly the knots that make the net symmetric.
+    const int direction = *c.mirror == "u" ? 0 : 1;
+    const auto plane = mirror_plane(*(*surface)->reference, direction);
+    if (!plane) return std::unexpected(plane.error());
+    const auto report = mirror_report(*(*surface)->reference, direction, *plane, 1e-9);
+    if (!report) return std::unexpected(report.error());
+    if (!report->insert.empty()) {
+      RefineCommand refine;
+      (direction == 0 ? refine.knots_u : refine.knots_v) = report->insert;
+      if (auto done = execute(refine); !done) return done;
+    }
+  }
+  std::optional<MirrorPlane> plane;
+  if (c.point && c.normal) {
+    plane = {Point((*c.point)[0], (*c.point)[1], (*c.point)[2]), Point((*c.normal)[0], (*c.normal)[1], (*c.normal)[2])};
+  }
+  if (c.edge) return keep(EdgeSymmetry{*c.edge, *plane});
+  return keep(MirrorSymmetry{*c.mirror == "u" ? 0 : 1, plane});
+}
+
+}  // namespace knead

@@ -1,0 +1,40 @@
+#include "weights.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace knead {
+
+template <>
+Expected<void> Executor::execute(const WeightsCommand& c) {
+  auto surface = selected_alone();
+  if (!surface) return std::unexpected(surface.error());
+  SceneSurface& s = **surface;
+  const auto named = indices_of(c.points, s.current->net());
+  if (!named) return std::unexpected(named.error());
+  if (c.weight.has_value() == c.by.has_value()) {
+    return input_error("one of weight and by is needed", "weight", "give a weight > 0, or by, a factor");
+  }
+  const char* const where = c.weight ? "weight" : "by";
+  const double value = c.weight ? *c.weight : *c.by;
+  const auto refused = [&](double number) {
+    return input_error(fmt::format("{} is not a {}", number, c.weight ? "weight" : "factor"), where,
+                       "use a finite number > 0");
+  };
+  if (!(std::isfinite(value) && value > 0)) return refused(value);
+  std::vector<double> weights(s.current->weights().begin(), s.current->weights().end());
+  weights.resize(static_cast<std::size_t>(s.current->size()), 1.0);
+  for (int row : *named) {
+    double& weight = weights[static_cast<std::size_t>(row)];
+    weight = c.weight ? value : weight * value;
+    if (!(std::isfinite(weight) && weight > 0)) {
+      return input_error(fmt::format("the weight of control point {} would be {}", row, weight), where,
+                         "weights are finite numbers > 0");
+    }
+  }
+  return change_basis(
+      s, [&](const Surface& shape) { return Surface::create(shape.knots(), shape.control_points(), weights); });
+}
+
+}  // namespace knead

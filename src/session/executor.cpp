@@ -1,0 +1,93 @@
+#include "executor.hpp"
+
+#include <fmt/format.h>
+
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+
+Expected<SceneSurface*> Executor::selected() {
+  if (state.selected) return &state.surfaces[static_cast<std::size_t>(*state.selected)];
+  if (document.is_fresh() && state.surfaces.empty()) {
+    return input_error("there is no surface yet", {}, R"(make one first: {"do":"new","size":[1,1],"net":[8,8]})");
+  }
+  if (state.surfaces.empty()) {
+    return input_error("the file has no B-spline surface that could be sculpted", document.name());
+  }
+  return input_error(fmt::format("none of the {} surfaces is selected", state.surfaces.size()), {},
+                     fmt::format(R"(select one first: {{"do":"select","surface":"{}"}})", state.surfaces.front().id));
+}
+
+Expected<SceneSurface*> Executor::selected_alone() {
+  auto surface = selected();
+  if (!surface || state.together.empty()) return surface;
+  return input_error(
+      fmt::format("{} surfaces are selected", state.together.size() + 1), "select",
+      fmt::format(R"(select the one that is meant alone: {{"do":"select","surface":"{}"}})", (*surface)->id));
+}
+
+Expected<int> Executor::find_surface(const std::string& id) const {
+  constexpr std::size_t listed = 12;
+  std::string known;
+  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
+    if (state.surfaces[k].id == id) return static_cast<int>(k);
+    if (k < listed) known += (k == 0 ? "" : ", ") + state.surfaces[k].id;
+  }
+  if (!document.is_fresh()) {
+    for (const step::UnreadableSurface& s : document.file().unreadable_surfaces()) {
+      if (s.id == id) return std::unexpected(s.reason);
+    }
+  }
+  if (state.surfaces.size() > listed) known += ", …";
+  return input_error(
+      fmt::format("{} has no surface {}", document.name(), id), "surface",
+      known.empty() ? "the file has no B-spline surface that could be sculpted" : "its surfaces are: " + known);
+}
+
+Expected<Tool*> Executor::find_tool(const std::optional<std::string>& name) {
+  std::string known;
+  for (Tool& t : state.tools) {
+    if (name ? t.name == *name : state.tools.size() == 1) return &t;
+    known += (known.empty() ? "" : ", ") + t.name;
+  }
+  if (known.empty()) return input_error("there is no tool", "tool", "make one first with the command tool");
+  return input_error(name ? fmt::format("there is no tool \"{}\"", *name) : "which tool is not said", "tool",
+                     "the tools are: " + known);
+}
+
+Expected<double> Executor::diagonal() {
+  auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  return bounding_box(*(*surface)->reference).diagonal();
+}
+
+Expected<void> Executor::keep(const Constraint& constraint) {
+  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  for (int k : state.selection()) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    s.constraints.push_back({constraint, s.current});
+  }
+  return check_constraints();
+}
+
+Expected<void> Executor::check_constraints() {
+  // What cannot be made is refused now and not at the next step. A large lambda makes a model of whatever can step.
+  EvolutionPolicy evolution;
+  evolution.lambda = 1e6;
+  auto model = make_model(model_input(state, evolution));
+  if (!model) return std::unexpected(model.error());
+  return {};
+}
+
+Expected<void> Executor::change_basis(SceneSurface& surface, const SurfaceChange& change) {
+  if (state.limit) {
+    return input_error("a limit is measured on the weights and knots that the surface was opened with", "limit",
+                       R"(end it first: {"do":"limit"})");
+  }
+  // `opened` stays what it is: deviations are measured from there.
+  if (auto done = knead::change_basis(surface, change); !done) return done;
+  surface.velocity.resize(0, 3);  // it is a spline on the old basis
+  return surface.constraints.empty() ? Expected<void>() : check_constraints();
+}
+
+}  // namespace knead

@@ -1,0 +1,70 @@
+#include "restated.hpp"
+
+namespace knead {
+namespace {
+
+Vector3 array_of(const Point& p) { return {p[0], p[1], p[2]}; }
+Point point_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
+
+/// All edges in the order of `SurfaceEdge`, after `EdgeChoice::all`.
+EdgeChoice choice_of(SurfaceEdge edge) { return static_cast<EdgeChoice>(static_cast<int>(edge) + 1); }
+
+std::optional<MirrorPlane> plane_given(const SymmetryCommand& c) {
+  if (!c.point || !c.normal) return std::nullopt;
+  return MirrorPlane{point_of(*c.point), point_of(*c.normal)};
+}
+
+struct Restate {
+  Command operator()(const EdgeHold& c) const {
+    return make_command(EdgeCommand{choice_of(c.edge), static_cast<EdgeCondition>(c.order)});
+  }
+  Command operator()(const PointPin& c) const {
+    PinCommand pin;
+    pin.at = c.at;
+    pin.to = c.to;
+    return make_command(pin);
+  }
+  Command operator()(const Freeze& c) const { return make_command(FreezeCommand{c}); }
+  Command operator()(const Keep& c) const { return make_command(KeepCommand{c}); }
+  Command operator()(const EdgeSymmetry& c) const {
+    SymmetryCommand symmetry;
+    symmetry.edge = c.which;
+    symmetry.point = array_of(c.plane.point);
+    symmetry.normal = array_of(c.plane.normal);
+    return make_command(symmetry);
+  }
+  Command operator()(const MirrorSymmetry& c) const {
+    SymmetryCommand symmetry;
+    symmetry.mirror = c.direction == 0 ? "u" : "v";
+    if (c.plane) {
+      symmetry.point = array_of(c.plane->point);
+      symmetry.normal = array_of(c.plane->normal);
+    }
+    return make_command(symmetry);
+  }
+};
+
+}  // namespace
+
+Command restated(const Constraint& constraint) { return std::visit(Restate{}, constraint); }
+
+std::optional<Constraint> constraint_of(const Command& command) {
+  if (const auto* c = fields_of<EdgeCommand>(command)) {
+    if (c->which == EdgeChoice::all || c->hold == EdgeCondition::free) return std::nullopt;
+    return EdgeHold{edges_of(c->which).front(), static_cast<int>(c->hold)};
+  }
+  if (const auto* c = fields_of<PinCommand>(command)) {
+    if (!c->at) return std::nullopt;
+    return PointPin{*c->at, c->to};
+  }
+  if (const auto* c = fields_of<FreezeCommand>(command)) return c->freeze;
+  if (const auto* c = fields_of<KeepCommand>(command)) return c->keep;
+  if (const auto* c = fields_of<SymmetryCommand>(command)) {
+    const auto plane = plane_given(*c);
+    if (c->mirror) return MirrorSymmetry{*c->mirror == "u" ? 0 : 1, plane};
+    if (c->edge && plane) return EdgeSymmetry{*c->edge, *plane};
+  }
+  return std::nullopt;
+}
+
+}  // namespace knead

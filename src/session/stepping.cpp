@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "executor.hpp"
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double coarse = 0.5;      // spans longer than this share of a tool follow it with a loss
+constexpr double too_coarse = 1;    // longer than this, they cannot follow it
+constexpr int max_refinements = 5;  // of the net under a tool, where refining is permitted
+
+/// Rounds of halving after which spans are no longer coarse.
+int halvings(double coarseness) { return static_cast<int>(std::ceil(std::log2(coarseness / coarse))); }
+
+/// What a user is told of a step: its own note, or that the net is too coarse for a tool.
+std::string note_of(const ActiveStep& step) {
+  if (!step.note.empty() || step.coarseness <= too_coarse) return step.note;
+  return fmt::format(
+      "the net is too coarse to follow the tool: its spans are up to {:.2g} times the tool's size; "
+      "halve them {} with {{\"do\":\"refine\",\"under\":\"…\"}}",
+      step.coarseness, halvings(step.coarseness) == 1 ? "once" : fmt::format("{} times", halvings(step.coarseness)));
+}
+
+}  // namespace
+
+Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more, int done,
+                             int total) {
+  auto selection = selected();
+  if (!selection) return std::unexpected(selection.error());
+  if (state.permission == RefinePermission::automatic) {
+    if (auto refined = refine_seams(); !refined) return refined;
+  }
+  int refinements = 0, stepped = 0;
+  while (stepped < count) {
+    if (auto made = prepare_model(evolution); !made) return made;
+    double seconds = 0;
+    const auto step = one_step(more, seconds);
+    if (!step) return std::unexpected(step.error());
+    if (step->coarseness > coarse && state.permission == RefinePermission::automatic && refinements < max_refinements &&
+        more.empty()) {
+      bool any = false;
+      for (const Tool& tool : state.tools) {
+        auto refined = refine_under(tool);
+        if (!refined) return std::unexpected(refined.error());
+        any = any || *refined;
+      }
+      if (any) {  // this step again, on the finer net
+        ++refinements;
+        continue;
+      }
+    }
+    if (auto taken = take(*step); !taken) return taken;
+    record(*step, seconds, note_of(*step));
+    ++stepped;
+    if (progress) progress(done + stepped, total > 0 ? total : count);
+  }
+  if (stepped > 0) note_model();
+  return {};
+}
+
+Expected<void> Executor::prepare_model(const EvolutionPolicy& evolution) {
+  ModelInput input = model_input(state, evolution);
+  if (cache && cache->input == input) return {};
+  cache.reset();
+  auto made = make_model(std::move(input));
+  if (!made) return std::unexpected(made.error());
+  cache = std::move(*made);
+  return {};
+}
+
+Expected<ActiveStep> Executor::one_step(const std::vector<PointForce>& more, double& seconds) {
+  const ActiveSurface& model = cache->model;
+  const auto tools = tools_and_images(state);
+  if (!tools) return std::unexpected(tools.error());
+  auto loads = active_loads(state, model);
+  if (!loads) return std::unexpected(loads.error());
+  loads->points.insert(loads->points.end(), more.begin(), more.end());
+  const ActiveState before = active_state(state);
+  if (!state.energy_before) state.energy_before = model.energy(before);
+  const auto start = std::chrono::steady_clock::now();
+  auto step = model.step(before, *tools, *loads);
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return step;
+}
+
+Expected<void> Executor::take(const ActiveStep& step) {
+  Eigen::Index first = 0;
+  const bool imprinting =
+      step.gap > 0 && std::ranges::any_of(state.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
+  for (int index : state.selection()) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    const Eigen::Index n = s.current->size();
+    auto moved = s.current->with_control_points(step.control_points.middleRows(first, n));
+    if (!moved) return std::unexpected(moved.error());
+    if (moved->control_points() != s.current->control_points()) {
+      s.current = std::make_shared<const Surface>(std::move(*moved));
+    }
+    s.velocity = step.velocity.rows() > 0 ? Points(step.velocity.middleRows(first, n)) : Points(0, 3);
+    if (imprinting) s.rest = s.current;
+    first += n;
+  }
+  return {};
+}
+
+void Executor::record(const ActiveStep& step, double seconds, std::string note) {
+  StepRecord record;
+  record.surface = *state.selected;
+  record.time = seconds;
+  record.energy = step.energy;
+  record.stretch = step.stretch;
+  record.bend = step.bend;
+  record.kinetic = step.kinetic;
+  record.contact = step.contact;
+  record.residual = step.residual;
+  for (int index : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    record.largest_displacement = std::max(record.largest_displacement, largest_distance(*s.current, *s.opened));
+  }
+  record.gap = step.gap;
+  record.violation = step.violation;
+  record.iterations = step.iterations;
+  record.converged = step.converged;
+  record.limited = step.limited;
+  record.note = std::move(note);
+  state.steps.push_back(std::move(record));
+}
+
+void Executor::note_model() {
+  state.seam_reports = cache->seams;
+  const std::vector<int> selection = state.selection();
+  for (SeamReport& report : state.seam_reports) {
+    for (PatchEdge* edge : {&report.seam.a, &report.seam.b}) {
+      edge->patch = selection[static_cast<std::size_t>(edge->patch)];
+    }
+  }
+  for (const std::string& note : cache->notes) {
+    if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
+  }
+}
+
+Expected<void> Executor::yield(double plasticity) {
+  if (plasticity == 0) return {};
+  for (int index : state.selection()) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    if (plasticity == 1) {
+      s.rest = s.current;
+      continue;
+    }
+    auto rest = s.rest->with_control_points(s.rest->control_points() +
+                                            plasticity * (s.current->control_points() - s.rest->control_points()));
+    if (!rest) return std::unexpected(rest.error());
+    s.rest = std::make_shared<const Surface>(std::move(*rest));
+  }
+  return {};
+}
+
+}  // namespace knead
