@@ -89,7 +89,7 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& mode
       const auto there = parameters_at(*s.current, at);
       if (!there) return std::unexpected(there.error());
       PointForce image = force;
-      image.terms = basis_terms(*s.current, *there, 0);
+      image.terms = basis_terms(*s.current, *there, first);
       const Point n = plane->normal.normalized();
       image.to -= 2 * n.dot(image.to - plane->point) * n;
       loads.points.push_back(std::move(image));

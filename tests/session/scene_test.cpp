@@ -1,0 +1,112 @@
+// What a scene keeps is told once, and follows the net and the patches it belongs to.
+#include "knead/scene/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "knead/scene/model.hpp"
+#include "sheet.hpp"
+
+namespace knead {
+namespace {
+
+using testing::at;
+using testing::first;
+using testing::fresh;
+using testing::on_sheet;
+using testing::refusal;
+using testing::run;
+using testing::same_bits;
+
+TEST(Scene, MirrorImageOfAPointForcePullsOnItsOwnPatch) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,10],"net":[10,10]})", R"({"do":"edge"})",
+                R"({"do":"new","size":[10,10],"net":[10,10],"position":[20,0,0]})", R"({"do":"edge"})",
+                R"({"do":"symmetry","mirror":"u"})", R"({"do":"force","at":[0.25,0.5],"to":[22.5,5,5],"strength":20})",
+                R"({"do":"select","surfaces":["#1","#2"]})", R"({"do":"step"})"});
+  const SceneSurface &other = session.state().surfaces[0], &pulled = session.state().surfaces[1];
+  EXPECT_TRUE(same_bits(*other.current, *other.opened));
+  const double height = at(*pulled.current, 0.25, 0.5).z();
+  EXPECT_GT(height, 0.1);
+  EXPECT_NEAR(at(*pulled.current, 0.75, 0.5).z(), height, 1e-9 * height);
+}
+
+TEST(Scene, MirrorImageOfAPointForcePullsAsOnASurfaceAlone) {
+  const std::vector<std::string> pulled = {R"({"do":"edge"})", R"({"do":"symmetry","mirror":"u"})",
+                                           R"({"do":"force","at":[0.25,0.5],"to":[22.5,5,5],"strength":20})"};
+  const std::string sheet = R"({"do":"new","size":[10,10],"net":[10,10],"position":[20,0,0]})";
+  Session alone = fresh(), second = fresh();
+  run(alone, {sheet});
+  run(alone, pulled);
+  run(alone, {R"({"do":"step"})"});
+  run(second, {R"({"do":"new","size":[10,10],"net":[10,10]})", R"({"do":"edge"})", sheet});
+  run(second, pulled);
+  run(second, {R"({"do":"select","surfaces":["#1","#2"]})", R"({"do":"step"})"});
+  EXPECT_LE((first(alone).current->control_points() - second.state().surfaces[1].current->control_points())
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-9);
+}
+
+/// A sheet that swings upwards.
+Session swinging() {
+  return on_sheet(
+      {R"({"do":"evolve","mode":"dynamic","time_step":0.05})", testing::lift, R"({"do":"step","count":3})"});
+}
+
+Surface velocity_of(const Session& session) {
+  return *first(session).current->with_control_points(first(session).velocity);
+}
+
+TEST(Scene, VelocityFollowsRefinement) {
+  for (const char* finer :
+       {R"({"do":"refine","region":[[0.2,0.6],[0,1]]})", R"({"do":"elevate"})", R"({"do":"refine","knots_v":[0.3]})"}) {
+    Session session = swinging();
+    const Surface before = velocity_of(session);
+    run(session, {finer});
+    ASSERT_EQ(first(session).velocity.rows(), first(session).current->size()) << finer;
+    const Surface after = velocity_of(session);
+    double fastest = 0;
+    for (double s : {0.1, 0.25, 0.5, 0.55, 0.9}) {
+      for (double t : {0.2, 0.5, 0.7}) {
+        EXPECT_LE((at(after, s, t) - at(before, s, t)).norm(), 1e-13) << finer;
+        fastest = std::max(fastest, at(before, s, t).norm());
+      }
+    }
+    EXPECT_GT(fastest, 0.01);
+  }
+}
+
+TEST(Scene, SwingingGoesOnOverARefinement) {
+  Session plain = swinging(), refined = swinging();
+  run(refined, {R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"step"})"});
+  run(plain, {R"({"do":"step"})"});
+  const double kinetic = plain.state().steps.back().kinetic;
+  EXPECT_NEAR(refined.state().steps.back().kinetic, kinetic, 0.05 * kinetic);
+}
+
+TEST(Scene, CoarseningSaysThatTheSurfaceStops) {
+  Session session = swinging();
+  run(session, {R"({"do":"refine","region":[[0,1],[0,1]]})", R"({"do":"coarsen","tolerance":0.01})"});
+  EXPECT_EQ(first(session).velocity.rows(), 0);
+  EXPECT_NE(session.state().notes.back().find("at rest"), std::string::npos) << session.state().notes.back();
+}
+
+TEST(Scene, EqualInputsAreWhatAModelDependsOn) {
+  Session session = on_sheet({testing::ball});
+  const ModelInput before = model_input(session.state(), session.state().evolution);
+  run(session, {R"({"do":"move","by":[1,0,0]})", R"({"do":"load","pressure":1})", R"({"do":"limit","distance":3})",
+                R"({"do":"force","at":[0.5,0.5],"to":[0,0,1]})"});
+  EXPECT_EQ(model_input(session.state(), session.state().evolution), before);
+  for (const char* other :
+       {R"({"do":"hold","rows":1})", R"({"do":"pin","control_points":[[4,4]]})", R"({"do":"seams","couple":false})",
+        R"({"do":"evolve","lambda":2})", R"({"do":"material","mass":3})", R"({"do":"smooth","poles":false})",
+        R"({"do":"scaling","mode":"raw"})", R"({"do":"tool","radius":0.5,"position":[5,5,9]})",
+        R"({"do":"keep","u":0.5})", R"({"do":"edge","which":"u0","hold":"free"})"}) {
+    run(session, {other});
+    EXPECT_NE(model_input(session.state(), session.state().evolution), before) << other;
+    run(session, {R"({"do":"undo"})"});
+  }
+}
+
+}  // namespace
+}  // namespace knead
