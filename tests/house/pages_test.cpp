@@ -14,6 +14,10 @@ TEST(House, PageOfTheThesisNamesWhatExists) {
   for (const std::string& error : thesis_page_errors(KNEAD_SOURCE_DIR)) ADD_FAILURE() << error;
 }
 
+TEST(House, CitationsOfTheThesisHaveARow) {
+  for (const std::string& error : citation_errors(KNEAD_SOURCE_DIR)) ADD_FAILURE() << error;
+}
+
 TEST(House, PagesLinkToWhatExists) {
   for (const std::string& link : dead_links(KNEAD_SOURCE_DIR)) ADD_FAILURE() << link;
 }
