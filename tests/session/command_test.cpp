@@ -66,7 +66,7 @@ TEST(Command, NewRefuses) {
 }
 
 TEST(Command, RawUnitsGiveThePlatesDeflections) {
-  // Thin plate, energy of Eq. 4.15: half of the biharmonic one; series: 0.00126532 clamped, 0.00406235 supported.
+  // Thin plate, energy of thesis Eq. 4.15: half the biharmonic one; series: 0.00126532 clamped, 0.00406235 supported.
   const auto deflection = [](const std::string& hold) {
     Session session = fresh();
     run(session, {R"({"do":"scaling","mode":"raw"})", R"({"do":"new","net":[34,34]})",
