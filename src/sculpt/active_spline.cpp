@@ -35,7 +35,7 @@ SparseMatrix block_diagonal(std::vector<SparseMatrix> blocks) {
 }
 
 template <int D>
-Expected<void> check(const ActiveSettings<D>& s) {
+Expected<void> validate_numbers(const ActiveSettings<D>& s) {
   if (const auto material = validated<D>(s.material); !material) return std::unexpected(material.error());
   for (const MaterialFieldOf<D>& field : s.fields) {
     if (const auto checked = validated<D>(field); !checked) return std::unexpected(checked.error());
@@ -55,6 +55,22 @@ Expected<void> check(const ActiveSettings<D>& s) {
   return {};
 }
 
+template <int D>
+Expected<void> validate(const std::vector<Spline<D>>& patches, const ActiveSettings<D>& settings) {
+  if (auto checked = validate_numbers<D>(settings); !checked) return checked;
+  if (patches.empty()) return usage_error("there is nothing to make active");
+  int size = 0;
+  for (const Spline<D>& patch : patches) size += patch.size();
+  if (!settings.fields.empty() && settings.fields.size() != patches.size()) {
+    return usage_error(fmt::format("{} materials do not fit {} patches", settings.fields.size(), patches.size()));
+  }
+  if (!settings.held.empty() && settings.held.size() != static_cast<std::size_t>(size)) {
+    return usage_error(
+        fmt::format("{} flags of held control points do not fit {} control points", settings.held.size(), size));
+  }
+  return {};
+}
+
 /// The parts of the energy: stretch has a first derivative in every factor of a term, bend a second.
 template <int D>
 std::array<Energy<D>, 2> parts(const MaterialOf<D>& material) {
@@ -67,139 +83,192 @@ std::array<Energy<D>, 2> parts(const MaterialOf<D>& material) {
   return result;
 }
 
-}  // namespace
+/// The rest shape: its control points, patch after patch, and what places are measured by.
+struct RestShape {
+  std::vector<int> rows = {0};  // first of every patch, and the end
+  Points points;
+  Point centre;
+  double diagonal;  // of the control points
+};
 
 template <int D>
-Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches, const ActiveSettings<D>& settings) {
-  if (auto checked = check<D>(settings); !checked) return std::unexpected(checked.error());
-  if (patches.empty()) return usage_error("there is nothing to make active");
-  std::vector<int> rows = {0};
-  for (const Spline<D>& patch : patches) rows.push_back(rows.back() + patch.size());
-  const int size = rows.back();
-  if (!settings.fields.empty() && settings.fields.size() != patches.size()) {
-    return usage_error(fmt::format("{} materials do not fit {} patches", settings.fields.size(), patches.size()));
-  }
-  if (!settings.held.empty() && settings.held.size() != static_cast<std::size_t>(size)) {
-    return usage_error(
-        fmt::format("{} flags of held control points do not fit {} control points", settings.held.size(), size));
-  }
+RestShape at_rest(const std::vector<Spline<D>>& patches) {
+  RestShape rest;
+  for (const Spline<D>& patch : patches) rest.rows.push_back(rest.rows.back() + patch.size());
+  rest.points.resize(rest.rows.back(), 3);
+  for (std::size_t k = 0; k < patches.size(); ++k)
+    rest.points.middleRows(rest.rows[k], patches[k].size()) = patches[k].control_points();
+  const Eigen::RowVector3d lower = rest.points.colwise().minCoeff(), upper = rest.points.colwise().maxCoeff();
+  rest.centre = (lower + 0.5 * (upper - lower)).transpose();
+  rest.diagonal = (upper - lower).norm();
+  return rest;
+}
+
+/// What is assembled patch by patch; everything in the units of the first patch's scaling.
+template <int D>
+struct Assembly {
   std::vector<DomainScaling<D>> scalings;
   std::vector<ToolLoad<D>> loads;
-  std::vector<GrevilleForce<D>> greville;
+  std::vector<GrevilleForce<D>> greville;  // for the analytic route
   std::vector<SparseMatrix> stretch, bend, weight, mass, damping;
-  const StiffnessOptions options{settings.method, 0};
+};
+
+template <int D>
+Expected<SparseMatrix> assemble_energy(const Spline<D>& patch, const Energy<D>& energy, const DomainScaling<D>& scaling,
+                                       const StiffnessOptions& options) {
+  const auto matrix = Stiffness<D>::create(patch, on_scaled_domain<D>(energy, scaling.factors), options);
+  if (!matrix) return std::unexpected(matrix.error());
+  return matrix->assemble();
+}
+
+/// The matrices of patch k, whose scaling is known already.
+template <int D>
+Expected<void> assemble_matrices(const Spline<D>& patch, std::size_t k, const ActiveSettings<D>& settings,
+                                 const StiffnessOptions& options, Assembly<D>& to) {
+  const DomainScaling<D>& scaling = to.scalings[k];
+  auto weight = assemble_energy<D>(patch, mass_energy<D>(), scaling, options);
+  if (!weight) return std::unexpected(weight.error());
+  to.weight.push_back(std::move(*weight));
+  if (!settings.fields.empty()) {
+    auto matrices = FieldAssembler<D>(patch, options).assemble(settings.fields[k], scaling.factors);
+    if (!matrices) return std::unexpected(matrices.error());
+    to.stretch.push_back(std::move(matrices->stretch));
+    to.bend.push_back(std::move(matrices->bend));
+    to.mass.push_back(std::move(matrices->mass));
+    to.damping.push_back(std::move(matrices->damping));
+    return {};
+  }
   const auto [stretching, bending] = parts<D>(settings.material);
-  Points rest(size, 3);
+  auto stretch = assemble_energy<D>(patch, stretching, scaling, options);
+  if (!stretch) return std::unexpected(stretch.error());
+  auto bend = assemble_energy<D>(patch, bending, scaling, options);
+  if (!bend) return std::unexpected(bend.error());
+  to.stretch.push_back(std::move(*stretch));
+  to.bend.push_back(std::move(*bend));
+  to.mass.push_back(settings.mass * to.weight.back());
+  to.damping.push_back(settings.damping * to.weight.back());
+  return {};
+}
+
+/// What evaluates the forces of tools on patch k.
+template <int D>
+Expected<void> assemble_forces(const Spline<D>& patch, std::size_t k, const ActiveSettings<D>& settings,
+                               const StiffnessOptions& options, Assembly<D>& to) {
+  auto load = ToolLoad<D>::create(patch, to.scalings[k],
+                                  settings.detail > 0 ? settings.detail : std::numeric_limits<double>::infinity());
+  if (!load) return std::unexpected(load.error());
+  to.loads.push_back(std::move(*load));
+  if (settings.route == ForceRoute::analytic) {
+    auto force = GrevilleForce<D>::create(patch, to.scalings[k], options);
+    if (!force) return std::unexpected(force.error());
+    to.greville.push_back(std::move(*force));
+  }
+  return {};
+}
+
+template <int D>
+Expected<Assembly<D>> assemble(const std::vector<Spline<D>>& patches, const ActiveSettings<D>& settings) {
+  const StiffnessOptions options{settings.method, 0};
+  Assembly<D> result;
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    const Spline<D>& patch = patches[k];
-    rest.middleRows(rows[k], patch.size()) = patch.control_points();
     DomainScaling<D> scaling;
     if (!settings.raw) {
-      const auto normalised = normalised_scaling<D>(patch);
+      const auto normalised = normalised_scaling<D>(patches[k]);
       if (!normalised) return std::unexpected(normalised.error());
-      scaling = k == 0 ? *normalised : in_unit<D>(*normalised, scalings.front().length);
+      scaling = k == 0 ? *normalised : in_unit<D>(*normalised, result.scalings.front().length);
     }
-    scalings.push_back(scaling);
-    const auto w = Stiffness<D>::create(patch, on_scaled_domain<D>(mass_energy<D>(), scaling.factors), options);
-    if (!w) return std::unexpected(w.error());
-    weight.push_back(w->assemble());
-    if (settings.fields.empty()) {
-      for (const auto& [energy, blocks] : {std::pair{&stretching, &stretch}, std::pair{&bending, &bend}}) {
-        const auto matrix = Stiffness<D>::create(patch, on_scaled_domain<D>(*energy, scaling.factors), options);
-        if (!matrix) return std::unexpected(matrix.error());
-        blocks->push_back(matrix->assemble());
-      }
-      mass.push_back(settings.mass * weight.back());
-      damping.push_back(settings.damping * weight.back());
-    } else {
-      auto matrices = FieldAssembler<D>(patch, options).assemble(settings.fields[k], scaling.factors);
-      if (!matrices) return std::unexpected(matrices.error());
-      stretch.push_back(std::move(matrices->stretch));
-      bend.push_back(std::move(matrices->bend));
-      mass.push_back(std::move(matrices->mass));
-      damping.push_back(std::move(matrices->damping));
-    }
-    auto load = ToolLoad<D>::create(patch, scaling,
-                                    settings.detail > 0 ? settings.detail : std::numeric_limits<double>::infinity());
-    if (!load) return std::unexpected(load.error());
-    loads.push_back(std::move(*load));
-    if (settings.route == ForceRoute::analytic) {
-      auto force = GrevilleForce<D>::create(patch, scaling, options);
-      if (!force) return std::unexpected(force.error());
-      greville.push_back(std::move(*force));
-    }
+    result.scalings.push_back(scaling);
+    if (auto done = assemble_matrices<D>(patches[k], k, settings, options, result); !done)
+      return std::unexpected(done.error());
+    if (auto done = assemble_forces<D>(patches[k], k, settings, options, result); !done)
+      return std::unexpected(done.error());
   }
-  const double length = scalings.front().length;
-  const Eigen::RowVector3d lower = rest.colwise().minCoeff(), upper = rest.colwise().maxCoeff();
-  const Point centre = (lower + 0.5 * (upper - lower)).transpose();
+  return result;
+}
 
+/// What the settings hold, as conditions on X in units of `length`.
+template <int D>
+Expected<ConstraintSpace> hold(const ActiveSettings<D>& settings, const RestShape& rest, double length) {
+  const int size = rest.rows.back();
   std::vector<LinearConstraint> constraints = settings.constraints;
   for (LinearConstraint& c : constraints) {
     if (settings.rest == RestMode::none) {  // X is not the displacement, but the displacement and the rest shape
       for (const auto& [unknown, a] : c.terms) {
-        if (unknown >= 0 && unknown < size) c.value += a * (rest.row(unknown).transpose() - centre);
+        if (unknown >= 0 && unknown < size) c.value += a * (rest.points.row(unknown).transpose() - rest.centre);
       }
     }
     c.value /= length;
   }
-  auto space = ConstraintSpace::create(size, constraints, settings.held);
-  if (!space) return std::unexpected(space.error());
+  return ConstraintSpace::create(size, constraints, settings.held);
+}
 
-  SparseMatrix s = block_diagonal(std::move(stretch)), b = block_diagonal(std::move(bend)),
-               w = block_diagonal(std::move(weight)), m = block_diagonal(std::move(mass)),
-               d = block_diagonal(std::move(damping));
-  SparseMatrix k_matrix = s + b, a;
-  switch (settings.evolution) {
-    case Evolution::stationary:
-      a = k_matrix;
-      break;
-    case Evolution::acm:
-      if (settings.weight == StepWeight::mass) {
-        a = k_matrix + settings.lambda * w;
-      } else {
-        SparseMatrix identity(size, size);
-        identity.setIdentity();
-        a = k_matrix + settings.lambda * identity;
-      }
-      break;
-    case Evolution::dynamic: {
-      const double tau = dynamic_stage * settings.time_step;
-      a = k_matrix + d / tau + m / (tau * tau);
-      break;
-    }
+/// Whether anything forbids a displacement of the whole model.
+bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held) {
+  if (std::ranges::find(held, true) != held.end()) return true;
+  return std::ranges::any_of(space.constraints(), [](const LinearConstraint& c) {
+    double sum = 0;
+    for (const auto& [unknown, coefficient] : c.terms) sum += coefficient;
+    return std::abs(sum) > 1e-12;
+  });
+}
+
+/// The matrix A of a step (see `ActiveSpline`).
+template <int D>
+SparseMatrix step_matrix(const ActiveSettings<D>& settings, const SparseMatrix& k, const SparseMatrix& w,
+                         const SparseMatrix& m, const SparseMatrix& d) {
+  if (settings.evolution == Evolution::stationary) return k;
+  if (settings.evolution == Evolution::dynamic) {
+    const double tau = dynamic_stage * settings.time_step;
+    return k + d / tau + m / (tau * tau);
   }
+  if (settings.weight == StepWeight::mass) return k + settings.lambda * w;
+  SparseMatrix identity(k.rows(), k.cols());
+  identity.setIdentity();
+  return k + settings.lambda * identity;
+}
+
+/// A⁻¹ on what is free to move.
+template <int D>
+Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space, const ActiveSettings<D>& settings) {
   const bool undamped =
       settings.evolution == Evolution::stationary || (settings.evolution == Evolution::acm && settings.lambda == 0);
-  if (undamped && space->free_count() > 0) {
-    // A displacement of the whole model that no constraint forbids costs nothing: there is no balance to go to.
-    const Points constant = Points::Ones(size, 3);
-    bool held = false;
-    for (int i = 0; i < size && !held; ++i) held = !settings.held.empty() && settings.held[static_cast<std::size_t>(i)];
-    if (!held) {
-      for (const LinearConstraint& c : constraints) {
-        double sum = 0;
-        for (const auto& [unknown, coefficient] : c.terms) sum += coefficient;
-        held = held || std::abs(sum) > 1e-12;
-      }
-    }
-    if (!held) {
-      return numerical_error("nothing holds the model in place, so it has no position of balance", "evolve",
-                             "hold an edge or pin points, or use another mode or a positive lambda");
-    }
+  // Such a displacement costs no energy: there would be no balance to go to.
+  if (undamped && space.free_count() > 0 && !holds_in_place(space, settings.held)) {
+    return numerical_error("nothing holds the model in place, so it has no position of balance", "evolve",
+                           "hold an edge or pin points, or use another mode or a positive lambda");
   }
-  auto inverse = ConstrainedCholesky::factor(a, std::move(*space));
-  if (!inverse) {
-    Error error = inverse.error();
-    if (undamped && error.kind == ErrorKind::numerical) {
-      error.remedy =
-          "what is held leaves the model free to move or tilt: hold more, or use another mode or a positive lambda";
-    }
-    return std::unexpected(error);
-  }
+  auto inverse = ConstrainedCholesky::factor(a, std::move(space));
+  if (inverse || !undamped || inverse.error().kind != ErrorKind::numerical) return inverse;
+  Error error = inverse.error();
+  error.remedy =
+      "what is held leaves the model free to move or tilt: hold more, or use another mode or a positive lambda";
+  return std::unexpected(error);
+}
+
+}  // namespace
+
+template <int D>
+Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches, const ActiveSettings<D>& settings) {
+  if (auto valid = validate<D>(patches, settings); !valid) return std::unexpected(valid.error());
+  auto assembly = assemble<D>(patches, settings);
+  if (!assembly) return std::unexpected(assembly.error());
+  RestShape rest = at_rest<D>(patches);
+  const double length = assembly->scalings.front().length;
+  auto space = hold<D>(settings, rest, length);
+  if (!space) return std::unexpected(space.error());
+
+  SparseMatrix stretch = block_diagonal(std::move(assembly->stretch)), bend = block_diagonal(std::move(assembly->bend)),
+               weight = block_diagonal(std::move(assembly->weight)), mass = block_diagonal(std::move(assembly->mass)),
+               damping = block_diagonal(std::move(assembly->damping));
+  SparseMatrix stiffness = stretch + bend;
+  SparseMatrix a = step_matrix<D>(settings, stiffness, weight, mass, damping);
+  auto inverse = factor<D>(a, std::move(*space), settings);
+  if (!inverse) return std::unexpected(inverse.error());
   return ActiveSpline(std::make_shared<const Model>(
-      Model{settings, std::move(patches), std::move(rows), std::move(scalings), std::move(loads), std::move(greville),
-            length, centre, (upper - lower).norm() / length, std::move(rest), std::move(s), std::move(b),
-            std::move(k_matrix), std::move(w), std::move(m), std::move(d), std::move(a), std::move(*inverse)}));
+      Model{settings, std::move(patches), std::move(rest.rows), std::move(assembly->scalings),
+            std::move(assembly->loads), std::move(assembly->greville), length, rest.centre, rest.diagonal / length,
+            std::move(rest.points), std::move(stretch), std::move(bend), std::move(stiffness), std::move(weight),
+            std::move(mass), std::move(damping), std::move(a), std::move(*inverse)}));
 }
 
 template <int D>
