@@ -13,80 +13,101 @@ constexpr std::size_t refined = 12;
 
 }  // namespace
 
+/// The search for the deepest entry into a tool: samples, then a compass search from the deepest of them.
 template <int D>
-double ToolLoad<D>::deepest_entry(const Points& x, int first, const ModelTool& tool) const {
-  if (!tool.tool().collides()) return 0;
-  std::array<std::vector<int>, D> spans;
-  for (std::size_t d = 0; d < D; ++d) spans[d] = knots_[d].spans();
-  const auto depth_at = [&](const Element& element, const std::array<double, D>& u) {
-    std::array<std::array<double, max_degree + 1>, D> n;
-    for (std::size_t d = 0; d < D; ++d) {
-      basis_values(knots_[d], spans[d][static_cast<std::size_t>(element.span[d])], u[d], n[d].data());
-    }
-    double sum[3] = {0, 0, 0}, denominator = 0;
-    std::size_t at = 0;
-    for_each_control_point(element, [&](int row) {
-      double product = weights_.empty() ? 1 : weights_[static_cast<std::size_t>(row)];
-      std::size_t rest = at++;
-      for (std::size_t d = D; d-- > 0;) {
-        const auto width = static_cast<std::size_t>(knots_[d].degree() + 1);
-        product *= n[d][rest % width];
-        rest /= width;
-      }
-      const double* p = x.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
-      for (int c = 0; c < 3; ++c) sum[c] += product * p[c];
-      denominator += product;
-    });
-    return -tool.distance(Point(sum[0], sum[1], sum[2]) / denominator);
-  };
+class ToolLoad<D>::EntrySearch {
+ public:
+  EntrySearch(const ToolLoad& load, const Points& x, int first, const ModelTool& tool)
+      : load_(load), x_(x), first_(first), tool_(tool) {
+    for (std::size_t d = 0; d < D; ++d) spans_[d] = load.knots_[d].spans();
+  }
 
+  [[nodiscard]] double deepest() {
+    load_.for_each_element([&](const Element& element) { sample(element); });
+    double deepest = 0;
+    for (Candidate& c : candidates_) deepest = std::max(deepest, refine(c));
+    return deepest;
+  }
+
+ private:
   struct Candidate {
     double depth;
     Element element;
     std::array<double, D> u, spacing;
   };
-  std::vector<Candidate> candidates;  // the deepest samples, deepest first
-  for_each_element([&](const Element& element) {
+
+  [[nodiscard]] int span(const Element& element, std::size_t d) const {
+    return spans_[d][static_cast<std::size_t>(element.span[d])];
+  }
+
+  [[nodiscard]] double depth_at(const Element& element, const std::array<double, D>& u) const {
+    std::array<std::array<double, max_degree + 1>, D> n;
+    for (std::size_t d = 0; d < D; ++d) basis_values(load_.knots_[d], span(element, d), u[d], n[d].data());
+    double sum[3] = {0, 0, 0}, denominator = 0;
+    std::size_t at = 0;
+    load_.for_each_control_point(element, [&](int row) {
+      double product = load_.weights_.empty() ? 1 : load_.weights_[static_cast<std::size_t>(row)];
+      std::size_t rest = at++;
+      for (std::size_t d = D; d-- > 0;) {
+        const auto width = static_cast<std::size_t>(load_.knots_[d].degree() + 1);
+        product *= n[d][rest % width];
+        rest /= width;
+      }
+      const double* p = x_.data() + 3 * static_cast<std::ptrdiff_t>(first_ + row);
+      for (int c = 0; c < 3; ++c) sum[c] += product * p[c];
+      denominator += product;
+    });
+    return -tool_.distance(Point(sum[0], sum[1], sum[2]) / denominator);
+  }
+
+  /// Keeps the deepest samples of all elements.
+  void sample(const Element& element) {
     Point lower, upper;
-    box_of(element, x, first, lower, upper);
-    if (in_hull_ && !tool.may_reach(lower, upper)) return;
+    load_.box_of(element, x_, first_, lower, upper);
+    if (load_.in_hull_ && !tool_.may_reach(lower, upper)) return;
     Candidate c{0, element, {}, {}};
     // Between samples the shape may reach further in, but not by more than its control points are apart.
     const double reach = (upper - lower).norm();
     std::array<int, D> counts, k{};
-    std::array<double, D> begin;
+    std::array<double, D> begin, end;
     for (std::size_t d = 0; d < D; ++d) {
-      const int span = spans[d][static_cast<std::size_t>(element.span[d])];
       counts[d] = samples_per_gauss_point[D - 1] * (element.end[d] - element.begin[d]);
-      begin[d] = knots_[d][span];
-      c.spacing[d] = (knots_[d][span + 1] - begin[d]) / counts[d];
+      begin[d] = load_.knots_[d][span(element, d)];
+      end[d] = load_.knots_[d][span(element, d) + 1];
+      c.spacing[d] = (end[d] - begin[d]) / counts[d];
     }
-    while (true) {
-      for (std::size_t d = 0; d < D; ++d) {
-        const int span = spans[d][static_cast<std::size_t>(element.span[d])];
-        c.u[d] = k[d] == counts[d] ? knots_[d][span + 1] : begin[d] + k[d] * c.spacing[d];
-      }
+    do {
+      for (std::size_t d = 0; d < D; ++d) c.u[d] = k[d] == counts[d] ? end[d] : begin[d] + k[d] * c.spacing[d];
       c.depth = depth_at(element, c.u);
-      if (c.depth > -reach && (candidates.size() < refined || c.depth > candidates.back().depth)) {
-        if (candidates.size() == refined) candidates.pop_back();
-        candidates.insert(std::ranges::upper_bound(candidates, c.depth, std::greater{}, &Candidate::depth), c);
-      }
-      std::size_t d = D;
-      while (d-- > 0) {
-        if (++k[d] <= counts[d]) break;
-        k[d] = 0;
-        if (d == 0) return;
-      }
+      if (c.depth > -reach) keep(c);
+    } while (advance(k, counts));
+  }
+
+  /// Counts on through 0 … counts[d] in all directions, the last one fastest; false after the last.
+  [[nodiscard]] static bool advance(std::array<int, D>& k, const std::array<int, D>& counts) {
+    for (std::size_t d = D; d-- > 0;) {
+      if (++k[d] <= counts[d]) return true;
+      k[d] = 0;
     }
-  });
-  double deepest = 0;
-  for (Candidate& c : candidates) {
+    return false;
+  }
+
+  void keep(const Candidate& c) {
+    if (candidates_.size() == refined) {
+      if (!(c.depth > candidates_.back().depth)) return;
+      candidates_.pop_back();
+    }
+    candidates_.insert(std::ranges::upper_bound(candidates_, c.depth, std::greater{}, &Candidate::depth), c);
+  }
+
+  /// The depth that a compass search finds within the candidate's element.
+  [[nodiscard]] double refine(Candidate& c) const {
     for (double h = 1; h > 1e-6; h /= 2) {
       for (std::size_t d = 0; d < D; ++d) {
-        const int span = spans[d][static_cast<std::size_t>(c.element.span[d])];
+        const double begin = load_.knots_[d][span(c.element, d)], end = load_.knots_[d][span(c.element, d) + 1];
         for (const double sign : {-1.0, 1.0}) {
           std::array<double, D> u = c.u;
-          u[d] = std::clamp(u[d] + sign * h * c.spacing[d], knots_[d][span], knots_[d][span + 1]);
+          u[d] = std::clamp(u[d] + sign * h * c.spacing[d], begin, end);
           const double depth = depth_at(c.element, u);
           if (depth <= c.depth) continue;
           c.depth = depth;
@@ -94,9 +115,21 @@ double ToolLoad<D>::deepest_entry(const Points& x, int first, const ModelTool& t
         }
       }
     }
-    deepest = std::max(deepest, c.depth);
+    return c.depth;
   }
-  return deepest;
+
+  const ToolLoad& load_;
+  const Points& x_;
+  int first_;
+  const ModelTool& tool_;
+  std::array<std::vector<int>, D> spans_;
+  std::vector<Candidate> candidates_;  // deepest first
+};
+
+template <int D>
+double ToolLoad<D>::deepest_entry(const Points& x, int first, const ModelTool& tool) const {
+  if (!tool.tool().collides()) return 0;
+  return EntrySearch(*this, x, first, tool).deepest();
 }
 
 template double ToolLoad<1>::deepest_entry(const Points&, int, const ModelTool&) const;

@@ -22,7 +22,8 @@ struct FrictionAnchors {
   double slip = 0;  ///< movement at which friction is fully developed
 };
 
-/// A bound on the way of every material point from an original shape: penalty stiffness·(|D| − distance)²/2 beyond.
+/// A bound on the displacement of every material point from an original shape: penalty stiffness·(|D| − distance)²/2
+/// beyond.
 struct DisplacementLimit {
   double distance = 0, stiffness = 0;
   Points original;  ///< control points, in the units of the load
@@ -75,6 +76,8 @@ class ToolLoad {
  private:
   struct Element;  // one span per direction
   struct Sample;   // one Gauss point
+  class Evaluation;
+  class EntrySearch;
   using Homogeneous = std::array<double, 4>;
   using Workspace = std::array<std::vector<Homogeneous>, D + 1>;
 

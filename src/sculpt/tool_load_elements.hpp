@@ -13,6 +13,14 @@ struct ToolLoad<D>::Element {
   std::array<int, D> begin, end, first, span;
 };
 
+/// One Gauss point.
+template <int D>
+struct ToolLoad<D>::Sample {
+  std::array<int, 3> at{};
+  double weight, inverse;  // Gauss weight, 1 / denominator
+  Point place;
+};
+
 template <int D>
 template <class F>
 void ToolLoad<D>::for_each_element(const F& f) const {
@@ -63,6 +71,70 @@ void ToolLoad<D>::box_of(const Element& element, const Points& x, int first, Poi
       upper[c] = std::max(upper[c], p[c]);
     }
   });
+}
+
+/// f(row of the control point, value of its basis function times its weight) at one Gauss point.
+template <int D>
+template <class F>
+void ToolLoad<D>::for_each_function(const std::array<int, 3>& at, const F& f) const {
+  const auto direction = [&](auto self, std::size_t d, int row, double product) -> void {
+    const BasisTable& table = quadrature_[d].basis;
+    const double* n = table.row(at[d], 0);
+    const int base = row * net_[d] + table.first[static_cast<std::size_t>(at[d])];
+    for (int r = 0; r <= table.degree; ++r) {
+      if (d + 1 == D) {
+        f(base + r, weights_.empty() ? product * n[r] : product * n[r] * weights_[static_cast<std::size_t>(base + r)]);
+      } else {
+        self(self, d + 1, base + r, product * n[r]);
+      }
+    }
+  };
+  direction(direction, 0, 0, 1.0);
+}
+
+/// f(sample) for every Gauss point of the element. The control points, homogeneous, are contracted one direction at a
+/// time.
+template <int D>
+template <class F>
+void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int first, Workspace& workspace,
+                                 const F& f) const {
+  std::array<std::size_t, D + 1> sizes;
+  sizes[D] = 1;
+  for (std::size_t d = D; d-- > 0;) sizes[d] = sizes[d + 1] * static_cast<std::size_t>(quadrature_[d].basis.degree + 1);
+  auto& level = workspace;  // level[d]: directions d … D−1 are still control points
+  for (std::size_t d = 0; d <= D; ++d) level[d].resize(sizes[d]);
+  std::size_t to = 0;
+  for_each_control_point(element, [&](int row) {
+    const double w = weights_.empty() ? 1 : weights_[static_cast<std::size_t>(row)];
+    const double* p = x.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
+    level[0][to++] = {w * p[0], w * p[1], w * p[2], w};
+  });
+  Sample sample;
+  const auto contract = [&](auto self, std::size_t d, double weight) -> void {
+    if (d == D) {
+      const Homogeneous& h = level[D][0];
+      sample.weight = weight;
+      sample.inverse = weights_.empty() ? 1 : 1 / h[3];
+      sample.place = sample.inverse * Point(h[0], h[1], h[2]);
+      f(sample);
+      return;
+    }
+    const BasisQuadrature& q = quadrature_[d];
+    for (int k = element.begin[d]; k < element.end[d]; ++k) {
+      const double* n = q.basis.row(k, 0);
+      sample.at[d] = k;
+      for (std::size_t i = 0; i < sizes[d + 1]; ++i) {
+        Homogeneous sum = {0, 0, 0, 0};
+        for (int r = 0; r <= q.basis.degree; ++r) {
+          const Homogeneous& from = level[d][static_cast<std::size_t>(r) * sizes[d + 1] + i];
+          for (std::size_t c = 0; c < 4; ++c) sum[c] += n[r] * from[c];
+        }
+        level[d + 1][i] = sum;
+      }
+      self(self, d + 1, weight * q.weights[static_cast<std::size_t>(k)]);
+    }
+  };
+  contract(contract, 0, 1.0);
 }
 
 }  // namespace knead

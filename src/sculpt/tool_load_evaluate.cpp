@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "tool_load_elements.hpp"
+
+namespace knead {
+namespace {
+
+/// Potential, slope / displacement and curvature of friction that grips with force `grip` after `slip`: quadratic up to
+/// there, linear beyond.
+struct Grip {
+  double potential, slope, curvature;
+};
+
+Grip grip_at(double displacement, double grip, double slip) {
+  if (displacement < slip) return {0.5 * grip / slip * displacement * displacement, grip / slip, grip / slip};
+  return {grip * (displacement - 0.5 * slip), grip / displacement, 0};
+}
+
+}  // namespace
+
+/// One evaluation of the potential on a patch: which elements an actor may reach, and what it does at their points.
+template <int D>
+class ToolLoad<D>::Evaluation {
+ public:
+  Evaluation(const ToolLoad& load, const Points& x, int first, int patch, const Actors& actors, PotentialState& state)
+      : load_(load), x_(x), first_(first), patch_(patch), actors_(actors), state_(state) {
+    find_sides();
+    if (actors.limit == nullptr) return;
+    displacements_ = (x.middleRows(first, actors.limit->original.rows()) - actors.limit->original).rowwise().norm();
+  }
+
+  void run() {
+    load_.for_each_element([&](const Element& element) {
+      find_near(element);
+      const bool limited = actors_.limit != nullptr && may_exceed(element);
+      if (near_.empty() && !limited) return;
+      double longest = 0;
+      for (std::size_t d = 0; d < D; ++d)
+        longest = std::max(longest, load_.lengths_[d][static_cast<std::size_t>(element.span[d])]);
+      load_.for_each_point(element, x_, first_, workspace_, [&](const Sample& s) {
+        press(s, longest);
+        if (actors_.friction != nullptr) rub(s);
+        if (limited) hold_back(s);
+      });
+    });
+  }
+
+ private:
+  /// On which sides of every tool's box each control point lies.
+  void find_sides() {
+    count_ = static_cast<std::size_t>(std::accumulate(load_.net_.begin(), load_.net_.end(), 1, std::multiplies{}));
+    sides_.resize(count_ * actors_.tools.size());
+    for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
+      const double* at = x_.data() + 3 * static_cast<std::ptrdiff_t>(first_);
+      for (std::size_t i = 0; i < count_; ++i, at += 3) sides_[t * count_ + i] = actors_.tools[t].sides(at);
+    }
+  }
+
+  /// The tools that may reach the element.
+  void find_near(const Element& element) {
+    near_.clear();
+    for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
+      unsigned char beyond = 0xff;
+      load_.for_each_control_point(element,
+                                   [&](int row) { beyond &= sides_[t * count_ + static_cast<std::size_t>(row)]; });
+      if (!load_.in_hull_ || beyond == 0) near_.push_back(t);
+    }
+    if (!load_.in_hull_ || near_.empty()) return;
+    Point lower, upper;
+    load_.box_of(element, x_, first_, lower, upper);
+    std::erase_if(near_, [&](std::size_t t) { return !actors_.tools[t].may_reach(lower, upper); });
+  }
+
+  /// Whether a point of the element may be further away than the limit allows.
+  [[nodiscard]] bool may_exceed(const Element& element) const {
+    if (!load_.in_hull_) return true;
+    bool result = false;
+    load_.for_each_control_point(element,
+                                 [&](int row) { result = result || displacements_[row] > actors_.limit->distance; });
+    return result;
+  }
+
+  void push(const Sample& s, double potential, const Point& force, const Eigen::Matrix3d& hessian) {
+    state_.potential += s.weight * potential;
+    load_.for_each_function(s.at, [&](int row, double n) {
+      double* to = state_.force.data() + 3 * static_cast<std::ptrdiff_t>(first_ + row);
+      for (int c = 0; c < 3; ++c) to[c] += s.weight * s.inverse * n * force[c];
+    });
+    state_.contacts.push_back({patch_, s.at, s.weight * s.inverse * s.inverse, hessian});
+  }
+
+  /// Tools. `longest` is the element's longest span.
+  void press(const Sample& s, double longest) {
+    for (std::size_t t : near_) {
+      const ModelTool& tool = actors_.tools[t];
+      const ToolAction action = tool.action(s.place);
+      if (!action.active) continue;
+      push(s, action.potential, action.force, action.hessian);
+      const double size = tool.size();
+      state_.coarseness = std::max(state_.coarseness, longest / size);
+      if (action.entry > state_.entry * size) {
+        state_.entry = action.entry / size;
+        state_.entered = static_cast<int>(t);
+      }
+    }
+  }
+
+  /// Friction.
+  void rub(const Sample& s) {
+    const int anchor = actors_.friction->index[static_cast<std::size_t>(load_.index(s.at))];
+    if (anchor < 0) return;
+    const auto& a = actors_.friction->anchors[static_cast<std::size_t>(anchor)];
+    const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - a.normal * a.normal.transpose();
+    const Point displacement = tangential * (s.place - a.place);
+    const double length = displacement.norm();
+    const Grip grip = grip_at(length, a.grip, actors_.friction->slip);
+    Eigen::Matrix3d hessian = grip.slope * tangential;
+    if (length > 0) {
+      hessian += (grip.curvature - grip.slope) / (length * length) * displacement * displacement.transpose();
+    }
+    push(s, grip.potential, -grip.slope * displacement, hessian);
+  }
+
+  /// The limit.
+  void hold_back(const Sample& s) {
+    Point original = Point::Zero();
+    load_.for_each_function(
+        s.at, [&](int row, double n) { original += s.inverse * n * actors_.limit->original.row(row).transpose(); });
+    const Point displacement = s.place - original;
+    const double length = displacement.norm(), beyond = length - actors_.limit->distance, k = actors_.limit->stiffness;
+    if (!(beyond > 0)) return;
+    state_.limited = true;
+    const Point n = displacement / length;
+    Eigen::Matrix3d hessian = k * (1 - beyond / length) * n * n.transpose();
+    hessian.diagonal().array() += k * beyond / length;
+    push(s, 0.5 * k * beyond * beyond, -k * beyond * n, hessian);
+  }
+
+  const ToolLoad& load_;
+  const Points& x_;
+  int first_, patch_;
+  const Actors& actors_;
+  PotentialState& state_;
+  std::size_t count_ = 0;             // of control points
+  std::vector<unsigned char> sides_;  // tool after tool
+  Eigen::VectorXd displacements_;     // of the control points: their hull bounds the displacement of every point
+  std::vector<std::size_t> near_;
+  Workspace workspace_;
+};
+
+template <int D>
+void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& actors, PotentialState& state) const {
+  if (actors.tools.empty() && actors.limit == nullptr) return;
+  Evaluation(*this, x, first, patch, actors, state).run();
+}
+
+template void ToolLoad<1>::evaluate(const Points&, int, int, const Actors&, PotentialState&) const;
+template void ToolLoad<2>::evaluate(const Points&, int, int, const Actors&, PotentialState&) const;
+template void ToolLoad<3>::evaluate(const Points&, int, int, const Actors&, PotentialState&) const;
+
+}  // namespace knead
