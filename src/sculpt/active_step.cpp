@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "active_model.hpp"
-#include "contact_newton.hpp"
-#include "largest_displacement.hpp"
-#include "patch_potential.hpp"
+#include "active_run.hpp"
 #include "surface_forces.hpp"
 
 namespace knead {
@@ -15,14 +11,14 @@ namespace {
 
 constexpr double run_away = 1e4;  // a step longer than this many sizes of the model is refused
 constexpr double first_rigid_stiffness = 1e6;
-constexpr double developed_slip = 1e-4;  // friction is fully developed after this way, in lengths of the model
-constexpr double limit_stiffness = 1e8;
-constexpr double limit_tolerance = 1e-6;
-constexpr int max_limit_rounds = 12;
+constexpr double developed_slip = 1e-4;     // friction is fully developed at this displacement, in lengths of the model
 constexpr double missed_constraint = 1e-9;  // of the size of the model
-constexpr int max_rigid_rounds = 16;
-constexpr int max_route_passes = 60;
-constexpr double route_tolerance = 1e-9;
+
+std::vector<ModelTool> in_model_units(std::span<const Tool> tools, const Point& centre, double length) {
+  std::vector<ModelTool> result;
+  for (const Tool& tool : tools) result.emplace_back(tool, centre, length);
+  return result;
+}
 
 }  // namespace
 
@@ -86,146 +82,29 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
 }
 
 template <int D>
-struct ActiveSpline<D>::Run {
-  const Model& m;
-  PatchPotential<D>& potential;
-  ContactSummary summary = {0, 0, true, true};
-  std::string note = {};
-  Points lagged = {};  // what the analytic route adds to the forces of Gauss points
-
-  PotentialState settle(const StepProblem& problem, Points& y, double limit, const Points& original,
-                        std::span<const ModelTool> tools);
-
-  /// One minimisation, with the stiffness of rigid tools raised until nothing enters them at Gauss points any more, and
-  /// contact begun further out until nothing enters them in between.
-  PotentialState minimise(const StepProblem& problem, Points& y) {
-    for (int round = 0;; ++round) {
-      const ContactSummary part = minimise_step(problem, potential, y);
-      summary.iterations += part.iterations;
-      summary.solves += part.solves;
-      summary.finite = summary.finite && part.finite && y.allFinite();
-      summary.converged = part.converged;
-      if (!summary.finite) return {};
-      PotentialState contact = potential.evaluate(problem.start + y);
-      bool again = false, deeper = false;
-      double gap = 0;
-      int entered = -1;
-      for (std::size_t t = 0; t < potential.tool_count(); ++t) {
-        if (!potential.tool(t).rigid || !potential.tool(t).collides()) continue;
-        const double size = potential.size(t), entry = potential.deepest_entry(t, problem.start + y) / size;
-        deeper = deeper || static_cast<int>(t) == contact.entered;
-        if (entry > gap) {
-          gap = entry;
-          entered = static_cast<int>(t);
-        }
-        if (entry <= rigid_gap) continue;
-        if (round == max_rigid_rounds) {
-          summary.converged = false;
-          note = fmt::format(
-              "tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net cannot give way",
-              potential.tool(t).name, entry);
-          continue;
-        }
-        again = true;
-        if (contact.entry > rigid_gap && static_cast<int>(t) == contact.entered) {
-          if (potential.stiffness(t) < max_tool_stiffness) {
-            potential.set_stiffness(t, std::min(10 * potential.stiffness(t), max_tool_stiffness));
-          } else {
-            round = max_rigid_rounds - 1;  // the hardest springs give: once more, and it is said
-          }
-        } else {
-          potential.set_offset(t, potential.offset(t) + (entry - 0.5 * rigid_gap) * size);
-        }
-      }
-      if (deeper || gap > contact.entry) {
-        contact.entry = gap;
-        contact.entered = entered;
-      }
-      if (!again) return contact;
-    }
-  }
-
-  /// The same under a limit: it is kept at Gauss points, so between them it is drawn in until it holds everywhere.
-  PotentialState minimise(const StepProblem& problem, Points& y, double limit, const Points& original) {
-    if (!(limit > 0)) return minimise(problem, y);
-    double inner = limit * (1 - 0.5 * limit_tolerance);
-    for (int round = 0;; ++round) {
-      potential.limit(original, inner, limit_stiffness);
-      PotentialState contact = minimise(problem, y);
-      if (!summary.finite || !contact.limited) return contact;
-      const double way = largest_way<D>(m.patches, m.rows, problem.start + y - original);
-      if (way <= limit * (1 + limit_tolerance)) return contact;
-      if (round == max_limit_rounds) {
-        summary.converged = false;
-        note = "the limit is exceeded between the points where it is kept; refine the net";
-        return contact;
-      }
-      inner -= way - limit;
-    }
-  }
-};
-
-/// The forces of tools by the analytic route, as a correction that lags behind: F_analytic − F_Gauss at the last result
-/// goes to the right side until it no longer changes it.
-template <int D>
-PotentialState ActiveSpline<D>::Run::settle(const StepProblem& problem, Points& y, double limit, const Points& original,
-                                            std::span<const ModelTool> tools) {
-  PotentialState contact = minimise(problem, y, limit, original);
-  if (m.greville.empty() || tools.empty() || !summary.finite) return contact;
-  StepProblem corrected = problem;
-  double before = std::numeric_limits<double>::infinity();
-  int stalled = 0;
-  for (int pass = 0; pass < max_route_passes; ++pass) {
-    const Points x = problem.start + y;
-    PatchPotential<D> alone(m.loads, m.rows, {tools.begin(), tools.end()});
-    for (std::size_t t = 0; t < tools.size(); ++t) alone.set_stiffness(t, potential.stiffness(t));
-    Points difference = -alone.evaluate(x).force;
-    for (std::size_t k = 0; k < m.greville.size(); ++k) {
-      const int n = m.rows[k + 1] - m.rows[k];
-      difference.middleRows(m.rows[k], n) +=
-          m.greville[k].greville_force(x.middleRows(m.rows[k], n), [&](const Point& place) {
-            Point sum = Point::Zero();
-            for (std::size_t t = 0; t < tools.size(); ++t) {
-              ModelTool tool = tools[t];
-              tool.set_stiffness(potential.stiffness(t));
-              sum += tool.action(place).force;
-            }
-            return sum;
-          });
-    }
-    corrected.b = problem.b + difference;
-    const Points last = y;
-    contact = minimise(corrected, y, limit, original);
-    if (!summary.finite) return contact;
-    const double change = (y - last).cwiseAbs().maxCoeff();
-    if (change <= route_tolerance * std::max(y.cwiseAbs().maxCoeff(), m.extent * route_tolerance)) {
-      lagged = difference;
-      return contact;
-    }
-    stalled = change > 0.9 * before ? stalled + 1 : 0;
-    if (stalled == 3) break;
-    before = change;
-  }
-  note = "the analytic force route does not settle at this stiffness on this net; the forces are those of Gauss points";
-  return minimise(problem, y, limit, original);
+ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span<const Tool> given_tools,
+                          const ActiveLoads& given_loads, Points forces)
+    : m(model),
+      state(from),
+      tools(given_tools),
+      loads(given_loads),
+      scaled(in_model_units(given_tools, m.centre, m.length)),
+      file_origin(m.origin(from)),
+      before((from.control_points - file_origin) / m.length),
+      external(std::move(forces)),
+      problem{m.a, m.inverse, {}, (file_origin.rowwise() - m.centre.transpose()) / m.length + before, 0},
+      potential(m.loads, m.rows, scaled),
+      limit(given_loads.limit / m.length) {
+  const Points kx0 = m.stiffness * before;
+  problem.b = external - kx0;
+  problem.energy = 0.5 * dot(before, kx0);
+  const Points& original = loads.original.rows() > 0 ? loads.original : m.rest;
+  limit_origin = (original.rowwise() - m.centre.transpose()) / m.length;
+  y = m.inverse.space().feasible(before) - before;
 }
 
 template <int D>
-Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<const Tool> tools,
-                                           const ActiveLoads& loads) const {
-  const Model& m = *model_;
-  const bool dynamic = m.settings.evolution == Evolution::dynamic;
-  std::vector<ModelTool> scaled;
-  for (const Tool& tool : tools) scaled.emplace_back(tool, m.centre, m.length);
-  const Points file_origin = m.origin(state);
-  const Points before = (state.control_points - file_origin) / m.length;
-  const Points origin = (file_origin.rowwise() - m.centre.transpose()) / m.length;
-  auto external = m.load_of(state, loads);
-  if (!external) return std::unexpected(external.error());
-
-  const Points kx0 = m.stiffness * before;
-  StepProblem problem{m.a, m.inverse, *external - kx0, origin + before, 0.5 * dot(before, kx0)};
-  PatchPotential<D> potential(m.loads, m.rows, scaled);
+void ActiveSpline<D>::Run::touch() {
   potential.grip(problem.start, developed_slip);
   for (PointForce point : loads.points) {
     point.to = (point.to - m.centre) / m.length;
@@ -233,41 +112,48 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     potential.add(std::move(point));
   }
   for (std::size_t t = 0; t < tools.size(); ++t) {
-    if (tools[t].rigid && tools[t].collides()) {
-      potential.set_stiffness(t, std::max(tools[t].stiffness, first_rigid_stiffness));
-    }
+    if (is_rigid(t)) potential.set_stiffness(t, std::max(tools[t].stiffness, first_rigid_stiffness));
   }
-  const Points& original = loads.original.rows() > 0 ? loads.original : m.rest;
-  const Points limit_origin = (original.rowwise() - m.centre.transpose()) / m.length;
+}
 
-  Run run{m, potential};
-  Points y = m.inverse.space().feasible(before) - before, after;
-  PotentialState contact;
-  if (!dynamic) {
-    contact = run.settle(problem, y, loads.limit / m.length, limit_origin, scaled);
+template <int D>
+void ActiveSpline<D>::Run::balance() {
+  if (m.settings.evolution == Evolution::dynamic) {
+    balance_dynamic();
   } else {
-    const double tau = dynamic_stage * m.settings.time_step;
-    const Points b = problem.b;
-    const Points v0 = state.velocity.rows() > 0 ? Points(state.velocity / m.length) : Points::Zero(y.rows(), 3);
-    // What a stage starts from: the step's beginning, then further on along the first stage.
-    Points way = Points::Zero(y.rows(), 3), v = v0;
-    for (int k = 0; k < 2 && run.summary.finite; ++k) {
-      problem.b = b + m.mass * (way / (tau * tau) + v / tau) + m.damping * (way / tau);
-      contact = run.settle(problem, y, loads.limit / m.length, limit_origin, scaled);
-      after = (y - way) / tau;
-      if (k == 0) {
-        way = (1 - dynamic_stage) / dynamic_stage * y;
-        v = v0 + (1 - dynamic_stage) / dynamic_stage * (after - v0);
-      }
+    contact = settle(problem);
+  }
+}
+
+/// The two stages of Alexander's method.
+template <int D>
+void ActiveSpline<D>::Run::balance_dynamic() {
+  const double tau = dynamic_stage * m.settings.time_step;
+  const Points b = problem.b;
+  const Points v0 = state.velocity.rows() > 0 ? Points(state.velocity / m.length) : Points::Zero(y.rows(), 3);
+  // What a stage starts from: the step's beginning, then further on along the first stage.
+  Points advance = Points::Zero(y.rows(), 3), v = v0;
+  for (int k = 0; k < 2 && summary.finite; ++k) {
+    problem.b = b + m.mass * (advance / (tau * tau) + v / tau) + m.damping * (advance / tau);
+    contact = settle(problem);
+    velocity = (y - advance) / tau;
+    if (k == 0) {
+      advance = (1 - dynamic_stage) / dynamic_stage * y;
+      v = v0 + (1 - dynamic_stage) / dynamic_stage * (velocity - v0);
     }
   }
-  if (!y.allFinite() || !run.summary.finite) {
+}
+
+template <int D>
+Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
+  const bool dynamic = m.settings.evolution == Evolution::dynamic;
+  if (!y.allFinite() || !summary.finite) {
     return numerical_error("the step gives no finite result and was refused", "step",
                            "use a larger lambda, a smaller stiffness or larger material coefficients");
   }
-  if (const double way = y.rowwise().norm().maxCoeff(); way > run_away * std::max(m.extent, 1e-300)) {
+  if (const double largest = y.rowwise().norm().maxCoeff(); largest > run_away * std::max(m.extent, 1e-300)) {
     return numerical_error(
-        fmt::format("the step runs away ({:.1e} sizes of the model) and was refused", way / m.extent), "step",
+        fmt::format("the step runs away ({:.1e} sizes of the model) and was refused", largest / m.extent), "step",
         dynamic ? "use a smaller time_step or smaller loads" : "hold something, use a larger lambda, or smaller loads");
   }
   const Points x = before + y;
@@ -279,17 +165,28 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
     }
   }
   if (dynamic) {
-    result.kinetic = 0.5 * dot(after, m.mass * after);
-    result.velocity = m.length * after;
+    result.kinetic = 0.5 * dot(velocity, m.mass * velocity);
+    result.velocity = m.length * velocity;
   }
-  if (run.lagged.rows() > 0) *external += run.lagged;
-  result.converged = run.summary.converged;
-  result.note = run.note;
-  m.report(result, x, *external, contact, tools);
+  if (lagged.rows() > 0) external += lagged;
+  result.converged = summary.converged;
+  result.note = note;
+  m.report(result, x, external, contact, tools);
   result.limited = contact.limited;
-  result.iterations = run.summary.iterations;
-  result.solves = run.summary.solves;
+  result.iterations = summary.iterations;
+  result.solves = summary.solves;
   return result;
+}
+
+template <int D>
+Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<const Tool> tools,
+                                           const ActiveLoads& loads) const {
+  auto external = model_->load_of(state, loads);
+  if (!external) return std::unexpected(external.error());
+  Run run(*model_, state, tools, loads, std::move(*external));
+  run.touch();
+  run.balance();
+  return run.accept();
 }
 
 template Expected<ActiveStep> ActiveSpline<1>::step(const ActiveState&, std::span<const Tool>,

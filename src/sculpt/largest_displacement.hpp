@@ -36,12 +36,13 @@ double largest_of(const Spline<D>& field) {
   }
 }
 
-/// The largest |S − S_original| over all patches, for control points that differ by `way`.
+/// The largest |S − S_original| over all patches, for control points that differ by `displacement`.
 template <int D>
-double largest_way(const std::vector<Spline<D>>& patches, const std::vector<int>& rows, const Points& way) {
+double largest_displacement(const std::vector<Spline<D>>& patches, const std::vector<int>& rows,
+                            const Points& displacement) {
   double largest = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
-    const auto field = patches[k].with_control_points(way.middleRows(rows[k], rows[k + 1] - rows[k]));
+    const auto field = patches[k].with_control_points(displacement.middleRows(rows[k], rows[k + 1] - rows[k]));
     if (field) largest = std::max(largest, largest_of<D>(*field));
   }
   return largest;
