@@ -59,8 +59,8 @@ struct Combination {
 };
 
 /// (A + H) d = r by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
-/// returns A d. Where A + H turns out not to be positive the way gone so far is the answer, or A⁻¹r: a direction of
-/// descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). \param image of r.
+/// returns A d. Where A + H turns out not to be positive, the answer is the sum of the steps so far, or A⁻¹r: a
+/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). \param image of r.
 Combination newton_direction(const Potential& potential, const PotentialState& state, const Anchor& anchor,
                              const ContactNeighbourhood& near, Combination r, const Points& image, double tolerance,
                              int& solves) {
@@ -113,21 +113,20 @@ class Minimisation {
   /// measured again from an anchor of its own, with all forces computed afresh.
   void iterate(double tolerance, int max_iterations, bool certain) {
     summary.converged = false;
-    double largest = -1, before = std::numeric_limits<double>::infinity();
-    int rounded_steps = 0;
-    for (int iteration = 0;;) {
-      ContactNeighbourhood near(problem_.inverse);
+    Progress progress{tolerance, max_iterations};
+    double before = std::numeric_limits<double>::infinity();
+    while (true) {
       Anchor from = anchor();
-      if (largest < 0) largest = std::max(norm_of_b(from), norm_of_force());
+      if (progress.largest < 0) progress.largest = std::max(norm_of_b(from), norm_of_force());
       const double decrement = std::sqrt(std::max(0.0, from.rs));
-      if (finished(decrement, tolerance, largest)) return;
-      if (decrement > 0.5 * before && decrement <= rounded_tolerance * largest) {
+      if (finished(decrement, progress)) return;
+      if (decrement > 0.5 * before && decrement <= rounded_tolerance * progress.largest) {
         summary.converged = true;  // what is left is the rounding of AY: another round would find the same
         return;
       }
       before = decrement;
       summary.converged = false;
-      const Round round = decide(from, near, tolerance, max_iterations, largest, iteration, rounded_steps);
+      const Round round = descend(from, progress);
       if (round == Round::over || (round == Round::small && !certain)) return;
     }
   }
@@ -142,6 +141,46 @@ class Minimisation {
   /// Why a round ended: the decrement is small enough; it is too small against β r to be known from this anchor; or
   /// there is nothing more to be done.
   enum class Round { small, blurred, over };
+
+  /// How far one call of `iterate` is.
+  struct Progress {
+    double tolerance;
+    int max_iterations;
+    double largest = -1;  // of what the step weighs against each other; -1: not known yet
+    int iteration = 0;
+    int rounded_steps = 0;  // taken where the gain is below rounding
+  };
+
+  /// Where the iteration stands, seen from an anchor.
+  struct View {
+    Anchor& from;
+    ContactNeighbourhood& near;
+    Combination left;  // b − AY
+    double quadratic;  // ½ YᵀAY − Yᵀb
+
+    /// The same of another Y, Y₀ + u: there b − AY is known, so that no product with A is needed.
+    [[nodiscard]] double quadratic_at(const Points& y, const Combination& left_there) const {
+      const Points u = y - from.y;
+      return from.quadratic -
+             0.5 * ((1 + left_there.beta) * dot(u, from.r) + dot(near.gather(u), left_there.e - from.force_here));
+    }
+  };
+
+  /// The imbalance of forces r, A⁻¹ r in the neighbourhood, and rᵀA⁻¹r.
+  struct Residual {
+    Combination r;
+    Points image;
+    double rs = 0;
+
+    [[nodiscard]] double decrement() const { return std::sqrt(std::max(0.0, rs)); }
+  };
+
+  /// A displacement d, A d, and the slope of Φ along d.
+  struct Direction {
+    Combination ad;
+    Points d;
+    double slope;
+  };
 
   Anchor anchor() {
     Anchor a{y_, problem_.b, {}, 0, 0, {}, {}};
@@ -189,85 +228,95 @@ class Minimisation {
   }
 
   /// Whether to stop here, and how that counts.
-  bool finished(double decrement, double tolerance, double& largest) {
-    largest = std::max(largest, decrement);
-    if (decrement > tolerance * largest && std::isfinite(decrement)) return false;
+  bool finished(double decrement, Progress& progress) {
+    progress.largest = std::max(progress.largest, decrement);
+    if (decrement > progress.tolerance * progress.largest && std::isfinite(decrement)) return false;
     summary.converged = summary.finite = std::isfinite(decrement);
     return true;
   }
 
+  /// r = b − AY + F where the iteration stands.
+  void update(const View& view, Residual& at) {
+    at.r = view.left;
+    at.r.e += view.near.gather(state_.force);
+    at.image = at.r.image(view.from, view.near);
+    at.rs = at.r.norm(view.from, at.image);
+    ++summary.solves;
+  }
+
+  Direction direction(const View& view, const Residual& at, const Progress& progress) {
+    Direction to{at.r, {}, 0};
+    if (!state_.contacts.empty()) {
+      // Loose while far away, tight near the end, where a step must not undo what the one before it gained. Never
+      // below what counts as converged: in what is left then there is rounding only, and directions made of it leave
+      // the constraints.
+      const double decrement = at.decrement(), tolerance = progress.tolerance, largest = progress.largest;
+      const double cg_tolerance =
+          std::clamp(0.1 * decrement / largest, std::clamp(0.1 * tolerance * largest / decrement, 1e-8, 1e-2), 1e-2);
+      to.ad = newton_direction(potential_, state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
+    }
+    to.d = to.ad.beta * view.from.s;
+    if (!(to.ad.e.array() == 0).all()) {
+      to.d += view.near.inverse_everywhere(to.ad.e);
+      ++summary.solves;
+    }
+    to.slope = -at.r.beta * dot(view.from.r, to.d) - dot(at.r.e, view.near.gather(to.d));
+    return to;
+  }
+
+  /// Whether the gain left is below the rounding of Φ, whose parts include rᵀA⁻¹r (see `View::quadratic_at`).
+  [[nodiscard]] bool is_rounded(const View& view, const Direction& to) const {
+    return -to.slope <=
+           rounding * (problem_.energy + std::abs(view.quadratic) + std::abs(state_.potential) + view.from.rs);
+  }
+
+  /// Goes along the direction: halved until Φ decreases enough; where values decide nothing, in full.
+  void advance(View& view, const Direction& to, bool rounded) {
+    const double here = view.quadratic + state_.potential;
+    for (double t = 1;; t /= 2) {
+      Points y = y_ + t * to.d;
+      PotentialState state = potential_.evaluate(problem_.start + y);
+      Combination left = view.left;
+      left.add(-t, to.ad);
+      const double next = view.quadratic_at(y, left);
+      if (!rounded && next + state.potential > here + sufficient_decrease * t * to.slope && t > 1e-10) continue;
+      y_ = std::move(y);
+      state_ = std::move(state);
+      view.left = std::move(left);
+      view.quadratic = next;
+      break;
+    }
+    take_in(view.near, view.from);
+    view.left.e = view.near.grown(view.left.e);
+  }
+
   /// Iterates from one anchor.
-  Round decide(Anchor& from, ContactNeighbourhood& near, double tolerance, int max_iterations, double& largest,
-               int& iteration, int& rounded_steps) {
+  Round descend(Anchor& from, Progress& progress) {
+    ContactNeighbourhood near(problem_.inverse);
     from.force_here.resize(0, 3);
     take_in(near, from);
     from.force_here = near.gather(state_.force);
-    Combination ay{1, -from.force_here};  // b − AY
-    double quadratic = from.quadratic;
-    for (bool first = true;; first = false, ++iteration) {
-      Combination r = ay;
-      if (first) {
-        r.e.setZero();
-      } else {
-        r.e += near.gather(state_.force);
-      }
-      const Points image = first ? from.s_here : r.image(from, near);
-      const double rs = first ? from.rs : r.norm(from, image), decrement = std::sqrt(std::max(0.0, rs));
-      if (!first) {
-        ++summary.solves;
-        if (finished(decrement, tolerance, largest)) return std::isfinite(decrement) ? Round::small : Round::over;
-        // β r and E e cancel, and so do the squares that the decrement is the root of.
-        if (rs < cancellation * r.beta * r.beta * from.rs) return Round::blurred;
-      }
-      if (iteration == max_iterations || summary.solves > max_solves) return Round::over;
+    View view{from, near, {1, -from.force_here}, from.quadratic};
+    Residual at;
+    at.r = {1, Points::Zero(near.size(), 3)};
+    at.image = from.s_here;
+    at.rs = from.rs;
+    while (true) {
+      if (progress.iteration == progress.max_iterations || summary.solves > max_solves) return Round::over;
       ++summary.iterations;
-
-      Combination ad = r;
-      if (!state_.contacts.empty()) {
-        // Loose while far away, tight near the end, where a step must not undo what the one before it gained.
-        // Never below what counts as converged: in what is left then there is rounding only, and directions made of it
-        // leave the constraints.
-        const double cg_tolerance =
-            std::clamp(0.1 * decrement / largest, std::clamp(0.1 * tolerance * largest / decrement, 1e-8, 1e-2), 1e-2);
-        ad = newton_direction(potential_, state_, from, near, r, image, cg_tolerance, summary.solves);
-      }
-      Points d = ad.beta * from.s;
-      if (!(ad.e.array() == 0).all()) {
-        d += near.inverse_everywhere(ad.e);
-        ++summary.solves;
-      }
-      const double slope = -r.beta * dot(from.r, d) - dot(r.e, near.gather(d));
-      // Φ's quadratic part at Y = Y₀ + u: there b − AY is known, so that no product with A is needed.
-      const auto quadratic_at = [&](const Points& y, const Combination& left) {
-        const Points u = y - from.y;
-        return from.quadratic -
-               0.5 * ((1 + left.beta) * dot(u, from.r) + dot(near.gather(u), left.e - from.force_here));
-      };
-      const double here = quadratic + state_.potential;
-      const bool rounded =
-          -slope <= rounding * (problem_.energy + std::abs(quadratic) + std::abs(state_.potential) + from.rs);
-      // rᵀA⁻¹r is the size of the numbers that `quadratic_at` takes from each other.
-      // Where the gain left is below the rounding of Φ comparing values decides nothing: a few full steps take what the
-      // gradient still sees.
-      if (rounded && ++rounded_steps > max_rounded_steps) {
+      const Direction to = direction(view, at, progress);
+      const bool rounded = is_rounded(view, to);
+      // A few full steps take what the gradient still sees.
+      if (rounded && ++progress.rounded_steps > max_rounded_steps) {
         summary.converged = true;
         return Round::over;
       }
-      for (double t = 1;; t /= 2) {
-        Points y = y_ + t * d;
-        PotentialState state = potential_.evaluate(problem_.start + y);
-        Combination left = ay;
-        left.add(-t, ad);
-        const double next = quadratic_at(y, left);
-        if (!rounded && next + state.potential > here + sufficient_decrease * t * slope && t > 1e-10) continue;
-        y_ = std::move(y);
-        state_ = std::move(state);
-        ay = std::move(left);
-        quadratic = next;
-        break;
-      }
-      take_in(near, from);
-      ay.e = near.grown(ay.e);
+      advance(view, to, rounded);
+      ++progress.iteration;
+      update(view, at);
+      if (finished(at.decrement(), progress)) return std::isfinite(at.decrement()) ? Round::small : Round::over;
+      // β r and E e cancel, and so do the squares that the decrement is the root of.
+      if (at.rs < cancellation * at.r.beta * at.r.beta * from.rs) return Round::blurred;
     }
   }
 };
