@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "dense_decompositions.hpp"
 
 namespace knead::detail {
 
@@ -75,25 +76,19 @@ SelectedRows select_rows(const std::vector<Terms>& rows, double tolerance) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     for (const auto& [unknown, c] : rows[k]) a(columns.at(unknown), static_cast<Eigen::Index>(k)) += c;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+  const PivotedQr qr(a);
   const Eigen::Index most = std::min(a.rows(), a.cols());
-  const auto& r = qr.matrixR();
   const auto remainder_of = [&](Eigen::Index rank) {
-    if (rank == most) return 0.0;
-    Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(a.rows(), a.cols() - rank);
-    rest.middleRows(rank, most - rank) =
-        r.block(rank, rank, most - rank, a.cols() - rank).template triangularView<Eigen::Upper>();
-    rest.applyOnTheLeft(qr.householderQ());
-    return rest.cwiseAbs().colwise().sum().maxCoeff();
+    return rank == most ? 0.0 : qr.remainder(rank).cwiseAbs().colwise().sum().maxCoeff();
   };
   // The diagonal of R decreases, and a remainder is at most √n times it; what rounding leaves is not independent.
   SelectedRows result;
   for (double threshold = tolerance;; threshold /= 4) {
     Eigen::Index rank = 0;
-    while (rank < most && std::abs(r(rank, rank)) > std::max(threshold, 1e-13)) ++rank;
+    while (rank < most && qr.pivot(rank) > std::max(threshold, 1e-13)) ++rank;
     result.remainder = remainder_of(rank);
     if (result.remainder > tolerance && threshold > 1e-13) continue;
-    for (Eigen::Index k = 0; k < rank; ++k) result.chosen.push_back(qr.colsPermutation().indices()[k]);
+    for (Eigen::Index k = 0; k < rank; ++k) result.chosen.push_back(qr.order()[k]);
     std::ranges::sort(result.chosen);  // neighbours together: elimination is many times faster then
     return result;
   }

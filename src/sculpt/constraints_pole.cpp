@@ -1,10 +1,7 @@
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include "constraint_rows.hpp"
+#include "dense_decompositions.hpp"
 
 namespace knead {
 namespace {
@@ -18,18 +15,17 @@ struct RingRelation {
 
 RingRelation relation(const Eigen::Matrix3Xd& ring, double flatness) {
   RingRelation result;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(ring, Eigen::ComputeThinU);
-  const auto& singular = svd.singularValues();
+  const auto [vectors, singular] = detail::left_singular(ring);
   while (result.rank < singular.size() && singular[result.rank] > flatness * singular[0]) ++result.rank;
   if (result.rank == 0) return result;
-  const Eigen::MatrixXd flat = svd.matrixU().leftCols(result.rank).transpose() * ring;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(flat);
+  const Eigen::MatrixXd flat = vectors.leftCols(result.rank).transpose() * ring;
+  const detail::PivotedQr qr(flat);
   Eigen::MatrixXd chosen(result.rank, result.rank);
   for (int k = 0; k < result.rank; ++k) {
-    result.basis.push_back(qr.colsPermutation().indices()[k]);
+    result.basis.push_back(qr.order()[k]);
     chosen.col(k) = flat.col(result.basis.back());
   }
-  result.coefficients = chosen.partialPivLu().solve(flat);
+  result.coefficients = detail::solved(chosen, flat);
   return result;
 }
 

@@ -1,11 +1,11 @@
 #include "seams_space.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 
+#include "dense_decompositions.hpp"
 #include "knead/spline/basis.hpp"
 #include "seams_edge.hpp"
 
@@ -90,8 +90,8 @@ std::optional<RowMatrix> onto(int degree, const std::vector<double>& knots, int 
 std::vector<Eigen::Index> independent_rows(const RowMatrix& from_a, const RowMatrix& from_b, Eigen::Index common) {
   Eigen::MatrixXd both(from_a.cols() + from_b.cols(), from_a.rows());
   both << Eigen::MatrixXd(from_a.transpose()), -Eigen::MatrixXd(from_b.transpose());
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(both);
-  const auto& order = factors.colsPermutation().indices();
+  const detail::PivotedQr factors(both);
+  const Eigen::VectorXi& order = factors.order();
   std::vector<Eigen::Index> rows(order.data(), order.data() + (both.rows() - common));
   std::ranges::sort(rows);
   return rows;
