@@ -257,101 +257,10 @@ void FootSearch::halve(Query& q, int patch, const ParameterRectangle& at, const 
 }
 
 Foot FootSearch::descend(const Query& q, int patch, const ParameterRectangle& within,
-                         std::array<double, 2> start) const {
-  const Patch& p = *patches_[index(patch)];
-  Foot f;
-  f.patch = patch;
-  Eigen::Vector2d w(start[0], start[1]);
-  PatchJet j = p.jet(w[0], w[1]);
-  double before = std::numeric_limits<double>::infinity();
-  const auto slope = [&](const PatchJet& jet) {
-    const Point r = jet[0] - q.x;
-    return Eigen::Vector2d(r.dot(jet[1]), r.dot(jet[2]));
-  };
-  for (int iteration = 0; iteration < 80; ++iteration) {
-    const Point r = j[0] - q.x;
-    const Eigen::Vector2d g = slope(j);
-    std::array<bool, 2> free{};
-    for (std::size_t d = 0; d < 2; ++d) {
-      const Range& side = within.side[d];
-      const auto k = static_cast<Eigen::Index>(d);
-      free[d] = length(side) > 0 && !(w[k] <= side.lower && g[k] >= 0) && !(w[k] >= side.upper && g[k] <= 0);
-    }
-    if (!free[0] && !free[1]) break;
-    const Eigen::Matrix2d metric{{j[1].dot(j[1]), j[1].dot(j[2])}, {j[1].dot(j[2]), j[2].dot(j[2])}};
-    Eigen::Matrix2d a = metric + Eigen::Matrix2d{{r.dot(j[3]), r.dot(j[4])}, {r.dot(j[4]), r.dot(j[5])}};
-    Eigen::Vector2d step = Eigen::Vector2d::Zero();
-    bool newton = true;
-    for (int round = 0; round < 2; ++round) {
-      const double determinant = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
-      if (free[0] && free[1] && a(0, 0) > 0 && determinant > 1e-14 * a(0, 0) * a(1, 1)) {
-        step[0] = -(a(1, 1) * g[0] - a(0, 1) * g[1]) / determinant;
-        step[1] = -(a(0, 0) * g[1] - a(1, 0) * g[0]) / determinant;
-        break;
-      }
-      if (free[0] != free[1]) {
-        const Eigen::Index k = free[0] ? 0 : 1;
-        if (a(k, k) > 0) {
-          step[k] = -g[k] / a(k, k);
-          break;
-        }
-      }
-      newton = false;  // not convex here: Gauss and Newton's step
-      a = metric;
-      a.diagonal().array() += 1e-10 * metric.trace() + 1e-300;
-    }
-    Eigen::Vector2d next = w;
-    double reach = 0;
-    for (double t = 1;; t *= 0.25) {
-      for (Eigen::Index k = 0; k < 2; ++k) {
-        const Range& side = within.side[index(static_cast<int>(k))];
-        next[k] = free[index(static_cast<int>(k))] ? std::clamp(w[k] + t * step[k], side.lower, side.upper) : w[k];
-      }
-      const Eigen::Vector2d moved = next - w;
-      reach = (moved[0] * j[1] + moved[1] * j[2]).norm() +
-              0.5 * (moved[0] * moved[0] * j[3].norm() + moved[1] * moved[1] * j[5].norm());
-      if (newton && t == 1 && reach < 1e-4 * size_) break;
-      const PatchJet trial = p.jet(next[0], next[1]);
-      if ((trial[0] - q.x).squaredNorm() < r.squaredNorm() || t < 1e-12) break;
-    }
-    w = next;
-    j = p.jet(w[0], w[1]);
-    if (reach <= 1e-16 * size_ || (reach < 1e-13 * size_ && reach >= 0.5 * before)) break;
-    before = reach;
-  }
-  // Towards a cusp the steps shrink without end: the cusp itself is asked too.
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const Range& side = within.side[index(static_cast<int>(k))];
-    for (double end : {side.lower, side.upper}) {
-      if (w[k] == end || std::abs(w[k] - end) > 0.05 * length(side)) continue;
-      Eigen::Vector2d there = w;
-      there[k] = end;
-      const PatchJet trial = p.jet(there[0], there[1]);
-      if (trial[1 + index(static_cast<int>(k))].norm() > 1e-9 * size_) continue;
-      if ((trial[0] - q.x).squaredNorm() > (j[0] - q.x).squaredNorm()) continue;
-      w = there;
-      j = trial;
-    }
-  }
-  f.at = {w[0], w[1]};
-  f.jet = j;
-  f.squared = (j[0] - q.x).squaredNorm();
-  const Eigen::Vector2d g = slope(j);
-  for (std::size_t d = 0; d < 2; ++d) {
-    const auto k = static_cast<Eigen::Index>(d);
-    if (length(p.domain.side[d]) == 0) continue;
-    const bool low = w[k] <= within.side[d].lower && g[k] > 0, high = w[k] >= within.side[d].upper && g[k] < 0;
-    const double push = std::abs(g[k]) / (j[1 + d].norm() * (std::sqrt(f.squared) + 1e-3 * size_) + 1e-300);
-    f.pressure = std::max(f.pressure, push);
-    if (!low && !high) continue;
-    const bool border = low ? w[k] <= p.domain.side[d].lower : w[k] >= p.domain.side[d].upper;
-    if (border) {
-      f.pressed[d] = push > 1e-9;
-    } else if (push > 1e-9) {
-      f.patch = -1;  // smaller still in the neighbouring cell
-    }
-  }
-  return f;
+                         const std::array<double, 2>& start) const {
+  Foot foot = descended(q.x, *patches_[index(patch)], within, start, size_);
+  if (foot.patch >= 0) foot.patch = patch;
+  return foot;
 }
 
 void FootSearch::record(Query& q, const Foot& foot) const {

@@ -51,6 +51,11 @@ struct Foot {
   double pressure = 0;            ///< the sine of the angle that is missing to a right one, to either tangent
 };
 
+/// The foot that Newton's iteration on |x − S|² over the rectangle `within` of a patch finds from `start`. Its `patch`
+/// is 0, or −1 where the distance falls further beyond a side of the rectangle that is not the patch's border.
+[[nodiscard]] Foot descended(const Point& x, const Patch& patch, const ParameterRectangle& within,
+                             const std::array<double, 2>& start, double size);
+
 struct FootResult {
   Foot best;
   /// Other patches' feet at the same place as `best`: what meets there. Only where `best` is pressed.
@@ -94,7 +99,7 @@ class FootSearch {
   int join(std::vector<int> nodes);
   void examine(Query& q, int patch, ParameterRectangle at, PatchBounds bounds, int depth) const;
   void halve(Query& q, int patch, const ParameterRectangle& at, const PatchBounds& bounds, int depth) const;
-  Foot descend(const Query& q, int patch, const ParameterRectangle& within, std::array<double, 2> start) const;
+  Foot descend(const Query& q, int patch, const ParameterRectangle& within, const std::array<double, 2>& start) const;
   void record(Query& q, const Foot& foot) const;
 
   std::vector<std::unique_ptr<Patch>> patches_;
