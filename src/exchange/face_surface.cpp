@@ -18,15 +18,47 @@ std::optional<Frame> position_of(const Reader& reader, std::uint32_t instance) {
   return placement ? frame_of(*placement) : std::nullopt;
 }
 
+/// Any frame about an axis.
+Frame frame_about(const Point& origin, const Point& axis) {
+  Frame frame{origin};
+  frame.z = axis.normalized();
+  frame.x = frame.z.unitOrthogonal();
+  frame.y = frame.z.cross(frame.x);
+  return frame;
+}
+
+/// Of an AXIS1_PLACEMENT(location, axis).
+Expected<Frame> axis_of(const Reader& reader, std::uint32_t instance) {
+  const auto own = reader.attributes(instance, "AXIS1_PLACEMENT", 1, 2);
+  const auto location = own.empty() ? std::nullopt : reader.reference(own[0]);
+  const auto axis = own.empty() ? std::nullopt : reader.reference(own[1]);
+  const auto origin =
+      location ? reader.point(*location) : Expected<Point>(reader.error(instance, "it has no location"));
+  const Point z = (axis ? reader.direction(*axis) : std::nullopt).value_or(Point::UnitZ());
+  if (!origin) return std::unexpected(origin.error());
+  if (!(z.norm() > 0)) return reader.error(instance, "its axis has no length");
+  return frame_about(*origin, z);
+}
+
+/// Of a VECTOR(orientation, magnitude), at the origin.
+Expected<Frame> direction_of(const Reader& reader, std::uint32_t instance) {
+  const auto own = reader.attributes(instance, "VECTOR", 1, 2);
+  const auto orientation = own.empty() ? std::nullopt : reader.reference(own[0]);
+  const auto direction = orientation ? reader.direction(*orientation) : std::nullopt;
+  if (!direction || !(direction->norm() > 0)) return reader.error(instance, "it has no direction");
+  return frame_about(Frame{}.origin, *direction);
+}
+
 }  // namespace
+
+struct FaceSurface::Elementary {
+  const char* entity;
+  Kind kind;
+  std::size_t lengths;
+};
 
 Expected<FaceSurface> FaceSurface::read(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it,
                                         std::span<const double> angle_units) {
-  struct Elementary {
-    const char* entity;
-    Kind kind;
-    std::size_t lengths;
-  };
   constexpr std::array<Elementary, 6> forms = {{{"PLANE", Kind::plane, 0},
                                                 {"CYLINDRICAL_SURFACE", Kind::cylinder, 1},
                                                 {"CONICAL_SURFACE", Kind::cone, 2},
@@ -34,90 +66,78 @@ Expected<FaceSurface> FaceSurface::read(const Reader& reader, std::uint32_t inst
                                                 {"TOROIDAL_SURFACE", Kind::torus, 2},
                                                 {"DEGENERATE_TOROIDAL_SURFACE", Kind::torus, 3}}};
   for (const auto& form : forms) {
-    if (!reader.is(instance, form.entity)) continue;
-    const auto frame = position_of(reader, instance);
-    if (!frame) return reader.error(instance, "its position cannot be read");
-    FaceSurface surface(form.kind, *frame);
-    if (form.kind != Kind::plane) {
-      const auto own = reader.attributes(instance, form.entity, 2, form.lengths);
-      const auto radius = own.empty() ? std::nullopt : reader.real(own[0]);
-      if (!radius || !(*radius > 0 || (*radius == 0 && form.kind == Kind::cone))) {
-        return reader.error(instance, "its radius cannot be read");
-      }
-      surface.radius_ = *radius;
-      if (form.lengths > 1) {
-        const auto second = reader.real(own[1]);
-        if (!second || !(*second != 0)) return reader.error(instance, "its second measure cannot be read");
-        surface.minor_ = *second;
-      }
-      surface.lemon_ = form.lengths == 3 && reader.enumeration(own[2]) == "F" && surface.minor_ > surface.radius_;
-      surface.periods_[0] = turn;
-    }
-    if (form.kind == Kind::cone) {
-      const double angle = surface.minor_;
-      double best = std::numeric_limits<double>::infinity();
-      for (const double unit : angle_units) {
-        if (!(std::abs(angle * unit) < turn / 4)) continue;
-        const double tangent = std::tan(angle * unit);
-        double off = 0;
-        for (const Point& p : on_it) {
-          const Point d = p - frame->origin;
-          const double z = d.dot(frame->z);
-          off = std::max(off, std::abs((d - z * frame->z).norm() - std::abs(surface.radius_ + z * tangent)));
-        }
-        if (off >= best) continue;
-        best = off;
-        surface.minor_ = tangent;
-      }
-      if (!std::isfinite(best)) return reader.error(instance, "its half angle is not below a right angle");
-    }
-    surface.set_poles();
-    return surface;
+    if (reader.is(instance, form.entity)) return read_elementary(reader, instance, form, on_it, angle_units);
   }
+  if (reader.is(instance, "SURFACE_OF_REVOLUTION")) return read_swept(reader, instance, Kind::revolution, on_it);
+  if (reader.is(instance, "SURFACE_OF_LINEAR_EXTRUSION")) return read_swept(reader, instance, Kind::extrusion, on_it);
+  return reader.error(instance, "faces on surfaces of this form are not drawn");
+}
 
-  const bool revolution = reader.is(instance, "SURFACE_OF_REVOLUTION");
-  if (!revolution && !reader.is(instance, "SURFACE_OF_LINEAR_EXTRUSION")) {
-    return reader.error(instance, "faces on surfaces of this form are not drawn");
+Expected<FaceSurface> FaceSurface::read_elementary(const Reader& reader, std::uint32_t instance, const Elementary& form,
+                                                   std::span<const Point> on_it, std::span<const double> angle_units) {
+  const auto frame = position_of(reader, instance);
+  if (!frame) return reader.error(instance, "its position cannot be read");
+  FaceSurface surface(form.kind, *frame);
+  if (form.kind != Kind::plane) {
+    const auto own = reader.attributes(instance, form.entity, 2, form.lengths);
+    const auto radius = own.empty() ? std::nullopt : reader.real(own[0]);
+    if (!radius || !(*radius > 0 || (*radius == 0 && form.kind == Kind::cone))) {
+      return reader.error(instance, "its radius cannot be read");
+    }
+    surface.radius_ = *radius;
+    if (form.lengths > 1) {
+      const auto second = reader.real(own[1]);
+      if (!second || !(*second != 0)) return reader.error(instance, "its second measure cannot be read");
+      surface.minor_ = *second;
+    }
+    surface.lemon_ = form.lengths == 3 && reader.enumeration(own[2]) == "F" && surface.minor_ > surface.radius_;
+    surface.periods_[0] = turn;
   }
+  if (form.kind == Kind::cone && !surface.find_half_angle(on_it, angle_units)) {
+    return reader.error(instance, "its half angle is not below a right angle");
+  }
+  surface.set_poles();
+  return surface;
+}
+
+/// Makes the half angle of a cone its tangent, by the unit that brings the cone closest to the points on it.
+bool FaceSurface::find_half_angle(std::span<const Point> on_it, std::span<const double> angle_units) {
+  const double angle = minor_;
+  double best = std::numeric_limits<double>::infinity();
+  for (const double unit : angle_units) {
+    if (!(std::abs(angle * unit) < turn / 4)) continue;
+    const double tangent = std::tan(angle * unit);
+    double off = 0;
+    for (const Point& p : on_it) {
+      const Point d = p - frame_.origin;
+      const double z = d.dot(frame_.z);
+      off = std::max(off, std::abs((d - z * frame_.z).norm() - std::abs(radius_ + z * tangent)));
+    }
+    if (off >= best) continue;
+    best = off;
+    minor_ = tangent;
+  }
+  return std::isfinite(best);
+}
+
+Expected<FaceSurface> FaceSurface::read_swept(const Reader& reader, std::uint32_t instance, Kind kind,
+                                              std::span<const Point> on_it) {
+  const bool revolution = kind == Kind::revolution;
   const bool complex = reader.file().instance(instance).complex;
-  const auto way =
+  const auto sweep =
       reader.attributes(instance, revolution ? "SURFACE_OF_REVOLUTION" : "SURFACE_OF_LINEAR_EXTRUSION", 2, 1);
-  const auto target = way.empty() ? no_instance : reader.reference(way[0]).value_or(no_instance);
+  const auto target = sweep.empty() ? no_instance : reader.reference(sweep[0]).value_or(no_instance);
   const auto swept = reader.attributes(instance, "SWEPT_SURFACE", complex ? 0 : 1, 1);
   const auto curve = swept.empty() ? no_instance : reader.reference(swept[0]).value_or(no_instance);
   if (target == no_instance || curve == no_instance)
     return reader.error(instance, "it has no swept curve, or no way to sweep it");
-  std::optional<FaceSurface> surface;
-  if (revolution) {
-    // AXIS1_PLACEMENT(location, axis)
-    const auto own = reader.attributes(target, "AXIS1_PLACEMENT", 1, 2);
-    const auto location = own.empty() ? std::nullopt : reader.reference(own[0]);
-    const auto axis = own.empty() ? std::nullopt : reader.reference(own[1]);
-    const auto origin =
-        location ? reader.point(*location) : Expected<Point>(reader.error(target, "it has no location"));
-    const Point z = (axis ? reader.direction(*axis) : std::nullopt).value_or(Point::UnitZ());
-    if (!origin) return std::unexpected(origin.error());
-    if (!(z.norm() > 0)) return reader.error(target, "its axis has no length");
-    Frame frame{*origin};
-    frame.z = z.normalized();
-    frame.x = frame.z.unitOrthogonal();
-    frame.y = frame.z.cross(frame.x);
-    surface = FaceSurface(Kind::revolution, frame);
-    surface->periods_[0] = turn;
-  } else {
-    const auto own = reader.attributes(target, "VECTOR", 1, 2);
-    const auto orientation = own.empty() ? std::nullopt : reader.reference(own[0]);
-    const auto direction = orientation ? reader.direction(*orientation) : std::nullopt;
-    if (!direction || !(direction->norm() > 0)) return reader.error(target, "it has no direction");
-    Frame frame;
-    frame.z = direction->normalized();
-    frame.x = frame.z.unitOrthogonal();
-    frame.y = frame.z.cross(frame.x);
-    surface = FaceSurface(Kind::extrusion, frame);
-  }
-  if (auto done = surface->tabulate(reader, curve, on_it); !done) return std::unexpected(std::move(done.error()));
-  surface->set_poles();
-  return *std::move(surface);
+  const auto frame = revolution ? axis_of(reader, target) : direction_of(reader, target);
+  if (!frame) return std::unexpected(frame.error());
+  FaceSurface surface(kind, *frame);
+  if (revolution) surface.periods_[0] = turn;
+  if (auto done = surface.tabulate(reader, curve, on_it); !done) return std::unexpected(std::move(done.error()));
+  surface.set_poles();
+  return surface;
 }
 
 std::optional<FaceSurface> FaceSurface::plane_of(std::span<const Point> loop) {

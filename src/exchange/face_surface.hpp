@@ -56,8 +56,20 @@ class FaceSurface {
   FaceSurface(Kind kind, Frame frame) : kind_(kind), frame_(frame) {}
 
   [[nodiscard]] Point around(double u) const { return std::cos(u) * frame_.x + std::sin(u) * frame_.y; }
+  struct Elementary;
+  [[nodiscard]] static Expected<FaceSurface> read_elementary(const Reader& reader, std::uint32_t instance,
+                                                             const Elementary& form, std::span<const Point> on_it,
+                                                             std::span<const double> angle_units);
+  [[nodiscard]] static Expected<FaceSurface> read_swept(const Reader& reader, std::uint32_t instance, Kind kind,
+                                                        std::span<const Point> on_it);
+  [[nodiscard]] bool find_half_angle(std::span<const Point> on_it, std::span<const double> angle_units);
   void set_poles();
   [[nodiscard]] Expected<void> tabulate(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it);
+  [[nodiscard]] Expected<void> find_range(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it);
+  [[nodiscard]] Expected<void> end_at_axis(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it);
+  void find_side();
+  void sample_profile();
+  void keep_one_side();
   [[nodiscard]] Eigen::Vector2d section(const Point& p) const;
   [[nodiscard]] double nearest(const Eigen::Vector2d& q) const;
 

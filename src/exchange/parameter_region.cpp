@@ -209,6 +209,110 @@ bool place(Polygon& loop, const ParameterSpace& space, const std::vector<RegionP
   return false;
 }
 
+/// Loops that wind round the surface, all in one direction (−1: there is none), and loops that do not.
+struct Bounds {
+  int direction = -1;
+  std::vector<Unwrapped> round;
+  std::vector<Polygon> plain;
+};
+
+Expected<Bounds> sorted_by_winding(const std::vector<Unwrapped>& loops) {
+  Bounds bounds;
+  for (const auto& loop : loops) {
+    if (loop.winding[0] == 0 && loop.winding[1] == 0) {
+      if (loop.points.size() > 2) bounds.plain.push_back(loop.points);
+      continue;
+    }
+    const int d = loop.winding[0] != 0 ? 0 : 1;
+    if (loop.winding[std::size_t(1 - d)] != 0 || std::abs(loop.winding[std::size_t(d)]) != 1 ||
+        (bounds.direction >= 0 && bounds.direction != d)) {
+      return no_region("its bounds wind round the surface more than one way");
+    }
+    bounds.direction = d;
+    bounds.round.push_back(loop);
+  }
+  return bounds;
+}
+
+double mean_height(const Unwrapped& loop, int d) {
+  double sum = 0;
+  for (const auto& p : loop.points) sum += p.at[1 - d];
+  return sum / static_cast<double>(loop.points.size());
+}
+
+/// The region is above a loop that runs in u, below one that runs against it; with u and v exchanged the reverse.
+bool upwards(const Unwrapped& loop, int d) { return (loop.winding[std::size_t(d)] > 0) == (d == 0); }
+
+/// What lies between loops that wind round in direction d, and between them and the poles.
+Expected<void> between_round_loops(const ParameterSpace& space, std::vector<Unwrapped> round, int d, const Sight& sight,
+                                   std::vector<RegionPart>& parts) {
+  const double period = space.periods[std::size_t(d)], other = space.periods[std::size_t(1 - d)];
+  const auto& ends = space.poles[std::size_t(1 - d)];
+  for (auto& loop : round) {
+    if (other > 0) shift(loop.points, 1 - d, -other * std::floor(mean_height(loop, d) / other));
+  }
+  std::sort(round.begin(), round.end(),
+            [&](const Unwrapped& a, const Unwrapped& b) { return mean_height(a, d) < mean_height(b, d); });
+  const bool lower_open = upwards(round.front(), d) || !(ends[0] || other > 0);
+  if (!lower_open && other > 0) {
+    shift(round.front().points, 1 - d, other);
+    std::rotate(round.begin(), round.begin() + 1, round.end());
+  } else if (!lower_open && !(round.size() == 2 && upwards(round.back(), d) && !ends[1])) {
+    auto polygon = cap(round.front(), *ends[0], d, period, sight);
+    if (!polygon) return no_region("the surface cannot be cut open below its bounds");
+    parts.push_back({*std::move(polygon), {}});
+    round.erase(round.begin());
+  }
+  while (!round.empty()) {
+    std::optional<Polygon> polygon;
+    if (round.size() >= 2) {
+      polygon = strip(round[0], round[1], d, period, sight);
+      round.erase(round.begin(), round.begin() + 2);
+    } else {
+      // Alone: up to the pole it looks at, or the only one there is.
+      const auto end = upwards(round[0], d) ? (ends[1] ? ends[1] : ends[0]) : (ends[0] ? ends[0] : ends[1]);
+      if (!end) return no_region("one of its bounds goes round the surface and none faces it");
+      polygon = cap(round[0], *end, d, period, sight);
+      round.clear();
+    }
+    if (!polygon) return no_region("the surface cannot be cut open between its bounds");
+    parts.push_back({*std::move(polygon), {}});
+  }
+  return {};
+}
+
+/// Loops that do not wind round, the largest first: holes of what is there, or parts of their own.
+Expected<void> add_plain_loops(const ParameterSpace& space, std::vector<Polygon> plain, const Sight& sight,
+                               std::vector<RegionPart>& parts) {
+  std::sort(plain.begin(), plain.end(),
+            [](const Polygon& a, const Polygon& b) { return std::abs(doubled_area(a)) > std::abs(doubled_area(b)); });
+  const bool closed = (space.periods[0] > 0 || (space.poles[0][0] && space.poles[0][1])) &&
+                      (space.periods[1] > 0 || (space.poles[1][0] && space.poles[1][1]));
+  if (parts.empty() && closed && (plain.empty() || doubled_area(plain.front()) < 0)) {
+    auto polygon = everything(space, sight);
+    if (!polygon) return no_region("the surface cannot be cut open beside its bounds");
+    parts.push_back({*std::move(polygon), {}});
+  }
+  for (auto& loop : plain) {
+    std::size_t which = 0;
+    if (place(loop, space, parts, which))
+      parts[which].holes.push_back(std::move(loop));
+    else
+      parts.push_back({std::move(loop), {}});
+  }
+  return {};
+}
+
+/// Outer bounds to the left, holes to the right.
+void orient(std::vector<RegionPart>& parts) {
+  for (auto& part : parts) {
+    if (doubled_area(part.outer) < 0) std::reverse(part.outer.begin(), part.outer.end());
+    for (auto& hole : part.holes) {
+      if (doubled_area(hole) > 0) std::reverse(hole.begin(), hole.end());
+    }
+  }
+}
+
 }  // namespace
 
 double doubled_area(std::span<const RegionPoint> polygon) {
@@ -238,92 +342,20 @@ Expected<std::vector<RegionPart>> parameter_region(const ParameterSpace& space,
     auto loop = unwrap(space, loops[k], static_cast<int>(k));
     if (loop.points.size() >= 2) all.push_back(std::move(loop));
   }
+  auto bounds = sorted_by_winding(all);
+  if (!bounds) return std::unexpected(bounds.error());
   std::vector<const Unwrapped*> every;
-  std::vector<Unwrapped> round;
-  std::vector<Polygon> plain;
-  int d = -1;
-  for (const auto& loop : all) {
-    every.push_back(&loop);
-    if (loop.winding[0] == 0 && loop.winding[1] == 0) {
-      if (loop.points.size() > 2) plain.push_back(loop.points);
-      continue;
-    }
-    const int way = loop.winding[0] != 0 ? 0 : 1;
-    if (loop.winding[std::size_t(1 - way)] != 0 || std::abs(loop.winding[std::size_t(way)]) != 1 ||
-        (d >= 0 && d != way)) {
-      return no_region("its bounds wind round the surface more than one way");
-    }
-    d = way;
-    round.push_back(loop);
-  }
+  for (const auto& loop : all) every.push_back(&loop);
   const Sight sight(space, every);
   std::vector<RegionPart> parts;
-
-  if (d >= 0) {
-    const double period = space.periods[std::size_t(d)], other = space.periods[std::size_t(1 - d)];
-    const auto& ends = space.poles[std::size_t(1 - d)];
-    const auto height = [d](const Unwrapped& loop) {
-      double sum = 0;
-      for (const auto& p : loop.points) sum += p.at[1 - d];
-      return sum / static_cast<double>(loop.points.size());
-    };
-    for (auto& loop : round) {
-      if (other > 0) shift(loop.points, 1 - d, -other * std::floor(height(loop) / other));
-    }
-    std::sort(round.begin(), round.end(),
-              [&](const Unwrapped& a, const Unwrapped& b) { return height(a) < height(b); });
-    // The region is above a loop that runs in u, below one that runs against it; with u and v exchanged the reverse.
-    const auto upwards = [d](const Unwrapped& loop) { return (loop.winding[std::size_t(d)] > 0) == (d == 0); };
-    const bool lower_open = upwards(round.front()) || !(ends[0] || other > 0);
-    if (!lower_open && other > 0) {
-      shift(round.front().points, 1 - d, other);
-      std::rotate(round.begin(), round.begin() + 1, round.end());
-    } else if (!lower_open && !(round.size() == 2 && upwards(round.back()) && !ends[1])) {
-      auto polygon = cap(round.front(), *ends[0], d, period, sight);
-      if (!polygon) return no_region("the surface cannot be cut open below its bounds");
-      parts.push_back({*std::move(polygon), {}});
-      round.erase(round.begin());
-    }
-    while (!round.empty()) {
-      std::optional<Polygon> polygon;
-      if (round.size() >= 2) {
-        polygon = strip(round[0], round[1], d, period, sight);
-        round.erase(round.begin(), round.begin() + 2);
-      } else {
-        // Alone: up to the pole it looks at, or the only one there is.
-        const auto end = upwards(round[0]) ? (ends[1] ? ends[1] : ends[0]) : (ends[0] ? ends[0] : ends[1]);
-        if (!end) return no_region("one of its bounds goes round the surface and none faces it");
-        polygon = cap(round[0], *end, d, period, sight);
-        round.clear();
-      }
-      if (!polygon) return no_region("the surface cannot be cut open between its bounds");
-      parts.push_back({*std::move(polygon), {}});
-    }
+  if (bounds->direction >= 0) {
+    if (auto done = between_round_loops(space, std::move(bounds->round), bounds->direction, sight, parts); !done)
+      return std::unexpected(done.error());
   }
-
-  std::sort(plain.begin(), plain.end(),
-            [](const Polygon& a, const Polygon& b) { return std::abs(doubled_area(a)) > std::abs(doubled_area(b)); });
-  const bool closed = (space.periods[0] > 0 || (space.poles[0][0] && space.poles[0][1])) &&
-                      (space.periods[1] > 0 || (space.poles[1][0] && space.poles[1][1]));
-  if (parts.empty() && closed && (plain.empty() || doubled_area(plain.front()) < 0)) {
-    auto polygon = everything(space, sight);
-    if (!polygon) return no_region("the surface cannot be cut open beside its bounds");
-    parts.push_back({*std::move(polygon), {}});
-  }
-  for (auto& loop : plain) {
-    std::size_t which = 0;
-    if (place(loop, space, parts, which))
-      parts[which].holes.push_back(std::move(loop));
-    else
-      parts.push_back({std::move(loop), {}});
-  }
+  if (auto done = add_plain_loops(space, std::move(bounds->plain), sight, parts); !done)
+    return std::unexpected(done.error());
   if (parts.empty()) return no_region("it has no bounds, and its surface has no end");
-  for (auto& part : parts) {
-    if (doubled_area(part.outer) < 0) std::reverse(part.outer.begin(), part.outer.end());
-    for (auto& hole : part.holes) {
-      if (doubled_area(hole) > 0) std::reverse(hole.begin(), hole.end());
-    }
-  }
+  orient(parts);
   return parts;
 }
 

@@ -28,21 +28,31 @@ Expected<void> FaceSurface::tabulate(const Reader& reader, std::uint32_t instanc
   auto curve = EdgeCurve::read(reader, instance);
   if (!curve) return std::unexpected(std::move(curve.error()));
   profile_ = *std::move(curve);
+  if (auto done = find_range(reader, instance, on_it); !done) return done;
+  if (kind_ == Kind::revolution) {
+    find_side();
+    if (auto done = end_at_axis(reader, instance, on_it); !done) return done;
+  }
+  sample_profile();
+  if (one_side_) keep_one_side();
+  return {};
+}
+
+/// How much of the profile is needed. As far as the face can reach, where it has no end: a point on the face is as far
+/// from the axis, or along it, as that of the curve it comes from.
+Expected<void> FaceSurface::find_range(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it) {
   const bool revolution = kind_ == Kind::revolution;
   if (const auto domain = profile_->domain()) {
     range_ = *domain;
     periods_[revolution ? 1 : 0] = profile_->closed() ? domain->length() : 0;
   } else {
-    // As far as the face can reach: a point on it is as far from the axis, or along it, as that of the curve it comes
-    // from.
     range_ = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     const Point start = profile_->at(0);
     const double first = section(start).norm();
     for (const Point& p : on_it) {
       const double reach = revolution ? section(p).norm() + first : (section(p) - section(start)).norm();
       double t = 1;
-      // Both ways from t = 0 until that far away.
-      for (const double sign : {-1.0, 1.0}) {
+      for (const double sign : {-1.0, 1.0}) {  // in both directions from t = 0 until that far away
         t = sign * std::max(reach, 1e-9);
         if (!profile_->straight()) {
           for (t = sign; (section(profile_->at(t)) - section(start)).norm() < reach && std::abs(t) < 700; t *= 2) {
@@ -59,40 +69,47 @@ Expected<void> FaceSurface::tabulate(const Reader& reader, std::uint32_t instanc
     }
   }
   if (!(range_.length() > 0)) return reader.error(instance, "it has no length");
+  return {};
+}
 
-  // A circle whose middle is on the axis sweeps everything twice: half of it will do.
+/// A circle whose middle is on the axis sweeps everything twice: the side of its largest extent will do.
+void FaceSurface::find_side() {
   double largest = 0;
-  for (int k = 0; k <= 64 && revolution; ++k) {
+  for (int k = 0; k <= 64; ++k) {
     const Point d = profile_->at(range_.lower + range_.length() * k / 64) - frame_.origin;
     const Point across = d - d.dot(frame_.z) * frame_.z;
     if (across.norm() <= largest) continue;
     largest = across.norm();
     side_ = across;
   }
-  if (revolution && profile_->domain() == std::nullopt && profile_->straight()) {
-    // A line that meets the axis: the cone's one nappe that the face is on begins there.
-    const Point a = profile_->at(0) - frame_.origin;
-    const Point direction = profile_->derivative(0);
-    const Point across = direction - direction.dot(frame_.z) * frame_.z;
-    if (across.norm() > 1e-9) {
-      const double t = -(a - a.dot(frame_.z) * frame_.z).dot(across) / across.squaredNorm();
-      const double waist = section(profile_->at(t)).x();
-      if (waist > 1e-9 * range_.length() && std::abs(direction.dot(frame_.z)) > 1e-9) {
-        waist_ = waist;
-      } else if (waist <= 1e-9 * range_.length()) {
-        double middle = 0;
-        for (const Point& p : on_it) middle += section(p).y() / static_cast<double>(on_it.size());
-        const double at_pole = section(profile_->at(t)).y();
-        const bool upper = (middle > at_pole) == (direction.dot(frame_.z) > 0);
-        (upper ? range_.lower : range_.upper) = t;
-        if (!(range_.length() > 0))
-          return reader.error(instance, "the face lies beyond where its curve meets the axis");
-      }
-    }
+}
+
+/// Of a line that meets the axis, only the cone's one nappe that the face is on; of one that passes it, the waist.
+Expected<void> FaceSurface::end_at_axis(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it) {
+  if (profile_->domain() != std::nullopt || !profile_->straight()) return {};
+  const Point a = profile_->at(0) - frame_.origin;
+  const Point direction = profile_->derivative(0);
+  const Point across = direction - direction.dot(frame_.z) * frame_.z;
+  if (!(across.norm() > 1e-9)) return {};
+  const double t = -(a - a.dot(frame_.z) * frame_.z).dot(across) / across.squaredNorm();
+  const double waist = section(profile_->at(t)).x();
+  if (waist > 1e-9 * range_.length() && std::abs(direction.dot(frame_.z)) > 1e-9) {
+    waist_ = waist;
+  } else if (waist <= 1e-9 * range_.length()) {
+    double middle = 0;
+    for (const Point& p : on_it) middle += section(p).y() / static_cast<double>(on_it.size());
+    const double at_pole = section(profile_->at(t)).y();
+    const bool upper = (middle > at_pole) == (direction.dot(frame_.z) > 0);
+    (upper ? range_.lower : range_.upper) = t;
+    if (!(range_.length() > 0)) return reader.error(instance, "the face lies beyond where its curve meets the axis");
   }
-  std::vector<double> parameters = profile_->straight()
-                                       ? std::vector<double>{range_.lower, range_.upper}
-                                       : profile_->subdivided(range_.lower, range_.upper, sample_chord);
+  return {};
+}
+
+void FaceSurface::sample_profile() {
+  const std::vector<double> parameters = profile_->straight()
+                                             ? std::vector<double>{range_.lower, range_.upper}
+                                             : profile_->subdivided(range_.lower, range_.upper, sample_chord);
   const auto pieces = static_cast<std::size_t>(profile_->straight() ? 64 : samples_per_piece);
   for (std::size_t k = 0; k + 1 < parameters.size(); ++k) {
     for (std::size_t i = 0; i < pieces; ++i) {
@@ -101,7 +118,8 @@ Expected<void> FaceSurface::tabulate(const Reader& reader, std::uint32_t instanc
     }
   }
   sample_parameters_.push_back(parameters.back());
-  one_side_ = revolution;
+  const bool revolution = kind_ == Kind::revolution;
+  one_side_ = revolution;  // so that `section` has signs
   bool crosses = false;
   double size = 0;
   for (const double t : sample_parameters_) {
@@ -113,30 +131,30 @@ Expected<void> FaceSurface::tabulate(const Reader& reader, std::uint32_t instanc
   if (!one_side_ && revolution) {
     for (auto& q : samples_) q.x() = std::abs(q.x());
   }
-  if (one_side_) {
-    // Only the part on the positive side: from one crossing of the axis to the next.
-    const auto n = samples_.size() - 1;
-    std::size_t begin = 0;
-    while (begin < n && !(samples_[begin].x() < 0 && samples_[(begin + 1) % n].x() >= 0)) ++begin;
-    std::size_t end = begin + 1;
-    while (end < begin + n && samples_[(end + 1) % n].x() >= 0) ++end;
-    const auto crossing = [&](std::size_t k, std::size_t l) {
-      const double a = samples_[k % n].x(), b = samples_[l % n].x();
-      const double step = sample_parameters_[k % n + 1] - sample_parameters_[k % n];
-      return sample_parameters_[k % n] + (k >= n ? range_.length() : 0) + step * a / (a - b);
-    };
-    range_ = {crossing(begin, begin + 1), crossing(end, end + 1)};
-    periods_[1] = 0;
-    sample_parameters_.clear();
-    samples_.clear();
-    constexpr int count = 512;
-    for (int k = 0; k <= count; ++k) {
-      sample_parameters_.push_back(range_.lower + range_.length() * k / count);
-      samples_.push_back(section(profile_->at(sample_parameters_.back())));
-    }
-    samples_.front().x() = samples_.back().x() = 0;
+}
+
+/// Only the part on the positive side: from one crossing of the axis to the next.
+void FaceSurface::keep_one_side() {
+  const auto n = samples_.size() - 1;
+  std::size_t begin = 0;
+  while (begin < n && !(samples_[begin].x() < 0 && samples_[(begin + 1) % n].x() >= 0)) ++begin;
+  std::size_t end = begin + 1;
+  while (end < begin + n && samples_[(end + 1) % n].x() >= 0) ++end;
+  const auto crossing = [&](std::size_t k, std::size_t l) {
+    const double a = samples_[k % n].x(), b = samples_[l % n].x();
+    const double step = sample_parameters_[k % n + 1] - sample_parameters_[k % n];
+    return sample_parameters_[k % n] + (k >= n ? range_.length() : 0) + step * a / (a - b);
+  };
+  range_ = {crossing(begin, begin + 1), crossing(end, end + 1)};
+  periods_[1] = 0;
+  sample_parameters_.clear();
+  samples_.clear();
+  constexpr int count = 512;
+  for (int k = 0; k <= count; ++k) {
+    sample_parameters_.push_back(range_.lower + range_.length() * k / count);
+    samples_.push_back(section(profile_->at(sample_parameters_.back())));
   }
-  return {};
+  samples_.front().x() = samples_.back().x() = 0;
 }
 
 double FaceSurface::nearest(const Eigen::Vector2d& q) const {
