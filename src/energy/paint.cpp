@@ -91,6 +91,94 @@ Expected<void> check(const Region<D>& region) {
   return {};
 }
 
+/// One blend of coefficients towards values, on the knots of a weight.
+template <int D>
+class Blend {
+ public:
+  Blend(std::span<const Coefficient<D>> old, std::span<const double> values, const std::vector<Interval>& ranges,
+        double tolerance)
+      : old_(old), values_(values), ranges_(ranges), tolerance_(tolerance) {}
+
+  /// The fields; without value where some are off by more than the tolerance: then the spans are marked.
+  Expected<std::optional<std::vector<SplineField<D>>>> on(const std::array<KnotVector, D>& grid,
+                                                          const std::vector<double>& weight) {
+    samples_.clear();
+    samples_.reserve(D);
+    for (std::size_t d = 0; d < D; ++d) {
+      samples_.emplace_back(grid[d], 2 * grid[d].degree() + 3, 0);
+      at_[d] = samples_[d].parameters;
+      marked_[d].assign(samples_[d].spans.size(), false);
+    }
+    const auto soft = SplineField<D>::create(grid, weight);
+    if (!soft) return std::unexpected(soft.error());
+    const std::vector<double> softness = *soft->on_grid(at_);
+    std::vector<SplineField<D>> result;
+    bool met = true;
+    for (std::size_t k = 0; k < old_.size(); ++k) {
+      const auto before = on_knots<D>(old_[k], grid);
+      if (!before) return std::unexpected(before.error());
+      auto after = blended(*before, k, weight);
+      if (!after) return std::unexpected(after.error());
+      result.push_back(std::move(*after));
+      if (std::holds_alternative<double>(old_[k])) continue;
+      met = mark_misses(*before, result.back(), k, softness) && met;
+    }
+    if (!met) return std::nullopt;
+    return result;
+  }
+
+  /// Halves the marked spans; false where none can be.
+  [[nodiscard]] bool halve(std::array<KnotVector, D>& grid) const {
+    bool changed = false;
+    for (std::size_t d = 0; d < D; ++d) changed = detail::halve(grid[d], marked_[d]) || changed;
+    return changed;
+  }
+
+ private:
+  [[nodiscard]] Expected<SplineField<D>> blended(const SplineField<D>& before, std::size_t k,
+                                                 const std::vector<double>& weight) const {
+    std::vector<double> c = before.coefficients();
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      c[i] = std::clamp(std::lerp(c[i], values_[k], weight[i]), ranges_[k].lower, ranges_[k].upper);
+    }
+    return SplineField<D>::create(before.knots(), std::move(c));
+  }
+
+  /// Blended coefficients against blended values, where the old field varies.
+  bool mark_misses(const SplineField<D>& before, const SplineField<D>& after, std::size_t k,
+                   const std::vector<double>& softness) {
+    bool met = true;
+    const double allowed = 0.5 * tolerance_ * ranges_[k].length();
+    const std::vector<double> from = *before.on_grid(at_), to = *after.on_grid(at_);
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      if (std::abs(to[i] - std::lerp(from[i], values_[k], softness[i])) <= allowed) continue;
+      met = false;
+      for (std::size_t d = D, rest = i; d-- > 0;) {
+        marked_[d][rest % at_[d].size() / static_cast<std::size_t>(samples_[d].per_span)] = true;
+        rest /= at_[d].size();
+      }
+    }
+    return met;
+  }
+
+  std::span<const Coefficient<D>> old_;
+  std::span<const double> values_;
+  const std::vector<Interval>& ranges_;
+  double tolerance_;
+  std::vector<detail::SpanSamples> samples_;
+  std::array<std::span<const double>, D> at_;
+  std::array<std::vector<bool>, D> marked_;
+};
+
+/// Between what values the painted coefficients stay: those of the old field and the new one.
+template <int D>
+Interval range_of(const Coefficient<D>& old, double value) {
+  if (const auto* field = std::get_if<SplineField<D>>(&old)) {
+    return {std::min(value, field->range().lower), std::max(value, field->range().upper)};
+  }
+  return {std::min(value, std::get<double>(old)), std::max(value, std::get<double>(old))};
+}
+
 }  // namespace
 
 template <int D>
@@ -119,14 +207,8 @@ Expected<std::vector<SplineField<D>>> paint(std::span<const Coefficient<D>> old,
   std::vector<Interval> ranges;
   for (std::size_t k = 0; k < old.size(); ++k) {
     if (!std::isfinite(values[k])) return input_error("the value is not a finite number");
-    Interval range{values[k], values[k]};
-    if (const auto* field = std::get_if<SplineField<D>>(&old[k])) {
-      knots.push_back(field->knots());
-      range = {std::min(range.lower, field->range().lower), std::max(range.upper, field->range().upper)};
-    } else {
-      range = {std::min(range.lower, std::get<double>(old[k])), std::max(range.upper, std::get<double>(old[k]))};
-    }
-    ranges.push_back(range);
+    if (const auto* field = std::get_if<SplineField<D>>(&old[k])) knots.push_back(field->knots());
+    ranges.push_back(range_of<D>(old[k], values[k]));
   }
   auto base = common_knots<D>(std::span<const std::array<KnotVector, D>>(knots));
   if (!base) return std::unexpected(base.error());
@@ -136,54 +218,16 @@ Expected<std::vector<SplineField<D>>> paint(std::span<const Coefficient<D>> old,
   fit.max_coefficients = options.max_coefficients;
   fit.range = Interval{0, 1};
   std::array<KnotVector, D> start = *base;
+  Blend<D> blend(old, values, ranges, options.tolerance);
   while (true) {
     const auto weight =
         fit_field<D>([&](const std::array<double, D>& u) { return region.weight(u, domain); }, start, fit);
     if (!weight) return std::unexpected(weight.error());
-    const std::array<KnotVector, D>& grid = weight->field.knots();
-    const std::vector<double> w = settled<D>(weight->field, region);
-    std::vector<SplineField<D>> result;
-    std::array<std::vector<bool>, D> marked;
-    std::vector<detail::SpanSamples> samples;
-    std::array<std::span<const double>, D> at;
-    samples.reserve(D);
-    for (std::size_t d = 0; d < D; ++d) {
-      samples.emplace_back(grid[d], 2 * grid[d].degree() + 3, 0);
-      at[d] = samples[d].parameters;
-      marked[d].assign(samples[d].spans.size(), false);
-    }
-    const auto soft = SplineField<D>::create(grid, w);
-    if (!soft) return std::unexpected(soft.error());
-    const std::vector<double> softness = *soft->on_grid(at);
-    bool met = true;
-    for (std::size_t k = 0; k < old.size(); ++k) {
-      const auto before = on_knots<D>(old[k], grid);
-      if (!before) return std::unexpected(before.error());
-      std::vector<double> c = before->coefficients();
-      for (std::size_t i = 0; i < c.size(); ++i) {
-        c[i] = std::clamp(std::lerp(c[i], values[k], w[i]), ranges[k].lower, ranges[k].upper);
-      }
-      auto after = SplineField<D>::create(grid, std::move(c));
-      if (!after) return std::unexpected(after.error());
-      result.push_back(std::move(*after));
-      if (std::holds_alternative<double>(old[k])) continue;
-      // Blended coefficients against blended values, where the old field varies.
-      const double allowed = 0.5 * options.tolerance * ranges[k].length();
-      const std::vector<double> from = *before->on_grid(at), to = *result.back().on_grid(at);
-      for (std::size_t i = 0; i < to.size(); ++i) {
-        if (std::abs(to[i] - std::lerp(from[i], values[k], softness[i])) <= allowed) continue;
-        met = false;
-        for (std::size_t d = D, rest = i; d-- > 0;) {
-          marked[d][rest % at[d].size() / static_cast<std::size_t>(samples[d].per_span)] = true;
-          rest /= at[d].size();
-        }
-      }
-    }
-    if (met) return result;
-    start = grid;
-    bool changed = false;
-    for (std::size_t d = 0; d < D; ++d) changed = detail::halve(start[d], marked[d]) || changed;
-    if (!changed)
+    auto fields = blend.on(weight->field.knots(), settled<D>(weight->field, region));
+    if (!fields) return std::unexpected(fields.error());
+    if (*fields) return **std::move(fields);
+    start = weight->field.knots();
+    if (!blend.halve(start))
       return numerical_error("the old field changes too fast to be blended", "tolerance", "use a larger one");
   }
 }

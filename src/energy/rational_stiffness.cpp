@@ -66,85 +66,118 @@ int highest_order(const std::vector<Term>& energy) {
   return order;
 }
 
-/// K by the points of `quadrature`. varying[t] is what multiplies the coefficient of term t at every point of the grid,
-/// last direction fastest; empty: one.
+/// K by the points of `quadrature`, element by element. varying[t] is what multiplies the coefficient of term t at
+/// every point of the grid, last direction fastest; empty: one.
 template <int D>
-Expected<SparseMatrix> assemble_on(const Spline<D>& spline, const Energy<D>& energy, int order,
-                                   const std::array<BasisQuadrature, D>& quadrature,
-                                   const std::vector<std::vector<double>>& varying) {
-  TensorPattern<D> pattern;
-  pattern.net = spline.net();
-  std::array<std::vector<std::pair<int, int>>, D> runs;
-  int local = 1;
-  for (std::size_t d = 0; d < D; ++d) {
-    pattern.degree[d] = spline.knots()[d].degree();
-    runs[d] = element_runs(quadrature[d].basis);
-    local *= pattern.degree[d] + 1;
+class ElementAssembly {
+ public:
+  ElementAssembly(const Spline<D>& spline, const Energy<D>& energy, int order,
+                  const std::array<BasisQuadrature, D>& quadrature, const std::vector<std::vector<double>>& varying)
+      : energy_(energy),
+        quadrature_(quadrature),
+        varying_(varying),
+        rational_(spline, order),
+        basis_(multi_indices<D>(order).size()) {
+    pattern_.net = spline.net();
+    for (std::size_t d = 0; d < D; ++d) {
+      pattern_.degree[d] = spline.knots()[d].degree();
+      runs_[d] = element_runs(quadrature[d].basis);
+      local_ *= pattern_.degree[d] + 1;
+    }
   }
-  SparseMatrix matrix = pattern.allocate();
-  double* values = matrix.valuePtr();
-  std::fill(values, values + matrix.nonZeros(), 0.0);
 
-  const std::vector<MultiIndex<D>> indices = multi_indices<D>(order);
+  Expected<SparseMatrix> run() {
+    SparseMatrix matrix = pattern_.allocate();
+    std::fill(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), 0.0);
+    std::array<std::size_t, D> element{};
+    do {
+      if (auto ok = evaluate(element); !ok) return std::unexpected(ok.error());
+      add(element_matrix(), matrix);
+    } while (advance(element));
+    return matrix;
+  }
+
+ private:
   using Dense = Eigen::MatrixXd;
-  std::vector<Dense> basis(indices.size());  // basis[a](local function, point)
-  RationalBasis<D> rational(spline, order);
 
-  std::array<std::size_t, D> element{};
-  while (true) {
-    std::array<int, D> points, first;
+  /// The last direction fastest; false after the last element.
+  [[nodiscard]] bool advance(std::array<std::size_t, D>& element) const {
+    for (std::size_t d = D; d-- > 0;) {
+      if (++element[d] < runs_[d].size()) return true;
+      element[d] = 0;
+    }
+    return false;
+  }
+
+  /// Basis, weight and place of every point of the element.
+  Expected<void> evaluate(const std::array<std::size_t, D>& element) {
+    std::array<int, D> points;
     int total = 1;
     for (std::size_t d = 0; d < D; ++d) {
-      points[d] = runs[d][element[d]].second - runs[d][element[d]].first;
-      first[d] = quadrature[d].basis.first[static_cast<std::size_t>(runs[d][element[d]].first)];
+      points[d] = runs_[d][element[d]].second - runs_[d][element[d]].first;
+      first_[d] = quadrature_[d].basis.first[static_cast<std::size_t>(runs_[d][element[d]].first)];
       total *= points[d];
     }
-    for (Dense& b : basis) b.resize(local, total);
-    Eigen::VectorXd weight(total);
-    std::vector<std::size_t> place(static_cast<std::size_t>(total));  // in the whole grid
+    for (Dense& b : basis_) b.resize(local_, total);
+    weight_.resize(total);
+    place_.assign(static_cast<std::size_t>(total), 0);
     for (int k = 0; k < total; ++k) {
       std::array<const double*, D> rows;
       double w = 1;
       std::size_t stride = 1;
       for (std::size_t d = D, rest = static_cast<std::size_t>(k); d-- > 0;) {
-        const int at = runs[d][element[d]].first + static_cast<int>(rest % static_cast<std::size_t>(points[d]));
+        const int at = runs_[d][element[d]].first + static_cast<int>(rest % static_cast<std::size_t>(points[d]));
         rest /= static_cast<std::size_t>(points[d]);
-        rows[d] = quadrature[d].basis.row(at, 0);
-        w *= quadrature[d].weights[static_cast<std::size_t>(at)];
-        place[static_cast<std::size_t>(k)] += static_cast<std::size_t>(at) * stride;
-        stride *= quadrature[d].weights.size();
+        rows[d] = quadrature_[d].basis.row(at, 0);
+        w *= quadrature_[d].weights[static_cast<std::size_t>(at)];
+        place_[static_cast<std::size_t>(k)] += static_cast<std::size_t>(at) * stride;
+        stride *= quadrature_[d].weights.size();
       }
-      weight(k) = w;
-      if (auto ok = rational.evaluate(first, rows, k, basis); !ok) return std::unexpected(ok.error());
+      weight_(k) = w;
+      if (auto ok = rational_.evaluate(first_, rows, k, basis_); !ok) return std::unexpected(ok.error());
     }
-    Dense block = Dense::Zero(local, local);
-    for (std::size_t t = 0; t < energy.size(); ++t) {
-      const EnergyTerm<D>& term = energy[t];
-      const Dense& a = basis[static_cast<std::size_t>(multi_index_position<D>(term.a))];
-      const Dense& b = basis[static_cast<std::size_t>(multi_index_position<D>(term.b))];
-      Eigen::VectorXd scaled = term.coefficient * weight;
-      for (std::size_t k = 0; k < place.size() && !varying[t].empty(); ++k) {
-        scaled[static_cast<Eigen::Index>(k)] *= varying[t][place[k]];
+    return {};
+  }
+
+  [[nodiscard]] Dense element_matrix() const {
+    Dense block = Dense::Zero(local_, local_);
+    for (std::size_t t = 0; t < energy_.size(); ++t) {
+      const EnergyTerm<D>& term = energy_[t];
+      const Dense& a = basis_[static_cast<std::size_t>(multi_index_position<D>(term.a))];
+      const Dense& b = basis_[static_cast<std::size_t>(multi_index_position<D>(term.b))];
+      Eigen::VectorXd scaled = term.coefficient * weight_;
+      for (std::size_t k = 0; k < place_.size() && !varying_[t].empty(); ++k) {
+        scaled[static_cast<Eigen::Index>(k)] *= varying_[t][place_[k]];
       }
       block.noalias() += (a * scaled.asDiagonal()) * b.transpose();
     }
     // The two terms of a symmetric pair are rounded apart; the mean of both halves is symmetric to the last bit.
-    const Dense symmetric = 0.5 * (block + block.transpose());
-    for (int r = 0; r < local; ++r) {
-      const std::array<int, D> i = rational.global(first, r);
+    return 0.5 * (block + block.transpose());
+  }
+
+  void add(const Dense& block, SparseMatrix& matrix) const {
+    for (int r = 0; r < local_; ++r) {
+      const std::array<int, D> i = rational_.global(first_, r);
       int row = 0;
-      for (std::size_t d = 0; d < D; ++d) row = row * pattern.net[d] + i[d];
-      double* to = values + matrix.outerIndexPtr()[row];
-      for (int c = 0; c < local; ++c) to[pattern.offset(i, rational.global(first, c))] += symmetric(r, c);
-    }
-    std::size_t d = D;
-    while (d-- > 0) {
-      if (++element[d] < runs[d].size()) break;
-      element[d] = 0;
-      if (d == 0) return matrix;
+      for (std::size_t d = 0; d < D; ++d) row = row * pattern_.net[d] + i[d];
+      double* to = matrix.valuePtr() + matrix.outerIndexPtr()[row];
+      for (int c = 0; c < local_; ++c) to[pattern_.offset(i, rational_.global(first_, c))] += block(r, c);
     }
   }
-}
+
+  const Energy<D>& energy_;
+  const std::array<BasisQuadrature, D>& quadrature_;
+  const std::vector<std::vector<double>>& varying_;
+  TensorPattern<D> pattern_;
+  std::array<std::vector<std::pair<int, int>>, D> runs_;  // of Gauss points, element after element
+  int local_ = 1;                                         // basis functions on an element
+  RationalBasis<D> rational_;
+  // Of the element:
+  std::array<int, D> first_;
+  std::vector<Dense> basis_;  // basis[a](local function, point)
+  Eigen::VectorXd weight_;
+  std::vector<std::size_t> place_;  // in the whole grid
+};
 
 }  // namespace
 
@@ -156,7 +189,7 @@ Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D
     const int points = gauss_points > 0 ? gauss_points : spline.knots()[d].degree() + 8;
     quadrature[d] = gauss_basis(spline.knots()[d], points, order);
   }
-  return assemble_on<D>(spline, energy, order, quadrature, std::vector<std::vector<double>>(energy.size()));
+  return ElementAssembly<D>(spline, energy, order, quadrature, std::vector<std::vector<double>>(energy.size())).run();
 }
 
 template <int D>
@@ -203,7 +236,7 @@ Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const FieldEne
     if (!values) return std::unexpected(values.error());
     varying[t] = std::move(*values);
   }
-  return assemble_on<D>(spline, constant, order, quadrature, varying);
+  return ElementAssembly<D>(spline, constant, order, quadrature, varying).run();
 }
 
 template Expected<SparseMatrix> assemble_rational<1>(const Spline<1>&, const Energy<1>&, int);

@@ -111,77 +111,99 @@ Samples sample_spans(const KnotVector& knots) {
   return samples;
 }
 
+/// The way up from a sample of f.
 template <class Function>
-SurfaceMaximum refine(const Surface& surface, const Function& f, Eigen::Vector2d x, double value,
-                      const Eigen::Vector2d& spacing) {
-  const Interval du = surface.knots(0).domain(), dv = surface.knots(1).domain();
-  const auto clamp = [&](const Eigen::Vector2d& y) {
-    return Eigen::Vector2d(std::clamp(y[0], du.lower, du.upper), std::clamp(y[1], dv.lower, dv.upper));
-  };
-  const auto value_at = [&](const Eigen::Vector2d& y) { return f.at(jet_at(surface, y[0], y[1]).d[0]); };
-  const auto on_knot = [&surface](int d, double t) {
-    const auto knots = surface.knots(d).knots();
-    return std::binary_search(knots.begin(), knots.end(), t);
-  };
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    const Value here = f.at(jet_at(surface, x[0], x[1]));
-    Eigen::Vector2d g = here.gradient;
-    // Directions that lead out of the domain are held.
-    bool held[2];
-    for (int d = 0; d < 2; ++d) {
-      const Interval& domain = d == 0 ? du : dv;
-      held[d] = (x[d] <= domain.lower && g[d] <= 0) || (x[d] >= domain.upper && g[d] >= 0);
-    }
-    Eigen::Vector2d step = Eigen::Vector2d::Zero();
-    const double det = here.hessian.determinant();
-    if (!held[0] && !held[1] && here.hessian(0, 0) < 0 && det > 0) step = -here.hessian.inverse() * g;
-    if (!step.allFinite()) step.setZero();  // all but singular
-    // A Newton step that short changes f by its square; inside a span nothing but a maximum is there.
-    constexpr double arrived = 1e-7;
-    if (!step.isZero(0) && std::abs(step[0]) <= arrived * spacing[0] && std::abs(step[1]) <= arrived * spacing[1] &&
-        !on_knot(0, x[0]) && !on_knot(1, x[1])) {
-      return {value, {x[0], x[1]}};
-    }
-    if (step.isZero(0)) {
-      for (int d = 0; d < 2; ++d) {
-        if (!held[d] && here.hessian(d, d) < 0) step[d] = -g[d] / here.hessian(d, d);
-      }
-    }
-    for (int d = 0; d < 2; ++d) step[d] = std::clamp(step[d], -spacing[d], spacing[d]);
-    bool moved = false;
-    for (double t = 1; t > 1e-3 && !moved; t /= 2) {
-      const Eigen::Vector2d y = clamp(x + t * step);
-      const double there = value_at(y);
-      if (there > value) {
-        x = y;
-        value = there;
-        moved = true;
-      }
-    }
-    if (!moved) break;
+class Ascent {
+ public:
+  Ascent(const Surface& surface, const Function& f, const Eigen::Vector2d& x, double value,
+         const Eigen::Vector2d& spacing)
+      : surface_(surface),
+        f_(f),
+        domain_{surface.knots(0).domain(), surface.knots(1).domain()},
+        x_(x),
+        value_(value),
+        spacing_(spacing) {}
+
+  [[nodiscard]] SurfaceMaximum top() {
+    if (!climb()) search();
+    return {value_, {x_[0], x_[1]}};
   }
-  // Creases and kinks, where Newton's steps mislead.
-  for (double h = 0.5; h > 1e-7; h /= 2) {
-    bool improved = true;
-    for (int round = 0; improved && round < 4; ++round) {
-      improved = false;
-      for (int d = 0; d < 2; ++d) {
-        for (double sign : {-1.0, 1.0}) {
-          Eigen::Vector2d y = x;
-          y[d] += sign * h * spacing[d];
-          y = clamp(y);
-          const double there = value_at(y);
-          if (there > value) {
-            x = y;
-            value = there;
-            improved = true;
+
+ private:
+  [[nodiscard]] Eigen::Vector2d clamped(const Eigen::Vector2d& y) const {
+    return {std::clamp(y[0], domain_[0].lower, domain_[0].upper), std::clamp(y[1], domain_[1].lower, domain_[1].upper)};
+  }
+
+  [[nodiscard]] bool on_knot(int d) const {
+    const auto knots = surface_.knots(d).knots();
+    return std::binary_search(knots.begin(), knots.end(), x_[d]);
+  }
+
+  /// Goes to y if that is higher.
+  bool go(const Eigen::Vector2d& y) {
+    const double there = f_.at(jet_at(surface_, y[0], y[1]).d[0]);
+    if (!(there > value_)) return false;
+    x_ = y;
+    value_ = there;
+    return true;
+  }
+
+  /// Newton's iteration, each direction on its own where f is not concave; true where it arrives at a smooth maximum.
+  bool climb() {
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      const Value here = f_.at(jet_at(surface_, x_[0], x_[1]));
+      const Eigen::Vector2d g = here.gradient;
+      // Directions that lead out of the domain are held.
+      bool held[2];
+      for (int d = 0; d < 2; ++d)
+        held[d] = (x_[d] <= domain_[d].lower && g[d] <= 0) || (x_[d] >= domain_[d].upper && g[d] >= 0);
+      Eigen::Vector2d step = Eigen::Vector2d::Zero();
+      const double det = here.hessian.determinant();
+      if (!held[0] && !held[1] && here.hessian(0, 0) < 0 && det > 0) step = -here.hessian.inverse() * g;
+      if (!step.allFinite()) step.setZero();  // all but singular
+      // A Newton step that short changes f by its square; inside a span nothing but a maximum is there.
+      constexpr double arrived = 1e-7;
+      if (!step.isZero(0) && std::abs(step[0]) <= arrived * spacing_[0] && std::abs(step[1]) <= arrived * spacing_[1] &&
+          !on_knot(0) && !on_knot(1)) {
+        return true;
+      }
+      if (step.isZero(0)) {
+        for (int d = 0; d < 2; ++d) {
+          if (!held[d] && here.hessian(d, d) < 0) step[d] = -g[d] / here.hessian(d, d);
+        }
+      }
+      for (int d = 0; d < 2; ++d) step[d] = std::clamp(step[d], -spacing_[d], spacing_[d]);
+      bool moved = false;
+      for (double t = 1; t > 1e-3 && !moved; t /= 2) moved = go(clamped(x_ + t * step));
+      if (!moved) break;
+    }
+    return false;
+  }
+
+  /// A compass search: for creases and kinks, where Newton's steps mislead.
+  void search() {
+    for (double h = 0.5; h > 1e-7; h /= 2) {
+      bool improved = true;
+      for (int round = 0; improved && round < 4; ++round) {
+        improved = false;
+        for (int d = 0; d < 2; ++d) {
+          for (double sign : {-1.0, 1.0}) {
+            Eigen::Vector2d y = x_;
+            y[d] += sign * h * spacing_[d];
+            improved = go(clamped(y)) || improved;
           }
         }
       }
     }
   }
-  return {value, {x[0], x[1]}};
-}
+
+  const Surface& surface_;
+  const Function& f_;
+  Interval domain_[2];
+  Eigen::Vector2d x_;
+  double value_;
+  Eigen::Vector2d spacing_;
+};
 
 /// A local maximum of the samples of one span.
 struct Peak {
@@ -214,7 +236,7 @@ class SampledSpans {
     SurfaceMaximum best;
     for (const Peak& peak : peaks) {
       if (std::ranges::find(begun, peak.at) != begun.end()) continue;
-      const SurfaceMaximum found = refine(surface_, f, peak.at, peak.value, peak.spacing);
+      const SurfaceMaximum found = Ascent(surface_, f, peak.at, peak.value, peak.spacing).top();
       if (begun.empty() || found.value > best.value) best = found;
       begun.push_back(peak.at);
       if (begun.size() == refined) break;

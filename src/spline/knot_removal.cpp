@@ -257,12 +257,8 @@ bool remove_one(Reduction& state, const Rows& original, const KnotVector& origin
   return false;
 }
 
-}  // namespace
-
 template <int D>
-Expected<KnotRemoval<D>> remove_knots(const Spline<D>& spline, int direction, double tolerance,
-                                      std::span<const Points> companions) {
-  assert(0 <= direction && direction < D);
+Expected<void> validate(const Spline<D>& spline, double tolerance, std::span<const Points> companions) {
   if (!std::isfinite(tolerance) || tolerance < 0) {
     return input_error(fmt::format("the tolerance {} is not a length", tolerance), {}, "give a number of at least 0");
   }
@@ -277,7 +273,16 @@ Expected<KnotRemoval<D>> remove_knots(const Spline<D>& spline, int direction, do
       return std::unexpected(fits.error().within(fmt::format("companion {}", f)));
     }
   }
+  return {};
+}
 
+}  // namespace
+
+template <int D>
+Expected<KnotRemoval<D>> remove_knots(const Spline<D>& spline, int direction, double tolerance,
+                                      std::span<const Points> companions) {
+  assert(0 <= direction && direction < D);
+  if (auto valid = validate<D>(spline, tolerance, companions); !valid) return std::unexpected(valid.error());
   const auto net = spline.net();
   const auto d = static_cast<std::size_t>(direction);
   const Index inner = std::accumulate(net.begin() + direction + 1, net.end(), 1, std::multiplies<>());
