@@ -131,6 +131,22 @@ TEST_F(Tree, HeaderWithoutPragmaOnceIsFound) {
   expect_only("tests/support/help.hpp:1: the header does not begin with #pragma once");
 }
 
+TEST_F(Tree, LongFunctionIsFoundAndTheLongestAllowedIsNot) {
+  std::string body;
+  for (int i = 0; i < 68; ++i) body += "  g();\n";
+  write("src/spline/detail.hpp", "#pragma once\ninline void f() {\n" + body + "}\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+  write("src/spline/detail.hpp", "#pragma once\ninline void f() {\n" + body + "  g();\n}\n");
+  expect_only("src/spline/detail.hpp:2: a function of 71 lines; 70 are allowed");
+}
+
+TEST_F(Tree, FileThatNeedsNoExceptionForItsFunctionsIsFound) {
+  write("src/gramian/simd/recurrence_cubic.hpp", "#pragma once\ninline void f() {}\n");
+  expect_only(
+      "src/gramian/simd/recurrence_cubic.hpp: no function is long here any more: strike the file off the "
+      "exceptions");
+}
+
 TEST_F(Tree, LongFileIsFoundAndTheLongestAllowedIsNot) {
   std::string text;
   for (int i = 0; i < 400; ++i) text += "\n";

@@ -7,6 +7,8 @@
 #include <regex>
 #include <sstream>
 
+#include "house/function_lengths.hpp"
+
 namespace knead::house {
 namespace {
 
@@ -15,6 +17,15 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 9> rooms = {"base",   "spline",   "gramian", "energy", "solve",
                                                    "sculpt", "exchange", "scene",   "session"};
 constexpr int longest_file = 400;
+
+/// Their procedures read as verbs: a function that is longer than this hides its steps.
+constexpr std::array<std::string_view, 7> rooms_of_short_functions = {"base",  "spline", "gramian", "energy",
+                                                                      "solve", "sculpt", "exchange"};
+constexpr std::size_t longest_function = 70;
+/// Kernels that keep all their sums in registers through the whole sweep over the rows: their steps share so many
+/// values that functions of them would pass them through memory.
+constexpr std::array<std::string_view, 2> files_of_long_functions = {"src/gramian/simd/recurrence_cubic.hpp",
+                                                                     "src/gramian/simd/recurrence_fixed.hpp"};
 
 std::optional<std::size_t> floor_of(std::string_view room) {
   const auto at = std::ranges::find(rooms, room);
@@ -110,6 +121,7 @@ class Inspection {
     bool in_comment = false;
     std::string first_include;
     const auto lines = lines_of(file);
+    std::vector<std::string> codes(lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
       std::smatch match;
       if (!in_comment && std::regex_search(lines[i], match, include)) {
@@ -117,8 +129,11 @@ class Inspection {
         inspect_include(file, i + 1, room, floor, match[1] == "<", match[2]);
         continue;
       }
-      const std::string code = code_of(lines[i], in_comment);
+      const std::string& code = codes[i] = code_of(lines[i], in_comment);
       if (std::regex_search(code, match, exception)) report(file, i + 1, "the core must not " + match[1].str());
+    }
+    if (std::ranges::find(rooms_of_short_functions, room) != rooms_of_short_functions.end()) {
+      inspect_functions(file, codes);
     }
     const std::string header = file.stem().string() + ".hpp";
     const bool is_public = fs::exists(root_ / "include/knead" / room / header);
@@ -162,6 +177,21 @@ class Inspection {
 
   [[nodiscard]] bool is_public(const fs::path& file) const {
     return fs::relative(file, root_).generic_string().starts_with("include/");
+  }
+
+  void inspect_functions(const fs::path& file, const std::vector<std::string>& code) {
+    const std::string name = fs::relative(file, root_).generic_string();
+    const bool may_be_long = std::ranges::find(files_of_long_functions, name) != files_of_long_functions.end();
+    bool any = false;
+    for (const FunctionLength& f : function_lengths(code)) {
+      if (f.lines <= longest_function) continue;
+      any = true;
+      if (may_be_long) continue;
+      report(
+          file, f.line,
+          "a function of " + std::to_string(f.lines) + " lines; " + std::to_string(longest_function) + " are allowed");
+    }
+    if (may_be_long && !any) report(file, 0, "no function is long here any more: strike the file off the exceptions");
   }
 
   void inspect_form(const fs::path& file) {
