@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "face_surface.hpp"
-#include "knead/spline/evaluate.hpp"
+#include "knead/spline/closest_point.hpp"
 #include "parameter_region.hpp"
 
 namespace knead::step {
@@ -12,11 +12,11 @@ namespace knead::step {
 /// Finds the parameters of points that lie on a B-spline surface, in fractions of its domain.
 class SurfaceFoot {
  public:
-  /// Evaluates the grid that searches begin from. Errors: as of `evaluate_grid`.
+  /// Errors: as of `ClosestPointSearch`.
   [[nodiscard]] static Expected<SurfaceFoot> create(const Surface& surface);
 
-  /// The fractions of the point of the surface nearest to p, and its distance. `hint`: fractions near which to look
-  /// first; the grid is searched where that ends farther away than `tolerance`.
+  /// The fractions of the point of the surface nearest to p, and its distance. `hint`: fractions from which to go
+  /// downhill first; the whole surface is searched where that ends farther away than `tolerance`.
   struct Result {
     Foot foot;
     double distance = 0;
@@ -27,12 +27,11 @@ class SurfaceFoot {
   [[nodiscard]] const ParameterSpace& space() const { return space_; }
 
  private:
-  explicit SurfaceFoot(const Surface& surface) : surface_(&surface) {}
-  [[nodiscard]] Result descend(const Point& p, Eigen::Vector2d start) const;
+  explicit SurfaceFoot(ClosestPointSearch<2> search) : search_(std::move(search)) {}
+  [[nodiscard]] Result result_of(const ClosestPoint<2>& closest) const;
 
-  const Surface* surface_;
-  std::array<std::vector<double>, 2> grid_;  // parameters
-  Points points_;                            // of the grid
+  ClosestPointSearch<2> search_;
+  std::array<Interval, 2> domain_;
   ParameterSpace space_;
 };
 

@@ -1,7 +1,7 @@
+#include "distance_jet.hpp"
+
 #include <Eigen/Dense>
 #include <cmath>
-
-#include "foot_search.hpp"
 
 namespace knead::detail {
 namespace {

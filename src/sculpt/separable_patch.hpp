@@ -1,6 +1,6 @@
 #pragma once
 
-#include "foot_search.hpp"
+#include "spline/foot_search.hpp"
 
 namespace knead::detail {
 

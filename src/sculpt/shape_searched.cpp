@@ -1,6 +1,7 @@
 #include <cmath>
 #include <functional>
 
+#include "distance_jet.hpp"
 #include "separable_patch.hpp"
 #include "shape_kernel.hpp"
 

@@ -1,7 +1,8 @@
 #include <cmath>
 
-#include "bezier_patch.hpp"
+#include "distance_jet.hpp"
 #include "shape_kernel.hpp"
+#include "spline/bezier_patch.hpp"
 
 namespace knead::detail {
 namespace {

@@ -123,6 +123,19 @@ void extract(const KnotVector& knots, int span, std::vector<Vector4>& row) {
   row = bezier;
 }
 
+/// Divides rational points by the largest weight. Error: a weight that is not positive.
+Expected<void> normalise(Net& net, bool rational, const std::string& where) {
+  double largest = 0;
+  for (const Vector4& point : net) largest = std::max(largest, point.w());
+  for (Vector4& point : net) {
+    if (!(point.w() > 0)) {
+      return input_error(fmt::format("{} is a Bézier weight", point.w()), where, "use a surface with positive weights");
+    }
+    if (rational) point /= largest;
+  }
+  return {};
+}
+
 }  // namespace
 
 PatchBounds BezierPatch::bounds(const ParameterRectangle& at) const {
@@ -220,17 +233,31 @@ Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Surface& surf
         extract(ku, su, column);
         for (int i = 0; i <= p; ++i) net[index(i * (q + 1) + j)] = column[index(i)];
       }
-      double largest = 0;
-      for (const Vector4& point : net) largest = std::max(largest, point.w());
-      for (Vector4& point : net) {
-        if (!(point.w() > 0)) {
-          return input_error(fmt::format("{} is a Bézier weight", point.w()),
-                             fmt::format("surface: span ({}, {})", su, sv), "use a surface with positive weights");
-        }
-        if (surface.rational()) point /= largest;
+      if (auto done = normalise(net, surface.rational(), fmt::format("surface: span ({}, {})", su, sv)); !done) {
+        return std::unexpected(done.error());
       }
       patches.push_back(std::make_unique<BezierPatch>(p, q, std::move(net), surface.rational()));
     }
+  }
+  return patches;
+}
+
+Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Curve& curve) {
+  const KnotVector& knots = curve.knots(0);
+  const int p = knots.degree();
+  std::vector<std::unique_ptr<Patch>> patches;
+  for (const int span : knots.spans()) {
+    Net net(index(p + 1));
+    for (int i = 0; i <= p; ++i) {
+      const int from = span - p + i;
+      const double w = curve.rational() ? curve.weights()[index(from)] : 1;
+      net[index(i)] << w * curve.control_points().row(from).transpose(), w;
+    }
+    extract(knots, span, net);
+    if (auto done = normalise(net, curve.rational(), fmt::format("curve: span {}", span)); !done) {
+      return std::unexpected(done.error());
+    }
+    patches.push_back(std::make_unique<BezierPatch>(p, 0, std::move(net), curve.rational()));
   }
   return patches;
 }
