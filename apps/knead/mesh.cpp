@@ -4,8 +4,7 @@
 
 #include "cli.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/mesh_writer.hpp"
-#include "knead/exchange/step_file.hpp"
+#include "knead/exchange/format.hpp"
 #include "outputs.hpp"
 
 namespace knead::cli {
@@ -13,25 +12,29 @@ namespace {
 
 struct Options {
   std::string file, output;
-  int detail = MeshOptions{}.detail;
+  int detail = SaveOptions{}.detail;
 };
 
 Expected<void> run(const Options& options) {
-  const auto format = mesh_format(options.output);
+  const auto format = format_of_name(options.output, FormatContent::triangles);
   if (!format) {
     Error error = format.error().within("--out");
     error.kind = ErrorKind::usage;
     return std::unexpected(std::move(error));
   }
   if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
-  const auto file = step::File::read(options.file);
-  if (!file) return std::unexpected(file.error());
-  std::vector<MeshSurface> surfaces;
-  for (const step::SurfaceEntity& s : file->surfaces()) surfaces.push_back({s.name.empty() ? s.id : s.name, s.surface});
-  MeshOptions mesh;
+  auto input = read_file(options.file);
+  if (!input) return std::unexpected(input.error());
+  const auto source = open_source(std::move(*input), options.file);
+  if (!source) return std::unexpected(source.error());
+  std::vector<NamedSurface> surfaces;
+  SaveOptions mesh;
   mesh.detail = options.detail;
-  mesh.unit = file->length_unit();
-  const auto bytes = mesh_file(surfaces, *format, mesh);
+  for (const SourceSurface& s : (*source)->surfaces()) {
+    surfaces.push_back({s.name.empty() ? s.id : s.name, *s.surface});
+    mesh.unit = s.unit;
+  }
+  const auto bytes = save_surfaces(surfaces, **format, mesh);
   if (!bytes) {
     Error error = bytes.error();
     if (error.where == "detail") {
@@ -53,8 +56,11 @@ Expected<void> run(const Options& options) {
 Action add_mesh(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("mesh", "write the B-spline surfaces of a CAD file as triangles");
-  command->add_option("FILE", options->file, "STEP file")->required()->type_name("");
-  command->add_option("-o,--out", options->output, "mesh to write: name.stl, name.obj or name.ply")->required();
+  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))->required()->type_name("");
+  command
+      ->add_option("-o,--out", options->output,
+                   "mesh to write; its format is that of the ending: " + list_of_endings(FormatContent::triangles))
+      ->required();
   command->add_option("--detail", options->detail, "grid lines per direction of each surface, 1 to 2000")
       ->capture_default_str();
   command->footer(
@@ -62,7 +68,7 @@ Action add_mesh(CLI::App& app) {
       "points\n"
       "lie on the surface, every knot line among its lines, counterclockwise seen from where S_u x S_v points. It "
       "need\n"
-      "not be watertight. STL and PLY are binary.\n" +
+      "not be watertight. STL, PLY and glTF are binary; glTF is turned to y up and scaled to metres by its root node.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };
 }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "knead/exchange/mesh_writer.hpp"
+#include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
 #include "studio_context.hpp"
 #include "studio_picture.hpp"
@@ -231,19 +231,24 @@ KNEAD_EXPORT(knead_surface) int knead_surface(int surface) {
   return answer(surface_json(*surfaces[static_cast<std::size_t>(surface)].current));
 }
 
-/// All surfaces as one mesh; format 0 binary STL, 1 OBJ, 2 binary PLY. The text is the file.
+/// The formats that files are opened and written in: `format_json`.
+KNEAD_EXPORT(knead_formats) int knead_formats() { return answer(format_json()); }
+
+/// All surfaces as one file of the format with this place in the list of `knead_formats`. The text is the file.
 KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
   auto& session = held().session;
   if (!session) return without_session();
-  if (format < 0 || format > 2) return fail({ErrorKind::usage, "there is no such mesh format"});
-  std::vector<MeshSurface> surfaces;
-  MeshOptions options;
+  if (format < 0 || format >= static_cast<int>(formats().size())) {
+    return fail({ErrorKind::usage, "there is no such format"});
+  }
+  std::vector<NamedSurface> surfaces;
+  SaveOptions options;
   options.detail = detail;
   for (const SceneSurface& s : session->state().surfaces) {
     surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
     options.unit = s.unit;
   }
-  auto bytes = mesh_file(surfaces, static_cast<MeshFormat>(format), options);
+  auto bytes = save_surfaces(surfaces, formats()[static_cast<std::size_t>(format)], options);
   return bytes ? answer(std::move(*bytes)) : fail(bytes.error());
 }
 

@@ -5,7 +5,7 @@ namespace {
 
 TEST(Mesh, WritesEveryFormat) {
   const Workshop workshop;
-  for (const char* name : {"a.stl", "a.obj", "A.PLY"}) {
+  for (const char* name : {"a.stl", "a.obj", "A.PLY", "a.glb"}) {
     const Outcome run = knead({"mesh", bonnet(), "--out", workshop / name, "--detail", "20"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_NE(run.out.find("(2 surfaces, "), std::string::npos) << run.out;
@@ -19,7 +19,7 @@ TEST(Mesh, WritesEveryFormat) {
 
 TEST(Mesh, SaysWhatIsWrong) {
   const Workshop workshop;
-  EXPECT_TRUE(fails_with(knead({"mesh", bonnet(), "--out", workshop / "a.3mf"}), 2, {"--out", ".stl, .obj or .ply"}));
+  EXPECT_TRUE(fails_with(knead({"mesh", bonnet(), "--out", workshop / "a.3mf"}), 2, {"--out", ".stl, .obj, .ply or .glb"}));
   EXPECT_TRUE(fails_with(knead({"mesh", bonnet(), "--out", workshop / "a.stl", "--detail", "0"}), 2,
                          {"--detail", "1 to 2000"}));
   EXPECT_TRUE(fails_with(knead({"mesh", workshop / "none.step", "--out", workshop / "a.stl"}), 3, {"none.step"}));

@@ -1,10 +1,12 @@
-#include "knead/exchange/mesh_writer.hpp"
+#include "knead/exchange/format.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -104,24 +106,27 @@ Triangles read_ply(const std::string& bytes) {
   return result;
 }
 
-Triangles read(const std::string& bytes, MeshFormat format) {
-  return format == MeshFormat::stl ? read_stl(bytes) : format == MeshFormat::obj ? read_obj(bytes) : read_ply(bytes);
+Triangles read(const std::string& bytes, const std::string& format) {
+  return format == "stl" ? read_stl(bytes) : format == "obj" ? read_obj(bytes) : read_ply(bytes);
 }
 
-constexpr MeshFormat formats[] = {MeshFormat::stl, MeshFormat::obj, MeshFormat::ply};
+Expected<std::string> mesh_file(std::span<const NamedSurface> surfaces, const std::string& format,
+                                const SaveOptions& options = {}) {
+  return save_surfaces(surfaces, *find_format(format), options);
+}
 
-std::vector<MeshSurface> sphere_and_torus() {
+std::vector<NamedSurface> sphere_and_torus() {
   return {{"a ball", *revolve(*circle_quarters({0, 0}, 2, -1, 2))},
           {"ring", *revolve(*circle_quarters({10, 0}, 1, 0, 4))}};
 }
 
 TEST(MeshWriter, MeshesLieOnTheirSurfacesAndLookOutward) {
   const auto surfaces = sphere_and_torus();
-  for (const MeshFormat format : formats) {
+  for (const std::string format : {"stl", "obj", "ply"}) {
     const auto bytes = mesh_file(surfaces, format, {.detail = 40, .unit = "mm"});
     ASSERT_TRUE(bytes) << bytes.error().message();
     const Triangles mesh = read(*bytes, format);
-    const double tolerance = format == MeshFormat::stl ? 1e-6 : 1e-14;
+    const double tolerance = format == "stl" ? 1e-6 : 1e-14;
     double volume = 0;
     for (std::size_t k = 0; k < mesh.corners.size(); ++k) {
       const auto& [a, b, c] = mesh.corners[k];
@@ -135,7 +140,7 @@ TEST(MeshWriter, MeshesLieOnTheirSurfacesAndLookOutward) {
         EXPECT_NEAR(normal.norm(), 1, 1e-5);
         // A facet's normal is the surface's up to half the angle between grid lines; a vertex' normal is
         // printed to six digits, so that its length is 1 to 5e-7.
-        const bool facet = format == MeshFormat::stl, pole = std::hypot(p.x(), p.y()) < 1e-6;
+        const bool facet = format == "stl", pole = std::hypot(p.x(), p.y()) < 1e-6;
         EXPECT_GT(normal.dot((p - centre).normalized()), facet ? 0.98 : pole ? 0.99 : 1 - 1e-6);
       }
     }
@@ -147,8 +152,8 @@ TEST(MeshWriter, MeshesLieOnTheirSurfacesAndLookOutward) {
 }
 
 TEST(MeshWriter, PolesGiveNoTrianglesWithoutArea) {
-  const std::vector<MeshSurface> ball = {sphere_and_torus().front()};
-  const Triangles mesh = read_ply(*mesh_file(ball, MeshFormat::ply, {.detail = 16}));
+  const std::vector<NamedSurface> ball = {sphere_and_torus().front()};
+  const Triangles mesh = read_ply(*mesh_file(ball, "ply", {.detail = 16}));
   // 16 by 16 quads, of which those at the poles are one triangle.
   EXPECT_EQ(mesh.corners.size(), 2U * 16 * 16 - 2U * 16);
   for (const auto& [a, b, c] : mesh.corners) EXPECT_GT((b - a).cross(c - a).norm(), 1e-3);
@@ -160,9 +165,9 @@ TEST(MeshWriter, EveryKnotLineIsALineOfTheGrid) {
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < 5; ++j) points.row(5 * i + j) << knots.greville(i), knots.greville(j), 0;
   }
-  const std::vector<MeshSurface> sheet = {{"", *Surface::create({knots, knots}, points)}};
+  const std::vector<NamedSurface> sheet = {{"", *Surface::create({knots, knots}, points)}};
   std::set<double> lines;  // to rounding
-  for (const auto& corners : read_obj(*mesh_file(sheet, MeshFormat::obj, {.detail = 3})).corners) {
+  for (const auto& corners : read_obj(*mesh_file(sheet, "obj", {.detail = 3})).corners) {
     for (const Point& p : corners) lines.insert(std::round(p.x() * 1e12) / 1e12);
   }
   EXPECT_EQ(lines.size(), 7U) << "two pieces in each of three spans";
@@ -172,27 +177,73 @@ TEST(MeshWriter, EveryKnotLineIsALineOfTheGrid) {
 }
 
 TEST(MeshWriter, ObjectsHaveNamesWithoutSpaces) {
-  const auto text = *mesh_file(sphere_and_torus(), MeshFormat::obj, {.detail = 8, .unit = "inch"});
+  const auto text = *mesh_file(sphere_and_torus(), "obj", {.detail = 8, .unit = "inch"});
   EXPECT_NE(text.find("o a_ball\n"), std::string::npos);
   EXPECT_NE(text.find("o ring\n"), std::string::npos);
   EXPECT_NE(text.find("lengths in inch\n"), std::string::npos);
 }
 
-TEST(MeshWriter, FormatsAreKnownByTheirEndings) {
-  EXPECT_EQ(*mesh_format("a.b/c.STL"), MeshFormat::stl);
-  EXPECT_EQ(*mesh_format("x.obj"), MeshFormat::obj);
-  EXPECT_EQ(*mesh_format("x.stl.Ply"), MeshFormat::ply);
-  for (const char* name : {"", "stl", "x.step", "x.stl.gz"}) EXPECT_FALSE(mesh_format(name)) << name;
+TEST(Format, IsKnownByTheEndingOfAName) {
+  const auto id = [](const char* name) {
+    const auto format = format_of_name(name, FormatContent::triangles);
+    return format ? std::string((*format)->id) : "none";
+  };
+  EXPECT_EQ(id("a.b/c.STL"), "stl");
+  EXPECT_EQ(id("x.obj"), "obj");
+  EXPECT_EQ(id("x.stl.Ply"), "ply");
+  EXPECT_EQ(id("x.glb"), "gltf");
+  for (const char* name : {"", "stl", "x.step", "x.stl.gz"}) EXPECT_EQ(id(name), "none") << name;
+  EXPECT_EQ((*format_of_name("x.STP", FormatContent::surfaces))->id, "step");
+  EXPECT_EQ(format_of_name("x.3mf", FormatContent::triangles).error().remedy,
+            "use a name that ends in .stl, .obj, .ply or .glb");
+}
+
+TEST(Format, IsKnownByTheContentWhateverTheName) {
+  const std::vector<NamedSurface> ball = {sphere_and_torus().front()};
+  const auto bytes = save_surfaces(ball, *find_format("step"), {.unit = "mm", .title = "ball"});
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  const auto source = open_source(*bytes, "ball.txt");
+  ASSERT_TRUE(source) << source.error().message();
+  ASSERT_EQ((*source)->surfaces().size(), 1U);
+  EXPECT_EQ((*source)->surfaces()[0].name, "a ball");
+  EXPECT_EQ((*source)->surfaces()[0].unit, "mm");
+  const std::vector<std::shared_ptr<const Surface>> same = {(*source)->surfaces()[0].surface};
+  EXPECT_EQ(*(*source)->save(same), *bytes);
+}
+
+TEST(Format, ThatNothingRecognisesIsAnErrorWithTheFormats) {
+  const auto source = open_source("solid ball", "ball.stl");
+  ASSERT_FALSE(source);
+  EXPECT_EQ(source.error().file, "ball.stl");
+  EXPECT_EQ(source.error().remedy, "open STEP (.step, .stp, .p21)");
+  // The ending names the reader that says what is wrong.
+  EXPECT_NE(open_source("solid ball", "ball.step").error().message().find("ball.step:1"), std::string::npos);
+}
+
+TEST(Format, TableOfTheDocsIsThatOfTheList) {
+  std::ifstream page(KNEAD_SOURCE_DIR "/docs/formats.md");
+  const std::string text((std::istreambuf_iterator<char>(page)), {});
+  EXPECT_NE(text.find(format_table()), std::string::npos) << "docs/formats.md should have this table:\n"
+                                                          << format_table();
+}
+
+TEST(Format, JsonHasOneObjectPerFormat) {
+  const auto list = nlohmann::json::parse(format_json());
+  ASSERT_EQ(list.size(), formats().size());
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    EXPECT_EQ(list[k].at("id"), formats()[k].id);
+    EXPECT_EQ(list[k].at("opens"), formats()[k].open != nullptr);
+  }
 }
 
 TEST(MeshWriter, RefusesWhatItCannotWrite) {
-  EXPECT_NE(mesh_file({}, MeshFormat::stl).error().message().find("no surface"), std::string::npos);
+  EXPECT_NE(mesh_file({}, "stl").error().message().find("no surface"), std::string::npos);
   const auto surfaces = sphere_and_torus();
   for (const int detail : {0, -3, 2001})
-    EXPECT_EQ(mesh_file(surfaces, MeshFormat::obj, {.detail = detail}).error().where, "detail");
-  const std::vector<MeshSurface> huge = {{"huge", *revolve(*circle_quarters({0, 0}, 1e39, -1, 2))}};
-  EXPECT_NE(mesh_file(huge, MeshFormat::stl).error().message().find("too large for STL"), std::string::npos);
-  EXPECT_TRUE(mesh_file(huge, MeshFormat::ply));
+    EXPECT_EQ(mesh_file(surfaces, "obj", {.detail = detail}).error().where, "detail");
+  const std::vector<NamedSurface> huge = {{"huge", *revolve(*circle_quarters({0, 0}, 1e39, -1, 2))}};
+  EXPECT_NE(mesh_file(huge, "stl").error().message().find("too large for STL"), std::string::npos);
+  EXPECT_TRUE(mesh_file(huge, "ply"));
 }
 
 }  // namespace

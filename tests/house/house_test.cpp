@@ -27,6 +27,8 @@ class Tree : public testing::Test {
     fs::remove_all(root_);
     write("include/knead/base/error.hpp", "#pragma once\n");
     write("include/knead/spline/basis.hpp", "// Why.\n#pragma once\n#include \"knead/base/error.hpp\"\n");
+    write("docs/api.md",
+          "| [error](../include/knead/base/error.hpp) | |\n| [basis](../include/knead/spline/basis.hpp) | |\n");
     write("src/spline/basis.cpp", "#include \"knead/spline/basis.hpp\"\n\n#include \"detail.hpp\"\n");
     write("src/spline/detail.hpp", "#pragma once\n// No throw here, nor a \"try\".\nconst char* s = \"catch\";\n");
   }
@@ -85,9 +87,20 @@ TEST_F(Tree, SourceThatIncludesItsInternalHeaderLateIsFound) {
   expect_only("src/spline/detail.cpp:1: the first include is not the file's own header");
 }
 
+TEST_F(Tree, PublicHeaderThatThePageDoesNotListIsFound) {
+  write("include/knead/spline/spline.hpp", "#pragma once\n");
+  expect_only("include/knead/spline/spline.hpp: docs/api.md does not list this header");
+}
+
+TEST_F(Tree, ListedHeaderThatDoesNotExistIsFound) {
+  fs::remove(root_ / "include/knead/base/error.hpp");
+  write("include/knead/spline/basis.hpp", "#pragma once\n");
+  expect_only("docs/api.md:1: include/knead/base/error.hpp does not exist");
+}
+
 TEST_F(Tree, UnknownRoomIsFound) {
-  write("include/knead/attic/box.hpp", "#pragma once\n");
-  expect_only("include/knead/attic: there is no room of this name");
+  write("src/attic/box.hpp", "#pragma once\n");
+  expect_only("src/attic: there is no room of this name");
 }
 
 TEST_F(Tree, FileOutsideOfEveryRoomIsFound) {

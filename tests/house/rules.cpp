@@ -89,6 +89,7 @@ class Inspection {
     for (const char* part : {"include", "src", "apps", "bindings", "tests", "bench", "examples", "web/src"}) {
       for (const fs::path& file : sources_below(root_ / part)) inspect_form(file);
     }
+    inspect_list_of_headers();
     return std::move(found_);
   }
 
@@ -192,6 +193,26 @@ class Inspection {
           "a function of " + std::to_string(f.lines) + " lines; " + std::to_string(longest_function) + " are allowed");
     }
     if (may_be_long && !any) report(file, 0, "no function is long here any more: strike the file off the exceptions");
+  }
+
+  /// docs/api.md has a line with a link for every public header, and no other.
+  void inspect_list_of_headers() {
+    static const std::regex link(R"(\(\.\./(include/[^)]+)\))");
+    const fs::path list = root_ / "docs/api.md";
+    std::vector<std::string> listed;
+    const auto lines = lines_of(list);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      std::smatch match;
+      if (!std::regex_search(lines[i], match, link)) continue;
+      if (!fs::exists(root_ / match[1].str())) report(list, i + 1, match[1].str() + " does not exist");
+      if (std::ranges::find(listed, match[1].str()) != listed.end())
+        report(list, i + 1, match[1].str() + " is listed twice");
+      listed.push_back(match[1]);
+    }
+    for (const fs::path& header : sources_below(root_ / "include")) {
+      const std::string name = fs::relative(header, root_).generic_string();
+      if (std::ranges::find(listed, name) == listed.end()) report(header, 0, "docs/api.md does not list this header");
+    }
   }
 
   void inspect_form(const fs::path& file) {

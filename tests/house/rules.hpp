@@ -14,6 +14,7 @@ namespace knead::house {
 ///    that exists;
 ///  - a public header includes no internal one;
 ///  - x.cpp includes its own header first, so that every header with a source is compiled on its own;
+///  - docs/api.md lists every public header once, and nothing else;
 ///  - headers begin with #pragma once;
 ///  - the core neither throws nor catches;
 ///  - no function of the numerical rooms is longer than 70 lines, with the exceptions that rules.cpp lists and argues;

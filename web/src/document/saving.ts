@@ -4,7 +4,12 @@ import type { Host } from './host';
 import { writeKnead } from './knead_file';
 
 const historyBytes = 16 * 2 ** 20; // of shapes, in a document
-const meshTypes: Record<MeshFormat, string> = { stl: 'model/stl', obj: 'model/obj', ply: 'application/octet-stream' };
+const meshFiles: Record<MeshFormat, { ending: string; type: string }> = {
+  stl: { ending: 'stl', type: 'model/stl' },
+  obj: { ending: 'obj', type: 'model/obj' },
+  ply: { ending: 'ply', type: 'application/octet-stream' },
+  gltf: { ending: 'glb', type: 'model/gltf-binary' },
+};
 const longSession = 2000; // milliseconds of steps from which on a document carries its snapshot
 
 /** Saving: what the browser downloads, in the formats of the menu. */
@@ -42,7 +47,7 @@ export class Saving {
 
   /** All surfaces as one mesh, as fine as the pictures are. */
   mesh = (format: MeshFormat) => this.save(async (stem) => {
-    download(await this.host.client.mesh(format, this.host.detail), `${stem}.${format}`, meshTypes[format]);
+    download(await this.host.client.mesh(format, this.host.detail), `${stem}.${meshFiles[format].ending}`, meshFiles[format].type);
   });
 
   script = () => this.save(async (stem) => {

@@ -1,6 +1,6 @@
 import type { Trim } from './context';
 import {
-  type Command, EngineError, type Field, fields, type MeshFormat, meshFormats, type Picture, type SessionInfo, type StepInfo,
+  type Command, EngineError, type Field, fields, type FileFormat, type MeshFormat, type Picture, type SessionInfo, type StepInfo,
   type SurfaceNumbers,
 } from './session_types';
 import { start } from './wasi';
@@ -26,6 +26,7 @@ interface Exports {
   knead_buffer_size(which: number): number;
   knead_control_points(surface: number): number;
   knead_surface(surface: number): number;
+  knead_formats(): number;
   knead_mesh(format: number, detail: number): number;
   knead_context(): number;
   knead_trims(surface: number): number;
@@ -118,9 +119,14 @@ export class Engine {
     return this.json(this.wasm.knead_surface(surface)) as SurfaceNumbers;
   }
 
+  /** The formats that the library opens and writes. */
+  formats(): FileFormat[] {
+    return this.json(this.wasm.knead_formats()) as FileFormat[];
+  }
+
   /** All surfaces as one mesh file, with about `detail` grid lines per direction. */
   mesh(format: MeshFormat, detail: number): Uint8Array {
-    return this.bytes(this.wasm.knead_mesh(meshFormats.indexOf(format), detail));
+    return this.bytes(this.wasm.knead_mesh(this.formats().findIndex(({ id }) => id === format), detail));
   }
 
   paint(surface: number, detail: number, field: Field, opened = false): Picture {

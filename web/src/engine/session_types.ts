@@ -139,5 +139,16 @@ export interface Picture {
   held: Uint8Array;
 }
 
-export const meshFormats = ['stl', 'obj', 'ply'] as const;
-export type MeshFormat = (typeof meshFormats)[number];
+/** By the ids of the library's list of formats, `Engine.formats()`. */
+export type MeshFormat = 'stl' | 'obj' | 'ply' | 'gltf';
+
+/** A file format, as the library describes it. */
+export interface FileFormat {
+  id: string;
+  name: string;
+  endings: string[];
+  media_type: string;
+  content: 'surfaces' | 'triangles';
+  holds: string;
+  opens: boolean;
+}

@@ -8,6 +8,7 @@ export const saveEntries = (app: App): [string, string, () => void][] => [
   ['Mesh, STL', 'triangles as fine as the picture, for printing', () => void app.saving.mesh('stl')],
   ['Mesh, OBJ', 'the same as text, for other programs', () => void app.saving.mesh('obj')],
   ['Mesh, PLY', 'the same, binary', () => void app.saving.mesh('ply')],
+  ['Mesh, glTF', 'a mesh per surface, in metres, for viewers and the web', () => void app.saving.mesh('gltf')],
   ['Script', 'the commands alone, for the command line', () => void app.saving.script()],
   ['Picture', 'the view as PNG, as it is on the screen', () => void app.saving.picture(1)],
   ['Picture, twice as large', 'the view as PNG, two pixels for one', () => void app.saving.picture(2)],

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "knead/base/error.hpp"
+#include "knead/spline/spline.hpp"
+
+namespace knead {
+
+namespace step {
+class File;
+}
+
+/// A surface of a file, as it was read.
+struct SourceSurface {
+  std::string id;    ///< what the file calls it: "#123" in STEP
+  std::string name;  ///< its label
+  std::string unit;  ///< length unit of its coordinates
+  std::shared_ptr<const Surface> surface;
+};
+
+/// A surface of a file that could not be made a `Surface`; the others are usable all the same.
+struct UnreadableSurface {
+  std::string id;
+  Error reason;
+};
+
+/// A file that was opened: its surfaces, and the means to write it back with some of them changed and all else as it
+/// was. Immutable; const access is thread-safe.
+class Source {
+ public:
+  virtual ~Source() = default;
+
+  [[nodiscard]] virtual const std::string& name() const = 0;
+  /// In the order of the file.
+  [[nodiscard]] virtual const std::vector<SourceSurface>& surfaces() const = 0;
+  [[nodiscard]] virtual const std::vector<UnreadableSurface>& unreadable() const = 0;
+  /// The bytes of the file with these surfaces, one for each of `surfaces()` in their order, in the place of the
+  /// original ones. One that is the original (the same object) keeps its bytes.
+  [[nodiscard]] virtual Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces) const = 0;
+  /// The STEP file behind it, for what only STEP has: faces and their trimming. Null for other formats.
+  [[nodiscard]] virtual const step::File* step_file() const { return nullptr; }
+
+ protected:
+  Source() = default;
+  Source(const Source&) = default;
+  Source& operator=(const Source&) = default;
+};
+
+}  // namespace knead

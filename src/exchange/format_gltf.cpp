@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "format_list.hpp"
+#include "surface_mesh.hpp"
+
+namespace knead::detail {
+namespace {
+
+// glTF 2.0 (Khronos Group), binary container: a header, a chunk of JSON and a chunk of numbers.
+constexpr std::uint32_t magic = 0x46546C67, version = 2, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
+constexpr int component_float = 5126, component_unsigned_int = 5125, target_vertices = 34962, target_indices = 34963;
+
+using Json = nlohmann::ordered_json;
+
+/// Metres per unit; glTF's lengths are metres. 1 where the unit is not known.
+double metres(std::string_view unit) {
+  constexpr std::pair<std::string_view, double> known[] = {
+      {"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"dm", 0.1}, {"m", 1}, {"km", 1e3}, {"inch", 0.0254}, {"foot", 0.3048}};
+  for (const auto& [name, length] : known) {
+    if (name == unit) return length;
+  }
+  return 1;
+}
+
+/// The chunk of numbers, and what the JSON says of them.
+struct Buffer {
+  std::string bytes;
+  Json views = Json::array(), accessors = Json::array();
+
+  /// Ends a view that began at byte `begin`; the index of an accessor of all of it.
+  int finish(std::size_t begin, int target, Json accessor) {
+    accessor["bufferView"] = views.size();
+    views.push_back({{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}, {"target", target}});
+    accessors.push_back(std::move(accessor));
+    return static_cast<int>(accessors.size()) - 1;
+  }
+
+  /// Vectors in single precision with their bounds, which viewers place their camera by: those of the numbers written.
+  int vectors(const Points& points) {
+    const std::size_t begin = bytes.size();
+    for (Eigen::Index k = 0; k < points.rows(); ++k) append_point<float>(bytes, points.row(k));
+    std::array<float, 3> least, most;
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      least[static_cast<std::size_t>(d)] = static_cast<float>(points.col(d).minCoeff());
+      most[static_cast<std::size_t>(d)] = static_cast<float>(points.col(d).maxCoeff());
+    }
+    return finish(begin, target_vertices,
+                  {{"componentType", component_float},
+                   {"count", points.rows()},
+                   {"type", "VEC3"},
+                   {"min", least},
+                   {"max", most}});
+  }
+
+  int indices(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    const std::size_t begin = bytes.size();
+    for (const auto& t : triangles) {
+      for (const std::uint32_t corner : t) append(bytes, corner);
+    }
+    return finish(begin, target_indices,
+                  {{"componentType", component_unsigned_int}, {"count", 3 * triangles.size()}, {"type", "SCALAR"}});
+  }
+};
+
+void append_chunk(std::string& to, std::uint32_t type, std::string content, char padding) {
+  content.resize((content.size() + 3) / 4 * 4, padding);
+  append(to, static_cast<std::uint32_t>(content.size()));
+  append(to, type);
+  to += content;
+}
+
+Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+  const auto all = meshes_of(surfaces, options);
+  if (!all) return std::unexpected(all.error());
+  Buffer buffer;
+  Json meshes = Json::array(), nodes = Json::array(), children = Json::array();
+  for (const SurfaceMesh& mesh : all->meshes) {
+    if (mesh.triangles.empty()) continue;  // accessors must not be empty
+    if (auto fits = fits_single_precision(mesh, "glTF"); !fits) return std::unexpected(fits.error());
+    const int positions = buffer.vectors(mesh.points), normals = buffer.vectors(mesh.normals),
+              indices = buffer.indices(mesh.triangles);
+    meshes.push_back(
+        {{"name", mesh.name},
+         {"primitives",
+          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}, {"material", 0}}}}});
+    children.push_back(meshes.size());
+    nodes.push_back({{"name", mesh.name}, {"mesh", meshes.size() - 1}});
+  }
+  if (meshes.empty()) return numerical_error("the surfaces have no area", {}, "write STEP");
+  // Above the surfaces a node turns z up into y up and units into metres, so that coordinates stay those of the file.
+  const double scale = metres(options.unit);
+  nodes.insert(nodes.begin(), Json{{"name", options.title},
+                                   {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
+                                   {"scale", {scale, scale, scale}},
+                                   {"children", children}});
+  const Json document = {{"asset", {{"version", "2.0"}, {"generator", "Knead" + lengths_in(options.unit)}}},
+                         {"scene", 0},
+                         {"scenes", {{{"nodes", {0}}}}},
+                         {"nodes", nodes},
+                         {"meshes", meshes},
+                         {"materials",
+                          {{{"name", "surface"},
+                            {"doubleSided", true},
+                            {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.6}}}}}},
+                         {"accessors", buffer.accessors},
+                         {"bufferViews", buffer.views},
+                         {"buffers", {{{"byteLength", buffer.bytes.size()}}}}};
+  std::string chunks;
+  append_chunk(chunks, json_chunk, document.dump(-1, ' ', false, Json::error_handler_t::replace), ' ');
+  append_chunk(chunks, binary_chunk, std::move(buffer.bytes), '\0');
+  constexpr std::size_t header = 12;
+  std::string text;
+  append(text, magic);
+  append(text, version);
+  append(text, static_cast<std::uint32_t>(header + chunks.size()));
+  return text + chunks;
+}
+
+constexpr std::string_view endings[] = {".glb"};
+
+}  // namespace
+
+Format gltf_format() {
+  return {
+      .id = "gltf",
+      .name = "glTF",
+      .endings = endings,
+      .media_type = "model/gltf-binary",
+      .content = FormatContent::triangles,
+      .holds = "triangles with normals at the points, binary, single precision, a mesh per surface; shown in metres",
+      .save = save};
+}
+
+}  // namespace knead::detail

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "knead/exchange/format.hpp"
+
+namespace knead::detail {
+
+/// One function per format, each in a file of its own. A new format is declared and listed here.
+[[nodiscard]] Format step_format();
+[[nodiscard]] Format stl_format();
+[[nodiscard]] Format obj_format();
+[[nodiscard]] Format ply_format();
+[[nodiscard]] Format gltf_format();
+
+inline constexpr Format (*format_list[])() = {step_format, stl_format, obj_format, ply_format, gltf_format};
+
+}  // namespace knead::detail

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include "format_list.hpp"
+#include "surface_mesh.hpp"
+
+namespace knead::detail {
+namespace {
+
+Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+  const auto all = meshes_of(surfaces, options);
+  if (!all) return std::unexpected(all.error());
+  Eigen::Index vertices = 0;
+  for (const SurfaceMesh& mesh : all->meshes) vertices += mesh.points.rows();
+  std::string text = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment Knead{}\nelement vertex {}\nproperty double x\nproperty double y\n"
+      "property double z\nproperty float nx\nproperty float ny\nproperty float nz\nelement face {}\n"
+      "property list uchar uint vertex_indices\nend_header\n",
+      lengths_in(options.unit), vertices, all->triangles);
+  for (const SurfaceMesh& mesh : all->meshes) {
+    for (Eigen::Index k = 0; k < mesh.points.rows(); ++k) {
+      append_point<double>(text, mesh.points.row(k));
+      append_point<float>(text, mesh.normals.row(k));
+    }
+  }
+  std::uint32_t first = 0;
+  for (const SurfaceMesh& mesh : all->meshes) {
+    for (const auto& t : mesh.triangles) {
+      text.push_back(3);
+      for (const std::uint32_t corner : t) append(text, first + corner);
+    }
+    first += static_cast<std::uint32_t>(mesh.points.rows());
+  }
+  return text;
+}
+
+constexpr std::string_view endings[] = {".ply"};
+
+}  // namespace
+
+Format ply_format() {
+  return {.id = "ply",
+          .name = "PLY",
+          .endings = endings,
+          .media_type = "application/octet-stream",
+          .content = FormatContent::triangles,
+          .holds = "triangles with normals at the points, binary, points in double precision",
+          .save = save};
+}
+
+}  // namespace knead::detail

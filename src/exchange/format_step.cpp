@@ -1,0 +1,73 @@
+#include "format_list.hpp"
+#include "knead/exchange/step_file.hpp"
+#include "knead/exchange/step_text.hpp"
+
+namespace knead::detail {
+namespace {
+
+class StepSource final : public Source {
+ public:
+  explicit StepSource(step::File file) : file_(std::move(file)) {
+    for (const step::SurfaceEntity& s : file_.surfaces()) {
+      surfaces_.push_back({s.id, s.name, s.unit, std::make_shared<const Surface>(s.surface)});
+    }
+    for (const step::UnreadableSurface& s : file_.unreadable_surfaces()) unreadable_.push_back({s.id, s.reason});
+  }
+
+  const std::string& name() const override { return file_.name(); }
+  const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
+  const std::vector<UnreadableSurface>& unreadable() const override { return unreadable_; }
+  const step::File* step_file() const override { return &file_; }
+
+  Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces) const override {
+    std::vector<step::Replacement> replacements;
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      if (surfaces[k] != surfaces_[k].surface) replacements.push_back({surfaces_[k].id, *surfaces[k]});
+    }
+    return file_.with_surfaces(replacements);
+  }
+
+ private:
+  step::File file_;
+  std::vector<SourceSurface> surfaces_;
+  std::vector<UnreadableSurface> unreadable_;
+};
+
+/// The first token of an exchange structure, behind white space, comments and a byte order mark.
+bool recognises(std::string_view bytes) {
+  constexpr std::size_t enough = 4096;
+  return bytes.substr(0, enough).find("ISO-10303-21") != std::string_view::npos;
+}
+
+Expected<std::shared_ptr<const Source>> open(std::string bytes, std::string name) {
+  auto file = step::File::parse(std::move(bytes), std::move(name));
+  if (!file) return std::unexpected(std::move(file.error()));
+  return std::make_shared<const StepSource>(std::move(*file));
+}
+
+Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+  std::vector<step::NewSurface> made;
+  for (const NamedSurface& s : surfaces) made.push_back({s.name, s.surface});
+  step::TextOptions text;
+  if (!options.unit.empty()) text.unit = options.unit;
+  text.product = options.title;
+  return step::text_of(made, text);
+}
+
+constexpr std::string_view endings[] = {".step", ".stp", ".p21"};
+
+}  // namespace
+
+Format step_format() {
+  return {.id = "step",
+          .name = "STEP",
+          .endings = endings,
+          .media_type = "model/step",
+          .content = FormatContent::surfaces,
+          .holds = "the surfaces themselves, and everything else of the file byte for byte",
+          .recognises = recognises,
+          .open = open,
+          .save = save};
+}
+
+}  // namespace knead::detail
