@@ -56,7 +56,9 @@ Expected<void> run(const Options& options) {
 Action add_mesh(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("mesh", "write the B-spline surfaces of a CAD file as triangles");
-  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))->required()->type_name("");
+  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
+      ->required()
+      ->type_name("");
   command
       ->add_option("-o,--out", options->output,
                    "mesh to write; its format is that of the ending: " + list_of_endings(FormatContent::triangles))
@@ -68,7 +70,8 @@ Action add_mesh(CLI::App& app) {
       "points\n"
       "lie on the surface, every knot line among its lines, counterclockwise seen from where S_u x S_v points. It "
       "need\n"
-      "not be watertight. STL, PLY and glTF are binary; glTF is turned to y up and scaled to metres by its root node.\n" +
+      "not be watertight. STL, PLY and glTF are binary; glTF is turned to y up and scaled to metres by its root "
+      "node.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };
 }

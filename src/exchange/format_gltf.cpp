@@ -81,7 +81,11 @@ Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOpt
   for (const SurfaceMesh& mesh : all->meshes) {
     if (mesh.triangles.empty()) continue;  // accessors must not be empty
     if (auto fits = fits_single_precision(mesh, "glTF"); !fits) return std::unexpected(fits.error());
-    const int positions = buffer.vectors(mesh.points), normals = buffer.vectors(mesh.normals),
+    Points unit = mesh.normals;  // glTF wants unit vectors of points that no triangle has too, as beside a pole
+    for (Eigen::Index k = 0; k < unit.rows(); ++k) {
+      if (unit.row(k).isZero(0)) unit.row(k) << 0, 0, 1;
+    }
+    const int positions = buffer.vectors(mesh.points), normals = buffer.vectors(unit),
               indices = buffer.indices(mesh.triangles);
     meshes.push_back(
         {{"name", mesh.name},

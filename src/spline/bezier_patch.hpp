@@ -6,8 +6,9 @@
 
 namespace knead::detail {
 
-/// One Bézier piece of a surface, rational or not, over [0, 1]², or of a curve (degree q = 0) over [0, 1] × {0}. Its bounds are those of the convex hull of the piece's
-/// control points, restricted to the rectangle by de Casteljau's algorithm.
+/// One Bézier piece of a surface, rational or not, over [0, 1]², or of a curve (degree q = 0) over [0, 1] × {0}. Its
+/// bounds are those of the convex hull of the piece's control points, restricted to the rectangle by de Casteljau's
+/// algorithm.
 class BezierPatch final : public Patch {
  public:
   using Net = std::vector<Eigen::Vector4d>;
@@ -28,7 +29,8 @@ class BezierPatch final : public Patch {
   bool rational_;
 };
 
-/// All pieces of a surface, span by span, v fastest; coordinates times `scale`. Errors: a Bézier weight that is not positive, named by its span.
+/// All pieces of a surface, span by span, v fastest; coordinates times `scale`. Errors: a Bézier weight that is not
+/// positive, named by its span.
 [[nodiscard]] Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Surface& surface, const Point& scale);
 /// The same of a curve.
 [[nodiscard]] Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Curve& curve);

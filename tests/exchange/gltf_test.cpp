@@ -59,7 +59,8 @@ struct Container {
     const std::string bytes = bytes_of(accessor, 12);
     std::vector<Eigen::Vector3f> result;
     for (std::size_t at = 0; at < bytes.size(); at += 12) {
-      result.emplace_back(number_at<float>(bytes, at), number_at<float>(bytes, at + 4), number_at<float>(bytes, at + 8));
+      result.emplace_back(number_at<float>(bytes, at), number_at<float>(bytes, at + 4),
+                          number_at<float>(bytes, at + 8));
     }
     return result;
   }
@@ -80,7 +81,8 @@ std::vector<NamedSurface> ball_and_ring() {
 }
 
 std::string file_of(const char* format, const std::string& unit) {
-  const auto bytes = save_surfaces(ball_and_ring(), *find_format(format), {.detail = 24, .unit = unit, .title = "both"});
+  const auto bytes =
+      save_surfaces(ball_and_ring(), *find_format(format), {.detail = 24, .unit = unit, .title = "both"});
   EXPECT_TRUE(bytes) << bytes.error().message();
   return bytes.value_or("");
 }

@@ -31,9 +31,9 @@ class ClosestPointSearch {
   /// (numerical): a rational denominator that is not positive where it is sampled.
   [[nodiscard]] static Expected<ClosestPointSearch> create(const Spline<D>& spline);
 
-  /// The closest point of all, by branch and bound: parts of the spline are discarded by their boxes, and where interval
-  /// arithmetic shows that the gradient of |x − S|² does not vanish; where it shows that the Hessian is positive
-  /// definite, Newton's iteration finds the only minimum; other parts are halved.
+  /// The closest point of all, by branch and bound: parts of the spline are discarded by their boxes, and where
+  /// interval arithmetic shows that the gradient of |x − S|² does not vanish; where it shows that the Hessian is
+  /// positive definite, Newton's iteration finds the only minimum; other parts are halved.
   ///
   /// Accuracy where `certified`: nothing is nearer by more than 1e-11 of the size in |x − S|² over (size + distance),
   /// size being half the diagonal of the net's box. Not certified: where 8,000 parts did not suffice, as for points
