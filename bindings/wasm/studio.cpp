@@ -82,27 +82,27 @@ KNEAD_EXPORT(knead_input) char* knead_input(std::size_t size) {
 KNEAD_EXPORT(knead_text) const char* knead_text() { return held().text.data(); }
 KNEAD_EXPORT(knead_text_size) std::size_t knead_text_size() { return held().text.size(); }
 
-/// Input: the bytes of a STEP file, then its name (the last `name_size` bytes).
+/// Input: the bytes of a file, then its name (the last `name_size` bytes).
 KNEAD_EXPORT(knead_open) int knead_open(std::size_t name_size) {
   std::string bytes = std::move(held().input);
   held().input.clear();
   if (name_size > bytes.size()) return fail({ErrorKind::usage, "the name is longer than the input"});
   std::string name = bytes.substr(bytes.size() - name_size);
   bytes.resize(bytes.size() - name_size);
-  auto file = step::File::parse(std::move(bytes), std::move(name));
-  if (!file) return fail(file.error());
-  if (file->surfaces().empty()) {
-    const auto& unreadable = file->unreadable_surfaces();
+  auto source = open_source(std::move(bytes), std::move(name));
+  if (!source) return fail(source.error());
+  if ((*source)->surfaces().empty()) {
+    const auto& unreadable = (*source)->unreadable();
     if (!unreadable.empty()) return fail(unreadable.front().reason);
     return fail({ErrorKind::input,
                  "the file holds no B-spline surface",
                  {},
                  "open a file with freeform faces: planes, cylinders and meshes cannot be sculpted"});
   }
-  return start(Document::from(std::move(*file)));
+  return start(Document::from(*std::move(source)));
 }
 
-/// A session that `knead_snapshot` has kept. Input: the bytes of its STEP file (none: a document without one), its
+/// A session that `knead_snapshot` has kept. Input: the bytes of its file (none: a document without one), its
 /// name, the snapshot.
 KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size_t name_size) {
   std::string bytes = std::move(held().input);
@@ -112,9 +112,9 @@ KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size
   bytes.resize(source_size);
   Document document = Document::fresh(name);
   if (source_size > 0) {
-    auto file = step::File::parse(std::move(bytes), std::move(name));
-    if (!file) return fail(file.error());
-    document = Document::from(std::move(*file));
+    auto source = open_source(std::move(bytes), std::move(name));
+    if (!source) return fail(source.error());
+    document = Document::from(*std::move(source));
   }
   const Point origin = middle(document);
   auto session = Session::restore(std::move(document), snapshot);
@@ -255,16 +255,16 @@ KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
 /// The faces of the open file that are no surfaces of the session: `context_bytes`. Without a file there are none.
 KNEAD_EXPORT(knead_context) int knead_context() {
   auto& session = held().session;
-  if (!session || session->document().is_fresh()) return answer({});
-  return answer(context_bytes(session->document().file(), held().origin));
+  if (!session || !session->document().step_file()) return answer({});
+  return answer(context_bytes(*session->document().step_file(), held().origin));
 }
 
 /// What the faces of the open file show of a surface: `trim_json`.
 KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
   auto& session = held().session;
-  if (!session || session->document().is_fresh()) return answer("null");
+  if (!session || !session->document().step_file()) return answer("null");
   if (!held().trims) {
-    auto trims = trim_loops(session->document().file());
+    auto trims = trim_loops(*session->document().step_file());
     held().trims = trims ? *std::move(trims) : TrimLoops();
   }
   const auto& all = held().trims->surfaces;

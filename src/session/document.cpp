@@ -1,18 +1,14 @@
 #include "knead/session/document.hpp"
 
-#include "knead/exchange/step_text.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
 
 namespace knead {
 
-Document Document::from(step::File file) {
-  auto surfaces = std::make_shared<std::vector<DocumentSurface>>();
-  for (const step::SurfaceEntity& s : file.surfaces()) {
-    surfaces->push_back({s.id, s.name, s.unit, std::make_shared<const Surface>(s.surface)});
-  }
+Document Document::from(std::shared_ptr<const Source> source) {
   Document document;
-  document.name_ = file.name();
-  document.file_ = std::move(file);
-  document.surfaces_ = std::move(surfaces);
+  document.name_ = source->name();
+  document.source_ = std::move(source);
   return document;
 }
 
@@ -20,31 +16,34 @@ Document Document::fresh(std::string name, std::string unit) {
   Document document;
   document.name_ = std::move(name);
   document.unit_ = std::move(unit);
-  document.surfaces_ = std::make_shared<const std::vector<DocumentSurface>>();
   return document;
 }
 
 Expected<Document> Document::open(const std::filesystem::path& path) {
-  auto file = step::File::read(path);
-  if (!file) return std::unexpected(file.error());
-  return from(std::move(*file));
+  auto bytes = read_file(path);
+  if (!bytes) return std::unexpected(std::move(bytes.error()));
+  auto source = open_source(*std::move(bytes), path.string());
+  if (!source) return std::unexpected(std::move(source.error()));
+  return from(*std::move(source));
+}
+
+const std::vector<DocumentSurface>& Document::surfaces() const {
+  static const std::vector<DocumentSurface> none;
+  return source_ ? source_->surfaces() : none;
 }
 
 Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces) const {
-  if (!file_) {
-    std::vector<step::NewSurface> made;
-    for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});
-    step::TextOptions options;
-    options.unit = surfaces.empty() ? unit_ : surfaces.front().unit;
-    options.product = name_;
-    return step::text_of(made, options);
+  if (source_) {
+    std::vector<std::shared_ptr<const Surface>> present;
+    for (const DocumentSurface& s : surfaces) present.push_back(s.surface);
+    return source_->save(present);
   }
-  std::vector<step::Replacement> replacements;
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const DocumentSurface& original = (*surfaces_)[k];
-    if (surfaces[k].surface != original.surface) replacements.push_back({original.id, *surfaces[k].surface});
-  }
-  return file_->with_surfaces(replacements);
+  std::vector<NamedSurface> made;
+  for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});
+  SaveOptions options;
+  options.unit = surfaces.empty() ? unit_ : surfaces.front().unit;
+  options.title = name_;
+  return save_surfaces(made, *find_format("step"), options);
 }
 
 }  // namespace knead

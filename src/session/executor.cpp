@@ -34,7 +34,7 @@ Expected<int> Executor::find_surface(const std::string& id) const {
     if (k < listed) known += (k == 0 ? "" : ", ") + state.surfaces[k].id;
   }
   if (!document.is_fresh()) {
-    for (const step::UnreadableSurface& s : document.file().unreadable_surfaces()) {
+    for (const UnreadableSurface& s : document.source()->unreadable()) {
       if (s.id == id) return std::unexpected(s.reason);
     }
   }

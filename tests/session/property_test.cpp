@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "knead/exchange/format.hpp"
 #include "knead/exchange/step_text.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
@@ -75,9 +76,9 @@ Session document_of(const Surface& surface) {
   const std::vector<step::NewSurface> surfaces = {{"s", surface}};
   auto text = step::text_of(surfaces, {});
   if (!text) ADD_FAILURE() << text.error().message();
-  auto file = step::File::parse(*text, "random");
-  if (!file) ADD_FAILURE() << file.error().message();
-  return Session(Document::from(std::move(*file)));
+  auto source = open_source(*text, "random");
+  if (!source) ADD_FAILURE() << source.error().message();
+  return Session(Document::from(*std::move(source)));
 }
 
 std::string list(const Point& p) { return fmt::format("[{:.17g},{:.17g},{:.17g}]", p.x(), p.y(), p.z()); }

@@ -38,13 +38,13 @@ TEST(Session, PressesAToolIntoARealFileAndReadsTheSameBitsBack) {
 TEST(Session, WithoutStepsTheFileIsItsInputByteForByte) {
   Session session = open_sample();
   run(session, {press[0], press[1], press[2], press[3]});
-  EXPECT_EQ(*session.save(), session.document().file().bytes());
+  EXPECT_EQ(*session.save(), session.document().step_file()->bytes());
 }
 
 TEST(Session, AtRestNothingMoves) {
   Session session = open_sample();
   run(session, {press[0], R"({"do":"step","count":5})"});
-  EXPECT_EQ(*session.save(), session.document().file().bytes());
+  EXPECT_EQ(*session.save(), session.document().step_file()->bytes());
 }
 
 TEST(Session, UndoAfterAnyCommandRestoresTheStateBitForBit) {
