@@ -21,6 +21,7 @@ Action add_gramian(CLI::App& app);
 Action add_stiffness(CLI::App& app);
 Action add_basis(CLI::App& app);
 Action add_mesh(CLI::App& app);
+Action add_schema(CLI::App& app);
 
 /// Stands at the end of every help text.
 inline constexpr std::string_view exit_codes =

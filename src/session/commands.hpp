@@ -51,6 +51,9 @@ using CommandVariant =
                  PointsCommand, WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand, CoarsenCommand,
                  UndoCommand, RedoCommand>;
 
+template <>
+const Type& type_of<CommandVariant>();
+
 struct AnyCommand {
   CommandVariant fields;
 };

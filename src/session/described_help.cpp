@@ -33,6 +33,16 @@ std::string people(const Type& type, const void* value, double factor) {
   }
 }
 
+/// Without Markdown's links: "[text](address)" is "text".
+std::string without_links(std::string text) {
+  for (std::size_t from = text.find("]("); from != std::string::npos; from = text.find("](")) {
+    const std::size_t open = text.rfind('[', from), close = text.find(')', from);
+    if (open == std::string::npos || close == std::string::npos) break;
+    text.replace(open, close + 1 - open, text.substr(open + 1, from - open - 1));
+  }
+  return text;
+}
+
 /// "; > 0": what the range says, where the help does not.
 std::string range_note(const Field& field) {
   const std::string range = in_words(field.range);
@@ -123,7 +133,7 @@ std::string full_help(const Type& record) {
   std::string text;
   std::vector<std::string_view> seen;
   each_field(record, seen, [&](const Field& field, const Type& owner) {
-    std::string what(field.help);
+    std::string what = without_links(std::string(field.help));
     what += range_note(field);
     if (const auto names = allowed(field); !names.empty()) what += (what.empty() ? "" : ": ") + joined(names);
     const std::string value = !field.fallback.empty() ? std::string(field.fallback) : shown_default(field, owner);
@@ -136,6 +146,7 @@ std::string full_help(const Type& record) {
 }
 
 std::string markdown_table(const Type& record) {
+  if (record.fields.empty()) return "";
   std::string text = "| field | default | meaning |\n|---|---|---|\n";
   std::vector<std::string_view> seen;
   each_field(record, seen, [&](const Field& field, const Type& owner) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace knead {
 namespace {
@@ -208,7 +209,11 @@ class Writer {
         break;
       case Kind::variant:
         text += "{";
-        variant(type, v);
+        {
+          const Absent outside = std::exchange(absent_, Absent::left_out);
+          variant(type, v);
+          absent_ = outside;
+        }
         text += "}";
         break;
       case Kind::opaque:

@@ -14,7 +14,7 @@ namespace knead {
 /// are called `what` ("shape": "the shapes are: …").
 [[nodiscard]] Expected<void> read_variant(const Json& json, const Type& type, void* variant, std::string_view what);
 
-/// How a field without a value is written.
+/// How a field without a value is written; variants always leave it out, as commands do.
 enum class Absent { left_out, null };
 
 /// The JSON form of a value. Records are objects with their fields in order, variants have their tag first; opaque

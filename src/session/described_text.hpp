@@ -22,9 +22,23 @@ namespace knead {
 /// without a value may be left out, or are null.
 [[nodiscard]] std::string schema_of(const Type& type, Absent absent = Absent::left_out);
 
-/// The TypeScript declarations of a record or of a variant's records and their union, and of the records in them.
-/// "step record" is called StepRecord; the records of a variant get `suffix`. Each is written once per `written`.
-[[nodiscard]] std::string typescript(const Type& type, Absent absent, const std::string& name,
-                                     const std::string& suffix, std::vector<const Type*>& written);
+/// Collects TypeScript declarations, each type once, those that others need first.
+class TypeScript {
+ public:
+  std::string text;
+
+  /// A record as `name`, or a variant as the union `name` of its records, which are called as they are with `suffix`
+  /// ("step" is StepCommand); records inside are called as they are ("step info" is StepInfo). What may be left out is
+  /// optional, or with Absent::null null, where what is no std::optional is always there.
+  void declare(const Type& type, const std::string& name, const std::string& suffix, Absent absent = Absent::left_out);
+
+ private:
+  void record(const Type& type, const std::string& name, std::string_view tag, const std::string& suffix,
+              Absent absent);
+  std::string member(const Field& field, bool always_there, const std::string& suffix, Absent absent);
+  std::string member_of_any(const Type& variant, std::string_view name);
+  std::string written(const Type& type, const std::string& suffix, Absent absent);
+  std::vector<std::pair<const Type*, std::string>> names_;
+};
 
 }  // namespace knead

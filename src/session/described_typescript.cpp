@@ -23,113 +23,127 @@ std::string pascal(std::string_view name) {
   return text;
 }
 
-class Declarations {
- public:
-  Declarations(Absent absent, std::vector<const Type*>& written) : absent_(absent), written_(written) {}
-
-  void declare(const Type& type, const std::string& name, const std::string& suffix) {
-    if (std::ranges::find(written_, &type) != written_.end()) return;
-    written_.push_back(&type);
-    if (type.kind == Kind::variant) {
-      std::string alternatives;
-      for (const Type* held : type.variants) {
-        const std::string held_name = pascal(held->name) + suffix;
-        declare_record(*held, held_name, type.name);
-        alternatives += "\n  | " + held_name;
-      }
-      text += fmt::format("export type {} ={};\n\n", name, alternatives);
-    } else {
-      declare_record(type, name, {});
-    }
-  }
-
-  std::string text;
-
- private:
-  void declare_record(const Type& type, const std::string& name, std::string_view tag) {
-    std::string body;
-    if (!tag.empty()) body += fmt::format("  {}: '{}';\n", tag, type.name);
-    std::string more;
-    for (const Field& field : type.fields) {
-      if (field.type->kind == Kind::opaque) continue;
-      if (field.flat) {
-        const std::string variant = pascal(field.name) + "Fields";
-        declare(*field.type, variant, pascal(field.name));
-        more += " & " + variant;
-        continue;
-      }
-      const std::string unit = field.unit == Unit::length     ? "length"
-                               : field.unit == Unit::angle    ? "degrees"
-                               : field.unit == Unit::fraction ? "fraction"
-                                                              : "";
-      std::string about(field.help);
-      if (!unit.empty()) about += (about.empty() ? "" : " ") + ("(" + unit + ")");
-      if (!about.empty()) body += fmt::format("  /** {} */\n", about);
-      const bool left_out = absent_ == Absent::left_out && field.presence == Presence::optional;
-      body += fmt::format("  {}{}: {};\n", field.name, left_out ? "?" : "", type_of_field(field));
-    }
-    if (!type.help.empty()) text += fmt::format("/** {} */\n", type.help);
-    if (more.empty()) {
-      text += fmt::format("export interface {} {{\n{}}}\n\n", name, body);
-    } else {
-      text += fmt::format("export type {} = {{\n{}}}{};\n\n", name, body, more);
-    }
-  }
-
-  std::string type_of_field(const Field& field) {
-    return (field.uniform ? "number | " : "") + written_type(*field.type);
-  }
-
-  std::string written_type(const Type& type) {
-    switch (type.kind) {
-      case Kind::boolean:
-        return "boolean";
-      case Kind::integer:
-      case Kind::number:
-        return "number";
-      case Kind::text:
-        return "string";
-      case Kind::choice: {
-        std::string names;
-        for (const Choice& choice : type.choices)
-          names += fmt::format("{}'{}'", names.empty() ? "" : " | ", choice.name);
-        return names;
-      }
-      case Kind::optional:
-        return written_type(*type.element) + (absent_ == Absent::null ? " | null" : "");
-      case Kind::list: {
-        const std::string element = written_type(*type.element);
-        return element.find('|') == std::string::npos ? element + "[]" : "(" + element + ")[]";
-      }
-      case Kind::array: {
-        std::string entries;
-        for (std::size_t k = 0; k < type.length; ++k) entries += (k > 0 ? ", " : "") + written_type(*type.element);
-        return "[" + entries + "]";
-      }
-      case Kind::record:
-      case Kind::variant: {
-        Declarations inner(absent_, written_);
-        inner.declare(type, pascal(type.name), "");
-        text = inner.text + text;  // declared where it is first needed, so before
-        return pascal(type.name);
-      }
-      case Kind::opaque:
-        return "unknown";
-    }
-    return "unknown";
-  }
-
-  Absent absent_;
-  std::vector<const Type*>& written_;
-};
+std::string about(const Field& field) {
+  std::string text(field.help);
+  const char* unit = field.unit == Unit::length     ? "(length)"
+                     : field.unit == Unit::angle    ? "(degrees)"
+                     : field.unit == Unit::fraction ? "(fraction)"
+                                                    : "";
+  if (*unit != '\0') text += (text.empty() ? "" : " ") + std::string(unit);
+  return text.empty() ? "" : fmt::format("  /** {} */\n", text);
+}
 
 }  // namespace
 
-std::string typescript(const Type& type, Absent absent, const std::string& name, const std::string& suffix,
-                       std::vector<const Type*>& written) {
-  Declarations declarations(absent, written);
-  declarations.declare(type, name, suffix);
-  return std::move(declarations.text);
+void TypeScript::declare(const Type& type, const std::string& name, const std::string& suffix, Absent absent) {
+  if (std::ranges::find(names_, &type, &std::pair<const Type*, std::string>::first) != names_.end()) return;
+  names_.emplace_back(&type, name);
+  if (type.kind != Kind::variant) return record(type, name, {}, suffix, absent);
+  std::string alternatives;
+  for (const Type* held : type.variants) {
+    const std::string held_name = pascal(held->name) + suffix;
+    record(*held, held_name, type.name, suffix, absent);
+    alternatives += "\n  | " + held_name;
+  }
+  text += fmt::format("export type {} ={};\n\n", name, alternatives);
+}
+
+void TypeScript::record(const Type& type, const std::string& name, std::string_view tag, const std::string& suffix,
+                        Absent absent) {
+  std::string body;
+  if (!tag.empty()) body += fmt::format("  {}: '{}';\n", tag, type.name);
+  for (const Field& field : type.fields) {
+    if (field.type->kind == Kind::opaque) continue;
+    if (!field.flat) {
+      // A record of a variant leaves out what is absent, whatever is round it.
+      const bool null = absent == Absent::null;
+      const bool there =
+          null ? tag.empty() || field.type->kind != Kind::optional : field.presence == Presence::required;
+      body += member(field, there, suffix, tag.empty() ? absent : Absent::left_out);
+      continue;
+    }
+    std::string names;
+    for (std::string_view n : variant_names(*field.type)) names += fmt::format("{}'{}'", names.empty() ? "" : " | ", n);
+    body += about(field) + fmt::format("  {}: {};\n", field.name, names);
+    std::vector<std::string_view> seen;
+    for (const Type* held : field.type->variants) {
+      for (const Field& part : held->fields) {
+        if (part.type->kind == Kind::opaque || std::ranges::find(seen, part.name) != seen.end()) continue;
+        seen.push_back(part.name);
+        body += fmt::format("  {}?: {};\n", part.name, member_of_any(*field.type, part.name));
+      }
+    }
+  }
+  if (!type.help.empty()) text += fmt::format("/** {} */\n", type.help);
+  text += fmt::format("export type {} = {{\n{}}};\n\n", name, body);
+}
+
+std::string TypeScript::member(const Field& field, bool always_there, const std::string& suffix, Absent absent) {
+  return about(field) + fmt::format("  {}{}: {}{};\n", field.name, always_there ? "" : "?",
+                                    field.uniform ? "number | " : "", written(*field.type, suffix, absent));
+}
+
+std::string TypeScript::member_of_any(const Type& variant, std::string_view name) {
+  std::vector<std::string> types;
+  const auto add = [&types](std::string type) {
+    if (std::ranges::find(types, type) == types.end()) types.push_back(std::move(type));
+  };
+  for (const Type* held : variant.variants) {
+    const Field* field = held->find(name);
+    if (field == nullptr) continue;
+    if (field->uniform) add("number");
+    add(written(*field->type, "", Absent::left_out));
+  }
+  std::string text_of_types;
+  for (const std::string& type : types) text_of_types += (text_of_types.empty() ? "" : " | ") + type;
+  return text_of_types;
+}
+
+std::string TypeScript::written(const Type& type, const std::string& suffix, Absent absent) {
+  switch (type.kind) {
+    case Kind::boolean:
+      return "boolean";
+    case Kind::integer:
+    case Kind::number:
+      return "number";
+    case Kind::text:
+      return "string";
+    case Kind::choice: {
+      std::string names;
+      for (const Choice& choice : type.choices) names += fmt::format("{}'{}'", names.empty() ? "" : " | ", choice.name);
+      return names;
+    }
+    case Kind::optional:
+      return written(*type.element, suffix, absent) + (absent == Absent::null ? " | null" : "");
+    case Kind::list: {
+      const std::string element = written(*type.element, suffix, absent);
+      return element.find('|') == std::string::npos ? element + "[]" : "(" + element + ")[]";
+    }
+    case Kind::array: {
+      const std::string element = written(*type.element, suffix, absent);
+      std::string entries;
+      for (std::size_t k = 0; k < type.length; ++k) entries += (k > 0 ? ", " : "") + element;
+      return "[" + entries + "]";
+    }
+    case Kind::record:
+    case Kind::variant: {
+      const auto known = std::ranges::find(names_, &type, &std::pair<const Type*, std::string>::first);
+      if (known != names_.end()) return known->second;
+      // A union of one is that record.
+      const bool one = type.kind == Kind::variant && type.variants.size() == 1;
+      std::string name = one ? pascal(type.variants.front()->name) + suffix : pascal(type.name);
+      if (one) {
+        names_.emplace_back(&type, name);
+        record(*type.variants.front(), name, type.name, suffix, absent);
+      } else {
+        declare(type, name, suffix, absent);
+      }
+      return name;
+    }
+    case Kind::opaque:
+      return "unknown";
+  }
+  return "unknown";
 }
 
 }  // namespace knead

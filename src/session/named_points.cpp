@@ -4,6 +4,13 @@
 
 namespace knead {
 
+void describe(NamedPoints& points, Fields& fields) {
+  fields.add("which", points.which,
+             {.help = "numbers i n + j of control points of the net m × n, from 0; one of these three, or several"});
+  fields.add("rows_u", points.rows_u, {.help = "`[i, …]`: all control points (i, ·)"});
+  fields.add("rows_v", points.rows_v, {.help = "`[j, …]`: all control points (·, j)"});
+}
+
 Expected<std::vector<int>> indices_of(const NamedPoints& named, const std::array<int, 2>& net) {
   const auto [m, n] = net;
   std::vector<int> result;

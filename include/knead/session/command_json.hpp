@@ -40,4 +40,12 @@ namespace knead {
 /// What one command does, and every field in a line: name, meaning, default. Error (usage): no such command.
 [[nodiscard]] Expected<std::string> command_help(const std::string& name);
 
+/// The fields of a command as a table in Markdown: field, default, meaning. Empty where there is no such command or it
+/// has no fields.
+[[nodiscard]] std::string command_table(const std::string& name);
+
+/// JSON schemas (draft 2020-12) of scripts, and of Knead documents (docs/knead-document.md).
+[[nodiscard]] std::string script_schema();
+[[nodiscard]] std::string document_schema();
+
 }  // namespace knead

@@ -4,6 +4,11 @@
 
 namespace knead {
 
+void describe(CoarsenCommand& c, Fields& fields) {
+  fields.name("coarsen", "remove knots where the shape changes by no more than a tolerance");
+  fields.add("tolerance", c.tolerance, {.help = "a length", .unit = Unit::length, .presence = Presence::required});
+}
+
 template <>
 Expected<void> Executor::execute(const CoarsenCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());

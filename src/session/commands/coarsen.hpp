@@ -9,8 +9,8 @@ struct CoarsenCommand {
   double tolerance = 0;
 };
 
-KNEAD_COMMAND(CoarsenCommand, "coarsen", "remove knots where the shape changes by no more than a tolerance") {
-  v.field("tolerance", Presence::required, c.tolerance, "length");
-}
+template <>
+Expected<void> Executor::execute(const CoarsenCommand& c);
+void describe(CoarsenCommand& c, Fields& fields);
 
 }  // namespace knead

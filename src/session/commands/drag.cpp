@@ -66,6 +66,19 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fracti
 
 }  // namespace
 
+void describe(DragCommand& c, Fields& fields) {
+  fields.name("drag", "take hold of a surface point, drag it and let go, as one command");
+  fields.add("at", c.at, {.help = "`[s, t]`: the point", .unit = Unit::fraction, .presence = Presence::required});
+  fields.add("by", c.by, {.help = "`[dx, dy, dz]`", .unit = Unit::length, .presence = Presence::required});
+  fields.add("radius", c.radius,
+             {.help = "of the footprint, a length", .unit = Unit::length, .fallback = "a tenth of the diagonal"});
+  fields.add("strength", c.strength, {.help = "spring constant of the grip"});
+  fields.add("steps", c.steps, {.help = "on the way"});
+  fields.add("plasticity", c.plasticity,
+             {.help = "share of the displacement that becomes rest shape", .unit = Unit::fraction});
+  fields.add("relative", c.relative, {.help = "`by` and `radius` are fractions of the diagonal"});
+}
+
 template <>
 Expected<void> Executor::execute(const DragCommand& c) {
   auto surface = selected();

@@ -15,14 +15,8 @@ struct DragCommand {
   bool relative = false;
 };
 
-KNEAD_COMMAND(DragCommand, "drag", "take hold of a surface point, drag it and let go, as one command") {
-  v.field("at", Presence::required, c.at, "[s, t]: the surface point, at fractions of its domain");
-  v.field("by", Presence::required, c.by, "[dx, dy, dz]");
-  v.field("radius", Presence::optional, c.radius, "of the footprint, a length; default: 0.1 of the diagonal");
-  v.field("strength", Presence::optional, c.strength, "spring constant of the grip");
-  v.field("steps", Presence::optional, c.steps, "steps on the way");
-  v.field("plasticity", Presence::optional, c.plasticity, "share of the result that stays, 0 to 1");
-  v.field("relative", Presence::optional, c.relative, "`by` and radius are fractions of the bounding-box diagonal");
-}
+template <>
+Expected<void> Executor::execute(const DragCommand& c);
+void describe(DragCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,29 @@
 
 namespace knead {
 
+std::span<const Choice> choices(EdgeChoice) {
+  static constexpr Choice list[] = {{"all", EdgeChoice::all},
+                                    {"u0", EdgeChoice::u0, "where u is least"},
+                                    {"u1", EdgeChoice::u1},
+                                    {"v0", EdgeChoice::v0},
+                                    {"v1", EdgeChoice::v1}};
+  return list;
+}
+
+std::span<const Choice> choices(EdgeCondition) {
+  static constexpr Choice list[] = {{"position", EdgeCondition::position},
+                                    {"clamped", EdgeCondition::clamped, "with its tangent planes"},
+                                    {"curvature", EdgeCondition::curvature, "with its curvatures too"},
+                                    {"free", EdgeCondition::free, "no longer"}};
+  return list;
+}
+
+void describe(EdgeCommand& c, Fields& fields) {
+  fields.name("edge", "hold edges of the selected surfaces");
+  fields.add("which", c.which);
+  fields.add("hold", c.hold);
+}
+
 template <>
 Expected<void> Executor::execute(const EdgeCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());

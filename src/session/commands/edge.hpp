@@ -11,15 +11,10 @@ struct EdgeCommand {
   EdgeCondition hold = EdgeCondition::position;
 };
 
-inline constexpr Choice<EdgeCondition> edge_conditions[] = {{"position", EdgeCondition::position},
-                                                            {"clamped", EdgeCondition::clamped},
-                                                            {"curvature", EdgeCondition::curvature},
-                                                            {"free", EdgeCondition::free}};
+std::span<const Choice> choices(EdgeCondition);
 
-KNEAD_COMMAND(EdgeCommand, "edge", "hold edges of the selected surfaces") {
-  v.choice("which", c.which, std::span<const Choice<EdgeChoice>>(edge_choices), "");
-  v.choice("hold", c.hold, std::span<const Choice<EdgeCondition>>(edge_conditions),
-           "clamped: with tangent planes; curvature: with curvatures too; free: no longer");
-}
+template <>
+Expected<void> Executor::execute(const EdgeCommand& c);
+void describe(EdgeCommand& c, Fields& fields);
 
 }  // namespace knead

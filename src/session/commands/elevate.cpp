@@ -4,6 +4,11 @@
 
 namespace knead {
 
+void describe(ElevateCommand& c, Fields& fields) {
+  fields.name("elevate", "raise the degree, the same shape");
+  fields.add("by", c.by, {.help = "in u and in v"});
+}
+
 template <>
 Expected<void> Executor::execute(const ElevateCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());

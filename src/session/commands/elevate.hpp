@@ -9,8 +9,8 @@ struct ElevateCommand {
   std::array<int, 2> by = {1, 1};
 };
 
-KNEAD_COMMAND(ElevateCommand, "elevate", "raise the degree, the same shape") {
-  v.field("by", Presence::optional, c.by, "[in u, in v]");
-}
+template <>
+Expected<void> Executor::execute(const ElevateCommand& c);
+void describe(ElevateCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -6,6 +6,39 @@
 
 namespace knead {
 
+std::span<const Choice> choices(StepWeight) {
+  static constexpr Choice list[] = {{"mass", StepWeight::mass, "refining the net does not change the evolution"},
+                                    {"identity", StepWeight::identity, "the thesis' step, which depends on the net"}};
+  return list;
+}
+
+std::span<const Choice> choices(ForceRoute) {
+  static constexpr Choice list[] = {{"gauss", ForceRoute::gauss, "at Gauss points"},
+                                    {"analytic", ForceRoute::analytic,
+                                     "interpolated at Greville abscissae, then exact mass matrices "
+                                     "([materials-and-loads.md](materials-and-loads.md))"}};
+  return list;
+}
+
+std::span<const Choice> choices(Evolution) {
+  static constexpr Choice list[] = {
+      {"acm", Evolution::acm, "sinks towards the balance"},
+      {"static", Evolution::stationary, "is the balance, and an error (exit code 4) where nothing holds the surface"},
+      {"dynamic", Evolution::dynamic, "has mass and swings"}};
+  return list;
+}
+
+void describe(EvolveCommand& c, Fields& fields) {
+  fields.name("evolve", "what steps do; static solves at once");
+  fields.add("mode", c.evolution.mode);
+  fields.add("lambda", c.evolution.lambda,
+             {.help = "acm: λ ≥ 0, inverse step size: small goes straight to equilibrium, large creeps. 0 needs "
+                      "something that holds"});
+  fields.add("time_step", c.evolution.time_step, {.help = "dynamic: time per step"});
+  fields.add("weight", c.evolution.weight, {.help = "acm: the weights of a step"});
+  fields.add("route", c.evolution.route, {.help = "how tool forces are integrated"});
+}
+
 template <>
 Expected<void> Executor::execute(const EvolveCommand& c) {
   if (!(std::isfinite(c.evolution.lambda) && c.evolution.lambda >= 0)) {

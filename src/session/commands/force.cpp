@@ -9,6 +9,23 @@
 
 namespace knead {
 
+std::span<const Choice> choices(PointForceKind) {
+  static constexpr Choice list[] = {{"spring", PointForceKind::spring, "draws the point to `to`"},
+                                    {"volcano", PointForceKind::volcano, "drives it away from there"}};
+  return list;
+}
+
+void describe(ForceCommand& c, Fields& fields) {
+  fields.name("force", "a force on one surface point, until `remove`");
+  fields.add("name", c.force.name, {.help = "what `remove` calls it"});
+  fields.add("kind", c.force.kind);
+  fields.add("at", c.force.at,
+             {.help = "`[s, t]`: the surface point", .unit = Unit::fraction, .presence = Presence::required});
+  fields.add("to", c.force.to, {.help = "`[x, y, z]`", .unit = Unit::length, .presence = Presence::required});
+  fields.add("strength", c.force.strength, {.help = "spring constant, or k of the volcano's k/r²"});
+  fields.add("core", c.force.core, {.help = "length within which a volcano no longer grows", .unit = Unit::length});
+}
+
 template <>
 Expected<void> Executor::execute(const ForceCommand& c) {
   auto surface = selected();

@@ -6,6 +6,12 @@
 
 namespace knead {
 
+void describe(FreezeCommand& c, Fields& fields) {
+  fields.name("freeze", "hold a region, rounded outward to whole knot spans");
+  fields.add("region", c.freeze.region,
+             {.help = "`[[s0, s1], [t0, t1]]`", .unit = Unit::fraction, .presence = Presence::required});
+}
+
 template <>
 Expected<void> Executor::execute(const FreezeCommand& c) {
   auto surface = selected();

@@ -9,8 +9,8 @@ struct FreezeCommand {
   Freeze freeze;
 };
 
-KNEAD_COMMAND(FreezeCommand, "freeze", "hold a region, rounded outward to whole knot spans") {
-  v.field("region", Presence::required, c.freeze.region, "[[s0, s1], [t0, t1]], fractions of the domain");
-}
+template <>
+Expected<void> Executor::execute(const FreezeCommand& c);
+void describe(FreezeCommand& c, Fields& fields);
 
 }  // namespace knead

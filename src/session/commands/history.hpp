@@ -10,8 +10,12 @@ struct UndoCommand {};
 /// Does again what was taken back last.
 struct RedoCommand {};
 
-KNEAD_COMMAND(UndoCommand, "undo", "take back the last command") {}
+template <>
+Expected<void> Executor::execute(const UndoCommand& c);
+void describe(UndoCommand& c, Fields& fields);
 
-KNEAD_COMMAND(RedoCommand, "redo", "do again what was taken back last") {}
+template <>
+Expected<void> Executor::execute(const RedoCommand& c);
+void describe(RedoCommand& c, Fields& fields);
 
 }  // namespace knead

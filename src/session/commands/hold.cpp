@@ -4,6 +4,11 @@
 
 namespace knead {
 
+void describe(HoldCommand& c, Fields& fields) {
+  fields.name("hold", "hold the outer rows of control points on every side");
+  fields.add("rows", c.rows, {.help = "0 holds none"});
+}
+
 template <>
 Expected<void> Executor::execute(const HoldCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());

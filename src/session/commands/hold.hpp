@@ -9,8 +9,8 @@ struct HoldCommand {
   int rows = 2;
 };
 
-KNEAD_COMMAND(HoldCommand, "hold", "hold the outer rows of control points on every side") {
-  v.field("rows", Presence::optional, c.rows, "how many; 0 holds none");
-}
+template <>
+Expected<void> Executor::execute(const HoldCommand& c);
+void describe(HoldCommand& c, Fields& fields);
 
 }  // namespace knead

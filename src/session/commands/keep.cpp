@@ -2,6 +2,17 @@
 
 namespace knead {
 
+void describe(KeepCommand& c, Fields& fields) {
+  fields.name("keep", "hold a curve of the surface");
+  fields.add("u", c.keep.u,
+             {.help = "the line u = const at this fraction of the domain, exactly", .unit = Unit::fraction});
+  fields.add("v", c.keep.v, {.help = "the line v = const", .unit = Unit::fraction});
+  fields.add("curve", c.keep.curve,
+             {.help = "`[[s, t], …]`, a polyline in the domain, to the tolerance", .unit = Unit::fraction});
+  fields.add("tolerance", c.keep.tolerance,
+             {.help = "of a polyline: it moves by no more than this share of the motion around it"});
+}
+
 template <>
 Expected<void> Executor::execute(const KeepCommand& c) {
   const int ways = static_cast<int>(c.keep.u.has_value()) + static_cast<int>(c.keep.v.has_value()) +

@@ -4,6 +4,15 @@
 
 namespace knead {
 
+void describe(KnotsCommand& c, Fields& fields) {
+  fields.name("knots", "other knots for the same control points: the shape changes for good");
+  fields.add("direction", c.direction, {.help = "`\"u\"` or `\"v\"`", .presence = Presence::required});
+  fields.add("knots", c.knots,
+             {.help = "the whole knot vector, as long as before, none more often than the degree inside the domain, "
+                      "which stays: trimming and painted materials live in it",
+              .presence = Presence::required});
+}
+
 template <>
 Expected<void> Executor::execute(const KnotsCommand& c) {
   auto surface = selected_alone();

@@ -10,9 +10,8 @@ struct KnotsCommand {
   std::vector<double> knots;  ///< the whole vector, as many as before, on the same domain
 };
 
-KNEAD_COMMAND(KnotsCommand, "knots", "other knots for the same control points: the shape changes for good") {
-  v.field("direction", Presence::required, c.direction, "u or v");
-  v.field("knots", Presence::required, c.knots, "the whole knot vector, as long as before, on the same domain");
-}
+template <>
+Expected<void> Executor::execute(const KnotsCommand& c);
+void describe(KnotsCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -9,6 +9,21 @@
 
 namespace knead {
 
+void describe(LatticeCommand& c, Fields& fields) {
+  fields.name("lattice", "deform the surfaces with an elastic block of space that the tools act on");
+  fields.add("net", c.net, {.help = "control points of the block along x, y, z"});
+  fields.add("degree", c.degree, {.help = "along x, y, z"});
+  fields.add(
+      "margin", c.margin,
+      {.help = "how far the block reaches beyond the control points, of their diagonal", .unit = Unit::fraction});
+  fields.add("steps", c.steps, {.help = "number of steps"});
+  fields.add("lambda", c.lambda, {.help = "inverse step size"});
+  fields.add(
+      "hold", c.hold,
+      {.help =
+           "faces of the block that stay: `\"u0\"`, `\"u1\"` (ends along x), `\"v0\"`, `\"v1\"`, `\"w0\"`, `\"w1\"`"});
+}
+
 template <>
 Expected<void> Executor::execute(const LatticeCommand& c) {
   auto surface = selected();

@@ -8,6 +8,12 @@
 
 namespace knead {
 
+void describe(LimitCommand& c, Fields& fields) {
+  fields.name("limit", "no point moves further from the surface as opened");
+  fields.add("distance", c.distance, {.help = "a length > 0", .unit = Unit::length, .fallback = "no limit"});
+  fields.add("relative", c.relative, {.help = "`distance` is a fraction of the diagonal"});
+}
+
 template <>
 Expected<void> Executor::execute(const LimitCommand& c) {
   if (!c.distance) {

@@ -10,10 +10,8 @@ struct LimitCommand {
   bool relative = false;
 };
 
-KNEAD_COMMAND(LimitCommand, "limit", "no point moves further from the surface as opened") {
-  v.field("distance", Presence::optional, c.distance, "length; left out: no limit");
-  v.field("relative", Presence::optional, c.relative,
-          "a fraction of the surface's bounding-box diagonal, not a length");
-}
+template <>
+Expected<void> Executor::execute(const LimitCommand& c);
+void describe(LimitCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -2,6 +2,18 @@
 
 namespace knead {
 
+void describe(LoadCommand& c, Fields& fields) {
+  fields.name("load", "loads everywhere on the selected surfaces; replaces those before");
+  fields.add("vector", c.load.vector, {.help = "force per area"});
+  fields.add("gravity", c.load.gravity, {.help = "acceleration; the force is mass times this"});
+  fields.add("pressure", c.load.pressure, {.help = "force per area along the normal S_u × S_v"});
+  fields.add("wind", c.load.wind, {.help = "velocity of the air; the force is along the normal"});
+  fields.add("counts", c.load.counts,
+             {.help = "`[m, n]` samples of any load f(u, v) over the domain, its ends included"});
+  fields.add("samples", c.load.samples,
+             {.help = "m n forces `[x, y, z]` per area, along v first, linear in between; integrated exactly"});
+}
+
 template <>
 Expected<void> Executor::execute(const LoadCommand& c) {
   if (!c.load.samples.empty() || c.load.counts != std::array<int, 2>{0, 0}) {

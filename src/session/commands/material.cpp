@@ -21,6 +21,27 @@ Coefficient<2>* coefficient_named(MaterialFieldOf<2>& material, const std::strin
 
 }  // namespace
 
+void describe(MaterialCommand& c, Fields& fields) {
+  fields.name("material", "resistance to stretch and bend, in the order 11, 12, 22");
+  fields.add("alpha", c.material.alpha, {.help = "stretch; α11, α22 ≥ 0 and α12² ≤ α11 α22"});
+  fields.add("beta", c.material.beta, {.help = "bend; none negative"});
+  fields.add("mass", c.mass,
+             {.help = "per area, for `evolve` dynamic and `load` gravity", .fallback = "as it was, at first 1"});
+  fields.add("damping", c.damping,
+             {.help = "force per velocity and area, for `evolve` dynamic", .fallback = "as it was, at first 0.5"});
+  fields.add("region", c.region,
+             {.help = "`[[s0, s1], [t0, t1]]`: only there; what was set elsewhere stays",
+              .unit = Unit::fraction,
+              .fallback = "everywhere"});
+  fields.add("falloff", c.falloff, {.help = "width of the border of the region, in fractions", .unit = Unit::fraction});
+  fields.add("coefficient", c.coefficient,
+             {.help = "`alpha11` … `beta22`, `mass` or `damping`: this one alone, by samples; `alpha` and `beta` are "
+                      "not read then"});
+  fields.add("counts", c.counts, {.help = "`[m, n]` samples over the domain, its ends included"});
+  fields.add("samples", c.samples,
+             {.help = "m n numbers, along v first, linear in between; all that is convex coefficient by coefficient"});
+}
+
 template <>
 Expected<void> Executor::execute(const MaterialCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());

@@ -2,6 +2,13 @@
 
 namespace knead {
 
+void describe(MoveCommand& c, Fields& fields) {
+  fields.name("move", "move a tool");
+  fields.add("tool", c.tool, {.help = "its name", .fallback = "the only tool"});
+  fields.add("by", c.by, {.help = "`[dx, dy, dz]`", .unit = Unit::length, .presence = Presence::required});
+  fields.add("relative", c.relative, {.help = "`by` is in fractions of the diagonal"});
+}
+
 template <>
 Expected<void> Executor::execute(const MoveCommand& c) {
   auto tool = find_tool(c.tool);

@@ -10,10 +10,8 @@ struct MoveCommand {
   bool relative = false;  ///< `by` is in fractions of the bounding-box diagonal
 };
 
-KNEAD_COMMAND(MoveCommand, "move", "move a tool") {
-  v.field("tool", Presence::optional, c.tool, "its name; default: the only tool");
-  v.field("by", Presence::required, c.by, "[dx, dy, dz]");
-  v.field("relative", Presence::optional, c.relative, "fractions of the surface's bounding-box diagonal, not lengths");
-}
+template <>
+Expected<void> Executor::execute(const MoveCommand& c);
+void describe(MoveCommand& c, Fields& fields);
 
 }  // namespace knead

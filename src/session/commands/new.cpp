@@ -164,6 +164,45 @@ Expected<Surface> placed(Surface surface, const Vector3& position) {
 
 }  // namespace
 
+void describe(NewCommand& c, Fields& fields) {
+  fields.name("new", "make a surface, in a document without a file, and select it");
+  fields.add("shape", c.shape,
+             {.help = "`\"plane\"`: a flat sheet in z = 0 with a corner in the origin. `\"cylinder\"`: without its "
+                      "ends, the lower one in z = 0. `\"sphere\"`: about the origin, v from pole to pole. `\"torus\"`: "
+                      "about the origin. `\"revolution\"` of a profile"});
+  fields.add("size", c.size, {.help = "of a plane: width along x (u) and height along y (v)", .unit = Unit::length});
+  fields.add("radius", c.radius,
+             {.help = "of cylinder and sphere; of a torus that of the middle of its tube",
+              .unit = Unit::length,
+              .fallback = "`0.5`"});
+  fields.add("height", c.height, {.help = "of a cylinder", .unit = Unit::length, .fallback = "twice the radius"});
+  fields.add("minor", c.minor,
+             {.help = "tube radius of a torus, less than `radius`",
+              .unit = Unit::length,
+              .fallback = "a quarter of the radius"});
+  fields.add("profile", c.profile,
+             {.help = "of a revolution: `[[r, z], …]`, r ≥ 0, control points of a B-spline of degree `degree[1]`"});
+  fields.add("degree", c.degree, {.help = "in u and v; v alone of cylinder and revolution; sphere and torus have 2"});
+  fields.add("net", c.net, {.help = "control points in u and v; v alone of a cylinder"});
+  fields.add("knots_u", c.knots_u,
+             {.help = "knot vector of u; the net follows from it. Not of round shapes",
+              .fallback = "clamped, uniform on [0, 1]"});
+  fields.add("knots_v", c.knots_v,
+             {.help = "knot vector of v; not of sphere and torus", .fallback = "clamped, uniform on [0, 1]"});
+  fields.add(
+      "points", c.points,
+      {.help = "instead of a shape: all control points `[x, y, z]`, point (i, j) at place i n + j of a net m × n"});
+  fields.add("weights", c.weights,
+             {.help = "of a plane or points: one > 0 for each control point, in the same order; of a revolution: one "
+                      "for each point of the profile",
+              .fallback = "none"});
+  fields.add("position", c.position, {.help = "where the origin of the shape goes", .unit = Unit::length});
+  fields.add("unit", c.unit,
+             {.help = "`um`, `mm`, `cm`, `m`, `km`, `inch` or `foot`; a document has one",
+              .fallback = "as the surfaces before, at first `\"mm\"`"});
+  fields.add("name", c.name, {.help = "its label in the file", .fallback = "what it is"});
+}
+
 template <>
 Expected<void> Executor::execute(const NewCommand& c) {
   if (!document.is_fresh()) {

@@ -23,22 +23,8 @@ struct NewCommand {
   std::optional<std::string> name;       ///< default: what it is
 };
 
-KNEAD_COMMAND(NewCommand, "new", "make a surface, in a document without a file, and select it") {
-  v.field("shape", Presence::optional, c.shape, "plane, cylinder, sphere, torus or revolution; about z");
-  v.field("size", Presence::optional, c.size, "of a plane: [width, height]");
-  v.field("radius", Presence::optional, c.radius, "of cylinder, sphere and torus; default: 0.5");
-  v.field("height", Presence::optional, c.height, "of a cylinder; default: twice the radius");
-  v.field("minor", Presence::optional, c.minor, "tube radius of a torus; default: a quarter of the radius");
-  v.field("profile", Presence::optional, c.profile, "of a revolution: [[r, z], …], control points of degree q");
-  v.field("degree", Presence::optional, c.degree, "[p, q]");
-  v.field("net", Presence::optional, c.net, "control points [m, n]; with knots they follow from those");
-  v.field("knots_u", Presence::optional, c.knots_u, "knot vector of u; default: clamped, uniform on [0, 1]");
-  v.field("knots_v", Presence::optional, c.knots_v, "knot vector of v");
-  v.field("points", Presence::optional, c.points, "instead of a shape: all control points [x, y, z], along v first");
-  v.field("weights", Presence::optional, c.weights, "one > 0 for each control point (of a revolution: of the profile)");
-  v.field("position", Presence::optional, c.position, "[x, y, z] where the shape's origin goes");
-  v.field("unit", Presence::optional, c.unit, "um, mm, cm, m, km, inch or foot; default: as before, at first mm");
-  v.field("name", Presence::optional, c.name, "its label in the file; default: what it is");
-}
+template <>
+Expected<void> Executor::execute(const NewCommand& c);
+void describe(NewCommand& c, Fields& fields);
 
 }  // namespace knead

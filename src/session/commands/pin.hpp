@@ -11,10 +11,8 @@ struct PinCommand {
   std::optional<Vector3> to;  ///< default: where it is
 };
 
-KNEAD_COMMAND(PinCommand, "pin", "hold control points or a surface point, in addition to those held already") {
-  v.field("control_points", Presence::optional, c.control_points, "list of [i, j], counted from 0");
-  v.field("at", Presence::optional, c.at, "[s, t]: a surface point, at fractions of its domain");
-  v.field("to", Presence::optional, c.to, "[x, y, z] where that point goes; default: where it is");
-}
+template <>
+Expected<void> Executor::execute(const PinCommand& c);
+void describe(PinCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -63,6 +63,16 @@ Expected<void> allowed(const SceneSurface& s, const std::vector<int>& named, con
 
 }  // namespace
 
+void describe(PointsCommand& c, Fields& fields) {
+  fields.name("points", "move control points of the selected surface by hand, for good");
+  describe(c.points, fields);
+  fields.add("by", c.by, {.help = "`[dx, dy, dz]` for all of them; this or `to`", .unit = Unit::length});
+  fields.add("to", c.to,
+             {.help = "`[[x, y, z], …]`: a place for each, in the order in which they are named, each counted once",
+              .unit = Unit::length});
+  fields.add("relative", c.relative, {.help = "`by` is in fractions of the diagonal"});
+}
+
 template <>
 Expected<void> Executor::execute(const PointsCommand& c) {
   auto surface = selected_alone();

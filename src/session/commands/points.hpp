@@ -12,11 +12,8 @@ struct PointsCommand {
   bool relative = false;      ///< `by` is in fractions of the bounding-box diagonal
 };
 
-KNEAD_COMMAND(PointsCommand, "points", "move control points of the selected surface by hand, for good") {
-  visit_points(c.points, v);
-  v.field("by", Presence::optional, c.by, "[dx, dy, dz] for all of them; or:");
-  v.field("to", Presence::optional, c.to, "[[x, y, z], …]: a place for each, in the order they are named");
-  v.field("relative", Presence::optional, c.relative, "`by` is in fractions of the bounding-box diagonal");
-}
+template <>
+Expected<void> Executor::execute(const PointsCommand& c);
+void describe(PointsCommand& c, Fields& fields);
 
 }  // namespace knead

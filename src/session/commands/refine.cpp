@@ -7,6 +7,23 @@
 
 namespace knead {
 
+std::span<const Choice> choices(RefinePermission) {
+  static constexpr Choice list[] = {
+      {"auto", RefinePermission::automatic,
+       "from now on commands refine what they need (under a tool, at seams, for `mirror`)"},
+      {"never", RefinePermission::never, "they say what is missing"}};
+  return list;
+}
+
+void describe(RefineCommand& c, Fields& fields) {
+  fields.name("refine", "a finer net of the same shape");
+  fields.add("region", c.region, {.help = "`[[s0, s1], [t0, t1]]`: halves the spans there", .unit = Unit::fraction});
+  fields.add("under", c.under, {.help = "name of a tool: halves the spans that it reaches"});
+  fields.add("knots_u", c.knots_u, {.help = "knots to insert in u, as parameters of the file"});
+  fields.add("knots_v", c.knots_v, {.help = "knots to insert in v"});
+  fields.add("permission", c.permission, {.fallback = "`\"never\"`"});
+}
+
 template <>
 Expected<void> Executor::execute(const RefineCommand& c) {
   if (c.permission) state.permission = *c.permission;

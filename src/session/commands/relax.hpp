@@ -13,11 +13,8 @@ struct RelaxCommand {
   bool relative = false;
 };
 
-KNEAD_COMMAND(RelaxCommand, "relax", "smooth the surface around a point") {
-  v.field("at", Presence::required, c.at, "[s, t]: the surface point, at fractions of its domain");
-  v.field("radius", Presence::optional, c.radius, "how far it reaches, a length; default: 0.1 of the diagonal");
-  v.field("strength", Presence::optional, c.strength, "share of a bump of that size that goes, > 0, up to 1");
-  v.field("relative", Presence::optional, c.relative, "radius is a fraction of the bounding-box diagonal");
-}
+template <>
+Expected<void> Executor::execute(const RelaxCommand& c);
+void describe(RelaxCommand& c, Fields& fields);
 
 }  // namespace knead

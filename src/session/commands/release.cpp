@@ -2,6 +2,10 @@
 
 namespace knead {
 
+void describe(ReleaseCommand&, Fields& fields) {
+  fields.name("release", "free all that is held, pinned, frozen or kept");
+}
+
 template <>
 Expected<void> Executor::execute(const ReleaseCommand&) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());

@@ -7,6 +7,8 @@ namespace knead {
 /// Frees all that is held, pinned, frozen or kept of the selected surfaces.
 struct ReleaseCommand {};
 
-KNEAD_COMMAND(ReleaseCommand, "release", "free all that is held, pinned, frozen or kept") {}
+template <>
+Expected<void> Executor::execute(const ReleaseCommand& c);
+void describe(ReleaseCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,11 @@
 
 namespace knead {
 
+void describe(RemoveCommand& c, Fields& fields) {
+  fields.name("remove", "take a tool or force out of the scene; its plasticity stays");
+  fields.add("tool", c.tool, {.help = "its name", .fallback = "the only one"});
+}
+
 template <>
 Expected<void> Executor::execute(const RemoveCommand& c) {
   const auto force = std::ranges::find_if(

@@ -9,8 +9,8 @@ struct RemoveCommand {
   std::optional<std::string> tool;  ///< default: the only tool
 };
 
-KNEAD_COMMAND(RemoveCommand, "remove", "take a tool or force out of the scene; its plasticity stays") {
-  v.field("tool", Presence::optional, c.tool, "its name; default: the only one");
-}
+template <>
+Expected<void> Executor::execute(const RemoveCommand& c);
+void describe(RemoveCommand& c, Fields& fields);
 
 }  // namespace knead

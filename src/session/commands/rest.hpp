@@ -9,11 +9,10 @@ struct RestCommand {
   RestMode mode = RestMode::shape;
 };
 
-inline constexpr Choice<RestMode> rest_modes[] = {{"shape", RestMode::shape}, {"none", RestMode::none}};
+std::span<const Choice> choices(RestMode);
 
-KNEAD_COMMAND(RestCommand, "rest", "make the present shape the rest shape; what the energy acts on") {
-  v.choice("mode", c.mode, std::span<const Choice<RestMode>>(rest_modes),
-           "shape: displacement from it; none: the shape itself");
-}
+template <>
+Expected<void> Executor::execute(const RestCommand& c);
+void describe(RestCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,12 @@
 
 namespace knead {
 
+void describe(ScaleCommand& c, Fields& fields) {
+  fields.name("scale", "scale a tool along its own axes");
+  fields.add("tool", c.tool, {.help = "its name", .fallback = "the only tool"});
+  fields.add("by", c.by, {.help = "`[a, b, c]`, factors > 0", .presence = Presence::required});
+}
+
 template <>
 Expected<void> Executor::execute(const ScaleCommand& c) {
   auto tool = find_tool(c.tool);

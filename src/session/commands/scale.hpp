@@ -10,9 +10,8 @@ struct ScaleCommand {
   Vector3 by = {1, 1, 1};
 };
 
-KNEAD_COMMAND(ScaleCommand, "scale", "scale a tool along its own axes") {
-  v.field("tool", Presence::optional, c.tool, "its name; default: the only tool");
-  v.field("by", Presence::required, c.by, "[a, b, c], factors > 0");
-}
+template <>
+Expected<void> Executor::execute(const ScaleCommand& c);
+void describe(ScaleCommand& c, Fields& fields);
 
 }  // namespace knead

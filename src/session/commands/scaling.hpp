@@ -8,12 +8,10 @@ struct ScalingCommand {
   ScalingMode mode = ScalingMode::normalised;
 };
 
-inline constexpr Choice<ScalingMode> scaling_modes[] = {{"normalised", ScalingMode::normalised},
-                                                        {"raw", ScalingMode::raw}};
+std::span<const Choice> choices(ScalingMode);
 
-KNEAD_COMMAND(ScalingCommand, "scaling", "the units that the numbers are in") {
-  v.choice("mode", c.mode, std::span<const Choice<ScalingMode>>(scaling_modes),
-           "normalised: the same feel at every size; raw: those of the equations on the knots as they are");
-}
+template <>
+Expected<void> Executor::execute(const ScalingCommand& c);
+void describe(ScalingCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,15 @@
 
 namespace knead {
 
+void describe(SeamsCommand& c, Fields& fields) {
+  fields.name("seams", "couple selected surfaces, and each with itself, along shared edges");
+  fields.add("couple", c.seams.couple, {.help = "`false`: they may tear apart"});
+  fields.add("tolerance", c.seams.tolerance,
+             {.help = "how far edges may lie apart and still be a seam, a length",
+              .unit = Unit::length,
+              .fallback = "1e-4 of the diagonal of the selected surfaces"});
+}
+
 template <>
 Expected<void> Executor::execute(const SeamsCommand& c) {
   if (c.seams.tolerance && !(*c.seams.tolerance > 0)) {

@@ -9,10 +9,8 @@ struct SeamsCommand {
   SeamPolicy seams;
 };
 
-KNEAD_COMMAND(SeamsCommand, "seams", "couple selected surfaces, and each with itself, along shared edges") {
-  v.field("couple", Presence::optional, c.seams.couple, "false: they may tear apart");
-  v.field("tolerance", Presence::optional, c.seams.tolerance,
-          "length; default: 1e-4 of the diagonal of the selected surfaces");
-}
+template <>
+Expected<void> Executor::execute(const SeamsCommand& c);
+void describe(SeamsCommand& c, Fields& fields);
 
 }  // namespace knead

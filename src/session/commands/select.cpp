@@ -4,6 +4,14 @@
 
 namespace knead {
 
+void describe(SelectCommand& c, Fields& fields) {
+  fields.name("select", "choose the surfaces that the following commands act on");
+  fields.add("surface", c.surface, {.help = "id as `knead info` lists it, `\"#123\"`; this or `surfaces`"});
+  fields.add("surfaces", c.surfaces, {.help = "several of them"});
+  fields.add("connected", c.connected,
+             {.help = "and all surfaces that seams connect with these, directly or through others"});
+}
+
 template <>
 Expected<void> Executor::execute(const SelectCommand& c) {
   std::vector<std::string> ids = c.surfaces.value_or(std::vector<std::string>{});

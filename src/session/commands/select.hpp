@@ -11,10 +11,8 @@ struct SelectCommand {
   bool connected = false;                            ///< and all that seams connect with these
 };
 
-KNEAD_COMMAND(SelectCommand, "select", "choose the surfaces that the following commands act on") {
-  v.field("surface", Presence::optional, c.surface, "entity id as `knead info` lists it, \"#123\"");
-  v.field("surfaces", Presence::optional, c.surfaces, "several, which move together, coupled along their seams");
-  v.field("connected", Presence::optional, c.connected, "and all surfaces that seams connect with these");
-}
+template <>
+Expected<void> Executor::execute(const SelectCommand& c);
+void describe(SelectCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -2,6 +2,13 @@
 
 namespace knead {
 
+void describe(SmoothCommand& c, Fields& fields) {
+  fields.name("smooth", "keep what is smooth smooth; on unless switched off");
+  fields.add("knot_lines", c.knot_lines,
+             {.help = "no hinges at knots of full multiplicity (the quadrants of every CAD cylinder)"});
+  fields.add("poles", c.poles, {.help = "edges that are a point keep their tangent plane"});
+}
+
 template <>
 Expected<void> Executor::execute(const SmoothCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());

@@ -10,9 +10,8 @@ struct SmoothCommand {
   bool poles = true;
 };
 
-KNEAD_COMMAND(SmoothCommand, "smooth", "keep what is smooth smooth; on unless switched off") {
-  v.field("knot_lines", Presence::optional, c.knot_lines, "no creases at knots of full multiplicity");
-  v.field("poles", Presence::optional, c.poles, "edges that are a point keep their tangent plane");
-}
+template <>
+Expected<void> Executor::execute(const SmoothCommand& c);
+void describe(SmoothCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,13 @@
 
 namespace knead {
 
+void describe(StepCommand& c, Fields& fields) {
+  fields.name("step", "let the selected surfaces evolve under the tools");
+  fields.add("count", c.count, {.help = "number of steps"});
+  fields.add("lambda", c.lambda, {.help = "for these steps only", .fallback = "that of `evolve`"});
+  fields.add("weight", c.weight, {.help = "for these steps only", .fallback = "that of `evolve`"});
+}
+
 template <>
 Expected<void> Executor::execute(const StepCommand& c) {
   if (c.count < 0) return input_error(fmt::format("{} steps cannot be done", c.count), "count", "use 0 or more");

@@ -11,11 +11,8 @@ struct StepCommand {
   std::optional<StepWeight> weight;
 };
 
-KNEAD_COMMAND(StepCommand, "step", "let the selected surfaces evolve under the tools") {
-  v.field("count", Presence::optional, c.count, "number of steps");
-  v.field("lambda", Presence::optional, c.lambda, "acm: inverse step size >= 0; default: that of `evolve`, at first 1");
-  v.choice("weight", c.weight, std::span<const Choice<StepWeight>>(step_weights),
-           "acm: default: that of `evolve`, at first mass");
-}
+template <>
+Expected<void> Executor::execute(const StepCommand& c);
+void describe(StepCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -4,6 +4,19 @@
 
 namespace knead {
 
+void describe(StrokeCommand& c, Fields& fields) {
+  fields.name("stroke", "press a tool along a path and take it back, as one command");
+  fields.add("tool", c.tool, {.help = "its name", .fallback = "the only tool"});
+  fields.add(
+      "path", c.path,
+      {.help = "`[[x, y, z], …]`, positions of its centre", .unit = Unit::length, .presence = Presence::required});
+  fields.add("steps", c.steps, {.help = "at each position"});
+  fields.add("plasticity", c.plasticity,
+             {.help = "share of the displacement that becomes rest shape", .unit = Unit::fraction});
+  fields.add("relative", c.relative,
+             {.help = "the path is measured from where the tool is, in fractions of the diagonal"});
+}
+
 template <>
 Expected<void> Executor::execute(const StrokeCommand& c) {
   auto tool = find_tool(c.tool);

@@ -13,13 +13,8 @@ struct StrokeCommand {
   bool relative = false;  ///< the path is measured from where the tool is, in fractions of the diagonal
 };
 
-KNEAD_COMMAND(StrokeCommand, "stroke", "press a tool along a path and take it back, as one command") {
-  v.field("tool", Presence::optional, c.tool, "its name; default: the only tool");
-  v.field("path", Presence::required, c.path, "[[x, y, z], …] positions of its centre");
-  v.field("steps", Presence::optional, c.steps, "steps at each position");
-  v.field("plasticity", Presence::optional, c.plasticity, "share of the result that stays, 0 to 1");
-  v.field("relative", Presence::optional, c.relative,
-          "the path is measured from where the tool is, in fractions of the bounding-box diagonal");
-}
+template <>
+Expected<void> Executor::execute(const StrokeCommand& c);
+void describe(StrokeCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -7,6 +7,17 @@
 
 namespace knead {
 
+void describe(SymmetryCommand& c, Fields& fields) {
+  fields.name("symmetry", "keep a symmetry");
+  fields.add("edge", c.edge, {.help = "stays in the plane, the surface perpendicular to it; this or `mirror`"});
+  fields.add("mirror", c.mirror,
+             {.help = "`\"u\"` or `\"v\"`: the direction along which partners lie. An asymmetric net is refined where "
+                      "`refine` permits it; otherwise the error says which knots are missing"});
+  fields.add("point", c.point,
+             {.help = "`[x, y, z]` of the plane", .unit = Unit::length, .fallback = "for `mirror`: of the best plane"});
+  fields.add("normal", c.normal, {.help = "`[x, y, z]` of the plane", .fallback = "for `mirror`: of the best plane"});
+}
+
 template <>
 Expected<void> Executor::execute(const SymmetryCommand& c) {
   auto surface = selected();

@@ -12,13 +12,8 @@ struct SymmetryCommand {
   std::optional<Vector3> point, normal;
 };
 
-KNEAD_COMMAND(SymmetryCommand, "symmetry", "keep a symmetry") {
-  v.field("edge", Presence::optional, c.edge,
-          "u0, u1, v0 or v1: stays in a plane, the surface perpendicular to it; or:");
-  v.field("mirror", Presence::optional, c.mirror,
-          "u or v: the surface stays its own mirror image along that direction");
-  v.field("point", Presence::optional, c.point, "[x, y, z] of the plane; default for `mirror`: the best plane");
-  v.field("normal", Presence::optional, c.normal, "[x, y, z] of the plane");
-}
+template <>
+Expected<void> Executor::execute(const SymmetryCommand& c);
+void describe(SymmetryCommand& c, Fields& fields);
 
 }  // namespace knead

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../described_json.hpp"
 #include "knead/scene/places.hpp"
+#include "knead/sculpt/describe_shape.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -13,54 +15,119 @@ namespace {
 
 Point point_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
-/// Whether lengths that were given can be; errors speak of the fields of the command.
-Expected<void> check_lengths(const ToolCommand& c) {
-  const std::pair<const char*, std::optional<double>> lengths[] = {
-      {"radius", c.radius}, {"minor", c.minor}, {"height", c.height}, {"thickness", c.thickness}};
-  for (const auto& [field, value] : lengths) {
-    if (value && !(*value > 0))
-      return input_error(fmt::format("{} is not a length", *value), field, "use a number > 0");
+/// The numbers of a field that holds nothing else: none for an optional without a value.
+std::span<double> numbers_of(const Field& field, void* record) {
+  const Type* type = field.type;
+  void* value = field.of(record);
+  if (type->kind == Kind::optional) {
+    if (type->count(value) == 0) return {};
+    value = type->at(value, 0);
+    type = type->element;
   }
-  for (double size : c.sizes.value_or(Vector3{1, 1, 1})) {
-    if (!(size > 0)) return input_error(fmt::format("{} is not a length", size), "sizes", "use three numbers > 0");
-  }
-  return {};
+  return {static_cast<double*>(value), type->kind == Kind::array ? type->length : 1};
 }
 
-/// The shape that a command describes, lengths times `unit`.
-Expected<Shape> shape_of(const ToolCommand& c, double unit, double diagonal, const Executor& executor) {
-  const double radius = c.radius ? *c.radius * unit : 0.1 * diagonal;
-  const double minor = c.minor ? *c.minor * unit : 0.25 * radius, height = c.height ? *c.height * unit : 2 * radius;
-  const double thickness = c.thickness ? *c.thickness * unit : 0.1 * radius;
-  const double rounding = c.rounding.value_or(0) * unit, top = c.top_radius.value_or(0) * unit;
-  std::array<double, 3> sizes = {radius, radius, radius};
-  if (c.sizes) {
-    for (std::size_t k = 0; k < 3; ++k) sizes[k] = (*c.sizes)[k] * unit;
+/// The shape that a command describes. Lengths are those given, times `unit`; the others those of the shape as it is
+/// made by default, for a radius of 1, times the radius.
+Expected<Shape> shape_of(ToolCommand c, double unit, double diagonal, const Executor& executor) {
+  const Type& shapes = type_of<Shape>();
+  const int k = shapes.variant(c.shape);
+  if (k < 0) {
+    return input_error(fmt::format("\"{}\" is not a shape", c.shape), "shape",
+                       "the shapes are: " + joined(variant_names(shapes)));
   }
-  const std::array<double, 2> e = c.exponents.value_or(std::array<double, 2>{1, 1});
-  if (c.shape == "sphere") return SphereShape{radius};
-  if (c.shape == "ellipsoid") return EllipsoidShape{sizes};
-  if (c.shape == "box") return BoxShape{sizes, rounding};
-  if (c.shape == "cylinder") return CylinderShape{radius, 0.5 * height};
-  if (c.shape == "cone") return ConeShape{radius, height, top};
-  if (c.shape == "capsule") return CapsuleShape{radius, 0.5 * height};
-  if (c.shape == "torus") return TorusShape{radius, minor};
-  if (c.shape == "plane") return PlaneShape{};
-  if (c.shape == "bowl") return BowlShape{radius, thickness};
-  if (c.shape == "superellipsoid") return SuperellipsoidShape{sizes, e[0], e[1]};
-  if (c.shape == "supertoroid") return SupertoroidShape{radius, {minor, minor}, e[0], e[1]};
-  if (c.shape == "surface") {
+  Shape shape;
+  shapes.assign(&shape, k);
+  if (auto* spline = std::get_if<SplineShape>(&shape)) {
     if (!c.surface) return input_error("the surface is missing", "surface", "give its id");
     const auto index = executor.find_surface(*c.surface);
     if (!index) return std::unexpected(index.error());
-    return SplineShape{executor.state.surfaces[static_cast<std::size_t>(*index)].current};
+    spline->surface = executor.state.surfaces[static_cast<std::size_t>(*index)].current;
+    return shape;
   }
-  return input_error(fmt::format("\"{}\" is not a shape", c.shape), "shape",
-                     "the shapes are: sphere, ellipsoid, box, cylinder, cone, capsule, torus, plane, bowl, "
-                     "superellipsoid, supertoroid, surface");
+  const double radius = c.radius ? *c.radius * unit : 0.1 * diagonal;
+  for (const Field& field : shapes.variants[static_cast<std::size_t>(k)]->fields) {
+    const bool length = field.unit == Unit::length;
+    const std::span<double> numbers = numbers_of(field, shapes.at(&shape, 0));
+    const Field* asked = type_of<ToolCommand>().find(field.name);
+    const std::span<double> given = asked != nullptr ? numbers_of(*asked, &c) : std::span<double>();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (given.empty()) {
+        numbers[i] *= length ? radius : 1;
+      } else {
+        numbers[i] = given[given.size() == 1 ? 0 : i] * (length ? unit : 1) / field.factor;
+      }
+    }
+  }
+  return shape;
 }
 
 }  // namespace
+
+std::span<const Choice> choices(ToolMode) {
+  static constexpr Choice list[] = {
+      {"collision", ToolMode::collision, "what has entered the tool is pushed out"},
+      {"proximity", ToolMode::proximity, "the surface is drawn to the tool's surface from either side, within `range`"},
+      {"imprint", ToolMode::imprint, "collision whose result is the new rest shape"}};
+  return list;
+}
+
+std::span<const Choice> choices(ToolDirection) {
+  static constexpr Choice list[] = {{"pull", ToolDirection::pull}, {"push", ToolDirection::push}};
+  return list;
+}
+
+void describe(ToolCommand& c, Fields& fields) {
+  static const std::string shapes = joined(variant_names(type_of<Shape>()));
+  fields.name("tool", "put a tool into the scene, or replace the one of that name");
+  fields.add("name", c.name, {.help = "what `move` and `remove` call it"});
+  fields.add("shape", c.shape, {.help = shapes});
+  fields.add("radius", c.radius,
+             {.help = "of spheres, cylinders and the like",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "a tenth of the diagonal"});
+  fields.add("minor", c.minor,
+             {.help = "tube radius of torus and supertoroid",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "a quarter of the radius"});
+  fields.add("height", c.height,
+             {.help = "of cylinder, cone and capsule (without its caps)",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "twice the radius"});
+  fields.add("top_radius", c.top_radius, {.help = "of a cone", .unit = Unit::length, .fallback = "`0`"});
+  fields.add("thickness", c.thickness,
+             {.help = "wall of a bowl", .unit = Unit::length, .range = above(0), .fallback = "a tenth of the radius"});
+  fields.add("rounding", c.rounding, {.help = "edge radius of a box", .unit = Unit::length, .fallback = "`0`"});
+  fields.add("sizes", c.sizes,
+             {.help = "`[a, b, c]`: semi-axes of (super)ellipsoids, half sides of a box",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "the radius each"});
+  fields.add("exponents", c.exponents,
+             {.help = "`[e1, e2]` of superellipsoid and supertoroid", .fallback = "`[1, 1]`"});
+  fields.add("surface", c.surface,
+             {.help = "of shape `surface`: the id of the surface of the document that is the tool, as it is now"});
+  fields.add("axis", c.axis, {.help = "where its own z axis points", .fallback = "`[0, 0, 1]`"});
+  fields.add("scale", c.scale, {.help = "factors along its own axes", .fallback = "`[1, 1, 1]`"});
+  fields.add("position", c.position,
+             {.help = "`[x, y, z]` of the centre; this or `at` is needed (a `surface` lies where it is without)",
+              .unit = Unit::length});
+  fields.add("at", c.at, {.help = "`[s, t]`: the centre on the surface as it is now", .unit = Unit::fraction});
+  fields.add("mode", c.mode);
+  fields.add("stiffness", c.stiffness, {.help = "k, from 0 to 1e10", .fallback = "`1e4`; `100` for proximity"});
+  fields.add("range", c.range,
+             {.help = "how far proximity reaches", .unit = Unit::length, .fallback = "half the size"});
+  fields.add("direction", c.direction, {.help = "of proximity"});
+  fields.add("rigid", c.rigid, {.help = "raise k until nothing enters by more than 1e-4 of the tool's size"});
+  fields.add("friction", c.friction, {.help = "Coulomb's coefficient"});
+  fields.add(
+      "plasticity", c.plasticity,
+      {.help = "share of the displacement that `remove` leaves in the rest shape, 0 to 1", .unit = Unit::fraction});
+  fields.add("relative", c.relative, {.help = "lengths and position are fractions of the diagonal"});
+}
 
 template <>
 Expected<void> Executor::execute(const ToolCommand& c) {
@@ -71,7 +138,7 @@ Expected<void> Executor::execute(const ToolCommand& c) {
     return input_error(c.at ? "both position and at are given" : "neither position nor at is given", "position",
                        "give one of them");
   }
-  if (auto done = check_lengths(c); !done) return done;
+  if (auto done = check_ranges(type_of<ToolCommand>(), &c); !done) return done;
   // Measuring the surface costs as much as a step of a small net: a tool whose lengths are all given needs it not.
   const bool infinite = c.shape == "plane";
   double length = 0;

@@ -11,10 +11,8 @@ struct TurnCommand {
   double angle = 0;  ///< degrees
 };
 
-KNEAD_COMMAND(TurnCommand, "turn", "turn a tool about its centre") {
-  v.field("tool", Presence::optional, c.tool, "its name; default: the only tool");
-  v.field("axis", Presence::optional, c.axis, "[x, y, z]");
-  v.field("angle", Presence::required, c.angle, "degrees");
-}
+template <>
+Expected<void> Executor::execute(const TurnCommand& c);
+void describe(TurnCommand& c, Fields& fields);
 
 }  // namespace knead

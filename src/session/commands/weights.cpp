@@ -6,6 +6,13 @@
 
 namespace knead {
 
+void describe(WeightsCommand& c, Fields& fields) {
+  fields.name("weights", "other weights: control points stay, the shape changes for good");
+  describe(c.points, fields);
+  fields.add("weight", c.weight, {.help = "what each weighs, > 0; 1 where nothing was said before; this or `by`"});
+  fields.add("by", c.by, {.help = "a factor > 0 for the weight of each"});
+}
+
 template <>
 Expected<void> Executor::execute(const WeightsCommand& c) {
   auto surface = selected_alone();

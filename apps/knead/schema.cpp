@@ -1,0 +1,22 @@
+#include <fmt/format.h>
+
+#include "cli.hpp"
+#include "knead/session/command_json.hpp"
+
+namespace knead::cli {
+
+Action add_schema(CLI::App& app) {
+  auto form = std::make_shared<std::string>("script");
+  CLI::App* command = app.add_subcommand("schema", "print the JSON schema of scripts or of Knead documents");
+  command->add_option("FORM", *form, "script or document; script unless said")->type_name("");
+  command->footer(std::string(exit_codes));
+  return [form]() -> Expected<void> {
+    if (*form != "script" && *form != "document") {
+      return usage_error("there is no schema of \"" + *form + "\"", "FORM", "the forms are: script, document");
+    }
+    fmt::print("{}", *form == "script" ? script_schema() : document_schema());
+    return {};
+  };
+}
+
+}  // namespace knead::cli

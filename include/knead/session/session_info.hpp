@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "knead/session/session.hpp"
+
+namespace knead {
+
+// What a page shows of a session, as JSON. The same descriptions make the page's TypeScript types, so that none is
+// written by hand.
+
+/// Surfaces, tools, settings, notes, the last step; no control points (docs/studio.md).
+[[nodiscard]] std::string session_json(const Session& session);
+
+/// The steps from number `first` on, [{energy, stretch, …}, …].
+[[nodiscard]] std::string steps_json(const SessionState& state, std::size_t first);
+
+/// {"error": {kind, what, where, remedy, message}}.
+[[nodiscard]] std::string error_json(const Error& error);
+
+/// A TypeScript module of the types of all of these, and of all commands (`AnyCommand`).
+[[nodiscard]] std::string session_typescript();
+
+}  // namespace knead

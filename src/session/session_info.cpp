@@ -1,0 +1,285 @@
+#include "knead/session/session_info.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands.hpp"
+#include "described_text.hpp"
+#include "knead/sculpt/describe_shape.hpp"
+#include "restated.hpp"
+
+namespace knead {
+
+// What is told of each part of a session: plain values that are filled from the state, and their descriptions.
+
+struct SurfaceInfo {
+  std::string id, name, unit;
+  std::array<int, 2> degree = {0, 0}, net = {0, 0};
+  bool rational = false;
+  Vector3 lower = {0, 0, 0}, upper = {0, 0, 0};
+  std::array<std::optional<double>, 3> alpha, beta;
+  std::optional<double> mass, damping;
+  RestMode rest = RestMode::shape;
+  int hold = 0, pins = 0;
+  std::vector<std::array<int, 2>> pinned;
+  std::vector<CommandVariant> constraints;
+  int moved = 0;
+};
+
+static void describe(SurfaceInfo& s, Fields& fields) {
+  fields.name("surface info", "A surface of the session.");
+  fields.add("id", s.id);
+  fields.add("name", s.name);
+  fields.add("unit", s.unit, {.help = "of all lengths"});
+  fields.add("degree", s.degree);
+  fields.add("net", s.net, {.help = "control points [m, n]; (i, j) is number i n + j"});
+  fields.add("rational", s.rational);
+  fields.add("lower", s.lower, {.help = "corner of the control points' bounding box", .unit = Unit::length});
+  fields.add("upper", s.upper, {.help = "the corner opposite", .unit = Unit::length});
+  fields.add("alpha", s.alpha, {.help = "coefficients 11, 12, 22; null where one varies over the surface"});
+  fields.add("beta", s.beta, {.help = "likewise"});
+  fields.add("mass", s.mass, {.help = "null where it varies"});
+  fields.add("damping", s.damping, {.help = "null where it varies"});
+  fields.add("rest", s.rest);
+  fields.add("hold", s.hold, {.help = "outer rows of control points that do not move"});
+  fields.add("pins", s.pins, {.help = "how many control points are pinned"});
+  fields.add("pinned", s.pinned, {.help = "the pinned control points [i, j]"});
+  fields.add("constraints", s.constraints, {.help = "the commands that ask for what holds it"});
+  fields.add("moved", s.moved, {.help = "control points that are not as opened"});
+}
+
+struct ToolInfo {
+  Shape shape;
+  std::string name;
+  ToolMode mode = ToolMode::collision;
+  double stiffness = 0, range = 0;
+  bool rigid = false;
+  double friction = 0, plasticity = 0;
+  ToolDirection direction = ToolDirection::pull;
+  Vector3 position = {0, 0, 0};
+  std::array<double, 4> rotation = {0, 0, 0, 1};
+  Vector3 scale = {1, 1, 1};
+  std::optional<double> size;
+};
+
+static void describe(ToolInfo& t, Fields& fields) {
+  fields.name("tool info", "A tool of the session: its shape's fields, how it acts and where it is.");
+  fields.add_flat(t.shape);
+  fields.add("name", t.name);
+  fields.add("mode", t.mode);
+  fields.add("stiffness", t.stiffness);
+  fields.add("range", t.range, {.unit = Unit::length});
+  fields.add("rigid", t.rigid);
+  fields.add("friction", t.friction);
+  fields.add("plasticity", t.plasticity, {.unit = Unit::fraction});
+  fields.add("direction", t.direction);
+  fields.add("position", t.position, {.help = "of the centre", .unit = Unit::length});
+  fields.add("rotation", t.rotation, {.help = "a quaternion x, y, z, w"});
+  fields.add("scale", t.scale, {.help = "along its own axes"});
+  fields.add("size", t.size, {.help = "its smallest feature; null where it has none", .unit = Unit::length});
+}
+
+static void describe(StepRecord& s, Fields& fields) {
+  fields.name("step info", "What one step did.");
+  fields.add("time", s.time, {.help = "seconds"});
+  fields.add("energy", s.energy, {.help = "stretch + bend, in normalised units"});
+  fields.add("stretch", s.stretch);
+  fields.add("bend", s.bend);
+  fields.add("kinetic", s.kinetic);
+  fields.add("contact", s.contact);
+  fields.add("residual", s.residual, {.help = "relative imbalance of forces"});
+  fields.add("displacement", s.largest_displacement,
+             {.help = "the largest, from the surface as opened", .unit = Unit::length});
+  fields.add("gap", s.gap, {.help = "deepest entry into a tool, in sizes of that tool"});
+  fields.add("violation", s.violation, {.help = "of constraints", .unit = Unit::length});
+  fields.add("iterations", s.iterations);
+  fields.add("converged", s.converged);
+  fields.add("limited", s.limited, {.help = "the limit holds something back"});
+  fields.add("note", s.note, {.help = "what stood in the way, and what would help"});
+}
+
+std::span<const Choice> choices(SeamContinuity) {
+  static constexpr Choice list[] = {{"none", SeamContinuity::none},
+                                    {"C0", SeamContinuity::c0},
+                                    {"G1", SeamContinuity::g1},
+                                    {"periodic", SeamContinuity::periodic}};
+  return list;
+}
+
+struct SeamInfo {
+  SeamContinuity continuity = SeamContinuity::none;
+  double gap = 0;
+  std::string reason;
+};
+
+static void describe(SeamInfo& s, Fields& fields) {
+  fields.name("seam info", "");
+  fields.add("continuity", s.continuity);
+  fields.add("gap", s.gap, {.unit = Unit::length});
+  fields.add("reason", s.reason, {.help = "why it is no more than that"});
+}
+
+// The command that would ask for it, so with its name.
+static std::string_view tag_of(const std::variant<LoadCommand>*) { return "do"; }
+static std::string_view tag_of(const std::variant<EvolveCommand>*) { return "do"; }
+
+struct SessionInfo {
+  std::string name;
+  bool fresh = false;
+  std::vector<int> selection;
+  std::vector<SurfaceInfo> surfaces;
+  std::vector<ToolInfo> tools;
+  std::vector<CommandVariant> forces;
+  std::variant<LoadCommand> load;
+  std::variant<EvolveCommand> evolve;
+  std::optional<double> limit;
+  bool raw = false, coupled = true;
+  RefinePermission refine = RefinePermission::never;
+  std::vector<SeamInfo> seams;
+  std::vector<std::string> notes;
+  int steps = 0;
+  std::optional<StepRecord> last;
+  bool undo = false, redo = false;
+};
+
+static void describe(SessionInfo& s, Fields& fields) {
+  fields.name("session info", "What the session says about itself.");
+  fields.add("name", s.name, {.help = "of the document"});
+  fields.add("fresh", s.fresh, {.help = "it began without a file"});
+  fields.add("selection", s.selection, {.help = "numbers of the selected surfaces, the first one first"});
+  fields.add("surfaces", s.surfaces);
+  fields.add("tools", s.tools);
+  fields.add("forces", s.forces);
+  fields.add("load", s.load);
+  fields.add("evolve", s.evolve);
+  fields.add("limit", s.limit, {.unit = Unit::length});
+  fields.add("raw", s.raw, {.help = "the scaling is that of the equations"});
+  fields.add("coupled", s.coupled, {.help = "along seams"});
+  fields.add("refine", s.refine);
+  fields.add("seams", s.seams);
+  fields.add("notes", s.notes);
+  fields.add("steps", s.steps, {.help = "how many there were"});
+  fields.add("last", s.last, {.help = "the last step"});
+  fields.add("undo", s.undo);
+  fields.add("redo", s.redo);
+}
+
+struct ErrorInfo {
+  std::string kind, what, where, remedy, message;
+};
+
+static void describe(ErrorInfo& e, Fields& fields) {
+  fields.name("engine error info", "What went wrong, where, and what would be right.");
+  fields.add("kind", e.kind, {.help = "usage, input or numerical"});
+  fields.add("what", e.what);
+  fields.add("where", e.where);
+  fields.add("remedy", e.remedy);
+  fields.add("message", e.message, {.help = "all of it as one line"});
+}
+
+namespace {
+
+Vector3 array_of(const Point& p) { return {p[0], p[1], p[2]}; }
+
+std::optional<double> constant(const Coefficient<2>& c) {
+  const double* value = std::get_if<double>(&c);
+  return value ? std::optional(*value) : std::nullopt;
+}
+
+SurfaceInfo info_of(const Session& session, std::size_t index) {
+  const SceneSurface& s = session.state().surfaces[index];
+  const Points& points = s.current->control_points();
+  SurfaceInfo info;
+  info.id = s.id;
+  info.name = s.name;
+  info.unit = s.unit;
+  info.degree = {s.current->knots(0).degree(), s.current->knots(1).degree()};
+  info.net = s.current->net();
+  info.rational = s.current->rational();
+  info.lower = array_of(points.colwise().minCoeff().transpose());
+  info.upper = array_of(points.colwise().maxCoeff().transpose());
+  std::ranges::transform(s.material.alpha, info.alpha.begin(), constant);
+  std::ranges::transform(s.material.beta, info.beta.begin(), constant);
+  info.mass = constant(s.material.mass);
+  info.damping = constant(s.material.damping);
+  info.rest = s.mode;
+  info.hold = s.hold_rows;
+  info.pins = static_cast<int>(s.pins.size());
+  info.pinned.assign(s.pins.begin(), s.pins.end());
+  for (const KeptConstraint& kept : s.constraints) info.constraints.push_back(restated(kept.constraint).any().fields);
+  info.moved = static_cast<int>(session.moved_control_points(static_cast<int>(index)));
+  return info;
+}
+
+ToolInfo info_of(const Tool& tool) {
+  const Placement& at = tool.shape.placement();
+  ToolInfo info;
+  info.shape = tool.shape.shape();
+  info.name = tool.name;
+  info.mode = tool.mode;
+  info.stiffness = tool.stiffness;
+  info.range = tool.range;
+  info.rigid = tool.rigid;
+  info.friction = tool.friction;
+  info.plasticity = tool.plasticity;
+  info.direction = tool.direction;
+  info.position = array_of(at.position);
+  info.rotation = {at.rotation.x(), at.rotation.y(), at.rotation.z(), at.rotation.w()};
+  info.scale = at.scale;
+  if (std::isfinite(tool.shape.size())) info.size = tool.shape.size();
+  return info;
+}
+
+template <class T>
+std::string json_of(const T& value) {
+  return to_json(type_of<T>(), &value, Absent::null);
+}
+
+}  // namespace
+
+std::string session_json(const Session& session) {
+  const SessionState& state = session.state();
+  SessionInfo info;
+  info.name = session.document().name();
+  info.fresh = session.document().is_fresh();
+  info.selection = state.selection();
+  for (std::size_t k = 0; k < state.surfaces.size(); ++k) info.surfaces.push_back(info_of(session, k));
+  for (const Tool& tool : state.tools) info.tools.push_back(info_of(tool));
+  for (const SceneForce& force : state.forces) info.forces.emplace_back(ForceCommand{force});
+  info.load = LoadCommand{state.load};
+  info.evolve = EvolveCommand{state.evolution};
+  info.limit = state.limit;
+  info.raw = state.scaling == ScalingMode::raw;
+  info.coupled = state.seams.couple;
+  info.refine = state.permission;
+  for (const SeamReport& seam : state.seam_reports) info.seams.push_back({seam.continuity, seam.seam.gap, seam.reason});
+  info.notes = state.notes;
+  info.steps = static_cast<int>(state.steps.size());
+  if (!state.steps.empty()) info.last = state.steps.back();
+  info.undo = session.can_undo();
+  info.redo = session.can_redo();
+  return json_of(info);
+}
+
+std::string steps_json(const SessionState& state, std::size_t first) {
+  return json_of(std::vector<StepRecord>(
+      state.steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, state.steps.size())), state.steps.end()));
+}
+
+std::string error_json(const Error& error) {
+  const char* kind = error.kind == ErrorKind::numerical ? "numerical"
+                     : error.kind == ErrorKind::usage   ? "usage"
+                                                        : "input";
+  return "{\"error\":" + json_of(ErrorInfo{kind, error.what, error.where, error.remedy, error.message()}) + "}";
+}
+
+std::string session_typescript() {
+  TypeScript types;
+  types.declare(type_of<CommandVariant>(), "AnyCommand", "Command");
+  types.declare(type_of<SessionInfo>(), "SessionInfo", "Info", Absent::null);
+  types.declare(type_of<ErrorInfo>(), "EngineErrorInfo", "Info", Absent::null);
+  return "// Generated from the engine's descriptions; not to be edited. Lengths are in file units.\n\n" +
+         std::move(types.text);
+}
+
+}  // namespace knead
