@@ -3,7 +3,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "archive.hpp"
+#include "described_archive.hpp"
+#include "knead/sculpt/describe_shape.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "restated.hpp"
@@ -220,36 +221,6 @@ void pass(A& a, Of<A, SceneSurface>& s) {
   pass(a, smooth_poles);
 }
 
-/// Numbers of every shape, in the order of the variant.
-template <class A>
-struct ShapeNumbers {
-  A& a;
-  void all(auto&... x) const { (pass(a, x), ...); }
-  void operator()(Of<A, SphereShape>& s) const { all(s.radius); }
-  void operator()(Of<A, EllipsoidShape>& s) const { all(s.semi_axes[0], s.semi_axes[1], s.semi_axes[2]); }
-  void operator()(Of<A, BoxShape>& s) const { all(s.half_sizes[0], s.half_sizes[1], s.half_sizes[2], s.rounding); }
-  void operator()(Of<A, CylinderShape>& s) const { all(s.radius, s.half_height); }
-  void operator()(Of<A, ConeShape>& s) const { all(s.radius, s.height, s.top_radius); }
-  void operator()(Of<A, CapsuleShape>& s) const { all(s.radius, s.half_height); }
-  void operator()(Of<A, TorusShape>& s) const { all(s.major, s.minor); }
-  void operator()(Of<A, PlaneShape>&) const {}
-  void operator()(Of<A, BowlShape>& s) const { all(s.radius, s.thickness); }
-  void operator()(Of<A, SuperellipsoidShape>& s) const {
-    all(s.semi_axes[0], s.semi_axes[1], s.semi_axes[2], s.e1, s.e2);
-  }
-  void operator()(Of<A, SupertoroidShape>& s) const { all(s.major, s.semi_axes[0], s.semi_axes[1], s.e1, s.e2); }
-  void operator()(Of<A, SplineShape>& s) const { all(s.surface); }
-};
-
-/// A shape of alternative number `index`.
-template <std::size_t K = 0>
-Shape shape_number(int index) {
-  if constexpr (K + 1 < std::variant_size_v<Shape>) {
-    if (index != static_cast<int>(K)) return shape_number<K + 1>(index);
-  }
-  return Shape(std::in_place_index<K>);
-}
-
 template <class A>
 void pass(A& a, Of<A, Placement>& p) {
   auto& [rotation, position, scale] = p;
@@ -261,8 +232,7 @@ void pass(A& a, Of<A, Placement>& p) {
 inline void pass(Writer& a, const Tool& t) {
   const auto& [name, shape, mode, stiffness, range, rigid, friction, plasticity, direction] = t;
   a.text(name);
-  a.integer(static_cast<int>(shape.shape().index()));
-  std::visit(ShapeNumbers<Writer>{a}, shape.shape());
+  write(a, type_of<Shape>(), &shape.shape());
   pass(a, shape.placement());
   choice(a, mode, ToolMode::imprint);
   for (const double* x : {&stiffness, &range, &friction, &plasticity}) a.number(*x);
@@ -271,11 +241,9 @@ inline void pass(Writer& a, const Tool& t) {
 }
 inline std::optional<Tool> read_tool(Reader& a) {
   std::string name;
-  int index = 0;
   a.text(name);
-  a.integer(index);
-  Shape shape = shape_number(index);
-  std::visit(ShapeNumbers<Reader>{a}, shape);
+  Shape shape;
+  read(a, type_of<Shape>(), &shape);
   Placement at;
   pass(a, at);
   if (a.bad()) return std::nullopt;

@@ -60,9 +60,15 @@ void each_field(const Type& record, std::vector<std::string_view>& seen, auto&& 
   }
 }
 
-std::vector<std::string_view> allowed(const Field& field) {
-  const Type& last = field.type->innermost();
-  return field.flat ? variant_names(*field.type) : names_of(last.choices);
+/// "collision (what it does), proximity (…)"
+std::string allowed(const Field& field) {
+  if (field.flat) return joined(variant_names(*field.type));
+  std::string text;
+  for (const Choice& choice : field.type->innermost().choices) {
+    text += (text.empty() ? "" : ", ") + std::string(choice.name);
+    if (!choice.help.empty()) text += " (" + without_links(std::string(choice.help)) + ")";
+  }
+  return text;
 }
 
 /// "|" would end a cell.
@@ -135,7 +141,7 @@ std::string full_help(const Type& record) {
   each_field(record, seen, [&](const Field& field, const Type& owner) {
     std::string what = without_links(std::string(field.help));
     what += range_note(field);
-    if (const auto names = allowed(field); !names.empty()) what += (what.empty() ? "" : ": ") + joined(names);
+    if (const std::string names = allowed(field); !names.empty()) what += (what.empty() ? "" : ": ") + names;
     const std::string value = !field.fallback.empty() ? std::string(field.fallback) : shown_default(field, owner);
     const std::string note = field.presence == Presence::required ? "(required)"
                              : value.empty()                      ? ""

@@ -106,7 +106,9 @@ TEST(Described, HelpNamesFieldsWithMeaningAndDefault) {
   const std::string help = full_help(type_of<Pot>());
   EXPECT_NE(help.find("  name            what it is called (default \"pot\")\n"), std::string::npos) << help;
   EXPECT_NE(help.find("  height          of all; > 0 (default twice the lid)\n"), std::string::npos) << help;
-  EXPECT_NE(help.find("  glaze           of its outside: matt, shiny (default \"matt\")\n"), std::string::npos) << help;
+  EXPECT_NE(help.find("  glaze           of its outside: matt (soft light), shiny (hard light) (default \"matt\")\n"),
+            std::string::npos)
+      << help;
   EXPECT_NE(help.find("  lid             (default 0.5)\n"), std::string::npos) << help;
   EXPECT_NE(help.find("  exponents "), std::string::npos) << "the shapes' fields count: " << help;
   EXPECT_NE(brief_help(type_of<Pot>()).find("name \"pot\", glaze \"matt\", height, dots,"), std::string::npos);

@@ -41,7 +41,7 @@ struct CylinderShape {
 
 /// From the disc of `radius` in z = 0 straight to the disc of `top_radius` (an apex where it is 0) in z = height.
 struct ConeShape {
-  double radius = 1, height = 2, top_radius = 0;
+  double radius = 1, height = 1, top_radius = 0;
   friend bool operator==(const ConeShape&, const ConeShape&) = default;
 };
 

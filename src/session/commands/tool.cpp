@@ -45,6 +45,7 @@ Expected<Shape> shape_of(ToolCommand c, double unit, double diagonal, const Exec
     spline->surface = executor.state.surfaces[static_cast<std::size_t>(*index)].current;
     return shape;
   }
+  if (auto* cone = std::get_if<ConeShape>(&shape)) cone->height = 2;  // as high as it is wide, as a cylinder
   const double radius = c.radius ? *c.radius * unit : 0.1 * diagonal;
   for (const Field& field : shapes.variants[static_cast<std::size_t>(k)]->fields) {
     const bool length = field.unit == Unit::length;
