@@ -10,6 +10,7 @@ for module in engine/knead_studio panels/lab/knead_lab; do
   built=build/wasm/bindings/wasm/${module##*/}.wasm
   cmp -s "$built" "web/src/$module.wasm" || cp "$built" "web/src/$module.wasm"
 done
+node web/scripts/types.mjs web/src/engine/knead_studio.wasm web/src/engine/generated.ts
 
 cd web
 # What the lock file names, and again only when it changes.

@@ -159,6 +159,9 @@ KNEAD_EXPORT(knead_snapshot) int knead_snapshot(std::size_t history_bytes) {
   return held().session ? answer(held().session->snapshot(history_bytes)) : without_session();
 }
 
+/// The text is a TypeScript module of what the session's answers are made of. Needs no session.
+KNEAD_EXPORT(knead_types) int knead_types() { return answer(session_typescript()); }
+
 KNEAD_EXPORT(knead_journal) int knead_journal() {
   return held().session ? answer(journal_json(*held().session)) : without_session();
 }

@@ -46,8 +46,11 @@ export const shapes = [
 
 const lengthsOf: Record<string, ('radius' | 'minor' | 'height' | 'top_radius' | 'rounding' | 'thickness')[]> = {
   sphere: ['radius'], cylinder: ['radius', 'height'], cone: ['radius', 'height', 'top_radius'], capsule: ['radius', 'height'],
-  torus: ['radius', 'minor'], bowl: ['radius', 'thickness'], box: ['rounding'], supertoroid: ['radius'],
+  torus: ['radius', 'minor'], bowl: ['radius', 'thickness'], box: ['rounding'], supertoroid: ['radius', 'minor'],
 };
+
+/** A length that is the same in every direction as one number. */
+const single = (value: number | [number, number] | undefined): number => (Array.isArray(value) ? value[0] : value ?? 0);
 
 /** The command that makes this tool again with some fields changed. Its turn survives as the direction of its axis. */
 function remade(tool: ToolInfo, change: Record<string, unknown>): Record<string, unknown> & { do: string } {
@@ -64,7 +67,6 @@ function remade(tool: ToolInfo, change: Record<string, unknown>): Record<string,
     else command.radius = size;
   }
   if (same && tool.sizes) command.sizes = tool.sizes;
-  if (same && tool.semi_axes) command.sizes = [tool.semi_axes[0], tool.semi_axes[0], tool.semi_axes[1]];
   if (same && tool.exponents) command.exponents = tool.exponents;
   for (const name of ['mode', 'stiffness', 'rigid', 'friction', 'plasticity', 'direction'] as const) command[name] = tool[name];
   if (tool.mode === 'proximity') command.range = tool.range;
@@ -106,7 +108,7 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
       toggle({ translate: 'Move', rotate: 'Turn', scale: 'Resize' }[m], mode === m, () => setGizmo(m)))),
     field('Shape', select('Shape', shapes, tool.shape as (typeof shapes)[number][0], (shape) => change({ shape }))),
     ...(lengthsOf[tool.shape] ?? []).map((name) =>
-      number({ radius: 'Radius', minor: 'Tube', height: 'Height', top_radius: 'Top radius', rounding: 'Rounding', thickness: 'Wall' }[name], tool[name] ?? 0, name, true)),
+      number({ radius: 'Radius', minor: 'Tube', height: 'Height', top_radius: 'Top radius', rounding: 'Rounding', thickness: 'Wall' }[name], single(tool[name]), name, true)),
     ...sizeFields(app, tool, change),
     field('Mode', select('Mode', [['collision', 'Collision'], ['proximity', 'Proximity'], ['imprint', 'Imprint']], tool.mode, (m) => change({ mode: m })),
       'Collision pushes out what has entered; proximity draws from either side; imprint leaves its shape at once'),

@@ -19,7 +19,7 @@ export class ToolView {
   show(tool: ToolInfo, origin: readonly number[], sceneSize: number, palette: Palette, selected: boolean): void {
     this.tool = tool;
     const form = JSON.stringify([tool.shape, tool.radius, tool.minor, tool.height, tool.top_radius, tool.thickness,
-      tool.sizes, tool.semi_axes, tool.exponents, tool.shape === 'plane' ? sceneSize : 0]);
+      tool.sizes, tool.exponents, tool.shape === 'plane' ? sceneSize : 0]);
     if (form !== this.form) {
       this.form = form;
       this.object.geometry.dispose();
@@ -37,6 +37,11 @@ export class ToolView {
     this.object.geometry.dispose();
     this.object.material.dispose();
   }
+}
+
+/** The tube of a torus across and along its axis. */
+function tubeOf({ minor = 0.25 }: ToolInfo): [number, number] {
+  return Array.isArray(minor) ? minor : [minor, minor];
 }
 
 function toolGeometry(tool: ToolInfo, sceneSize: number): THREE.BufferGeometry {
@@ -57,7 +62,7 @@ function toolGeometry(tool: ToolInfo, sceneSize: number): THREE.BufferGeometry {
     case 'capsule':
       return upright(new THREE.CapsuleGeometry(radius, height, 12, 40));
     case 'torus':
-      return new THREE.TorusGeometry(radius, tool.minor ?? 0.25 * radius, 20, 64);
+      return new THREE.TorusGeometry(radius, tubeOf(tool)[0], 20, 64);
     case 'plane':
       return new THREE.PlaneGeometry(1.4 * sceneSize, 1.4 * sceneSize);
     case 'bowl': {
@@ -91,7 +96,7 @@ function superquadric(tool: ToolInfo): THREE.BufferGeometry {
       const across = power(Math.cos(eta), e1);
       const along = power(Math.sin(eta), e1);
       if (torus) {
-        const [radial, axial] = tool.semi_axes ?? [0.25, 0.25];
+        const [radial, axial] = tubeOf(tool);
         const r = (tool.radius ?? 1) + radial * across;
         positions.push(r * power(Math.cos(omega), e2), r * power(Math.sin(omega), e2), axial * along);
       } else {
