@@ -277,6 +277,16 @@ double ActiveSpline<D>::energy(const ActiveState& state) const {
 }
 
 template <int D>
+Points ActiveSpline<D>::allowed(const Points& displacement) const {
+  const ConstraintSpace& space = model_->inverse.space();
+  Points free = displacement;
+  for (Eigen::Index i = 0; i < free.rows(); ++i) {
+    if (space.is_determined(static_cast<int>(i))) free.row(i).setZero();
+  }
+  return space.feasible(free) - space.feasible(Points::Zero(free.rows(), 3));
+}
+
+template <int D>
 const DomainScaling<D>& ActiveSpline<D>::scaling(int patch) const {
   return model_->scalings[static_cast<std::size_t>(patch)];
 }

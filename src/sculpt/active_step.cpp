@@ -96,11 +96,14 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
       potential(m.loads, m.rows, scaled),
       limit(given_loads.limit / m.length) {
   const Points kx0 = m.stiffness * before;
+  if (state.balanced) external = kx0;
   problem.b = external - kx0;
   problem.energy = 0.5 * dot(before, kx0);
   const Points& original = loads.original.rows() > 0 ? loads.original : m.rest;
   limit_origin = (original.rowwise() - m.centre.transpose()) / m.length;
   y = m.inverse.space().feasible(before) - before;
+  if (state.balanced) y = state.guess.rows() > 0 ? Points(state.guess / m.length) : Points::Zero(before.rows(), 3);
+  problem.near = state.balanced && state.guess.rows() > 0;
 }
 
 template <int D>

@@ -15,7 +15,8 @@ constexpr int max_solves = 1500;  // of one minimisation: a step that needs more
 // The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step. It is compared with what the step
 // weighs against each other, |F|, |K X₀| and the first imbalance in the same norm.
 constexpr double relative_tolerance = 1e-11;
-constexpr double rounded_tolerance = 1e-9;  // where the rounding of forces computed afresh does not allow more
+constexpr double followed_tolerance = 1e-8;  // of a tool that is followed along a path, in many small steps
+constexpr double rounded_tolerance = 1e-9;   // where the rounding of forces computed afresh does not allow more
 constexpr double cancellation = 1e-12;
 constexpr double sufficient_decrease = 1e-4;
 constexpr double rounding = 1e-14;
@@ -328,7 +329,7 @@ ContactSummary minimise_step(const StepProblem& problem, Potential& potential, P
   // A very stiff tool is met by way of softer ones: from afar its springs would throw the surface about. A step that
   // starts near its balance, as most do, has nothing to gain from that.
   const double stiffest = potential.stiffest();
-  if (stiffest > soft_stiffness && minimisation.imbalance() > far_from_balance) {
+  if (!problem.near && stiffest > soft_stiffness && minimisation.imbalance() > far_from_balance) {
     for (double cap = soft_stiffness; cap < stiffest; cap *= stiffening) {
       potential.soften(cap);
       minimisation.renew();
@@ -337,7 +338,7 @@ ContactSummary minimise_step(const StepProblem& problem, Potential& potential, P
     potential.soften(stiffest);
     minimisation.renew();
   }
-  minimisation.iterate(relative_tolerance, max_newton_iterations, true);
+  minimisation.iterate(problem.near ? followed_tolerance : relative_tolerance, max_newton_iterations, true);
   return minimisation.summary;
 }
 

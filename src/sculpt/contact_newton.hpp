@@ -18,8 +18,9 @@ struct StepProblem {
   const SparseMatrix& a;
   const ConstrainedCholesky& inverse;  // of A on the free unknowns
   Points b;
-  Points start;   // control points x₀ that Ψ is evaluated at for Y = 0
-  double energy;  // ½ X₀ᵀ K X₀: the size of the numbers that Φ is a difference of
+  Points start;       // control points x₀ that Ψ is evaluated at for Y = 0
+  double energy;      // ½ X₀ᵀ K X₀: the size of the numbers that Φ is a difference of
+  bool near = false;  // Y begins close to the minimum: stiff tools are met as they are
 };
 
 /// Minimises, starting from `y` (feasible), which becomes the minimum.

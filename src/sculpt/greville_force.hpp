@@ -1,11 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "knead/energy/stiffness.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
-#include "spline/greville_interpolation.hpp"
+#include "knead/sculpt/greville_values.hpp"
 
 namespace knead {
 
@@ -38,12 +37,10 @@ class GrevilleForce {
 
   [[nodiscard]] int size() const { return mass_.size(); }
   /// Parameters of the points in one direction.
-  [[nodiscard]] const std::vector<double>& abscissae(int direction) const {
-    return interpolation_[static_cast<std::size_t>(direction)].abscissae();
-  }
+  [[nodiscard]] const std::vector<double>& abscissae(int direction) const { return values_.abscissae(direction); }
 
   /// S(g) for control points x, N × 3, of the same knots and weights. Cost: O(N p) per direction.
-  [[nodiscard]] Points places(const Points& x) const;
+  [[nodiscard]] Points places(const Points& x) const { return values_.values(x); }
 
   /// F for forces per measure of the scaled domain at the points, N × 3. Cost: O(N p) per direction.
   [[nodiscard]] Points forces(Points point_forces) const;
@@ -57,12 +54,10 @@ class GrevilleForce {
   }
 
  private:
-  GrevilleForce(Stiffness<D> mass, std::vector<GrevilleInterpolation> interpolation)
-      : mass_(std::move(mass)), interpolation_(std::move(interpolation)) {}
+  GrevilleForce(Stiffness<D> mass, GrevilleValues<D> values) : mass_(std::move(mass)), values_(std::move(values)) {}
 
   Stiffness<D> mass_;
-  std::vector<GrevilleInterpolation> interpolation_;
-  std::vector<double> weights_, denominators_;  // at control points and at the abscissae; empty for a polynomial spline
+  GrevilleValues<D> values_;
 };
 
 }  // namespace knead

@@ -4,6 +4,7 @@
 
 #include "knead/sculpt/loads.hpp"
 #include "knead/sculpt/tool.hpp"
+#include "spline/greville_interpolation.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
 

@@ -66,6 +66,12 @@ struct ActiveState {
   Points control_points;
   Points rest = {};      ///< the rest shape; empty: the one the model was created with
   Points velocity = {};  ///< dynamic; empty: at rest
+  /// Stress and loads are in balance as the state stands, whatever they are: only tools move it, against K + λW from
+  /// here (acm and stationary).
+  bool balanced = false;
+  /// Where a balanced step looks first, as a displacement from `control_points` that the constraints allow: of a tool
+  /// that moves, the step before; empty: none.
+  Points guess = {};
 };
 
 /// A force on one material point S = Σ c X (thesis Eq. 4.24; Kass, Witkin and Terzopoulos 1988).
@@ -157,6 +163,9 @@ class ActiveSpline {
   /// Σ Xᵀ K X of the given control points.
   [[nodiscard]] double energy(const Points& control_points) const { return energy(ActiveState{control_points}); }
   [[nodiscard]] double energy(const ActiveState& state) const;
+
+  /// The displacement with the same independent unknowns as this one that the constraints allow: held points stay.
+  [[nodiscard]] Points allowed(const Points& displacement) const;
 
   [[nodiscard]] const DomainScaling<D>& scaling(int patch = 0) const;
   [[nodiscard]] const ActiveSettings<D>& settings() const;

@@ -1,0 +1,105 @@
+#include "knead/sculpt/greville_values.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+
+#include "spline/greville_interpolation.hpp"
+#include "spline/tensor_contraction.hpp"
+
+namespace knead {
+namespace {
+
+template <int D>
+std::vector<double> at_abscissae(const std::vector<GrevilleInterpolation>& interpolation, const double* x,
+                                 std::size_t components) {
+  std::array<const BasisTable*, D> tables;
+  std::array<int, D> net;
+  for (std::size_t d = 0; d < D; ++d) {
+    tables[d] = &interpolation[d].basis();
+    net[d] = interpolation[d].size();
+  }
+  return contract_grid<D>(tables, net, x, components);
+}
+
+}  // namespace
+
+template <int D>
+struct GrevilleValues<D>::Factors {
+  std::vector<GrevilleInterpolation> interpolation;
+  std::vector<double> weights, denominators;  // at control points and at the abscissae; empty for a polynomial spline
+};
+
+template <int D>
+Expected<GrevilleValues<D>> GrevilleValues<D>::create(const Spline<D>& shape) {
+  Factors made;
+  for (std::size_t d = 0; d < D; ++d) {
+    auto direction = GrevilleInterpolation::create(shape.knots()[d]);
+    if (!direction) return std::unexpected(direction.error().within(fmt::format("direction {}", d)));
+    made.interpolation.push_back(std::move(*direction));
+  }
+  if (shape.rational()) {
+    made.weights.assign(shape.weights().begin(), shape.weights().end());
+    made.denominators = at_abscissae<D>(made.interpolation, made.weights.data(), 1);
+  }
+  for (std::size_t i = 0; i < made.weights.size(); ++i) {
+    if (made.weights[i] == 0) {
+      return input_error("a weight is 0, so that no value at an abscissa determines its coefficient",
+                         fmt::format("control point {}", i), "use weights > 0");
+    }
+    if (!(made.denominators[i] > 0)) {
+      return numerical_error("the rational denominator is not positive", "Greville abscissae", "use positive weights");
+    }
+  }
+  return GrevilleValues(std::make_shared<const Factors>(std::move(made)));
+}
+
+template <int D>
+int GrevilleValues<D>::size() const {
+  int size = 1;
+  for (const GrevilleInterpolation& direction : factors_->interpolation) size *= direction.size();
+  return size;
+}
+
+template <int D>
+const std::vector<double>& GrevilleValues<D>::abscissae(int direction) const {
+  return factors_->interpolation[static_cast<std::size_t>(direction)].abscissae();
+}
+
+template <int D>
+Points GrevilleValues<D>::values(const Points& x) const {
+  assert(x.rows() == size());
+  const auto& [interpolation, weights, denominators] = *factors_;
+  if (weights.empty()) {
+    const std::vector<double> values = at_abscissae<D>(interpolation, x.data(), 3);
+    return Eigen::Map<const Points>(values.data(), x.rows(), 3);
+  }
+  const Points weighted = Eigen::Map<const Eigen::VectorXd>(weights.data(), x.rows()).asDiagonal() * x;
+  const std::vector<double> values = at_abscissae<D>(interpolation, weighted.data(), 3);
+  Points result = Eigen::Map<const Points>(values.data(), x.rows(), 3);
+  for (Eigen::Index i = 0; i < result.rows(); ++i) result.row(i) /= denominators[static_cast<std::size_t>(i)];
+  return result;
+}
+
+template <int D>
+Points GrevilleValues<D>::coefficients(Points v) const {
+  assert(v.rows() == size());
+  const auto& [interpolation, weights, denominators] = *factors_;
+  const bool rational = !weights.empty();
+  for (Eigen::Index i = 0; i < v.rows() && rational; ++i) v.row(i) *= denominators[static_cast<std::size_t>(i)];
+  std::size_t outer = 1, inner = static_cast<std::size_t>(v.size());
+  for (const GrevilleInterpolation& direction : interpolation) {
+    const auto n = static_cast<std::size_t>(direction.size());
+    inner /= n;
+    direction.solve(v.data(), outer, inner);
+    outer *= n;
+  }
+  for (Eigen::Index i = 0; i < v.rows() && rational; ++i) v.row(i) /= weights[static_cast<std::size_t>(i)];
+  return v;
+}
+
+template class GrevilleValues<1>;
+template class GrevilleValues<2>;
+template class GrevilleValues<3>;
+
+}  // namespace knead
