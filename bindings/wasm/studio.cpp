@@ -21,7 +21,8 @@ struct Studio {
   std::string input, text;
   std::optional<Session> session;
   Point origin = Point::Zero();
-  Painter painter;
+  PictureMaker pictures;
+  ContextPicture context;
   std::optional<TrimLoops> trims;  // of the open file, once asked for
 };
 
@@ -176,38 +177,23 @@ KNEAD_EXPORT(knead_save) int knead_save() {
 /// Coordinate `axis` of the origin of pictures, file units.
 KNEAD_EXPORT(knead_origin) double knead_origin(int axis) { return held().origin[axis]; }
 
-/// Draws a surface, or the shape as it was opened; its buffers are then those of `knead_buffer`. `detail`: grid lines
-/// wanted per direction.
-KNEAD_EXPORT(knead_paint) int knead_paint(int surface, int detail, int field, int opened) {
+/// The text is the list of displays: `displays_json`.
+KNEAD_EXPORT(knead_displays) int knead_displays() { return answer(displays_json()); }
+
+/// A picture of a surface, or of the shape as it was opened: the text is `picture_json`, its buffers stay until the next
+/// call. The input is what colours it (`read_display`). `detail`: grid lines wanted per direction.
+KNEAD_EXPORT(knead_picture) int knead_picture(int surface, int detail, int opened) {
   auto& session = held().session;
   if (!session) return without_session();
   const SessionState& state = session->state();
   if (surface < 0 || surface >= static_cast<int>(state.surfaces.size())) {
     return fail({ErrorKind::usage, "there is no such surface"});
   }
-  auto done =
-      held().painter.paint(state, surface, held().origin, detail, static_cast<PictureField>(field), opened != 0);
-  if (!done) return fail(done.error());
-  const auto counts = held().painter.picture().counts;
-  return answer("{\"counts\":[" + std::to_string(counts[0]) + "," + std::to_string(counts[1]) + "]}");
-}
-
-/// Buffers of the last picture: 0 positions, 1 normals, 2 values, 3 fractions s, 4 fractions t, 5 knot lines u, 6 knot
-/// lines v, 7 net, 8 held. Sizes in bytes.
-KNEAD_EXPORT(knead_buffer) const void* knead_buffer(int which) {
-  const Picture& p = held().painter.picture();
-  const void* all[] = {p.positions.data(),   p.normals.data(),     p.values.data(),
-                       p.fractions_s.data(), p.fractions_t.data(), p.lines_u.data(),
-                       p.lines_v.data(),     p.net.data(),         p.held.data()};
-  return all[which];
-}
-
-KNEAD_EXPORT(knead_buffer_size) std::size_t knead_buffer_size(int which) {
-  const Picture& p = held().painter.picture();
-  const std::size_t all[] = {p.positions.size(),   p.normals.size(),     p.values.size(),
-                             p.fractions_s.size(), p.fractions_t.size(), p.lines_u.size(),
-                             p.lines_v.size(),     p.net.size(),         p.held.size()};
-  return all[which] * (which == 8 ? 1 : 4);
+  auto display = read_display(held().input);
+  if (!display) return fail(display.error());
+  const PictureOptions options{held().origin, detail, *std::move(display), opened != 0};
+  if (auto done = held().pictures.make(state, surface, options); !done) return fail(done.error());
+  return answer(picture_json(held().pictures.picture()));
 }
 
 /// Control points of a surface in full precision: the text is raw doubles.
@@ -255,11 +241,13 @@ KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
   return bytes ? answer(std::move(*bytes)) : fail(bytes.error());
 }
 
-/// The faces of the open file that are no surfaces of the session: `context_bytes`. Without a file there are none.
+/// The faces of the open file that are no surfaces of the session: the text is `context_json`, its buffers stay until
+/// the next call of this function. Without a file there are none, and the text is null.
 KNEAD_EXPORT(knead_context) int knead_context() {
   auto& session = held().session;
-  if (!session || !session->document().step_file()) return answer({});
-  return answer(context_bytes(*session->document().step_file(), held().origin));
+  if (!session || !session->document().step_file()) return answer("null");
+  held().context = context_picture(*session->document().step_file(), held().origin);
+  return answer(context_json(held().context));
 }
 
 /// What the faces of the open file show of a surface: `trim_json`.

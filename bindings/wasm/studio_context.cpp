@@ -1,49 +1,37 @@
 #include "studio_context.hpp"
 
 #include <cmath>
-#include <cstdint>
 #include <nlohmann/json.hpp>
-#include <vector>
 
-#include "knead/exchange/context_faces.hpp"
+#include "buffers.hpp"
 
 namespace knead::studio {
-namespace {
-
-template <class T>
-void append(std::string& to, const std::vector<T>& from) {
-  to.append(reinterpret_cast<const char*>(from.data()), from.size() * sizeof(T));
-}
-
-}  // namespace
-
-std::string context_bytes(const step::File& file, const Point& origin) {
+ContextPicture context_picture(const step::File& file, const Point& origin) {
+  ContextPicture picture;
   ContextFaces context;
   if (auto faces = context_faces(file)) context = *std::move(faces);
-  std::vector<float> positions, normals;
-  std::vector<std::uint32_t> indices;
   for (const FaceMesh& mesh : context.faces) {
-    const auto first = static_cast<std::uint32_t>(positions.size() / 3);
+    const auto first = static_cast<std::uint32_t>(picture.positions.size() / 3);
     for (std::size_t k = 0; k < mesh.points.size(); ++k) {
       for (int d = 0; d < 3; ++d) {
-        positions.push_back(static_cast<float>(mesh.points[k][d] - origin[d]));
-        normals.push_back(static_cast<float>(mesh.normals[k][d]));
+        picture.positions.push_back(static_cast<float>(mesh.points[k][d] - origin[d]));
+        picture.normals.push_back(static_cast<float>(mesh.normals[k][d]));
       }
     }
     for (const auto& triangle : mesh.triangles) {
-      for (const auto k : triangle) indices.push_back(first + k);
+      for (const auto k : triangle) picture.indices.push_back(first + k);
     }
   }
-  const std::vector<std::uint32_t> counts = {static_cast<std::uint32_t>(positions.size() / 3),
-                                             static_cast<std::uint32_t>(indices.size() / 3)};
-  std::string bytes;
-  append(bytes, counts);
-  append(bytes, positions);
-  append(bytes, normals);
-  append(bytes, indices);
+  picture.skipped = std::move(context.skipped);
+  return picture;
+}
+
+std::string context_json(const ContextPicture& context) {
   auto skipped = nlohmann::json::array();
   for (const SkippedFace& face : context.skipped) skipped.push_back({{"id", face.id}, {"reason", face.reason.what}});
-  return bytes + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return "{\"buffers\":" +
+         buffers_json({{"positions", context.positions}, {"normals", context.normals}, {"indices", context.indices}}) +
+         ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}";
 }
 
 std::string trim_json(const SurfaceTrim& trim) {

@@ -1,16 +1,26 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "knead/exchange/context_faces.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/exchange/trim_loops.hpp"
 
 namespace knead::studio {
 
-/// The faces round the surfaces as bytes: the numbers of points n and of triangles t (uint32 each); 3 n positions
-/// relative to `origin` and 3 n normals (float); 3 t indices (uint32); then, as JSON, what was left out:
-/// [{"id": "#12", "reason": "…"}, …].
-[[nodiscard]] std::string context_bytes(const step::File& file, const Point& origin);
+/// The faces round the surfaces as triangles; points relative to the origin asked for.
+struct ContextPicture {
+  std::vector<float> positions, normals;  ///< 3 per point
+  std::vector<std::uint32_t> indices;     ///< 3 per triangle
+  std::vector<SkippedFace> skipped;       ///< what could not be made triangles
+};
+
+[[nodiscard]] ContextPicture context_picture(const step::File& file, const Point& origin);
+
+/// {"buffers": …, "skipped": [{"id": "#12", "reason": "…"}, …]}
+[[nodiscard]] std::string context_json(const ContextPicture& context);
 
 /// {"faces": [[[s, t, s, t, …], …], …]}: of each face its loops, in fractions of the domain; null for a whole surface.
 [[nodiscard]] std::string trim_json(const SurfaceTrim& trim);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buffers.hpp"
 #include "knead/spline/grid_lines.hpp"
 
 namespace knead::studio {
@@ -14,7 +15,21 @@ void append(std::vector<float>& to, const Point& p) {
 
 }  // namespace
 
-Expected<void> Painter::tabulate(const Surface& surface, int detail) {
+std::string picture_json(const Picture& p) {
+  return "{\"counts\":[" + std::to_string(p.counts[0]) + "," + std::to_string(p.counts[1]) + "],\"buffers\":" +
+         buffers_json({{"positions", p.positions},
+                       {"normals", p.normals},
+                       {"values", p.values},
+                       {"fractions_s", p.fractions_s},
+                       {"fractions_t", p.fractions_t},
+                       {"lines_u", p.lines_u},
+                       {"lines_v", p.lines_v},
+                       {"net", p.net},
+                       {"held", p.held}}) +
+         "}";
+}
+
+Expected<void> PictureMaker::tabulate(const Surface& surface, int detail) {
   if (knots_ && *knots_ == surface.knots() && detail_ == detail) return {};
   knots_.reset();
   for (int d = 0; d < 2; ++d) {
@@ -37,29 +52,30 @@ Expected<void> Painter::tabulate(const Surface& surface, int detail) {
   return {};
 }
 
-Expected<void> Painter::paint(const SessionState& state, int index, const Point& origin, int detail, PictureField field,
-                              bool opened) {
-  const SceneSurface& surface = state.surfaces[static_cast<std::size_t>(index)];
-  const Surface& current = opened ? *surface.opened : *surface.current;
-  if (auto done = tabulate(current, detail); !done) return done;
-  const bool curved = field == PictureField::mean_curvature || field == PictureField::gaussian_curvature;
-  const std::array<const BasisTable*, 2> tables = {&tables_[0], &tables_[1]};
-  if (auto done = evaluate_grid<2>(current, tables, curved ? 2 : 1, evaluation_); !done) return done;
+Expected<void> PictureMaker::make(const Scene& scene, int index, const PictureOptions& options) {
+  const SceneSurface& surface = scene.surfaces[static_cast<std::size_t>(index)];
+  const Surface& drawn = options.opened ? *surface.opened : *surface.current;
+  if (auto done = tabulate(drawn, options.detail); !done) return done;
+  const int order = options.display.display ? options.display.display->order : 1;
+  if (auto done = evaluate_grid<2>(drawn, {&tables_[0], &tables_[1]}, std::max(1, order), evaluation_); !done) {
+    return done;
+  }
 
   const Points& points = evaluation_.points();
   picture_.positions.clear();
-  for (Eigen::Index k = 0; k < points.rows(); ++k) append(picture_.positions, points.row(k).transpose() - origin);
-  paint_normals();
-  if (auto done = paint_values(state, index, field, opened); !done) return done;
+  for (Eigen::Index k = 0; k < points.rows(); ++k)
+    append(picture_.positions, points.row(k).transpose() - options.origin);
+  find_normals();
+  if (auto done = find_values(scene, index, options); !done) return done;
 
   picture_.net.clear();
-  for (Eigen::Index k = 0; k < current.size(); ++k) {
-    append(picture_.net, current.control_points().row(k).transpose() - origin);
+  for (Eigen::Index k = 0; k < drawn.size(); ++k) {
+    append(picture_.net, drawn.control_points().row(k).transpose() - options.origin);
   }
-  return paint_held(surface);
+  return find_held(surface);
 }
 
-Expected<void> Painter::paint_held(const SceneSurface& surface) {
+Expected<void> PictureMaker::find_held(const SceneSurface& surface) {
   const HeldInput by = held_input(surface);
   for (const auto& [known, held] : held_) {  // kept curves take their time
     if (!(known == by)) continue;
@@ -75,30 +91,7 @@ Expected<void> Painter::paint_held(const SceneSurface& surface) {
   return {};
 }
 
-Expected<void> Painter::paint_energy(const SessionState& state, int index) {
-  const SceneSurface& surface = state.surfaces[static_cast<std::size_t>(index)];
-  // Its units change when the rest shape is set anew, or the selection.
-  const EnergyScalingInput by = energy_scaling_input(state, index);
-  auto known = std::ranges::find(scalings_, by, &std::pair<EnergyScalingInput, DomainScaling<2>>::first);
-  if (known == scalings_.end()) {
-    const auto scaling = energy_scaling(by);
-    if (!scaling) {  // a surface without area has no energy
-      picture_.values.assign(picture_.positions.size() / 3, 0);
-      return {};
-    }
-    constexpr std::size_t most_kept = 64;
-    if (scalings_.size() == most_kept) scalings_.erase(scalings_.begin());
-    scalings_.emplace_back(by, *scaling);
-    known = scalings_.end() - 1;
-  }
-  const auto density =
-      energy_density(surface, known->second, {parameters_[0], parameters_[1]}, {&tables_[0], &tables_[1]});
-  if (!density) return std::unexpected(density.error());
-  picture_.values.assign(density->begin(), density->end());
-  return {};
-}
-
-void Painter::paint_normals() {
+void PictureMaker::find_normals() {
   const Points &u = evaluation_.at({1, 0}), &v = evaluation_.at({0, 1});
   const auto rows = static_cast<int>(picture_.counts[0]), columns = static_cast<int>(picture_.counts[1]);
   const auto normal_at = [&](int k, int l, Point& normal) {
@@ -109,6 +102,7 @@ void Painter::paint_normals() {
     normal /= length;
     return true;
   };
+  normals_.resize(u.rows(), 3);
   picture_.normals.clear();
   for (int k = 0; k < rows; ++k) {
     for (int l = 0; l < columns; ++l) {
@@ -121,64 +115,27 @@ void Painter::paint_normals() {
           normal = Point::UnitZ();
         }
       }
+      normals_.row(k * columns + l) = normal.transpose();
       append(picture_.normals, normal);
     }
   }
 }
 
-Expected<void> Painter::evaluate_opened(const Surface& opened) {
-  if (*knots_ == opened.knots()) return evaluate_grid<2>(opened, {&tables_[0], &tables_[1]}, 0, opened_);
-  // Its knots were edited: its own basis at the same parameters.
-  std::array<BasisTable, 2> tables;
-  for (std::size_t d = 0; d < 2; ++d) {
-    auto table = tabulate_basis(opened.knots()[d], parameters_[d], 0);
-    if (!table) return std::unexpected(table.error());
-    tables[d] = std::move(*table);
-  }
-  return evaluate_grid<2>(opened, {&tables[0], &tables[1]}, 0, opened_);
-}
-
-Expected<void> Painter::paint_values(const SessionState& state, int index, PictureField field, bool opened) {
-  const SceneSurface& surface = state.surfaces[static_cast<std::size_t>(index)];
+Expected<void> PictureMaker::find_values(const Scene& scene, int index, const PictureOptions& options) {
   picture_.values.clear();
-  if (field == PictureField::none) return {};
-  if (field == PictureField::energy) {
-    if (!opened) return paint_energy(state, index);
-    picture_.values.assign(picture_.positions.size() / 3, 0);  // as it was opened it was at rest
-    return {};
-  }
-  const Points& points = evaluation_.points();
-  const auto normal = [this](Eigen::Index k) {
-    const float* n = picture_.normals.data() + 3 * k;
-    return Point(n[0], n[1], n[2]);
-  };
-  if (field == PictureField::deviation) {
-    if (auto done = evaluate_opened(*surface.opened); !done) return done;
-  }
-  for (Eigen::Index k = 0; k < points.rows(); ++k) {
-    double value = 0;
-    if (field == PictureField::deviation) {
-      const Point moved = points.row(k) - opened_.points().row(k);
-      value = std::copysign(moved.norm(), moved.dot(normal(k)));
-    } else if (field == PictureField::gap) {
-      value = std::numeric_limits<double>::infinity();
-      for (const Tool& tool : state.tools)
-        value = std::min(value, tool.shape.nearest(points.row(k).transpose()).distance);
-      if (!std::isfinite(value)) value = 0;
-    } else {
-      // First and second fundamental forms.
-      const Point u = evaluation_.at({1, 0}).row(k), v = evaluation_.at({0, 1}).row(k), n = normal(k);
-      const double e = u.dot(u), f = u.dot(v), g = v.dot(v);
-      const double l = n.dot(evaluation_.at({2, 0}).row(k)), m = n.dot(evaluation_.at({1, 1}).row(k)),
-                   o = n.dot(evaluation_.at({0, 2}).row(k));
-      const double area = e * g - f * f;
-      if (area > 1e-18 * (e + g) * (e + g)) {
-        value = field == PictureField::gaussian_curvature ? (l * o - m * m) / area
-                                                          : (e * o - 2 * f * m + g * l) / (2 * area);
-      }
-    }
-    picture_.values.push_back(static_cast<float>(value));
-  }
+  const auto& [display, settings] = options.display;
+  if (!display) return {};
+  const auto values = display->values({.scene = scene,
+                                       .surface = index,
+                                       .opened = options.opened,
+                                       .parameters = parameters_,
+                                       .tables = {&tables_[0], &tables_[1]},
+                                       .evaluation = evaluation_,
+                                       .normals = normals_,
+                                       .settings = settings,
+                                       .memory = memory_});
+  if (!values) return std::unexpected(values.error());
+  picture_.values.assign(values->begin(), values->end());
   return {};
 }
 

@@ -1,7 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
-import { readContext } from '@studio/engine/context';
 import { Engine } from '@studio/engine/engine';
 
 import { facesStep } from './faces_step';
@@ -12,7 +11,7 @@ describe('faces round the surfaces', () => {
   it('come as triangles relative to the origin of the session', async () => {
     const engine = await Engine.load(wasm);
     engine.openStep(facesStep(), 'faces.step');
-    const context = readContext(engine.context())!;
+    const context = engine.context()!;
     expect(context.skipped).toEqual([]);
     expect(context.indices.length).toBe(6); // a square
     const zs = [...context.positions].filter((_, k) => k % 3 === 2);
@@ -36,7 +35,7 @@ describe('faces round the surfaces', () => {
     const engine = await Engine.load(wasm);
     engine.fresh('sheet');
     engine.execute({ do: 'new', size: [10, 10], net: [4, 4] });
-    expect(readContext(engine.context())).toBeNull();
+    expect(engine.context()).toBeNull();
     expect(engine.trims(0)).toBeNull();
   });
 });

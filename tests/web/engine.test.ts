@@ -97,7 +97,7 @@ describe('the session in WebAssembly', () => {
   it('draws unit normals, knot lines and a field', async () => {
     const engine = await sheet();
     for (const command of press) engine.execute(command);
-    const picture = engine.paint(0, 60, 'deviation');
+    const picture = engine.picture(0, 60, { display: 'deviation' });
     const [m, n] = picture.counts;
     expect(picture.positions.length).toBe(3 * m * n);
     expect(picture.linesU.length).toBe(10);
@@ -108,7 +108,7 @@ describe('the session in WebAssembly', () => {
     expect(deepest).toBeCloseTo(engine.state().last!.displacement, 1);
     expect(picture.positions.every(Number.isFinite)).toBe(true);
     expect([...picture.held].filter((h) => h === 1).length).toBe(144 - 64);
-    const flat = (await sheet()).paint(0, 60, 'gaussian');
+    const flat = (await sheet()).picture(0, 60, { display: 'gaussian' });
     expect(Math.max(...flat.values.map(Math.abs))).toBe(0);
   });
 
@@ -134,25 +134,25 @@ describe('the session in WebAssembly', () => {
     const engine = await sheet();
     engine.execute({ do: 'freeze', region: [[0.5, 0.5], [0.5, 0.5]] });
     engine.execute({ do: 'edge', which: 'u0' });
-    expect(engine.paint(0, 20, 'none').held.filter((h) => h === 1).length).toBe(16 + 12);
-    expect(Math.max(...engine.paint(0, 20, 'energy').values)).toBe(0);
+    expect(engine.picture(0, 20).held.filter((h) => h === 1).length).toBe(16 + 12);
+    expect(Math.max(...engine.picture(0, 20, { display: 'energy' }).values)).toBe(0);
     engine.execute({ do: 'tool', name: 'ball', radius: 20, position: [25, 25, 10] });
     engine.execute({ do: 'step', count: 3 });
-    const density = engine.paint(0, 20, 'energy').values;
+    const density = engine.picture(0, 20, { display: 'energy' }).values;
     expect(Math.min(...density)).toBeGreaterThan(-1e-6);
     expect(Math.max(...density)).toBeGreaterThan(0);
     engine.execute({ do: 'remove' });
     engine.execute({ do: 'release' });
     engine.execute({ do: 'rest' });
-    const before = engine.paint(0, 20, 'deviation').values;
+    const before = engine.picture(0, 20, { display: 'deviation' }).values;
     engine.execute({ do: 'weights', rows_u: [5], weight: 3 });
     engine.execute({ do: 'knots', direction: 'v', knots: [0, 0, 0, 0, 0.1, 0.2, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1, 1, 1] });
-    const after = engine.paint(0, 20, 'deviation').values;
+    const after = engine.picture(0, 20, { display: 'deviation' }).values;
     expect(after.every(Number.isFinite)).toBe(true);
     expect(after).not.toEqual(before);
     // In the plane the knots move points by no more than a span and a half.
     expect(Math.max(...after.map(Math.abs))).toBeLessThan(30);
-    expect(engine.paint(0, 20, 'deviation', true).values.every((v) => v === 0)).toBe(true);
+    expect(engine.picture(0, 20, { display: 'deviation' }, true).values.every((v) => v === 0)).toBe(true);
   });
 
   it('writes meshes of every format', async () => {
@@ -171,7 +171,7 @@ describe('the session in WebAssembly', () => {
     engine.fresh('far');
     engine.execute({ do: 'new', size: [2, 2], position: [1e6, -3e6, 10] });
     expect(engine.origin).toEqual([1e6 + 1, -3e6 + 1, 10]);
-    expect(Math.max(...engine.paint(0, 10, 'none').positions.map(Math.abs))).toBe(1);
+    expect(Math.max(...engine.picture(0, 10).positions.map(Math.abs))).toBe(1);
     const near = await sheet();
     expect(near.origin).toEqual([0, 0, 0]);
   });
@@ -184,7 +184,7 @@ describe('the session in WebAssembly', () => {
     expect(() => engine.execute({ do: 'step' })).toThrow(EngineError);
     expect(() => engine.execute({ do: 'stpe' })).toThrow(/not a command/);
     expect(() => engine.execute({ do: 'undo' })).toThrow(/nothing to undo/);
-    expect(() => engine.paint(7, 10, 'none')).toThrow(/no such surface/);
+    expect(() => engine.picture(7, 10)).toThrow(/no such surface/);
     engine.execute({ do: 'new' });
     expect(engine.state().surfaces.length).toBe(1);
   });
@@ -195,7 +195,7 @@ describe('the session in WebAssembly', () => {
     const stroke = (x: number, join: boolean) => {
       engine.execute({ do: 'tool', name: 'brush', radius: 15, position: [x, 50, 10], plasticity: 1 }, join);
       engine.execute({ do: 'step' }, true);
-      engine.paint(0, 96, 'none');
+      engine.picture(0, 96);
     };
     stroke(20, false);
     for (let k = 0; k < 40; ++k) stroke(20 + k, true);

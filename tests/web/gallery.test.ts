@@ -22,7 +22,7 @@ describe('the gallery', () => {
     const before = engine.controlPoints(k);
     if (tools.length === 0) {
       // A ball half sunk into the middle of the surface, from outside.
-      const picture = engine.paint(k, 33, 'none');
+      const picture = engine.picture(k, 33);
       const [m, n] = picture.counts;
       const at = 3 * (Math.floor(m / 3) * n + Math.floor(n / 3));
       const radius = 0.08 * Math.hypot(...surfaces[k]!.upper.map((x, axis) => x - surfaces[k]!.lower[axis]!));

@@ -42,11 +42,11 @@ for (const net of nets) {
             const drawn = new Promise((resolve) => requestAnimationFrame(() => resolve()));
             await studio.client.execute(stroke, k > 0);
             await drawn;
-            const { computeTime, paintTime } = studio.frame;
+            const { computeTime, pictureTime } = studio.frame;
             if (measured) {
-              worker.push(computeTime + paintTime);
+              worker.push(computeTime + pictureTime);
               trip.push(performance.now() - begin);
-            } else first.push(computeTime + paintTime);
+            } else first.push(computeTime + pictureTime);
           }
           await studio.client.execute([{ do: 'undo' }]);
         }

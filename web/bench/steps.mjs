@@ -27,7 +27,7 @@ for (const net of nets) {
         for (const [c, command] of commands.entries()) engine.execute(command, k > 0 || c > 0);
         const computed = performance.now();
         const state = engine.state();
-        const picture = engine.paint(0, detail, 'none');
+        const picture = engine.picture(0, detail);
         structuredClone({ state, picture, steps: engine.steps(state.steps - 1) });
         const end = performance.now();
         if (!measured) {

@@ -40,6 +40,59 @@ describe('panels', () => {
   });
 });
 
+describe('colours', () => {
+  const legend = () => studio.page.locator('.legend-card');
+  const ticks = () => legend().locator('.legend-ticks span').allTextContents();
+  const values = () => studio.page.evaluate(() =>
+    [...(window as never as { studio: { frame: { pictures: { values: Float32Array }[] } } }).studio.frame.pictures[0]!.values]);
+
+  it('are those that the engine lists, with their units in the legend', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0], [30, 0]);
+    const menu = page.locator('select[aria-label="Colour by"]');
+    const names = await menu.locator('option').evaluateAll((all) => all.map((o) => (o as HTMLOptionElement).value));
+    expect(names[0]).toBe('none');
+    for (const name of names.slice(1)) {
+      await menu.selectOption(name);
+      await settled(page);
+      expect(await legend().locator('b').textContent(), name).toMatch(/^[A-Z][a-z ]+, \S+$/);
+      expect((await values()).every(Number.isFinite), name).toBe(true);
+    }
+    await menu.selectOption('deviation');
+    await settled(page);
+    expect(await legend().locator('b').textContent()).toBe('Deviation, mm');
+    expect((await ticks())[2]).toBe('0');
+    expect((await ticks())[0]).toBe(`−${(await ticks())[4]}`);
+    expect(await legend().locator('button').isVisible()).toBe(true);
+  });
+
+  it('of the draft angle follow its direction and its limits', async () => {
+    const { page } = studio;
+    await page.locator('select[aria-label="Colour by"]').selectOption('draft');
+    await settled(page);
+    expect(await ticks()).toEqual(['−3', '−1.5', '0', '1.5', '3']);
+    const upwards = await values();
+    expect(Math.max(...upwards)).toBeCloseTo(90, 3);
+    await page.locator('input[aria-label="Pull z"]').fill('-1');
+    await page.keyboard.press('Enter');
+    await settled(page);
+    (await values()).forEach((x, k) => expect(x).toBeCloseTo(-upwards[k]!, 3));
+    await page.locator('input[aria-label="Upper limit of the colours"]').fill('5');
+    await page.keyboard.press('Enter');
+    await settled(page);
+    expect(await ticks()).toEqual(['−3', '−1.5', '0', '2.5', '5']);
+    await page.locator('.panel[data-panel=Display] button', { hasText: 'Auto' }).click();
+    await settled(page);
+    expect((await ticks())[4]).toBe('3');
+    await page.locator('select[aria-label="Colour by"]').selectOption('none');
+    await settled(page);
+    expect(await legend().isVisible()).toBe(false);
+    expect((await values()).length).toBe(0);
+  });
+});
+
 /** The page's own work on its main thread, longest task first, milliseconds: without waiting for the processor or for drawing. */
 async function tasks(act: () => Promise<void>): Promise<number[]> {
   const { browser, page } = studio;

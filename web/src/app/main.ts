@@ -47,7 +47,7 @@ Object.assign(window, { studio: app });
 
 async function start(): Promise<void> {
   await app.client.ready;
-  await app.attempt(async () => void (await app.client.paint({ detail: app.display.detail, field: app.display.field })));
+  app.askForPictures(false);
   await openScene(app, scenes[0]!);
   await offerRecovery(app);
   offerTour(app);

@@ -5,6 +5,7 @@ import type { Notice } from '../document/host';
 import { Saving } from '../document/saving';
 import { Client } from '../engine/client';
 import type { Context, Trim } from '../engine/context';
+import { plain } from '../engine/displays';
 import type { Frame } from '../engine/protocol';
 import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
 import type { App } from '../panels/app';
@@ -41,7 +42,7 @@ export class Studio implements App {
 
   constructor() {
     const kept = readKept();
-    this.display = { ...defaultDisplay, ...kept.display, field: 'none', zebra: false };
+    this.display = { ...defaultDisplay, ...kept.display, colour: null, zebra: false };
     this.theme = kept.theme ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
     this.client = new Client(new Worker(new URL('../engine/worker.ts', import.meta.url), { type: 'module' }));
     this.viewer = new Viewer(this.display);
@@ -153,13 +154,20 @@ export class Studio implements App {
   // --- what is seen ------------------------------------------------------------------------------------------------
 
   setDisplay(change: Partial<Display>): void {
-    const repaint = (change.field !== undefined && change.field !== this.display.field) || change.detail !== undefined;
+    const redraw = (change.colour !== undefined && change.colour !== this.display.colour) || change.colourSettings !== undefined || change.detail !== undefined;
     Object.assign(this.display, change);
     this.viewer.navigator.convention = this.display.convention;
     this.viewer.restyle();
-    if (repaint) void this.attempt(async () => void (await this.client.paint({ detail: this.display.detail, field: this.display.field })));
+    if (redraw) this.askForPictures(false);
     this.keepSettings();
     this.changed();
+  }
+
+  /** Pictures as the display says from now on, of the present shapes or of those that were opened. */
+  askForPictures(opened: boolean): void {
+    const { detail, colour, colourSettings } = this.display;
+    const display = colour ? { display: colour.name, settings: colourSettings[colour.name] ?? {} } : plain;
+    void this.attempt(async () => void (await this.client.pictures({ detail, display, opened })));
   }
 
   private comparing = false;
@@ -169,7 +177,7 @@ export class Studio implements App {
     if (!this.state || opened === this.comparing) return;
     this.comparing = opened;
     document.documentElement.dataset.comparing = String(opened);
-    void this.attempt(async () => void (await this.client.paint({ detail: this.display.detail, field: this.display.field, opened })));
+    this.askForPictures(opened);
   }
 
   setTheme(theme: Theme): void {
@@ -182,7 +190,7 @@ export class Studio implements App {
 
   private keepSettings(): void {
     try {
-      localStorage.setItem('knead', JSON.stringify({ display: this.display, theme: this.theme }));
+      localStorage.setItem('knead', JSON.stringify({ display: { ...this.display, colour: null }, theme: this.theme }));
     } catch {
       // Without storage the settings last as long as the page.
     }

@@ -1,9 +1,16 @@
-import { type Context, readContext, type Trim } from './context';
-import type { Frame, PaintSettings, Reply, Request } from './protocol';
+import type { Context, Trim } from './context';
+import type { DisplayInfo } from './displays';
+import type { Frame, PictureSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo, type MeshFormat, type SurfaceNumbers } from './session_types';
 
+interface Answer {
+  bytes?: Uint8Array;
+  text?: string;
+  context?: Context | null;
+}
+
 interface Waiting {
-  resolve(reply: { bytes?: Uint8Array; text?: string }): void;
+  resolve(reply: Answer): void;
   reject(error: Error): void;
 }
 
@@ -13,6 +20,8 @@ export class Client {
   /** Errors that no request waits for. */
   onError: (error: EngineErrorInfo) => void = () => {};
   readonly ready: Promise<void>;
+  /** What can colour surfaces; known once the engine is ready. */
+  displays: readonly DisplayInfo[] = [];
 
   private readonly waiting = new Map<number, Waiting>();
   private next = 1;
@@ -23,8 +32,10 @@ export class Client {
     this.ready = new Promise((resolve) => {
       worker.onmessage = (event: MessageEvent<Reply>) => {
         const reply = event.data;
-        if (reply.kind === 'ready') resolve();
-        else if (reply.kind === 'frame') this.draw(reply.frame);
+        if (reply.kind === 'ready') {
+          this.displays = reply.displays;
+          resolve();
+        } else if (reply.kind === 'frame') this.draw(reply.frame);
         else this.settle(reply);
       };
     });
@@ -54,7 +65,7 @@ export class Client {
     this.worker.postMessage({ id, request });
   }
 
-  private ask(request: Request): Promise<{ bytes?: Uint8Array; text?: string }> {
+  private ask(request: Request): Promise<Answer> {
     const id = this.next++;
     return new Promise((resolve, reject) => {
       this.waiting.set(id, { resolve, reject });
@@ -65,7 +76,7 @@ export class Client {
   open = (bytes: Uint8Array, name: string, script?: string) => this.ask({ kind: 'open', bytes, name, script });
   fresh = (name: string, commands: Command[]) => this.ask({ kind: 'fresh', name, commands });
   execute = (commands: Command[], join = false) => this.ask({ kind: 'execute', commands, join });
-  paint = (settings: PaintSettings) => this.ask({ kind: 'paint', settings });
+  pictures = (settings: PictureSettings) => this.ask({ kind: 'pictures', settings });
   play = (toRest = false) => this.ask({ kind: 'play', toRest });
   stop = () => this.ask({ kind: 'stop' });
   snapshot = async (historyBytes: number, kept: boolean): Promise<{ snapshot: Uint8Array; journal: string }> => {
@@ -78,8 +89,8 @@ export class Client {
   surface = async (surface: number): Promise<SurfaceNumbers> =>
     JSON.parse((await this.ask({ kind: 'surface', surface })).text!) as SurfaceNumbers;
   context = async (): Promise<{ context: Context | null; trims: Trim[] }> => {
-    const { bytes, text } = await this.ask({ kind: 'context' });
-    return { context: readContext(bytes!), trims: JSON.parse(text!) as Trim[] };
+    const { context, text } = await this.ask({ kind: 'context' });
+    return { context: context ?? null, trims: JSON.parse(text!) as Trim[] };
   };
   journal = async (): Promise<string> => (await this.ask({ kind: 'journal' })).text!;
 

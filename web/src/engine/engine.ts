@@ -1,7 +1,8 @@
-import type { Trim } from './context';
+import { type BufferTable, Buffers } from './buffers';
+import type { Context, Trim } from './context';
+import { type DisplayChoice, type DisplayInfo, plain } from './displays';
 import {
-  type Command, EngineError, type Field, fields, type FileFormat, type MeshFormat, type Picture, type SessionInfo, type StepInfo,
-  type SurfaceNumbers,
+  type Command, EngineError, type FileFormat, type MeshFormat, type Picture, type SessionInfo, type StepInfo, type SurfaceNumbers,
 } from './session_types';
 import { start } from './wasi';
 
@@ -21,9 +22,8 @@ interface Exports {
   knead_journal(): number;
   knead_save(): number;
   knead_origin(axis: number): number;
-  knead_paint(surface: number, detail: number, field: number, opened: number): number;
-  knead_buffer(which: number): number;
-  knead_buffer_size(which: number): number;
+  knead_displays(): number;
+  knead_picture(surface: number, detail: number, opened: number): number;
   knead_control_points(surface: number): number;
   knead_surface(surface: number): number;
   knead_formats(): number;
@@ -105,9 +105,15 @@ export class Engine {
     return new Float64Array(this.bytes(this.wasm.knead_control_points(surface)).buffer as ArrayBuffer);
   }
 
-  /** Bytes for `readContext`. */
-  context(): Uint8Array {
-    return this.bytes(this.wasm.knead_context());
+  /** The other faces of the file; null where nothing was opened, or all of it are surfaces. */
+  context(): Context | null {
+    const found = this.json(this.wasm.knead_context()) as { buffers: BufferTable; skipped: Context['skipped'] } | null;
+    if (!found) return null;
+    const buffers = this.buffers(found.buffers);
+    return {
+      positions: buffers.floats('positions'), normals: buffers.floats('normals'), indices: buffers.indices('indices'),
+      skipped: found.skipped,
+    };
   }
 
   trims(surface: number): Trim {
@@ -129,27 +135,33 @@ export class Engine {
     return this.bytes(this.wasm.knead_mesh(this.formats().findIndex(({ id }) => id === format), detail));
   }
 
-  paint(surface: number, detail: number, field: Field, opened = false): Picture {
-    const { counts } = this.json(this.wasm.knead_paint(surface, detail, fields.indexOf(field), opened ? 1 : 0)) as {
-      counts: [number, number];
-    };
-    const copy = (which: number): ArrayBuffer => {
-      const at = this.wasm.knead_buffer(which);
-      return this.wasm.memory.buffer.slice(at, at + this.wasm.knead_buffer_size(which)) as ArrayBuffer;
-    };
+  /** What can colour a surface. */
+  displays(): DisplayInfo[] {
+    return this.json(this.wasm.knead_displays()) as DisplayInfo[];
+  }
+
+  /** A surface, or with `opened` the shape as it came, with about `detail` grid lines per direction. */
+  picture(surface: number, detail: number, display: DisplayChoice = plain, opened = false): Picture {
+    this.give(new TextEncoder().encode(JSON.stringify(display)));
+    const found = this.json(this.wasm.knead_picture(surface, detail, opened ? 1 : 0)) as { counts: [number, number]; buffers: BufferTable };
+    const { floats, indices, flags } = this.buffers(found.buffers);
     return {
       surface,
-      counts,
-      positions: new Float32Array(copy(0)),
-      normals: new Float32Array(copy(1)),
-      values: new Float32Array(copy(2)),
-      s: new Float32Array(copy(3)),
-      t: new Float32Array(copy(4)),
-      linesU: new Uint32Array(copy(5)),
-      linesV: new Uint32Array(copy(6)),
-      net: new Float32Array(copy(7)),
-      held: new Uint8Array(copy(8)),
+      counts: found.counts,
+      positions: floats('positions'),
+      normals: floats('normals'),
+      values: floats('values'),
+      s: floats('fractions_s'),
+      t: floats('fractions_t'),
+      linesU: indices('lines_u'),
+      linesV: indices('lines_v'),
+      net: floats('net'),
+      held: flags('held'),
     };
+  }
+
+  private buffers(table: BufferTable): Buffers {
+    return new Buffers(this.wasm.memory.buffer as ArrayBuffer, table);
   }
 
   private give(bytes: Uint8Array): void {

@@ -1,9 +1,11 @@
-import type { Command, EngineErrorInfo, Field, MeshFormat, Picture, SessionInfo, StepInfo } from './session_types';
+import type { Context } from './context';
+import type { DisplayChoice, DisplayInfo } from './displays';
+import type { Command, EngineErrorInfo, MeshFormat, Picture, SessionInfo, StepInfo } from './session_types';
 
-/** How surfaces are drawn: part of every request for pictures. */
-export interface PaintSettings {
+/** How surfaces are drawn. */
+export interface PictureSettings {
   detail: number;
-  field: Field;
+  display: DisplayChoice;
   /** The shapes as they were opened, for comparison. */
   opened?: boolean;
 }
@@ -14,7 +16,7 @@ export type Request =
   | { kind: 'fresh'; name: string; commands: Command[] }
   /** Commands that are one act: with `join` they also belong to the entry of the history before them. */
   | { kind: 'execute'; commands: Command[]; join: boolean }
-  | { kind: 'paint'; settings: PaintSettings }
+  | { kind: 'pictures'; settings: PictureSettings }
   /** Steps until `stop`, or, to rest, until nothing moves any more. */
   | { kind: 'play'; toRest: boolean }
   | { kind: 'stop' }
@@ -24,7 +26,7 @@ export type Request =
   | { kind: 'surface'; surface: number }
   /** All surfaces as one mesh file. */
   | { kind: 'mesh'; format: MeshFormat; detail: number }
-  /** The other faces of the file as bytes, and the trims of the surfaces as text (`Trim[]`). */
+  /** The other faces of the file, and the trims of the surfaces as text (`Trim[]`). */
   | { kind: 'context' }
   | { kind: 'save' }
   | { kind: 'journal' }
@@ -42,14 +44,14 @@ export interface Frame {
   playing: boolean;
   /** Milliseconds that the worker took for commands and for pictures. */
   computeTime: number;
-  paintTime: number;
+  pictureTime: number;
   memory: number;
   /** Milliseconds of commands since the last snapshot: what a recovery would have to compute again. */
   unkept: number;
 }
 
 export type Reply =
-  | { kind: 'ready' }
+  | { kind: 'ready'; displays: DisplayInfo[] }
   | { kind: 'frame'; frame: Frame }
-  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string }
+  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; context?: Context | null }
   | { kind: 'failed'; id: number; error: EngineErrorInfo };

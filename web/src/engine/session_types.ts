@@ -28,9 +28,6 @@ export class EngineError extends Error {
   }
 }
 
-export const fields = ['none', 'deviation', 'mean', 'gaussian', 'gap', 'energy'] as const;
-export type Field = (typeof fields)[number];
-
 /** A surface to draw; positions relative to the session's origin. */
 export interface Picture {
   surface: number;

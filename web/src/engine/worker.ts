@@ -1,12 +1,13 @@
+import { plain } from './displays';
 import { Engine } from './engine';
 import wasmUrl from './knead_studio.wasm?url';
-import type { PaintSettings, Reply, Request } from './protocol';
+import type { PictureSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo } from './session_types';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
 
 const engineLoaded = Engine.load(fetch(wasmUrl));
-let settings: PaintSettings = { detail: 96, field: 'none' };
+let settings: PictureSettings = { detail: 96, display: plain };
 let playing: 'no' | 'on' | 'toRest' = 'no';
 let ownEntry = false; // the steps of this play have begun their entry of the history
 let frameDrawn = true;
@@ -50,7 +51,7 @@ function sendFrame(engine: Engine): void {
   frameDue = false;
   const start = performance.now();
   const state = engine.state();
-  const pictures = state.surfaces.map((_, k) => engine.paint(k, settings.detail, settings.field, settings.opened));
+  const pictures = state.surfaces.map((_, k) => engine.picture(k, settings.detail, settings.display, settings.opened));
   if (state.steps < shownSteps) shownSteps = 0;
   const firstStep = Math.max(shownSteps, state.steps - 400);
   const steps = engine.steps(firstStep);
@@ -58,7 +59,7 @@ function sendFrame(engine: Engine): void {
   frameDrawn = false;
   const frame = {
     state, pictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no',
-    computeTime, paintTime: performance.now() - start, memory: engine.memorySize, unkept,
+    computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
   };
   post(
     { kind: 'frame', frame },
@@ -111,7 +112,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       execute(engine, request.commands, request.join);
       sendFrame(engine);
       break;
-    case 'paint':
+    case 'pictures':
       settings = request.settings;
       if (hasSession(engine)) sendFrame(engine);
       break;
@@ -132,9 +133,10 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       else setTimeout(() => playOn(engine), 0);
       return;
     case 'context': {
-      const bytes = engine.context();
+      const context = engine.context();
       const text = JSON.stringify(engine.state().surfaces.map((_, k) => engine.trims(k)));
-      self.postMessage({ kind: 'done', id, bytes, text }, { transfer: [bytes.buffer] });
+      post({ kind: 'done', id, context, text },
+        context ? [context.positions, context.normals, context.indices].map((a) => a.buffer as ArrayBuffer) : []);
       return;
     }
     case 'save':
@@ -187,6 +189,6 @@ self.onmessage = async (event: MessageEvent<{ id: number; request: Request }>) =
 };
 
 engineLoaded.then(
-  () => post({ kind: 'ready' }),
+  (engine) => post({ kind: 'ready', displays: engine.displays() }),
   (error) => post({ kind: 'failed', id: 0, error: errorInfo(error) }),
 );

@@ -1,7 +1,7 @@
 import { format } from '../document/units';
+import { unitIn } from '../engine/displays';
 import type { App } from './app';
 import { h } from './dom';
-import { fieldNames } from './panel_display';
 
 /** What the colours of the surface mean: a card in the corner of the scene. */
 export function legendCard(app: App): HTMLElement {
@@ -17,18 +17,15 @@ export function legendCard(app: App): HTMLElement {
   compare.addEventListener('keyup', () => app.compare(false));
   const element = h('section', { class: 'legend-card', hidden: true, aria: { label: 'Meaning of the colours' } }, title, bar, ticks, compare);
   app.onChange.push(() => {
-    const { field, limit, zebra } = app.display;
-    const shown = field !== 'none' && !zebra;
-    element.hidden = !shown;
-    if (!shown) return;
-    const unit = app.viewer.unit;
-    const units = { none: '', deviation: unit, gap: unit, mean: `1/${unit}`, gaussian: `1/${unit}²`, energy: 'normalised' }[field];
-    title.textContent = `${fieldNames.find(([f]) => f === field)![1]}, ${units}`;
-    const positive = field === 'energy';
-    bar.classList.toggle('positive', positive);
-    const values = positive ? [0, 0.25, 0.5, 0.75, 1] : [-1, -0.5, 0, 0.5, 1];
-    ticks.replaceChildren(...values.map((x) => h('span', {}, x === 0 ? '0' : `${x < 0 ? '−' : ''}${format(Math.abs(x) * limit)}`)));
-    compare.hidden = field !== 'deviation';
+    const { colour, limits: [lower, upper], zebra } = app.display;
+    element.hidden = colour === null || zebra;
+    if (!colour || zebra) return;
+    title.textContent = `${colour.title}, ${unitIn(colour.unit, app.viewer.unit)}`;
+    bar.classList.toggle('rising', colour.palette === 'rising');
+    const shares = colour.palette === 'rising' ? [0, 0.25, 0.5, 0.75, 1] : [-1, -0.5, 0, 0.5, 1];
+    const values = shares.map((x) => (x < 0 ? -x * lower : x * upper));
+    ticks.replaceChildren(...values.map((x) => h('span', {}, x === 0 ? '0' : `${x < 0 ? '−' : ''}${format(Math.abs(x))}`)));
+    compare.hidden = !colour.compares;
   });
   return element;
 }

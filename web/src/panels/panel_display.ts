@@ -1,26 +1,13 @@
-import { format, parseLength } from '../document/units';
-import type { Field } from '../engine/session_types';
+import { format, parseLength, parseNumber } from '../document/units';
+import { type DisplayInfo, type DisplaySetting, unitIn } from '../engine/displays';
 import { conventionNames, conventionText } from '../view/conventions';
 import type { Display } from '../view/display';
 import type { App } from './app';
 import { field, h, numberInput, select, slider, toggle } from './dom';
 import { note, panel, row } from './panel';
 
-export const fieldNames: readonly (readonly [Field, string])[] = [
-  ['none', 'Plain'], ['deviation', 'Deviation'], ['mean', 'Mean curvature'], ['gaussian', 'Gaussian curvature'],
-  ['gap', 'Distance to tools'], ['energy', 'Energy density'],
-];
-
-const about: Partial<Record<Field, string>> = {
-  deviation: 'How far each point is from where it was when opened: red along the normal, blue against it. Hold C to see it as opened.',
-  mean: 'Mean of the principal curvatures. Steps show where it is not smooth.',
-  gaussian: 'Product of the principal curvatures: red is domed, blue a saddle.',
-  gap: 'Distance to the nearest tool; blue is inside it.',
-  energy: 'Where stretch and bend store the energy of the displacement from the rest shape.',
-};
-
 export function displayPanel(app: App): HTMLElement {
-  return panel(app, 'Display', (a) => [{ ...a.display, limit: a.display.field === 'none' ? 0 : format(a.display.limit) }], () => {
+  return panel(app, 'Display', (a) => [{ ...a.display, limits: a.display.colour ? a.display.limits.map(format) : [] }, unitOf(a), a.client.displays.length], () => {
     const d = app.display;
     const chip = (name: keyof Display, label: string, tip?: string) =>
       toggle(label, d[name] as boolean, (on) => app.setDisplay({ [name]: on }), tip);
@@ -30,12 +17,7 @@ export function displayPanel(app: App): HTMLElement {
         chip('zebra', 'Zebra', 'Reflection stripes: kinks show curvature that jumps (Z)'), chip('grid', 'Grid'),
         chip('context', 'Context', 'The other faces of the file, in grey'),
         chip('trimmed', 'Trimmed', 'Only what the faces of the file show of their surfaces; all of each can be sculpted')),
-      field('Colour', select('Colour by', fieldNames, d.field, (f) => app.setDisplay({ field: f, zebra: false, autoLimit: true }))),
-      d.field !== 'none' ? note(about[d.field]!) : null,
-      d.field !== 'none' ? field('± limit', row(
-        numberInput('Limit of the colours', d.limit, (limit) => app.setDisplay({ limit: Math.abs(limit) || d.limit, autoLimit: false }),
-          (t) => parseLength(t, app.state?.surfaces[0]?.unit ?? 'mm')),
-        toggle('Auto', d.autoLimit, (autoLimit) => app.setDisplay({ autoLimit }), 'The largest value that there is'))) : null,
+      ...colourFields(app),
       field('Point size', slider('Point size', d.pointSize, [2, 14], (pointSize) => app.setDisplay({ pointSize }))),
       field('Detail', select('Detail', [['48', 'Coarse'], ['96', 'Normal'], ['192', 'Fine']], String(d.detail) as '96',
         (v) => app.setDisplay({ detail: Number(v) })), 'Lines of the picture per direction; the surface itself is exact'),
@@ -44,4 +26,45 @@ export function displayPanel(app: App): HTMLElement {
         [h('dt', {}, what), h('dd', {}, conventionText[d.convention][k]!)])),
     ];
   });
+}
+
+const unitOf = (app: App): string => app.state?.surfaces[0]?.unit ?? 'mm';
+
+/** What colours the surfaces: the displays that the engine describes, the limits of the colours, settings of its own. */
+function colourFields(app: App): (Node | null)[] {
+  const { colour } = app.display;
+  const { displays } = app.client;
+  const options = [['none', 'Plain'], ...displays.map((d) => [d.name, d.title])] as [string, string][];
+  const choose = field('Colour', select('Colour by', options, colour?.name ?? 'none', (name) =>
+    app.setDisplay({ colour: displays.find((d) => d.name === name) ?? null, zebra: false, autoLimits: true })));
+  if (!colour) return [choose];
+  return [choose, note(colour.help), limitFields(app, colour), ...colour.settings.map((s) => settingField(app, colour, s))];
+}
+
+/** One number where the colours are the same to both sides, or two. */
+function limitFields(app: App, colour: DisplayInfo): HTMLElement {
+  const { limits: [lower, upper], autoLimits } = app.display;
+  const parse = (text: string) => (colour.unit === 'length' ? parseLength(text, unitOf(app)) : parseNumber(text));
+  const number = (label: string, value: number, limits: (x: number) => [number, number]) =>
+    numberInput(label, value, (x) => app.setDisplay(x === 0 ? {} : { limits: limits(Math.abs(x)), autoLimits: false }), parse);
+  const inputs = colour.limits
+    ? [number('Lower limit of the colours', lower, (x) => [-x, upper]), number('Upper limit of the colours', upper, (x) => [lower, x])]
+    : [number('Limit of the colours', upper, (x) => [colour.signed ? -x : 0, x])];
+  return field(colour.limits ? 'Limits' : '± limit', row(...inputs,
+    toggle('Auto', autoLimits, (on) => app.setDisplay(on && colour.limits ? { autoLimits: on, limits: colour.limits } : { autoLimits: on }),
+      colour.limits ? 'Those of the display' : 'The largest value that there is')));
+}
+
+/** A number or a vector that a display asks for. */
+function settingField(app: App, colour: DisplayInfo, setting: DisplaySetting): HTMLElement {
+  const own = app.display.colourSettings[colour.name] ?? {};
+  const value = own[setting.name] ?? setting.value;
+  const set = (to: number | number[]) =>
+    app.setDisplay({ colourSettings: { ...app.display.colourSettings, [colour.name]: { ...own, [setting.name]: to } } });
+  const title = setting.unit ? `${setting.title}, ${unitIn(setting.unit, unitOf(app))}` : setting.title;
+  const inputs = typeof value === 'number' ? [numberInput(setting.title, value, set)]
+    : value.map((x, k) => numberInput(`${setting.title} ${'xyz'[k]}`, x, (y) => set(value.map((z, l) => (l === k ? y : z)))));
+  const element = field(title, row(...inputs), setting.help);
+  if (inputs.length > 1) element.classList.add('wide');
+  return element;
 }

@@ -33,7 +33,7 @@ export function statusBar(app: App): HTMLElement {
         cells.push(['residual', format(last.residual), 'Imbalance of forces: 0 at rest']);
         cells.push(['moved', `${format(last.displacement)} ${state!.surfaces[0]?.unit ?? ''}`, 'Largest distance from the surface as opened']);
       }
-      cells.push(['frame', `${(frame.computeTime + frame.paintTime).toFixed(1)} ms`, 'Commands, evaluation and transfer in the worker']);
+      cells.push(['frame', `${(frame.computeTime + frame.pictureTime).toFixed(1)} ms`, 'Commands, evaluation and transfer in the worker']);
       if (app.framesPerSecond > 0) cells.push(['fps', app.framesPerSecond.toFixed(0), 'Frames per second']);
     }
     numbers.replaceChildren(...cells.map(([name, value, tip]) => h('span', { title: tip }, h('small', {}, name), value)));

@@ -1,4 +1,4 @@
-import type { Field } from '../engine/session_types';
+import type { DisplayInfo, SettingValue } from '../engine/displays';
 import type { Convention } from './conventions';
 import type { ViewName } from './viewport';
 
@@ -16,10 +16,14 @@ export interface Display {
   /** Only what the faces of the file show of their surfaces. */
   trimmed: boolean;
   zebra: boolean;
-  field: Field;
-  /** Values at ± this have the full colour. */
-  limit: number;
-  autoLimit: boolean;
+  /** What colours the surfaces; null: nothing. */
+  colour: DisplayInfo | null;
+  /** What the user has set of displays, by their names. */
+  colourSettings: Record<string, Record<string, SettingValue>>;
+  /** Values that have the full colour, below and above. */
+  limits: [number, number];
+  /** The limits follow from the values, or are those of the display. */
+  autoLimits: boolean;
   pointSize: number;
   fourViews: boolean;
   /** Which one is shown where there are not four. */
@@ -40,9 +44,10 @@ export const defaultDisplay: Display = {
   context: true,
   trimmed: true,
   zebra: false,
-  field: 'none',
-  limit: 1,
-  autoLimit: true,
+  colour: null,
+  colourSettings: {},
+  limits: [-1, 1],
+  autoLimits: true,
   pointSize: 4,
   fourViews: false,
   view: 'perspective',

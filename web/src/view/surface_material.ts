@@ -1,8 +1,6 @@
 import * as THREE from 'three';
 
-export type Shading = 'shaded' | 'zebra' | 'field';
-
-/** One material for everything a surface can look like: lit from both sides, zebra stripes, or coloured by a field. */
+/** One material for everything a surface can look like: lit from both sides, zebra stripes, or coloured by a display. */
 export function surfaceMaterial(): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
@@ -13,7 +11,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       mode: { value: 0 },
       front: { value: new THREE.Color(0x9fb4c8) },
       back: { value: new THREE.Color(0xb59d86) },
-      limit: { value: 1 },
+      limits: { value: new THREE.Vector2(-1, 1) },
       selected: { value: 1 },
       marks: { value: null },
       trim: { value: null },
@@ -39,7 +37,8 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
     fragmentShader: /* glsl */ `
       uniform int mode;
       uniform vec3 front, back;
-      uniform float limit, selected;
+      uniform float selected;
+      uniform vec2 limits;
       varying vec3 vNormal, vView;
       varying float vValue;
       varying vec2 vSpan, vPlace;
@@ -68,8 +67,8 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
         vec3 v = normalize(vView);
         vec3 base = gl_FrontFacing ? front : back;
         // What the legend shows is what leaves here, after the conversion to the screen's colours.
-        if (mode == 2) base = pow(diverging(vValue / limit), vec3(2.2));
-        if (mode == 3) base = pow(rising(vValue / limit), vec3(2.2));
+        if (mode == 2) base = pow(diverging(vValue < 0.0 ? -vValue / limits.x : vValue / limits.y), vec3(2.2));
+        if (mode == 3) base = pow(rising(vValue / limits.y), vec3(2.2));
         if (mode == 1) {
           // Stripes of a striped environment: lines where the reflected ray meets bands of equal height.
           vec3 r = reflect(-v, n);

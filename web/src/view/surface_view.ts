@@ -160,9 +160,9 @@ export class SurfaceView {
       material.alphaTest = mask ? 0.05 : 0;
       material.needsUpdate = true;
     }
-    const coloured = display.field !== 'none';
-    uniforms.mode!.value = display.zebra ? 1 : display.field === 'energy' ? 3 : coloured ? 2 : 0;
-    uniforms.limit!.value = display.limit;
+    const coloured = display.colour !== null;
+    uniforms.mode!.value = display.zebra ? 1 : !display.colour ? 0 : display.colour.palette === 'rising' ? 3 : 2;
+    uniforms.limits!.value.set(...display.limits);
     uniforms.front!.value.set(palette.front);
     uniforms.back!.value.set(palette.back);
     uniforms.selected!.value = selected ? 1 : 0;

@@ -6,7 +6,7 @@ import type { Frame } from '../engine/protocol';
 import { ContextView } from './context_view';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
-import { largestValue, roundLimit } from './limits';
+import { limitsOf } from './limits';
 import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
 import { SurfaceView } from './surface_view';
@@ -116,11 +116,8 @@ export class Viewer {
       this.surfaces.push(view);
       this.scene.add(view.group);
     }
-    if (this.display.autoLimit && this.display.field !== 'none') {
-      // Of the distance to tools, what matters is near to them.
-      const share = this.display.field === 'gap' ? 0.1 : 1;
-      this.display.limit = roundLimit(share * largestValue(pictures.map((p) => p.values)));
-    }
+    const { colour, autoLimits } = this.display;
+    if (colour && autoLimits) this.display.limits = limitsOf(colour, pictures.map((p) => p.values));
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
     this.showTools();

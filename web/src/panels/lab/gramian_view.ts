@@ -119,7 +119,7 @@ export class GramianView {
   private light(): void {
     const { highlight } = this.model;
     const line = style('--text');
-    for (const [map] of this.maps) map.paint(highlight, line);
+    for (const [map] of this.maps) map.draw(highlight, line);
     this.table.light(highlight);
     if (highlight && !this.table.element.matches(':hover')) this.table.reveal(highlight);
     this.say();

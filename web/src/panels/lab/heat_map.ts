@@ -72,7 +72,7 @@ export class HeatMap {
   }
 
   /** Puts the picture on the page, with the row and the column of what is pointed at. */
-  paint(highlight: Highlight | null, line: string): void {
+  draw(highlight: Highlight | null, line: string): void {
     const { canvas } = this;
     const ratio = Math.min(window.devicePixelRatio, 2);
     const side = Math.max(1, Math.round(canvas.clientWidth * ratio));

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "knead/scene/display.hpp"
+
+namespace knead {
+
+// Each is defined in the file of its name.
+Display deviation_display();
+Display mean_curvature_display();
+Display gaussian_curvature_display();
+Display draft_angle_display();
+Display gap_display();
+Display energy_display();
+
+/// In the order of menus.
+inline constexpr std::array all_displays = {
+    deviation_display, mean_curvature_display, gaussian_curvature_display, draft_angle_display,
+    gap_display,       energy_display};
+
+}  // namespace knead

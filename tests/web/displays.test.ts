@@ -1,0 +1,109 @@
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+
+import { Buffers } from '@studio/engine/buffers';
+import { type DisplayInfo, type SettingValue, unitIn } from '@studio/engine/displays';
+import { Engine } from '@studio/engine/engine';
+import type { Command } from '@studio/engine/session_types';
+import { limitsOf } from '@studio/view/limits';
+
+const wasm = readFileSync(fileURLToPath(new URL('../../web/src/engine/knead_studio.wasm', import.meta.url)));
+
+async function session(...commands: Command[]): Promise<Engine> {
+  const engine = await Engine.load(wasm);
+  engine.fresh('displays');
+  for (const command of commands) engine.execute(command);
+  return engine;
+}
+const values = (engine: Engine, display: string, settings?: Record<string, SettingValue>) => [...engine.picture(0, 20, { display, settings }).values];
+
+describe('displays', () => {
+  it('are described: a name of their own, a title, a unit and a help each', async () => {
+    const all = (await session()).displays();
+    expect(new Set(all.map((d) => d.name)).size).toBe(all.length);
+    expect(all.map((d) => d.name)).toEqual(['deviation', 'mean', 'gaussian', 'draft', 'gap', 'energy']);
+    for (const d of all) {
+      for (const text of [d.title, d.unit, d.help]) expect(text, d.name).not.toBe('');
+      expect(d.palette, d.name).toBe(d.signed ? 'diverging' : 'rising');
+      if (d.limits) expect(d.limits[0]).toBeLessThan(d.limits[1]);
+      for (const s of d.settings) expect(s.help).not.toBe('');
+    }
+  });
+
+  it('give a number at each point of the grid, of the sign that they say', async () => {
+    const engine = await session({ do: 'new', size: [100, 100], net: [8, 8] }, { do: 'hold', rows: 2 },
+      { do: 'tool', name: 'ball', radius: 20, position: [50, 50, 10] }, { do: 'step', count: 2 });
+    for (const { name, signed } of engine.displays()) {
+      const { counts, values: found } = engine.picture(0, 20, { display: name });
+      expect(found.length, name).toBe(counts[0] * counts[1]);
+      expect(found.every(Number.isFinite), name).toBe(true);
+      if (!signed) expect(Math.min(...found), name).toBeGreaterThan(-1e-6);
+      expect(Math.max(...found.map(Math.abs)), name).toBeGreaterThan(0);
+    }
+    expect(engine.picture(0, 20).values.length).toBe(0);
+  });
+
+  it('that do not exist, and settings that a display does not have, are refused with the ones that exist', async () => {
+    const engine = await session({ do: 'new' });
+    expect(() => values(engine, 'beauty')).toThrow(/no display "beauty".*deviation/);
+    expect(() => values(engine, 'draft', { axis: [0, 0, 1] })).toThrow(/settings\.axis.*direction/);
+    expect(() => values(engine, 'draft', { direction: [0, 1] })).toThrow(/settings\.direction.*3 numbers/);
+    expect(() => values(engine, 'draft', { direction: 3 })).toThrow(/3 numbers/);
+    expect(() => values(engine, 'mean', { direction: [0, 0, 1] })).toThrow(/no such setting/);
+  });
+});
+
+describe('the draft angle', () => {
+  const all = (list: number[], expected: number) => {
+    for (const x of list) expect(x).toBeCloseTo(expected, 4);
+  };
+
+  it('is 90° where the surface faces the direction of the pull, and -90° from behind', async () => {
+    const engine = await session({ do: 'new', size: [10, 10] });
+    all(values(engine, 'draft'), 90);
+    all(values(engine, 'draft', { direction: [0, 0, -3] }), -90);
+    all(values(engine, 'draft', { direction: [1, 0, 1] }), 45);
+    all(values(engine, 'draft', { direction: [0, 2, 0] }), 0);
+    all(values(engine, 'draft', { direction: [0, 0, 0] }), 0);
+  });
+
+  it('of a cone is its half angle, that of a cylinder along its axis 0', async () => {
+    const cone = await session({ do: 'new', shape: 'revolution', degree: [2, 1], profile: [[20, 0], [10, 40]] });
+    const half = (Math.atan2(10, 40) * 180) / Math.PI;
+    const found = values(cone, 'draft');
+    const sign = Math.sign(found[0]!); // of the normals
+    all(found, sign * half);
+    all(values(cone, 'draft', { direction: [0, 0, -1] }), -sign * half);
+    const cylinder = await session({ do: 'new', shape: 'cylinder', radius: 10, height: 30 });
+    all(values(cylinder, 'draft'), 0);
+  });
+});
+
+describe('limits of the colours', () => {
+  const display = (more: Partial<DisplayInfo>): DisplayInfo =>
+    ({ name: 'x', title: 'X', unit: 'length', signed: true, palette: 'diverging', help: '', limits: null, share: 1, compares: false, settings: [], ...more });
+  const field = [new Float32Array(300).fill(-9.9)];
+
+  it('are those of the display, or round ones of the values', () => {
+    expect(limitsOf(display({ limits: [-3, 5] }), field)).toEqual([-3, 5]);
+    expect(limitsOf(display({}), field)).toEqual([-10, 10]);
+    expect(limitsOf(display({ share: 0.1 }), field)).toEqual([-1, 1]);
+    expect(limitsOf(display({ signed: false, palette: 'rising' }), field)).toEqual([0, 10]);
+  });
+
+  it('have the unit of the file', () => expect(unitIn('1/length²', 'mm')).toBe('1/mm²'));
+});
+
+describe('buffers', () => {
+  const memory = new Uint8Array([0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 7]).buffer;
+  const buffers = new Buffers(memory, { lines: { type: 'uint32', at: 4, count: 2 }, held: { type: 'uint8', at: 12, count: 1 } });
+
+  it('are found by their names', () => {
+    expect([...buffers.indices('lines')]).toEqual([1, 2]);
+    expect([...buffers.flags('held')]).toEqual([7]);
+  });
+  it('that are missing, or hold other numbers, are errors', () => {
+    expect(() => buffers.floats('positions')).toThrow(/"positions"/);
+    expect(() => buffers.floats('lines')).toThrow(/float32/);
+  });
+});
