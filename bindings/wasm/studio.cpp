@@ -11,6 +11,7 @@
 #include "studio_picture.hpp"
 #include "studio_state.hpp"
 #include "studio_surface.hpp"
+#include "tool_picture.hpp"
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -23,6 +24,7 @@ struct Studio {
   Point origin = Point::Zero();
   PictureMaker pictures;
   ContextPicture context;
+  ToolPicture tool;
   std::optional<TrimLoops> trims;  // of the open file, once asked for
 };
 
@@ -194,6 +196,16 @@ KNEAD_EXPORT(knead_picture) int knead_picture(int surface, int detail, int opene
   const PictureOptions options{held().origin, detail, *std::move(display), opened != 0};
   if (auto done = held().pictures.make(state, surface, options); !done) return fail(done.error());
   return answer(picture_json(held().pictures.picture()));
+}
+
+/// The shape of a tool in its own frame: the text is `tool_picture_json`, its buffers stay until the next call.
+KNEAD_EXPORT(knead_tool_picture) int knead_tool_picture(int tool) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  const auto& tools = session->state().tools;
+  if (tool < 0 || tool >= static_cast<int>(tools.size())) return fail({ErrorKind::usage, "there is no such tool"});
+  held().tool = tool_picture(tools[static_cast<std::size_t>(tool)].shape.shape());
+  return answer(tool_picture_json(held().tool));
 }
 
 /// Control points of a surface in full precision: the text is raw doubles.

@@ -2,7 +2,7 @@ import { type BufferTable, Buffers } from './buffers';
 import type { Context, Trim } from './context';
 import { type DisplayChoice, type DisplayInfo, plain } from './displays';
 import {
-  type Command, EngineError, type FileFormat, type MeshFormat, type Picture, type SessionInfo, type StepInfo, type SurfaceNumbers,
+  type Command, EngineError, type FileFormat, type MeshFormat, type Picture, type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture,
 } from './session_types';
 import { start } from './wasi';
 
@@ -24,6 +24,7 @@ interface Exports {
   knead_origin(axis: number): number;
   knead_displays(): number;
   knead_picture(surface: number, detail: number, opened: number): number;
+  knead_tool_picture(tool: number): number;
   knead_control_points(surface: number): number;
   knead_surface(surface: number): number;
   knead_formats(): number;
@@ -158,6 +159,13 @@ export class Engine {
       net: floats('net'),
       held: flags('held'),
     };
+  }
+
+  /** The shape of a tool, by its place in the list of the state. */
+  toolPicture(tool: number): ToolPicture {
+    const { buffers, open, unbounded } = this.json(this.wasm.knead_tool_picture(tool)) as { buffers: BufferTable; open: boolean; unbounded: boolean };
+    const { floats, indices } = this.buffers(buffers);
+    return { positions: floats('positions'), normals: floats('normals'), indices: indices('indices'), open, unbounded };
   }
 
   private buffers(table: BufferTable): Buffers {

@@ -1,6 +1,6 @@
 import type { Context } from './context';
 import type { DisplayChoice, DisplayInfo } from './displays';
-import type { Command, EngineErrorInfo, MeshFormat, Picture, SessionInfo, StepInfo } from './session_types';
+import type { Command, EngineErrorInfo, MeshFormat, Picture, SessionInfo, StepInfo, ToolPicture } from './session_types';
 
 /** How surfaces are drawn. */
 export interface PictureSettings {
@@ -37,6 +37,8 @@ export type Request =
 export interface Frame {
   state: SessionInfo;
   pictures: Picture[];
+  /** Of tools that are new, or have another shape than in the frame before; by their names. */
+  toolPictures: Record<string, ToolPicture>;
   /** Steps from number `firstStep` on, for the plot. */
   firstStep: number;
   steps: StepInfo[];

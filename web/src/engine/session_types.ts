@@ -44,6 +44,17 @@ export interface Picture {
   held: Uint8Array;
 }
 
+/** The shape of a tool as triangles in its own frame, unscaled. */
+export interface ToolPicture {
+  positions: Float32Array;
+  normals: Float32Array;
+  indices: Uint32Array;
+  /** Both of its sides can be seen. */
+  open: boolean;
+  /** A square of side 1 stands for all of a plane. */
+  unbounded: boolean;
+}
+
 /** By the ids of the library's list of formats, `Engine.formats()`. */
 export type MeshFormat = 'stl' | 'obj' | 'ply' | 'gltf';
 

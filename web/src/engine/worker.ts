@@ -2,7 +2,7 @@ import { plain } from './displays';
 import { Engine } from './engine';
 import wasmUrl from './knead_studio.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo } from './session_types';
+import { type Command, EngineError, type EngineErrorInfo, type ToolInfo, type ToolPicture } from './session_types';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
 
@@ -23,6 +23,19 @@ function errorInfo(error: unknown): EngineErrorInfo {
   if (error instanceof EngineError) return error.info;
   const message = error instanceof Error ? error.message : String(error);
   return { kind: 'internal', what: message, where: '', remedy: 'save what you can and reload the page', message };
+}
+
+/** What a tool does and where it is; the rest of its fields is its shape. */
+const besideShape = new Set(['name', 'mode', 'stiffness', 'range', 'rigid', 'friction', 'plasticity', 'direction', 'position', 'rotation', 'scale', 'size']);
+let shownShapes = new Map<string, string>(); // by the names of the tools of the last frame
+
+/** Pictures of the shapes that the page has not got. */
+function newToolPictures(engine: Engine, tools: readonly ToolInfo[]): Record<string, ToolPicture> {
+  const shapes = new Map(tools.map((tool) => [tool.name, JSON.stringify(Object.entries(tool).filter(([field]) => !besideShape.has(field)))]));
+  const pictures = Object.fromEntries(tools.flatMap(({ name }, k) =>
+    (shapes.get(name) === shownShapes.get(name) ? [] : [[name, engine.toolPicture(k)]])));
+  shownShapes = shapes;
+  return pictures;
 }
 
 /** Goes through the history instead of adding to it: nothing can be joined with it. */
@@ -52,20 +65,22 @@ function sendFrame(engine: Engine): void {
   const start = performance.now();
   const state = engine.state();
   const pictures = state.surfaces.map((_, k) => engine.picture(k, settings.detail, settings.display, settings.opened));
+  const toolPictures = newToolPictures(engine, state.tools);
   if (state.steps < shownSteps) shownSteps = 0;
   const firstStep = Math.max(shownSteps, state.steps - 400);
   const steps = engine.steps(firstStep);
   shownSteps = state.steps;
   frameDrawn = false;
   const frame = {
-    state, pictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no',
+    state, pictures, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no',
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
   };
   post(
     { kind: 'frame', frame },
-    pictures.flatMap((p) =>
-      [p.positions, p.normals, p.values, p.s, p.t, p.linesU, p.linesV, p.net, p.held].map((a) => a.buffer as ArrayBuffer),
-    ),
+    [
+      ...pictures.flatMap((p) => [p.positions, p.normals, p.values, p.s, p.t, p.linesU, p.linesV, p.net, p.held]),
+      ...Object.values(toolPictures).flatMap((p) => [p.positions, p.normals, p.indices]),
+    ].map((a) => a.buffer as ArrayBuffer),
   );
 }
 

@@ -159,6 +159,8 @@ export class Viewer {
         this.tools.set(info.name, view);
         this.scene.add(view.object);
       }
+      const picture = this.frame!.toolPictures[info.name];
+      if (picture) view.picture = picture;
       // While a tool is in the user's hand the picture is ahead of the session.
       if (!(dragging && info.name === this.selectedTool)) {
         view.show(info, this.origin, size, this.palette, info.name === this.selectedTool);
