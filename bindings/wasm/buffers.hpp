@@ -12,11 +12,12 @@ namespace knead::studio {
 /// Numbers that lie in the module's memory until the next call, and their name for the page.
 struct Buffer {
   std::string_view name;
-  std::string_view type;  ///< "float32", "uint32" or "uint8"
+  std::string_view type;  ///< "float32", "float64", "uint32" or "uint8"
   const void* data;
   std::size_t count;
 
   Buffer(std::string_view named, std::span<const float> from) : Buffer(named, "float32", from.data(), from.size()) {}
+  Buffer(std::string_view named, std::span<const double> from) : Buffer(named, "float64", from.data(), from.size()) {}
   Buffer(std::string_view named, std::span<const std::uint32_t> from)
       : Buffer(named, "uint32", from.data(), from.size()) {}
   Buffer(std::string_view named, std::span<const std::uint8_t> from)

@@ -8,6 +8,7 @@
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
 #include "studio_context.hpp"
+#include "studio_material.hpp"
 #include "studio_picture.hpp"
 #include "studio_state.hpp"
 #include "studio_surface.hpp"
@@ -25,6 +26,7 @@ struct Studio {
   PictureMaker pictures;
   ContextPicture context;
   ToolPicture tool;
+  MaterialSamples material;
   std::optional<TrimLoops> trims;  // of the open file, once asked for
 };
 
@@ -182,8 +184,8 @@ KNEAD_EXPORT(knead_origin) double knead_origin(int axis) { return held().origin[
 /// The text is the list of displays: `displays_json`.
 KNEAD_EXPORT(knead_displays) int knead_displays() { return answer(displays_json()); }
 
-/// A picture of a surface, or of the shape as it was opened: the text is `picture_json`, its buffers stay until the next
-/// call. The input is what colours it (`read_display`). `detail`: grid lines wanted per direction.
+/// A picture of a surface, or of the shape as it was opened: the text is `picture_json`, its buffers stay until the
+/// next call. The input is what colours it (`read_display`). `detail`: grid lines wanted per direction.
 KNEAD_EXPORT(knead_picture) int knead_picture(int surface, int detail, int opened) {
   auto& session = held().session;
   if (!session) return without_session();
@@ -230,6 +232,22 @@ KNEAD_EXPORT(knead_surface) int knead_surface(int surface) {
     return fail({ErrorKind::usage, "there is no such surface"});
   }
   return answer(surface_json(*surfaces[static_cast<std::size_t>(surface)].current));
+}
+
+/// The material of a surface as it is now, by samples over its domain: the text is `material_json`, its buffers stay
+/// until the next call.
+KNEAD_EXPORT(knead_material) int knead_material(int surface, int rows, int columns) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  const auto& surfaces = session->state().surfaces;
+  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) {
+    return fail({ErrorKind::usage, "there is no such surface"});
+  }
+  const SceneSurface& s = surfaces[static_cast<std::size_t>(surface)];
+  auto samples = material_samples(s.material, *s.reference, {rows, columns});
+  if (!samples) return fail(samples.error());
+  held().material = *std::move(samples);
+  return answer(material_json(held().material));
 }
 
 /// The formats that files are opened and written in: `format_json`.

@@ -1,12 +1,13 @@
 import type { Context, Trim } from './context';
 import type { DisplayInfo } from './displays';
 import type { Frame, PictureSettings, Reply, Request } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo, type MeshFormat, type SurfaceNumbers } from './session_types';
+import { type Command, EngineError, type EngineErrorInfo, type MaterialSamples, type MeshFormat, type SurfaceNumbers } from './session_types';
 
 interface Answer {
   bytes?: Uint8Array;
   text?: string;
   context?: Context | null;
+  material?: MaterialSamples;
 }
 
 interface Waiting {
@@ -88,6 +89,8 @@ export class Client {
   mesh = async (format: MeshFormat, detail = 96): Promise<Uint8Array> => (await this.ask({ kind: 'mesh', format, detail })).bytes!;
   surface = async (surface: number): Promise<SurfaceNumbers> =>
     JSON.parse((await this.ask({ kind: 'surface', surface })).text!) as SurfaceNumbers;
+  material = async (surface: number, counts: [number, number]): Promise<MaterialSamples> =>
+    (await this.ask({ kind: 'material', surface, counts })).material!;
   context = async (): Promise<{ context: Context | null; trims: Trim[] }> => {
     const { context, text } = await this.ask({ kind: 'context' });
     return { context: context ?? null, trims: JSON.parse(text!) as Trim[] };

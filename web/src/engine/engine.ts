@@ -2,7 +2,8 @@ import { type BufferTable, Buffers } from './buffers';
 import type { Context, Trim } from './context';
 import { type DisplayChoice, type DisplayInfo, plain } from './displays';
 import {
-  type Command, EngineError, type FileFormat, type MeshFormat, type Picture, type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture,
+  coefficients, type Command, EngineError, type FileFormat, type MaterialSamples, type MeshFormat, type Picture,
+  type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture,
 } from './session_types';
 import { start } from './wasi';
 
@@ -25,6 +26,7 @@ interface Exports {
   knead_displays(): number;
   knead_picture(surface: number, detail: number, opened: number): number;
   knead_tool_picture(tool: number): number;
+  knead_material(surface: number, rows: number, columns: number): number;
   knead_control_points(surface: number): number;
   knead_surface(surface: number): number;
   knead_formats(): number;
@@ -166,6 +168,12 @@ export class Engine {
     const { buffers, open, unbounded } = this.json(this.wasm.knead_tool_picture(tool)) as { buffers: BufferTable; open: boolean; unbounded: boolean };
     const { floats, indices } = this.buffers(buffers);
     return { positions: floats('positions'), normals: floats('normals'), indices: indices('indices'), open, unbounded };
+  }
+
+  /** The material of a surface as it is now. */
+  material(surface: number, counts: [number, number]): MaterialSamples {
+    const { doubles } = this.buffers((this.json(this.wasm.knead_material(surface, ...counts)) as { buffers: BufferTable }).buffers);
+    return { counts, values: Object.fromEntries(coefficients.map((c) => [c, doubles(c)])) as MaterialSamples['values'] };
   }
 
   private buffers(table: BufferTable): Buffers {

@@ -1,6 +1,6 @@
 import type { Context } from './context';
 import type { DisplayChoice, DisplayInfo } from './displays';
-import type { Command, EngineErrorInfo, MeshFormat, Picture, SessionInfo, StepInfo, ToolPicture } from './session_types';
+import type { Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, SessionInfo, StepInfo, ToolPicture } from './session_types';
 
 /** How surfaces are drawn. */
 export interface PictureSettings {
@@ -24,6 +24,8 @@ export type Request =
   | { kind: 'drawn' }
   /** The numbers of one surface: `SurfaceNumbers` as text. */
   | { kind: 'surface'; surface: number }
+  /** The material of one surface by samples. */
+  | { kind: 'material'; surface: number; counts: [number, number] }
   /** All surfaces as one mesh file. */
   | { kind: 'mesh'; format: MeshFormat; detail: number }
   /** The other faces of the file, and the trims of the surfaces as text (`Trim[]`). */
@@ -55,5 +57,5 @@ export interface Frame {
 export type Reply =
   | { kind: 'ready'; displays: DisplayInfo[] }
   | { kind: 'frame'; frame: Frame }
-  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; context?: Context | null }
+  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; context?: Context | null; material?: MaterialSamples }
   | { kind: 'failed'; id: number; error: EngineErrorInfo };

@@ -44,6 +44,16 @@ export interface Picture {
   held: Uint8Array;
 }
 
+/** Coefficients of a material, as commands name them, in the order of the session. */
+export const coefficients = ['alpha11', 'alpha12', 'alpha22', 'beta11', 'beta12', 'beta22'] as const;
+export type Coefficient = (typeof coefficients)[number];
+
+/** A material by samples over the domain: (i, j) is sample i counts[1] + j, at fractions i / (counts[0] - 1), j / (counts[1] - 1). */
+export interface MaterialSamples {
+  counts: [number, number];
+  values: Record<Coefficient, Float64Array>;
+}
+
 /** The shape of a tool as triangles in its own frame, unscaled. */
 export interface ToolPicture {
   positions: Float32Array;

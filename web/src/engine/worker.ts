@@ -176,6 +176,9 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     case 'surface':
       post({ kind: 'done', id, text: JSON.stringify(engine.surface(request.surface)) });
       return;
+    case 'material':
+      post({ kind: 'done', id, material: engine.material(request.surface, request.counts) });
+      return;
     case 'journal':
       post({ kind: 'done', id, text: engine.journal() });
       return;

@@ -1,6 +1,5 @@
 import * as THREE from 'three';
 
-import type { Command } from '../engine/session_types';
 import { Brush, type BrushActions } from './brush';
 import { Edges } from './edges';
 import { followGizmo } from './gizmo';
@@ -27,7 +26,7 @@ export class Hand {
     this.points = new PointEditor(viewer, { ...actions, changed: () => host.changed() });
     this.paint = new Paint(viewer, () => this.brush.settings.radius, {
       execute: (commands) => host.execute(commands), select: actions.select,
-      journal: async () => (JSON.parse(await host.client.journal()) as { commands: Command[] }).commands,
+      material: (surface, counts) => host.client.material(surface, counts),
     });
     this.edges = new Edges(viewer, actions.select);
     this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool());

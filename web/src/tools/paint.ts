@@ -1,11 +1,11 @@
 import * as THREE from 'three';
 
-import type { Command, SurfaceInfo } from '../engine/session_types';
+import type { Command, MaterialSamples, SurfaceInfo } from '../engine/session_types';
 import { blocks, mark, region } from '../view/net';
 import { disc, lineFractions } from '../view/surface_view';
 import type { Hit, Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
-import { blended, difference, materialOf, samplePlaces, sampleCounts } from './material_paint';
+import { blended, difference, samplePlaces, sampleCounts } from './material_paint';
 import type { PointerTool } from './pointers';
 import { Ring } from './ring';
 
@@ -18,8 +18,8 @@ export interface PaintSettings {
 
 export interface PaintActions {
   execute(commands: Command[]): Promise<unknown>;
-  /** The commands that stand. */
-  journal(): Promise<Command[]>;
+  /** What a surface is made of now. */
+  material(surface: number, counts: [number, number]): Promise<MaterialSamples>;
   select(surface: number): Promise<void>;
 }
 
@@ -166,7 +166,7 @@ export class Paint implements PointerTool {
     const info = surfaces[stroke.surface]!;
     let commands: Command[];
     if (stroke.kind === 'material') {
-      const base = materialOf(await this.actions.journal(), info, surfaces.length === 1);
+      const base = await this.actions.material(stroke.surface, sampleCounts(info));
       const usual = { alpha: this.settings.alpha, beta: this.settings.beta };
       const paint = stroke.erase ? clayMaterial : usual;
       commands = blended(base, stroke.share, paint.alpha, paint.beta);
@@ -180,13 +180,14 @@ export class Paint implements PointerTool {
     if (of === this.shown || this.active) return;
     this.shown = of;
     const { frame, surfaces } = this.viewer;
-    const commands = shown && frame?.state.surfaces.some((s) => s.beta.includes(null)) ? await this.actions.journal() : [];
-    frame?.state.surfaces.forEach((info, k) => {
+    for (const [k, info] of (frame?.state.surfaces ?? []).entries()) {
       const view = surfaces[k];
-      if (!view?.picture) return;
-      const painted = commands.length > 0 && info.beta.includes(null);
-      view.showMaterial(painted ? difference(materialOf(commands, info, frame.state.surfaces.length === 1), ...lineFractions(view.picture)) : null);
-    });
+      if (!view?.picture) continue;
+      const varies = shown && [...info.alpha, ...info.beta].includes(null);
+      const material = varies ? await this.actions.material(k, sampleCounts(info)) : null;
+      if (this.shown !== of) return; // something newer is to be shown
+      view.showMaterial(material && difference(material, ...lineFractions(view.picture)));
+    }
     this.viewer.redraw();
   }
 

@@ -1,0 +1,40 @@
+import type { Command } from '@studio/engine/session_types';
+
+import { commands, openStudio, scene, settled, stroke, type Studio } from './page';
+
+/** What the page sends changes what it names, and nothing beside it. */
+
+let studio: Studio;
+beforeAll(async () => {
+  studio = await openStudio();
+});
+afterAll(() => studio.close());
+afterEach(() => {
+  expect(studio.problems).toEqual([]);
+  expect(studio.foreign).toEqual([]);
+});
+
+interface Page {
+  execute(commands: Command[]): Promise<unknown>;
+}
+
+const execute = async (...list: Command[]) => {
+  await studio.page.evaluate((all) => (window as never as { studio: Page }).studio.execute(all), list);
+  await settled(studio.page);
+};
+
+describe('a painted material', () => {
+  const samples = async (coefficient: string) =>
+    ((await commands(studio.page)).filter((c) => c.do === 'material' && (c as Command).coefficient === coefficient).at(-1) as Command).samples as number[];
+
+  it('leaves the regions that a script has set', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    await execute({ do: 'material', alpha: [0.1, 0, 0.1], beta: [0.5, 0.5, 0.5], region: [[0.8, 1], [0.8, 1]], falloff: 0.01 });
+    await page.keyboard.press('a');
+    await stroke(page, [-10, 0], [10, 0]);
+    const beta = await samples('beta11');
+    expect(beta.at(-1)).toBeCloseTo(0.5, 9);
+    expect(beta[0]).toBeCloseTo(0.001, 9);
+  });
+});
