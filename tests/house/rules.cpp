@@ -41,6 +41,7 @@ std::vector<std::string> lines_of(const fs::path& file) {
 }
 
 bool is_source(const fs::path& file) {
+  if (file.filename() == "generated.ts") return false;  // written by the build of the studio
   const auto extension = file.extension();
   return extension == ".hpp" || extension == ".cpp" || extension == ".h" || extension == ".ts";
 }
