@@ -14,3 +14,20 @@ function(knead_compile_settings target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
 endfunction()
+
+# What nearly every source reads, compiled once for a target. Sources include what they use all the same: the build
+# without exceptions has none of this (CMAKE_DISABLE_PRECOMPILE_HEADERS), nor have sources with compiler options of their
+# own, which a precompiled header must share.
+set(KNEAD_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <expected> <functional> <limits> <memory> <optional> <span>
+                         <string> <string_view> <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <Eigen/SparseCore>)
+function(knead_precompile target)  # knead_precompile(<target> further headers...)
+  target_precompile_headers(${target} PRIVATE ${KNEAD_COMMON_HEADERS} ${ARGN})
+  knead_precompiled(${target})
+endfunction()
+function(knead_precompiled target)
+  # Precompiled, std::string is a system header no longer, and GCC 12 has more of those false positives to tell.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-array-bounds;-Wno-stringop-overread>)
+endfunction()
+function(knead_own_options)  # knead_own_options(files of the library with compiler options of their own...)
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY knead PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
