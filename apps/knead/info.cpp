@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli.hpp"
+#include "faces.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -14,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string file;
-  bool json = false;
+  bool json = false, faces = false;
 };
 
 Json to_json(const Point& p) { return {p.x(), p.y(), p.z()}; }
@@ -85,6 +86,7 @@ Expected<void> run(const Options& options) {
   if (!file) return std::unexpected(file.error());
   if (!options.json) {
     print_text(*file);
+    if (options.faces) print_faces(*file);
     return {};
   }
   Json surfaces = Json::array(), unreadable = Json::array(), instances = Json::array();
@@ -111,6 +113,7 @@ Action add_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "list the B-spline surfaces of a CAD file");
   command->add_option("FILE", options->file, "STEP file")->required()->type_name("");
   command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");
+  command->add_flag("--faces", options->faces, "list what faces show of the surfaces, and their edges");
   command->footer(
       "Coordinates and boxes are in the surface's own frame and units; the box is that of the whole\n"
       "untrimmed surface; `net` counts control points; knots are listed with their multiplicity.\n" +

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli.hpp"
+#include "faces.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
@@ -122,6 +123,7 @@ std::string report_json(const SessionState& state, const Outcome& o) {
       "\"largest_displacement\":{},\"control_points_moved\":{}",
       json_number(o.time), json_number(o.energy_before), json_number(o.energy_after), json_number(o.residual),
       json_number(o.largest_displacement), o.moved);
+  text += ",\n\"edges\":" + edges_json(state);
   text += ",\n\"seams\":[";
   for (std::size_t k = 0; k < state.seam_reports.size(); ++k) {
     const SeamReport& s = state.seam_reports[k];
@@ -157,6 +159,7 @@ void print_summary(const Options& options, const Session& session, const Outcome
     }
   }
   for (const std::string& note : state.notes) fmt::print("  {}\n", note);
+  print_edges(state);
   for (const SeamReport& s : state.seam_reports) {
     fmt::print("  seam {} - {}: {}{}{}\n", edge_of(state, s.seam.a), edge_of(state, s.seam.b),
                continuity_name(s.continuity), s.reason.empty() ? "" : ", ", s.reason);
@@ -223,7 +226,8 @@ Expected<void> run(const Options& options) {
   }
   const auto text = read_file(options.script);
   if (!text) return std::unexpected(text.error());
-  const auto commands = parse_script(*text, options.script);
+  std::size_t before = 0;  // commands that the script's version stands for
+  const auto commands = parse_script(*text, options.script, &before);
   if (!commands) return std::unexpected(commands.error());
   auto document = options.fresh ? Document::fresh("sheet") : Document::open(options.file);
   if (!document) return std::unexpected(document.error());
@@ -234,7 +238,7 @@ Expected<void> run(const Options& options) {
     for (std::size_t k = 0; k < commands->size(); ++k) {
       auto done = session.execute((*commands)[k], [&line](int step, int total) { line.show(step, total); });
       if (!done) {
-        Error error = done.error().within(fmt::format("commands[{}]", k));
+        Error error = k < before ? done.error() : done.error().within(fmt::format("commands[{}]", k - before));
         error.file = options.script;
         return std::unexpected(error);
       }
@@ -259,14 +263,15 @@ Action add_sculpt(CLI::App& app) {
   command->add_option("--report", options->report, "JSON file to write what every step did to, see below");
   command->add_option("--picture", options->picture, "SVG file to draw the displacement over (u, v) to");
   command->footer(
-      R"(The script is {"knead": 1, "commands": [{"do": "...", ...}, ...]}. Lengths are in file units. The commands, and under each
+      R"(The script is {"knead": 2, "commands": [{"do": "...", ...}, ...]}. Lengths are in file units. The edges of faces are held;
+a script of version 1 holds nothing by itself. The commands, and under each
 its fields with their defaults (`knead commands NAME` explains them):
 
 )" + command_help() +
       R"(
 The report is {"steps": [{"time", "energy", "residual", "largest_displacement", "stretch", "bend", "kinetic", "contact",
 "gap", "constraint_violation", "converged", "limited", "note"}, ...], "time", "energy_before", "energy_after",
-"residual", "largest_displacement", "control_points_moved", "seams", "notes"}: times in seconds, lengths in file units,
+"residual", "largest_displacement", "control_points_moved", "edges", "seams", "notes"}: times in seconds, lengths in file units,
 gaps in sizes of the tool.
 )" + std::string(exit_codes));
   return [options] { return run(*options); };

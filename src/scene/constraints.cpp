@@ -4,6 +4,7 @@
 
 #include "knead/scene/held_points.hpp"
 #include "knead/scene/places.hpp"
+#include "knead/scene/trims.hpp"
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
@@ -67,6 +68,9 @@ struct Asked {
 
   Expected<void> operator()(const EdgeSymmetry& c) const { return symmetry_constraints(reference, c, list); }
   Expected<void> operator()(const MirrorSymmetry& c) const { return symmetry_constraints(reference, c, list); }
+  // Edges of faces are held together, by `hold_face_edges`.
+  Expected<void> operator()(const TrimHolds&) const { return {}; }
+  Expected<void> operator()(const TrimEdgeHold&) const { return {}; }
 
  private:
   /// What `f` appends is held where it was when that was asked for, not where it is at rest.
@@ -114,6 +118,10 @@ Expected<void> symmetry_constraints(const Surface& reference, const MirrorSymmet
 Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::string>& notes) {
   ConstraintList list(s.reference->size());
   hold_numbered(s.reference->net(), s.hold_rows, s.pins, list);
+  if (s.visible) {
+    const auto held = hold_face_edges(*s.reference, s.constraints, *s.visible, list);
+    if (!held) return std::unexpected(held.error());
+  }
   for (const auto& [constraint, where] : s.constraints) {
     if (auto done = std::visit(Asked{*s.reference, *s.rest, *where, list}, constraint); !done) {
       return std::unexpected(done.error());
@@ -138,11 +146,17 @@ Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::
   return list;
 }
 
-HeldInput held_input(const SceneSurface& s) { return {s.current->net(), s.hold_rows, s.pins, s.constraints}; }
+HeldInput held_input(const SceneSurface& s) {
+  return {s.current->net(), s.hold_rows, s.pins, s.constraints, holds_trims(s.constraints) ? s.visible : nullptr};
+}
 
 Expected<std::vector<std::uint8_t>> held_points(const HeldInput& input) {
   ConstraintList list(input.net[0] * input.net[1]);
   hold_numbered(input.net, input.hold_rows, input.pins, list);
+  if (input.visible) {
+    const auto held = hold_face_edges(*input.constraints.front().where, input.constraints, *input.visible, list);
+    if (!held) return std::unexpected(held.error());
+  }
   for (const auto& [constraint, where] : input.constraints) {
     if (std::holds_alternative<EdgeSymmetry>(constraint) || std::holds_alternative<MirrorSymmetry>(constraint)) {
       continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "constraints.hpp"
+#include "knead/scene/trims.hpp"
 
 namespace knead {
 namespace {
@@ -85,7 +86,8 @@ ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
                               .pins = s.pins,
                               .constraints = s.constraints,
                               .smooth_knot_lines = s.smooth_knot_lines,
-                              .smooth_poles = s.smooth_poles});
+                              .smooth_poles = s.smooth_poles,
+                              .visible = holds_trims(s.constraints) ? s.visible : nullptr});
   }
   input.seams = scene.seams;
   input.scaling = scene.scaling;

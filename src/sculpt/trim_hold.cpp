@@ -13,7 +13,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double grain = 1e-9;  // of the domain: what touches by less does not touch
+constexpr double rounding =
+    8 * std::numeric_limits<double>::epsilon();  // of the domain: what is off by less is not off
+constexpr double grain = 1e-9;                   // of the domain: what touches by less does not touch
 constexpr double share_of_cell = 0.25;
 
 /// The spans of one direction and the functions over them.
@@ -60,6 +62,7 @@ struct Line {
   int direction;
   double at;
   Interval along;
+  bool exact = true;  ///< the edge is on it but for rounding
 };
 
 /// The spans of a surface with what runs through them.
@@ -166,7 +169,10 @@ class Cells {
       const auto near = std::ranges::min_element(all, {}, [&](double c) { return std::abs(c - a[d]); });
       if (std::abs(*near - a[d]) > snap_[at(d)] || std::abs(*near - b[d]) > snap_[at(d)]) continue;
       const int e = 1 - d;
-      if (number >= 0) lines.push_back({d, *near, {std::min(a[e], b[e]), std::max(a[e], b[e])}});
+      const double off = std::max(std::abs(*near - a[d]), std::abs(*near - b[d]));
+      const bool exact =
+          off <= rounding * direction(d).domain.length() && slack[d] <= rounding * direction(d).domain.length();
+      if (number >= 0) lines.push_back({d, *near, {std::min(a[e], b[e]), std::max(a[e], b[e])}, exact});
       return;
     }
     const int pieces = pieces_of(a, b);
@@ -203,6 +209,10 @@ class Cells {
   std::vector<int> held_;  // the first edge that is held and runs through
 };
 
+/// The order to hold along a line so that an edge which only runs close to it keeps this one: a tangent plane that is
+/// kept on the line alone turns beside it in proportion to the distance. At a pole likewise, where normals turn fast.
+int beside_line(int order) { return order > 0 ? order + 1 : order; }
+
 /// Control points that act on a line.
 void hold_line(const Cells& cells, const Line& line, int order, int columns, std::vector<int>& by, int number) {
   const Direction &across = cells.direction(line.direction), &along = cells.direction(1 - line.direction);
@@ -235,7 +245,9 @@ Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region, 
     const int number = static_cast<int>(e), order = orders[e];
     highest = std::max(highest, order);
     const auto lines = cells.mark(region.edges[e], order < 0 ? -1 : number);
-    for (const Line& line : lines) hold_line(cells, line, order, columns, by, number);
+    for (const Line& line : lines) {
+      hold_line(cells, line, line.exact ? order : beside_line(order), columns, by, number);
+    }
     result.edges.push_back(
         {region.edges[e].id, order, lines.size() + 1 >= region.edges[e].course.size() && !lines.empty(), 0});
   }
@@ -245,8 +257,8 @@ Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region, 
     for (std::size_t end = 0; end < 2; ++end) {
       if (!region.poles[static_cast<std::size_t>(d)][end]) continue;
       const Interval domain = cells.direction(d).domain;
-      hold_line(cells, {d, end == 0 ? domain.lower : domain.upper, cells.direction(1 - d).domain}, highest, columns, by,
-                outside + 1);
+      const Line line{d, end == 0 ? domain.lower : domain.upper, cells.direction(1 - d).domain};
+      hold_line(cells, line, beside_line(highest), columns, by, outside + 1);
     }
   }
   for (int i = 0; i < rest.net()[0]; ++i) {

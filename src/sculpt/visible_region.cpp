@@ -1,6 +1,10 @@
 #include "knead/sculpt/visible_region.hpp"
 
-#include "visible_grid.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "knead/spline/evaluate.hpp"
 
 namespace knead {
 namespace {
@@ -71,6 +75,34 @@ std::array<double, 2> parameters_of(const Surface& surface, const Vector2d& at) 
   return result;
 }
 
+Expected<std::optional<VisiblePoint>> visible_least(const Surface& surface, const VisibleRegion& region,
+                                                    const std::function<double(const Point&)>& cost) {
+  constexpr int first = 41, later = 9, rounds = 8;
+  auto [lower, upper] = region.extent();
+  std::optional<VisiblePoint> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round <= rounds; ++round) {
+    const int count = round == 0 ? first : later;
+    const Eigen::Vector2d step = (upper - lower) / count;
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j < count; ++j) {
+        const Eigen::Vector2d at = lower + step.cwiseProduct(Eigen::Vector2d(i + 0.5, j + 0.5));
+        if (at.minCoeff() < 0 || at.maxCoeff() > 1 || !region.contains(at)) continue;
+        const auto place = evaluate_point<2>(surface, parameters_of(surface, at));
+        if (!place) return std::unexpected(place.error());
+        const double value = cost(*place);
+        if (!(value < least)) continue;
+        least = value;
+        best = VisiblePoint{at, *place, value};
+      }
+    }
+    if (!best) return best;
+    lower = best->at - 1.2 * step;
+    upper = best->at + 1.2 * step;
+  }
+  return best;
+}
+
 Expected<VisiblePoint> visible_middle(const Surface& surface, const VisibleRegion& region) {
   if (region.edges.empty()) {
     const Vector2d at(0.5, 0.5);
@@ -78,7 +110,7 @@ Expected<VisiblePoint> visible_middle(const Surface& surface, const VisibleRegio
     if (!place) return std::unexpected(place.error());
     return VisiblePoint{at, *place, 0};
   }
-  auto best = detail::least_visible(surface, region, [&](const Point& p) { return -region.distance(p); });
+  auto best = visible_least(surface, region, [&](const Point& p) { return -region.distance(p); });
   if (!best) return std::unexpected(best.error());
   if (!*best) return numerical_error("nothing of the surface is visible", "at", "give a point (s, t)");
   (*best)->distance = -(*best)->distance;
@@ -86,7 +118,7 @@ Expected<VisiblePoint> visible_middle(const Surface& surface, const VisibleRegio
 }
 
 Expected<VisiblePoint> visible_near(const Surface& surface, const VisibleRegion& region, const Point& place) {
-  auto best = detail::least_visible(surface, region, [&](const Point& p) { return (p - place).norm(); });
+  auto best = visible_least(surface, region, [&](const Point& p) { return (p - place).norm(); });
   if (!best) return std::unexpected(best.error());
   if (!*best) return numerical_error("nothing of the surface is visible", "at", "give a point (s, t)");
   return **best;

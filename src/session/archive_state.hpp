@@ -196,7 +196,8 @@ void pass(A& a, Of<A, SceneForce>& f) {
 template <class A>
 void pass(A& a, Of<A, SceneSurface>& s) {
   auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, hold_rows, pins, constraints,
-         smooth_knot_lines, smooth_poles] = s;
+         smooth_knot_lines, smooth_poles, visible] = s;
+  if constexpr (!A::writing) visible.reset();  // the document knows it
   for (auto* x : {&id, &name, &unit}) pass(a, *x);
   for (auto* x : {&opened, &reference, &rest, &current}) pass(a, *x);
   pass(a, velocity);

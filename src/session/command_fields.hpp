@@ -13,4 +13,10 @@ namespace knead {
 std::span<const Choice> choices(StepWeight);
 std::span<const Choice> choices(EdgeChoice);
 
+/// A surface point: fractions of the domain, or the visible middle.
+struct SurfacePlace {
+  Fractions at = {0.5, 0.5};
+  bool middle = false;
+};
+
 }  // namespace knead

@@ -71,6 +71,7 @@ Expected<void> Executor::keep(const Constraint& constraint) {
 }
 
 Expected<void> Executor::check_constraints() {
+  if (auto known = know_trims(); !known) return known;
   // What cannot be made is refused now and not at the next step. A large lambda makes a model of whatever can step.
   EvolutionPolicy evolution;
   evolution.lambda = 1e6;

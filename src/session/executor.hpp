@@ -14,11 +14,14 @@ struct Session::ModelCache {
 
 /// Applies one command to a copy of the state, and has what commands share. Each command's file defines `execute` for
 /// its fields.
+struct SurfacePlace;
+
 struct Executor {
   const Document& document;
   std::optional<SceneModel>& cache;
   SessionState& state;
   const Session::Progress& progress;
+  bool allow_held = false;  ///< a tool may touch what is held alone
 
   template <class C>
   Expected<void> execute(const C& command);
@@ -53,12 +56,35 @@ struct Executor {
   /// Halves the spans of the selected surfaces that a tool reaches. Returns whether there were any.
   Expected<bool> refine_under(const Tool& tool);
 
+  /// What faces show of a surface, by the document's file; all of a surface that is in no file. Errors: a face on it
+  /// cannot be followed (input).
+  Expected<const VisibleRegion*> visible(SceneSurface& surface);
+  /// A surface as the document opened it, or as it was made.
+  const Surface* document_surface(const SceneSurface& surface) const;
+  /// Makes `visible` known of all selected surfaces of which edges of faces are held.
+  Expected<void> know_trims();
+  /// The fractions of a place. Where edges of faces are held, a place that is not visible is an error which names the
+  /// nearest one that is; elsewhere it is noted.
+  Expected<Fractions> place_on(SceneSurface& surface, const SurfacePlace& place);
+  /// Refines the selected surfaces of which edges of faces are held, so that something is free under each tool that
+  /// touches them.
+  Expected<void> refine_trims();
+  /// The same at one place, for something of this size.
+  Expected<void> refine_at_trims(SceneSurface& surface, const Fractions& at, double size);
+
  private:
   Expected<void> prepare_model(const EvolutionPolicy& evolution);
   Expected<ActiveStep> one_step(const std::vector<PointForce>& more, double& seconds);
   Expected<void> take(const ActiveStep& step);
   void record(const ActiveStep& step, double seconds, std::string note);
   void note_model();
+  /// Whether the surfaces of which edges of faces are held have not folded: their normals point to the same side as at
+  /// rest, at four points per span. Error (numerical): where they do not.
+  Expected<void> check_folds();
+  /// The error of a step in which nothing is free to move under a tool.
+  Error all_held(const std::string& tool) const;
+  /// Some selected surface is held by the edges of its faces.
+  bool holds_edges() const;
 };
 
 /// "#12: the net is now …", for the notes.

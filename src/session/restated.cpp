@@ -18,6 +18,15 @@ struct Restate {
   Command operator()(const EdgeHold& c) const {
     return make_command(EdgeCommand{choice_of(c.edge), static_cast<EdgeCondition>(c.order)});
   }
+  Command operator()(const TrimHolds& c) const {
+    HoldCommand hold;
+    hold.mode = static_cast<HoldMode>(static_cast<int>(HoldMode::trim) + c.order);
+    return make_command(hold);
+  }
+  Command operator()(const TrimEdgeHold& c) const {
+    return make_command(
+        EdgeCommand{EdgeChoice::all, c.order < 0 ? EdgeCondition::free : static_cast<EdgeCondition>(c.order), c.id});
+  }
   Command operator()(const PointPin& c) const {
     PinCommand pin;
     pin.at = c.at;
@@ -50,8 +59,16 @@ Command restated(const Constraint& constraint) { return std::visit(Restate{}, co
 
 std::optional<Constraint> constraint_of(const Command& command) {
   if (const auto* c = fields_of<EdgeCommand>(command)) {
+    if (c->edge) {
+      return TrimEdgeHold{*c->edge, c->hold == EdgeCondition::free ? -1 : static_cast<int>(c->hold)};
+    }
     if (c->which == EdgeChoice::all || c->hold == EdgeCondition::free) return std::nullopt;
     return EdgeHold{edges_of(c->which).front(), static_cast<int>(c->hold)};
+  }
+  if (const auto* c = fields_of<HoldCommand>(command)) {
+    const HoldMode mode = c->mode.value_or(HoldMode::rows);
+    if (mode == HoldMode::rows || mode == HoldMode::free) return std::nullopt;
+    return TrimHolds{static_cast<int>(mode) - static_cast<int>(HoldMode::trim)};
   }
   if (const auto* c = fields_of<PinCommand>(command)) {
     if (!c->at) return std::nullopt;

@@ -14,7 +14,7 @@ struct ScriptForm {
 static void describe(ScriptForm& s, Fields& fields) {
   fields.name("script", "What a session did.");
   fields.add("knead", s.version,
-             {.help = "the version of the form", .range = between(1, 1), .presence = Presence::required});
+             {.help = "the version of the form", .range = between(1, 2), .presence = Presence::required});
   fields.add("commands", s.commands, {.help = "run in order", .presence = Presence::required});
 }
 

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 
 #include "commands.hpp"
+#include "knead/exchange/face_edges.hpp"
+#include "knead/scene/trims.hpp"
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
@@ -75,6 +78,26 @@ void Session::join() {
   entry.insert(entry.end(), first, last.end());
   states_.erase(states_.end() - 2);
   --position_;
+}
+
+void Session::know_faces() {
+  std::map<std::string, std::shared_ptr<const VisibleRegion>> known;
+  const step::File* const file = document_.step_file();
+  if (file == nullptr) return;
+  for (auto& state : states_) {
+    auto next = std::make_shared<SessionState>(*state);
+    for (SceneSurface& s : next->surfaces) {
+      if (!holds_trims(s.constraints)) continue;
+      auto found = known.find(s.id);
+      if (found == known.end()) {
+        // Where they cannot be followed the next step says so.
+        auto region = visible_region(*file, s.id);
+        found = known.emplace(s.id, region ? std::make_shared<const VisibleRegion>(std::move(*region)) : nullptr).first;
+      }
+      s.visible = found->second;
+    }
+    state = std::move(next);
+  }
 }
 
 Expected<double> Session::energy() {

@@ -79,7 +79,7 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   archive::command<EvolveCommand>(a, evolution);
   choice(a, scaling, ScalingMode::raw);
   archive::command<SeamsCommand>(a, seams);
-  choice(a, permission, RefinePermission::never);
+  choice(a, permission, RefinePermission::trims);
   std::size_t shared = 0;
   if (before.steps != nullptr) {
     const std::size_t most = std::min(steps.size(), before.steps->size());
@@ -128,7 +128,7 @@ void read_state(Reader& a, SessionState& state) {
   archive::command<EvolveCommand>(a, evolution);
   choice(a, scaling, ScalingMode::raw);
   archive::command<SeamsCommand>(a, seams);
-  choice(a, permission, RefinePermission::never);
+  choice(a, permission, RefinePermission::trims);
   std::size_t shared = 0;
   a.count(shared);
   if (shared > steps.size()) return a.fail();
@@ -230,6 +230,7 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
   if (a.bad() || !a.at_end() || session.position_ > session.entries_.size()) {
     return damaged("the snapshot holds what this program does not know");
   }
+  session.know_faces();
   return session;
 }
 

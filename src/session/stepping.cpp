@@ -26,6 +26,19 @@ std::string note_of(const ActiveStep& step) {
       step.coarseness, halvings(step.coarseness) == 1 ? "once" : fmt::format("{} times", halvings(step.coarseness)));
 }
 
+/// The step left every selected surface at rest and where it was opened.
+bool nothing_moved(const Scene& scene, const ActiveStep& step) {
+  Eigen::Index first = 0;
+  for (int index : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(index)];
+    const Eigen::Index n = s.current->size();
+    if (s.mode == RestMode::none || s.current != s.rest || s.current != s.opened) return false;
+    if (step.control_points.middleRows(first, n) != s.current->control_points()) return false;
+    first += n;
+  }
+  return true;
+}
+
 }  // namespace
 
 Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more, int done,
@@ -35,6 +48,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
   if (state.permission == RefinePermission::automatic) {
     if (auto refined = refine_seams(); !refined) return refined;
   }
+  if (auto refined = refine_trims(); !refined) return refined;
   int refinements = 0, stepped = 0;
   while (stepped < count) {
     if (auto made = prepare_model(evolution); !made) return made;
@@ -54,8 +68,15 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
         continue;
       }
     }
+    std::string note = note_of(*step);
+    if (!allow_held && more.empty() && step->gap > 0 && nothing_moved(state, *step)) {
+      const Error error = all_held(step->gap_tool);
+      if (holds_edges()) return std::unexpected(error);
+      note = error.what + "; " + error.remedy;  // asked for, row by row or point by point: said, not refused
+    }
     if (auto taken = take(*step); !taken) return taken;
-    record(*step, seconds, note_of(*step));
+    if (auto sound = check_folds(); !sound) return sound;
+    record(*step, seconds, std::move(note));
     ++stepped;
     if (progress) progress(done + stepped, total > 0 ? total : count);
   }
@@ -64,6 +85,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
 }
 
 Expected<void> Executor::prepare_model(const EvolutionPolicy& evolution) {
+  if (auto known = know_trims(); !known) return known;
   ModelInput input = model_input(state, evolution);
   if (cache && cache->input == input) return {};
   cache.reset();

@@ -19,7 +19,8 @@ TEST(Mesh, WritesEveryFormat) {
 
 TEST(Mesh, SaysWhatIsWrong) {
   const Workshop workshop;
-  EXPECT_TRUE(fails_with(knead({"mesh", bonnet(), "--out", workshop / "a.3mf"}), 2, {"--out", ".stl, .obj, .ply or .glb"}));
+  EXPECT_TRUE(
+      fails_with(knead({"mesh", bonnet(), "--out", workshop / "a.3mf"}), 2, {"--out", ".stl, .obj, .ply or .glb"}));
   EXPECT_TRUE(fails_with(knead({"mesh", bonnet(), "--out", workshop / "a.stl", "--detail", "0"}), 2,
                          {"--detail", "1 to 2000"}));
   EXPECT_TRUE(fails_with(knead({"mesh", workshop / "none.step", "--out", workshop / "a.stl"}), 3, {"none.step"}));

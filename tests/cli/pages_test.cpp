@@ -13,7 +13,7 @@ std::string page(const std::string& name) { return content_of(std::string(KNEAD_
 /// The indented blocks of a page that are scripts.
 std::vector<Json> scripts_in(const std::string& text) {
   std::vector<Json> scripts;
-  const std::string begin = "\n    {\"knead\": 1", end = "\n    ]}";
+  const std::string begin = "\n    {\"knead\": ", end = "\n    ]}";
   for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
     scripts.push_back(Json::parse(text.substr(at, text.find(end, at) + end.size() - at)));
   }
@@ -21,7 +21,7 @@ std::vector<Json> scripts_in(const std::string& text) {
 }
 
 TEST(Pages, EveryScriptShownSculptsTheSample) {
-  for (const char* name : {"docs/scripts.md", "README.md"}) {
+  for (const char* name : {"docs/scripts.md", "docs/trims.md", "README.md"}) {
     const std::vector<Json> scripts = scripts_in(page(name));
     EXPECT_FALSE(scripts.empty()) << name;
     for (const Json& script : scripts) {

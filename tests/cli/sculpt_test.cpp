@@ -165,7 +165,7 @@ TEST(Sculpt, TheReportSaysWhatTheFileShows) {
     EXPECT_GT(step.at("largest_displacement").get<double>(), 0);
     time += step.at("time").get<double>();
   }
-  ASSERT_EQ(report.size(), 9U);
+  ASSERT_EQ(report.size(), 10U);
   const Json& last = report.at("steps").back();
   EXPECT_DOUBLE_EQ(report.at("time").get<double>(), time);
   EXPECT_EQ(report.at("residual"), last.at("residual"));

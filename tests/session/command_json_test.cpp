@@ -179,7 +179,7 @@ TEST(CommandJson, ScriptErrorsSayWhere) {
   const auto place = [](const std::string& text) { return parse_script(text, "s.json").error(); };
   EXPECT_EQ(place("{\"knead\": 1,\n \"commands\": [\n  {\"do\": \"step\"},,\n]}").line, 3);
   EXPECT_EQ(place(R"({"knead":1,"commands":[{"do":"step"},{"do":"tool","radius":"x"}]})").where, "commands[1].radius");
-  EXPECT_EQ(place(R"({"knead":2,"commands":[]})").where, "knead");
+  EXPECT_EQ(place(R"({"knead":3,"commands":[]})").where, "knead");
   EXPECT_EQ(place(R"({"knead":1})").where, "commands");
   EXPECT_EQ(place(R"({"knead":1,"commands":[],"comands":[]})").where, "comands");
   EXPECT_EQ(place("").file, "s.json");

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -67,7 +68,21 @@ struct MirrorSymmetry {
   friend bool operator==(const MirrorSymmetry&, const MirrorSymmetry&) = default;
 };
 
-using Constraint = std::variant<EdgeHold, PointPin, Freeze, Keep, EdgeSymmetry, MirrorSymmetry>;
+/// All edges of the faces on the surface, with the first `order` derivatives across them, as `EdgeHold`.
+struct TrimHolds {
+  int order = 0;
+  friend bool operator==(const TrimHolds&, const TrimHolds&) = default;
+};
+
+/// One edge of the faces on the surface, by its id in the file; goes before `TrimHolds`.
+struct TrimEdgeHold {
+  std::string id;
+  int order = 0;  ///< −1: free
+  friend bool operator==(const TrimEdgeHold&, const TrimEdgeHold&) = default;
+};
+
+using Constraint =
+    std::variant<EdgeHold, PointPin, Freeze, Keep, EdgeSymmetry, MirrorSymmetry, TrimHolds, TrimEdgeHold>;
 
 /// A constraint and the shape of the surface when it was asked for, on the present net.
 struct KeptConstraint {

@@ -13,6 +13,7 @@ struct HeldInput {
   int hold_rows = 0;
   std::set<std::array<int, 2>> pins;
   std::vector<KeptConstraint> constraints;
+  std::shared_ptr<const VisibleRegion> visible;  ///< where edges of faces are held, else null
 
   friend bool operator==(const HeldInput&, const HeldInput&) = default;
 };

@@ -18,6 +18,7 @@ struct SurfaceInput {
   std::set<std::array<int, 2>> pins;
   std::vector<KeptConstraint> constraints;
   bool smooth_knot_lines = true, smooth_poles = true;
+  std::shared_ptr<const VisibleRegion> visible;  ///< where edges of faces are held, else null
 
   friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;
 };

@@ -8,6 +8,7 @@
 
 #include "knead/scene/constraint.hpp"
 #include "knead/sculpt/active_spline.hpp"
+#include "knead/sculpt/visible_region.hpp"
 
 namespace knead {
 
@@ -63,8 +64,9 @@ struct SeamPolicy {
 /// Which units the model is computed in.
 enum class ScalingMode { normalised, raw };
 
-/// Whether what acts on a scene may refine nets exactly as it needs.
-enum class RefinePermission { automatic, never };
+/// Whether what acts on a scene may refine nets exactly as it needs: always, never, or only so that something is left
+/// free between a tool and the edges of a face that are held.
+enum class RefinePermission { automatic, never, trims };
 
 /// One surface of a scene. `reference`, `rest` and `current` share their knots and weights, and `opened` shares them
 /// too unless they were edited since; the domain is always the same.
@@ -81,6 +83,8 @@ struct SceneSurface {
   std::set<std::array<int, 2>> pins = {};
   std::vector<KeptConstraint> constraints = {};
   bool smooth_knot_lines = true, smooth_poles = true;
+  /// What faces show of it, in fractions of its domain; null until something asks for it.
+  std::shared_ptr<const VisibleRegion> visible = {};
 };
 
 /// Surfaces, what holds them and what acts on them.
@@ -95,7 +99,7 @@ struct Scene {
   EvolutionPolicy evolution = {};
   ScalingMode scaling = ScalingMode::normalised;
   SeamPolicy seams = {};
-  RefinePermission permission = RefinePermission::never;
+  RefinePermission permission = RefinePermission::trims;
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;

@@ -34,12 +34,14 @@ struct TrimHold {
 /// derivative of at most that order there may move. For an edge inside spans these are all functions whose support
 /// meets the edge; D is then zero on whole spans round it, so that tangent planes and curvatures stay too. For an edge
 /// along a line u = c, function N_i with the line at its first or last knot, of multiplicity m among its own knots, is
-/// O(|u − c|^(p + 1 − m)): it may move if p + 1 − m > order. On a clamped end that leaves order + 1 rows held.
+/// O(|u − c|^(p + 1 − m)): it may move if p + 1 − m > order. On a clamped end that leaves order + 1 rows held. Where
+/// the edge is not on the line but for rounding, an order above 0 holds one row more, since derivatives turn beside it.
 ///
 /// A pole (an end of the domain that is one point) is held like an edge with the largest order of any edge.
 /// \param orders one per edge of the region: −1 free, 0, 1, 2.
 /// \param tolerance a length: an edge that is no further than this from a knot line counts as running along it; the
-///   displacement of the edge is then at most `tolerance` times the slope of D there.
+///   displacement of the edge is then at most `tolerance` times the slope of D there. With an order above 0, one order
+///   more is held where it is not on the line but for rounding.
 /// Errors: orders of another number, or out of range (usage).
 /// Cost: O(chords of the edges · spans each crosses + spans · corners of the loops).
 Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region, std::span<const int> orders,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -68,6 +69,11 @@ struct VisiblePoint {
 /// Errors: nothing of the surface is visible at that resolution (numerical); those of evaluation.
 /// Cost: 2500 points times the chords of all edges.
 [[nodiscard]] Expected<VisiblePoint> visible_middle(const Surface& surface, const VisibleRegion& region);
+
+/// The visible point with the least `cost` of its place, by the same grids; its `distance` is that cost. None where
+/// nothing is visible.
+[[nodiscard]] Expected<std::optional<VisiblePoint>> visible_least(const Surface& surface, const VisibleRegion& region,
+                                                                  const std::function<double(const Point&)>& cost);
 
 /// The visible point nearest to a place, by the same grids.
 [[nodiscard]] Expected<VisiblePoint> visible_near(const Surface& surface, const VisibleRegion& region,

@@ -24,9 +24,16 @@ namespace knead {
 [[nodiscard]] std::string to_json(const EvolutionPolicy& evolution);
 [[nodiscard]] std::string to_json(const SeamPolicy& seams);
 
-/// The commands of a script {"knead": 1, "commands": [...]}. `name` stands for the file in errors, which give the line
+/// With what a session begins unless it is told otherwise: {"do": "hold", "mode": "trim", "all": true}, so that the
+/// neighbours of every face still fit.
+[[nodiscard]] Command default_hold();
+
+/// The commands of a script {"knead": 2, "commands": [...]}, the first of them `default_hold`; a script of version 1
+/// begins without it. `name` stands for the file in errors, which give the line
 /// of a syntax error, or the path of a wrong value ("commands[2].radius").
-[[nodiscard]] Expected<std::vector<Command>> parse_script(std::string_view json, const std::string& name);
+/// \param before how many commands come before those that the script lists; may be null
+[[nodiscard]] Expected<std::vector<Command>> parse_script(std::string_view json, const std::string& name,
+                                                          std::size_t* before = nullptr);
 
 /// A script of these commands, one per line.
 [[nodiscard]] std::string script_json(const std::vector<Command>& commands);

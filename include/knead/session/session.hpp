@@ -93,6 +93,9 @@ class Session {
  private:
   struct ModelCache;
 
+  /// What faces show of those surfaces whose edges are held, which a snapshot leaves to the document.
+  void know_faces();
+
   Document document_;
   std::vector<Command> earlier_;  // of a history that was restored in part: they stand, and cannot be taken back
   std::vector<std::shared_ptr<const SessionState>> states_;  // one more than entries_

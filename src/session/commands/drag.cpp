@@ -68,7 +68,7 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fracti
 
 void describe(DragCommand& c, Fields& fields) {
   fields.name("drag", "take hold of a surface point, drag it and let go, as one command");
-  fields.add("at", c.at, {.help = "`[s, t]`: the point", .unit = Unit::fraction, .presence = Presence::required});
+  fields.add("at", c.at, {.help = "`[s, t]`: the point", .unit = Unit::fraction});
   fields.add("by", c.by, {.help = "`[dx, dy, dz]`", .unit = Unit::length, .presence = Presence::required});
   fields.add("radius", c.radius,
              {.help = "of the footprint, a length", .unit = Unit::length, .fallback = "a tenth of the diagonal"});
@@ -77,6 +77,7 @@ void describe(DragCommand& c, Fields& fields) {
   fields.add("plasticity", c.plasticity,
              {.help = "share of the displacement that becomes rest shape", .unit = Unit::fraction});
   fields.add("relative", c.relative, {.help = "`by` and `radius` are fractions of the diagonal"});
+  fields.add("middle", c.middle, {.help = "the visible point farthest from all edges, instead of `at`"});
 }
 
 template <>
@@ -97,7 +98,10 @@ Expected<void> Executor::execute(const DragCommand& c) {
   if (!(std::isfinite(radius) && radius > 0)) {
     return input_error(fmt::format("{} is not a radius", radius), "radius", "use a number > 0");
   }
-  const auto grip = footprint(*(*surface)->current, c.at, radius, c.strength);
+  const auto at = place_on(**surface, {c.at, c.middle.value_or(false)});
+  if (!at) return std::unexpected(at.error());
+  if (auto refined = refine_at_trims(**surface, *at, radius); !refined) return refined;
+  const auto grip = footprint(*(*surface)->current, *at, radius, c.strength);
   if (!grip) return std::unexpected(grip.error());
   for (int k = 0; k < c.steps; ++k) {
     std::vector<PointForce> forces = *grip;

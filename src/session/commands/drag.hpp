@@ -13,6 +13,7 @@ struct DragCommand {
   int steps = 4;
   double plasticity = 1;
   bool relative = false;
+  std::optional<bool> middle = {};  ///< of what is visible, instead of `at`
 };
 
 template <>

@@ -1,8 +1,38 @@
 #include "edge.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace knead {
+namespace {
+
+/// Holds or frees one edge of the faces on those selected surfaces that have it.
+Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
+  const int order = c.hold == EdgeCondition::free ? -1 : static_cast<int>(c.hold);
+  std::string known;
+  bool found = false;
+  for (int k : executor.state.selection()) {
+    SceneSurface& s = executor.state.surfaces[static_cast<std::size_t>(k)];
+    const auto visible = executor.visible(s);
+    if (!visible) return std::unexpected(visible.error());
+    for (const TrimEdge& edge : (*visible)->edges) {
+      known += (known.empty() ? "" : ", ") + edge.id;
+      if (edge.id != *c.edge) continue;
+      found = true;
+      std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
+        const auto* other = std::get_if<TrimEdgeHold>(&kept.constraint);
+        return other != nullptr && other->id == edge.id;
+      });
+      s.constraints.push_back({TrimEdgeHold{edge.id, order}, s.current});
+    }
+  }
+  if (found) return executor.check_constraints();
+  return input_error(fmt::format("no face on the selected surfaces has an edge {}", *c.edge), "which",
+                     known.empty() ? "no face lies on them" : "their edges are: " + known);
+}
+
+}  // namespace
 
 std::span<const Choice> choices(EdgeChoice) {
   static constexpr Choice list[] = {{"all", EdgeChoice::all},
@@ -25,11 +55,14 @@ void describe(EdgeCommand& c, Fields& fields) {
   fields.name("edge", "hold edges of the selected surfaces");
   fields.add("which", c.which);
   fields.add("hold", c.hold);
+  fields.add("edge", c.edge,
+             {.help = "`\"#456\"`: one edge of a face, as `knead info --faces` lists it, instead of `which`"});
 }
 
 template <>
 Expected<void> Executor::execute(const EdgeCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  if (c.edge) return hold_face_edge(*this, c);
   // One by one, so that they can be freed so.
   const std::vector<SurfaceEdge> edges = edges_of(c.which);
   const int order = c.hold == EdgeCondition::position ? 0 : c.hold == EdgeCondition::clamped ? 1 : 2;

@@ -9,6 +9,7 @@ enum class EdgeCondition { position, clamped, curvature, free };
 struct EdgeCommand {
   EdgeChoice which = EdgeChoice::all;
   EdgeCondition hold = EdgeCondition::position;
+  std::optional<std::string> edge = {};  ///< of a face, by its id in the file, instead of `which`
 };
 
 std::span<const Choice> choices(EdgeCondition);

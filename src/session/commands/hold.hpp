@@ -4,9 +4,17 @@
 
 namespace knead {
 
-/// Holds the outer `rows` rows of control points on every side; 0 holds none. Replaces an earlier hold.
+/// What a hold is about: outer rows of control points, or the edges of the faces on a surface.
+enum class HoldMode { rows, trim, trim_g1, trim_g2, free };
+
+std::span<const Choice> choices(HoldMode);
+
+/// Holds the outer `rows` rows of control points on every side, or the edges of the faces on a surface with their
+/// tangent planes (g1) and curvatures (g2); `free` holds neither. Replaces an earlier hold.
 struct HoldCommand {
   int rows = 2;
+  std::optional<HoldMode> mode = {};  ///< default: rows
+  std::optional<bool> all = {};       ///< of every surface of the document, not of the selected ones
 };
 
 template <>

@@ -11,7 +11,8 @@ std::span<const Choice> choices(RefinePermission) {
   static constexpr Choice list[] = {
       {"auto", RefinePermission::automatic,
        "from now on commands refine what they need (under a tool, at seams, for `mirror`)"},
-      {"never", RefinePermission::never, "they say what is missing"}};
+      {"never", RefinePermission::never, "they say what is missing"},
+      {"trims", RefinePermission::trims, "only between a tool and held edges of faces"}};
   return list;
 }
 
@@ -21,7 +22,7 @@ void describe(RefineCommand& c, Fields& fields) {
   fields.add("under", c.under, {.help = "name of a tool: halves the spans that it reaches"});
   fields.add("knots_u", c.knots_u, {.help = "knots to insert in u, as parameters of the file"});
   fields.add("knots_v", c.knots_v, {.help = "knots to insert in v"});
-  fields.add("permission", c.permission, {.fallback = "`\"never\"`"});
+  fields.add("permission", c.permission, {.fallback = "`\"trims\"`"});
 }
 
 template <>

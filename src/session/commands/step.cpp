@@ -4,11 +4,17 @@
 
 namespace knead {
 
+std::span<const Choice> choices(StepAllowance) {
+  static constexpr Choice names[] = {{"held", StepAllowance::held, "a tool may touch what is held alone"}};
+  return names;
+}
+
 void describe(StepCommand& c, Fields& fields) {
   fields.name("step", "let the selected surfaces evolve under the tools");
   fields.add("count", c.count, {.help = "number of steps"});
   fields.add("lambda", c.lambda, {.help = "for these steps only", .fallback = "that of `evolve`"});
   fields.add("weight", c.weight, {.help = "for these steps only", .fallback = "that of `evolve`"});
+  fields.add("allow", c.allow);
 }
 
 template <>
@@ -17,6 +23,7 @@ Expected<void> Executor::execute(const StepCommand& c) {
   EvolutionPolicy evolution = state.evolution;
   if (c.lambda) evolution.lambda = *c.lambda;
   if (c.weight) evolution.weight = *c.weight;
+  allow_held = c.allow.has_value();
   return run(c.count, evolution);
 }
 

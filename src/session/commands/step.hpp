@@ -4,11 +4,17 @@
 
 namespace knead {
 
+/// What a step goes on in spite of: that all is held which a tool touches.
+enum class StepAllowance { held };
+
+std::span<const Choice> choices(StepAllowance);
+
 /// Lets the selected surfaces evolve under the tools.
 struct StepCommand {
   int count = 1;
   std::optional<double> lambda;  ///< default: that of `evolve`
   std::optional<StepWeight> weight;
+  std::optional<StepAllowance> allow = {};
 };
 
 template <>

@@ -117,6 +117,7 @@ void describe(ToolCommand& c, Fields& fields) {
              {.help = "`[x, y, z]` of the centre; this or `at` is needed (a `surface` lies where it is without)",
               .unit = Unit::length});
   fields.add("at", c.at, {.help = "`[s, t]`: the centre on the surface as it is now", .unit = Unit::fraction});
+  fields.add("middle", c.middle, {.help = "the visible point farthest from all edges, instead of `at`"});
   fields.add("mode", c.mode);
   fields.add("stiffness", c.stiffness, {.help = "k, from 0 to 1e10", .fallback = "`1e4`; `100` for proximity"});
   fields.add("range", c.range,
@@ -134,9 +135,10 @@ template <>
 Expected<void> Executor::execute(const ToolCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
-  const bool own_place = c.shape == "surface" && !c.position && !c.at;  // a surface is where it is
-  if (!own_place && c.position.has_value() == c.at.has_value()) {
-    return input_error(c.at ? "both position and at are given" : "neither position nor at is given", "position",
+  const bool on_surface = c.at || c.middle.value_or(false);
+  const bool own_place = c.shape == "surface" && !c.position && !on_surface;  // a surface is where it is
+  if (!own_place && c.position.has_value() == on_surface) {
+    return input_error(on_surface ? "both position and at are given" : "neither position nor at is given", "position",
                        "give one of them");
   }
   if (auto done = check_ranges(type_of<ToolCommand>(), &c); !done) return done;
@@ -160,8 +162,10 @@ Expected<void> Executor::execute(const ToolCommand& c) {
   if (c.scale) placement.scale = *c.scale;
   if (c.position) {
     placement.position = unit * point_of(*c.position);
-  } else if (c.at) {
-    const auto u = parameters_at(*(*surface)->current, *c.at);
+  } else if (on_surface) {
+    const auto at = place_on(**surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
+    if (!at) return std::unexpected(at.error());
+    const auto u = parameters_at(*(*surface)->current, *at);
     if (!u) return std::unexpected(u.error());
     const auto point = evaluate_point<2>(*(*surface)->current, *u);
     if (!point) return std::unexpected(point.error());

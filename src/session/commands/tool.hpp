@@ -24,7 +24,8 @@ struct ToolCommand {
   bool rigid = false;
   double friction = 0;
   double plasticity = 0;
-  bool relative = false;  ///< lengths and position are fractions of the bounding-box diagonal
+  std::optional<bool> middle = {};  ///< of what is visible, instead of `at`
+  bool relative = false;            ///< lengths and position are fractions of the bounding-box diagonal
 };
 
 std::span<const Choice> choices(ToolMode);

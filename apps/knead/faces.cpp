@@ -1,0 +1,104 @@
+#include "faces.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include "cli.hpp"
+#include "knead/exchange/face_edges.hpp"
+#include "knead/scene/trims.hpp"
+
+namespace knead::cli {
+namespace {
+
+const char* hold_name(int order) {
+  constexpr const char* names[] = {"free", "position", "clamped", "curvature"};
+  return names[order + 1];
+}
+
+template <class F>
+void for_each_report(const SessionState& state, const F& f) {
+  for (const SceneSurface& s : state.surfaces) {
+    if (!s.visible || s.visible->edges.empty() || !holds_trims(s.constraints)) continue;
+    const auto report = trim_report(s);
+    if (report) f(s, *report);
+  }
+}
+
+void print_region(const step::SurfaceEntity& s, const VisibleRegion& region) {
+  const auto [lower, upper] = region.extent();
+  fmt::print("           visible from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) of the domain", lower.x(), lower.y(),
+             upper.x(), upper.y());
+  Eigen::AlignedBox3d box;
+  for (const TrimEdge& edge : region.edges) {
+    for (const Point& p : edge.points) box.extend(p);
+  }
+  fmt::print(", its edges from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.min().x(), box.min().y(),
+             box.min().z(), box.max().x(), box.max().y(), box.max().z());
+  if (const auto middle = visible_middle(s.surface, region)) {
+    fmt::print("           middle [{:.4f}, {:.4f}], {:.6g} from the nearest edge\n", middle->at.x(), middle->at.y(),
+               middle->distance);
+  }
+  for (const TrimEdge& edge : region.edges) {
+    std::string faces;
+    for (const std::string& face : edge.neighbours) faces += (faces.empty() ? "" : ", ") + face;
+    const auto &a = edge.course.front(), &b = edge.course.back();
+    fmt::print("           edge {:<8} ({:.4f}, {:.4f}) to ({:.4f}, {:.4f}), {}{}\n", edge.id, a.x(), a.y(), b.x(),
+               b.y(), faces.find(',') == std::string::npos ? "face " : "faces ", faces + (edge.seam ? ", a seam" : ""));
+  }
+}
+
+}  // namespace
+
+void print_edges(const SessionState& state) {
+  for_each_report(state, [](const SceneSurface& s, const TrimReport& report) {
+    int held = 0;
+    double largest = 0;
+    for (const TrimReport::Edge& edge : report.edges) {
+      held += edge.held.order >= 0 ? 1 : 0;
+      if (edge.held.order >= 0) largest = std::max(largest, edge.deviation);
+    }
+    fmt::print("  {}: {} of {} edges held, {} of {} control points free, largest deviation along held edges {:.2g} {}",
+               s.id, held, report.edges.size(), report.free, s.current->size(), largest, s.unit);
+    fmt::print("; largest edge gap {:.2g} {} (at {} points)\n", report.largest, s.unit, report.samples);
+  });
+}
+
+std::string edges_json(const SessionState& state) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for_each_report(state, [&](const SceneSurface& s, const TrimReport& report) {
+    nlohmann::ordered_json edges = nlohmann::ordered_json::array();
+    for (const TrimReport::Edge& edge : report.edges) {
+      edges.push_back({{"id", edge.held.id},
+                       {"hold", hold_name(edge.held.order)},
+                       {"along_lines", edge.held.along_lines},
+                       {"control_points", edge.held.points},
+                       {"deviation", edge.deviation},
+                       {"faces", edge.neighbours}});
+    }
+    list.push_back({{"surface", s.id},
+                    {"net", report.net},
+                    {"free", report.free},
+                    {"visible", report.visible},
+                    {"largest_gap", report.largest},
+                    {"samples", report.samples},
+                    {"edges", std::move(edges)}});
+  });
+  return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void print_faces(const step::File& file) {
+  for (const step::SurfaceEntity& s : file.surfaces()) {
+    const auto region = visible_region(file, s.id);
+    if (!region) {
+      fmt::print("  {:<8} its edges cannot be followed: {}\n", s.id, region.error().message());
+    } else if (!region->edges.empty()) {
+      fmt::print("  {:<8} {} edge{}{}\n", s.id, region->edges.size(), region->edges.size() == 1 ? "" : "s",
+                 region->in_shell ? ", in a shell" : "");
+      print_region(s, *region);
+    }
+  }
+}
+
+}  // namespace knead::cli

@@ -1,0 +1,164 @@
+#include "knead/scene/trims.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "knead/spline/evaluate.hpp"
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double least_tolerance = 1e-7;  // of the size
+
+/// |S_current − S_opened| at fractions, which may lie a turn off on closed surfaces.
+Expected<double> deviation_at(const SceneSurface& s, Eigen::Vector2d at) {
+  for (int d = 0; d < 2; ++d) {
+    if (s.visible->closed[static_cast<std::size_t>(d)] && (at[d] < 0 || at[d] > 1)) at[d] -= std::floor(at[d]);
+  }
+  const auto now = evaluate_point<2>(*s.current, parameters_of(*s.current, at));
+  const auto then = evaluate_point<2>(*s.opened, parameters_of(*s.opened, at));
+  if (!now) return std::unexpected(now.error());
+  if (!then) return std::unexpected(then.error());
+  return (*now - *then).norm();
+}
+
+}  // namespace
+
+bool holds_trims(const std::vector<KeptConstraint>& constraints) {
+  return std::ranges::any_of(constraints, [](const KeptConstraint& kept) {
+    return std::holds_alternative<TrimHolds>(kept.constraint) || std::holds_alternative<TrimEdgeHold>(kept.constraint);
+  });
+}
+
+std::vector<int> trim_orders(const std::vector<KeptConstraint>& constraints, const VisibleRegion& region) {
+  int all = -1;
+  for (const KeptConstraint& kept : constraints) {
+    if (const auto* trims = std::get_if<TrimHolds>(&kept.constraint)) all = trims->order;
+  }
+  std::vector<int> orders(region.edges.size(), all);
+  for (const KeptConstraint& kept : constraints) {
+    const auto* edge = std::get_if<TrimEdgeHold>(&kept.constraint);
+    for (std::size_t e = 0; edge != nullptr && e < orders.size(); ++e) {
+      if (region.edges[e].id == edge->id) orders[e] = edge->order;
+    }
+  }
+  return orders;
+}
+
+double trim_tolerance(const Surface& surface, const VisibleRegion& region) {
+  const Points& p = surface.control_points();
+  const double size = (p.colwise().maxCoeff() - p.colwise().minCoeff()).norm();
+  return std::max(region.uncertainty, least_tolerance * size);
+}
+
+Expected<TrimHold> hold_face_edges(const Surface& reference, const std::vector<KeptConstraint>& constraints,
+                                   const VisibleRegion& region, ConstraintList& list) {
+  const std::vector<int> orders = trim_orders(constraints, region);
+  if (region.edges.empty()) return TrimHold{{}, reference.size(), reference.size()};
+  return hold_trims(reference, region, orders, trim_tolerance(reference, region), list);
+}
+
+Expected<std::optional<TrimContact>> trim_contact(const SceneSurface& s, const Tool& tool) {
+  const ModelTool probe(tool, Point::Zero(), 1);
+  const Points& net = s.current->control_points();
+  const Point lower = net.colwise().minCoeff().transpose(), upper = net.colwise().maxCoeff().transpose();
+  if (!probe.may_reach(lower, upper)) return std::nullopt;
+  const VisibleRegion everything;
+  const VisibleRegion& region = s.visible ? *s.visible : everything;
+  const std::vector<int> orders = trim_orders(s.constraints, region);
+  std::vector<bool> held;
+  for (const int order : orders) held.push_back(order >= 0);
+  const double reach = tool.collides() ? 0 : tool.range;
+  const auto entry = [&](const Point& p) {
+    return tool.collides() ? probe.distance(p) : std::abs(probe.distance(p)) - reach;
+  };
+  // First the deepest point; where that is close to an edge, the one that is deep and far from edges.
+  auto best = visible_least(*s.current, region, entry);
+  if (!best) return std::unexpected(best.error());
+  if (!*best || (*best)->distance >= 0) return std::nullopt;
+  const auto distance = [&](const Eigen::Vector2d& at) -> double {
+    const auto then = evaluate_point<2>(*s.opened, parameters_of(*s.opened, at));
+    return then ? region.distance(*then, held) : 0;
+  };
+  TrimContact contact{parameters_of(*s.current, (*best)->at), distance((*best)->at)};
+  if (contact.distance < -(*best)->distance) {
+    best = visible_least(*s.current, region,
+                         [&](const Point& p) { return std::max(entry(p), -region.distance(p, held)); });
+    if (!best) return std::unexpected(best.error());
+    contact = {parameters_of(*s.current, (*best)->at), distance((*best)->at)};
+  }
+  return contact;
+}
+
+Expected<std::optional<Eigen::Vector2d>> first_fold(const Surface& before, const Surface& after,
+                                                    const VisibleRegion& region) {
+  constexpr int per_span = 4;
+  std::array<std::vector<double>, 2> grid;
+  for (int d = 0; d < 2; ++d) {
+    const KnotVector& knots = after.knots(d);
+    for (const int span : knots.spans()) {
+      for (int k = 0; k < per_span; ++k) {
+        grid[static_cast<std::size_t>(d)].push_back(knots[span] +
+                                                    (knots[span + 1] - knots[span]) * (k + 0.5) / per_span);
+      }
+    }
+  }
+  const auto a = evaluate_grid<2>(before, {std::span<const double>(grid[0]), grid[1]}, 1);
+  const auto b = evaluate_grid<2>(after, {std::span<const double>(grid[0]), grid[1]}, 1);
+  if (!a) return std::unexpected(a.error());
+  if (!b) return std::unexpected(b.error());
+  const double apart =
+      1e-9 * (before.control_points().colwise().maxCoeff() - before.control_points().colwise().minCoeff()).norm();
+  const auto normal = [](const Evaluation<2>& jet, Eigen::Index row) -> Point {
+    return Point(jet.at({1, 0}).row(row)).cross(Point(jet.at({0, 1}).row(row)));
+  };
+  const auto columns = static_cast<Eigen::Index>(grid[1].size());
+  for (Eigen::Index row = 0; row < a->points().rows(); ++row) {
+    if ((a->points().row(row) - b->points().row(row)).norm() <= apart) continue;
+    if (normal(*a, row).dot(normal(*b, row)) >= 0) continue;
+    Eigen::Vector2d at;
+    for (int d = 0; d < 2; ++d) {
+      const Interval domain = after.knots(d).domain();
+      const auto k = static_cast<std::size_t>(d == 0 ? row / columns : row % columns);
+      at[d] = (grid[static_cast<std::size_t>(d)][k] - domain.lower) / domain.length();
+    }
+    if (region.contains(at)) return at;
+  }
+  return std::nullopt;
+}
+
+Expected<TrimReport> trim_report(const SceneSurface& s) {
+  TrimReport report;
+  report.net = s.current->net();
+  ConstraintList list(s.current->size());
+  auto held = hold_face_edges(*s.reference, s.constraints, *s.visible, list);
+  if (!held) return std::unexpected(held.error());
+  report.free = held->free;
+  report.visible = held->visible;
+  for (std::size_t e = 0; e < s.visible->edges.size(); ++e) {
+    const TrimEdge& edge = s.visible->edges[e];
+    TrimReport::Edge& made = report.edges.emplace_back();
+    made.held = held->edges[e];
+    made.neighbours = edge.neighbours;
+    for (std::size_t k = 0; k < edge.course.size(); ++k) {
+      const auto measure = [&](const Eigen::Vector2d& at) -> Expected<void> {
+        const auto deviation = deviation_at(s, at);
+        if (!deviation) return std::unexpected(deviation.error());
+        made.deviation = std::max(made.deviation, *deviation);
+        ++report.samples;
+        return {};
+      };
+      if (auto done = measure(edge.course[k]); !done) return std::unexpected(done.error());
+      if (k == 0) continue;
+      if (auto done = measure(0.5 * (edge.course[k - 1] + edge.course[k])); !done) return std::unexpected(done.error());
+    }
+    report.largest = std::max(report.largest, made.deviation);
+  }
+  return report;
+}
+
+}  // namespace knead

@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "command_fields.hpp"
+#include "knead/exchange/face_edges.hpp"
+#include "knead/scene/trims.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+namespace {
+
+bool any_held(const SceneSurface& s) {
+  return s.visible && std::ranges::any_of(trim_orders(s.constraints, *s.visible), [](int order) { return order >= 0; });
+}
+
+/// Refines a surface round a place, which may lie this far from the nearest held edge.
+Expected<void> refine_round(Executor& executor, SceneSurface& s, const TrimContact& contact, double size) {
+  if (executor.state.permission == RefinePermission::never || !s.pins.empty()) return {};
+  const auto refinement = trim_refinement(*s.reference, contact.at, contact.distance, std::isfinite(size) ? size : 0,
+                                          trim_refinement_cap(*executor.document_surface(s)));
+  if (!refinement) return std::unexpected(refinement.error());
+  if (refinement->capped) {
+    executor.state.notes.push_back(fmt::format(
+        "{}: the net between tool and held edges stays coarser than it should be, as it may have {} control points; "
+        "refine it where it matters with {{\"do\":\"refine\"}}",
+        s.id, trim_refinement_cap(*executor.document_surface(s))));
+  }
+  if (refinement->empty()) return {};
+  return executor.change_net(s, [&](const Surface& shape) { return refinement->apply(shape); });
+}
+
+}  // namespace
+
+const Surface* Executor::document_surface(const SceneSurface& surface) const {
+  for (const DocumentSurface& s : document.surfaces()) {
+    if (s.id == surface.id) return s.surface.get();
+  }
+  return surface.opened.get();
+}
+
+Expected<const VisibleRegion*> Executor::visible(SceneSurface& surface) {
+  if (!surface.visible) {
+    const step::File* const file = document.step_file();
+    if (file == nullptr || file->find_surface(surface.id) == nullptr) {
+      surface.visible = std::make_shared<const VisibleRegion>();
+    } else {
+      auto region = visible_region(*file, surface.id);
+      if (!region) {
+        Error error = region.error();
+        error.what = fmt::format("the edges of the faces on {} cannot be followed: {}", surface.id, error.what);
+        error.remedy = R"(hold something else: {"do":"hold","rows":2}, or {"do":"hold","mode":"free"})";
+        return std::unexpected(error);
+      }
+      surface.visible = std::make_shared<const VisibleRegion>(std::move(*region));
+    }
+  }
+  return surface.visible.get();
+}
+
+Expected<void> Executor::know_trims() {
+  for (int k : state.selection()) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    if (!holds_trims(s.constraints)) continue;
+    if (auto region = visible(s); !region) return std::unexpected(region.error());
+  }
+  return {};
+}
+
+Expected<Fractions> Executor::place_on(SceneSurface& surface, const SurfacePlace& place) {
+  const bool strict = holds_trims(surface.constraints);
+  const step::SurfaceEntity* in_file =
+      document.step_file() != nullptr ? document.step_file()->find_surface(surface.id) : nullptr;
+  if (!place.middle && !strict && (in_file == nullptr || !in_file->trimmed)) return place.at;
+  const auto region = visible(surface);
+  if (!region) {
+    if (!place.middle && !strict) return place.at;
+    return std::unexpected(region.error());
+  }
+  if (place.middle) {
+    const auto middle = visible_middle(*surface.current, **region);
+    if (!middle) return std::unexpected(middle.error());
+    return Fractions{middle->at.x(), middle->at.y()};
+  }
+  const Eigen::Vector2d at(place.at[0], place.at[1]);
+  if (!(at.minCoeff() >= 0 && at.maxCoeff() <= 1) || (*region)->contains(at)) return place.at;
+  const auto where = evaluate_point<2>(*surface.current, parameters_of(*surface.current, at));
+  if (!where) return std::unexpected(where.error());
+  const auto near = visible_near(*surface.current, **region, *where);
+  if (!near) return std::unexpected(near.error());
+  const std::string what =
+      fmt::format("[{:.6g}, {:.6g}] is not visible: the faces on {} leave it out", at.x(), at.y(), surface.id);
+  const std::string remedy =
+      fmt::format("the nearest visible point is [{:.4f}, {:.4f}], the middle \"middle\"", near->at.x(), near->at.y());
+  if (strict) return input_error(what, "at", remedy);
+  state.notes.push_back(what + "; " + remedy);
+  return place.at;
+}
+
+Expected<void> Executor::refine_trims() {
+  if (auto known = know_trims(); !known) return known;
+  for (int k : state.selection()) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    if (!any_held(s)) continue;
+    for (const Tool& tool : state.tools) {
+      const auto contact = trim_contact(s, tool);
+      if (!contact) return std::unexpected(contact.error());
+      if (!*contact) continue;
+      if (auto done = refine_round(*this, s, **contact, tool.shape.size()); !done) return done;
+    }
+  }
+  return {};
+}
+
+Expected<void> Executor::refine_at_trims(SceneSurface& surface, const Fractions& at, double size) {
+  if (auto known = know_trims(); !known) return known;
+  if (!any_held(surface)) return {};
+  TrimContact contact{parameters_of(*surface.current, {at[0], at[1]}), 0};
+  const auto place = evaluate_point<2>(*surface.opened, contact.at);
+  if (!place) return std::unexpected(place.error());
+  std::vector<bool> held;
+  for (const int order : trim_orders(surface.constraints, *surface.visible)) held.push_back(order >= 0);
+  contact.distance = surface.visible->distance(*place, held);
+  return refine_round(*this, surface, contact, size);
+}
+
+Expected<void> Executor::check_folds() {
+  for (int k : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    if (!any_held(s) || s.current == s.opened) continue;
+    const auto fold = first_fold(*s.opened, *s.current, *s.visible);
+    if (!fold) return std::unexpected(fold.error());
+    if (!*fold) continue;
+    return numerical_error(
+        fmt::format("the step folds {} at [{:.4f}, {:.4f}] and was refused", s.id, (*fold)->x(), (*fold)->y()), "step",
+        R"(press less deep, go there in several steps with a larger lambda, or use a stiffer material)");
+  }
+  return {};
+}
+
+bool Executor::holds_edges() const {
+  return std::ranges::any_of(state.selection(), [this](int k) {
+    return holds_trims(state.surfaces[static_cast<std::size_t>(k)].constraints);
+  });
+}
+
+Error Executor::all_held(const std::string& tool) const {
+  std::string by, remedy;
+  for (int k : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    const auto [m, n] = s.current->net();
+    std::string what;
+    if (s.hold_rows > 0) {
+      what = fmt::format("hold of {} rows on its net of {} x {}", s.hold_rows, m, n);
+      remedy = R"(hold the edges of the face instead, {"do":"hold","mode":"trim"}, or fewer rows, or refine first)";
+    } else if (holds_trims(s.constraints)) {
+      what = fmt::format("hold of the edges of its faces on its net of {} x {}", m, n);
+      remedy = state.permission == RefinePermission::never
+                   ? R"(permit refining, {"do":"refine","permission":"trims"}, or free an edge)"
+                   : "press farther from the edges, or free the one that is near";
+    } else {
+      what = "pins, frozen regions and held lines";
+      remedy = "release some of it";
+    }
+    by += fmt::format("{}{}: {}", by.empty() ? "" : "; ", s.id, what);
+  }
+  return {ErrorKind::numerical, fmt::format("nothing is free to move under the tool {} ({})", tool, by), "step",
+          remedy + R"(; or go on regardless with "allow":"held")"};
+}
+
+}  // namespace knead

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace knead::oracle {
+
+/// One edge of a face: how far its curve in space is from a surface, lengths in mm.
+struct OcctEdge {
+  double tolerance = 0;  ///< that Open CASCADE gives the edge
+  double gap = 0;        ///< largest distance from the surface, at 41 points
+  double turn = 0;       ///< largest angle between the normals of two surfaces along the edge, degrees; 0 with one
+  bool smooth = false;   ///< another face meets there with the same tangent planes, to 0.1 degrees
+};
+
+/// The faces of a file that lie on B-spline surfaces, ready for measuring.
+class OcctFaces {
+ public:
+  /// Lengths in mm. None where the file cannot be read.
+  [[nodiscard]] static std::optional<OcctFaces> read(const std::filesystem::path& path);
+
+  [[nodiscard]] int faces() const;
+  [[nodiscard]] int bad_faces() const;  ///< that BRepCheck finds fault with
+  [[nodiscard]] int bad_edges() const;
+  [[nodiscard]] std::map<std::string, int> topology() const;
+
+  /// The edges of all faces on a surface of this file, in order, against that surface as it is in `after`: their
+  /// distance from it, and the angle by which its normals turned. Empty: there is no such face in one of the two.
+  [[nodiscard]] std::vector<OcctEdge> edges(const std::string& surface, const OcctFaces& after) const;
+  /// max |S_after − S| at a grid of 41 × 41 points of the surface that its faces show, and at those they do not.
+  struct Moved {
+    double visible = 0, hidden = 0;
+    bool folded = false;  ///< the normal of a point turned by more than 90 degrees
+  };
+  [[nodiscard]] Moved moved(const std::string& surface, const OcctFaces& after) const;
+
+  struct Data;
+
+ private:
+  explicit OcctFaces(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace knead::oracle

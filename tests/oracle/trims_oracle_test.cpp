@@ -1,0 +1,189 @@
+// Faces of real solids are pressed in their visible middle, and Open CASCADE measures whether their neighbours still
+// fit.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+#include "knead/exchange/face_edges.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "oracle/occt_gaps.hpp"
+#include "oracle/step_oracle.hpp"
+
+namespace knead::oracle {
+namespace {
+
+constexpr double closed = 1e-3;      // mm: an edge that is no farther from its faces counts as closed
+constexpr double same_angle = 1e-3;  // degrees
+constexpr std::size_t most_faces = 6;
+
+/// Up to six trimmed surfaces, small nets and large.
+std::vector<const step::SurfaceEntity*> chosen(const step::File& file) {
+  std::vector<const step::SurfaceEntity*> trimmed;
+  for (const auto& s : file.surfaces()) {
+    if (s.trimmed) trimmed.push_back(&s);
+  }
+  std::ranges::stable_sort(trimmed, {}, [](const step::SurfaceEntity* s) { return s->surface.size(); });
+  if (trimmed.size() <= most_faces) return trimmed;
+  std::vector<const step::SurfaceEntity*> result;
+  for (std::size_t k = 0; k < most_faces; ++k) {
+    result.push_back(trimmed[k * (trimmed.size() - 1) / (most_faces - 1)]);
+  }
+  return result;
+}
+
+std::string list_of(const Point& p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "[%.17g,%.17g,%.17g]", p.x(), p.y(), p.z());
+  return text;
+}
+
+/// A ball of half the distance to the nearest edge, pressed in by a quarter of its radius.
+struct Press {
+  std::string script;
+  std::array<double, 2> at = {};
+  Point place;
+  double radius = 0, depth = 0;
+};
+
+Expected<Press> press(const step::File& file, const step::SurfaceEntity& s, const std::string& mode) {
+  const auto region = visible_region(file, s.id);
+  if (!region) return std::unexpected(region.error());
+  const auto middle = visible_middle(s.surface, *region);
+  if (!middle) return std::unexpected(middle.error());
+  Press result;
+  result.at = parameters_of(s.surface, middle->at);
+  result.place = middle->place;
+  result.radius = middle->distance / 2;
+  result.depth = result.radius / 4;
+  Parameters<2> here(1, 2);
+  here << result.at[0], result.at[1];
+  const auto jet = evaluate<2>(s.surface, here, 1);
+  if (!jet) return std::unexpected(jet.error());
+  const Point n = Point(jet->at({1, 0}).row(0)).cross(Point(jet->at({0, 1}).row(0))).normalized();
+  char radius[32];
+  std::snprintf(radius, sizeof radius, "%.17g", result.radius);
+  result.script = R"({"knead":2,"commands":[{"do":"select","surface":")" + s.id +
+                  R"("},{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]},{"do":"hold","mode":")" + mode +
+                  R"("},{"do":"tool","name":"ball","radius":)" + radius + R"(,"rigid":true,"position":)" +
+                  list_of(result.place + (result.radius - result.depth) * n) + R"(},{"do":"evolve","mode":"static"}]})";
+  return result;
+}
+
+/// Records of `before` that are not in `after`, but for the surface itself and control points.
+std::vector<std::string> lost_records(const std::string& before, const std::string& after, const std::string& surface) {
+  const auto records = [](const std::string& text) {
+    std::multiset<std::string> result;
+    std::size_t begin = 0;
+    for (std::size_t at = text.find(";\n"); at != std::string::npos; at = text.find(";\n", begin)) {
+      result.insert(text.substr(begin, at - begin));
+      begin = at + 2;
+    }
+    return result;
+  };
+  const auto old_records = records(before), new_records = records(after);
+  std::vector<std::string> lost;
+  for (const std::string& record : old_records) {
+    if (new_records.contains(record) || record.find("CARTESIAN_POINT") != std::string::npos) continue;
+    const auto name = record.find_first_not_of(" \r\n");
+    if (name != std::string::npos && record.compare(name, surface.size(), surface) == 0 &&
+        !std::isdigit(static_cast<unsigned char>(record[name + surface.size()]))) {
+      continue;
+    }
+    lost.push_back(record);
+  }
+  return lost;
+}
+
+/// A row of the table in docs/trims.md, where its file is named.
+void write_row(const std::string& row) {
+  std::cout << row << "\n";
+  if (const char* path = std::getenv("KNEAD_TRIMS_TABLE")) std::ofstream(path, std::ios::app) << row << "\n";
+}
+
+class PressedFace : public StepOracle {
+ protected:
+  void press_all(const std::string& mode);
+};
+
+void PressedFace::press_all(const std::string& mode) {
+  const auto before = OcctFaces::read(GetParam());
+  ASSERT_TRUE(before);
+  for (const step::SurfaceEntity* s : chosen(*file_)) {
+    SCOPED_TRACE(s->id + " " + mode);
+    const auto pressed = press(*file_, *s, mode);
+    ASSERT_TRUE(pressed) << pressed.error().message();
+    Session session(Document::from(*open_source(file_->bytes(), file_->name())));
+    const auto commands = parse_script(pressed->script, "press");
+    ASSERT_TRUE(commands) << commands.error().message();
+    bool done = true;
+    for (const Command& command : *commands) {
+      const auto result = session.execute(command);
+      if (result) continue;
+      // A press that would fold the face is refused, which says so; anything else must work.
+      EXPECT_EQ(result.error().kind, ErrorKind::numerical) << result.error().message();
+      EXPECT_NE(result.error().message().find("folds"), std::string::npos) << result.error().message();
+      write_row(fmt::format("| {} | {} | {} | refused: it would fold | | | | | | |", GetParam().filename().string(),
+                            s->id, mode));
+      done = false;
+      break;
+    }
+    if (!done) continue;
+    const auto bytes = session.save();
+    ASSERT_TRUE(bytes) << bytes.error().message();
+    const auto path = directory_ / GetParam().filename();
+    ASSERT_TRUE(write_file_atomically(path, *bytes));
+    const auto after = OcctFaces::read(path);
+    ASSERT_TRUE(after);
+
+    EXPECT_EQ(before->topology(), after->topology());
+    EXPECT_LE(after->bad_faces(), before->bad_faces());
+    EXPECT_LE(after->bad_edges(), before->bad_edges());
+    for (const std::string& record : lost_records(file_->bytes(), *bytes, s->id)) ADD_FAILURE() << record << " is lost";
+
+    const auto edges_before = before->edges(s->id, *before), edges_after = before->edges(s->id, *after);
+    ASSERT_EQ(edges_before.size(), edges_after.size());
+    double gap_before = 0, gap = 0, turn = 0;
+    int smooth = 0;
+    for (std::size_t k = 0; k < edges_after.size(); ++k) {
+      EXPECT_LE(edges_after[k].gap, std::max({closed, edges_before[k].tolerance, edges_before[k].gap})) << "edge " << k;
+      gap_before = std::max(gap_before, edges_before[k].gap);
+      gap = std::max(gap, edges_after[k].gap);
+      if (mode == "trim-g1") {
+        EXPECT_LE(edges_after[k].turn, same_angle) << "edge " << k;
+      }
+      turn = std::max(turn, edges_after[k].turn);
+      smooth += edges_after[k].smooth ? 1 : 0;
+    }
+    const auto moved = before->moved(s->id, *after);
+    EXPECT_FALSE(moved.folded);
+    const auto& now = session.state().surfaces[static_cast<std::size_t>(*session.state().selected)];
+    const auto there = evaluate_point<2>(*now.current, pressed->at);
+    ASSERT_TRUE(there);
+    const double reached = (*there - pressed->place).norm() / pressed->depth;
+    EXPECT_GE(reached, 0.5) << "of the depth that was asked for";
+    const auto [m, n] = s->surface.net();
+    const auto [m2, n2] = now.current->net();
+    char row[400];
+    std::snprintf(row, sizeof row,
+                  "| %s | %s | %s | %zu (%d smooth) | %d × %d | %d × %d | %.0f %% | %.2g | %.2g | %.1g |",
+                  GetParam().filename().c_str(), s->id.c_str(), mode.c_str(), edges_after.size(), smooth, m, n, m2, n2,
+                  100 * reached, gap_before, gap, turn);
+    write_row(row);
+  }
+}
+
+TEST_P(PressedFace, StaysWithItsNeighboursWhereItsEdgesAreHeld) { press_all("trim"); }
+
+TEST_P(PressedFace, KeepsItsTangentPlanesToo) { press_all("trim-g1"); }
+
+INSTANTIATE_TEST_SUITE_P(Files, PressedFace, ::testing::ValuesIn(all_files()), test_name);
+
+}  // namespace
+}  // namespace knead::oracle

@@ -1,0 +1,174 @@
+// Faces that are cut by trimming edges: what holds them, what is refined for it, and what is said.
+
+#include "exchange/face_builder.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/scene/held_points.hpp"
+#include "knead/scene/trims.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+namespace {
+
+using testing::FaceBuilder;
+
+struct Disc {
+  step::File file;
+  std::string edge, hole;
+};
+
+/// The bilinear unit square #10, cut to a disc of radius 0.4 with a hole of 0.1 beside its middle.
+Disc disc() {
+  FaceBuilder b;
+  const int outer = b.circle(0.4, 0, 0.5, 0.5), hole = b.circle(0.1, 0, 0.6, 0.5);
+  const int face = b.face(10, {b.bound({outer}), b.bound({-hole})});
+  b.entity("OPEN_SHELL('',(#" + std::to_string(face) + "))");
+  return {
+      testing::parse_or_die(testing::step_text(testing::unit_square_points() + testing::bilinear_patch() + b.text())),
+      "#" + std::to_string(outer), "#" + std::to_string(hole)};
+}
+
+Document document(const step::File& file) { return Document::from(*open_source(file.bytes(), file.name())); }
+
+/// Runs commands up to the first that fails.
+Expected<void> run(Session& session, const std::string& commands, int version = 2) {
+  const auto script =
+      parse_script("{\"knead\":" + std::to_string(version) + ",\"commands\":[" + commands + "]}", "script");
+  if (!script) return std::unexpected(script.error());
+  for (const Command& command : *script) {
+    if (auto done = session.execute(command); !done) return done;
+  }
+  return {};
+}
+
+const std::string ball = R"({"do":"tool","name":"ball","radius":0.05,"rigid":true,"at":"middle"},
+  {"do":"move","tool":"ball","by":[0,0,0.04]})";
+const std::string pressed = ball + R"(,{"do":"evolve","mode":"static"})";
+
+double largest_gap(const Session& session) {
+  const auto report = trim_report(session.state().surfaces[0]);
+  EXPECT_TRUE(report);
+  return report ? report->largest : -1;
+}
+
+TEST(TrimCommands, AScriptOfVersion2HoldsTheEdgesOfFacesAndRefinesForIt) {
+  Session session(document(disc().file));
+  const auto done = run(session, pressed);
+  ASSERT_TRUE(done) << done.error().message();
+  EXPECT_GT(session.largest_displacement(0), 0.005);
+  EXPECT_EQ(largest_gap(session), 0);
+  const Surface& now = *session.state().surfaces[0].current;
+  EXPECT_GT(now.net()[0], 10);
+  EXPECT_EQ(now.knots(0).degree(), 3);
+  EXPECT_FALSE(session.state().notes.empty());
+}
+
+TEST(TrimCommands, AScriptOfVersion1HoldsNothingByItself) {
+  Session session(document(disc().file));
+  const auto done = run(session, ball + R"(,{"do":"step"})", 1);
+  ASSERT_TRUE(done) << done.error().message();
+  EXPECT_EQ(session.state().surfaces[0].current->net(), (std::array{2, 2}));
+  EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
+}
+
+TEST(TrimCommands, WhereNothingMayBeRefinedAndNothingIsFreeThatIsAnErrorWithTheRemedy) {
+  Session session(document(disc().file));
+  const auto done = run(session, R"({"do":"refine","permission":"never"},)" + pressed);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().kind, ErrorKind::numerical);
+  EXPECT_NE(done.error().message().find("nothing is free"), std::string::npos);
+  EXPECT_NE(done.error().remedy.find("permission"), std::string::npos);
+}
+
+TEST(TrimCommands, AStepOverWhatIsHeldCanBeAllowed) {
+  Session session(document(disc().file));
+  const auto done =
+      run(session, R"({"do":"refine","permission":"never"},)" + ball + R"(,{"do":"step","allow":"held"})");
+  EXPECT_TRUE(done) << done.error().message();
+  EXPECT_EQ(session.largest_displacement(0), 0);
+}
+
+TEST(TrimCommands, AnEdgeThatIsFreedMayMove) {
+  const Disc d = disc();
+  Session session(document(d.file));
+  ASSERT_TRUE(run(session, R"({"do":"edge","which":")" + d.hole + R"(","hold":"free"},
+    {"do":"tool","radius":0.08,"at":[0.45,0.5]},{"do":"move","by":[0,0,0.06]},{"do":"evolve","mode":"static"})"));
+  const auto report = trim_report(session.state().surfaces[0]);
+  ASSERT_TRUE(report);
+  for (const auto& edge : report->edges) {
+    if (edge.held.id == d.hole) {
+      EXPECT_EQ(edge.held.order, -1);
+      EXPECT_GT(edge.deviation, 1e-4);
+    } else {
+      EXPECT_EQ(edge.deviation, 0);
+    }
+  }
+}
+
+TEST(TrimCommands, AnEdgeThatThereIsNotIsNamedWithThoseThereAre) {
+  const Disc d = disc();
+  Session session(document(d.file));
+  const auto done = run(session, R"({"do":"edge","which":"#5","hold":"free"})");
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().remedy.find(d.edge), std::string::npos);
+}
+
+TEST(TrimCommands, APlaceThatIsNotVisibleIsAnErrorThatNamesTheNearestOneThatIs) {
+  Session session(document(disc().file));
+  const auto done = run(session, R"({"do":"tool","radius":0.1,"at":[0.58,0.5]})");
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().where, "at");
+  EXPECT_NE(done.error().remedy.find("[0.5"), std::string::npos) << done.error().remedy;
+}
+
+TEST(TrimCommands, InAScriptOfVersion1ItIsNoted) {
+  Session session(document(disc().file));
+  ASSERT_TRUE(run(session, R"({"do":"tool","radius":0.1,"at":[0.58,0.5]})", 1));
+  ASSERT_EQ(session.state().notes.size(), 1U);
+  EXPECT_NE(session.state().notes[0].find("not visible"), std::string::npos);
+}
+
+TEST(TrimCommands, EveryHoldReplacesTheOneBefore) {
+  Session session(document(disc().file));
+  ASSERT_TRUE(run(session, R"({"do":"hold","mode":"trim-g2"})"));
+  ASSERT_EQ(session.state().surfaces[0].constraints.size(), 1U);
+  EXPECT_EQ(std::get<TrimHolds>(session.state().surfaces[0].constraints[0].constraint).order, 2);
+  ASSERT_TRUE(run(session, R"({"do":"hold","rows":1})", 1));
+  EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
+  EXPECT_EQ(session.state().surfaces[0].hold_rows, 1);
+  ASSERT_TRUE(run(session, R"({"do":"hold","mode":"trim"})", 1));
+  EXPECT_EQ(session.state().surfaces[0].hold_rows, 0);
+  ASSERT_TRUE(run(session, R"({"do":"hold","mode":"free"})", 1));
+  EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
+}
+
+TEST(TrimCommands, ASnapshotKeepsTheHold) {
+  const Disc d = disc();
+  Session session(document(d.file));
+  ASSERT_TRUE(run(session, R"({"do":"edge","which":")" + d.hole + R"(","hold":"clamped"},)" + pressed));
+  auto restored = Session::restore(document(d.file), session.snapshot());
+  ASSERT_TRUE(restored) << restored.error().message();
+  const SceneSurface &a = session.state().surfaces[0], &b = restored->state().surfaces[0];
+  ASSERT_EQ(a.constraints.size(), b.constraints.size());
+  for (std::size_t k = 0; k < a.constraints.size(); ++k) {
+    EXPECT_EQ(a.constraints[k].constraint, b.constraints[k].constraint);
+    EXPECT_EQ(a.constraints[k].where->control_points(), b.constraints[k].where->control_points());
+  }
+  ASSERT_TRUE(b.visible);
+  EXPECT_EQ(*a.visible, *b.visible);
+  EXPECT_EQ(*held_points(held_input(a)), *held_points(held_input(b)));
+}
+
+TEST(TrimCommands, ThePointsThatAreHeldAreShown) {
+  Session session(document(disc().file));
+  ASSERT_TRUE(run(session, pressed));
+  const auto held = held_points(held_input(session.state().surfaces[0]));
+  ASSERT_TRUE(held);
+  const auto report = trim_report(session.state().surfaces[0]);
+  EXPECT_EQ(std::ranges::count(*held, 0), report->free);
+  EXPECT_GE(report->free, 9);
+}
+
+}  // namespace
+}  // namespace knead
