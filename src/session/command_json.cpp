@@ -32,13 +32,57 @@ Json spelled_out(Json json) {
   return json;
 }
 
-Expected<Command> read_command(const Json& given) {
-  const Json json = spelled_out(given);
-  CommandVariant fields;
-  if (auto done = read_variant(json, type_of<CommandVariant>(), &fields, "command"); !done) {
+Expected<int> version_in(const Json& json, std::string_view what, const char* form) {
+  const Json* version = json.find("knead");
+  if (version != nullptr && version->is(Json::Kind::number) && (version->number == 1 || version->number == 2)) {
+    return static_cast<int>(version->number);
+  }
+  return input_error(fmt::format("the version of the {} is neither 1 nor 2", what), "knead", form);
+}
+
+/// Fields that the rest of a command leaves without a meaning: errors, or of version 1 noted.
+template <class C>
+Expected<void> leave_out(const Json& json, int version, const C& command, AnyCommand& any) {
+  if constexpr (requires { inapplicable(command, std::string_view{}); }) {
+    Json rest = json;
+    for (const auto& [name, value] : json.members) {
+      const bool says_nothing = value.is(Json::Kind::null) || (value.is(Json::Kind::list) && value.list.empty());
+      const std::optional<Error> error = inapplicable(command, name);
+      if (!error || says_nothing) continue;
+      if (version > 1) return std::unexpected(*error);
+      any.notes.push_back(
+          fmt::format("{}: {}, and it was left out; {}", type_of<C>().name, error->what, error->remedy));
+      std::erase_if(rest.members, [&](const auto& member) { return member.first == name; });
+    }
+    if (any.notes.empty()) return {};
+    CommandVariant without;
+    if (auto done = read_variant(rest, type_of<CommandVariant>(), &without, "command"); !done) return done;
+    any.without = std::move(without);
+  }
+  return {};
+}
+
+/// A command of this version, unless it says itself of which it is.
+Expected<Command> read_command(const Json& given, int version) {
+  Json json = spelled_out(given);
+  if (json.is(Json::Kind::object) && json.find("knead") != nullptr) {
+    const auto own = version_in(json, "command", "leave it out, or give 1 or 2");
+    if (!own) return std::unexpected(own.error());
+    version = *own;
+    std::erase_if(json.members, [](const auto& member) { return member.first == "knead"; });
+  }
+  AnyCommand any;
+  if (auto done = read_variant(json, type_of<CommandVariant>(), &any.fields, "command"); !done) {
     return std::unexpected(done.error());
   }
-  return make_command(std::move(fields));
+  const auto complete = [&](auto& command) -> Expected<void> {
+    if constexpr (requires { read_as_version_1(command); }) {
+      if (version == 1) read_as_version_1(command);
+    }
+    return leave_out(json, version, command, any);
+  };
+  if (auto done = std::visit(complete, any.fields); !done) return std::unexpected(done.error());
+  return Command(std::move(any));
 }
 
 }  // namespace
@@ -46,7 +90,7 @@ Expected<Command> read_command(const Json& given) {
 Expected<Command> parse_command(std::string_view text) {
   const auto json = parse_json(text);
   if (!json) return std::unexpected(json.error());
-  return read_command(*json);
+  return read_command(*json, 1);
 }
 
 std::string to_json(const Command& command) { return to_json(type_of<CommandVariant>(), &command.any().fields); }
@@ -71,19 +115,17 @@ Expected<std::vector<Command>> parse_script(std::string_view text, const std::st
       return fail({ErrorKind::input, "a script has no such field", member, "the fields are: knead, commands"});
     }
   }
-  const Json* version = json->find("knead");
-  if (version == nullptr || !version->is(Json::Kind::number) || (version->number != 1 && version->number != 2)) {
-    return fail({ErrorKind::input, "the version of the script is not 1 or 2", "knead", form});
-  }
+  const auto version = version_in(*json, "script", form);
+  if (!version) return fail(version.error());
   const Json* list = json->find("commands");
   if (list == nullptr || !list->is(Json::Kind::list)) {
     return fail({ErrorKind::input, "the list of commands is missing", "commands", form});
   }
   std::vector<Command> commands;
-  if (version->number == 2) commands.push_back(default_hold());
+  if (*version == 2) commands.push_back(default_hold());
   if (before != nullptr) *before = commands.size();
   for (std::size_t k = 0; k < list->list.size(); ++k) {
-    auto command = read_command(list->list[k]);
+    auto command = read_command(list->list[k], *version);
     if (!command) {
       Error error = command.error();
       error.where = fmt::format("commands[{}]", k) + (error.where.empty() ? "" : "." + error.where);

@@ -5,6 +5,7 @@
 #include "commands/coarsen.hpp"
 #include "commands/drag.hpp"
 #include "commands/edge.hpp"
+#include "commands/edit_tool.hpp"
 #include "commands/elevate.hpp"
 #include "commands/evolve.hpp"
 #include "commands/force.hpp"
@@ -46,16 +47,19 @@ namespace knead {
 using CommandVariant =
     std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand, PinCommand,
                  EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand,
-                 ToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand, LoadCommand,
-                 LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, RelaxCommand, LatticeCommand,
-                 PointsCommand, WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand, CoarsenCommand,
-                 UndoCommand, RedoCommand>;
+                 ToolCommand, EditToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand,
+                 LoadCommand, LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, RelaxCommand,
+                 LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand,
+                 CoarsenCommand, UndoCommand, RedoCommand>;
 
 template <>
 const Type& type_of<CommandVariant>();
 
 struct AnyCommand {
   CommandVariant fields;
+  /// Of version 1, where fields do not apply: what is executed and kept in their stead, and what is noted of it.
+  std::optional<CommandVariant> without = {};
+  std::vector<std::string> notes = {};
 };
 
 /// A command of these fields.

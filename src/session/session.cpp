@@ -42,14 +42,17 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
     ++position_;
     return {};
   }
+  const AnyCommand& any = command.any();
+  const Command meant = any.without ? make_command(*any.without) : command;
   auto next = std::make_shared<SessionState>(state());
+  next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
   Executor executor{document_, cache_->model, *next, progress};
   const auto execute = [&](const auto& fields) { return executor.execute(fields); };
-  if (auto done = std::visit(execute, command.any().fields); !done) return done;
+  if (auto done = std::visit(execute, meant.any().fields); !done) return done;
   states_.resize(position_ + 1);
   entries_.resize(position_);
   states_.push_back(std::move(next));
-  entries_.push_back({command});
+  entries_.push_back({meant});
   ++position_;
   return {};
 }

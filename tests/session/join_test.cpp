@@ -19,7 +19,7 @@ Session sheet() {
 Command ball(double x) {
   ToolCommand tool;
   tool.name = "ball";
-  tool.radius = 0.2;
+  tool.measures.radius = 0.2;
   tool.position = Vector3{x, 0.5, 0.1};
   tool.plasticity = 1;
   return make_command(tool);

@@ -10,7 +10,12 @@
 
 namespace knead {
 
-/// One command from its JSON form. Errors (input) name the field; an unknown command or field lists the known ones.
+// The language of commands has two versions. In version 1, the first, fields that the shape of a tool or a new surface
+// does not have are left out with a note, and a `material` that names nothing resets stretch and bend; in version 2
+// both are errors, and scripts begin with `default_hold`.
+
+/// One command from its JSON form, of version 1 unless it says otherwise ("knead": 2). Errors (input) name the field;
+/// an unknown command or field lists the known ones.
 [[nodiscard]] Expected<Command> parse_command(std::string_view json);
 
 /// The JSON form of a command, every field written out, numbers to 17 significant digits; parsing it gives the same
@@ -35,7 +40,7 @@ namespace knead {
 [[nodiscard]] Expected<std::vector<Command>> parse_script(std::string_view json, const std::string& name,
                                                           std::size_t* before = nullptr);
 
-/// A script of these commands, one per line.
+/// A script of these commands, one per line. It is of version 1, so that nothing comes before them.
 [[nodiscard]] std::string script_json(const std::vector<Command>& commands);
 
 /// All commands, in the order of the help.

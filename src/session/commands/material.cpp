@@ -19,16 +19,67 @@ Coefficient<2>* coefficient_named(MaterialFieldOf<2>& material, const std::strin
   return nullptr;
 }
 
+/// One coefficient by samples over the whole domain.
+Expected<MaterialFieldOf<2>> sampled(const MaterialCommand& c, const SceneSurface& s) {
+  auto field = sampled_field<2>({s.reference->knots(0).domain(), s.reference->knots(1).domain()}, c.counts, c.samples);
+  if (!field) return std::unexpected(field.error().within("samples"));
+  MaterialFieldOf<2> next = s.material;
+  Coefficient<2>* const place = coefficient_named(next, *c.coefficient);
+  if (place == nullptr) {
+    return input_error(fmt::format("\"{}\" is not a coefficient", *c.coefficient), "coefficient",
+                       "use alpha11, alpha12, alpha22, beta11, beta12, beta22, mass or damping");
+  }
+  *place = std::move(*field);
+  return next;
+}
+
+/// The constants that are named, everywhere.
+MaterialFieldOf<2> everywhere(const MaterialCommand& c, const SceneSurface& s) {
+  MaterialFieldOf<2> next = s.material;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (c.alpha) next.alpha[i] = (*c.alpha)[i];
+    if (c.beta) next.beta[i] = (*c.beta)[i];
+  }
+  if (c.mass) next.mass = *c.mass;
+  if (c.damping) next.damping = *c.damping;
+  return next;
+}
+
+/// The constants that are named, in the region.
+Expected<MaterialFieldOf<2>> painted(const MaterialCommand& c, const SceneSurface& s) {
+  const auto where = region_at(*s.reference, *c.region);
+  if (!where) return std::unexpected(where.error());
+  Region<2> region;
+  const auto& [u, v] = *where;
+  region.shape = ParameterBox<2>{{u.lower, v.lower}, {u.upper, v.upper}};
+  region.falloff = c.falloff;
+  // The fall-off is a fraction of the domain in either direction.
+  for (std::size_t d = 0; d < 2; ++d) region.factors[d] = 1 / s.reference->knots()[d].domain().length();
+  MaterialPaint<2> values;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (c.alpha) values.alpha[i] = (*c.alpha)[i];
+    if (c.beta) values.beta[i] = (*c.beta)[i];
+  }
+  values.mass = c.mass;
+  values.damping = c.damping;
+  std::vector<KnotVector> hint;
+  for (std::size_t d = 0; d < 2; ++d) {
+    const Interval domain = s.reference->knots()[d].domain();
+    hint.push_back(
+        *KnotVector::create(2, {domain.lower, domain.lower, domain.lower, domain.upper, domain.upper, domain.upper}));
+  }
+  return paint<2>(s.material, values, region, {hint[0], hint[1]});
+}
+
 }  // namespace
 
 void describe(MaterialCommand& c, Fields& fields) {
-  fields.name("material", "resistance to stretch and bend, in the order 11, 12, 22");
-  fields.add("alpha", c.material.alpha, {.help = "stretch; α11, α22 ≥ 0 and α12² ≤ α11 α22"});
-  fields.add("beta", c.material.beta, {.help = "bend; none negative"});
-  fields.add("mass", c.mass,
-             {.help = "per area, for `evolve` dynamic and `load` gravity", .fallback = "as it was, at first 1"});
+  fields.name("material", "resistance to stretch and bend, in the order 11, 12, 22; what is not named stays");
+  fields.add("alpha", c.alpha, {.help = "stretch; α11, α22 ≥ 0 and α12² ≤ α11 α22", .fallback = "as it was"});
+  fields.add("beta", c.beta, {.help = "bend; none negative", .fallback = "as it was"});
+  fields.add("mass", c.mass, {.help = "per area, for `evolve` dynamic and `load` gravity", .fallback = "as it was"});
   fields.add("damping", c.damping,
-             {.help = "force per velocity and area, for `evolve` dynamic", .fallback = "as it was, at first 0.5"});
+             {.help = "force per velocity and area, for `evolve` dynamic", .fallback = "as it was"});
   fields.add("region", c.region,
              {.help = "`[[s0, s1], [t0, t1]]`: only there; what was set elsewhere stays",
               .unit = Unit::fraction,
@@ -42,60 +93,28 @@ void describe(MaterialCommand& c, Fields& fields) {
              {.help = "m n numbers, along v first, linear in between; all that is convex coefficient by coefficient"});
 }
 
+void read_as_version_1(MaterialCommand& c) {
+  if (c.alpha || c.beta || c.mass || c.damping || c.coefficient) return;
+  c.alpha = Material{}.alpha;
+  c.beta = Material{}.beta;
+}
+
 template <>
 Expected<void> Executor::execute(const MaterialCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  if (auto material = validated(c.material); !material) return std::unexpected(material.error());
+  if (!c.alpha && !c.beta && !c.mass && !c.damping && !c.coefficient) {
+    return input_error("no coefficient is named", "alpha", "give alpha, beta, mass, damping, or coefficient");
+  }
+  Material constants;
+  if (c.alpha) constants.alpha = *c.alpha;
+  if (c.beta) constants.beta = *c.beta;
+  if (auto material = validated(constants); !material) return std::unexpected(material.error());
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    MaterialFieldOf<2> next;
-    if (c.coefficient) {
-      next = s.material;
-      auto field =
-          sampled_field<2>({s.reference->knots(0).domain(), s.reference->knots(1).domain()}, c.counts, c.samples);
-      if (!field) return std::unexpected(field.error().within("samples"));
-      Coefficient<2>* const place = coefficient_named(next, *c.coefficient);
-      if (place == nullptr) {
-        return input_error(fmt::format("\"{}\" is not a coefficient", *c.coefficient), "coefficient",
-                           "use alpha11, alpha12, alpha22, beta11, beta12, beta22, mass or damping");
-      }
-      *place = std::move(*field);
-    } else if (!c.region) {
-      next = s.material;
-      for (std::size_t i = 0; i < 3; ++i) {
-        next.alpha[i] = c.material.alpha[i];
-        next.beta[i] = c.material.beta[i];
-      }
-      if (c.mass) next.mass = *c.mass;
-      if (c.damping) next.damping = *c.damping;
-    } else {
-      const auto where = region_at(*s.reference, *c.region);
-      if (!where) return std::unexpected(where.error());
-      Region<2> region;
-      const auto& [u, v] = *where;
-      region.shape = ParameterBox<2>{{u.lower, v.lower}, {u.upper, v.upper}};
-      region.falloff = c.falloff;
-      // The fall-off is a fraction of the domain in either direction.
-      for (std::size_t d = 0; d < 2; ++d) region.factors[d] = 1 / s.reference->knots()[d].domain().length();
-      MaterialPaint<2> values;
-      for (std::size_t i = 0; i < 3; ++i) {
-        values.alpha[i] = c.material.alpha[i];
-        values.beta[i] = c.material.beta[i];
-      }
-      values.mass = c.mass;
-      values.damping = c.damping;
-      std::vector<KnotVector> hint;
-      for (std::size_t d = 0; d < 2; ++d) {
-        const Interval domain = s.reference->knots()[d].domain();
-        hint.push_back(*KnotVector::create(
-            2, {domain.lower, domain.lower, domain.lower, domain.upper, domain.upper, domain.upper}));
-      }
-      auto painted = paint<2>(s.material, values, region, {hint[0], hint[1]});
-      if (!painted) return std::unexpected(painted.error());
-      next = std::move(*painted);
-    }
-    if (auto checked = validated<2>(next); !checked) return std::unexpected(checked.error());
-    s.material = std::move(next);
+    auto next = c.coefficient ? sampled(c, s) : c.region ? painted(c, s) : everywhere(c, s);
+    if (!next) return std::unexpected(next.error());
+    if (auto checked = validated<2>(*next); !checked) return std::unexpected(checked.error());
+    s.material = std::move(*next);
   }
   return {};
 }

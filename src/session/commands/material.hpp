@@ -4,12 +4,13 @@
 
 namespace knead {
 
-/// Sets the stretch and bend coefficients of the selected surfaces, everywhere or in a region.
+/// Sets stretch and bend coefficients, mass and damping of the selected surfaces, everywhere or in a region. What is
+/// not named stays as it is.
 struct MaterialCommand {
-  Material material;
+  std::optional<std::array<double, 3>> alpha, beta;  ///< in the order 11, 12, 22
   std::optional<double> mass, damping;
-  std::optional<std::array<Fractions, 2>> region;  ///< [[s0, s1], [t0, t1]]
-  double falloff = 0.1;                            ///< width of the way from old to new, in fractions
+  std::optional<FractionBox> region;
+  double falloff = 0.1;  ///< width of the border between old and new, in fractions
   /// One coefficient alone ("alpha11" … "beta22", "mass", "damping") by samples on a grid over the domain.
   std::optional<std::string> coefficient;
   std::array<int, 2> counts = {0, 0};
@@ -19,5 +20,8 @@ struct MaterialCommand {
 template <>
 Expected<void> Executor::execute(const MaterialCommand& c);
 void describe(MaterialCommand& c, Fields& fields);
+
+/// Version 1: a `material` that names nothing sets stretch and bend to what they are at first.
+void read_as_version_1(MaterialCommand& c);
 
 }  // namespace knead

@@ -41,12 +41,13 @@ Expected<void> check_weights(const std::vector<double>& weights, int count) {
 /// A sheet in z = 0, or the control points as given.
 Expected<Surface> net_of(const NewCommand& c) {
   const bool explicit_points = !c.points.empty();
+  const std::array<double, 2> size = c.size.value_or(std::array<double, 2>{1, 1});
   std::vector<KnotVector> knots;
   for (std::size_t d = 0; d < 2; ++d) {
     auto made = knots_of(c, d, c.net[d], "net");
     if (!made) return std::unexpected(made.error());
-    if (!explicit_points && !(std::isfinite(c.size[d]) && c.size[d] > 0)) {
-      return input_error(fmt::format("{} is not a size", c.size[d]), "size", "use two numbers > 0");
+    if (!explicit_points && !(std::isfinite(size[d]) && size[d] > 0)) {
+      return input_error(fmt::format("{} is not a size", size[d]), "size", "use two numbers > 0");
     }
     knots.push_back(std::move(*made));
   }
@@ -67,8 +68,8 @@ Expected<Surface> net_of(const NewCommand& c) {
         const Vector3& p = c.points[static_cast<std::size_t>(i * n + j)];
         points.row(i * n + j) << p[0], p[1], p[2];
       } else {
-        points.row(i * n + j) << c.size[0] * ((knots[0].greville(i) - u.lower) / u.length()),
-            c.size[1] * ((knots[1].greville(j) - v.lower) / v.length()), 0;
+        points.row(i * n + j) << size[0] * ((knots[0].greville(i) - u.lower) / u.length()),
+            size[1] * ((knots[1].greville(j) - v.lower) / v.length()), 0;
       }
     }
   }
@@ -162,7 +163,29 @@ Expected<Surface> placed(Surface surface, const Vector3& position) {
   return surface.with_control_points(std::move(points));
 }
 
+struct Measures {
+  std::string_view shape;
+  std::vector<std::string_view> fields;
+};
+
 }  // namespace
+
+void read_as_version_1(NewCommand& c) {
+  if (c.shape != "plane" && c.size == std::array<double, 2>{1, 1}) c.size.reset();
+}
+
+std::optional<Error> inapplicable(const NewCommand& c, std::string_view field) {
+  static const std::vector<Measures> shapes = {{"plane", {"size"}},
+                                               {"cylinder", {"radius", "height"}},
+                                               {"sphere", {"radius"}},
+                                               {"torus", {"radius", "minor"}},
+                                               {"revolution", {"profile"}}};
+  if (field == "size" && !c.size) return std::nullopt;
+  const auto has = [field](const Measures& m) { return std::ranges::find(m.fields, field) != m.fields.end(); };
+  const auto own = std::ranges::find(shapes, c.shape, &Measures::shape);
+  if (own == shapes.end() || has(*own) || std::ranges::none_of(shapes, has)) return std::nullopt;
+  return no_such_measure(own->shape, field, own->fields);
+}
 
 void describe(NewCommand& c, Fields& fields) {
   fields.name("new", "make a surface, in a document without a file, and select it");
@@ -170,7 +193,9 @@ void describe(NewCommand& c, Fields& fields) {
              {.help = "`\"plane\"`: a flat sheet in z = 0 with a corner in the origin. `\"cylinder\"`: without its "
                       "ends, the lower one in z = 0. `\"sphere\"`: about the origin, v from pole to pole. `\"torus\"`: "
                       "about the origin. `\"revolution\"` of a profile"});
-  fields.add("size", c.size, {.help = "of a plane: width along x (u) and height along y (v)", .unit = Unit::length});
+  fields.add(
+      "size", c.size,
+      {.help = "of a plane: width along x (u) and height along y (v)", .unit = Unit::length, .fallback = "`[1, 1]`"});
   fields.add("radius", c.radius,
              {.help = "of cylinder and sphere; of a torus that of the middle of its tube",
               .unit = Unit::length,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../command_fields.hpp"
+#include "../shape_fields.hpp"
 
 namespace knead {
 
@@ -8,11 +8,11 @@ namespace knead {
 /// control points.
 struct NewCommand {
   std::string shape = "plane";
-  std::array<double, 2> size = {1, 1};
-  std::optional<double> radius;    ///< of cylinder, sphere and torus; default: 0.5
-  std::optional<double> height;    ///< of a cylinder; default: twice the radius
-  std::optional<double> minor;     ///< tube radius of a torus; default: a quarter of the radius
-  std::vector<Fractions> profile;  ///< of a revolution: control points (r, z)
+  std::optional<std::array<double, 2>> size;  ///< of a plane; default: [1, 1]
+  std::optional<double> radius;               ///< of cylinder, sphere and torus; default: 0.5
+  std::optional<double> height;               ///< of a cylinder; default: twice the radius
+  std::optional<double> minor;                ///< tube radius of a torus; default: a quarter of the radius
+  std::vector<Fractions> profile;             ///< of a revolution: control points (r, z)
   std::array<int, 2> degree = {3, 3};
   std::array<int, 2> net = {8, 8};
   std::vector<double> knots_u, knots_v;  ///< empty: clamped, uniform on [0, 1]
@@ -26,5 +26,11 @@ struct NewCommand {
 template <>
 Expected<void> Executor::execute(const NewCommand& c);
 void describe(NewCommand& c, Fields& fields);
+
+/// Version 1: programs wrote the size of a plane for every shape, where it says nothing.
+void read_as_version_1(NewCommand& c);
+
+/// The error for a measure that the shape of the command does not have; nothing for other fields.
+[[nodiscard]] std::optional<Error> inapplicable(const NewCommand& c, std::string_view field);
 
 }  // namespace knead

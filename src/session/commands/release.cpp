@@ -1,19 +1,50 @@
 #include "release.hpp"
 
-namespace knead {
+#include <fmt/format.h>
 
-void describe(ReleaseCommand&, Fields& fields) {
-  fields.name("release", "free all that is held, pinned, frozen or kept");
+#include <algorithm>
+
+namespace knead {
+namespace {
+
+constexpr std::string_view kinds[] = {"hold", "pins", "edges", "freeze", "keep", "symmetry"};
+
+/// What `release` calls a constraint.
+struct KindOf {
+  std::string_view operator()(const EdgeHold&) const { return "edges"; }
+  std::string_view operator()(const PointPin&) const { return "pins"; }
+  std::string_view operator()(const Freeze&) const { return "freeze"; }
+  std::string_view operator()(const Keep&) const { return "keep"; }
+  std::string_view operator()(const EdgeSymmetry&) const { return "symmetry"; }
+  std::string_view operator()(const MirrorSymmetry&) const { return "symmetry"; }
+  std::string_view operator()(const TrimHolds&) const { return "hold"; }
+  std::string_view operator()(const TrimEdgeHold&) const { return "edges"; }
+};
+
+}  // namespace
+
+void describe(ReleaseCommand& c, Fields& fields) {
+  fields.name("release", "free what is held, pinned, frozen or kept");
+  fields.add("what", c.what,
+             {.help = "some of `hold`, `pins`, `edges`, `freeze`, `keep`, `symmetry`", .fallback = "all of them"});
 }
 
 template <>
-Expected<void> Executor::execute(const ReleaseCommand&) {
+Expected<void> Executor::execute(const ReleaseCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  const std::vector<std::string> what = c.what.value_or(std::vector<std::string>{});
+  for (std::size_t k = 0; k < what.size(); ++k) {
+    if (std::ranges::find(kinds, what[k]) != std::end(kinds)) continue;
+    return input_error(fmt::format("\"{}\" is nothing that holds", what[k]), fmt::format("what[{}]", k),
+                       "use hold, pins, edges, freeze, keep or symmetry");
+  }
+  const auto meant = [&](std::string_view kind) { return !c.what || std::ranges::find(what, kind) != what.end(); };
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    s.hold_rows = 0;
-    s.pins.clear();
-    s.constraints.clear();
+    if (meant("hold")) s.hold_rows = 0;
+    if (meant("pins")) s.pins.clear();
+    std::erase_if(s.constraints,
+                  [&](const KeptConstraint& kept) { return meant(std::visit(KindOf{}, kept.constraint)); });
   }
   return {};
 }

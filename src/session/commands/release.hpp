@@ -4,8 +4,10 @@
 
 namespace knead {
 
-/// Frees all that is held, pinned, frozen or kept of the selected surfaces.
-struct ReleaseCommand {};
+/// Frees what is held of the selected surfaces: all, or the kinds that are named.
+struct ReleaseCommand {
+  std::optional<std::vector<std::string>> what;  ///< left out: all
+};
 
 template <>
 Expected<void> Executor::execute(const ReleaseCommand& c);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../command_fields.hpp"
+#include "../shape_fields.hpp"
 
 namespace knead {
 
@@ -8,15 +8,12 @@ namespace knead {
 struct ToolCommand {
   std::string name = "tool";
   std::string shape = "sphere";
-  std::optional<double> radius;  ///< default: a tenth of the surface's bounding-box diagonal
-  std::optional<double> minor, height, rounding, thickness, top_radius;
-  std::optional<Vector3> sizes;  ///< semi-axes or half sizes
-  std::optional<std::array<double, 2>> exponents;
-  std::optional<std::string> surface;  ///< of shape "surface": its id
-  std::optional<Vector3> axis;         ///< where the tool's own z points
-  std::optional<Vector3> scale;        ///< along its own axes
-  std::optional<Vector3> position;     ///< of the centre; or:
-  std::optional<Fractions> at;         ///< centre on the surface
+  ShapeFields measures;
+  std::optional<Vector3> axis;                       ///< where the tool's own z points; or:
+  std::optional<std::array<double, 4>> orientation;  ///< quaternion [x, y, z, w]
+  std::optional<Vector3> scale;                      ///< along its own axes
+  std::optional<Vector3> position;                   ///< of the centre; or:
+  std::optional<Fractions> at;                       ///< centre on the surface
   ToolMode mode = ToolMode::collision;
   std::optional<double> stiffness;  ///< default: 1e4 for collision, 100 for proximity
   std::optional<double> range;      ///< default: half the size
@@ -35,5 +32,14 @@ std::span<const Choice> choices(ToolDirection);
 template <>
 Expected<void> Executor::execute(const ToolCommand& c);
 void describe(ToolCommand& c, Fields& fields);
+
+/// The error for a field that the shape of the command does not have; nothing for other fields.
+[[nodiscard]] std::optional<Error> inapplicable(const ToolCommand& c, std::string_view field);
+
+/// The rotation of a quaternion [x, y, z, w]. Error (input): it is zero or not finite.
+[[nodiscard]] Expected<Eigen::Quaterniond> rotation_of(const std::array<double, 4>& orientation);
+
+/// The surface point at fractions of the domain, or in the middle of what is visible. Errors: those of `place_on`.
+[[nodiscard]] Expected<Point> point_at(Executor& executor, SceneSurface& surface, const SurfacePlace& place);
 
 }  // namespace knead

@@ -1,0 +1,120 @@
+#include "edit_tool.hpp"
+
+namespace knead {
+namespace {
+
+/// Where the tool goes, and how it is turned and scaled.
+Expected<Placement> placement_of(const EditToolCommand& c, const Placement& before, double unit, Executor& executor) {
+  if (c.axis && c.orientation) {
+    return input_error("both axis and orientation are given", "orientation", "give one of them");
+  }
+  const bool on_surface = c.at || c.middle.value_or(false);
+  if (c.position && on_surface) return input_error("both position and at are given", "position", "give one of them");
+  Placement placement = before;
+  if (c.axis) {
+    const Point axis((*c.axis)[0], (*c.axis)[1], (*c.axis)[2]);
+    if (!(axis.norm() > 0)) return input_error("the axis has no direction", "axis", "use a vector that is not zero");
+    const Point present = before.rotation * Point::UnitZ();
+    placement.rotation = (Eigen::Quaterniond::FromTwoVectors(present, axis) * before.rotation).normalized();
+  }
+  if (c.orientation) {
+    const auto rotation = rotation_of(*c.orientation);
+    if (!rotation) return std::unexpected(rotation.error());
+    placement.rotation = *rotation;
+  }
+  if (c.scale) placement.scale = *c.scale;
+  if (c.position) placement.position = unit * Point((*c.position)[0], (*c.position)[1], (*c.position)[2]);
+  if (on_surface) {
+    const auto surface = executor.selected();
+    if (!surface) return std::unexpected(surface.error());
+    const auto point = point_at(executor, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
+    if (!point) return std::unexpected(point.error());
+    placement.position = *point;
+  }
+  if (!placement.position.allFinite()) return input_error("a coordinate is not a finite number", "position");
+  return placement;
+}
+
+}  // namespace
+
+void describe(EditToolCommand& c, Fields& fields) {
+  fields.name("edit_tool", "change fields of a tool; what is not named stays as it is");
+  constexpr About as_of_tool = {.help = "as of `tool`"};
+  constexpr About length = {.help = "as of `tool`", .unit = Unit::length};
+  constexpr About positive = {.help = "as of `tool`", .unit = Unit::length, .range = above(0)};
+  fields.add("tool", c.tool, {.help = "its name; or:", .fallback = "the only tool"});
+  fields.add("name", c.name, {.help = "its name", .fallback = "the only tool"});
+  fields.add("shape", c.shape,
+             {.help = "another shape: measures that both shapes have stay, the others are those of a new tool"});
+  ShapeFields& m = c.measures;
+  fields.add("radius", m.radius,
+             {.help = "as of `tool`; of a shape with `sizes`, all of them", .unit = Unit::length, .range = above(0)});
+  fields.add("minor", m.minor, positive);
+  fields.add("height", m.height, positive);
+  fields.add("top_radius", m.top_radius, length);
+  fields.add("thickness", m.thickness, positive);
+  fields.add("rounding", m.rounding, length);
+  fields.add("sizes", m.sizes, positive);
+  fields.add("exponents", m.exponents, as_of_tool);
+  fields.add("surface", m.surface, {.help = "as of `tool`; the surface as it is now"});
+  fields.add("axis", c.axis,
+             {.help = "the tool turns there the shortest way, so that its turn about its own axis stays; or:"});
+  fields.add("orientation", c.orientation, as_of_tool);
+  fields.add("scale", c.scale, {.help = "as of `tool`, not times the scale before"});
+  fields.add("position", c.position, length);
+  fields.add("at", c.at, {.help = "as of `tool`", .unit = Unit::fraction});
+  fields.add("middle", c.middle, as_of_tool);
+  fields.add("mode", c.mode, {.help = "the stiffness stays"});
+  fields.add("stiffness", c.stiffness, as_of_tool);
+  fields.add("range", c.range, length);
+  fields.add("direction", c.direction, {.help = "of proximity"});
+  fields.add("rigid", c.rigid, as_of_tool);
+  fields.add("friction", c.friction, as_of_tool);
+  fields.add("plasticity", c.plasticity, as_of_tool);
+  fields.add("relative", c.relative, {.help = "lengths and position of this command are fractions of the diagonal"});
+}
+
+template <>
+Expected<void> Executor::execute(const EditToolCommand& c) {
+  if (c.tool && c.name && *c.tool != *c.name) {
+    return input_error("tool and name are different", "name", "give one of them: tools are not renamed");
+  }
+  if (auto done = check_ranges(type_of<EditToolCommand>(), &c); !done) return done;
+  auto found = find_tool(c.tool ? c.tool : c.name);
+  if (!found) return std::unexpected(found.error());
+  Tool edited = **found;
+  double unit = 1, length = 0;
+  if (c.relative || c.shape) {  // another shape may need a default radius
+    const auto measured = diagonal();
+    if (!measured) return std::unexpected(measured.error());
+    length = *measured;
+    if (c.relative) unit = length;
+  }
+  const Shape& before = edited.shape.shape();
+  const auto shape = edited_shape(before, c.shape ? *c.shape : shape_name(before), c.measures, unit, length, *this);
+  if (!shape) return std::unexpected(shape.error());
+  const Placement& at = edited.shape.placement();
+  const auto placement = placement_of(c, at, unit, *this);
+  if (!placement) return std::unexpected(placement.error());
+  const bool moved_only = *shape == before && placement->scale == at.scale;
+  auto placed = moved_only ? edited.shape.moved(placement->rotation, placement->position)
+                           : PlacedShape::create(*shape, *placement);
+  if (!placed) {
+    Error error = placed.error();
+    if (error.where == "e1" || error.where == "e2") error.where = "exponents";
+    return std::unexpected(error);
+  }
+  edited.shape = std::move(*placed);
+  edited.mode = c.mode.value_or(edited.mode);
+  edited.stiffness = c.stiffness.value_or(edited.stiffness);
+  edited.range = c.range ? *c.range * unit : edited.range;
+  edited.direction = c.direction.value_or(edited.direction);
+  edited.rigid = c.rigid.value_or(edited.rigid);
+  edited.friction = c.friction.value_or(edited.friction);
+  edited.plasticity = c.plasticity.value_or(edited.plasticity);
+  if (auto tool = validated(edited); !tool) return std::unexpected(tool.error());
+  **found = std::move(edited);
+  return {};
+}
+
+}  // namespace knead

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "tool.hpp"
+
+namespace knead {
+
+/// Changes a tool that there is: the fields that are given, and nothing else.
+struct EditToolCommand {
+  std::optional<std::string> tool;  ///< its name; default: the only tool
+  std::optional<std::string> name;  ///< the same
+  std::optional<std::string> shape;
+  ShapeFields measures;
+  std::optional<Vector3> axis;  ///< turned there the shortest way: its turn about its own axis stays
+  std::optional<std::array<double, 4>> orientation;
+  std::optional<Vector3> scale;
+  std::optional<Vector3> position;
+  std::optional<Fractions> at;
+  std::optional<bool> middle;  ///< of what is visible, instead of `at`
+  std::optional<ToolMode> mode;
+  std::optional<double> stiffness, range;
+  std::optional<ToolDirection> direction;
+  std::optional<bool> rigid;
+  std::optional<double> friction, plasticity;
+  bool relative = false;
+};
+
+template <>
+Expected<void> Executor::execute(const EditToolCommand& c);
+void describe(EditToolCommand& c, Fields& fields);
+
+}  // namespace knead

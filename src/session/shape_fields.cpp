@@ -1,0 +1,166 @@
+#include "shape_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "described_json.hpp"
+#include "knead/sculpt/describe_shape.hpp"
+
+namespace knead {
+namespace {
+
+/// The numbers of a field that holds nothing else: none for an optional without a value.
+std::span<double> numbers_of(const Field& field, void* record) {
+  const Type* type = field.type;
+  void* value = field.of(record);
+  if (type->kind == Kind::optional) {
+    if (type->count(value) == 0) return {};
+    value = type->at(value, 0);
+    type = type->element;
+  }
+  if (!type->numeric()) return {};
+  return {static_cast<double*>(value), type->kind == Kind::array ? type->length : 1};
+}
+
+/// The numbers of a shape's measure; none where it does not have it.
+std::span<double> measure_of(Shape& shape, std::string_view name, double& factor) {
+  const Type& shapes = type_of<Shape>();
+  const Field* field = shapes.variants[shape.index()]->find(name);
+  if (field == nullptr) return {};
+  factor = field->factor;
+  return numbers_of(*field, shapes.at(&shape, 0));
+}
+
+double radius_of(const ShapeFields& f, double unit, double diagonal, Shape* before) {
+  if (f.radius) return *f.radius * unit;
+  double factor = 1;
+  const std::span<double> present = before != nullptr ? measure_of(*before, "radius", factor) : std::span<double>();
+  return present.empty() ? 0.1 * diagonal : present.front();
+}
+
+/// The fields that a shape has, as commands name them.
+std::vector<std::string_view> fields_of_shape(const Type& shape) {
+  std::vector<std::string_view> names;
+  if (shape.find("sizes") != nullptr) names.emplace_back("radius");
+  for (const Field& field : shape.fields) names.push_back(field.name);
+  return names;
+}
+
+bool names_any(ShapeFields fields) {
+  return std::ranges::any_of(type_of<ShapeFields>().fields,
+                             [&](const Field& field) { return field.type->count(field.of(&fields)) > 0; });
+}
+
+}  // namespace
+
+void add_measures(ShapeFields& f, Fields& fields) {
+  fields.add("radius", f.radius,
+             {.help = "of spheres, cylinders and the like; where a shape has `sizes`, all of them",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "a tenth of the diagonal"});
+  fields.add("minor", f.minor,
+             {.help = "tube radius of torus and supertoroid",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "a quarter of the radius"});
+  fields.add("height", f.height,
+             {.help = "of cylinder, cone and capsule (without its caps)",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "twice the radius"});
+  fields.add("top_radius", f.top_radius, {.help = "of a cone", .unit = Unit::length, .fallback = "`0`"});
+  fields.add("thickness", f.thickness,
+             {.help = "wall of a bowl", .unit = Unit::length, .range = above(0), .fallback = "a tenth of the radius"});
+  fields.add("rounding", f.rounding, {.help = "edge radius of a box", .unit = Unit::length, .fallback = "`0`"});
+  fields.add("sizes", f.sizes,
+             {.help = "`[a, b, c]`: semi-axes of (super)ellipsoids, half sides of a box",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "the radius each"});
+  fields.add("exponents", f.exponents,
+             {.help = "`[e1, e2]` of superellipsoid and supertoroid", .fallback = "`[1, 1]`"});
+  fields.add("surface", f.surface,
+             {.help = "of shape `surface`: the id of the surface of the document that is the tool, as it is now"});
+}
+
+void describe(ShapeFields& f, Fields& fields) {
+  fields.name("measures", "of the shape of a tool");
+  add_measures(f, fields);
+}
+
+const std::string& shape_names() {
+  static const std::string names = joined(variant_names(type_of<Shape>()));
+  return names;
+}
+
+std::string_view shape_name(const Shape& shape) { return type_of<Shape>().variants[shape.index()]->name; }
+
+Error no_such_measure(std::string_view shape, std::string_view field, const std::vector<std::string_view>& fields) {
+  return {ErrorKind::input, fmt::format("the shape {} has no {}", shape, field), std::string(field),
+          fields.empty() ? "it has no measures of its own" : "its fields are: " + joined(fields)};
+}
+
+std::optional<Error> no_measure_of(std::string_view shape, std::string_view field) {
+  const int k = type_of<Shape>().variant(shape);
+  if (k < 0 || type_of<ShapeFields>().find(field) == nullptr) return std::nullopt;
+  const auto fields = fields_of_shape(*type_of<Shape>().variants[static_cast<std::size_t>(k)]);
+  if (std::ranges::find(fields, field) != fields.end()) return std::nullopt;
+  return no_such_measure(shape, field, fields);
+}
+
+Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, double diagonal, const Executor& executor,
+                           const Shape* before) {
+  const Type& shapes = type_of<Shape>();
+  const int k = shapes.variant(name);
+  if (k < 0) {
+    return input_error(fmt::format("\"{}\" is not a shape", name), "shape", "the shapes are: " + shape_names());
+  }
+  Shape shape;
+  shapes.assign(&shape, k);
+  if (auto* spline = std::get_if<SplineShape>(&shape)) {
+    if (!f.surface) return input_error("the surface is missing", "surface", "give its id");
+    const auto index = executor.find_surface(*f.surface);
+    if (!index) return std::unexpected(index.error());
+    spline->surface = executor.state.surfaces[static_cast<std::size_t>(*index)].current;
+    return shape;
+  }
+  if (auto* cone = std::get_if<ConeShape>(&shape)) cone->height = 2;  // as high as it is wide, as a cylinder
+  std::optional<Shape> old;
+  if (before != nullptr) old = *before;
+  const double radius = radius_of(f, unit, diagonal, old ? &*old : nullptr);
+  for (const Field& field : shapes.variants[static_cast<std::size_t>(k)]->fields) {
+    const bool length = field.unit == Unit::length;
+    const std::span<double> numbers = numbers_of(field, shapes.at(&shape, 0));
+    const Field* asked = type_of<ShapeFields>().find(field.name);
+    const std::span<double> given = asked != nullptr ? numbers_of(*asked, &f) : std::span<double>();
+    // A radius that is given means all sizes.
+    const bool stays = old && !(field.name == "sizes" && f.radius);
+    double factor = 1;
+    const std::span<double> present = stays ? measure_of(*old, field.name, factor) : std::span<double>();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (!given.empty()) {
+        numbers[i] = given[given.size() == 1 ? 0 : i] * (length ? unit : 1) / field.factor;
+      } else if (!present.empty()) {
+        numbers[i] = present[present.size() == 1 ? 0 : i] * factor / field.factor;
+      } else {
+        numbers[i] *= length ? radius : 1;
+      }
+    }
+  }
+  return shape;
+}
+
+Expected<Shape> edited_shape(const Shape& shape, std::string_view name, const ShapeFields& fields, double unit,
+                             double diagonal, const Executor& executor) {
+  if (name == shape_name(shape) && !names_any(fields)) return shape;
+  ShapeFields given = fields;
+  for (const Field& field : type_of<ShapeFields>().fields) {
+    if (field.type->count(field.of(&given)) == 0) continue;
+    if (auto error = no_measure_of(name, field.name)) return std::unexpected(*error);
+  }
+  return make_shape(name, fields, unit, diagonal, executor, &shape);
+}
+
+}  // namespace knead
