@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -105,7 +106,7 @@ std::string edge_of(const SessionState& state, const PatchEdge& edge) {
   return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id, edge_name(edge.edge));
 }
 
-std::string report_json(const SessionState& state, const Outcome& o) {
+std::string report_json(const SessionState& state, const Outcome& o, const std::string& probes) {
   std::string text = "{\"steps\":[";
   for (std::size_t k = 0; k < state.steps.size(); ++k) {
     const StepRecord& s = state.steps[k];
@@ -133,7 +134,28 @@ std::string report_json(const SessionState& state, const Outcome& o) {
   }
   text += "],\n\"notes\":[";
   for (std::size_t k = 0; k < state.notes.size(); ++k) text += (k == 0 ? "\n " : ",\n ") + json_string(state.notes[k]);
-  return text + "]}\n";
+  return text + "]" + probes + "}\n";
+}
+
+/// What the probes of the scene find: of each list its entries.
+Expected<std::string> probes_json(const SessionState& state) {
+  const auto vector = [](const Point& p) {
+    return fmt::format("[{},{},{}]", json_number(p[0]), json_number(p[1]), json_number(p[2]));
+  };
+  std::map<std::string, std::string> lists;
+  for (const Probe& probe : state.probes) {
+    const auto reading = read_probe(state, probe);
+    if (!reading) return std::unexpected(reading.error());
+    std::string& list = lists[probe.list];
+    list += fmt::format(R"({}{{"name":{},"surface":{},"at":[{},{}],"point":{},"displacement":{},"normal":{}}})",
+                        list.empty() ? "\n " : ",\n ", json_string(probe.name),
+                        json_string(state.surfaces[static_cast<std::size_t>(probe.surface)].id),
+                        json_number(probe.at[0]), json_number(probe.at[1]), vector(reading->point),
+                        vector(reading->displacement), vector(reading->normal));
+  }
+  std::string text;
+  for (const auto& [name, entries] : lists) text += fmt::format(",\n{}:[{}]", json_string(name), entries);
+  return text;
 }
 
 void print_summary(const Options& options, const Session& session, const Outcome& o) {
@@ -201,7 +223,9 @@ Expected<void> write_results(const Options& options, const Session& session, con
     picture = std::move(*svg);
   }
   if (!options.report.empty()) {
-    if (auto done = write_file_atomically(options.report, report_json(session.state(), o)); !done) return done;
+    const auto probes = probes_json(session.state());
+    if (!probes) return std::unexpected(probes.error());
+    if (auto done = write_file_atomically(options.report, report_json(session.state(), o, *probes)); !done) return done;
     fmt::print("wrote {}\n", options.report);
   }
   if (!options.picture.empty()) {

@@ -194,6 +194,15 @@ void pass(A& a, Of<A, SceneForce>& f) {
 }
 
 template <class A>
+void pass(A& a, Of<A, Probe>& p) {
+  auto& [name_of_list, name, surface, at] = p;
+  pass(a, name_of_list);
+  pass(a, name);
+  pass(a, surface);
+  for (auto& x : at) pass(a, x);
+}
+
+template <class A>
 void pass(A& a, Of<A, SceneSurface>& s) {
   auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, hold_rows, pins, constraints,
          smooth_knot_lines, smooth_poles, visible] = s;

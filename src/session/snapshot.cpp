@@ -11,7 +11,8 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-constexpr std::string_view magic = "Knead snapshot 1\n";
+constexpr std::string_view magic = "Knead snapshot 2\n";
+constexpr std::string_view magic_1 = "Knead snapshot 1\n";  // without probes
 
 /// FNV-1a over words of eight bytes: damage is found, not tampering.
 std::uint64_t checksum(std::string_view bytes) {
@@ -54,8 +55,8 @@ struct Neighbour {
 };
 
 void write_state(Writer& a, const SessionState& state, Neighbour& before) {
-  const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission] =
-      static_cast<const Scene&>(state);
+  const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission,
+               probes] = static_cast<const Scene&>(state);
   const auto& [steps, seam_reports, notes, energy_before] = static_cast<const SessionRecord&>(state);
   archive::optional(a, selected);
   list(a, together);
@@ -80,6 +81,7 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   choice(a, scaling, ScalingMode::raw);
   archive::command<SeamsCommand>(a, seams);
   choice(a, permission, RefinePermission::trims);
+  list(a, probes);
   std::size_t shared = 0;
   if (before.steps != nullptr) {
     const std::size_t most = std::min(steps.size(), before.steps->size());
@@ -95,8 +97,8 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
 }
 
 /// Reads a state into one that begins as a copy of the one before it.
-void read_state(Reader& a, SessionState& state) {
-  auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission] =
+void read_state(Reader& a, SessionState& state, bool with_probes) {
+  auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes] =
       static_cast<Scene&>(state);
   auto& [steps, seam_reports, notes, energy_before] = static_cast<SessionRecord&>(state);
   selected.reset();
@@ -129,6 +131,7 @@ void read_state(Reader& a, SessionState& state) {
   choice(a, scaling, ScalingMode::raw);
   archive::command<SeamsCommand>(a, seams);
   choice(a, permission, RefinePermission::trims);
+  if (with_probes) list(a, probes);
   std::size_t shared = 0;
   a.count(shared);
   if (shared > steps.size()) return a.fail();
@@ -144,8 +147,12 @@ void read_state(Reader& a, SessionState& state) {
   for (int k : state.selection()) {
     if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
   }
+  const auto known_surface = [&surfaces](int k) { return k >= 0 && k < static_cast<int>(surfaces.size()); };
   for (const SceneForce& f : forces) {
-    if (f.surface < 0 || f.surface >= static_cast<int>(surfaces.size())) a.fail();
+    if (!known_surface(f.surface)) a.fail();
+  }
+  for (const Probe& p : probes) {
+    if (!known_surface(p.surface)) a.fail();
   }
 }
 
@@ -193,7 +200,8 @@ std::string Session::snapshot(std::size_t history_bytes) const {
 }
 
 Expected<Session> Session::restore(Document document, std::string_view bytes) {
-  if (!bytes.starts_with(magic)) return damaged("these bytes are no snapshot of this version");
+  const bool with_probes = bytes.starts_with(magic);
+  if (!with_probes && !bytes.starts_with(magic_1)) return damaged("these bytes are no snapshot of this version");
   bytes.remove_prefix(magic.size());
   std::uint64_t sum = 0;
   std::vector<std::shared_ptr<const Surface>> surfaces;
@@ -224,7 +232,7 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
   for (std::size_t k = a.length(8); k > 0 && !a.bad(); --k) session.entries_.push_back(commands());
   SessionState state;
   for (std::size_t k = 0; k <= session.entries_.size() && !a.bad(); ++k) {
-    read_state(a, state);
+    read_state(a, state, with_probes);
     session.states_.push_back(std::make_shared<const SessionState>(state));
   }
   if (a.bad() || !a.at_end() || session.position_ > session.entries_.size()) {

@@ -68,6 +68,16 @@ enum class ScalingMode { normalised, raw };
 /// free between a tool and the edges of a face that are held.
 enum class RefinePermission { automatic, never, trims };
 
+/// A named point of a surface that reports tell about, wherever it goes.
+struct Probe {
+  std::string list;  ///< the list of the report that it belongs to
+  std::string name;
+  int surface = 0;  ///< index into the scene's surfaces
+  Fractions at = {0.5, 0.5};
+
+  friend bool operator==(const Probe&, const Probe&) = default;
+};
+
 /// One surface of a scene. `reference`, `rest` and `current` share their knots and weights, and `opened` shares them
 /// too unless they were edited since; the domain is always the same.
 struct SceneSurface {
@@ -100,6 +110,7 @@ struct Scene {
   ScalingMode scaling = ScalingMode::normalised;
   SeamPolicy seams = {};
   RefinePermission permission = RefinePermission::trims;
+  std::vector<Probe> probes = {};
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;
@@ -108,5 +119,15 @@ struct Scene {
 /// The tools of the scene, and their images in the planes of mirror symmetry of the first selected surface.
 /// Errors: those of `mirror_plane` and `mirrored`.
 [[nodiscard]] Expected<std::vector<Tool>> tools_and_images(const Scene& scene);
+
+/// What a probe finds, lengths in file units.
+struct ProbeReading {
+  Point point = Point::Zero();         ///< S(u, v)
+  Point displacement = Point::Zero();  ///< from the surface as opened
+  Point normal = Point::Zero();        ///< S_u × S_v, of length 1; zero where there is none
+};
+
+/// Errors: a place outside the domain (input), a rational denominator that is not positive (numerical).
+[[nodiscard]] Expected<ProbeReading> read_probe(const Scene& scene, const Probe& probe);
 
 }  // namespace knead
