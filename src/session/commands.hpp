@@ -18,6 +18,7 @@
 #include "commands/limit.hpp"
 #include "commands/load.hpp"
 #include "commands/material.hpp"
+#include "commands/measure.hpp"
 #include "commands/move.hpp"
 #include "commands/new.hpp"
 #include "commands/pin.hpp"
@@ -50,7 +51,7 @@ using CommandVariant =
                  ToolCommand, EditToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand,
                  LoadCommand, LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, RelaxCommand,
                  LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand,
-                 CoarsenCommand, UndoCommand, RedoCommand>;
+                 CoarsenCommand, MeasureCommand, UndoCommand, RedoCommand>;
 
 template <>
 const Type& type_of<CommandVariant>();

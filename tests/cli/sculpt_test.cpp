@@ -293,5 +293,30 @@ TEST(Sculpt, WrittenCoordinatesCarrySeventeenDigits) {
   EXPECT_GE(longest, 17);
 }
 
+TEST(Sculpt, TheReportHasMeasurementsAndWhatWasLeftOut) {
+  const Workshop workshop;
+  Json commands = dent(skin);
+  commands.insert(commands.begin() + 1, command("measure", {{"name", "tip"}, {"at", {0.4, 0.5}}}));
+  commands[3]["minor"] = 3;  // a sphere has none
+  const Json report = report_of(sculpted(workshop, commands));
+  ASSERT_EQ(report.at("measurements").size(), 1U);
+  const Json& tip = report.at("measurements").front();
+  EXPECT_EQ(tip.at("name"), "tip");
+  EXPECT_EQ(tip.at("surface"), skin);
+  EXPECT_EQ(tip.at("at"), Json({0.4, 0.5}));
+  EXPECT_EQ(tip.at("point").size(), 3U);
+  const auto length = [](const Json& v) {
+    return std::hypot(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+  };
+  EXPECT_NEAR(length(tip.at("normal")), 1, 1e-12);
+  EXPECT_GT(length(tip.at("displacement")), 0.5 * report.at("largest_displacement").get<double>());
+  EXPECT_NE(report.at("notes").dump().find("the shape sphere has no minor"), std::string::npos);
+  const Outcome refused = knead({"sculpt", bonnet(), "-o", workshop / "2.step", "--script",
+                                 workshop.file("2.json", Json{{"knead", 2}, {"commands", commands}}.dump())});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.err.find("commands[3].minor"), std::string::npos) << refused.err;
+  EXPECT_FALSE(report_of(sculpted(workshop, dent(skin), "plain.step")).contains("measurements"));
+}
+
 }  // namespace
 }  // namespace knead::testing

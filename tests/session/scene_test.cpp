@@ -108,5 +108,26 @@ TEST(Scene, EqualInputsAreWhatAModelDependsOn) {
   }
 }
 
+TEST(Measure, TellsWhereASurfacePointIs) {
+  Session session = on_sheet({R"({"do":"measure","name":"tip","at":[0.5,0.25]})", testing::lift,
+                              R"({"do":"step","count":3})", R"({"do":"refine","region":[[0,0.5],[0,1]]})"});
+  ASSERT_EQ(session.state().probes.size(), 1U);
+  const auto reading = read_probe(session.state(), session.state().probes.front());
+  ASSERT_TRUE(reading) << reading.error().message();
+  EXPECT_LE((reading->point - at(*first(session).current, 0.5, 0.25)).norm(), 1e-14);
+  EXPECT_LE((reading->point - reading->displacement - Point(5, 2.5, 0)).norm(), 1e-14);
+  EXPECT_GT(reading->displacement.z(), 0.05);
+  EXPECT_NEAR(reading->normal.norm(), 1, 1e-15);
+  EXPECT_LE(std::abs(reading->normal.x()), 1e-9);  // half way in u the sheet is level in u
+  EXPECT_LT(reading->normal.y(), -1e-3);           // and rises in v
+  run(session, {R"({"do":"measure","name":"tip","at":[0,0]})", R"({"do":"measure","name":"other","at":[1,1]})"});
+  ASSERT_EQ(session.state().probes.size(), 2U);
+  EXPECT_EQ(session.state().probes.front(), (Probe{"measurements", "tip", 0, {0, 0}}));
+  EXPECT_EQ(refusal(session, R"({"do":"measure","at":[0.5,2]})").where, "at");
+  const auto restored = Session::restore(session.document(), session.snapshot());
+  ASSERT_TRUE(restored);
+  EXPECT_EQ(restored->state().probes, session.state().probes);
+}
+
 }  // namespace
 }  // namespace knead

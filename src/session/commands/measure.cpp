@@ -1,0 +1,34 @@
+#include "measure.hpp"
+
+#include <algorithm>
+
+#include "knead/scene/places.hpp"
+
+namespace knead {
+
+void describe(MeasureCommand& c, Fields& fields) {
+  fields.name("measure", "have the report tell where a surface point is at the end");
+  fields.add("name", c.name, {.help = "what the report calls it"});
+  fields.add("at", c.at, {.help = "`[s, t]`: a point of the first selected surface", .unit = Unit::fraction});
+  fields.add("middle", c.middle, {.help = "the visible point farthest from all edges, instead of `at`"});
+}
+
+template <>
+Expected<void> Executor::execute(const MeasureCommand& c) {
+  const auto surface = selected();
+  if (!surface) return std::unexpected(surface.error());
+  const auto at = place_on(**surface, {c.at, c.middle.value_or(false)});
+  if (!at) return std::unexpected(at.error());
+  if (auto u = parameters_at(*(*surface)->current, *at); !u) return std::unexpected(u.error());
+  Probe probe{"measurements", c.name, *state.selected, *at};
+  const auto same =
+      std::ranges::find_if(state.probes, [&](const Probe& p) { return p.list == probe.list && p.name == probe.name; });
+  if (same != state.probes.end()) {
+    *same = std::move(probe);
+  } else {
+    state.probes.push_back(std::move(probe));
+  }
+  return {};
+}
+
+}  // namespace knead
