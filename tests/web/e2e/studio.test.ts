@@ -145,7 +145,7 @@ describe('the studio', () => {
     await page.locator('.panel[data-panel=Tools] .item').click();
     await page.locator('select[aria-label=Shape]').selectOption('box');
     await settled(page);
-    expect((await commands(page)).at(-1)).toMatchObject({ do: 'tool', name: 'ball', shape: 'box' });
+    expect((await commands(page)).at(-1)).toMatchObject({ do: 'edit_tool', tool: 'ball', shape: 'box' });
     await page.locator('.panel[data-panel=Tools] button[aria-label="Take ball away"]').click();
     await settled(page);
     expect((await commands(page)).at(-1)!.do).toBe('remove');

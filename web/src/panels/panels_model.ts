@@ -28,8 +28,7 @@ export function materialPanel(app: App): HTMLElement {
   }, () => {
     const s = chosen();
     if (!s) return [note('Select a surface.')];
-    const set = (change: Record<string, unknown>) =>
-      void app.execute([{ do: 'material', alpha: s.alpha.map((x) => x ?? 1), beta: s.beta.map((x) => x ?? 0.01), ...change }]);
+    const set = (change: Record<string, unknown>) => void app.execute([{ do: 'material', ...change }]);
     const one = (values: (number | null)[]) => (values[0] === values[2] ? values[0]! : null);
     const fits = (p: Preset) => one(s.alpha) === p.alpha && one(s.beta) === p.beta;
     return [

@@ -52,26 +52,16 @@ const lengthsOf: Record<string, ('radius' | 'minor' | 'height' | 'top_radius' | 
 /** A length that is the same in every direction as one number. */
 const single = (value: number | [number, number] | undefined): number => (Array.isArray(value) ? value[0] : value ?? 0);
 
-/** The command that makes this tool again with some fields changed. Its turn survives as the direction of its axis. */
-function remade(tool: ToolInfo, change: Record<string, unknown>): Record<string, unknown> & { do: string } {
+/** The command that changes these fields of a tool. A shape without a radius of its own is as large as the one before. */
+function edited(tool: ToolInfo, change: Record<string, unknown>): Record<string, unknown> & { do: string } {
+  const command: Record<string, unknown> & { do: string } = { do: 'edit_tool', tool: tool.name, ...change };
   const shape = (change.shape as string | undefined) ?? tool.shape;
-  const same = shape === tool.shape;
-  const command: Record<string, unknown> & { do: string } = { do: 'tool', name: tool.name, shape, position: tool.position };
-  const [x, y, z, w] = tool.rotation;
-  if (shape !== 'sphere') command.axis = [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)];
-  command.scale = tool.scale;
-  for (const name of same ? lengthsOf[shape] ?? [] : []) if (tool[name] !== undefined) command[name] = tool[name];
-  const size = tool.radius ?? tool.sizes?.[0] ?? tool.size ?? 1;
-  if (!same && shape !== 'plane') {
-    if (['box', 'ellipsoid', 'superellipsoid'].includes(shape)) command.sizes = [size, size, size];
-    else command.radius = size;
+  const sized = ['box', 'ellipsoid', 'superellipsoid'].includes(shape) && tool.sizes !== undefined;
+  if (shape !== tool.shape && !['plane', 'surface'].includes(shape) && tool.radius === undefined && !sized) {
+    command.radius = tool.sizes?.[0] ?? tool.size ?? 1;
   }
-  if (same && tool.sizes) command.sizes = tool.sizes;
-  if (same && tool.exponents) command.exponents = tool.exponents;
-  for (const name of ['mode', 'stiffness', 'rigid', 'friction', 'plasticity', 'direction'] as const) command[name] = tool[name];
-  if (tool.mode === 'proximity') command.range = tool.range;
-  if (change.mode !== undefined && change.mode !== tool.mode) delete command.stiffness;
-  return { ...command, ...change };
+  if (change.mode !== undefined && change.mode !== tool.mode) command.stiffness = change.mode === 'proximity' ? 100 : 1e4;
+  return command;
 }
 
 export function toolsPanel(app: App): HTMLElement {
@@ -95,7 +85,7 @@ export function toolsPanel(app: App): HTMLElement {
 }
 
 function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
-  const change = (what: Record<string, unknown>) => void app.execute([remade(tool, what)]);
+  const change = (what: Record<string, unknown>) => void app.execute([edited(tool, what)]);
   const setGizmo = (mode: 'translate' | 'rotate' | 'scale') => {
     for (const v of app.viewer.viewports) v.gizmo.setMode(mode);
     app.changed();
