@@ -41,6 +41,12 @@ class Check {
 
 Point vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
+/// Shapes that check and build themselves.
+template <class S>
+concept BuildsItself = requires(const S& s, const Point& scale) {
+  detail::shape_kernel(s, scale);
+};
+
 /// Validates a shape's own fields.
 struct Validate {
   Check check;
@@ -77,6 +83,7 @@ struct Validate {
   void operator()(const SplineShape& s) {
     if (!s.surface) check.bound(false, 0, "surface", "a surface of the document");
   }
+  void operator()(const BuildsItself auto&) {}
 };
 
 /// The smallest feature of a solid of revolution, with its two scales across and along the axis.
@@ -119,6 +126,8 @@ struct Build {
   Expected<Kernel> operator()(const SuperellipsoidShape& s) const { return detail::superellipsoid_kernel(s, scale); }
   Expected<Kernel> operator()(const SupertoroidShape& s) const { return detail::supertoroid_kernel(s, scale); }
   Expected<Kernel> operator()(const SplineShape& s) const { return detail::spline_kernel(*s.surface, scale); }
+
+  Expected<Kernel> operator()(const BuildsItself auto& s) const { return detail::shape_kernel(s, scale); }
 
   /// Solids of revolution: straight meridians keep their form when the axis alone is scaled otherwise.
   template <class Solid>

@@ -60,4 +60,7 @@ using Meridian = std::vector<MeridianPiece>;
 /// The surface scaled in its own coordinates. Errors: a Bézier weight that is not positive.
 [[nodiscard]] Expected<Kernel> spline_kernel(const Surface& surface, const Point& scale);
 
+/// Shapes that check and build themselves, each in a file of its own. Errors name the field.
+[[nodiscard]] Expected<Kernel> shape_kernel(const WedgeShape& shape, const Point& scale);
+
 }  // namespace knead::detail

@@ -110,6 +110,41 @@ inline ShapeCase box_case(std::array<double, 3> h, double r) {
   return c;
 }
 
+inline ShapeCase wedge_case(double length, double angle, double height, double rounding) {
+  ShapeCase c{"wedge " + std::to_string(angle) + " " + std::to_string(rounding),
+              WedgeShape{length, angle, height, rounding},
+              {}};
+  const double a = angle / 360 * std::numbers::pi, centre = height - rounding;
+  const double foot = (height + rounding * (1 / std::sin(a) - 1)) * std::tan(a);
+  // Pieces of half the profile: from the foot's corner up the flank, and on to the top.
+  std::vector<std::function<std::array<double, 2>(double)>> pieces = {[=](double t) {
+    const double y = rounding * std::cos(a), z = centre + rounding * std::sin(a);
+    return std::array<double, 2>{foot + t * (y - foot), t * z};
+  }};
+  if (rounding > 0) {
+    pieces.push_back([=](double t) {
+      const double b = a + t * (std::numbers::pi / 2 - a);
+      return std::array<double, 2>{rounding * std::cos(b), centre + rounding * std::sin(b)};
+    });
+  }
+  c.sheets.push_back([=](double u, double v) { return Point(length * (u - 0.5), foot * (2 * v - 1), 0); });
+  for (double side : {-1.0, 1.0}) {
+    for (const auto& piece : pieces) {
+      c.sheets.push_back([=](double u, double v) {
+        const auto [y, z] = piece(v);
+        return Point(length * (u - 0.5), side * y, z);
+      });
+      for (double end : {-0.5, 0.5}) {
+        c.sheets.push_back([=](double u, double v) {
+          const auto [y, z] = piece(v);
+          return Point(end * length, side * u * y, u * z);
+        });
+      }
+    }
+  }
+  return c;
+}
+
 inline std::vector<ShapeCase> shape_cases() {
   std::vector<ShapeCase> cases;
   cases.push_back({"sphere", SphereShape{0.7}, {turned_arc(0, 0, 0.7, -0.5, 0.5)}});
@@ -149,6 +184,9 @@ inline std::vector<ShapeCase> shape_cases() {
     cases.push_back(superellipsoid_case({0.6, 1, 0.8}, e1, e2));
     cases.push_back(supertoroid_case(1, {0.3, 0.4}, e1, e2));
   }
+  cases.push_back(wedge_case(2.2, 60, 0.9, 0.15));
+  cases.push_back(wedge_case(1.2, 100, 0.7, 0));
+  cases.push_back(wedge_case(1.5, 90, 0.5, 1.5));  // all but round from foot to foot
   return cases;
 }
 

@@ -32,6 +32,12 @@ TEST(Shape, WrongNumbersAreRefusedByName) {
   EXPECT_EQ(refused(SuperellipsoidShape{{1, 1, 1}, 0.05, 1}), "e1");
   EXPECT_EQ(refused(SupertoroidShape{1, {0.2, 0.2}, 1, 5}), "e2");
   EXPECT_EQ(refused(SupertoroidShape{1, {1.2, 0.2}, 1, 1}), "semi_axes");
+  EXPECT_EQ(refused(WedgeShape{0, 60, 1, 0}), "length");
+  EXPECT_EQ(refused(WedgeShape{1, 180, 1, 0}), "angle");
+  EXPECT_EQ(refused(WedgeShape{1, nan, 1, 0}), "angle");
+  EXPECT_EQ(refused(WedgeShape{1, 60, -1, 0}), "height");
+  EXPECT_EQ(refused(WedgeShape{1, 60, 1, 2}), "accepted");
+  EXPECT_EQ(refused(WedgeShape{1, 60, 1, 2.001}), "rounding");  // 1 / (1 − sin 30°) = 2
   EXPECT_EQ(refused(SplineShape{}), "surface");
   Placement p;
   p.scale[1] = 0;
@@ -55,6 +61,18 @@ TEST(Shape, DistancesThatAreKnown) {
   EXPECT_EQ(placed(PlaneShape{}).nearest(Point(7, 8, -2)).distance, -2);
   EXPECT_NEAR(placed(ConeShape{3, 4}).nearest(Point(0, 0, 6)).distance, 2, 1e-15);
   EXPECT_NEAR(placed(ConeShape{3, 4}).nearest(Point(0.001, 0, 1)).distance, -1, 1e-15);
+  // A wedge of 90°, its foot 4 wide: over the ridge, on a flank's normal, at a corner, below, inside, beyond an end.
+  const PlacedShape wedge = placed(WedgeShape{10, 90, 2, 0});
+  EXPECT_NEAR(wedge.nearest(Point(1, 0, 5)).distance, 3, 1e-15);
+  EXPECT_NEAR(wedge.nearest(Point(1, 2, 2)).distance, std::sqrt(2), 1e-15);
+  EXPECT_NEAR(wedge.nearest(Point(1, 5, -4)).distance, 5, 1e-15);
+  EXPECT_EQ(wedge.nearest(Point(1, 1, -3)).distance, 3);
+  EXPECT_NEAR(wedge.nearest(Point(1, 0.5, 1)).distance, -std::sqrt(0.125), 1e-15);
+  EXPECT_EQ(wedge.nearest(Point(-4.9, 0, 1)).distance, 4.9 - 5);
+  EXPECT_NEAR(wedge.nearest(Point(8, 0, 6)).distance, 5, 1e-15);
+  // Rounded to 1, its ridge still touches z = 2, and equal distances over it are circles about (0, 0, 1).
+  EXPECT_NEAR(placed(WedgeShape{10, 90, 2, 1}).nearest(Point(0, 0.3, 1.4)).distance, 0.5 - 1, 1e-15);
+  EXPECT_NEAR(placed(WedgeShape{10, 90, 2, 1}).nearest(Point(0, 3, 5)).distance, 4, 1e-15);
   // The bowl: wall, hollow, below, and over the rim.
   const PlacedShape bowl = placed(BowlShape{5, 1});
   EXPECT_NEAR(bowl.nearest(Point(0, 0, -4.25)).distance, -0.25, 1e-15);

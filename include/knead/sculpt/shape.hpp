@@ -11,6 +11,8 @@
 
 namespace knead {
 
+class Fields;
+
 /// Shapes of tools in their own frame. Solids unless said otherwise: the distance is negative inside.
 
 /// x² + y² + z² <= radius².
@@ -86,6 +88,15 @@ struct SupertoroidShape {
   friend bool operator==(const SupertoroidShape&, const SupertoroidShape&) = default;
 };
 
+/// A straight ridge along x: |x| <= length / 2, z >= 0, and in y below two flanks that enclose `angle` (degrees, below
+/// 180) and meet at the ridge, whose edge is rounded to the radius `rounding` and touches z = height; the round edge
+/// ends above the foot, rounding · (1 − sin(angle / 2)) <= height. The ends and the foot are flat with sharp edges.
+struct WedgeShape {
+  double length = 2, angle = 60, height = 1, rounding = 0;
+  friend bool operator==(const WedgeShape&, const WedgeShape&) = default;
+  friend void describe(WedgeShape& s, Fields& fields);
+};
+
 /// A B-spline or NURBS surface. Its outside is the side of S_u × S_v. Where the nearest point lies on an open border
 /// and the way to it is not along the normal there, x counts as outside (the distance is that to the border): the
 /// signed distance of an open sheet jumps on the strip behind it that its border normals cut off.
@@ -95,7 +106,7 @@ struct SplineShape {
 };
 
 using Shape = std::variant<SphereShape, EllipsoidShape, BoxShape, CylinderShape, ConeShape, CapsuleShape, TorusShape,
-                           PlaneShape, BowlShape, SuperellipsoidShape, SupertoroidShape, SplineShape>;
+                           PlaneShape, BowlShape, SuperellipsoidShape, SupertoroidShape, SplineShape, WedgeShape>;
 
 /// The nearest point of a shape's surface to x, and the signed distance φ with its first two derivatives at x.
 struct Nearest {
