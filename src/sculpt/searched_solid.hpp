@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "foot_search.hpp"
 #include "shape_kernel.hpp"
+#include "spline/foot_search.hpp"
 
 namespace knead::detail {
 
