@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "distance_jet.hpp"
+
 namespace knead::detail {
 
 SearchedSolid::SearchedSolid(Patches patches, Inside inside, std::array<bool, 3> fold, bool round,
