@@ -68,8 +68,9 @@ class Reader {
  public:
   static constexpr bool writing = false;
 
-  Reader(std::string_view bytes, const std::vector<std::shared_ptr<const Surface>>& surfaces)
-      : rest_(bytes), surfaces_(surfaces) {}
+  /// Of bytes in the given version of the format.
+  Reader(std::string_view bytes, const std::vector<std::shared_ptr<const Surface>>& surfaces, int version)
+      : rest_(bytes), surfaces_(surfaces), version_(version) {}
 
   void bytes(void* to, std::size_t size) {
     if (size > rest_.size()) return fail();
@@ -126,10 +127,12 @@ class Reader {
   [[nodiscard]] bool bad() const { return bad_; }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   [[nodiscard]] std::string_view rest() const { return rest_; }
+  [[nodiscard]] int version() const { return version_; }
 
  private:
   std::string_view rest_;
   const std::vector<std::shared_ptr<const Surface>>& surfaces_;
+  int version_;
   bool bad_ = false;
 };
 

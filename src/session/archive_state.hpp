@@ -205,7 +205,7 @@ void pass(A& a, Of<A, Probe>& p) {
 template <class A>
 void pass(A& a, Of<A, SceneSurface>& s) {
   auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, hold_rows, pins, constraints,
-         smooth_knot_lines, smooth_poles, visible] = s;
+         smooth_knot_lines, smooth_poles, plastic, visible] = s;
   if constexpr (!A::writing) visible.reset();  // the document knows it
   for (auto* x : {&id, &name, &unit}) pass(a, *x);
   for (auto* x : {&opened, &reference, &rest, &current}) pass(a, *x);
@@ -229,6 +229,39 @@ void pass(A& a, Of<A, SceneSurface>& s) {
   list(a, constraints);
   pass(a, smooth_knot_lines);
   pass(a, smooth_poles);
+  if constexpr (!A::writing) {
+    plastic = {};
+    if (a.version() == 1) return;  // which had none
+  }
+  auto& [along, share, yield, locality, in_radii] = plastic;
+  pass(a, along);
+  for (auto* x : {&share, &yield, &locality}) pass(a, *x);
+  pass(a, in_radii);
+}
+
+template <class A>
+void pass(A& a, Of<A, Point>& p) {
+  for (Eigen::Index k = 0; k < 3; ++k) pass(a, p[k]);
+}
+
+template <class A>
+void pass(A& a, Of<A, OpenStroke::Before>& b) {
+  pass(a, b.rest);
+  pass(a, b.current);
+}
+
+template <class A>
+void pass(A& a, Of<A, OpenStroke>& s) {
+  auto& [tool, home, path, lambda, stiffness, tension, plasticity, before, history, last, older] = s;
+  pass(a, tool);
+  pass(a, home);
+  pass(a, path.spacing);
+  pass(a, path.rest);
+  pass(a, path.end);
+  pass(a, path.begun);
+  for (auto* x : {&lambda, &stiffness, &tension, &plasticity.share, &plasticity.yield}) pass(a, *x);
+  list(a, before, 16);
+  for (auto* x : {&history, &last, &older}) pass(a, *x);
 }
 
 template <class A>

@@ -4,12 +4,24 @@
 
 #include "knead/scene/model.hpp"
 #include "knead/scene/reshape.hpp"
+#include "knead/sculpt/greville_values.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {
 
+/// A model that strokes press, and the abscissae at which they are remembered.
+struct StrokeModel {
+  SceneModel scene;
+  std::vector<GrevilleValues<2>> values;  // per selected surface
+
+  /// Values at the abscissae of stacked control points, and back.
+  [[nodiscard]] Points at_abscissae(const Points& x) const;
+  [[nodiscard]] Points control_points(const Points& values) const;
+};
+
 struct Session::ModelCache {
   std::optional<SceneModel> model;
+  std::optional<StrokeModel> stroke;
 };
 
 /// Applies one command to a copy of the state, and has what commands share. Each command's file defines `execute` for
@@ -19,6 +31,7 @@ struct SurfacePlace;
 struct Executor {
   const Document& document;
   std::optional<SceneModel>& cache;
+  std::optional<StrokeModel>& stroke_cache;
   SessionState& state;
   const Session::Progress& progress;
   bool allow_held = false;  ///< a tool may touch what is held alone
@@ -45,6 +58,13 @@ struct Executor {
                      int done = 0, int total = 0);
   /// Share `plasticity` of the displacement becomes rest shape.
   Expected<void> yield(double plasticity);
+
+  /// Puts a tool down to leave `share` of what the material lets stay, all along the way.
+  Expected<void> begin_stroke(const std::string& tool, double share);
+  /// Leads the tool of the open stroke on, and shows the shapes under it.
+  Expected<void> stroke_to(const std::vector<Point>& points);
+  /// Ends the open stroke, where there is one: the tool goes home, and what stays is the shape and the rest shape.
+  Expected<void> lift();
 
   /// The same control points on other knots or with other weights. Errors: a limit is set (input), and those of
   /// `change`.
@@ -77,7 +97,7 @@ struct Executor {
   Expected<ActiveStep> one_step(const std::vector<PointForce>& more, double& seconds);
   Expected<void> take(const ActiveStep& step);
   void record(const ActiveStep& step, double seconds, std::string note);
-  void note_model();
+  void note_model(const SceneModel& model);
   /// Whether the surfaces of which edges of faces are held have not folded: their normals point to the same side as at
   /// rest, at four points per span. Error (numerical): where they do not.
   Expected<void> check_folds();
@@ -85,6 +105,12 @@ struct Executor {
   Error all_held(const std::string& tool) const;
   /// Some selected surface is held by the edges of its faces.
   bool holds_edges() const;
+  Expected<void> prepare_stroke_model();
+  Expected<void> put_tool(const Point& place);
+  Expected<ActiveStep> press();
+  Expected<bool> refine_stroke(const ActiveStep* step);
+  Expected<void> press_along(const std::vector<Point>& places);
+  Expected<void> show_stroke(bool down);
 };
 
 /// "#12: the net is now …", for the notes.

@@ -46,7 +46,10 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   const Command meant = any.without ? make_command(*any.without) : command;
   auto next = std::make_shared<SessionState>(state());
   next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
-  Executor executor{document_, cache_->model, *next, progress};
+  Executor executor{document_, cache_->model, cache_->stroke, *next, progress};
+  if (!fields_of<StrokeCommand>(command)) {
+    if (auto lifted = executor.lift(); !lifted) return lifted;
+  }
   const auto execute = [&](const auto& fields) { return executor.execute(fields); };
   if (auto done = std::visit(execute, meant.any().fields); !done) return done;
   states_.resize(position_ + 1);
@@ -63,6 +66,16 @@ std::vector<Command> Session::journal() const {
   return commands;
 }
 
+namespace {
+
+/// Whether the second stroke is the first one led on, so that one stroke along both paths is the same.
+bool goes_on(const StrokeCommand& first, const StrokeCommand& second) {
+  return first.open && first.tool == second.tool && first.relative == second.relative &&
+         first.plasticity == second.plasticity && first.steps == second.steps && first.plastic == second.plastic;
+}
+
+}  // namespace
+
 void Session::join() {
   if (position_ < 2 || can_redo()) return;
   std::vector<Command> last = std::move(entries_.back());
@@ -75,6 +88,15 @@ void Session::join() {
       before->count <= std::numeric_limits<int>::max() - after->count) {
     StepCommand both = *before;
     both.count += after->count;
+    entry.back() = make_command(both);
+    ++first;
+  }
+  const auto* down = fields_of<StrokeCommand>(entry.back());
+  const auto* on = first != last.end() ? fields_of<StrokeCommand>(*first) : nullptr;
+  if (down && on && goes_on(*down, *on)) {
+    StrokeCommand both = *down;
+    both.path.insert(both.path.end(), on->path.begin(), on->path.end());
+    both.open = on->open;
     entry.back() = make_command(both);
     ++first;
   }

@@ -12,7 +12,8 @@ using archive::Reader;
 using archive::Writer;
 
 constexpr std::string_view magic = "Knead snapshot 2\n";
-constexpr std::string_view magic_1 = "Knead snapshot 1\n";  // without probes
+constexpr std::string_view magic_before = "Knead snapshot 1\n";  // without probes, open strokes and what they leave
+static_assert(magic.size() == magic_before.size());
 
 /// FNV-1a over words of eight bytes: damage is found, not tampering.
 std::uint64_t checksum(std::string_view bytes) {
@@ -56,7 +57,7 @@ struct Neighbour {
 
 void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission,
-               probes] = static_cast<const Scene&>(state);
+               probes, stroke] = static_cast<const Scene&>(state);
   const auto& [steps, seam_reports, notes, energy_before] = static_cast<const SessionRecord&>(state);
   archive::optional(a, selected);
   list(a, together);
@@ -82,6 +83,7 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   archive::command<SeamsCommand>(a, seams);
   choice(a, permission, RefinePermission::trims);
   list(a, probes);
+  archive::optional(a, stroke);
   std::size_t shared = 0;
   if (before.steps != nullptr) {
     const std::size_t most = std::min(steps.size(), before.steps->size());
@@ -96,9 +98,30 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   archive::optional(a, energy_before);
 }
 
+/// Whether an open stroke is one of the selected surfaces and of a tool that there is.
+bool fits(const OpenStroke& stroke, const Scene& scene) {
+  const std::vector<int> selection = scene.selection();
+  if (stroke.before.size() != selection.size() || !(stroke.path.spacing > 0)) return false;
+  Eigen::Index rows = 0;
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    const auto index = static_cast<std::size_t>(selection[k]);
+    if (selection[k] < 0 || index >= scene.surfaces.size()) return false;
+    const Surface& shape = *scene.surfaces[index].current;
+    for (const auto& before : {stroke.before[k].rest, stroke.before[k].current}) {
+      if (before->net() != shape.net()) return false;
+    }
+    rows += shape.size();
+  }
+  for (const Points* x : {&stroke.last, &stroke.older}) {
+    if (x->rows() != 0 && x->rows() != rows) return false;
+  }
+  return stroke.history.rows() == rows &&
+         std::ranges::any_of(scene.tools, [&](const Tool& t) { return t.name == stroke.tool; });
+}
+
 /// Reads a state into one that begins as a copy of the one before it.
-void read_state(Reader& a, SessionState& state, bool with_probes) {
-  auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes] =
+void read_state(Reader& a, SessionState& state) {
+  auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes, stroke] =
       static_cast<Scene&>(state);
   auto& [steps, seam_reports, notes, energy_before] = static_cast<SessionRecord&>(state);
   selected.reset();
@@ -131,7 +154,12 @@ void read_state(Reader& a, SessionState& state, bool with_probes) {
   choice(a, scaling, ScalingMode::raw);
   archive::command<SeamsCommand>(a, seams);
   choice(a, permission, RefinePermission::trims);
-  if (with_probes) list(a, probes);
+  probes.clear();
+  stroke.reset();
+  if (a.version() > 1) {
+    list(a, probes);
+    archive::optional(a, stroke);
+  }
   std::size_t shared = 0;
   a.count(shared);
   if (shared > steps.size()) return a.fail();
@@ -147,6 +175,7 @@ void read_state(Reader& a, SessionState& state, bool with_probes) {
   for (int k : state.selection()) {
     if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
   }
+  if (stroke && !a.bad() && !fits(*stroke, state)) a.fail();
   const auto known_surface = [&surfaces](int k) { return k >= 0 && k < static_cast<int>(surfaces.size()); };
   for (const SceneForce& f : forces) {
     if (!known_surface(f.surface)) a.fail();
@@ -200,12 +229,12 @@ std::string Session::snapshot(std::size_t history_bytes) const {
 }
 
 Expected<Session> Session::restore(Document document, std::string_view bytes) {
-  const bool with_probes = bytes.starts_with(magic);
-  if (!with_probes && !bytes.starts_with(magic_1)) return damaged("these bytes are no snapshot of this version");
+  const int version = bytes.starts_with(magic) ? 2 : 1;
+  if (version == 1 && !bytes.starts_with(magic_before)) return damaged("these bytes are no snapshot of this version");
   bytes.remove_prefix(magic.size());
   std::uint64_t sum = 0;
   std::vector<std::shared_ptr<const Surface>> surfaces;
-  Reader head(bytes, surfaces);
+  Reader head(bytes, surfaces, version);
   head.bytes(&sum, sizeof sum);
   if (head.bad() || checksum(head.rest()) != sum) return damaged("the snapshot is damaged");
   std::size_t opened = 0;
@@ -216,7 +245,7 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
     if (!surface) return damaged("the snapshot holds a surface that cannot be");
     surfaces.push_back(std::move(surface));
   }
-  Reader a(head.rest(), surfaces);
+  Reader a(head.rest(), surfaces, version);
   Session session(std::move(document));
   session.states_.clear();
   const auto commands = [&a]() -> std::vector<Command> {

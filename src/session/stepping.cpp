@@ -80,7 +80,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     ++stepped;
     if (progress) progress(done + stepped, total > 0 ? total : count);
   }
-  if (stepped > 0) note_model();
+  if (stepped > 0) note_model(*cache);
   return {};
 }
 
@@ -152,15 +152,15 @@ void Executor::record(const ActiveStep& step, double seconds, std::string note) 
   state.steps.push_back(std::move(record));
 }
 
-void Executor::note_model() {
-  state.seam_reports = cache->seams;
+void Executor::note_model(const SceneModel& model) {
+  state.seam_reports = model.seams;
   const std::vector<int> selection = state.selection();
   for (SeamReport& report : state.seam_reports) {
     for (PatchEdge* edge : {&report.seam.a, &report.seam.b}) {
       edge->patch = selection[static_cast<std::size_t>(edge->patch)];
     }
   }
-  for (const std::string& note : cache->notes) {
+  for (const std::string& note : model.notes) {
     if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
   }
 }

@@ -1,6 +1,9 @@
 // A session as bytes, and the same session again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+
 #include "sheet.hpp"
 
 namespace knead {
@@ -101,6 +104,37 @@ TEST(Snapshot, SharesWhatTheHistoryShares) {
   for (int k = 0; k < 50; ++k) run(session, {R"({"do":"limit","distance":3})"});
   // Fifty entries without a new shape: no control point is written again.
   EXPECT_LT(session.snapshot().size() - before, 50U * 1000U);
+}
+
+/// A snapshot of one state with one surface and neither steps nor notes, as version 1 of the format had it.
+std::string in_version_1(std::string snapshot) {
+  const std::size_t head = std::string_view("Knead snapshot 1\n").size();
+  const double one = 1;
+  std::string plastic(26, '\0');  // of the surface: along, share, yield, locality, in radii
+  std::memcpy(&plastic[1], &one, sizeof one);
+  plastic.back() = '\1';
+  snapshot.erase(snapshot.size() - 34, 1);  // no open stroke; counts of steps, seams and notes and a flag follow
+  snapshot.erase(snapshot.rfind(plastic), plastic.size());
+  snapshot[head - 2] = '1';
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const std::string_view content = std::string_view(snapshot).substr(head + 8);
+  for (std::size_t k = 0; k < content.size(); k += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, content.data() + k, std::min<std::size_t>(8, content.size() - k));
+    hash = (hash ^ word) * 0x100000001b3U;
+  }
+  hash ^= content.size();
+  std::memcpy(&snapshot[head], &hash, sizeof hash);
+  return snapshot;
+}
+
+TEST(Snapshot, ReadsTheVersionBefore) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,10]})"});
+  ASSERT_TRUE(session.state().notes.empty());
+  const auto restored = Session::restore(Document::fresh("test"), in_version_1(session.snapshot(0)));
+  ASSERT_TRUE(restored) << restored.error().message();
+  EXPECT_TRUE(same_state(restored->state(), session.state()));
 }
 
 TEST(Snapshot, RefusesBytesThatAreNotItsOwn) {

@@ -68,7 +68,8 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
     if (!same_bits(*s.rest, *t.rest)) return differs("rest " + s.id);
     if (!same_bits(*s.current, *t.current)) return differs("current " + s.id);
     if (!same_bits(s.velocity, t.velocity)) return differs("velocity " + s.id);
-    if (s.mode != t.mode || !(s.material == t.material)) return differs("material " + s.id);
+    if (s.mode != t.mode || !(s.material == t.material) || !(s.plastic == t.plastic))
+      return differs("material " + s.id);
     if (s.hold_rows != t.hold_rows || s.pins != t.pins) return differs("hold " + s.id);
     if (s.smooth_knot_lines != t.smooth_knot_lines || s.smooth_poles != t.smooth_poles) return differs("smooth");
     if (s.constraints.size() != t.constraints.size()) return differs("constraints of " + s.id);
@@ -88,6 +89,12 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
         s.friction != t.friction || s.plasticity != t.plasticity || s.direction != t.direction)
       return differs("setting of " + s.name);
   }
+  if (a.stroke.has_value() != b.stroke.has_value()) return differs("a tool that is down");
+  if (a.stroke && (!same_bits(a.stroke->history, b.stroke->history) || !same_bits(a.stroke->last, b.stroke->last) ||
+                   !same_bits(a.stroke->older, b.stroke->older) || a.stroke->tool != b.stroke->tool ||
+                   !(a.stroke->path == b.stroke->path) || !(a.stroke->plasticity == b.stroke->plasticity) ||
+                   a.stroke->lambda != b.stroke->lambda || a.stroke->tension != b.stroke->tension))
+    return differs("the open stroke");
   if (a.forces.size() != b.forces.size()) return differs("number of forces");
   if (!(a.load == b.load) || a.limit != b.limit) return differs("load or limit");
   if (!(a.evolution == b.evolution) || a.scaling != b.scaling || !(a.seams == b.seams) || a.permission != b.permission)

@@ -94,6 +94,28 @@ describe('the session in WebAssembly', () => {
     expect(again.controlPoints(0)).toEqual(after);
   });
 
+  it('leaves the same groove however often the pointer reports, which one undo takes back', async () => {
+    const stroke = async (events: number) => {
+      const engine = await sheet(32);
+      engine.execute({ do: 'hold', rows: 1 });
+      engine.execute({ do: 'material', preset: 'clay' });
+      const before = engine.controlPoints(0);
+      const at = (k: number) => [30 + (40 * k) / events, 48 + (6 * k) / events, 6];
+      engine.execute({ do: 'tool', name: 'ball', radius: 10, position: at(0), plasticity: 1 });
+      for (let k = 0; k <= events; ++k) engine.execute({ do: 'stroke', path: [at(k)], open: true }, true);
+      engine.execute({ do: 'stroke', path: [] }, true);
+      engine.execute({ do: 'remove' }, true);
+      const after = engine.controlPoints(0);
+      engine.execute({ do: 'undo' });
+      expect(engine.controlPoints(0)).toEqual(before);
+      return after;
+    };
+    const few = await stroke(8), many = await stroke(480);
+    expect(Math.min(...few)).toBeLessThan(-3.6);
+    expect(Math.min(...few)).toBeGreaterThan(-4.5); // the net lies outside of the surface
+    expect(few.reduce((most, x, k) => Math.max(most, Math.abs(x - many[k]!)), 0)).toBeLessThan(0.03 * 4);
+  });
+
   it('draws unit normals, knot lines and a field', async () => {
     const engine = await sheet();
     for (const command of press) engine.execute(command);

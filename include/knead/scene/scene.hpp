@@ -8,6 +8,8 @@
 
 #include "knead/scene/constraint.hpp"
 #include "knead/sculpt/active_spline.hpp"
+#include "knead/sculpt/plastic_history.hpp"
+#include "knead/sculpt/tool_path.hpp"
 #include "knead/sculpt/visible_region.hpp"
 
 namespace knead {
@@ -78,6 +80,36 @@ struct Probe {
   friend bool operator==(const Probe&, const Probe&) = default;
 };
 
+/// What tools leave in a surface that they are led over.
+struct PlasticPolicy {
+  bool along = false;    ///< strokes leave their groove as they go; else what is there when the tool is lifted stays
+  double share = 1;      ///< of a displacement beyond the yield that stays
+  double yield = 0;      ///< up to this displacement nothing stays
+  double locality = 0;   ///< how far a dent is felt; 0: as far as the evolution lets it
+  bool in_radii = true;  ///< yield and locality count sizes of the tool; false: file units
+
+  friend bool operator==(const PlasticPolicy&, const PlasticPolicy&) = default;
+};
+
+/// A stroke whose tool is still down. Rows are control points of the selected surfaces, one below the other.
+struct OpenStroke {
+  /// The shapes of one selected surface before the stroke, on the present net.
+  struct Before {
+    std::shared_ptr<const Surface> rest, current;
+  };
+
+  std::string tool;              ///< its name
+  Point home = Point::Zero();    ///< where the tool goes when it is lifted
+  ToolPath path;                 ///< of the tool's centre
+  double lambda = 1;             ///< of the bed that the surface is pressed against, normalised units
+  double stiffness = 0;          ///< the least that tools have
+  double tension = 0;            ///< added to α11 and α22, so that dents have no rim
+  Plasticity plasticity;         ///< the yield in file units
+  std::vector<Before> before;    ///< per selected surface
+  Points history;                ///< largest displacement so far at the Greville abscissae, file units
+  Points last = {}, older = {};  ///< displacements of the last two places; empty: none
+};
+
 /// One surface of a scene. `reference`, `rest` and `current` share their knots and weights, and `opened` shares them
 /// too unless they were edited since; the domain is always the same.
 struct SceneSurface {
@@ -93,6 +125,7 @@ struct SceneSurface {
   std::set<std::array<int, 2>> pins = {};
   std::vector<KeptConstraint> constraints = {};
   bool smooth_knot_lines = true, smooth_poles = true;
+  PlasticPolicy plastic = {};
   /// What faces show of it, in fractions of its domain; null until something asks for it.
   std::shared_ptr<const VisibleRegion> visible = {};
 };
@@ -111,6 +144,7 @@ struct Scene {
   SeamPolicy seams = {};
   RefinePermission permission = RefinePermission::trims;
   std::vector<Probe> probes = {};
+  std::optional<OpenStroke> stroke = {};  ///< a tool that is down; every other command lifts it first
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;

@@ -61,8 +61,9 @@ class Session {
 
   /// Makes the last entry of the history one with the entry before it: undo then takes both back at once, and the state
   /// between them is forgotten. For what is many commands but one act, as a stroke that follows the pointer. Equal
-  /// `step` commands that come to stand side by side become one with the sum of their counts, which is the same.
-  /// Nothing happens where there are fewer than two entries, or where something can be redone.
+  /// `step` commands that come to stand side by side become one with the sum of their counts, which is the same,
+  /// and so does a stroke that goes on with one whose tool is still down. Nothing happens where there are fewer than
+  /// two entries, or where something can be redone.
   void join();
 
   [[nodiscard]] const Document& document() const { return document_; }

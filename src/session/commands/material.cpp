@@ -71,7 +71,62 @@ Expected<MaterialFieldOf<2>> painted(const MaterialCommand& c, const SceneSurfac
   return paint<2>(s.material, values, region, {hint[0], hint[1]});
 }
 
+/// What a material that has a name is.
+struct Preset {
+  Material material;
+  double lambda;
+  PlasticPolicy plastic;
+};
+
+// Figures of docs/clay.md.
+constexpr double local = 0.25, half_local = 0.35, wide = 1;  // locality in radii of the tool
+const Preset presets[] = {
+    {{{0.1, 0, 0.1}, {0.001, 0.001, 0.001}}, 100, {true, 1, 0, local, true}},            // clay
+    {{{0.1, 0, 0.1}, {0.001, 0.001, 0.001}}, 100, {true, 0.9, 0.02, half_local, true}},  // wax
+    {{{0.1, 0, 0.1}, {0.01, 0.01, 0.01}}, 1, {true, 0, 0, wide, true}},                  // rubber
+    {{{1, 0, 1}, {0.0001, 0.0001, 0.0001}}, 1, {true, 0, 0, 0, true}},                   // cloth
+    {{{1, 0, 1}, {0, 0, 0}}, 1, {true, 0, 0, 0, true}},                                  // membrane
+};
+
+bool names_something(const MaterialCommand& c) {
+  return c.alpha || c.beta || c.mass || c.damping || c.coefficient || c.preset || c.plasticity || c.yield || c.locality;
+}
+
+Expected<void> check_plastic(const MaterialCommand& c) {
+  if (c.preset && (c.region || c.coefficient)) {
+    return input_error("a preset is for whole surfaces", "preset", "leave out region and coefficient");
+  }
+  return check_ranges(type_of<MaterialCommand>(), &c);
+}
+
+/// What strokes leave after the command.
+PlasticPolicy plastic_of(const MaterialCommand& c, const Preset* preset, PlasticPolicy before) {
+  if (preset != nullptr) before = preset->plastic;
+  if (!c.plasticity && !c.yield && !c.locality) return before;
+  before.along = true;
+  if (c.plasticity) before.share = *c.plasticity;
+  if (c.yield) before.yield = *c.yield;
+  if (c.locality) before.locality = *c.locality;
+  if (c.yield || c.locality) before.in_radii = c.lengths == LengthUnit::radii;
+  return before;
+}
+
 }  // namespace
+
+std::span<const Choice> choices(MaterialPreset) {
+  static constexpr Choice list[] = {{"clay", MaterialPreset::clay, "local, stays"},
+                                    {"wax", MaterialPreset::wax, "local, springs back a little"},
+                                    {"rubber", MaterialPreset::rubber, "springs back"},
+                                    {"cloth", MaterialPreset::cloth, "is drawn along, springs back"},
+                                    {"membrane", MaterialPreset::membrane, "a soap film, springs back"}};
+  return list;
+}
+
+std::span<const Choice> choices(LengthUnit) {
+  static constexpr Choice list[] = {{"radii", LengthUnit::radii, "of the tool"},
+                                    {"file", LengthUnit::file, "units of the file"}};
+  return list;
+}
 
 void describe(MaterialCommand& c, Fields& fields) {
   fields.name("material", "resistance to stretch and bend, in the order 11, 12, 22; what is not named stays");
@@ -91,19 +146,46 @@ void describe(MaterialCommand& c, Fields& fields) {
   fields.add("counts", c.counts, {.help = "`[m, n]` samples over the domain, its ends included"});
   fields.add("samples", c.samples,
              {.help = "m n numbers, along v first, linear in between; all that is convex coefficient by coefficient"});
+  fields.add("preset", c.preset,
+             {.help = "of whole surfaces: coefficients, the lambda of `evolve` and what strokes leave, as "
+                      "[clay.md](clay.md) lists them"});
+  fields.add("plasticity", c.plasticity,
+             {.help = "share of a displacement that strokes leave",
+              .unit = Unit::fraction,
+              .range = between(0, 1),
+              .fallback = "that of the preset"});
+  fields.add("yield", c.yield,
+             {.help = "up to this displacement strokes leave nothing",
+              .range = at_least(0),
+              .fallback = "that of the preset"});
+  fields.add("locality", c.locality,
+             {.help = "how far a dent is felt, 0 as far as lambda lets it",
+              .range = at_least(0),
+              .fallback = "that of the preset"});
+  fields.add("lengths", c.lengths, {.help = "what `yield` and `locality` count"});
 }
 
 void read_as_version_1(MaterialCommand& c) {
-  if (c.alpha || c.beta || c.mass || c.damping || c.coefficient) return;
+  if (names_something(c)) return;
   c.alpha = Material{}.alpha;
   c.beta = Material{}.beta;
 }
 
 template <>
-Expected<void> Executor::execute(const MaterialCommand& c) {
+Expected<void> Executor::execute(const MaterialCommand& given) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  if (!c.alpha && !c.beta && !c.mass && !c.damping && !c.coefficient) {
-    return input_error("no coefficient is named", "alpha", "give alpha, beta, mass, damping, or coefficient");
+  if (!names_something(given)) {
+    return input_error("nothing is named", "alpha",
+                       "give a preset, alpha, beta, mass, damping, plasticity, yield, locality, or coefficient");
+  }
+  if (auto checked = check_plastic(given); !checked) return checked;
+  MaterialCommand c = given;
+  const Preset* preset = nullptr;
+  if (c.preset) {
+    preset = &presets[static_cast<std::size_t>(*c.preset)];
+    if (!c.alpha) c.alpha = preset->material.alpha;
+    if (!c.beta) c.beta = preset->material.beta;
+    state.evolution.lambda = preset->lambda;
   }
   Material constants;
   if (c.alpha) constants.alpha = *c.alpha;
@@ -115,6 +197,7 @@ Expected<void> Executor::execute(const MaterialCommand& c) {
     if (!next) return std::unexpected(next.error());
     if (auto checked = validated<2>(*next); !checked) return std::unexpected(checked.error());
     s.material = std::move(*next);
+    s.plastic = plastic_of(c, preset, s.plastic);
   }
   return {};
 }

@@ -4,6 +4,15 @@
 
 namespace knead {
 
+/// Materials that there are by name.
+enum class MaterialPreset { clay, wax, rubber, cloth, membrane };
+
+/// What lengths of a material are counted in.
+enum class LengthUnit { radii, file };
+
+std::span<const Choice> choices(MaterialPreset);
+std::span<const Choice> choices(LengthUnit);
+
 /// Sets stretch and bend coefficients, mass and damping of the selected surfaces, everywhere or in a region. What is
 /// not named stays as it is.
 struct MaterialCommand {
@@ -14,7 +23,11 @@ struct MaterialCommand {
   /// One coefficient alone ("alpha11" … "beta22", "mass", "damping") by samples on a grid over the domain.
   std::optional<std::string> coefficient;
   std::array<int, 2> counts = {0, 0};
-  std::vector<double> samples;  ///< last direction fastest, linear in between
+  std::vector<double> samples;           ///< last direction fastest, linear in between
+  std::optional<MaterialPreset> preset;  ///< of whole surfaces
+  /// What strokes leave; default: that of the preset, else as it was.
+  std::optional<double> plasticity, yield, locality;
+  LengthUnit lengths = LengthUnit::radii;
 };
 
 template <>

@@ -117,7 +117,8 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   const double share = std::min(c.strength, 0.999);  // all of it would be the static solution
   plate.lambda = resistance / (unit_radius * unit_radius) * (1 - share) / share;
   std::optional<SceneModel> model;  // the one that steps use stays as it is
-  Executor own{document, model, trial, progress};
+  std::optional<StrokeModel> unused;
+  Executor own{document, model, unused, trial, progress};
   if (auto done = own.run(1, plate); !done) return done;
 
   for (int index : state.selection()) {

@@ -3,25 +3,53 @@
 #include <fmt/format.h>
 
 namespace knead {
+namespace {
+
+/// Whether the stroke leaves its dents as it goes.
+bool leaves_along(const StrokeCommand& c, const Scene& scene) {
+  if (c.plastic != StrokePlasticity::material) return c.plastic == StrokePlasticity::along;
+  return c.open || (scene.selected && scene.surfaces[static_cast<std::size_t>(*scene.selected)].plastic.along);
+}
+
+}  // namespace
+
+std::span<const Choice> choices(StrokePlasticity) {
+  static constexpr Choice list[] = {{"material", StrokePlasticity::material, "as the material has it"},
+                                    {"along", StrokePlasticity::along, "as the tool goes"},
+                                    {"release", StrokePlasticity::release, "when it is lifted"}};
+  return list;
+}
 
 void describe(StrokeCommand& c, Fields& fields) {
   fields.name("stroke", "press a tool along a path and take it back, as one command");
   fields.add("tool", c.tool, {.help = "its name", .fallback = "the only tool"});
-  fields.add(
-      "path", c.path,
-      {.help = "`[[x, y, z], …]`, positions of its centre", .unit = Unit::length, .presence = Presence::required});
-  fields.add("steps", c.steps, {.help = "at each position"});
+  fields.add("path", c.path,
+             {.help = "`[[x, y, z], …]`, positions of its centre; empty to lift a tool that is down",
+              .unit = Unit::length,
+              .presence = Presence::required});
+  fields.add("steps", c.steps, {.help = "at each position, where the shape at the end stays"});
   fields.add("plasticity", c.plasticity,
-             {.help = "share of the displacement that becomes rest shape", .unit = Unit::fraction});
+             {.help = "share of the displacement that becomes rest shape, of what the material lets stay",
+              .unit = Unit::fraction});
+  fields.add("plastic", c.plastic, {.help = "when what the tool does becomes the shape"});
+  fields.add(
+      "open", c.open,
+      {.help = "the tool stays down, and the next stroke of it goes on with this one; any other command lifts it "
+               "first"});
   fields.add("relative", c.relative,
              {.help = "the path is measured from where the tool is, in fractions of the diagonal"});
 }
 
 template <>
 Expected<void> Executor::execute(const StrokeCommand& c) {
-  auto tool = find_tool(c.tool);
+  if (state.stroke && (c.plastic == StrokePlasticity::release || (c.tool && *c.tool != state.stroke->tool))) {
+    if (auto lifted = lift(); !lifted) return lifted;
+  }
+  auto tool = find_tool(c.tool ? c.tool : state.stroke ? std::optional(state.stroke->tool) : std::nullopt);
   if (!tool) return std::unexpected(tool.error());
-  if (c.path.empty()) return input_error("the path has no positions", "path", "give one or more: [[x, y, z], ...]");
+  if (c.path.empty() && !state.stroke) {
+    return input_error("the path has no positions", "path", "give one or more: [[x, y, z], ...]");
+  }
   if (c.steps < 1) return input_error(fmt::format("{} steps are too few", c.steps), "steps", "use 1 or more");
   if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
     return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");
@@ -30,11 +58,23 @@ Expected<void> Executor::execute(const StrokeCommand& c) {
   if (!length) return std::unexpected(length.error());
   const PlacedShape before = (*tool)->shape;
   const Placement& at = before.placement();
+  const Point home = state.stroke ? state.stroke->home : at.position;
+  std::vector<Point> points;
+  for (const Vector3& given : c.path) {
+    points.emplace_back(given[0], given[1], given[2]);
+    if (c.relative) points.back() = home + *length * points.back();
+  }
+  if (state.stroke || leaves_along(c, state)) {
+    if (!state.stroke) {
+      if (auto begun = begin_stroke((*tool)->name, c.plasticity); !begun) return begun;
+    }
+    if (auto done = stroke_to(points); !done) return done;
+    return c.open ? Expected<void>() : lift();
+  }
   const auto index = static_cast<std::size_t>(*tool - state.tools.data());
-  const int total = c.steps * static_cast<int>(c.path.size());
-  for (std::size_t k = 0; k < c.path.size(); ++k) {
-    const Point given(c.path[k][0], c.path[k][1], c.path[k][2]);
-    auto moved = before.moved(at.rotation, c.relative ? Point(at.position + *length * given) : given);
+  const int total = c.steps * static_cast<int>(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    auto moved = before.moved(at.rotation, points[k]);
     if (!moved) return std::unexpected(moved.error().within(fmt::format("path[{}]", k)));
     state.tools[index].shape = std::move(*moved);
     if (auto done = run(c.steps, state.evolution, {}, static_cast<int>(k) * c.steps, total); !done) return done;

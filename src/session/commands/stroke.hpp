@@ -4,12 +4,23 @@
 
 namespace knead {
 
-/// Moves a tool along a path, stepping on the way, and takes it back: press, drag and release as one.
+/// When what a tool does to the shape becomes the shape.
+enum class StrokePlasticity {
+  material,  ///< as the material says
+  along,     ///< every place leaves its dent
+  release,   ///< what is there when the tool is lifted stays
+};
+
+std::span<const Choice> choices(StrokePlasticity);
+
+/// Moves a tool along a path and takes it back: press, drag and release as one.
 struct StrokeCommand {
   std::optional<std::string> tool;
   std::vector<Vector3> path;  ///< positions of the tool's centre
   int steps = 2;              ///< at each of them
   double plasticity = 1;
+  StrokePlasticity plastic = StrokePlasticity::material;
+  bool open = false;      ///< the tool stays down: the next stroke of this tool goes on with this one
   bool relative = false;  ///< the path is measured from where the tool is, in fractions of the diagonal
 };
 

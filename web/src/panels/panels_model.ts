@@ -10,14 +10,16 @@ interface Preset {
   alpha: number;
   beta: number;
   lambda: number;
+  /** How far a dent is felt, in radii of the tool; 0: as far as lambda lets it. */
+  locality: number;
 }
 
 export const presets: Preset[] = [
-  { name: 'Clay', about: 'gives way where it is pressed and nowhere else', alpha: 0.1, beta: 0.001, lambda: 100 },
-  { name: 'Rubber', about: 'stretches far and wants back', alpha: 1, beta: 0.01, lambda: 5 },
-  { name: 'Sheet metal', about: 'resists bending: wide, fair dents', alpha: 0.05, beta: 0.05, lambda: 20 },
-  { name: 'Cloth', about: 'hardly resists bending', alpha: 1, beta: 0.0002, lambda: 5 },
-  { name: 'Membrane', about: 'stretch alone: a soap film', alpha: 1, beta: 0, lambda: 1 },
+  { name: 'Clay', about: 'gives way where it is pressed and nowhere else', alpha: 0.1, beta: 0.001, lambda: 100, locality: 0.25 },
+  { name: 'Rubber', about: 'stretches far and wants back', alpha: 1, beta: 0.01, lambda: 5, locality: 0 },
+  { name: 'Sheet metal', about: 'resists bending: wide, fair dents', alpha: 0.05, beta: 0.05, lambda: 20, locality: 0 },
+  { name: 'Cloth', about: 'hardly resists bending', alpha: 1, beta: 0.0002, lambda: 5, locality: 0 },
+  { name: 'Membrane', about: 'stretch alone: a soap film', alpha: 1, beta: 0, lambda: 1, locality: 0 },
 ];
 
 export function materialPanel(app: App): HTMLElement {
@@ -33,7 +35,7 @@ export function materialPanel(app: App): HTMLElement {
     const fits = (p: Preset) => one(s.alpha) === p.alpha && one(s.beta) === p.beta;
     return [
       row(...presets.map((p) => toggle(p.name, fits(p), () => void app.execute([
-        { do: 'material', alpha: [p.alpha, 0, p.alpha], beta: [p.beta, p.beta, p.beta] },
+        { do: 'material', alpha: [p.alpha, 0, p.alpha], beta: [p.beta, p.beta, p.beta], locality: p.locality },
         { ...app.state!.evolve, do: 'evolve', lambda: p.lambda, ...(app.state!.evolve.mode === 'static' ? { mode: 'acm' } : {}) } as Command,
       ]), p.about))),
       note(presets.find(fits) ? `${presets.find(fits)!.name} ${presets.find(fits)!.about}.` : s.alpha.includes(null) || s.beta.includes(null)

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import type { Command } from '../engine/session_types';
+import type { Command, Vector3 } from '../engine/session_types';
 import type { GridPicker } from '../view/picking';
 import type { Hit, Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
@@ -34,7 +34,6 @@ export interface BrushActions {
 }
 
 export const brushName = 'brush';
-const mostSteps = 8; // between two places of the pointer that the session has seen
 
 type Place = Pick<Hit, 'point' | 'normal' | 'fractions'> & { press: number };
 
@@ -46,8 +45,9 @@ interface Stroke {
   frozen: (GridPicker | null)[];
   begun: Promise<boolean>;
   start: THREE.Vector3;
-  /** Where the ball is for the session. */
-  last: Place;
+  /** Centres of the ball that the session has not been told of, and the radius that it has. */
+  ahead: Vector3[];
+  radius: number;
   at: [number, number];
   cancelled: boolean;
 }
@@ -99,15 +99,15 @@ export class Brush implements PointerTool {
     const inward = (this.mode === 'push') !== event.altKey;
     const last = { ...hit, press: this.pressure(event) };
     const stroke: Stroke = {
-      viewport, surface: hit.surface, kind, inward, frozen, begun: Promise.resolve(true), start: hit.point.clone(), last,
-      at: hit.fractions, cancelled: false,
+      viewport, surface: hit.surface, kind, inward, frozen, begun: Promise.resolve(true), start: hit.point.clone(),
+      ahead: [], radius: this.settings.radius, at: hit.fractions, cancelled: false,
     };
     this.stroke = stroke;
     stroke.begun = (async () => {
       if (!this.viewer.frame!.state.selection.includes(hit.surface)) await this.actions.select(hit.surface);
       return this.actions.begin(
-        kind === 'ball' ? this.ball(last, inward)
-        : kind === 'smooth' ? this.smooth(stroke, last)
+        kind === 'ball' ? this.ball(this.centre(last, inward))
+        : kind === 'smooth' ? this.smooth(last)
         : [this.grab(stroke, new THREE.Vector3())]);
     })();
     return true;
@@ -133,8 +133,11 @@ export class Brush implements PointerTool {
     if (!hit || hit.surface !== stroke.surface) return;
     this.showRing(hit);
     const place = { ...hit, press: this.pressure(event) };
-    if (stroke.kind === 'ball') void this.followOn(stroke, () => this.towards(stroke, place), true);
-    else void this.followOn(stroke, () => this.smooth(stroke, place), true);
+    if (stroke.kind === 'ball') {
+      stroke.ahead.push(this.centre(place, stroke.inward));
+      void this.followOn(stroke, () => this.led(stroke), true);
+    }
+    else void this.followOn(stroke, () => this.smooth(place), true);
   }
 
   /** To the right larger, upwards deeper. */
@@ -157,7 +160,7 @@ export class Brush implements PointerTool {
     this.stroke = null;
     void (async () => {
       if ((await stroke.begun) && !stroke.cancelled) {
-        await this.actions.end(stroke.kind === 'ball' ? [{ do: 'remove', tool: brushName }] : []);
+        await this.actions.end(stroke.kind === 'ball' ? this.lifted(stroke) : []);
       }
     })();
   }
@@ -186,31 +189,40 @@ export class Brush implements PointerTool {
     if (await stroke.begun) await this.actions.cancel();
   }
 
-  private ball({ point, normal, press }: Place, inward: boolean): Command[] {
+  /** Of the ball that is pressed in at a place. */
+  private centre({ point, normal, press }: Place, inward: boolean): Vector3 {
     const { radius, strength } = this.settings;
     const away = (1 - strength * press) * radius;
     const centre = point.clone().addScaledVector(normal, inward ? away : -away);
     const [x, y, z] = this.viewer.origin;
+    return [centre.x + x, centre.y + y, centre.z + z];
+  }
+
+  /** A ball that is put down, and stays down. */
+  private ball(position: Vector3): Command[] {
     return [
-      { do: 'tool', name: brushName, shape: 'sphere', radius, position: [centre.x + x, centre.y + y, centre.z + z],
-        mode: 'collision', plasticity: 1 },
-      { do: 'step' },
+      { do: 'tool', name: brushName, shape: 'sphere', radius: this.settings.radius, position, mode: 'collision', plasticity: 1 },
+      { do: 'stroke', tool: brushName, path: [position], open: true },
     ];
   }
 
-  private smooth(stroke: Stroke, at: Place): Command[] {
-    stroke.last = at;
+  private smooth(at: Place): Command[] {
     return [{ do: 'relax', at: at.fractions, radius: this.settings.radius, strength: this.settings.strength * at.press }];
   }
 
-  /** From where the ball is to where the pointer is, so closely that a fast hand leaves a groove and not single dents. */
-  private towards(stroke: Stroke, to: Place): Command[] {
-    const from = stroke.last;
-    stroke.last = to;
-    const count = Math.min(mostSteps, Math.max(1, Math.ceil(from.point.distanceTo(to.point) / (0.4 * this.settings.radius))));
-    return Array.from({ length: count }, (_, k) => (k + 1) / count).flatMap((x) =>
-      this.ball({ point: from.point.clone().lerp(to.point, x), normal: from.normal.clone().lerp(to.normal, x).normalize(),
-        fractions: to.fractions, press: from.press + (to.press - from.press) * x }, stroke.inward));
+  /** On along all places that the pointer has been at since: the session takes them at a distance of its own. */
+  private led(stroke: Stroke): Command[] {
+    const path = stroke.ahead.splice(0);
+    if (path.length === 0) return [];
+    if (stroke.radius !== this.settings.radius) {
+      stroke.radius = this.settings.radius;
+      return [...this.ball(path[0]!), { do: 'stroke', tool: brushName, path, open: true }];
+    }
+    return [{ do: 'stroke', tool: brushName, path, open: true }];
+  }
+
+  private lifted(stroke: Stroke): Command[] {
+    return [...this.led(stroke), { do: 'stroke', tool: brushName, path: [] }, { do: 'remove', tool: brushName }];
   }
 
   private grab(stroke: Stroke, by: THREE.Vector3): Command {

@@ -84,7 +84,7 @@ export class Hand {
       follow: (commands, join) => host.client.follow(commands, join),
       end: async (commands) => {
         await host.client.followed();
-        if (commands.length > 0) await host.execute(commands, commands[0]!.do === 'remove');
+        if (commands.length > 0) await host.execute(commands, true);
         else await host.execute([]);
       },
       cancel: async () => {
