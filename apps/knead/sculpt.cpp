@@ -5,10 +5,12 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cli.hpp"
 #include "faces.hpp"
 #include "knead/exchange/file_io.hpp"
+#include "knead/sculpt/describe_shape.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "outputs.hpp"
@@ -23,28 +25,22 @@ struct Options {
   [[nodiscard]] const std::string& name() const { return fresh ? output : file; }
 };
 
-std::string describe(const Shape& shape) {
-  return std::visit(
-      [](const auto& s) -> std::string {
-        using S = std::decay_t<decltype(s)>;
-        const auto sizes = [](const std::array<double, 3>& a) {
-          return fmt::format("{:.4g} x {:.4g} x {:.4g}", a[0], a[1], a[2]);
-        };
-        if constexpr (std::is_same_v<S, SphereShape>) return fmt::format("sphere of radius {:.4g}", s.radius);
-        if constexpr (std::is_same_v<S, EllipsoidShape>) return "ellipsoid " + sizes(s.semi_axes);
-        if constexpr (std::is_same_v<S, BoxShape>) return "box of half sizes " + sizes(s.half_sizes);
-        if constexpr (std::is_same_v<S, CylinderShape>) return fmt::format("cylinder of radius {:.4g}", s.radius);
-        if constexpr (std::is_same_v<S, ConeShape>) return fmt::format("cone of radius {:.4g}", s.radius);
-        if constexpr (std::is_same_v<S, CapsuleShape>) return fmt::format("capsule of radius {:.4g}", s.radius);
-        if constexpr (std::is_same_v<S, TorusShape>)
-          return fmt::format("torus of radii {:.4g} and {:.4g}", s.major, s.minor);
-        if constexpr (std::is_same_v<S, PlaneShape>) return "plane";
-        if constexpr (std::is_same_v<S, BowlShape>) return fmt::format("bowl of radius {:.4g}", s.radius);
-        if constexpr (std::is_same_v<S, SuperellipsoidShape>) return "superellipsoid " + sizes(s.semi_axes);
-        if constexpr (std::is_same_v<S, SupertoroidShape>) return fmt::format("supertoroid of radius {:.4g}", s.major);
-        if constexpr (std::is_same_v<S, SplineShape>) return "B-spline surface";
-      },
-      shape);
+/// "box of sizes 10 x 20 x 5, rounding 2"
+std::string in_words(const Shape& shape) {
+  const Type& shapes = type_of<Shape>();
+  const Type& type = *shapes.variants[shape.index()];
+  std::string text(type.name), separator = " of ";
+  for (const Field& field : type.fields) {
+    if (!field.type->numeric()) continue;
+    const auto* numbers = static_cast<const double*>(field.of(shapes.part(&shape)));
+    const std::size_t count = field.type->kind == Kind::array ? field.type->length : 1;
+    std::string values;
+    for (std::size_t k = 0; k < count; ++k) {
+      values += fmt::format("{}{:.4g}", k == 0 ? "" : " x ", numbers[k] * field.factor);
+    }
+    text += fmt::format("{}{} {}", std::exchange(separator, ", "), field.name, values);
+  }
+  return text;
 }
 
 /// "step 12 of 60" on standard error, when that is a terminal and the work has taken more than a second.
@@ -173,7 +169,7 @@ void print_summary(const Options& options, const Session& session, const Outcome
     }
     for (const Tool& t : state.tools) {
       const Point& c = t.shape.placement().position;
-      fmt::print("  tool {}: {} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", t.name, describe(t.shape.shape()),
+      fmt::print("  tool {}: {} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", t.name, in_words(t.shape.shape()),
                  c.x(), c.y(), c.z(),
                  t.collides() ? (t.mode == ToolMode::imprint ? "imprint" : "collision")
                               : fmt::format("proximity within {:.4g}", t.range),

@@ -6,7 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace knead::detail {
+#include "knead/sculpt/shape.hpp"
+
+namespace knead {
+
+Eigen::Quaterniond turn_between(const Point& from, const Point& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
+namespace detail {
 
 LeftSingular left_singular(const Eigen::MatrixXd& a) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU);
@@ -36,4 +44,5 @@ Eigen::MatrixXd PivotedQr::remainder(Eigen::Index rank) const {
   return rest;
 }
 
-}  // namespace knead::detail
+}  // namespace detail
+}  // namespace knead

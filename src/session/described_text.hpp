@@ -32,6 +32,10 @@ class TypeScript {
   /// optional, or with Absent::null null, where what is no std::optional is always there.
   void declare(const Type& type, const std::string& name, const std::string& suffix, Absent absent = Absent::left_out);
 
+  /// What the records of a variant are made of, as the constant `name`: per record its help and its numbers, with unit
+  /// and the values that they have by default.
+  void list(const Type& variant, const std::string& name);
+
  private:
   void record(const Type& type, const std::string& name, std::string_view tag, const std::string& suffix,
               Absent absent);

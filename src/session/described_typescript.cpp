@@ -33,6 +33,16 @@ std::string about(const Field& field) {
   return text.empty() ? "" : fmt::format("  /** {} */\n", text);
 }
 
+/// A string of JavaScript.
+std::string literal(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "'";
+}
+
 }  // namespace
 
 void TypeScript::declare(const Type& type, const std::string& name, const std::string& suffix, Absent absent) {
@@ -46,6 +56,29 @@ void TypeScript::declare(const Type& type, const std::string& name, const std::s
     alternatives += "\n  | " + held_name;
   }
   text += fmt::format("export type {} ={};\n\n", name, alternatives);
+}
+
+void TypeScript::list(const Type& variant, const std::string& name) {
+  std::string records;
+  for (const Type* held : variant.variants) {
+    std::string fields;
+    for (const Field& field : held->fields) {
+      if (!field.type->numeric()) continue;
+      const auto* numbers = static_cast<const double*>(field.of(held->initial));
+      const std::size_t count = field.type->kind == Kind::array ? field.type->length : 1;
+      std::string initial;
+      for (std::size_t k = 0; k < count; ++k)
+        initial += fmt::format("{}{}", k == 0 ? "" : ", ", numbers[k] * field.factor);
+      fields += fmt::format("\n      {{ name: {}, help: {}, length: {}, initial: [{}] }},", literal(field.name),
+                            literal(field.help), field.unit == Unit::length, initial);
+    }
+    records += fmt::format("  {}: {{ help: {}, fields: [{}{}] }},\n", held->name, literal(held->help), fields,
+                           fields.empty() ? "" : "\n    ");
+  }
+  text += fmt::format(
+      "type Numbers = {{ help: string; fields: {{ name: string; help: string; length: boolean; initial: number[] }}[] "
+      "}};\n\nexport const {}: Record<string, Numbers> = {{\n{}}};\n",
+      name, records);
 }
 
 void TypeScript::record(const Type& type, const std::string& name, std::string_view tag, const std::string& suffix,

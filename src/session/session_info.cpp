@@ -278,6 +278,7 @@ std::string session_typescript() {
   types.declare(type_of<CommandVariant>(), "AnyCommand", "Command");
   types.declare(type_of<SessionInfo>(), "SessionInfo", "Info", Absent::null);
   types.declare(type_of<ErrorInfo>(), "EngineErrorInfo", "Info", Absent::null);
+  types.list(type_of<Shape>(), "shapes");
   return "// Generated from the engine's descriptions; not to be edited. Lengths are in file units.\n\n" +
          std::move(types.text);
 }

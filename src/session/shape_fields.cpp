@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "described_json.hpp"
 #include "knead/sculpt/describe_shape.hpp"
@@ -52,9 +53,8 @@ bool names_any(ShapeFields fields) {
                              [&](const Field& field) { return field.type->count(field.of(&fields)) > 0; });
 }
 
-}  // namespace
-
-void add_measures(ShapeFields& f, Fields& fields) {
+/// The measures that several shapes have, or that need more words than those of their shape.
+void add_named_measures(ShapeFields& f, Fields& fields) {
   fields.add("radius", f.radius,
              {.help = "of spheres, cylinders and the like; where a shape has `sizes`, all of them",
               .unit = Unit::length,
@@ -83,6 +83,52 @@ void add_measures(ShapeFields& f, Fields& fields) {
              {.help = "`[e1, e2]` of superellipsoid and supertoroid", .fallback = "`[1, 1]`"});
   fields.add("surface", f.surface,
              {.help = "of shape `surface`: the id of the surface of the document that is the tool, as it is now"});
+}
+
+/// A number that shapes have and the measures above do not name.
+struct OtherMeasure {
+  std::string_view name;
+  std::string help, fallback;
+  About about;
+};
+
+std::string default_of(const Field& field, const Type& shape) {
+  const double number = *static_cast<const double*>(field.of(shape.initial)) * field.factor;
+  if (field.unit != Unit::length || number == 0) return fmt::format("`{}`", number);
+  return number == 1 ? "a tenth of the diagonal" : fmt::format("{} tenths of the diagonal", number);
+}
+
+std::vector<OtherMeasure> other_measures() {
+  Type named;
+  ShapeFields value;
+  Fields fields(named, &value);
+  add_named_measures(value, fields);
+  std::vector<OtherMeasure> others;
+  for (const Type* shape : type_of<Shape>().variants) {
+    for (const Field& field : shape->fields) {
+      if (named.find(field.name) != nullptr || field.type->kind != Kind::number) continue;
+      const auto same = std::ranges::find(others, field.name, &OtherMeasure::name);
+      if (same != others.end()) {
+        same->help += fmt::format("; of a {}: {}", shape->name, field.help);
+      } else {
+        others.push_back(
+            {field.name, fmt::format("of a {}: {}", shape->name, field.help), default_of(field, *shape), field});
+      }
+    }
+  }
+  assert(others.size() <= value.others.size());
+  return others;
+}
+
+}  // namespace
+
+void add_measures(ShapeFields& f, Fields& fields) {
+  add_named_measures(f, fields);
+  static const std::vector<OtherMeasure> others = other_measures();
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    const auto& [name, help, fallback, about] = others[k];
+    fields.add(name, f.others[k], {.help = help, .unit = about.unit, .range = about.range, .fallback = fallback});
+  }
 }
 
 void describe(ShapeFields& f, Fields& fields) {

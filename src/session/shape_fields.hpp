@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,8 @@ struct ShapeFields {
   std::optional<Vector3> sizes;  ///< semi-axes or half sizes
   std::optional<std::array<double, 2>> exponents;
   std::optional<std::string> surface;  ///< of shape "surface": its id
+  /// Measures that only the description of a shape knows of, in the order in which `add_measures` names them.
+  std::array<std::optional<double>, 8> others;
 };
 
 void describe(ShapeFields& f, Fields& fields);

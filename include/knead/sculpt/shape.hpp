@@ -134,6 +134,10 @@ struct Placement {
   std::array<double, 3> scale = {1, 1, 1};  ///< along the three own axes of the shape, each > 0
 };
 
+/// The turn by the least angle that takes the direction of `from` to that of `to`, both not zero. Where they are
+/// opposite, about an axis across them.
+[[nodiscard]] Eigen::Quaterniond turn_between(const Point& from, const Point& to);
+
 namespace detail {
 class ShapeKernel;
 }

@@ -15,7 +15,7 @@ Expected<Placement> placement_of(const EditToolCommand& c, const Placement& befo
     const Point axis((*c.axis)[0], (*c.axis)[1], (*c.axis)[2]);
     if (!(axis.norm() > 0)) return input_error("the axis has no direction", "axis", "use a vector that is not zero");
     const Point present = before.rotation * Point::UnitZ();
-    placement.rotation = (Eigen::Quaterniond::FromTwoVectors(present, axis) * before.rotation).normalized();
+    placement.rotation = (turn_between(present, axis) * before.rotation).normalized();
   }
   if (c.orientation) {
     const auto rotation = rotation_of(*c.orientation);

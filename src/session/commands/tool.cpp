@@ -22,7 +22,7 @@ Expected<Placement> placement_of(const ToolCommand& c, double unit, SceneSurface
   if (c.axis) {
     const Point axis = point_of(*c.axis);
     if (!(axis.norm() > 0)) return input_error("the axis has no direction", "axis", "use a vector that is not zero");
-    placement.rotation = Eigen::Quaterniond::FromTwoVectors(Point::UnitZ(), axis);
+    placement.rotation = turn_between(Point::UnitZ(), axis);
   }
   if (c.orientation) {
     const auto rotation = rotation_of(*c.orientation);

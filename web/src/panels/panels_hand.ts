@@ -6,7 +6,7 @@ import type { App } from './app';
 import { field, h, numberInput, select, slider, toggle } from './dom';
 import { note, panel, row } from './panel';
 import { presets } from './panels_model';
-import { shapes } from './panels_scene';
+import { shapeTitles } from './panels_scene';
 
 /** What the pointer does, and how: a panel for brushes and paint, one for control points. */
 
@@ -79,7 +79,7 @@ function placeFields(app: App): (Node | null)[] {
   const { placing } = app.hand;
   const others = app.state?.surfaces.filter((_, k) => !app.state!.selection.includes(k)) ?? [];
   return [
-    field('Shape', select('Shape of the new tool', shapes.filter(([s]) => s !== 'surface' || others.length > 0), placing.shape as 'sphere', (shape) => {
+    field('Shape', select('Shape of the new tool', shapeTitles.filter(([s]) => s !== 'surface' || others.length > 0), placing.shape as 'sphere', (shape) => {
       placing.shape = shape;
       placing.surface = shape === 'surface' ? (placing.surface ?? others[0]?.id) : undefined;
       app.changed();

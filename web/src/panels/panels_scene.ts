@@ -1,4 +1,5 @@
 import { format, parseLength } from '../document/units';
+import { shapes } from '../engine/generated';
 import type { ToolInfo } from '../engine/session_types';
 import type { App } from './app';
 import { field, h, iconButton, numberInput, select, toggle } from './dom';
@@ -38,16 +39,13 @@ export function surfacesPanel(app: App): HTMLElement {
   });
 }
 
-export const shapes = [
-  ['sphere', 'Sphere'], ['ellipsoid', 'Ellipsoid'], ['box', 'Box'], ['cylinder', 'Cylinder'], ['cone', 'Cone'], ['capsule', 'Capsule'],
-  ['torus', 'Torus'], ['plane', 'Plane'], ['bowl', 'Bowl'], ['superellipsoid', 'Superellipsoid'], ['supertoroid', 'Supertoroid'],
-  ['surface', 'Surface of the document'],
-] as const;
+const title = (name: string): string => name.charAt(0).toUpperCase() + name.slice(1).replaceAll('_', ' ');
 
-const lengthsOf: Record<string, ('radius' | 'minor' | 'height' | 'top_radius' | 'rounding' | 'thickness')[]> = {
-  sphere: ['radius'], cylinder: ['radius', 'height'], cone: ['radius', 'height', 'top_radius'], capsule: ['radius', 'height'],
-  torus: ['radius', 'minor'], bowl: ['radius', 'thickness'], box: ['rounding'], supertoroid: ['radius', 'minor'],
-};
+/** The shapes with their titles. */
+export const shapeTitles = Object.keys(shapes).map((name) => [name, name === 'surface' ? 'Surface of the document' : title(name)] as const);
+
+/** Measures that go by another word in the panel. */
+const words: Record<string, string> = { minor: 'Tube', thickness: 'Wall', sizes: 'Semi-axes' };
 
 /** A length that is the same in every direction as one number. */
 const single = (value: number | [number, number] | undefined): number => (Array.isArray(value) ? value[0] : value ?? 0);
@@ -56,8 +54,8 @@ const single = (value: number | [number, number] | undefined): number => (Array.
 function edited(tool: ToolInfo, change: Record<string, unknown>): Record<string, unknown> & { do: string } {
   const command: Record<string, unknown> & { do: string } = { do: 'edit_tool', tool: tool.name, ...change };
   const shape = (change.shape as string | undefined) ?? tool.shape;
-  const sized = ['box', 'ellipsoid', 'superellipsoid'].includes(shape) && tool.sizes !== undefined;
-  if (shape !== tool.shape && !['plane', 'surface'].includes(shape) && tool.radius === undefined && !sized) {
+  const has = (name: string) => shapes[shape]!.fields.some((f) => f.name === name);
+  if (shape !== tool.shape && tool.radius === undefined && (has('radius') || (has('sizes') && tool.sizes === undefined))) {
     command.radius = tool.sizes?.[0] ?? tool.size ?? 1;
   }
   if (change.mode !== undefined && change.mode !== tool.mode) command.stiffness = change.mode === 'proximity' ? 100 : 1e4;
@@ -96,10 +94,8 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
   return [
     row(...(['translate', 'rotate', 'scale'] as const).map((m) =>
       toggle({ translate: 'Move', rotate: 'Turn', scale: 'Resize' }[m], mode === m, () => setGizmo(m)))),
-    field('Shape', select('Shape', shapes, tool.shape as (typeof shapes)[number][0], (shape) => change({ shape }))),
-    ...(lengthsOf[tool.shape] ?? []).map((name) =>
-      number({ radius: 'Radius', minor: 'Tube', height: 'Height', top_radius: 'Top radius', rounding: 'Rounding', thickness: 'Wall' }[name], single(tool[name]), name, true)),
-    ...sizeFields(app, tool, change),
+    field('Shape', select('Shape', shapeTitles, tool.shape, (shape) => change({ shape }))),
+    ...measures(app, tool, change),
     field('Mode', select('Mode', [['collision', 'Collision'], ['proximity', 'Proximity'], ['imprint', 'Imprint']], tool.mode, (m) => change({ mode: m })),
       'Collision pushes out what has entered; proximity draws from either side; imprint leaves its shape at once'),
     tool.mode === 'proximity'
@@ -112,14 +108,19 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
   ];
 }
 
-/** Semi-axes or half sides, exponents, and where the tool is. */
-function sizeFields(app: App, tool: ToolInfo, change: (what: Record<string, unknown>) => void): (Node | null)[] {
-  const several = (label: string, name: string, values: readonly number[], isLength: boolean, tip: string) =>
-    field(label, row(...values.map((value, k) => numberInput(`${label} ${k + 1}`, value,
-      (v) => change({ [name]: values.map((x, l) => (l === k ? v : x)) }), isLength ? length(app) : undefined))), tip);
+/** The numbers of its shape, and where the tool is. */
+function measures(app: App, tool: ToolInfo, change: (what: Record<string, unknown>) => void): Node[] {
+  const input = (label: string, value: number, isLength: boolean, set: (v: number) => void) => numberInput(label, value, set, isLength ? length(app) : undefined);
+  const several = (label: string, name: string, values: readonly number[], isLength: boolean, tip?: string) =>
+    field(label, row(...values.map((value, k) => input(`${label} ${k + 1}`, value, isLength,
+      (v) => change({ [name]: values.map((x, l) => (l === k ? v : x)) })))), tip);
   return [
-    tool.sizes ? several(tool.shape === 'box' ? 'Half sides' : 'Semi-axes', 'sizes', tool.sizes, true, 'Along its own x, y, z') : null,
-    tool.exponents ? several('Exponents', 'exponents', tool.exponents, false, '1 is round, towards 0 boxlike, 2 a diamond') : null,
+    ...shapes[tool.shape]!.fields.map((f) => {
+      const value = (tool as Record<string, unknown>)[f.name] as number | number[];
+      const label = tool.shape === 'box' && f.name === 'sizes' ? 'Half sides' : words[f.name] ?? title(f.name);
+      return f.initial.length > 1 && f.name !== 'minor' ? several(label, f.name, value as number[], f.length, f.help)
+        : field(label, input(label, single(value as number | [number, number]), f.length, (v) => change({ [f.name]: v })), f.help);
+    }),
     several('Position', 'position', tool.position, true, 'Of its centre'),
   ];
 }

@@ -1,9 +1,22 @@
 import * as THREE from 'three';
 
+import { shapes } from '../engine/generated';
 import type { Command } from '../engine/session_types';
 import type { Placing, ToolHost } from './host';
 
-const lying = ['plane', 'bowl', 'cylinder', 'cone', 'capsule', 'torus', 'supertoroid', 'box', 'ellipsoid', 'superellipsoid'];
+/** Shapes whose own z axis points at the surface: the material of a plane lies below it, and a wedge presses with its ridge. */
+const facing = ['plane', 'wedge'];
+
+/** How far a shape reaches along its axis from its centre, towards the surface, in radii. */
+const reaches: Record<string, number> = { plane: 0, cone: 0, torus: 0.25, supertoroid: 0.25, capsule: 2 };
+
+/** The measures of a shape of this radius. */
+function measures(shape: string, radius: number): Record<string, unknown> {
+  const { fields } = shapes[shape]!;
+  if (fields.some((f) => f.name === 'radius')) return { radius };
+  return Object.fromEntries(fields.filter((f) => f.length).map(({ name, initial }) =>
+    [name, initial.length > 1 ? initial.map((x) => radius * x) : radius * initial[0]!]));
+}
 
 /** The command that puts a tool of the chosen shape beside a point of the surface, its axis along the normal. `radius`: its size, file units. */
 export function newTool(host: ToolHost, { shape, surface }: Placing, radius: number, point: THREE.Vector3, normal: THREE.Vector3): Command {
@@ -13,12 +26,7 @@ export function newTool(host: ToolHost, { shape, surface }: Placing, radius: num
   const name = `tool ${number}`;
   const common = { do: 'tool', name, shape, plasticity: 1 };
   if (shape === 'surface') return { ...common, surface };
-  // How far the shape reaches along its axis from its centre, towards the surface.
-  const reach = shape === 'plane' || shape === 'cone' ? 0 : shape === 'torus' || shape === 'supertoroid' ? 0.25 * radius : shape === 'capsule' ? 2 * radius : radius;
-  const centre = point.clone().addScaledVector(normal, reach * 1.02).add(new THREE.Vector3(...host.viewer.origin));
-  // The material of a plane lies below it: it looks at the surface.
-  const axis = shape === 'plane' ? normal.clone().negate() : normal;
-  const boxlike = shape === 'box' || shape === 'ellipsoid' || shape === 'superellipsoid';
-  return { ...common, position: centre.toArray(), ...(lying.includes(shape) ? { axis: axis.toArray() } : {}),
-    ...(shape === 'plane' ? {} : boxlike ? { sizes: [radius, radius, radius] } : { radius }) };
+  const centre = point.clone().addScaledVector(normal, (reaches[shape] ?? 1) * radius * 1.02).add(new THREE.Vector3(...host.viewer.origin));
+  const axis = facing.includes(shape) ? normal.clone().negate() : normal;
+  return { ...common, position: centre.toArray(), ...(shape === 'sphere' ? {} : { axis: axis.toArray() }), ...measures(shape, radius) };
 }
