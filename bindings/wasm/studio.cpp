@@ -165,10 +165,17 @@ KNEAD_EXPORT(knead_snapshot) int knead_snapshot(std::size_t history_bytes) {
 }
 
 /// The text is a TypeScript module of what the session's answers are made of. Needs no session.
-KNEAD_EXPORT(knead_types) int knead_types() { return answer(session_typescript()); }
+KNEAD_EXPORT(knead_types) int knead_types() {
+  return answer(session_typescript() + "\nexport const fileFormats = " + format_json() + " as const;\n");
+}
 
 KNEAD_EXPORT(knead_journal) int knead_journal() {
   return held().session ? answer(journal_json(*held().session)) : without_session();
+}
+
+/// The text is `edges_json`.
+KNEAD_EXPORT(knead_edges) int knead_edges() {
+  return held().session ? answer(edges_json(*held().session)) : without_session();
 }
 
 /// The text is the saved file.
@@ -250,10 +257,7 @@ KNEAD_EXPORT(knead_material) int knead_material(int surface, int rows, int colum
   return answer(material_json(held().material));
 }
 
-/// The formats that files are opened and written in: `format_json`.
-KNEAD_EXPORT(knead_formats) int knead_formats() { return answer(format_json()); }
-
-/// All surfaces as one file of the format with this place in the list of `knead_formats`. The text is the file.
+/// All surfaces as one file of the format with this place in the list of formats. The text is the file.
 KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
   auto& session = held().session;
   if (!session) return without_session();

@@ -64,7 +64,7 @@ Expected<File> File::parse(std::string bytes, std::string name) {
   for (const int context : context_of) {
     uncertainty.push_back(context < 0 ? 0 : contexts[static_cast<std::size_t>(context)].uncertainty);
   }
-  const auto trimmed = trimmed_surfaces(reader, read, uncertainty);
+  const auto uses = face_uses(reader, read, uncertainty);
   const bool one_unit = std::all_of(contexts.begin(), contexts.end(), [&](const UnitContext& context) {
     return context.unit.name == contexts.front().unit.name;
   });
@@ -77,8 +77,8 @@ Expected<File> File::parse(std::string bytes, std::string name) {
     if (context_of[k] < 0 && !contexts.empty() && one_unit) unit = contexts.front().unit.name;
     data->surface_index.emplace(id, k);
     data->control_point_refs.push_back(std::move(read[k].references));
-    data->surfaces.push_back(
-        {id, reader.item_name(read[k].instance), std::move(unit), std::move(read[k].surface), closed, trimmed[k]});
+    data->surfaces.push_back({id, reader.item_name(read[k].instance), std::move(unit), std::move(read[k].surface),
+                              closed, uses[k].trimmed, uses[k].faces});
   }
   data->instances = read_instances(reader);
   return File(std::move(data));

@@ -159,35 +159,37 @@ std::optional<std::uint32_t> cut_surface(const Reader& reader, std::uint32_t ins
 
 }  // namespace
 
-std::vector<bool> trimmed_surfaces(const Reader& reader, const std::vector<ReadSurface>& surfaces,
-                                   const std::vector<double>& uncertainty) {
-  std::vector<bool> trimmed(surfaces.size(), false);
+std::vector<FaceUse> face_uses(const Reader& reader, const std::vector<ReadSurface>& surfaces,
+                               const std::vector<double>& uncertainty) {
+  std::vector<FaceUse> uses(surfaces.size());
   std::unordered_map<std::uint32_t, std::size_t> index;
   for (std::size_t k = 0; k < surfaces.size(); ++k) index.emplace(surfaces[k].instance, k);
   std::unordered_map<std::size_t, std::optional<NaturalBoundary>> boundaries;
   for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
     if (const auto cut = cut_surface(reader, k, index, surfaces)) {
-      if (const auto found = index.find(*cut); found != index.end()) trimmed[found->second] = true;
+      if (const auto found = index.find(*cut); found != index.end()) uses[found->second].trimmed = true;
     }
     if (!reader.is(k, "ADVANCED_FACE") && !reader.is(k, "FACE_SURFACE")) continue;
     const auto bounds = reader.attributes(k, "FACE", 1, 1);
     const auto geometry = reader.attributes(k, "FACE_SURFACE", 2, 1);
     const auto target = geometry.empty() ? std::nullopt : reader.reference(geometry[0]);
     const auto found = target ? index.find(*target) : index.end();
-    if (found == index.end() || bounds.empty() || trimmed[found->second]) continue;
+    if (found == index.end()) continue;
     const auto s = found->second;
+    ++uses[s].faces;
+    if (bounds.empty() || uses[s].trimmed) continue;
     const auto& surface = surfaces[s].surface;
     const double diagonal = net_diagonal(surface.control_points());
     const double tolerance = std::clamp(2 * uncertainty[s], 1e-5 * diagonal, 1e-4 * diagonal);
     auto [slot, fresh] = boundaries.try_emplace(s);
     if (fresh) slot->second = NaturalBoundary::create(surface, tolerance);
-    trimmed[s] = true;
+    uses[s].trimmed = true;
     if (auto& boundary = slot->second) {  // else it cannot be evaluated
       boundary->begin_face();
-      trimmed[s] = !add_bounds(reader, bounds[0], *boundary) || !boundary->covered();
+      uses[s].trimmed = !add_bounds(reader, bounds[0], *boundary) || !boundary->covered();
     }
   }
-  return trimmed;
+  return uses;
 }
 
 }  // namespace knead::step

@@ -7,8 +7,14 @@
 
 namespace knead::step {
 
-/// `SurfaceEntity::trimmed` for each of `surfaces`; `uncertainty` belongs to them one by one.
-[[nodiscard]] std::vector<bool> trimmed_surfaces(const Reader& reader, const std::vector<ReadSurface>& surfaces,
-                                                 const std::vector<double>& uncertainty);
+/// `SurfaceEntity::trimmed` and `SurfaceEntity::faces`.
+struct FaceUse {
+  bool trimmed = false;
+  int faces = 0;
+};
+
+/// How the faces of a file use each of `surfaces`; `uncertainty` belongs to them one by one.
+[[nodiscard]] std::vector<FaceUse> face_uses(const Reader& reader, const std::vector<ReadSurface>& surfaces,
+                                             const std::vector<double>& uncertainty);
 
 }  // namespace knead::step

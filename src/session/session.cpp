@@ -70,7 +70,7 @@ namespace {
 
 /// Whether the second stroke is the first one led on, so that one stroke along both paths is the same.
 bool goes_on(const StrokeCommand& first, const StrokeCommand& second) {
-  return first.open && first.tool == second.tool && first.relative == second.relative &&
+  return first.open.value_or(false) && first.tool == second.tool && first.relative == second.relative &&
          first.plasticity == second.plasticity && first.steps == second.steps && first.plastic == second.plastic;
 }
 

@@ -5,6 +5,8 @@
 
 #include "commands.hpp"
 #include "described_text.hpp"
+#include "knead/exchange/face_edges.hpp"
+#include "knead/scene/trims.hpp"
 #include "knead/sculpt/describe_shape.hpp"
 #include "restated.hpp"
 
@@ -20,7 +22,7 @@ struct SurfaceInfo {
   std::array<std::optional<double>, 3> alpha, beta;
   std::optional<double> mass, damping;
   RestMode rest = RestMode::shape;
-  int hold = 0, pins = 0;
+  int faces = 0, hold = 0, pins = 0;
   std::vector<std::array<int, 2>> pinned;
   std::vector<CommandVariant> constraints;
   int moved = 0;
@@ -41,6 +43,7 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("mass", s.mass, {.help = "null where it varies"});
   fields.add("damping", s.damping, {.help = "null where it varies"});
   fields.add("rest", s.rest);
+  fields.add("faces", s.faces, {.help = "of the file that lie on it"});
   fields.add("hold", s.hold, {.help = "outer rows of control points that do not move"});
   fields.add("pins", s.pins, {.help = "how many control points are pinned"});
   fields.add("pinned", s.pinned, {.help = "the pinned control points [i, j]"});
@@ -164,6 +167,35 @@ static void describe(SessionInfo& s, Fields& fields) {
   fields.add("redo", s.redo);
 }
 
+struct EdgeInfo {
+  std::string id;
+  std::vector<std::string> faces;
+  double deviation = 0;
+};
+
+static void describe(EdgeInfo& e, Fields& fields) {
+  fields.name("edge info", "An edge of a face.");
+  fields.add("id", e.id);
+  fields.add("faces", e.faces, {.help = "that meet there"});
+  fields.add("deviation", e.deviation,
+             {.help = "of the surface from where it was, the largest along it", .unit = Unit::length});
+}
+
+struct EdgesInfo {
+  std::string surface;
+  double tolerance = 0;
+  std::vector<EdgeInfo> edges;
+  std::string unknown;
+};
+
+static void describe(EdgesInfo& e, Fields& fields) {
+  fields.name("edges info", "The edges of the faces on a surface that was moved.");
+  fields.add("surface", e.surface, {.help = "its id"});
+  fields.add("tolerance", e.tolerance, {.help = "up to which the file says that faces meet", .unit = Unit::length});
+  fields.add("edges", e.edges);
+  fields.add("unknown", e.unknown, {.help = "why they cannot be followed"});
+}
+
 struct ErrorInfo {
   std::string kind, what, where, remedy, message;
 };
@@ -203,6 +235,10 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
   info.mass = constant(s.material.mass);
   info.damping = constant(s.material.damping);
   info.rest = s.mode;
+  if (const step::File* file = session.document().step_file()) {
+    const step::SurfaceEntity* in_file = file->find_surface(s.id);
+    info.faces = in_file != nullptr ? in_file->faces : 0;
+  }
   info.hold = s.hold_rows;
   info.pins = static_cast<int>(s.pins.size());
   info.pinned.assign(s.pins.begin(), s.pins.end());
@@ -261,6 +297,35 @@ std::string session_json(const Session& session) {
   return json_of(info);
 }
 
+std::string edges_json(const Session& session) {
+  std::vector<EdgesInfo> infos;
+  const step::File* file = session.document().step_file();
+  for (std::size_t k = 0; file != nullptr && k < session.state().surfaces.size(); ++k) {
+    SceneSurface s = session.state().surfaces[k];
+    if (file->find_surface(s.id) == nullptr || session.moved_control_points(static_cast<int>(k)) == 0) continue;
+    EdgesInfo& info = infos.emplace_back();
+    info.surface = s.id;
+    Expected<void> known;
+    if (!s.visible) {
+      if (auto region = visible_region(*file, s.id)) {
+        s.visible = std::make_shared<const VisibleRegion>(std::move(*region));
+      } else {
+        known = std::unexpected(region.error());
+      }
+    }
+    const auto report = known ? trim_report(s) : Expected<TrimReport>(std::unexpected(known.error()));
+    if (!report) {
+      info.unknown = report.error().message();
+      continue;
+    }
+    info.tolerance = trim_tolerance(*s.opened, *s.visible);
+    for (const TrimReport::Edge& edge : report->edges) {
+      info.edges.push_back({edge.held.id, edge.neighbours, edge.deviation});
+    }
+  }
+  return json_of(infos);
+}
+
 std::string steps_json(const SessionState& state, std::size_t first) {
   return json_of(std::vector<StepRecord>(
       state.steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, state.steps.size())), state.steps.end()));
@@ -277,6 +342,7 @@ std::string session_typescript() {
   TypeScript types;
   types.declare(type_of<CommandVariant>(), "AnyCommand", "Command");
   types.declare(type_of<SessionInfo>(), "SessionInfo", "Info", Absent::null);
+  types.declare(type_of<EdgesInfo>(), "EdgesInfo", "Info", Absent::null);
   types.declare(type_of<ErrorInfo>(), "EngineErrorInfo", "Info", Absent::null);
   types.list(type_of<Shape>(), "shapes");
   return "// Generated from the engine's descriptions; not to be edited. Lengths are in file units.\n\n" +

@@ -54,35 +54,41 @@ bool names_any(ShapeFields fields) {
 }
 
 /// The measures that several shapes have, or that need more words than those of their shape.
-void add_named_measures(ShapeFields& f, Fields& fields) {
+void add_named_measures(ShapeFields& f, Fields& fields, std::string_view fallback = {}) {
+  const auto otherwise = [fallback](std::string_view as_new) { return fallback.empty() ? as_new : fallback; };
   fields.add("radius", f.radius,
              {.help = "of spheres, cylinders and the like; where a shape has `sizes`, all of them",
               .unit = Unit::length,
               .range = above(0),
-              .fallback = "a tenth of the diagonal"});
+              .fallback = otherwise("a tenth of the diagonal")});
   fields.add("minor", f.minor,
              {.help = "tube radius of torus and supertoroid",
               .unit = Unit::length,
               .range = above(0),
-              .fallback = "a quarter of the radius"});
+              .fallback = otherwise("a quarter of the radius")});
   fields.add("height", f.height,
              {.help = "of cylinder, cone and capsule (without its caps)",
               .unit = Unit::length,
               .range = above(0),
-              .fallback = "twice the radius"});
-  fields.add("top_radius", f.top_radius, {.help = "of a cone", .unit = Unit::length, .fallback = "`0`"});
+              .fallback = otherwise("twice the radius")});
+  fields.add("top_radius", f.top_radius, {.help = "of a cone", .unit = Unit::length, .fallback = otherwise("`0`")});
   fields.add("thickness", f.thickness,
-             {.help = "wall of a bowl", .unit = Unit::length, .range = above(0), .fallback = "a tenth of the radius"});
-  fields.add("rounding", f.rounding, {.help = "edge radius of a box", .unit = Unit::length, .fallback = "`0`"});
+             {.help = "wall of a bowl",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = otherwise("a tenth of the radius")});
+  fields.add("rounding", f.rounding,
+             {.help = "edge radius of a box", .unit = Unit::length, .fallback = otherwise("`0`")});
   fields.add("sizes", f.sizes,
              {.help = "`[a, b, c]`: semi-axes of (super)ellipsoids, half sides of a box",
               .unit = Unit::length,
               .range = above(0),
-              .fallback = "the radius each"});
+              .fallback = otherwise("the radius each")});
   fields.add("exponents", f.exponents,
-             {.help = "`[e1, e2]` of superellipsoid and supertoroid", .fallback = "`[1, 1]`"});
+             {.help = "`[e1, e2]` of superellipsoid and supertoroid", .fallback = otherwise("`[1, 1]`")});
   fields.add("surface", f.surface,
-             {.help = "of shape `surface`: the id of the surface of the document that is the tool, as it is now"});
+             {.help = "of shape `surface`: the id of the surface of the document that is the tool, as it is now",
+              .fallback = fallback});
 }
 
 /// A number that shapes have and the measures above do not name.
@@ -122,12 +128,16 @@ std::vector<OtherMeasure> other_measures() {
 
 }  // namespace
 
-void add_measures(ShapeFields& f, Fields& fields) {
-  add_named_measures(f, fields);
+void add_measures(ShapeFields& f, Fields& fields, std::string_view fallback) {
+  add_named_measures(f, fields, fallback);
   static const std::vector<OtherMeasure> others = other_measures();
   for (std::size_t k = 0; k < others.size(); ++k) {
-    const auto& [name, help, fallback, about] = others[k];
-    fields.add(name, f.others[k], {.help = help, .unit = about.unit, .range = about.range, .fallback = fallback});
+    const auto& [name, help, as_new, about] = others[k];
+    fields.add(name, f.others[k],
+               {.help = help,
+                .unit = about.unit,
+                .range = about.range,
+                .fallback = fallback.empty() ? std::string_view(as_new) : fallback});
   }
 }
 

@@ -23,8 +23,8 @@ struct ShapeFields {
 
 void describe(ShapeFields& f, Fields& fields);
 
-/// The measures among the fields of a command.
-void add_measures(ShapeFields& f, Fields& fields);
+/// The measures among the fields of a command. What holds where one is left out: as for a new tool, or as given.
+void add_measures(ShapeFields& f, Fields& fields, std::string_view fallback = {});
 
 /// "sphere, ellipsoid, …"
 [[nodiscard]] const std::string& shape_names();

@@ -261,7 +261,7 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
   for (std::size_t k = a.length(8); k > 0 && !a.bad(); --k) session.entries_.push_back(commands());
   SessionState state;
   for (std::size_t k = 0; k <= session.entries_.size() && !a.bad(); ++k) {
-    read_state(a, state, with_probes);
+    read_state(a, state);
     session.states_.push_back(std::make_shared<const SessionState>(state));
   }
   if (a.bad() || !a.at_end() || session.position_ > session.entries_.size()) {

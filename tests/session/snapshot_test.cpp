@@ -113,7 +113,8 @@ std::string in_version_1(std::string snapshot) {
   std::string plastic(26, '\0');  // of the surface: along, share, yield, locality, in radii
   std::memcpy(&plastic[1], &one, sizeof one);
   plastic.back() = '\1';
-  snapshot.erase(snapshot.size() - 34, 1);  // no open stroke; counts of steps, seams and notes and a flag follow
+  // The count of probes and no open stroke; counts of steps, seams and notes and a flag follow.
+  snapshot.erase(snapshot.size() - 42, 9);
   snapshot.erase(snapshot.rfind(plastic), plastic.size());
   snapshot[head - 2] = '1';
   std::uint64_t hash = 0xcbf29ce484222325U;

@@ -3,6 +3,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 import { Engine } from '@studio/engine/engine';
+import type { Vector3 } from '@studio/engine/session_types';
 import { scenes } from '@studio/document/scenes';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
@@ -26,7 +27,7 @@ describe('the gallery', () => {
       const [m, n] = picture.counts;
       const at = 3 * (Math.floor(m / 3) * n + Math.floor(n / 3));
       const radius = 0.08 * Math.hypot(...surfaces[k]!.upper.map((x, axis) => x - surfaces[k]!.lower[axis]!));
-      const position = [0, 1, 2].map((axis) => picture.positions[at + axis]! + engine.origin[axis]! + 0.5 * radius * picture.normals[at + axis]!);
+      const position = [0, 1, 2].map((axis) => picture.positions[at + axis]! + engine.origin[axis]! + 0.5 * radius * picture.normals[at + axis]!) as Vector3;
       engine.execute({ do: 'tool', name: 'brush', radius, plasticity: 1, position });
     }
     engine.execute({ do: 'step', count: 4 });

@@ -45,9 +45,9 @@ const at = (value: unknown, pointer: string): unknown =>
 
 function check(engine: Engine, step: Step): void {
   if ('do' in step) {
-    engine.execute(step as Command);
+    engine.execute(step);
   } else if ('refused' in step) {
-    const { refused, where } = step as { refused: Command; where: string };
+    const { refused, where } = step;
     const before = engine.state();
     let error: unknown;
     try {
@@ -59,7 +59,7 @@ function check(engine: Engine, step: Step): void {
     expect((error as EngineError).info.where).toBe(where);
     expect(engine.state()).toEqual(before);
   } else {
-    const { expect: pointer, is, min, max } = step as { expect: string; is?: unknown; min?: number; max?: number };
+    const { expect: pointer, is, min, max } = step;
     const value = at(engine.state(), pointer);
     if (is !== undefined) expect(value, pointer).toEqual(is);
     else {

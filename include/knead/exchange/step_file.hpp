@@ -36,6 +36,8 @@ struct SurfaceEntity {
   /// edge's curve is not known (docs/step.md) the face counts as trimmed. A surface that no face uses is untrimmed,
   /// unless a RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE cuts it.
   bool trimmed = false;
+
+  int faces = 0;  ///< faces of the file that lie on it
 };
 
 /// A B-spline surface entity that could not be made a `Surface`; the rest of the file is usable all the same.

@@ -41,22 +41,11 @@ void describe(EditToolCommand& c, Fields& fields) {
   fields.name("edit_tool", "change fields of a tool; what is not named stays as it is");
   constexpr About as_of_tool = {.help = "as of `tool`"};
   constexpr About length = {.help = "as of `tool`", .unit = Unit::length};
-  constexpr About positive = {.help = "as of `tool`", .unit = Unit::length, .range = above(0)};
   fields.add("tool", c.tool, {.help = "its name; or:", .fallback = "the only tool"});
   fields.add("name", c.name, {.help = "its name", .fallback = "the only tool"});
   fields.add("shape", c.shape,
              {.help = "another shape: measures that both shapes have stay, the others are those of a new tool"});
-  ShapeFields& m = c.measures;
-  fields.add("radius", m.radius,
-             {.help = "as of `tool`; of a shape with `sizes`, all of them", .unit = Unit::length, .range = above(0)});
-  fields.add("minor", m.minor, positive);
-  fields.add("height", m.height, positive);
-  fields.add("top_radius", m.top_radius, length);
-  fields.add("thickness", m.thickness, positive);
-  fields.add("rounding", m.rounding, length);
-  fields.add("sizes", m.sizes, positive);
-  fields.add("exponents", m.exponents, as_of_tool);
-  fields.add("surface", m.surface, {.help = "as of `tool`; the surface as it is now"});
+  add_measures(c.measures, fields, "as it was");
   fields.add("axis", c.axis,
              {.help = "the tool turns there the shortest way, so that its turn about its own axis stays; or:"});
   fields.add("orientation", c.orientation, as_of_tool);

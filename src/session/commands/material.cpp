@@ -107,7 +107,7 @@ PlasticPolicy plastic_of(const MaterialCommand& c, const Preset* preset, Plastic
   if (c.plasticity) before.share = *c.plasticity;
   if (c.yield) before.yield = *c.yield;
   if (c.locality) before.locality = *c.locality;
-  if (c.yield || c.locality) before.in_radii = c.lengths == LengthUnit::radii;
+  if (c.yield || c.locality) before.in_radii = c.lengths.value_or(LengthUnit::radii) == LengthUnit::radii;
   return before;
 }
 
@@ -162,7 +162,7 @@ void describe(MaterialCommand& c, Fields& fields) {
              {.help = "how far a dent is felt, 0 as far as lambda lets it",
               .range = at_least(0),
               .fallback = "that of the preset"});
-  fields.add("lengths", c.lengths, {.help = "what `yield` and `locality` count"});
+  fields.add("lengths", c.lengths, {.help = "what `yield` and `locality` count", .fallback = "`radii`"});
 }
 
 void read_as_version_1(MaterialCommand& c) {

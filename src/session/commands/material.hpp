@@ -27,7 +27,7 @@ struct MaterialCommand {
   std::optional<MaterialPreset> preset;  ///< of whole surfaces
   /// What strokes leave; default: that of the preset, else as it was.
   std::optional<double> plasticity, yield, locality;
-  LengthUnit lengths = LengthUnit::radii;
+  std::optional<LengthUnit> lengths;  ///< default: radii
 };
 
 template <>

@@ -7,8 +7,8 @@ namespace {
 
 /// Whether the stroke leaves its dents as it goes.
 bool leaves_along(const StrokeCommand& c, const Scene& scene) {
-  if (c.plastic != StrokePlasticity::material) return c.plastic == StrokePlasticity::along;
-  return c.open || (scene.selected && scene.surfaces[static_cast<std::size_t>(*scene.selected)].plastic.along);
+  if (c.plastic && c.plastic != StrokePlasticity::material) return c.plastic == StrokePlasticity::along;
+  return c.open.value_or(false) || (scene.selected && scene.surfaces[static_cast<std::size_t>(*scene.selected)].plastic.along);
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void describe(StrokeCommand& c, Fields& fields) {
   fields.add("plasticity", c.plasticity,
              {.help = "share of the displacement that becomes rest shape, of what the material lets stay",
               .unit = Unit::fraction});
-  fields.add("plastic", c.plastic, {.help = "when what the tool does becomes the shape"});
+  fields.add("plastic", c.plastic, {.help = "when what the tool does becomes the shape", .fallback = "`\"material\"`"});
   fields.add(
       "open", c.open,
       {.help = "the tool stays down, and the next stroke of it goes on with this one; any other command lifts it "
@@ -69,7 +69,7 @@ Expected<void> Executor::execute(const StrokeCommand& c) {
       if (auto begun = begin_stroke((*tool)->name, c.plasticity); !begun) return begun;
     }
     if (auto done = stroke_to(points); !done) return done;
-    return c.open ? Expected<void>() : lift();
+    return c.open.value_or(false) ? Expected<void>() : lift();
   }
   const auto index = static_cast<std::size_t>(*tool - state.tools.data());
   const int total = c.steps * static_cast<int>(points.size());

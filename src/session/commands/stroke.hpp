@@ -19,9 +19,9 @@ struct StrokeCommand {
   std::vector<Vector3> path;  ///< positions of the tool's centre
   int steps = 2;              ///< at each of them
   double plasticity = 1;
-  StrokePlasticity plastic = StrokePlasticity::material;
-  bool open = false;      ///< the tool stays down: the next stroke of this tool goes on with this one
-  bool relative = false;  ///< the path is measured from where the tool is, in fractions of the diagonal
+  std::optional<StrokePlasticity> plastic;  ///< default: material
+  std::optional<bool> open;  ///< true: the tool stays down, and the next stroke of this tool goes on with this one
+  bool relative = false;     ///< the path is measured from where the tool is, in fractions of the diagonal
 };
 
 template <>

@@ -149,7 +149,7 @@ describe('what a closed tab leaves behind', () => {
     await ready(page);
     await recover(page);
     await settled(page);
-    const kept = (await commands(page)).filter((c) => c.do === 'step') as unknown as { count: number }[];
+    const kept = (await commands(page)).filter((c) => c.do === 'step');
     expect(kept.length).toBe(1);
     expect(kept[0]!.count).toBeGreaterThan(0.5 * before);
   });

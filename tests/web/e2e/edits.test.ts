@@ -25,7 +25,7 @@ const execute = async (...list: Command[]) => {
 
 describe('a painted material', () => {
   const samples = async (coefficient: string) =>
-    ((await commands(studio.page)).filter((c) => c.do === 'material' && (c as Command).coefficient === coefficient).at(-1) as Command).samples as number[];
+    (await commands(studio.page)).filter((c) => c.do === 'material').filter((c) => c.coefficient === coefficient).at(-1)!.samples!;
 
   it('leaves the regions that a script has set', async () => {
     const { page } = studio;

@@ -252,15 +252,16 @@ describe('paint', () => {
     await page.keyboard.press('a');
     await page.locator('.panel[data-panel=Brush] .chip', { hasText: 'Sheet metal' }).click();
     await stroke(page, [-60, -30], [-30, -30]);
-    const painted = (await commands(page)).filter((c) => c.do === 'material' && 'coefficient' in c) as unknown as { coefficient: string; samples: number[] }[];
+    const samples = async () => (await commands(page)).filter((c) => c.do === 'material').filter((c) => 'coefficient' in c);
+    const painted = await samples();
     expect(painted.map((c) => c.coefficient)).toEqual(['alpha11', 'alpha22', 'beta11', 'beta12', 'beta22']);
     expect(new Set(painted[2]!.samples).has(0.05)).toBe(true);
-    expect(painted[2]!.samples.filter((x) => x === 0.001).length).toBeGreaterThan(500);
+    expect(painted[2]!.samples!.filter((x) => x === 0.001).length).toBeGreaterThan(500);
     expect(await app((s) => s.frame.state.surfaces[0]!.alpha[0])).toBeNull();
     // A second stroke keeps the first.
     await stroke(page, [60, 30], [70, 30]);
-    const again = (await commands(page)).filter((c) => c.do === 'material' && 'coefficient' in c).at(-3) as unknown as { samples: number[] };
-    painted[2]!.samples.forEach((x, k) => expect(again.samples[k]).toBeGreaterThanOrEqual(x));
+    const again = (await samples()).at(-3)!;
+    painted[2]!.samples!.forEach((x, k) => expect(again.samples![k]).toBeGreaterThanOrEqual(x));
   });
 
   it('asks beside a clicked edge what is to hold there', async () => {
@@ -341,7 +342,7 @@ describe('a tool', () => {
     });
     // The arrow along x.
     await drag([handle[0]! + 20, handle[1]!], [handle[0]! + 60, handle[1]!]);
-    const move = (await commands(page)).find((c) => c.do === 'move') as unknown as { by: number[] };
+    const move = (await commands(page)).find((c) => c.do === 'move')!;
     expect(move.by[0]).toBeGreaterThan(0);
     expect(move.by[1]).toBe(0);
     expect(move.by[2]).toBe(0);

@@ -3,6 +3,8 @@ import { fileURLToPath } from 'node:url';
 
 import { type Browser, chromium, type Download, type Page } from 'playwright-core';
 
+import type { Command } from '@studio/engine/session_types';
+
 export const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
 
@@ -69,8 +71,8 @@ export async function openStudio({ width = 900, height = 560, first = false, ser
 export const ready = (page: Page) => page.waitForSelector('html[data-ready]', { state: 'attached', timeout: 60_000 });
 
 /** Number of commands that stand. */
-export const commands = (page: Page): Promise<{ do: string }[]> =>
-  page.evaluate(async () => (JSON.parse(await (window as never as { studio: { client: { journal(): Promise<string> } } }).studio.client.journal()) as { commands: { do: string }[] }).commands);
+export const commands = (page: Page): Promise<Command[]> =>
+  page.evaluate(async () => (JSON.parse(await (window as never as { studio: { client: { journal(): Promise<string> } } }).studio.client.journal()) as { commands: Command[] }).commands);
 
 interface App {
   frame: { origin: number[]; pictures: { positions: Float32Array; normals: Float32Array }[]; state: { selection: number[]; undo: boolean }; memory: number };

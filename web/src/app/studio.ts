@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import { Documents, firstSettings } from '../document/documents';
+import { Documents, makeReady } from '../document/documents';
 import type { Notice } from '../document/host';
 import { Saving } from '../document/saving';
 import { Client } from '../engine/client';
@@ -148,7 +148,11 @@ export class Studio implements App {
   /** Selects a surface. One that nothing was said about becomes clay with held edges: pressed, it would float away. */
   async select(surface: number): Promise<void> {
     const info = this.state!.surfaces[surface]!;
-    await this.execute([{ do: 'select', surface: info.id }, ...firstSettings(info)]);
+    await this.attempt(async () => {
+      await this.client.execute([{ do: 'select', surface: info.id }]);
+      await makeReady(this, info, true);
+      this.documents.keeper.touch();
+    });
   }
 
   // --- what is seen ------------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-import type { Command, SurfaceInfo } from '../engine/session_types';
+import { type Command, EngineError, type SurfaceInfo } from '../engine/session_types';
 import { autosave, type Kept } from './autosave';
 import { clay } from './clay';
 import { loadContext } from './context';
@@ -136,7 +136,7 @@ export class Documents {
   private async firstLook(): Promise<void> {
     const { host } = this;
     const surfaces = host.state!.surfaces;
-    if (surfaces.length === 1) await host.client.execute(firstSettings(surfaces[0]!));
+    if (surfaces.length === 1) await makeReady(host, surfaces[0]!, false);
     else if (host.state!.selection.length === 0 || this.file?.kind === 'rhino') {
       host.notify({ kind: 'info', text: `${surfaces.length} surfaces: click the one to sculpt.` });
     }
@@ -146,9 +146,23 @@ export class Documents {
 const canonical = (commands: Command[]): string =>
   JSON.stringify(commands.map((c) => Object.entries(c).sort(([a], [b]) => (a < b ? -1 : 1))));
 
-/** Clay that is held at its edges, for a surface as it came. */
-export function firstSettings(surface: SurfaceInfo): Command[] {
-  if (surface.hold > 0 || surface.pins > 0 || surface.constraints.length > 0 || surface.moved > 0) return [];
+/**
+ * Makes clay that is held at its edges of a selected surface as it came. What faces lie on is held along their edges, so
+ * that they go on meeting their neighbours; a surface alone by its outer rows. `join`: with the act before.
+ */
+export async function makeReady(host: Pick<Host, 'client' | 'notify'>, surface: SurfaceInfo, join: boolean): Promise<void> {
+  if (surface.hold > 0 || surface.pins > 0 || surface.constraints.length > 0 || surface.moved > 0) return;
   const rows = Math.min(2, Math.floor((Math.min(...surface.net) - 2) / 2));
-  return [...(rows > 0 ? [{ do: 'hold', rows }] : []), ...clay];
+  const alone: Command[] = [...(rows > 0 ? [{ do: 'hold', rows } as const] : []), ...clay];
+  if (surface.faces === 0) {
+    await host.client.execute(alone, join);
+    return;
+  }
+  try {
+    await host.client.execute([{ do: 'hold', mode: 'trim' }, ...clay], join);
+  } catch (error) {
+    if (!(error instanceof EngineError)) throw error;
+    await host.client.execute(alone, join);
+    host.notify({ kind: 'info', text: `Only the outer rows of control points are held: ${error.info.what}. Neighbouring faces may part from this one.` });
+  }
 }

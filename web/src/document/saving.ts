@@ -1,15 +1,11 @@
+import { fileFormats } from '../engine/generated';
 import type { MeshFormat } from '../engine/session_types';
+import { closedEdges } from './closed_edges';
 import type { Documents } from './documents';
 import type { Host } from './host';
 import { writeKnead } from './knead_file';
 
 const historyBytes = 16 * 2 ** 20; // of shapes, in a document
-const meshFiles: Record<MeshFormat, { ending: string; type: string }> = {
-  stl: { ending: 'stl', type: 'model/stl' },
-  obj: { ending: 'obj', type: 'model/obj' },
-  ply: { ending: 'ply', type: 'application/octet-stream' },
-  gltf: { ending: 'glb', type: 'model/gltf-binary' },
-};
 const longSession = 2000; // milliseconds of steps from which on a document carries its snapshot
 
 /** Saving: what the browser downloads, in the formats of the menu. */
@@ -17,7 +13,9 @@ export class Saving {
   constructor(private readonly host: Host, private readonly documents: Documents) {}
 
   step = () => this.save(async (stem) => {
-    download(await this.host.client.save(), `${stem}-sculpted.step`, 'model/step');
+    const { bytes, edges } = await this.host.client.save();
+    download(bytes, `${stem}-sculpted.step`, 'model/step');
+    return closedEdges(edges, this.host.state!.surfaces[0]?.unit ?? '');
   });
 
   knead = () => this.save(async (stem) => {
@@ -47,7 +45,8 @@ export class Saving {
 
   /** All surfaces as one mesh, as fine as the pictures are. */
   mesh = (format: MeshFormat) => this.save(async (stem) => {
-    download(await this.host.client.mesh(format, this.host.detail), `${stem}.${meshFiles[format].ending}`, meshFiles[format].type);
+    const { endings, media_type } = fileFormats.find(({ id }) => id === format)!;
+    download(await this.host.client.mesh(format, this.host.detail), stem + endings[0], media_type);
   });
 
   script = () => this.save(async (stem) => {

@@ -1,5 +1,5 @@
 import bonnetUrl from '../../../samples/bonnet.step?url';
-import type { Command } from '../engine/session_types';
+import type { Command, Vector3 } from '../engine/session_types';
 import { clay } from './clay';
 
 /** A scene of the gallery: commands on an empty document, or a file of the page. */
@@ -12,8 +12,7 @@ export interface Scene {
   file?: string;
 }
 
-const everything = [[0, 1], [0, 1]];
-const finer: Command = { do: 'refine', region: everything };
+const finer: Command = { do: 'refine', region: [[0, 1], [0, 1]] };
 
 const sheet = (net: number): Command[] => [
   { do: 'new', size: [200, 200], net: [net, net], degree: [3, 3], name: 'sheet' },
@@ -26,7 +25,7 @@ const round = (x: number): number => Math.round(1000 * x) / 1000;
 /** Half a ship, 400 long, from gunwale to gunwale: control points by formulas, so that the lines are fair. */
 function hull(): Command {
   const [stations, waterlines] = [24, 16];
-  const points: number[][] = [];
+  const points: Vector3[] = [];
   for (let i = 0; i < stations; ++i) {
     const s = i / (stations - 1); // from the transom to the bow
     const width = s < 0.45 ? 1 - 0.35 * ((0.45 - s) / 0.45) ** 2 : 1 - 0.97 * ((s - 0.45) / 0.55) ** 2.2;
@@ -68,7 +67,7 @@ export const scenes: Scene[] = [
       { do: 'new', size: [120, 160], net: [16, 26], position: [120, 0, 0], name: 'right' },
       ...(['#1', '#2'] as const).flatMap((surface): Command[] => [
         { do: 'select', surface },
-        ...[surface === '#1' ? 'u0' : 'u1', 'v0', 'v1'].map((which): Command => ({ do: 'edge', which, hold: 'clamped' })),
+        ...([surface === '#1' ? 'u0' : 'u1', 'v0', 'v1'] as const).map((which): Command => ({ do: 'edge', which, hold: 'clamped' })),
       ]),
       { do: 'select', surfaces: ['#1', '#2'] },
       ...clay,

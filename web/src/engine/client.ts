@@ -1,5 +1,6 @@
 import type { Context, Trim } from './context';
 import type { DisplayInfo } from './displays';
+import type { EdgesInfo } from './generated';
 import type { Frame, PictureSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo, type MaterialSamples, type MeshFormat, type SurfaceNumbers } from './session_types';
 
@@ -85,7 +86,10 @@ export class Client {
     return { snapshot: bytes!, journal: text! };
   };
   restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array) => this.ask({ kind: 'restore', source, name, snapshot });
-  save = async (): Promise<Uint8Array> => (await this.ask({ kind: 'save' })).bytes!;
+  save = async (): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> => {
+    const { bytes, text } = await this.ask({ kind: 'save' });
+    return { bytes: bytes!, edges: JSON.parse(text!) as EdgesInfo[] };
+  };
   mesh = async (format: MeshFormat, detail = 96): Promise<Uint8Array> => (await this.ask({ kind: 'mesh', format, detail })).bytes!;
   surface = async (surface: number): Promise<SurfaceNumbers> =>
     JSON.parse((await this.ask({ kind: 'surface', surface })).text!) as SurfaceNumbers;

@@ -1,8 +1,9 @@
 import { type BufferTable, Buffers } from './buffers';
 import type { Context, Trim } from './context';
+import { type EdgesInfo, fileFormats } from './generated';
 import { type DisplayChoice, type DisplayInfo, plain } from './displays';
 import {
-  coefficients, type Command, EngineError, type FileFormat, type MaterialSamples, type MeshFormat, type Picture,
+  coefficients, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture,
   type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture,
 } from './session_types';
 import { start } from './wasi';
@@ -21,6 +22,7 @@ interface Exports {
   knead_state(): number;
   knead_steps(first: number): number;
   knead_journal(): number;
+  knead_edges(): number;
   knead_save(): number;
   knead_origin(axis: number): number;
   knead_displays(): number;
@@ -29,7 +31,6 @@ interface Exports {
   knead_material(surface: number, rows: number, columns: number): number;
   knead_control_points(surface: number): number;
   knead_surface(surface: number): number;
-  knead_formats(): number;
   knead_mesh(format: number, detail: number): number;
   knead_context(): number;
   knead_trims(surface: number): number;
@@ -100,6 +101,11 @@ export class Engine {
     return new TextDecoder().decode(this.bytes(this.wasm.knead_journal()));
   }
 
+  /** The edges of the faces on every surface of a STEP file that was moved. */
+  edges(): EdgesInfo[] {
+    return this.json(this.wasm.knead_edges()) as EdgesInfo[];
+  }
+
   save(): Uint8Array {
     return this.bytes(this.wasm.knead_save());
   }
@@ -128,14 +134,9 @@ export class Engine {
     return this.json(this.wasm.knead_surface(surface)) as SurfaceNumbers;
   }
 
-  /** The formats that the library opens and writes. */
-  formats(): FileFormat[] {
-    return this.json(this.wasm.knead_formats()) as FileFormat[];
-  }
-
   /** All surfaces as one mesh file, with about `detail` grid lines per direction. */
   mesh(format: MeshFormat, detail: number): Uint8Array {
-    return this.bytes(this.wasm.knead_mesh(this.formats().findIndex(({ id }) => id === format), detail));
+    return this.bytes(this.wasm.knead_mesh(fileFormats.findIndex(({ id }) => id === format), detail));
   }
 
   /** What can colour a surface. */

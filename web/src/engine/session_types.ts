@@ -1,15 +1,13 @@
 /** What the session says about itself. Lengths in file units. */
-import type { EngineErrorInfo } from './generated';
+import type { AnyCommand, EngineErrorInfo, fileFormats } from './generated';
 
 // Made by the build from the engine's own descriptions (scripts/studio.sh).
 export type { EngineErrorInfo, SessionInfo, StepInfo, SurfaceInfo, ToolInfo } from './generated';
 
 export type Vector3 = [number, number, number];
 
-export interface Command {
-  do: string;
-  [field: string]: unknown;
-}
+/** What the session can be asked to do. */
+export type Command = AnyCommand;
 
 /** A surface in full precision; control point (i, j) is number i · net[1] + j. */
 export interface SurfaceNumbers {
@@ -65,16 +63,6 @@ export interface ToolPicture {
   unbounded: boolean;
 }
 
-/** By the ids of the library's list of formats, `Engine.formats()`. */
-export type MeshFormat = 'stl' | 'obj' | 'ply' | 'gltf';
+/** Ids of the formats of triangles, by the library's list of formats. */
+export type MeshFormat = Extract<(typeof fileFormats)[number], { content: 'triangles' }>['id'];
 
-/** A file format, as the library describes it. */
-export interface FileFormat {
-  id: string;
-  name: string;
-  endings: string[];
-  media_type: string;
-  content: 'surfaces' | 'triangles';
-  holds: string;
-  opens: boolean;
-}

@@ -155,7 +155,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       return;
     }
     case 'save':
-      post({ kind: 'done', id, bytes: engine.save() });
+      post({ kind: 'done', id, bytes: engine.save(), text: JSON.stringify(engine.edges()) });
       return;
     case 'mesh':
       post({ kind: 'done', id, bytes: engine.mesh(request.format, request.detail) });

@@ -99,9 +99,10 @@ export function numberInput(label: string, value: number | null, change: (value:
 }
 
 export function select<T extends string>(label: string, options: readonly (readonly [T, string])[], value: T,
-                                         change: (value: T) => void): HTMLSelectElement {
-  const element = h('select', { aria: { label } }, ...options.map(([v, text]) => h('option', { value: v, selected: v === value }, text)));
-  element.addEventListener('change', () => change(element.value as T));
+                                         change: (value: T) => void): HTMLSelectElement & { value: T } {
+  const element = h('select', { aria: { label } },
+    ...options.map(([v, text]) => h('option', { value: v, selected: v === value }, text))) as HTMLSelectElement & { value: T };
+  element.addEventListener('change', () => change(element.value));
   return element;
 }
 

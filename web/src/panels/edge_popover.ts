@@ -1,6 +1,6 @@
 import type { Command } from '../engine/session_types';
 import { type Continuity, continuityOf, type Edge, edgeTitles } from '../tools/edges';
-import { heldAnew } from '../tools/paint';
+import { released } from '../tools/paint';
 import type { App } from './app';
 import { h, iconButton, toggle } from './dom';
 
@@ -51,6 +51,6 @@ function asking(app: App, surface: number, edge: Edge, continuity: Continuity): 
   const wish: Command[] = continuity === 'symmetry' ? [{ do: 'symmetry', edge, ...app.hand.edges.plane(edge) }]
     : [{ do: 'edge', which: edge, hold: continuity }];
   const symmetric = info.constraints.some((c) => c.do === 'symmetry' && c.edge === edge);
-  // Symmetry of an edge ends only when all is freed: the rest is asked for again.
-  return symmetric ? [...heldAnew(info, info.constraints.filter((c) => !(c.do === 'symmetry' && c.edge === edge)), info.pinned), ...wish] : wish;
+  // Symmetries are freed together: those of other edges are asked for again.
+  return symmetric ? [...released('symmetry', info.constraints.filter((c) => c.do === 'symmetry' && c.edge !== edge)), ...wish] : wish;
 }

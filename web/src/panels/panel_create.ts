@@ -1,6 +1,7 @@
 import { clay } from '../document/clay';
 import { parseLength, parseNumber } from '../document/units';
-import type { Command } from '../engine/session_types';
+import type { NewCommand } from '../engine/generated';
+import type { Command, Vector3 } from '../engine/session_types';
 import type { App } from './app';
 import { field, h, numberInput, select, toggle } from './dom';
 import { note, panel, row } from './panel';
@@ -16,10 +17,10 @@ export function numbers(text: string): number[] | null {
 }
 
 /** Lines of `count` numbers each. */
-export function tuples(text: string, count: number): number[][] | null {
+export function tuples<T extends number[]>(text: string, count: T['length']): T[] | null {
   const all = numbers(text);
   if (!all || all.length % count !== 0) return null;
-  return Array.from({ length: all.length / count }, (_, k) => all.slice(count * k, count * (k + 1)));
+  return Array.from({ length: all.length / count }, (_, k) => all.slice(count * k, count * (k + 1)) as T);
 }
 
 interface Patch {
@@ -40,11 +41,11 @@ interface Patch {
 }
 
 /** The command of what the panel says; a text where it cannot be made. */
-export function newCommand(p: Patch): Command | string {
-  const command: Command = { do: 'new', name: p.shape === 'points' ? 'patch' : p.shape === 'plane' ? 'sheet' : p.shape, unit: p.unit };
+export function newCommand(p: Patch): NewCommand | string {
+  const command: NewCommand = { do: 'new', name: p.shape === 'points' ? 'patch' : p.shape === 'plane' ? 'sheet' : p.shape, unit: p.unit };
   if (p.position.some((x) => x !== 0)) command.position = p.position;
   if (p.shape === 'points') {
-    const points = tuples(p.points, 3);
+    const points = tuples<Vector3>(p.points, 3);
     if (!points) return 'the points are not lines of three numbers';
     if (points.length !== p.net[0] * p.net[1]) return `${points.length} points are given, the net of ${p.net.join(' × ')} needs ${p.net[0] * p.net[1]}`;
     command.points = points;
@@ -54,7 +55,7 @@ export function newCommand(p: Patch): Command | string {
   if (p.shape === 'cylinder') command.height = p.height;
   if (p.shape === 'torus') command.minor = p.minor;
   if (p.shape === 'revolution') {
-    const profile = tuples(p.profile, 2);
+    const profile = tuples<[number, number]>(p.profile, 2);
     if (!profile) return 'the profile is not lines of two numbers, r and z';
     command.profile = profile;
     command.degree = p.degree;
@@ -92,8 +93,8 @@ export function createPanel(app: App): HTMLElement {
       app.notify({ kind: 'error', text: command[0]!.toUpperCase() + command.slice(1), remedy: 'correct it in the panel “Create”' });
       return;
     }
-    const all: Command[] = [command, ...(patch.held && patch.shape === 'plane' ? [{ do: 'hold', rows: Math.min(2, Math.floor((Math.min(...patch.net) - 2) / 2)) }] : []), ...clay];
-    if (fresh) await app.documents.startFresh(command.name as string, all);
+    const all: Command[] = [command, ...(patch.held && patch.shape === 'plane' ? [{ do: 'hold' as const, rows: Math.min(2, Math.floor((Math.min(...patch.net) - 2) / 2)) }] : []), ...clay];
+    if (fresh) await app.documents.startFresh(command.name!, all);
     else if (await app.execute(all)) app.viewer.fit();
   };
   const length = (text: string) => parseLength(text, patch.unit);

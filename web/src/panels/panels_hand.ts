@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 
 import { format, parseLength } from '../document/units';
+import type { PointsCommand } from '../engine/generated';
 import { brushModes, paintModes } from '../tools/modes';
 import type { App } from './app';
 import { field, h, numberInput, select, slider, toggle } from './dom';
@@ -127,8 +128,8 @@ export function pointsPanel(app: App): HTMLElement {
     const surface = app.viewer.surfaces[points.surface ?? -1]?.picture;
     const place = surface ? all.reduce((sum, k) => sum.add(new THREE.Vector3().fromArray(surface.net, 3 * k)), new THREE.Vector3())
       .divideScalar(count).add(new THREE.Vector3(...app.viewer.origin)) : new THREE.Vector3();
-    const run = (command: Record<string, unknown>) => void app.execute([{ do: 'points', ...points.which(), ...command }]);
-    const along = (axis: number) => (value: number) => run({ by: [0, 1, 2].map((k) => (k === axis ? value - place.getComponent(k) : 0)) });
+    const run = (command: Partial<PointsCommand>) => void app.execute([{ do: 'points', ...points.which(), ...command }]);
+    const along = (axis: number) => (value: number) => run({ by: new THREE.Vector3().setComponent(axis, value - place.getComponent(axis)).toArray() });
     const by = [0, 0, 0, 0];
     const delta = ['x', 'y', 'z', 'normal'].map((name, k) => numberInput(`Move by ${name}`, 0, (v) => (by[k] = v), length(app)));
     return [
@@ -137,7 +138,7 @@ export function pointsPanel(app: App): HTMLElement {
       wide('Move', row(...delta.slice(0, 3)), 'Along x, y, z'),
       field('Normal', row(delta[3]!, small('Move', 'Move the chosen points by these lengths', () => {
         const normal = points.normalAt(place.clone().sub(new THREE.Vector3(...app.viewer.origin)));
-        run({ by: [0, 1, 2].map((k) => by[k]! + by[3]! * normal.getComponent(k)) });
+        run({ by: new THREE.Vector3().fromArray(by).addScaledVector(normal, by[3]!).toArray() });
       })), 'Along the normal of the surface'),
       ...weightFields(app, all),
       row(...(['x', 'y', 'z', 'normal'] as const).map((lock) => toggle(lock === 'normal' ? 'Normal' : lock.toUpperCase(), points.lock === lock,

@@ -1,3 +1,4 @@
+import type { EvolveCommand, LoadCommand, MaterialCommand } from '../engine/generated';
 import type { Command } from '../engine/session_types';
 import type { App } from './app';
 import { field, h, numberInput, toggle } from './dom';
@@ -30,13 +31,13 @@ export function materialPanel(app: App): HTMLElement {
   }, () => {
     const s = chosen();
     if (!s) return [note('Select a surface.')];
-    const set = (change: Record<string, unknown>) => void app.execute([{ do: 'material', ...change }]);
+    const set = (change: Partial<MaterialCommand>) => void app.execute([{ do: 'material', ...change }]);
     const one = (values: (number | null)[]) => (values[0] === values[2] ? values[0]! : null);
     const fits = (p: Preset) => one(s.alpha) === p.alpha && one(s.beta) === p.beta;
     return [
       row(...presets.map((p) => toggle(p.name, fits(p), () => void app.execute([
         { do: 'material', alpha: [p.alpha, 0, p.alpha], beta: [p.beta, p.beta, p.beta], locality: p.locality },
-        { ...app.state!.evolve, do: 'evolve', lambda: p.lambda, ...(app.state!.evolve.mode === 'static' ? { mode: 'acm' } : {}) } as Command,
+        { ...app.state!.evolve, do: 'evolve', lambda: p.lambda, ...(app.state!.evolve.mode === 'static' ? { mode: 'acm' as const } : {}) },
       ]), p.about))),
       note(presets.find(fits) ? `${presets.find(fits)!.name} ${presets.find(fits)!.about}.` : s.alpha.includes(null) || s.beta.includes(null)
         ? 'Varies over the surface: it was painted.' : 'A material of your own.'),
@@ -61,9 +62,9 @@ export function evolutionPanel(app: App): HTMLElement {
   return panel(app, 'Evolution', (a) => [a.state?.evolve, a.state?.load, a.state?.refine], () => {
     const { state } = app;
     if (!state) return [];
-    const evolve = (change: Record<string, unknown>) => void app.execute([{ ...state.evolve, ...change } as Command]);
-    const load = (change: Record<string, unknown>) => void app.execute([{ ...state.load, ...change } as Command]);
-    const gravity = state.load.gravity as number[];
+    const evolve = (change: Partial<EvolveCommand>) => void app.execute([{ ...state.evolve, ...change }]);
+    const load = (change: Partial<LoadCommand>) => void app.execute([{ ...state.load, ...change }]);
+    const { gravity } = state.load;
     return [
       row(
         toggle('Sink', state.evolve.mode === 'acm', () => evolve({ mode: 'acm' }), 'Sinks towards the balance (Eq. 4.22)'),
@@ -73,7 +74,7 @@ export function evolutionPanel(app: App): HTMLElement {
       state.evolve.mode === 'acm' ? field('λ', numberInput('Lambda', state.evolve.lambda, (lambda) => evolve({ lambda })), 'Inverse step size: larger is stiffer clay') : null,
       state.evolve.mode === 'dynamic' ? field('Time step', numberInput('Time step', state.evolve.time_step, (time_step) => evolve({ time_step }))) : null,
       field('Gravity z', numberInput('Gravity z', gravity[2] ?? 0, (z) => load({ gravity: [gravity[0] ?? 0, gravity[1] ?? 0, z] }))),
-      field('Pressure', numberInput('Pressure', state.load.pressure as number, (pressure) => load({ pressure })), 'Along the normal'),
+      field('Pressure', numberInput('Pressure', state.load.pressure, (pressure) => load({ pressure })), 'Along the normal'),
       row(
         button('Play', 'Play or pause (Space)', () => app.togglePlay()),
         button('Step', 'One step (.)', () => void app.execute([{ do: 'step' }])),

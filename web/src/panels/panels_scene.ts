@@ -1,6 +1,6 @@
 import { format, parseLength } from '../document/units';
-import { shapes } from '../engine/generated';
-import type { ToolInfo } from '../engine/session_types';
+import { type EditToolCommand, shapes } from '../engine/generated';
+import type { Command, ToolInfo } from '../engine/session_types';
 import type { App } from './app';
 import { field, h, iconButton, numberInput, select, toggle } from './dom';
 import { note, panel, row } from './panel';
@@ -51,9 +51,9 @@ const words: Record<string, string> = { minor: 'Tube', thickness: 'Wall', sizes:
 const single = (value: number | [number, number] | undefined): number => (Array.isArray(value) ? value[0] : value ?? 0);
 
 /** The command that changes these fields of a tool. A shape without a radius of its own is as large as the one before. */
-function edited(tool: ToolInfo, change: Record<string, unknown>): Record<string, unknown> & { do: string } {
-  const command: Record<string, unknown> & { do: string } = { do: 'edit_tool', tool: tool.name, ...change };
-  const shape = (change.shape as string | undefined) ?? tool.shape;
+function edited(tool: ToolInfo, change: Partial<EditToolCommand>): EditToolCommand {
+  const command: EditToolCommand = { do: 'edit_tool', tool: tool.name, ...change };
+  const shape = change.shape ?? tool.shape;
   const has = (name: string) => shapes[shape]!.fields.some((f) => f.name === name);
   if (shape !== tool.shape && tool.radius === undefined && (has('radius') || (has('sizes') && tool.sizes === undefined))) {
     command.radius = tool.sizes?.[0] ?? tool.size ?? 1;
@@ -83,13 +83,13 @@ export function toolsPanel(app: App): HTMLElement {
 }
 
 function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
-  const change = (what: Record<string, unknown>) => void app.execute([edited(tool, what)]);
+  const change = (what: Partial<EditToolCommand>) => void app.execute([edited(tool, what)]);
   const setGizmo = (mode: 'translate' | 'rotate' | 'scale') => {
     for (const v of app.viewer.viewports) v.gizmo.setMode(mode);
     app.changed();
   };
   const mode = app.viewer.viewports[0]!.gizmo.mode;
-  const number = (label: string, value: number, name: string, isLength = false, tip?: string) =>
+  const number = (label: string, value: number, name: keyof EditToolCommand, isLength = false, tip?: string) =>
     field(label, numberInput(label, value, (v) => change({ [name]: v }), isLength ? length(app) : undefined), tip);
   return [
     row(...(['translate', 'rotate', 'scale'] as const).map((m) =>
@@ -109,7 +109,7 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
 }
 
 /** The numbers of its shape, and where the tool is. */
-function measures(app: App, tool: ToolInfo, change: (what: Record<string, unknown>) => void): Node[] {
+function measures(app: App, tool: ToolInfo, change: (what: Partial<EditToolCommand>) => void): Node[] {
   const input = (label: string, value: number, isLength: boolean, set: (v: number) => void) => numberInput(label, value, set, isLength ? length(app) : undefined);
   const several = (label: string, name: string, values: readonly number[], isLength: boolean, tip?: string) =>
     field(label, row(...values.map((value, k) => input(`${label} ${k + 1}`, value, isLength,
@@ -134,7 +134,7 @@ export function constraintsPanel(app: App): HTMLElement {
     const { state } = app;
     const chosen = state?.surfaces[state.selection[0] ?? -1];
     if (!state || !chosen) return [note('Select a surface.')];
-    const run = (...commands: { do: string; [k: string]: unknown }[]) => void app.execute(commands);
+    const run = (...commands: Command[]) => void app.execute(commands);
     const edges = [['all', 'All edges'], ['u0', 'u = 0'], ['u1', 'u = 1'], ['v0', 'v = 0'], ['v1', 'v = 1']] as const;
     const edgeSelect = select('Edge', edges, 'all', () => {});
     const holdSelect = select('Continuity', [['position', 'Position'], ['clamped', 'Tangent'], ['curvature', 'Curvature'], ['free', 'Free']], 'position', () => {});

@@ -93,6 +93,11 @@ export class Brush implements PointerTool {
       this.actions.place(hit.point, hit.normal);
       return true;
     }
+    // The first press on a surface selects it and moves nothing.
+    if (!this.viewer.frame!.state.selection.includes(hit.surface)) {
+      void this.actions.select(hit.surface);
+      return true;
+    }
     // The shape at the press is what the pointer moves along, so that a stroke keeps its depth.
     const frozen = this.viewer.pickers;
     const kind = this.mode === 'grab' ? 'grab' : this.mode === 'smooth' || event.shiftKey ? 'smooth' : 'ball';
@@ -103,13 +108,10 @@ export class Brush implements PointerTool {
       ahead: [], radius: this.settings.radius, at: hit.fractions, cancelled: false,
     };
     this.stroke = stroke;
-    stroke.begun = (async () => {
-      if (!this.viewer.frame!.state.selection.includes(hit.surface)) await this.actions.select(hit.surface);
-      return this.actions.begin(
-        kind === 'ball' ? this.ball(this.centre(last, inward))
-        : kind === 'smooth' ? this.smooth(last)
-        : [this.grab(stroke, new THREE.Vector3())]);
-    })();
+    stroke.begun = this.actions.begin(
+      kind === 'ball' ? this.ball(this.centre(last, inward))
+      : kind === 'smooth' ? this.smooth(last)
+      : [this.grab(stroke, new THREE.Vector3())]);
     return true;
   }
 

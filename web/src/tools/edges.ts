@@ -3,7 +3,7 @@ import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 
-import type { SurfaceInfo } from '../engine/session_types';
+import type { SurfaceInfo, Vector3 } from '../engine/session_types';
 import type { Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
 import type { PointerTool } from './pointers';
@@ -21,7 +21,7 @@ const colours: Record<Continuity, number> = {
 export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
   let found: Continuity = 'free';
   for (const c of info.constraints) {
-    if (c.do === 'edge' && (c.which === edge || c.which === 'all')) found = (c.hold as Continuity | undefined) ?? 'position';
+    if (c.do === 'edge' && (c.which === edge || c.which === 'all')) found = c.hold ?? 'position';
     if (c.do === 'symmetry' && c.edge === edge) found = 'symmetry';
   }
   return found;
@@ -131,12 +131,12 @@ export class Edges implements PointerTool {
   }
 
   /** For symmetry about an edge: the plane across the axis along which the edge's places differ least. */
-  plane(edge: Edge): { point: number[]; normal: number[] } {
+  plane(edge: Edge): { point: Vector3; normal: Vector3 } {
     const points = this.points(edge)!;
     const box = new THREE.Box3().setFromArray(Array.from(points));
     const size = box.getSize(new THREE.Vector3()).toArray();
     const axis = size.indexOf(Math.min(...size));
-    const middle = box.getCenter(new THREE.Vector3()).toArray().map((x, k) => x + this.viewer.origin[k]!);
-    return { point: middle, normal: [0, 1, 2].map((k) => Number(k === axis)) };
+    const middle = box.getCenter(new THREE.Vector3()).add(new THREE.Vector3(...this.viewer.origin));
+    return { point: middle.toArray(), normal: new THREE.Vector3().setComponent(axis, 1).toArray() };
   }
 }

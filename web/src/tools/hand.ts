@@ -73,7 +73,7 @@ export class Hand {
     const command = newTool(host, this.placing, this.brush.settings.radius, point, normal);
     if (!(await host.execute([command]))) return;
     this.choose('look');
-    host.viewer.selectTool(command.name as string);
+    host.viewer.selectTool(command.name!);
     host.changed();
   }
 

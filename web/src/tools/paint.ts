@@ -203,10 +203,11 @@ export class Paint implements PointerTool {
     const [rows, columns] = [linesS.length - 1, linesT.length - 1];
     if (stroke.kind === 'pin') {
       const n = info.net[1];
-      const points = [...stroke.marked].flatMap((on, k) => (on ? [[Math.floor(k / n), k % n]] : []));
+      const points = [...stroke.marked].flatMap((on, k): [number, number][] => (on ? [[Math.floor(k / n), k % n]] : []));
       if (stroke.erase) {
         const gone = new Set(points.map(String));
-        return heldAnew(info, info.constraints, info.pinned.filter((p) => !gone.has(String(p))));
+        const stay = info.pinned.filter((p) => !gone.has(String(p)));
+        return released('pins', [...(stay.length > 0 ? [{ do: 'pin' as const, control_points: stay }] : []), ...info.constraints.filter((c) => c.do === 'pin')]);
       }
       if (points.length > 0) return [{ do: 'pin', control_points: points }];
       return stroke.moved ? [] : [{ do: 'pin', at: stroke.start.fractions }];
@@ -215,12 +216,12 @@ export class Paint implements PointerTool {
       blocks(cells, rows, columns).map((block) => ({ do: 'freeze', region: region(block, linesS, linesT, true) }));
     if (!stroke.erase) return freeze(stroke.marked);
     const frozen = new Uint8Array(rows * columns);
-    for (const c of info.constraints) if (c.do === 'freeze') mark(frozen, c.region as number[][], linesS, linesT);
+    for (const c of info.constraints) if (c.do === 'freeze') mark(frozen, c.region, linesS, linesT);
     if (!frozen.some((on, k) => on && stroke.marked[k])) return [];
     stroke.marked.forEach((on, k) => {
       if (on) frozen[k] = 0;
     });
-    return heldAnew(info, [...info.constraints.filter((c) => c.do !== 'freeze'), ...freeze(frozen)], info.pinned);
+    return released('freeze', freeze(frozen));
   }
 
   cancel(): Promise<void> {
@@ -237,12 +238,5 @@ export class Paint implements PointerTool {
   }
 }
 
-/** The session frees all at once; what is to stay held is asked for again. */
-export function heldAnew(info: SurfaceInfo, constraints: readonly Command[], pinned: readonly (readonly number[])[]): Command[] {
-  return [
-    { do: 'release' },
-    ...(info.hold > 0 ? [{ do: 'hold', rows: info.hold }] : []),
-    ...constraints,
-    ...(pinned.length > 0 ? [{ do: 'pin', control_points: pinned }] : []),
-  ];
-}
+/** Frees one kind of what is held; what is to stay of it is asked for again. */
+export const released = (what: 'pins' | 'freeze' | 'symmetry', stay: readonly Command[]): Command[] => [{ do: 'release', what: [what] }, ...stay];

@@ -97,7 +97,7 @@ export class PointEditor implements PointerTool {
   }
 
   /** Which points a command is about. */
-  which(): Record<string, unknown> {
+  which(): ReturnType<typeof wholeRows> {
     const [m, n] = this.net;
     return wholeRows([...this.chosen].sort((a, b) => a - b), m, n);
   }

@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { Context } from '../engine/context';
 import type { Display, Palette } from './display';
 
-/** The other faces of the opened file, in grey: to see what is sculpted in its place, and not to be picked. */
+/** The other faces of the opened file, in grey: to see what is sculpted in its place. They hide what is behind them, and cannot be picked. */
 export class ContextView {
   readonly mesh = new THREE.Mesh(
     new THREE.BufferGeometry(),
@@ -28,6 +28,16 @@ export class ContextView {
 
   get triangles(): number {
     return (this.mesh.geometry.index?.count ?? 0) / 3;
+  }
+
+  /** Whether it stands before what the ray meets at this distance. Faces that touch there do not. */
+  hides(ray: THREE.Raycaster, distance: number): boolean {
+    if (!this.mesh.visible) return false;
+    const { far } = ray;
+    ray.far = 0.999 * distance;
+    const hit = ray.intersectObject(this.mesh, false).length > 0;
+    ray.far = far;
+    return hit;
   }
 
   restyle(display: Display, palette: Palette): void {

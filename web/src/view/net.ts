@@ -6,6 +6,9 @@ export interface Block {
   v: [number, number];
 }
 
+/** Of the domain, in fractions: from and to along u, then along v. */
+type Region = [[number, number], [number, number]];
+
 export const gridIndices = (m: number, n: number): number[] => Array.from({ length: m * n }, (_, k) => k);
 
 /** The shortest way for a command to say which points: whole rows where there are only such. `chosen` is sorted. */
@@ -42,7 +45,7 @@ const short = (x: number) => Number(x.toPrecision(6));
  * A region in fractions of the domain for a block of spans. `inside`: a little less than they are, for commands that round
  * outward to whole spans, so that single precision cannot reach into the next one.
  */
-export function region({ u, v }: Block, linesS: readonly number[], linesT: readonly number[], inside: boolean): [number, number][] {
+export function region({ u, v }: Block, linesS: readonly number[], linesT: readonly number[], inside: boolean): Region {
   const between = (lines: readonly number[], [from, to]: [number, number]): [number, number] => {
     const [a, b] = [lines[from]!, lines[to]!];
     const inset = inside ? 0.1 : 0;
@@ -52,11 +55,11 @@ export function region({ u, v }: Block, linesS: readonly number[], linesT: reado
 }
 
 /** Marks the spans that a region touches: those the session rounds it to. */
-export function mark(into: Uint8Array, [[s0, s1], [t0, t1]]: readonly (readonly number[])[], linesS: readonly number[], linesT: readonly number[]): void {
+export function mark(into: Uint8Array, [[s0, s1], [t0, t1]]: Region, linesS: readonly number[], linesT: readonly number[]): void {
   const touched = (lines: readonly number[], from: number, to: number) =>
     lines.slice(1).map((end, k) => end > from + 1e-6 && lines[k]! < to - 1e-6);
-  const rows = touched(linesS, s0!, s1!);
-  const columns = touched(linesT, t0!, t1!);
+  const rows = touched(linesS, s0, s1);
+  const columns = touched(linesT, t0, t1);
   rows.forEach((a, i) => columns.forEach((b, j) => {
     if (a && b) into[i * columns.length + j] = 1;
   }));

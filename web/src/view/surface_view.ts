@@ -110,7 +110,7 @@ export class SurfaceView {
 
   /** Hatches what the session keeps from moving: the whole spans that frozen regions touch. */
   private showFrozen(info: SurfaceInfo): void {
-    const regions = info.constraints.filter((c) => c.do === 'freeze').map((c) => c.region as number[][]);
+    const regions = info.constraints.filter((c) => c.do === 'freeze').map((c) => c.region);
     const frozen = JSON.stringify(regions);
     if (frozen === this.frozen) return;
     this.frozen = frozen;

@@ -226,7 +226,7 @@ export class Viewer {
       const hit = picker?.hit(ray);
       if (hit && (!best || hit.distance < best.distance)) best = { surface, ...hit };
     }
-    return best;
+    return best && !frozen && this.context.hides(this.raycaster, best.distance) ? null : best;
   }
 
   get pickers(): (GridPicker | null)[] {
