@@ -20,8 +20,8 @@ build() {
 }
 build_wasm_tests() {
   scripts/setup.sh wasm
-  scripts/configure.sh wasm-test
-  cmake --build build/wasm-test
+  scripts/configure.sh wasm
+  cmake --build build/wasm --target gramian_values
 }
 studio_tests() (cd web && npm run --silent "$1")
 
