@@ -18,14 +18,14 @@
 
 namespace knead {
 
-// Descriptions of types as tables. A record says once what it is made of,
+// Descriptions of types as tables. A record states once what it is made of,
 //
 //   void describe(Ball& b, Fields& fields) {
 //     fields.name("ball", "a round body");
 //     fields.add("radius", b.radius, {.help = "of the ball", .unit = Unit::length, .range = above(0)});
 //   }
 //
-// declared beside the record and compiled in one file. `type_of<Ball>()` is its table: what reads, writes or explains
+// declared beside the record and compiled in one file. `type_of<Ball>()` is its table: reading, writing and explaining
 // values is one loop over (Type, void*), compiled once for all types.
 
 /// What a value is made of.
@@ -37,10 +37,10 @@ enum class Kind {
   choice,    ///< an enumeration whose values have names
   optional,  ///< std::optional: no element or one
   list,      ///< std::vector
-  array,     ///< so many elements: std::array, a small vector of Eigen's, neighbouring members
+  array,     ///< fixed size: std::array, a small Eigen vector, adjacent members
   record,    ///< fields
-  variant,   ///< std::variant of records, told apart by their names
-  opaque,    ///< what only its owner can read and write, like a shared surface
+  variant,   ///< std::variant of records, distinguished by their names
+  opaque,    ///< readable and writable only by its owner, like a shared surface
 };
 
 /// What a number measures.
@@ -49,12 +49,12 @@ enum class Unit { none, length, angle, fraction };
 /// Whether a field may be left out.
 enum class Presence { optional, required };
 
-/// Numbers from `least` to `most`, without a bound that is marked open.
+/// Numbers from `least` to `most`, excluding a bound that is marked open.
 struct Range {
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
   bool open_below = false, open_above = false;
 
-  /// False for what is not a number.
+  /// False for NaN.
   [[nodiscard]] constexpr bool holds(double x) const {
     return (open_below ? x > least : x >= least) && (open_above ? x < most : x <= most);
   }
@@ -64,7 +64,7 @@ constexpr Range at_least(double least) { return {.least = least}; }
 constexpr Range above(double least) { return {.least = least, .open_below = true}; }
 constexpr Range between(double least, double most) { return {.least = least, .most = most}; }
 
-/// "from 0 to 1", "> 0", "at least 2"; empty where every number will do.
+/// "from 0 to 1", "> 0", "at least 2"; empty where every number is allowed.
 [[nodiscard]] std::string in_words(const Range& range);
 
 /// A named value of an enumeration. An enumeration E is described by `std::span<const Choice> choices(E)`.
@@ -80,17 +80,17 @@ struct Choice {
       : name(choice_name), value(static_cast<int>(choice)), help(text) {}
 };
 
-/// What is said of a field besides its name and type.
+/// The description of a field besides its name and type.
 struct About {
   std::string_view help = {};
   Unit unit = Unit::none;
   Range range = {};  ///< of each number in it
   Presence presence = Presence::optional;
-  /// What holds where the field is left out, in words, if its default value does not say it.
+  /// What applies when the field is left out, in words, if its default value does not say it.
   std::string_view fallback = {};
-  /// What is written is this times the member: 2 for a height whose half is kept.
+  /// The written value is this times the member: 2 for a height stored as its half.
   double factor = 1;
-  /// An array of numbers that are mostly the same: one number then stands for all.
+  /// An array of numbers that are mostly equal: a single number then stands for all.
   bool uniform = false;
 };
 
@@ -100,7 +100,7 @@ struct Field : About {
   std::string_view name;
   const Type* type = nullptr;
   std::size_t offset = 0;  ///< in bytes, from the beginning of the record
-  /// A variant whose name and fields count as those of the record itself; `name` is then that of the variant's tag.
+  /// A variant whose name and fields count as those of the record itself; `name` is then the variant's tag.
   bool flat = false;
 
   [[nodiscard]] void* of(void* record) const { return static_cast<char*>(record) + offset; }
@@ -110,43 +110,43 @@ struct Field : About {
 /// The table of a type. All tables live as long as the program; functions that do not fit the kind are null.
 struct Type {
   Kind kind = Kind::record;
-  std::string_view name = {};  ///< of a record; of a variant the name of the field that tells which (its tag)
+  std::string_view name = {};  ///< of a record; of a variant the name of its tag, the field that tells which
   std::string_view help = {};
-  const void* initial = nullptr;           ///< a value as it is made by default
+  const void* initial = nullptr;           ///< a default-constructed value
   const Type* element = nullptr;           ///< of optionals, lists and arrays
   std::size_t length = 0;                  ///< of arrays
   std::span<const Choice> choices = {};    ///< of choices, in order of their values
   std::vector<Field> fields = {};          ///< of records
   std::vector<const Type*> variants = {};  ///< of variants: the records, in order
 
-  std::size_t (*count)(const void*) = nullptr;   ///< elements there are: optional, list, array
-  void (*resize)(void*, std::size_t) = nullptr;  ///< optional (to 0 or 1, made by default) and list
-  void* (*at)(void*, std::size_t) = nullptr;     ///< element k; of variants what it holds, whatever k
+  std::size_t (*count)(const void*) = nullptr;   ///< number of elements: optional, list, array
+  void (*resize)(void*, std::size_t) = nullptr;  ///< optional (to 0 or 1, default-constructed) and list
+  void* (*at)(void*, std::size_t) = nullptr;     ///< element k; of variants the held record, for any k
   int (*value)(const void*) = nullptr;           ///< of choices; of variants the index
-  void (*assign)(void*, int) = nullptr;          ///< of choices; makes the variant hold number k by default
+  void (*assign)(void*, int) = nullptr;          ///< of choices; default-constructs alternative k of variants
 
   [[nodiscard]] const void* part(const void* whole, std::size_t k = 0) const {
     return at(const_cast<void*>(whole), k);  // NOLINT: `at` only adds to the address
   }
-  /// The field of that name, of the record itself; null where there is none.
+  /// The field of that name, of the record itself; null if there is none.
   [[nodiscard]] const Field* find(std::string_view field) const;
-  /// The choice of that value or name; null where there is none.
+  /// The choice of that value or name; null if there is none.
   [[nodiscard]] const Choice* choice(int choice_value) const;
   [[nodiscard]] const Choice* choice(std::string_view choice_name) const;
-  /// The number of the variant of that name; −1 where there is none.
+  /// The index of the variant of that name; −1 if there is none.
   [[nodiscard]] int variant(std::string_view variant_name) const;
   /// True for numbers, and for optionals, lists and arrays of nothing else.
   [[nodiscard]] bool numeric() const;
-  /// The type of what is there at last, below optionals, lists and arrays.
+  /// The innermost type, below optionals, lists and arrays.
   [[nodiscard]] const Type& innermost() const;
 };
 
-/// The table of T, made at the first call. A variant is described by the name of its tag,
+/// The table of T, made on the first call. A variant is described by the name of its tag,
 /// `std::string_view tag_of(const Variant*)`.
 template <class T>
 [[nodiscard]] const Type& type_of();
 
-/// Collects the fields of a record; what `describe` is given.
+/// Collects the fields of a record; the argument of `describe`.
 class Fields {
  public:
   Fields(Type& type, const void* record) : type_(type), record_(static_cast<const char*>(record)) {}
@@ -180,10 +180,10 @@ class Fields {
 };
 
 /// Whether all numbers of a value, at any depth, are in the ranges of their fields. Error (input): the first that is
-/// not, with the path of its field. Numbers that are left out (empty optionals) pass. Cost: one look at every number.
+/// not, with the path of its field. Missing numbers (empty optionals) pass. Cost: one check per number.
 [[nodiscard]] Expected<void> check_ranges(const Type& type, const void* value);
 
-/// Types that only their owner reads and writes.
+/// Types read and written only by their owner.
 template <class T>
 inline constexpr bool is_opaque = false;
 template <class T>

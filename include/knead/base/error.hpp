@@ -6,7 +6,7 @@
 
 namespace knead {
 
-/// Whose fault a failure is; the command line maps it to its exit code.
+/// The cause of a failure; the command line maps it to its exit code.
 enum class ErrorKind {
   usage,      ///< The call itself is wrong (unknown option, missing argument): exit code 2.
   input,      ///< A file, a script or a value is wrong: exit code 3.
@@ -34,7 +34,7 @@ struct Error {
   [[nodiscard]] Error within(const std::string& outer) const;
 };
 
-/// Either a value or the reason there is none. The core never throws.
+/// A value, or the reason there is none. The core never throws.
 template <class T>
 using Expected = std::expected<T, Error>;
 

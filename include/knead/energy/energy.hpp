@@ -17,7 +17,7 @@ struct EnergyTerm {
   friend bool operator==(const EnergyTerm&, const EnergyTerm&) = default;
 };
 
-/// A quadratic energy is the list of its terms. The list is symmetric: with a term (c, a, b), a != b, stands (c, b, a).
+/// A quadratic energy is the list of its terms. The list is symmetric: a term (c, a, b), a != b, comes with (c, b, a).
 template <int D>
 using Energy = std::vector<EnergyTerm<D>>;
 
@@ -25,16 +25,16 @@ using Energy = std::vector<EnergyTerm<D>>;
 template <int D>
 [[nodiscard]] Energy<D> stretch_and_bend(const MaterialOf<D>& material);
 
-/// For braces in place of a material.
+/// Lets braces stand for a material.
 [[nodiscard]] inline Energy<2> stretch_and_bend(const Material& material) { return stretch_and_bend<2>(material); }
 
-/// ∫ |S|² · coefficient: the list whose operator is the mass matrix (thesis Eq. 5.41 with constant μ).
+/// ∫ |S|² · coefficient: the energy whose operator is the mass matrix (thesis Eq. 5.41 with constant μ).
 template <int D>
 [[nodiscard]] Energy<D> mass_energy(double coefficient = 1);
 
 /// The same energy written on a stretched parameter domain: with û_d = factor_d · u_d a term of orders a, b is
 /// multiplied by Π_d factor_d^(1 − a_d − b_d), so that K, computed on the knots as they are, is the matrix that the
-/// knots multiplied by the factors would give. No knot is touched.
+/// knots multiplied by the factors would give. No knot is changed.
 template <int D>
 [[nodiscard]] Energy<D> on_scaled_domain(const Energy<D>& energy, const std::array<double, D>& factors);
 

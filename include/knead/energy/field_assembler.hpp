@@ -15,14 +15,14 @@ struct FieldMatrices {
   SparseMatrix stretch, bend, mass, damping;
 };
 
-/// Assembles energies with varying coefficients on one spline, again and again as the coefficients are painted.
+/// Assembles energies with varying coefficients on one spline, repeatedly as the coefficients are painted.
 ///
 /// Polynomial splines: exact up to rounding for splines as coefficients (thesis § 5.5, see `TripleGramian`), by sum
 /// factorisation, one direction after the other: in two directions
 ///   K[(i, j), (i', j')] += factor · Σ_l (Σ_k c_kl T_u[k, i, i']) T_v[l, j, j'].
-/// The triple Gramians depend on the knots alone and are kept from call to call (the last call's; those of knots no
-/// longer in use are dropped). Constant coefficients go the way of `Stiffness`, whose bits they keep where nothing
-/// varies. Rational splines: by Gauss points on the rational basis with the field evaluated at the points, the spans
+/// The triple Gramians depend on the knots alone and are kept from one call to the next (those of knots not used in the
+/// last call are dropped). Constant coefficients are handled as in `Stiffness`, bit for bit where nothing varies.
+/// Rational splines: by Gauss points on the rational basis with the field evaluated at the points, the spans
 /// cut at the field's knots; `StiffnessOptions::rational_gauss_points`, 0 meaning p + 8 + (q + 1)/2 with q the field's
 /// largest degree.
 ///

@@ -16,7 +16,7 @@ namespace knead {
 template <int D>
 struct MaterialOf {
   static constexpr std::size_t count = D * (D + 1) / 2;
-  /// Place of the coefficient ij, i <= j, counted from 0.
+  /// Position of the coefficient ij, i <= j, counted from 0.
   static constexpr std::size_t place(int i, int j) { return static_cast<std::size_t>(i * D - i * (i - 1) / 2 + j - i); }
 
   std::array<double, count> alpha = filled(1, 0);
@@ -36,12 +36,12 @@ struct MaterialOf {
 
 using Material = MaterialOf<2>;
 
-/// Accepts exactly the materials whose energy is convex: all finite, the matrix α positive semidefinite, every β >= 0.
+/// Accepts exactly the materials with a convex energy: all finite, the matrix α positive semidefinite, every β >= 0.
 /// The error names the coefficient.
 template <int D>
 [[nodiscard]] Expected<MaterialOf<D>> validated(const MaterialOf<D>& material);
 
-/// For braces in place of a material.
+/// Lets braces stand for a material.
 [[nodiscard]] inline Expected<Material> validated(const Material& material) { return validated<2>(material); }
 
 }  // namespace knead

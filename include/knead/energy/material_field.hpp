@@ -5,7 +5,7 @@
 
 namespace knead {
 
-/// A material whose coefficients vary over the shape: those of `MaterialOf`, in the same order, with mass μ and damping
+/// A material whose coefficients vary over the shape: those of `MaterialOf`, in the same order, plus mass μ and damping
 /// γ, each a constant or a spline over the parameter domain (thesis § 5.5, Eqs. 5.41, 5.42). Units as in `MaterialOf`;
 /// μ and γ per measure of the (scaled) parameter domain.
 template <int D>
@@ -35,15 +35,15 @@ struct MaterialFieldOf {
   }
 };
 
-/// Accepts materials whose energy is convex, coefficient by coefficient; the error names the coefficient.
+/// Accepts materials with a convex energy, coefficient by coefficient; the error names the coefficient.
 ///
-/// What is checked: all numbers finite; every coefficient of the β_ij, α_ii, μ and γ >= 0; and, where an α varies, the
+/// Checks: all numbers finite; every coefficient of the β_ij, α_ii, μ and γ >= 0; and, where an α varies, the
 /// matrix of the k-th coefficients of the α on `common_knots` positive semidefinite for every k. As basis functions are
-/// non-negative and sum to one, the matrix α(u) is then a convex combination of such matrices and the energy convex.
-/// The check is sufficient, not necessary: a field whose values are positive while a coefficient is not is refused;
-/// refine its knots. Where all varying α share their knots the check is exact in the sense of `validated(MaterialOf)`;
-/// otherwise the fields are brought to common knots by arithmetic, and 1e-12 of the largest α is allowed for its
-/// rounding.
+/// non-negative and sum to one, the matrix α(u) is then a convex combination of such matrices and the energy is convex.
+/// The check is sufficient, not necessary: a field with positive values but a coefficient that is not positive is
+/// refused; refine its knots. Where all varying α share their knots the check is exact in the sense of
+/// `validated(MaterialOf)`; otherwise the fields are converted to common knots, with an allowance of 1e-12 of the
+/// largest α for rounding.
 template <int D>
 [[nodiscard]] Expected<void> validated(const MaterialFieldOf<D>& material);
 
@@ -55,11 +55,11 @@ struct FieldTerm {
   MultiIndex<D> a{}, b{};
 };
 
-/// Symmetric like `Energy`: with a term (c, a, b), a != b, stands (c, b, a).
+/// Symmetric like `Energy`: a term (c, a, b), a != b, comes with (c, b, a).
 template <int D>
 using FieldEnergy = std::vector<FieldTerm<D>>;
 
-/// The terms of `stretch_and_bend`, the stretch (first derivatives) and the bend (second) apart. Zero constants are
+/// The terms of `stretch_and_bend`, stretch (first derivatives) and bend (second) separately. Zero constants are
 /// left out.
 template <int D>
 [[nodiscard]] FieldEnergy<D> stretch_energy(const MaterialFieldOf<D>& material);

@@ -11,12 +11,12 @@ namespace knead {
 
 /// A scalar spline on a parameter domain, f(u) = Σ_i c_i N_i(u): a coefficient that varies over a shape (thesis § 5.5).
 ///
-/// Degrees and knots are its own; the domain must be that of the spline it belongs to, bit for bit. Coefficients are
+/// It has its own degrees and knots; the domain must be that of the spline it belongs to, bit for bit. Coefficients are
 /// stored with the last direction fastest. Immutable.
 template <int D>
 class SplineField {
  public:
-  /// Errors (input): another number of coefficients than the knots ask for; one that is not finite, by its index.
+  /// Errors (input): a wrong number of coefficients for the knots; one that is not finite, by its index.
   [[nodiscard]] static Expected<SplineField> create(std::array<KnotVector, D> knots, std::vector<double> coefficients);
 
   [[nodiscard]] const std::array<KnotVector, D>& knots() const { return knots_; }
@@ -26,7 +26,7 @@ class SplineField {
   [[nodiscard]] Interval range() const;
 
   /// f on the grid of all combinations of the parameters, last direction fastest. At a knot the limit from `side`.
-  /// Error: a parameter outside of the domain.
+  /// Error: a parameter outside the domain.
   [[nodiscard]] Expected<std::vector<double>> on_grid(const std::array<std::span<const double>, D>& parameters,
                                                       Side side = Side::right) const;
   /// The same for tabulated bases of its knots.
@@ -59,7 +59,7 @@ template <int D>
 
 /// The same field on other knots whose splines contain it, as those of `common_knots` do; on other knots its
 /// interpolant at the Greville abscissae. Accuracy: rounding, times the condition of interpolation (see
-/// `GrevilleInterpolation`); a field that has these knots already is returned unchanged, a constant has its value in
+/// `GrevilleInterpolation`); a field that already has these knots is returned unchanged; a constant has its value in
 /// every coefficient.
 template <int D>
 [[nodiscard]] Expected<SplineField<D>> on_knots(const Coefficient<D>& field, const std::array<KnotVector, D>& knots);

@@ -19,12 +19,12 @@ struct StiffnessOptions {
 };
 
 /// The symmetric operator K that a quadratic energy defines on the control points: E(S) = Σ_xyz Pᵀ K P
-/// (thesis Eqs. 4.14, 4.15; the mass matrix is the same thing for `mass_energy`).
+/// (thesis Eqs. 4.14, 4.15; for `mass_energy` it is the mass matrix).
 ///
-/// Polynomial splines: K = Σ_terms c · G^{a_0 b_0} ⊗ … ⊗ G^{a_{D−1} b_{D−1}}, exact up to rounding. It is kept as those
-/// one-dimensional factors and can be applied without ever being assembled.
-/// Rational splines: the derivatives are those of the rational basis, integrated by Gauss points span by span; K is
-/// then kept assembled. Weights are never ignored. Unknowns are numbered as control points: last direction fastest.
+/// Polynomial splines: K = Σ_terms c · G^{a_0 b_0} ⊗ … ⊗ G^{a_{D−1} b_{D−1}}, exact up to rounding. It is stored as
+/// those one-dimensional factors and can be applied without being assembled.
+/// Rational splines: the derivatives are those of the rational basis, integrated by Gauss quadrature span by span; K is
+/// then stored assembled. Weights are never ignored. Unknowns are numbered as control points: last direction fastest.
 template <int D>
 class Stiffness {
  public:
@@ -32,7 +32,7 @@ class Stiffness {
   [[nodiscard]] static Expected<Stiffness> create(const Spline<D>& spline, const Energy<D>& energy,
                                                   const StiffnessOptions& options = {});
 
-  /// For a polynomial spline the knots are enough.
+  /// For a polynomial spline the knots suffice.
   [[nodiscard]] static Expected<Stiffness> create(const std::array<KnotVector, D>& knots, const Energy<D>& energy,
                                                   const StiffnessOptions& options = {});
 

@@ -15,11 +15,11 @@ namespace knead {
 struct FaceMesh {
   std::string id;  ///< "#123", of the ADVANCED_FACE
   std::vector<Point> points;
-  std::vector<Point> normals;  ///< unit, one per point, of the face: the surface's, turned where same_sense is false
+  std::vector<Point> normals;  ///< unit, one per point, of the face: the surface's, reversed where same_sense is false
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the tip of the normal
 };
 
-/// A face that could not be made triangles, and why; the others are usable all the same.
+/// A face that could not be triangulated, and why; the others are still usable.
 struct SkippedFace {
   std::string id;
   Error reason;
@@ -30,19 +30,19 @@ struct ContextFaces {
   std::vector<SkippedFace> skipped;
 };
 
-/// The faces of a STEP file that do not lie on one of its `surfaces()`, as triangles: what stands round the surfaces
-/// that can be sculpted. Faces on planes, cylinders, cones, spheres, tori, surfaces of revolution and of linear
+/// The faces of a STEP file that do not lie on one of its `surfaces()`, as triangles: the context of the surfaces that
+/// can be sculpted. Faces on planes, cylinders, cones, spheres, tori, surfaces of revolution and of linear
 /// extrusion, and polygons (POLY_LOOP); edges on lines, conics, polylines and B-spline curves (docs/context-faces.md).
 ///
 /// Coordinates are the file's, in the frame of the representation that the face belongs to, as those of `surfaces()`
 /// are; placements of assemblies are not applied.
 ///
-/// \param chord how far a chord may be from its arc, as a share of the radius (of curves that are no circles: of half
+/// \param chord how far a chord may be from its arc, as a share of the radius (for curves other than circles: of half
 ///   their extent): arcs are divided into steps of at most 2 acos(1 − chord), faces have interior points at such steps.
-///   A triangle is within 2 `chord` radii of its surface, and edges that two faces share have the same points in both,
+///   A triangle is within 2 `chord` radii of its surface, and edges shared by two faces have the same points in both,
 ///   so that no gaps show. Between 1e-6 and 0.2.
-/// Errors (usage): chord out of its range. Faces that fail are listed in `skipped`, each with its reason.
-/// Cost: linear in the file and in the triangles, quadratic in the number of points round one face.
+/// Errors (usage): chord out of range. Faces that fail are listed in `skipped`, each with its reason.
+/// Cost: linear in the file and in the triangles, quadratic in the number of points around one face.
 [[nodiscard]] Expected<ContextFaces> context_faces(const step::File& file, double chord = 1e-3);
 
 }  // namespace knead

@@ -14,7 +14,7 @@ namespace knead {
 
 /// Puts `bytes` at `path` entirely or not at all: written to a temporary file in the same directory, flushed to the
 /// disk, given the permissions of the file it replaces, and renamed. A symbolic link is followed. On failure nothing is
-/// left behind and what stood at `path` still stands. Errors (input): the directory or the file cannot be written.
+/// left behind and `path` is unchanged. Errors (input): the directory or the file cannot be written.
 [[nodiscard]] Expected<void> write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace knead

@@ -18,26 +18,26 @@ struct NamedSurface {
 
 /// How to write surfaces.
 struct SaveOptions {
-  int detail = 96;                 ///< of triangles: grid lines wanted per direction and surface, 1 to 2000
-  std::string unit = {};           ///< of the coordinates, "mm" or the like; empty: not known
-  std::string title = "surfaces";  ///< what formats that name their content call it
+  int detail = 96;                 ///< for triangles: desired grid lines per direction and surface, 1 to 2000
+  std::string unit = {};           ///< of the coordinates, such as "mm"; empty: unknown
+  std::string title = "surfaces";  ///< the title in formats that have one
 };
 
-/// What a format keeps of a surface.
+/// What a format stores of a surface.
 enum class FormatContent {
   surfaces,   ///< the surface itself: degrees, knots, weights, control points
   triangles,  ///< a picture of it
 };
 
-/// A file format: what programs show of it, and how files of it are opened and written.
+/// A file format: how programs present it, and how its files are opened and written.
 struct Format {
-  std::string_view id;                        ///< "stl": what scripts and options call it
+  std::string_view id;                        ///< "stl": its name in scripts and options
   std::string_view name;                      ///< "STL"
   std::span<const std::string_view> endings;  ///< of file names, lower case, the usual one first: ".step", ".stp"
   std::string_view media_type;                ///< "model/stl"
   FormatContent content = FormatContent::triangles;
-  std::string_view holds;  ///< what a file of it holds, for menus and tables
-  /// Whether bytes look like a file of it, by how they begin. Null: files of this format are not opened.
+  std::string_view holds;  ///< its content, for menus and tables
+  /// Whether bytes look like a file of this format, by how they begin. Null: it cannot be opened.
   bool (*recognises)(std::string_view bytes) = nullptr;
   /// Opens bytes; `name` stands for the file in errors. Null where `recognises` is.
   Expected<std::shared_ptr<const Source>> (*open)(std::string bytes, std::string name) = nullptr;
@@ -45,21 +45,21 @@ struct Format {
   Expected<std::string> (*save)(std::span<const NamedSurface> surfaces, const SaveOptions& options) = nullptr;
 };
 
-/// All formats, those that keep the surfaces first.
+/// All formats, those that store surfaces first.
 [[nodiscard]] std::span<const Format> formats();
 
 /// The format of this id, or null.
 [[nodiscard]] const Format* find_format(std::string_view id);
 
-/// The format that the ending of a file name asks for, in any case, among those of this content. Error (input): another
+/// The format given by the ending of a file name, in any case, among those of this content. Error (input): an unknown
 /// ending; the remedy lists the endings.
 [[nodiscard]] Expected<const Format*> format_of_name(std::string_view file_name, FormatContent content);
 
-/// The endings of these formats for messages: ".stl, .obj or .ply"; of formats that can be opened where `opened`.
+/// The endings of these formats for messages: ".stl, .obj or .ply"; if `opened`, of the formats that can be opened.
 [[nodiscard]] std::string list_of_endings(FormatContent content, bool opened = false);
 
-/// Opens the bytes of a file of any format: that which recognises them, or, where none does, that which the ending of
-/// the name asks for, whose reader then says what is wrong. Errors (input): neither; the message names the formats.
+/// Opens the bytes of a file of any format: the one that recognises them or, if none does, the one given by the ending
+/// of the name, whose reader then reports what is wrong. Errors (input): neither; the message names the formats.
 [[nodiscard]] Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name);
 
 /// A table of the formats in Markdown, as docs/formats.md has it.
@@ -68,15 +68,15 @@ struct Format {
 /// The list as JSON, for user interfaces: [{"id", "name", "endings", "media_type", "content", "holds", "opens"}].
 [[nodiscard]] std::string format_json();
 
-/// The bytes of a file with all surfaces: of a format that keeps surfaces, these; of one that holds triangles, a
-/// picture of them.
+/// The bytes of a file with all surfaces: the surfaces themselves in a format that stores surfaces, a picture of them
+/// in one that stores triangles.
 ///
 /// Triangles: each surface, whole and untrimmed, is a grid with every knot line on it (`grid_lines`); the points lie on
-/// the surface to rounding, and in formats with single precision to that. Triangles run counterclockwise seen from
-/// where S_u × S_v points. Those that are no triangles, at poles, are left out. Vertices are not shared between
+/// the surface to rounding, or to single precision in formats that use it. Triangles run counterclockwise seen from
+/// where S_u × S_v points. Degenerate ones, at poles, are left out. Vertices are not shared between
 /// surfaces, nor across the seam of a closed one: equal control points along a seam give equal coordinates, but nothing
-/// promises a watertight mesh. Normals are S_u × S_v / |S_u × S_v|, and where that vanishes the mean of those of the
-/// triangles around. Errors: no surface, a detail out of range, more than 2³¹ triangles (input); a denominator that is
+/// promises a watertight mesh. Normals are S_u × S_v / |S_u × S_v|, or, where that vanishes, the mean over adjacent
+/// triangles. Errors: no surface, a detail out of range, more than 2³¹ triangles (input); a denominator that is
 /// not positive, a coordinate too large for the format (numerical).
 [[nodiscard]] Expected<std::string> save_surfaces(std::span<const NamedSurface> surfaces, const Format& format,
                                                   const SaveOptions& options = {});

@@ -14,7 +14,7 @@ namespace step {
 class File;
 }
 
-/// A surface of a file, as it was read.
+/// A surface of a file, as read.
 struct SourceSurface {
   std::string id;    ///< what the file calls it: "#123" in STEP
   std::string name;  ///< its label
@@ -22,13 +22,13 @@ struct SourceSurface {
   std::shared_ptr<const Surface> surface;
 };
 
-/// A surface of a file that could not be made a `Surface`; the others are usable all the same.
+/// A surface of a file that could not be made a `Surface`; the others are still usable.
 struct UnreadableSurface {
   std::string id;
   Error reason;
 };
 
-/// A file that was opened: its surfaces, and the means to write it back with some of them changed and all else as it
+/// An opened file: its surfaces, and the means to write it back with some of them changed and everything else as it
 /// was. Immutable; const access is thread-safe.
 class Source {
  public:
@@ -38,10 +38,10 @@ class Source {
   /// In the order of the file.
   [[nodiscard]] virtual const std::vector<SourceSurface>& surfaces() const = 0;
   [[nodiscard]] virtual const std::vector<UnreadableSurface>& unreadable() const = 0;
-  /// The bytes of the file with these surfaces, one for each of `surfaces()` in their order, in the place of the
-  /// original ones. One that is the original (the same object) keeps its bytes.
+  /// The bytes of the file with these surfaces, one for each of `surfaces()` in order, in place of the original ones. A
+  /// surface that is the original (the same object) keeps its bytes.
   [[nodiscard]] virtual Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces) const = 0;
-  /// The STEP file behind it, for what only STEP has: faces and their trimming. Null for other formats.
+  /// The underlying STEP file, for what only STEP has: faces and their trimming. Null for other formats.
   [[nodiscard]] virtual const step::File* step_file() const { return nullptr; }
 
  protected:

@@ -17,7 +17,7 @@ namespace knead::step {
 struct SurfaceEntity {
   std::string id;    ///< "#123"
   std::string name;  ///< decoded label of the representation item; empty if it has none
-  std::string unit;  ///< length unit of its coordinates as in `LengthUnit::name`; "unknown" if undecidable
+  std::string unit;  ///< length unit of its coordinates as in `LengthUnit::name`; "unknown" if it cannot be determined
 
   /// u is the outer list of control points (slow), v the inner one (fast). Numbers are the correctly rounded doubles of
   /// the file's decimals, in the file's units and in the frame of the surface's own representation.
@@ -26,21 +26,21 @@ struct SurfaceEntity {
   /// Geometrically closed in u, in v: S(a, ·) and S(b, ·) are the same curve. The two boundary isocurves are split at
   /// their ends into control points (and weights) by the basis at the first and last parameter; they are the same curve
   /// where these agree to 1e-9 of the net's bounding-box diagonal. A direction along which the whole net is collapsed
-  /// is not closed. The file's own u_closed and v_closed flags are often wrong and not used.
+  /// is not closed. The file's own u_closed and v_closed flags are often wrong and are ignored.
   std::array<bool, 2> closed = {false, false};
 
-  /// Some face on this surface is not the whole of it: an edge of its bounds leaves the four boundary isocurves of the
-  /// surface, or its edges together leave out part of a boundary isocurve that is neither a seam nor a single point.
-  /// Decided by points sampled on the edges, to twice the uncertainty the file states (edge and surface may each be off
-  /// by it), but no less than 1e-5 and no more than 1e-4 of the net's bounding-box diagonal. Where the form of an
-  /// edge's curve is not known (docs/step.md) the face counts as trimmed. A surface that no face uses is untrimmed,
+  /// Some face on this surface covers only part of it: an edge of its bounds leaves the four boundary isocurves of the
+  /// surface, or its edges together miss part of a boundary isocurve that is neither a seam nor a single point. Decided
+  /// by points sampled on the edges, to twice the uncertainty the file states (edge and surface may each be off
+  /// by it), but no less than 1e-5 and no more than 1e-4 of the net's bounding-box diagonal. Where the type of an
+  /// edge's curve is unknown (docs/step.md) the face counts as trimmed. A surface that no face uses is untrimmed,
   /// unless a RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE cuts it.
   bool trimmed = false;
 
   int faces = 0;  ///< faces of the file that lie on it
 };
 
-/// A B-spline surface entity that could not be made a `Surface`; the rest of the file is usable all the same.
+/// A B-spline surface entity that could not be made a `Surface`; the rest of the file is still usable.
 struct UnreadableSurface {
   std::string id;
   Error reason;
@@ -55,14 +55,14 @@ struct Placement {
 };
 
 /// One placement of a component in an assembly: a NEXT_ASSEMBLY_USAGE_OCCURRENCE with its
-/// CONTEXT_DEPENDENT_SHAPE_REPRESENTATION, or a MAPPED_ITEM. The component is moved so that `frame` (given in the
-/// child) comes to lie on `placement` (given in the parent). Nothing is applied to the surfaces.
+/// CONTEXT_DEPENDENT_SHAPE_REPRESENTATION, or a MAPPED_ITEM. The component is moved so that `frame` (in the child's
+/// coordinates) lands on `placement` (in the parent's). Nothing is applied to the surfaces.
 struct Instance {
   std::string id;                      ///< "#123", of the NEXT_ASSEMBLY_USAGE_OCCURRENCE or MAPPED_ITEM
   std::string name;                    ///< its label
-  std::string parent;                  ///< product name of the assembly; empty if the file does not lead to one
+  std::string parent;                  ///< product name of the assembly; empty if the file gives none
   std::string child;                   ///< product name of the component; empty likewise
-  std::optional<Placement> placement;  ///< where the component's frame goes, in the parent; none if not given
+  std::optional<Placement> placement;  ///< where the component's frame lies in the parent; none if not given
   std::optional<Placement> frame;      ///< the component's own frame
 };
 
@@ -79,7 +79,7 @@ struct Edit {
   Points control_points;
 };
 
-/// Another surface in the place of one of the file: refined, or coarser, over the same parameter domain.
+/// Another surface in place of one in the file: refined or coarser, over the same parameter domain.
 struct Replacement {
   std::string id;  ///< "#123"
   Surface surface;
@@ -87,11 +87,12 @@ struct Replacement {
 
 /// A STEP file (ISO 10303-21 exchange structure) whose records remember their bytes, and its B-spline surfaces.
 ///
-/// Reading changes nothing: the bytes are kept. Writing is surgical: only what must differ does (docs/step.md).
+/// Reading keeps all bytes. Writing is surgical: only what must differ does (docs/step.md).
 /// Immutable; copies share the data; const access is thread-safe. Cost of reading: linear in the size of the file.
 class File {
  public:
-  /// Reads and parses a file. Errors (input): it cannot be read; it is not an exchange structure, with line and entity.
+  /// Reads and parses a file. Errors (input): it cannot be read; it is not an exchange structure (with line and
+  /// entity).
   [[nodiscard]] static Expected<File> read(const std::filesystem::path& path);
   /// Parses bytes; `name` stands for the file in errors.
   [[nodiscard]] static Expected<File> parse(std::string bytes, std::string name);
@@ -115,24 +116,24 @@ class File {
 
   /// The bytes of this file with the control points of some surfaces replaced and every other byte as it was.
   ///
-  /// A coordinate is rewritten, to 17 significant digits, only if its bits change. A point that anything but this
-  /// surface refers to keeps its record and the surface refers to a new one; references shared within the surface are
-  /// split only if their positions come to differ. The result is parsed again and compared bit for bit before it is
-  /// returned. No edits, or edits that change nothing, give the input bytes.
+  /// A coordinate is rewritten, to 17 significant digits, only if its bits change. A point also referenced outside this
+  /// surface keeps its record and the surface refers to a new one; references shared within the surface are split only
+  /// if their positions come to differ. The result is parsed again and compared bit for bit before it is returned.
+  /// No edits, or edits that change nothing, give the input bytes.
   /// Errors: unknown or repeated id, wrong number of control points, a coordinate that is not finite (input); the
   /// self-check fails (numerical).
   [[nodiscard]] Expected<std::string> with_control_points(std::span<const Edit> edits) const;
 
-  /// The bytes of this file with whole surfaces replaced, other nets, degrees, knots and weights included, and every
-  /// other byte as it was.
+  /// The bytes of this file with whole surfaces replaced, including nets, degrees, knots and weights, and every other
+  /// byte as it was.
   ///
   /// Where only control points differ this is `with_control_points`. Otherwise what differs in the surface's record is
   /// rewritten: degrees, the list of control points, weights, and the knots of a direction; forms with implied knots
-  /// become B_SPLINE_SURFACE_WITH_KNOTS unless the new knots are implied as well; a surface that had no weights and
-  /// gets some becomes a complex instance with RATIONAL_B_SPLINE_SURFACE. Name, surface form and the flags for closed
-  /// and self-intersecting stay. Control points that have a value of the old net keep its record; others take over
-  /// records that only this surface used and no longer needs, or get new ones (docs/step.md). The parameter domain
-  /// should stay the same, since trimming curves live in it; that is not checked.
+  /// become B_SPLINE_SURFACE_WITH_KNOTS unless the new knots are implied as well; a surface that gains weights becomes
+  /// a complex instance with RATIONAL_B_SPLINE_SURFACE. Name, surface form and the flags for closed
+  /// and self-intersecting stay. Control points equal to one of the old net keep its record; others take over records
+  /// that only this surface used and no longer needs, or get new ones (docs/step.md). The parameter domain should stay
+  /// the same, since trimming curves are defined on it; this is not checked.
   /// Errors: unknown or repeated id; no weights where the file has some; a knot inside the domain
   /// repeated more often than the degree (input); the self-check fails (numerical).
   [[nodiscard]] Expected<std::string> with_surfaces(std::span<const Replacement> replacements) const;

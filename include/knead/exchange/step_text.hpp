@@ -25,13 +25,13 @@ struct TextOptions {
 /// Whether `text_of` can write this length unit.
 [[nodiscard]] bool is_unit(std::string_view name);
 
-/// A STEP file (ISO 10303-21, AP214: AUTOMOTIVE_DESIGN) that holds these surfaces and nothing else.
+/// A STEP file (ISO 10303-21, AP214: AUTOMOTIVE_DESIGN) that contains these surfaces and nothing else.
 ///
 /// One product with one GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION whose GEOMETRIC_SET lists the surfaces in
 /// order, each on its natural bounds, as B_SPLINE_SURFACE_WITH_KNOTS, with weights as a complex instance with
-/// RATIONAL_B_SPLINE_SURFACE. Coordinates carry 17 significant digits, knots and weights the fewest that give back the
-/// same bits: `File::parse` reads the same surfaces bit for bit. The flags for closed are those of
-/// `SurfaceEntity::closed`. Cost: linear in the number of control points.
+/// RATIONAL_B_SPLINE_SURFACE. Coordinates have 17 significant digits, knots and weights the fewest that restore the
+/// same bits: `File::parse` reads the same surfaces bit for bit. The closed flags are those of `SurfaceEntity::closed`.
+/// Cost: linear in the number of control points.
 /// Errors (input): no surfaces; an unknown unit; a knot inside the domain repeated more often than the degree.
 [[nodiscard]] Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options = {});
 

@@ -10,18 +10,18 @@
 namespace knead {
 
 /// A closed polygon in fractions of a surface's parameter domain: (0, 0) and (1, 1) are the corners of the domain. The
-/// last corner is not the first one again. Polygons of closed surfaces may reach beyond 0 … 1 by up to one turn.
+/// first corner is not repeated at the end. Polygons of closed surfaces may reach beyond 0 … 1 by up to one turn.
 using TrimLoop = std::vector<Eigen::Vector2d>;
 
-/// What one face shows of its surface: the points that an odd number of the loops encloses.
+/// The part of its surface that a face shows: the points enclosed by an odd number of the loops.
 using TrimFace = std::vector<TrimLoop>;
 
-/// What the faces on one surface show of it, together.
+/// The part of a surface that its faces show together.
 struct SurfaceTrim {
-  /// Nothing is cut away: the surface is untrimmed, or no face lies on it, or one of its faces is in `skipped`.
+  /// Nothing is trimmed away: the surface is untrimmed, or no face lies on it, or one of its faces is in `skipped`.
   bool whole = true;
-  /// Otherwise: the union of these. Faces over the seam of a closed surface come once for each turn that shows some of
-  /// them in 0 … 1.
+  /// Otherwise: the union of these. Faces over the seam of a closed surface appear once for each turn that overlaps 0 …
+  /// 1.
   std::vector<TrimFace> faces;
 };
 
@@ -30,15 +30,15 @@ struct TrimLoops {
   std::vector<SkippedFace> skipped;   ///< faces whose bounds could not be followed, and why
 };
 
-/// The bounds of the faces on the B-spline surfaces of a STEP file, in parameters of these.
+/// The bounds of the faces on the B-spline surfaces of a STEP file, in the surfaces' parameters.
 ///
-/// The edges are sampled as for `context_faces`, and every point is brought to the surface: from the foot of the one
-/// before it, or from a grid where that fails, by Levenberg and Marquardt's iteration for the nearest point. So a
-/// file's own curves in parameters (PCURVE), which are often missing and sometimes wrong, are not needed. Where the
+/// The edges are sampled as for `context_faces`, and every point is projected onto the surface: from the foot of the
+/// one before it, or from a grid where that fails, by Levenberg–Marquardt iteration for the nearest point. So a file's
+/// own parameter curves (PCURVE), which are often missing and sometimes wrong, are not needed. Where the
 /// surface closes on itself or has a pole the loops are cut open as for `context_faces`.
 ///
 /// \param chord as in `context_faces`
-/// Errors (usage): chord out of its range.
+/// Errors (usage): chord out of range.
 /// Cost: O((p + 1)²) per point and iteration, and a grid of about 4 points per span and direction per trimmed surface.
 [[nodiscard]] Expected<TrimLoops> trim_loops(const step::File& file, double chord = 1e-3);
 

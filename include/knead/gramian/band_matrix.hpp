@@ -23,13 +23,13 @@ struct CacheLineAllocator {
   friend bool operator==(CacheLineAllocator, CacheLineAllocator) { return true; }
 };
 
-/// Whether both halves of a band are stored, or the upper one stands for both.
+/// Whether both halves of a band are stored, or only the upper one for both.
 enum class BandSymmetry { general, symmetric };
 
 /// A square n × n band matrix A with half bandwidth p: A(i, j) = 0 where |i − j| > p.
 ///
 /// Stored by diagonals: diagonal s = j − i, −p <= s <= p, is contiguous, so that kernels vectorise along it and a
-/// product with a vector is 2p + 1 long multiply-adds. Where the matrix is symmetric only s >= 0 is stored and
+/// product with a vector is 2p + 1 long multiply-adds. If the matrix is symmetric only s >= 0 is stored and
 /// `diagonal(-s)` is the same memory as `diagonal(s)`.
 class BandMatrix {
  public:
@@ -40,7 +40,7 @@ class BandMatrix {
   [[nodiscard]] int half_bandwidth() const { return half_bandwidth_; }
   [[nodiscard]] BandSymmetry symmetry() const { return symmetry_; }
 
-  /// A(i, j) for any 0 <= i, j < size(); 0 outside of the band.
+  /// A(i, j) for any 0 <= i, j < size(); 0 outside the band.
   [[nodiscard]] double operator()(int i, int j) const {
     assert(i >= 0 && i < size_ && j >= 0 && j < size_);
     return i - j > half_bandwidth_ || j - i > half_bandwidth_ ? 0.0 : data_[offset(i, j)];

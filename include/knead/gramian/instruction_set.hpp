@@ -5,8 +5,8 @@
 
 namespace knead {
 
-/// Instruction sets that the Gramian kernels are compiled for. They differ in speed alone: all of them compute the same
-/// numbers bit for bit (the same operations in the same order, divisions correctly rounded, nothing fused).
+/// Instruction sets that the Gramian kernels are compiled for. They differ only in speed: all compute the same numbers
+/// bit for bit (the same operations in the same order, divisions correctly rounded, nothing fused).
 enum class InstructionSet {
   scalar,     ///< one row at a time; everywhere
   vector128,  ///< two rows: SSE2, NEON or WebAssembly SIMD, whatever the compiler's baseline offers
@@ -16,10 +16,10 @@ enum class InstructionSet {
 
 [[nodiscard]] std::string_view name(InstructionSet set);
 
-/// Those that this build holds and this machine can run, slowest first; never empty.
+/// Those that this build contains and this machine can run, slowest first; never empty.
 [[nodiscard]] const std::vector<InstructionSet>& available_instruction_sets();
 
-/// The fastest available one; what is used where none is asked for.
+/// The fastest available one; the default.
 [[nodiscard]] InstructionSet best_instruction_set();
 
 }  // namespace knead

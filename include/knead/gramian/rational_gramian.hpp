@@ -10,11 +10,11 @@
 
 namespace knead {
 
-/// A Gramian of rational functions, and how far it can be from the exact one.
+/// A Gramian of rational functions with an error bound.
 template <class Matrix>
 struct RationalGramian {
   Matrix matrix;
-  /// No entry is farther than this from its integral, rounding apart (about 1e-14 of the largest entry).
+  /// Bound on the error of any entry, rounding apart (about 1e-14 of the largest entry).
   double error_bound = 0;
   int pieces = 0;          ///< how many pieces the spans were cut into
   int largest_points = 0;  ///< Gauss points per piece and direction, at most
@@ -22,14 +22,14 @@ struct RationalGramian {
 
 /// G^ab_ij = ∫ R_i^(a) R_j^(b) du with R_i = w_i N_i / Σ w N, to a tolerance.
 ///
-/// On every span as many Gauss points as a bound asks for: with M a bound of the integrand on the Bernstein ellipse of
-/// parameter ρ about the span and N points, the error is below (h/2) (64/15) M ρ^(−2N) / (1 − ρ^(−2)) (L. N. Trefethen,
-/// Approximation Theory and Approximation Practice, Thm 19.3). M comes from the Chebyshev coefficients of the
-/// functions, their derivatives and the denominator; where the denominator has no positive lower bound on any ellipse
-/// that would do, the span is halved. \param weights    one per function, positive. \param tolerance  largest error of
-/// an entry, as a fraction of max_I sqrt(G^aa_II G^bb_II), which is the largest entry where a = b; > 0. Below 1e-14
-/// rounding decides. Orders 0 <= a, b <= 2, derivatives span by span. Errors: order or tolerance (usage); a number of
-/// weights that differs, a weight that is not positive and finite (input).
+/// Each span gets as many Gauss points as an error bound requires: with M a bound of the integrand on the Bernstein
+/// ellipse of parameter ρ about the span and N points, the error is below (h/2) (64/15) M ρ^(−2N) / (1 − ρ^(−2)) (L. N.
+/// Trefethen, Approximation Theory and Approximation Practice, Thm 19.3). M comes from the Chebyshev coefficients of
+/// the functions, their derivatives and the denominator; where the denominator has no positive lower bound on any
+/// suitable ellipse, the span is halved. \param weights    one per function, positive. \param tolerance  largest error
+/// of an entry, as a fraction of max_I sqrt(G^aa_II G^bb_II), which is the largest entry where a = b; > 0. Below 1e-14
+/// rounding dominates. Orders 0 <= a, b <= 2, derivatives span by span. Errors: order or tolerance (usage); a wrong
+/// number of weights, a weight that is not positive and finite (input).
 [[nodiscard]] Expected<RationalGramian<BandMatrix>> rational_gramian(const KnotVector& knots,
                                                                      std::span<const double> weights, int a, int b,
                                                                      double tolerance);
@@ -41,9 +41,9 @@ struct RationalGramian {
     const std::array<KnotVector, 2>& knots, std::span<const double> weights, std::array<int, 2> a, std::array<int, 2> b,
     double tolerance);
 
-/// The thesis' approximation (§ 5.8): on each span the denominator is taken as constant, as its value in the middle, so
-/// that the Gramian is a weighted one of polynomials. It errs by 1 to 3 % on circles and without limit where weights
-/// differ much; it is here under its name for comparison, never used silently. Errors as above.
+/// The thesis' approximation (§ 5.8): on each span the denominator is replaced by its value at the midpoint, so that
+/// the Gramian is a weighted polynomial one. The error is 1 to 3 % on circles and unbounded where weights differ much;
+/// it is provided under its own name for comparison and never used implicitly. Errors as above.
 [[nodiscard]] Expected<BandMatrix> constant_denominator_gramian(const KnotVector& knots,
                                                                 std::span<const double> weights, int a, int b);
 

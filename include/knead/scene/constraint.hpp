@@ -12,7 +12,7 @@
 namespace knead {
 
 using Vector3 = std::array<double, 3>;
-/// A place in a parameter domain, (s, t) from 0 to 1.
+/// A place in the parameter domain, (s, t) from 0 to 1.
 using Fractions = std::array<double, 2>;
 /// A rectangle of the parameter domain in fractions: [s0, s1] × [t0, t1].
 using FractionBox = std::array<Fractions, 2>;
@@ -23,10 +23,11 @@ enum class EdgeChoice { all, u0, u1, v0, v1 };
 /// The edges that a choice stands for.
 [[nodiscard]] std::vector<SurfaceEdge> edges_of(EdgeChoice which);
 
-// What a surface is held by. Each is kept together with the shape of the surface when it was asked for
+// Constraints that hold a surface. Each is stored with the shape of the surface when it was requested
 // (`KeptConstraint`): what is held stays where it was then.
 
-/// An edge, with the first `order` derivatives across it: 0 its place, 1 its tangent planes too, 2 its curvatures too.
+/// An edge, with the first `order` derivatives across it: 0 its position, 1 also its tangent planes, 2 also its
+/// curvatures.
 struct EdgeHold {
   SurfaceEdge edge = SurfaceEdge::u0;
   int order = 0;
@@ -36,11 +37,11 @@ struct EdgeHold {
 /// A surface point.
 struct PointPin {
   Fractions at = {0.5, 0.5};
-  std::optional<Vector3> to = {};  ///< where it goes, file units; left out: where it was
+  std::optional<Vector3> to = {};  ///< its target, file units; left out: where it was
   friend bool operator==(const PointPin&, const PointPin&) = default;
 };
 
-/// All of a region, rounded outward to whole spans.
+/// A whole region, rounded outward to whole spans.
 struct Freeze {
   FractionBox region = {{{0, 1}, {0, 1}}};
   friend bool operator==(const Freeze&, const Freeze&) = default;
@@ -50,7 +51,7 @@ struct Freeze {
 struct Keep {
   std::optional<double> u = {}, v = {};  ///< the line at this fraction of the domain
   std::vector<Fractions> curve = {};
-  double tolerance = 1e-6;  ///< of a polyline, as a share of the motion around it
+  double tolerance = 1e-6;  ///< for a polyline, as a share of the motion around it
   friend bool operator==(const Keep&, const Keep&) = default;
 };
 
@@ -74,7 +75,7 @@ struct TrimHolds {
   friend bool operator==(const TrimHolds&, const TrimHolds&) = default;
 };
 
-/// One edge of the faces on the surface, by its id in the file; goes before `TrimHolds`.
+/// One edge of the faces on the surface, by its id in the file; overrides `TrimHolds`.
 struct TrimEdgeHold {
   std::string id;
   int order = 0;  ///< −1: free
@@ -84,7 +85,7 @@ struct TrimEdgeHold {
 using Constraint =
     std::variant<EdgeHold, PointPin, Freeze, Keep, EdgeSymmetry, MirrorSymmetry, TrimHolds, TrimEdgeHold>;
 
-/// A constraint and the shape of the surface when it was asked for, on the present net.
+/// A constraint and the shape of the surface when it was requested, on the present net.
 struct KeptConstraint {
   Constraint constraint;
   std::shared_ptr<const Surface> where;

@@ -13,61 +13,61 @@
 
 namespace knead {
 
-/// A number, or a vector of three, that a display is given by the user.
+/// A number or 3-vector that the user can set on a display.
 struct DisplaySetting {
   std::string_view name, title;
   std::string_view unit;      ///< "" for a direction, else as in `Display`
-  std::vector<double> value;  ///< where the user says nothing; 1 or 3 numbers
+  std::vector<double> value;  ///< the default; 1 or 3 numbers
   std::string_view help;
 };
 
 /// How values become colours. Diverging: two colours that meet at 0; rising: from pale at 0 to dark.
 enum class DisplayPalette { diverging, rising };
 
-/// What displays keep from one picture to the next: units of energies that were computed already.
+/// What displays keep from one picture to the next: energy units already computed.
 struct DisplayMemory {
   std::vector<std::pair<EnergyScalingInput, Expected<DomainScaling<2>>>> scalings;
 };
 
-/// What a display looks at: one surface of a scene on a grid of parameters, v fastest.
+/// The input of a display: one surface of a scene on a grid of parameters, v fastest.
 struct DisplayInput {
   const Scene& scene;
   int surface = 0;      ///< index into its surfaces
-  bool opened = false;  ///< the shape as it was opened is drawn, not the present one
+  bool opened = false;  ///< the shape as opened is drawn, not the present one
   const std::array<std::vector<double>, 2>& parameters;
   std::array<const BasisTable*, 2> tables;        ///< of the drawn shape at the parameters, to order 2
   const Evaluation<2>& evaluation;                ///< of the drawn shape, to `Display::order` at least
-  const Points& normals;                          ///< of length 1, S_u × S_v; at poles those of a neighbour
+  const Points& normals;                          ///< unit normals S_u × S_v; at poles those of a neighbour
   std::span<const std::vector<double>> settings;  ///< in the order of `Display::settings`
   DisplayMemory& memory;
 };
 
-/// A field that colours surfaces. Menus, legends and their settings follow from it.
+/// A field that colours surfaces. Menus, legends and settings follow from it.
 struct Display {
   std::string_view name, title;
   std::string_view unit;   ///< with "length" for that of the file: "1/length²"; "°"; "normalised"
   bool is_signed = false;  ///< values may be negative
   DisplayPalette palette = DisplayPalette::diverging;
   std::string_view help;
-  /// The values at the ends of the palette, lower and upper; without them, the largest value that there is times
-  /// `share`, and its negative where values are signed.
+  /// The values at the ends of the palette, lower and upper; without them, the largest value times `share`, and its
+  /// negative where values are signed.
   std::optional<std::array<double, 2>> limits = {};
   double share = 1;
   bool compares = false;  ///< with the shape as it was opened
-  int order = 1;          ///< of the derivatives that it looks at
+  int order = 1;          ///< highest order of the derivatives it uses
   std::vector<DisplaySetting> settings = {};
-  /// One value for each point of the grid, of the given unit.
+  /// One value for each grid point, in the given unit.
   Expected<std::vector<double>> (*values)(const DisplayInput& input) = nullptr;
 };
 
 /// All displays, in the order of menus; each is a file in src/scene/displays. The first call makes the list.
 [[nodiscard]] std::span<const Display> displays();
 
-/// Errors (usage): a name that no display has.
+/// Errors (usage): an unknown name.
 [[nodiscard]] Expected<const Display*> find_display(std::string_view name);
 
-/// The settings of a display, those that are given and the defaults of the others. Errors (usage): a setting that the
-/// display does not have, or with another count of numbers, or with one that is not finite.
+/// The settings of a display: the given ones, and defaults for the others. Errors (usage): a setting that the display
+/// does not have, with the wrong number of components, or with one that is not finite.
 [[nodiscard]] Expected<std::vector<std::vector<double>>> display_settings(
     const Display& display, std::span<const std::pair<std::string, std::vector<double>>> given);
 

@@ -7,23 +7,23 @@
 
 namespace knead {
 
-/// What a model depends on of one surface.
+/// What a model depends on in one surface.
 struct SurfaceInput {
   std::string id;
   std::shared_ptr<const Surface> reference;
-  std::shared_ptr<const Surface> rest;  ///< where there are constraints, which speak of places; else null
+  std::shared_ptr<const Surface> rest;  ///< if there are constraints, which refer to places; else null
   RestMode mode = RestMode::shape;
   MaterialFieldOf<2> material;
   int hold_rows = 0;
   std::set<std::array<int, 2>> pins;
   std::vector<KeptConstraint> constraints;
   bool smooth_knot_lines = true, smooth_poles = true;
-  std::shared_ptr<const VisibleRegion> visible;  ///< where edges of faces are held, else null
+  std::shared_ptr<const VisibleRegion> visible;  ///< if edges of faces are held, else null
 
   friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;
 };
 
-/// All that a model of the selected surfaces depends on: equal inputs make equal models.
+/// Everything a model of the selected surfaces depends on: equal inputs give equal models.
 struct ModelInput {
   std::vector<SurfaceInput> surfaces;  ///< the selected ones, in their order
   SeamPolicy seams;
@@ -34,15 +34,15 @@ struct ModelInput {
   friend bool operator==(const ModelInput&, const ModelInput&) = default;
 };
 
-/// What the model of the selected surfaces depends on, under this evolution.
+/// The input for the model of the selected surfaces under this evolution.
 [[nodiscard]] ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution);
 
-/// A model of surfaces, coupled and constrained as asked.
+/// A model of surfaces, coupled and constrained as requested.
 struct SceneModel {
   ModelInput input;
   ActiveSurface model;
   std::vector<SeamReport> seams;   ///< patches are indices into `input.surfaces`
-  std::vector<std::string> notes;  ///< lines that may bend, and the like
+  std::vector<std::string> notes;  ///< lines that may bend, etc.
 };
 
 /// Makes and factors the model. `input` has at least one surface.
@@ -50,20 +50,20 @@ struct SceneModel {
 /// `ActiveSpline::create`.
 [[nodiscard]] Expected<SceneModel> make_model(ModelInput input);
 
-/// Seams between these patches (and of each with itself) to the tolerance that was asked for, or the suggested one.
+/// Seams between these patches (and of each with itself) to the requested tolerance, or the suggested one.
 [[nodiscard]] Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches);
 
-/// The selected surfaces' control points, one below the other, with their rest shapes and velocities.
+/// The selected surfaces' control points, stacked, with their rest shapes and velocities.
 [[nodiscard]] ActiveState active_state(const Scene& scene);
 
 /// Loads, point forces with their mirror images, and the limit of the scene. `model` is that of the selected surfaces.
-/// Errors (input): a force on a point that there is not.
+/// Errors (input): a force on a point that does not exist.
 [[nodiscard]] Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& model);
 
 /// The sampled part of a load, over the domain of a surface.
 [[nodiscard]] Expected<Surface> load_field(const Load& load, const Surface& surface);
 
-/// The constraints of a surface that one symmetry makes; terms count its own control points.
+/// The constraints that one symmetry puts on a surface; terms are numbered by its own control points.
 [[nodiscard]] Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry& symmetry,
                                                   ConstraintList& list);
 [[nodiscard]] Expected<void> symmetry_constraints(const Surface& reference, const MirrorSymmetry& symmetry,

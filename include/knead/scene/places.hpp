@@ -14,7 +14,7 @@ namespace knead {
 /// decreases.
 [[nodiscard]] Expected<std::array<Interval, 2>> region_at(const Surface& surface, const FractionBox& region);
 
-/// R_ij(u, v) of all control points that act on a point, rows counted from `first`.
+/// R_ij(u, v) of all control points that affect a point, rows counted from `first`.
 [[nodiscard]] std::vector<std::pair<int, double>> basis_terms(const Surface& surface, const std::array<double, 2>& u,
                                                               int first);
 

@@ -14,11 +14,11 @@
 
 namespace knead {
 
-// What is being sculpted, as plain values: no commands, no files, nothing that was computed.
+// What is being sculpted, as plain values: no commands, no files, no computed data.
 
 enum class PointForceKind { spring, volcano };
 
-/// A force on one point of a surface, there until it is removed (thesis Eq. 4.24).
+/// A force on one point of a surface, acting until it is removed (thesis Eq. 4.24).
 struct SceneForce {
   std::string name = "force";
   int surface = 0;  ///< index into the scene's surfaces
@@ -26,18 +26,18 @@ struct SceneForce {
   Fractions at = {0.5, 0.5};
   Vector3 to = {0, 0, 0};
   double strength = 10;
-  double core = 0.1;  ///< volcano: within this length it no longer grows
+  double core = 0.1;  ///< volcano: within this distance it stops growing
 
   friend bool operator==(const SceneForce&, const SceneForce&) = default;
 };
 
-/// Loads everywhere on the selected surfaces.
+/// Loads distributed over the selected surfaces.
 struct Load {
   Vector3 vector = {0, 0, 0};   ///< force per area
-  Vector3 gravity = {0, 0, 0};  ///< acceleration, times the mass
+  Vector3 gravity = {0, 0, 0};  ///< acceleration, multiplied by the mass
   double pressure = 0;          ///< force per area along the normal S_u × S_v
   Vector3 wind = {0, 0, 0};     ///< velocity of the air
-  /// Samples of a force per area on a grid over the domain, last direction fastest, each linear in between.
+  /// Samples of a force per area on a grid over the domain, last direction fastest, linear in between.
   std::array<int, 2> counts = {0, 0};
   std::vector<Vector3> samples = {};  ///< empty: none
 
@@ -55,7 +55,7 @@ struct EvolutionPolicy {
   friend bool operator==(const EvolutionPolicy&, const EvolutionPolicy&) = default;
 };
 
-/// How patches that are selected together are coupled.
+/// How patches selected together are coupled.
 struct SeamPolicy {
   bool couple = true;
   std::optional<double> tolerance = {};  ///< a length; left out: 1e-4 of the diagonal
@@ -63,16 +63,16 @@ struct SeamPolicy {
   friend bool operator==(const SeamPolicy&, const SeamPolicy&) = default;
 };
 
-/// Which units the model is computed in.
+/// The units in which the model is computed.
 enum class ScalingMode { normalised, raw };
 
-/// Whether what acts on a scene may refine nets exactly as it needs: always, never, or only so that something is left
-/// free between a tool and the edges of a face that are held.
+/// Whether actions on a scene may refine nets, without changing shapes: always, never, or only to leave something free
+/// between a tool and the held edges of a face.
 enum class RefinePermission { automatic, never, trims };
 
-/// A named point of a surface that reports tell about, wherever it goes.
+/// A named point of a surface whose position reports give, wherever it moves.
 struct Probe {
-  std::string list;  ///< the list of the report that it belongs to
+  std::string list;  ///< the list in the report to which it belongs
   std::string name;
   int surface = 0;  ///< index into the scene's surfaces
   Fractions at = {0.5, 0.5};
@@ -80,18 +80,18 @@ struct Probe {
   friend bool operator==(const Probe&, const Probe&) = default;
 };
 
-/// What tools leave in a surface that they are led over.
+/// The lasting deformation that tools leave in a surface.
 struct PlasticPolicy {
-  bool along = false;    ///< strokes leave their groove as they go; else what is there when the tool is lifted stays
-  double share = 1;      ///< of a displacement beyond the yield that stays
-  double yield = 0;      ///< up to this displacement nothing stays
-  double locality = 0;   ///< how far a dent is felt; 0: as far as the evolution lets it
+  bool along = false;    ///< strokes leave a groove along their path; else the shape when the tool is lifted remains
+  double share = 1;      ///< of a displacement beyond the yield that remains
+  double yield = 0;      ///< up to this displacement nothing remains
+  double locality = 0;   ///< how far a dent extends; 0: as far as the evolution lets it
   bool in_radii = true;  ///< yield and locality count sizes of the tool; false: file units
 
   friend bool operator==(const PlasticPolicy&, const PlasticPolicy&) = default;
 };
 
-/// A stroke whose tool is still down. Rows are control points of the selected surfaces, one below the other.
+/// A stroke whose tool is still down. Rows are the control points of the selected surfaces, stacked.
 struct OpenStroke {
   /// The shapes of one selected surface before the stroke, on the present net.
   struct Before {
@@ -102,7 +102,7 @@ struct OpenStroke {
   Point home = Point::Zero();    ///< where the tool goes when it is lifted
   ToolPath path;                 ///< of the tool's centre
   double lambda = 1;             ///< of the bed that the surface is pressed against, normalised units
-  double stiffness = 0;          ///< the least that tools have
+  double stiffness = 0;          ///< minimum stiffness of tools
   double tension = 0;            ///< added to α11 and α22, so that dents have no rim
   Plasticity plasticity;         ///< the yield in file units
   std::vector<Before> before;    ///< per selected surface
@@ -110,13 +110,13 @@ struct OpenStroke {
   Points last = {}, older = {};  ///< displacements of the last two places; empty: none
 };
 
-/// One surface of a scene. `reference`, `rest` and `current` share their knots and weights, and `opened` shares them
-/// too unless they were edited since; the domain is always the same.
+/// One surface of a scene. `reference`, `rest` and `current` share their knots and weights, as does `opened` unless
+/// they were edited since; the domain is always the same.
 struct SceneSurface {
   std::string id, name, unit;
-  std::shared_ptr<const Surface> opened;     ///< as it came, on the present net if it has the present basis
-  std::shared_ptr<const Surface> reference;  ///< what the units of the model are taken from
-  std::shared_ptr<const Surface> rest;       ///< what displacements are measured from
+  std::shared_ptr<const Surface> opened;     ///< as opened, on the present net if it has the present basis
+  std::shared_ptr<const Surface> reference;  ///< defines the units of the model
+  std::shared_ptr<const Surface> rest;       ///< displacements are measured from it
   std::shared_ptr<const Surface> current;
   Points velocity = {};  ///< of a dynamic evolution, a spline on the present net; empty: at rest
   RestMode mode = RestMode::shape;
@@ -126,16 +126,16 @@ struct SceneSurface {
   std::vector<KeptConstraint> constraints = {};
   bool smooth_knot_lines = true, smooth_poles = true;
   PlasticPolicy plastic = {};
-  /// What faces show of it, in fractions of its domain; null until something asks for it.
+  /// The part of it that faces show, in fractions of its domain; null until first needed.
   std::shared_ptr<const VisibleRegion> visible = {};
 };
 
 /// Surfaces, what holds them and what acts on them.
 struct Scene {
   std::optional<int> selected = {};  ///< the surface that commands act on
-  std::vector<int> together = {};    ///< the others that were selected with it
+  std::vector<int> together = {};    ///< the others selected with it
   std::vector<SceneSurface> surfaces = {};
-  std::vector<Tool> tools = {};  ///< lengths in file units; their orientation is that of `PlacedShape::placement`
+  std::vector<Tool> tools = {};  ///< lengths in file units; oriented by `PlacedShape::placement`
   std::vector<SceneForce> forces = {};
   Load load = {};
   std::optional<double> limit = {};  ///< no point may be further than this from the surface as opened, file units
@@ -150,15 +150,15 @@ struct Scene {
   [[nodiscard]] std::vector<int> selection() const;
 };
 
-/// The tools of the scene, and their images in the planes of mirror symmetry of the first selected surface.
+/// The tools of the scene, and their images in the mirror planes of the first selected surface.
 /// Errors: those of `mirror_plane` and `mirrored`.
 [[nodiscard]] Expected<std::vector<Tool>> tools_and_images(const Scene& scene);
 
-/// What a probe finds, lengths in file units.
+/// The reading of a probe, lengths in file units.
 struct ProbeReading {
   Point point = Point::Zero();         ///< S(u, v)
   Point displacement = Point::Zero();  ///< from the surface as opened
-  Point normal = Point::Zero();        ///< S_u × S_v, of length 1; zero where there is none
+  Point normal = Point::Zero();        ///< unit normal S_u × S_v; zero where undefined
 };
 
 /// Errors: a place outside the domain (input), a rational denominator that is not positive (numerical).

@@ -8,36 +8,38 @@
 
 namespace knead {
 
-/// Whether edges of faces are among what is held.
+/// Whether any edges of faces are held.
 [[nodiscard]] bool holds_trims(const std::vector<KeptConstraint>& constraints);
 
-/// At which order each edge of a region is held: by the last `TrimEdgeHold` of its id, or by `TrimHolds`; −1 free.
+/// The order at which each edge of a region is held: by the last `TrimEdgeHold` with its id, or by `TrimHolds`; −1
+/// free.
 [[nodiscard]] std::vector<int> trim_orders(const std::vector<KeptConstraint>& constraints, const VisibleRegion& region);
 
-/// How far an edge may be from where it was: the larger of the file's uncertainty and 1e-7 of the surface's size.
+/// How far an edge may be from its original position: the larger of the file's uncertainty and 1e-7 of the surface's
+/// size.
 [[nodiscard]] double trim_tolerance(const Surface& surface, const VisibleRegion& region);
 
-/// Appends what holds the edges of the faces on a surface. Errors: those of `hold_trims`.
+/// Appends the constraints that hold the edges of the faces on a surface. Errors: those of `hold_trims`.
 Expected<TrimHold> hold_face_edges(const Surface& reference, const std::vector<KeptConstraint>& constraints,
                                    const VisibleRegion& region, ConstraintList& list);
 
-/// The visible place where a tool acts on a surface, and how far it is from the edges that are held.
+/// The visible place where a tool acts on a surface, and its distance from the held edges.
 struct TrimContact {
   std::array<double, 2> at = {0, 0};  ///< parameters
   double distance = 0;                ///< from the nearest held edge, on the surface as opened; infinite: none
 };
 
-/// Where a collision tool has entered a surface, or a proximity tool reaches it: deep inside and far from held edges.
-/// None where it does neither on a grid of visible points, which is refined round the best one.
+/// Where a collision tool has penetrated a surface, or a proximity tool reaches it: deep inside and far from held
+/// edges. None where it does neither on a grid of visible points, which is refined around the best one.
 [[nodiscard]] Expected<std::optional<TrimContact>> trim_contact(const SceneSurface& surface, const Tool& tool);
 
-/// A visible point, in fractions, at which the normals of two shapes of a surface point to opposite sides although they
-/// lie apart by more than 1e-9 of its size: at the middles of four by four cells of every span. None where there is
-/// none. Errors: those of evaluation.
+/// A visible point, in fractions, at which the normals of two shapes of a surface point to opposite sides although the
+/// shapes are more than 1e-9 of the size apart: sought at the centres of four by four cells of every span. None if
+/// there is none. Errors: those of evaluation.
 [[nodiscard]] Expected<std::optional<Eigen::Vector2d>> first_fold(const Surface& before, const Surface& after,
                                                                   const VisibleRegion& region);
 
-/// What the edges of the faces on a surface are like now.
+/// The present state of the edges of the faces on a surface.
 struct TrimReport {
   struct Edge {
     HeldEdge held;
@@ -47,11 +49,11 @@ struct TrimReport {
   std::vector<Edge> edges;
   int free = 0, visible = 0;    ///< control points, as in `TrimHold`
   std::array<int, 2> net = {};  ///< control points by direction
-  int samples = 0;              ///< points of all edges at which deviations were measured
-  double largest = 0;           ///< deviation of any edge, file units
+  int samples = 0;              ///< points on all edges at which deviations were measured
+  double largest = 0;           ///< largest deviation of any edge, file units
 };
 
-/// Measures at every corner of every edge's course and at the middle between corners.
+/// Measures at every corner of every edge's course and midway between corners.
 /// Requires: `surface.visible`. Errors: those of evaluation.
 [[nodiscard]] Expected<TrimReport> trim_report(const SceneSurface& surface);
 

@@ -15,7 +15,7 @@ namespace knead {
 
 /// What the energy acts on.
 enum class RestMode {
-  shape,  ///< the displacement from the rest shape: at rest nothing moves (the default for CAD files)
+  shape,  ///< the displacement from the rest shape: nothing moves at rest (the default for CAD files)
   none,   ///< the shape itself, as in the thesis: without forces it shrinks to a point
 };
 
@@ -27,18 +27,18 @@ enum class StepWeight {
 
 /// What a step solves.
 enum class Evolution {
-  acm,         ///< (K + λW) X = λW X₀ + F, thesis Eq. 4.22: sinks towards the balance
-  stationary,  ///< K X = F: the balance at once
-  dynamic,     ///< M Ẍ + D Ẋ + K X = F, thesis Eq. 5.39: swings
+  acm,         ///< (K + λW) X = λW X₀ + F, thesis Eq. 4.22: relaxes towards equilibrium
+  stationary,  ///< K X = F: equilibrium in one step
+  dynamic,     ///< M Ẍ + D Ẋ + K X = F, thesis Eq. 5.39: oscillates
 };
 
 /// How the forces of tools are integrated; docs/materials-and-loads.md compares them.
 enum class ForceRoute {
-  gauss,     ///< by Gauss points: forces have a potential
-  analytic,  ///< interpolated at Greville abscissae, then by the exact mass matrix (see `GrevilleForce`)
+  gauss,     ///< by Gauss quadrature: forces have a potential
+  analytic,  ///< interpolated at Greville abscissae, then the exact mass matrix (see `GrevilleForce`)
 };
 
-/// Everything that decides the matrices of an `ActiveSpline`.
+/// Everything that determines the matrices of an `ActiveSpline`.
 template <int D>
 struct ActiveSettings {
   MaterialOf<D> material;
@@ -55,22 +55,22 @@ struct ActiveSettings {
   std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shape, file units
   double detail = 0;  ///< smallest tool dimension the forces must resolve, file units; 0: no tool
   ForceRoute route = ForceRoute::gauss;
-  bool raw = false;  ///< no normalisation: numbers are those of the equations on the knots as they are
+  bool raw = false;  ///< no normalisation: the equations are taken on the knots as they are
   GramianMethod method = default_gramian_method;
 
   friend bool operator==(const ActiveSettings&, const ActiveSettings&) = default;
 };
 
-/// Where an active spline is, in file units (per unit of time). Rows are control points, patch after patch.
+/// The state of an active spline, in file units (per unit of time). Rows are control points, patch after patch.
 struct ActiveState {
   Points control_points;
   Points rest = {};      ///< the rest shape; empty: the one the model was created with
   Points velocity = {};  ///< dynamic; empty: at rest
-  /// Stress and loads are in balance as the state stands, whatever they are: only tools move it, against K + λW from
+  /// Stress and loads are taken to balance in this state, whatever they are: only tools move it, against K + λW from
   /// here (acm and stationary).
   bool balanced = false;
-  /// Where a balanced step looks first, as a displacement from `control_points` that the constraints allow: of a tool
-  /// that moves, the step before; empty: none.
+  /// Initial guess of a balanced step, as a displacement from `control_points` that the constraints allow: for a moving
+  /// tool, the previous step; empty: none.
   Points guess = {};
 };
 
@@ -78,7 +78,7 @@ struct ActiveState {
 struct PointForce {
   enum class Kind {
     spring,   ///< ψ = k/2 |S − to|²
-    volcano,  ///< ψ = k / √(|S − to|² + core²): drives away with k/r² from beyond the core
+    volcano,  ///< ψ = k / √(|S − to|² + core²): repels with k/r² outside the core
   };
   Kind kind = Kind::spring;
   std::vector<std::pair<int, double>> terms;  ///< (control point, R) over all patches
@@ -87,7 +87,7 @@ struct PointForce {
   double core = 0.1;                          ///< file units
 };
 
-/// Forces beside those of tools, per measure of the (scaled) parameter domain.
+/// Forces other than those of tools, per measure of the (scaled) parameter domain.
 struct ActiveLoads {
   Point gravity = Point::Zero();  ///< acceleration: force μ·gravity
   Point force = Point::Zero();    ///< the same everywhere
@@ -108,24 +108,24 @@ struct ActiveStep {
   double kinetic = 0;   ///< ½ Σ Vᵀ M V
   double contact = 0;   ///< Ψ, the potential of tools, friction and limit
   double residual = 0;  ///< imbalance of forces at the free unknowns, relative to the forces of tools, loads, free part
-                        ///< and held part of the net that meet there: 0 in equilibrium
+                        ///< and held part of the net acting there: 0 in equilibrium
   double gap =
-      0;  ///< deepest entry into a collision tool, in its sizes: of soft ones at Gauss points, of rigid ones anywhere
+      0;  ///< deepest penetration of a collision tool, in its sizes: soft ones at Gauss points, rigid ones anywhere
   std::string gap_tool;   ///< its name
   double coarseness = 0;  ///< longest span in contact with a tool, in sizes of that tool
   double violation = 0;   ///< of the constraints, file units
-  bool limited = false;   ///< the limit holds something back
+  bool limited = false;   ///< the limit restrains some point
   int iterations = 0;     ///< Newton iterations
   int solves = 0;         ///< back substitutions with the factored matrix
-  bool converged = true;  ///< the step's own minimum was reached, and the gap of rigid tools
+  bool converged = true;  ///< the step's minimum was reached, and the gap of rigid tools met
   std::string note;       ///< why not, and what would help
 };
 
-/// A spline that resists stretch and bend, pressed on by tools: the active model of thesis chapters 4 and 5, for
-/// curves, surfaces and volumes, one patch or several that constraints couple.
+/// A spline that resists stretch and bend, deformed by tools: the active model of thesis chapters 4 and 5, for curves,
+/// surfaces and volumes, with one patch or several coupled by constraints.
 ///
-/// Unknown is X, the displacement of the control points from the rest shape (`RestMode::shape`) or the control points
-/// about a fixed origin (`RestMode::none`), in units of a normalised `DomainScaling` of the first patch. A step
+/// The unknown is X, the displacement of the control points from the rest shape (`RestMode::shape`) or the control
+/// points about a fixed origin (`RestMode::none`), in units of a normalised `DomainScaling` of the first patch. A step
 /// minimises
 ///
 ///   Φ(Y) = ½ YᵀAY − Yᵀb + Ψ(X₀ + Y)
@@ -140,20 +140,20 @@ struct ActiveStep {
 /// instead of ringing. A is factored once; Newton's iteration treats the springs in contact by conjugate gradients on
 /// that factor, with a line search on Φ. Hence a step is stable for any stiffness k and step size, and stiffness does
 /// not freeze the sheet. Without tools it is exactly one back substitution. The analytic force route, which has no
-/// potential, is taken as a lagged correction of the Gauss forces until it no longer changes; where it does not settle
-/// (stiff contact on a coarse net) the Gauss forces stand and the step's note says so. Immutable, const is thread-safe.
+/// potential, is a lagged correction of the Gauss forces, iterated until it settles; where it does not (stiff contact
+/// on a coarse net) the Gauss forces stand and the step's note says so. Immutable, const is thread-safe.
 template <int D>
 class ActiveSpline {
  public:
   /// Factors the matrices. Errors: a bad material or step size, contradictory constraints (input); no area, not
-  /// positive definite, or nothing that holds a stationary problem (numerical).
+  /// positive definite, or a stationary problem that nothing holds (numerical).
   [[nodiscard]] static Expected<ActiveSpline> create(std::vector<Spline<D>> patches, const ActiveSettings<D>& settings);
   [[nodiscard]] static Expected<ActiveSpline> create(const Spline<D>& rest, const ActiveSettings<D>& settings) {
     return create(std::vector<Spline<D>>{rest}, settings);
   }
 
-  /// One step under tools given in file units. Errors (numerical): the result is not finite or runs away; nothing is
-  /// changed then.
+  /// One step under tools given in file units. Errors (numerical): the result is not finite or diverges; nothing
+  /// changes then.
   [[nodiscard]] Expected<ActiveStep> step(const ActiveState& state, std::span<const Tool> tools,
                                           const ActiveLoads& loads = {}) const;
   [[nodiscard]] Expected<ActiveStep> step(const Points& control_points, std::span<const Tool> tools) const {
@@ -164,7 +164,7 @@ class ActiveSpline {
   [[nodiscard]] double energy(const Points& control_points) const { return energy(ActiveState{control_points}); }
   [[nodiscard]] double energy(const ActiveState& state) const;
 
-  /// The displacement with the same independent unknowns as this one that the constraints allow: held points stay.
+  /// The displacement that the constraints allow with the same independent unknowns as this one: held points stay.
   [[nodiscard]] Points allowed(const Points& displacement) const;
 
   [[nodiscard]] const DomainScaling<D>& scaling(int patch = 0) const;

@@ -6,13 +6,13 @@
 
 namespace knead {
 
-/// The units a model is computed in.
+/// The units in which a model is computed.
 ///
-/// Coordinates are divided by `length`, parameters of direction d are multiplied by `factors[d]`. As it is made, it
-/// changes nothing: raw units. The normalised scaling makes the model scale-free: `length` is the D-th root of the rest
-/// shape's measure (length, area, volume), and the sides of the parameter domain become the mean lengths of the
-/// isocurves in that unit, so that a unit square sheet and its copy of any size, position and affine parametrisation
-/// obey the same numbers, and a dent keeps its proportions on a long strip.
+/// Coordinates are divided by `length`, parameters of direction d are multiplied by `factors[d]`. The default changes
+/// nothing: raw units. The normalised scaling makes the model scale-free: `length` is the D-th root of the rest
+/// shape's measure (length, area, volume), and the sides of the parameter domain become the mean isocurve lengths in
+/// that unit, so that a unit square sheet and its copy of any size, position and affine parametrisation
+/// give the same numbers, and a dent keeps its proportions on a long strip.
 template <int D>
 struct DomainScaling {
   double length = 1;
@@ -35,7 +35,7 @@ struct DomainScaling {
 template <int D>
 [[nodiscard]] Expected<DomainScaling<D>> normalised_scaling(const Spline<D>& rest);
 
-/// The same lengths of the parameter domain, in another unit of length: of a patch that is coupled to others.
+/// The same lengths of the parameter domain in another unit of length: for a patch coupled to others.
 template <int D>
 [[nodiscard]] DomainScaling<D> in_unit(const DomainScaling<D>& scaling, double length);
 

@@ -12,30 +12,31 @@ template <int D>
 using LoadFunction = std::function<Point(const std::array<double, D>&)>;
 
 /// Nodal forces of a load: F_i = ∫ R_i f dû (thesis Eq. 4.23), dû = Π factor_d du_d, one row per control point. In the
-/// units of `ActiveLoads::force`; the rows go into `ActiveLoads::nodal`. With a constant f it is what
-/// `ActiveLoads::force` gives.
+/// units of `ActiveLoads::force`; the rows go into `ActiveLoads::nodal`. A constant f gives the same as
+/// `ActiveLoads::force`.
 
-/// The load is a spline over the same domain, its control points the coefficients of f, degrees and knots its own.
+/// The load is a spline on the same domain with its own degrees and knots; its control points are the coefficients of
+/// f.
 ///
 /// Polynomial shape and polynomial load: F = Π factors (M_0 ⊗ … ⊗ M_{D−1}) f with the `mixed_gramian`s M_d of both
-/// bases; exact up to rounding. Where one of them is rational: by max(p, q) + 8 Gauss points per piece that the knots
-/// of both make, about 1e-9 for the weights of circles, less for weights that differ by factors of ten in a span.
+/// bases; exact up to rounding. Where one of them is rational: by max(p, q) + 8 Gauss points per piece of the common
+/// knots, about 1e-9 for the weights of circles, less accurate for weights that differ by factors of ten within a span.
 /// Errors: domains that differ (input); a denominator that is not positive (numerical).
 template <int D>
 [[nodiscard]] Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& scaling,
                                            const Spline<D>& load);
 
-/// The load is any function, integrated by Gauss: `points_per_span` points per span and direction, 0 meaning p + 4.
-/// Exact up to rounding for polynomial shapes and functions that are polynomials of degree p + 7 or less on every span;
-/// for a load with jumps or kinks give a spline or more points. Errors: a value that is not finite (input); a
-/// denominator that is not positive (numerical).
+/// The load is any function, integrated by Gauss quadrature: `points_per_span` points per span and direction, 0 meaning
+/// p + 4. Exact up to rounding for polynomial shapes and functions that are polynomials of degree p + 7 or less on
+/// every span; for a load with jumps or kinks pass a spline, or more points. Errors: a value that is not finite
+/// (input); a denominator that is not positive (numerical).
 template <int D>
 [[nodiscard]] Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& scaling,
                                            const LoadFunction<D>& load, int points_per_span = 0);
 
 /// The load through samples on a uniform grid over the domain of the shape, its ends included: counts[d] >= 2 samples
 /// in direction d, one row each, last direction fastest; linear between them in every direction. Errors (input):
-/// another number of samples, fewer than 2 in a direction, a number that is not finite.
+/// a wrong number of samples, fewer than 2 in a direction, a number that is not finite.
 template <int D>
 [[nodiscard]] Expected<Spline<D>> sampled_load(const Spline<D>& shape, const std::array<int, D>& counts,
                                                Points samples);

@@ -20,30 +20,30 @@ struct PatchEdge {
 /// "patch 3, edge u1".
 [[nodiscard]] std::string to_string(const PatchEdge& edge);
 
-/// How two edges lie on each other.
+/// How two edges coincide.
 enum class SeamKind {
   whole,           ///< the same points at the same parameters, up to one affine map
-  reparametrised,  ///< the same curve as a whole, run through differently
-  partial,         ///< the curves share a part only (a T-junction)
+  reparametrised,  ///< the same curve as a whole, parametrised differently
+  partial,         ///< the curves share only a part (a T-junction)
 };
 
-/// Two edges that lie on each other, of two patches or of one.
+/// Two coincident edges, of two patches or of one.
 ///
 /// The map from the parameters of `a` to those of `b` is affine, from the ends of one domain to the ends of the other:
-/// with t = (x − lower)/length on either side, t_b = t_a, or 1 − t_a where `reversed`. A patch that is closed in u is a
-/// seam between its u0 and u1; an edge that is folded onto itself is one with a = b, reversed.
+/// with t = (x − lower)/length on either side, t_b = t_a, or 1 − t_a where `reversed`. A patch closed in u has a seam
+/// between its u0 and u1; an edge folded onto itself is a seam with a = b, reversed.
 struct Seam {
   PatchEdge a, b;
   bool reversed = false;
   SeamKind kind = SeamKind::whole;
-  /// Largest distance at the samples, file units: of points that belong together (`whole`), of either curve from the
+  /// Largest distance at the samples, file units: between corresponding points (`whole`), of either curve from the
   /// other (`reparametrised`), or over the common part (`partial`).
   double gap = 0;
 
   friend bool operator==(const Seam&, const Seam&) = default;
 };
 
-/// An edge that is a point: a pole. Poles are never part of a seam.
+/// An edge that collapses to a point: a pole. Poles are never part of a seam.
 struct CollapsedEdge {
   PatchEdge edge;
   double size = 0;  ///< diagonal of its box, file units
@@ -57,19 +57,19 @@ struct FoundSeams {
 
 /// All pairs of edges of these patches that lie within `tolerance` of each other, and all poles.
 ///
-/// Every edge is sampled p + 3 times per span (at least 24 times), knots included. Two edges are a seam `whole` where
-/// all samples of either lie within the tolerance of the point of the other at the mapped parameter; of the two
-/// orientations the nearer is taken. Otherwise samples are compared with the nearest point of the other curve: all of
-/// both within the tolerance is `reparametrised`; a tenth of one of the edges or more is `partial`. Opposite edges of
-/// one patch are compared only where the patch itself leaves them by more than the tolerance, so that a strip thinner
-/// than the tolerance is not closed with itself. \param tolerance a length in file units, > 0;
+/// Every edge is sampled p + 3 times per span (at least 24 times), knots included. Two edges are a `whole` seam if all
+/// samples of either lie within the tolerance of the point of the other at the mapped parameter; of the two
+/// orientations the closer is taken. Otherwise samples are compared with the nearest point of the other curve: all of
+/// both within the tolerance is `reparametrised`; a tenth or more of one of the edges is `partial`. Opposite edges of
+/// one patch are compared only where the patch departs from them by more than the tolerance, so that a strip thinner
+/// than the tolerance is not joined to itself. \param tolerance a length in file units, > 0;
 /// `suggested_seam_tolerance` where nothing better is known. Accuracy: `gap` is the maximum over the samples. Cost: O(E
 /// s) evaluations and a sweep over the boxes of E = 4 N edges; pairs whose boxes overlap cost O(s), O(s²) where ends do
 /// not meet. Errors: the tolerance is not a positive number (input).
 [[nodiscard]] Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double tolerance);
 
 /// 1e-4 of the diagonal of the box of all control points: CAD systems leave gaps of 1e-6 to 1e-4 of the model, and
-/// edges shorter than that are details that no tool of a sculptor meets. A larger gap asks for a larger tolerance.
+/// edges shorter than that are details too fine to sculpt. A larger gap needs a larger tolerance.
 [[nodiscard]] double suggested_seam_tolerance(std::span<const Surface* const> patches);
 
 }  // namespace knead

@@ -41,7 +41,7 @@ struct CylinderShape {
   friend bool operator==(const CylinderShape&, const CylinderShape&) = default;
 };
 
-/// From the disc of `radius` in z = 0 straight to the disc of `top_radius` (an apex where it is 0) in z = height.
+/// The frustum from the disc of `radius` in z = 0 to the disc of `top_radius` (an apex where it is 0) in z = height.
 struct ConeShape {
   double radius = 1, height = 1, top_radius = 0;
   friend bool operator==(const ConeShape&, const ConeShape&) = default;
@@ -98,8 +98,8 @@ struct WedgeShape {
 };
 
 /// A B-spline or NURBS surface. Its outside is the side of S_u × S_v. Where the nearest point lies on an open border
-/// and the way to it is not along the normal there, x counts as outside (the distance is that to the border): the
-/// signed distance of an open sheet jumps on the strip behind it that its border normals cut off.
+/// and the direction to it is not along the normal there, x counts as outside (the distance is that to the border): the
+/// signed distance of an open sheet jumps on the strip behind it bounded by its border normals.
 struct SplineShape {
   std::shared_ptr<const Surface> surface;
   friend bool operator==(const SplineShape&, const SplineShape&) = default;
@@ -114,12 +114,12 @@ struct Nearest {
   Point point = Point::Zero();   ///< a nearest point of the surface
   Point normal = Point::Zero();  ///< ∇φ(x), of length 1; zero where a whole circle or sphere of points is nearest
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();  ///< ∇²φ(x); zero where the normal is zero
-  /// False where the search could not prove that no other point is nearer by more than 1e-11 of the size: the rest is
-  /// then the best it found.
+  /// False where the search could not prove that no other point is nearer by more than 1e-11 of the size: the other
+  /// fields then hold the best it found.
   bool converged = true;
 };
 
-/// What many nearest points are written to; row k belongs to point k.
+/// The nearest points of many points; row k belongs to point k.
 struct NearestPoints {
   Eigen::VectorXd distances;
   Points points, normals;
@@ -131,27 +131,28 @@ struct NearestPoints {
 struct Placement {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< of length 1
   Point position = Point::Zero();
-  std::array<double, 3> scale = {1, 1, 1};  ///< along the three own axes of the shape, each > 0
+  std::array<double, 3> scale = {1, 1, 1};  ///< along the shape's own axes, each > 0
 };
 
-/// The turn by the least angle that takes the direction of `from` to that of `to`, both not zero. Where they are
-/// opposite, about an axis across them.
+/// The rotation by the smallest angle that takes the direction of `from` to that of `to`, both non-zero. Where they are
+/// opposite, about an axis perpendicular to them.
 [[nodiscard]] Eigen::Quaterniond turn_between(const Point& from, const Point& to);
 
 namespace detail {
 class ShapeKernel;
 }
 
-/// A shape in space, ready to be asked for nearest points. Immutable; copies and `moved` share what was prepared.
+/// A shape in space, prepared for nearest-point queries. Immutable; copies and `moved` share the prepared data.
 ///
 /// Distances are those of the scaled shape, not scaled distances: a sphere scaled unequally is an ellipsoid, a box
-/// stays a box; where unequal scaling leaves no closed form the true nearest point is searched for (docs/tools.md).
+/// remains a box; where unequal scaling leaves no closed form, the nearest point is found by search
+/// (docs/tools.md).
 class PlacedShape {
  public:
   /// Errors name the field ("radius", "rotation", "scale", …). A spline surface needs positive Bézier weights.
   [[nodiscard]] static Expected<PlacedShape> create(const Shape& shape, const Placement& placement = {});
 
-  /// The same shape and scale elsewhere: cheap, nothing is prepared again. Errors as in `create`.
+  /// The same shape and scale elsewhere: cheap, the prepared data is reused. Errors as in `create`.
   [[nodiscard]] Expected<PlacedShape> moved(const Eigen::Quaterniond& rotation, const Point& position) const;
 
   [[nodiscard]] const Shape& shape() const { return shape_; }
@@ -166,8 +167,8 @@ class PlacedShape {
   /// counts with its thickness, a spline surface with its diagonal; infinite for a plane.
   [[nodiscard]] double size() const;
 
-  /// An axis-parallel box that holds the whole shape (not always the tightest); infinite for a plane. For culling:
-  /// distances are 1-Lipschitz, so φ >= φ(x) − r all over the ball of radius r round x.
+  /// An axis-aligned box that contains the whole shape (not always the tightest); infinite for a plane. For culling:
+  /// distances are 1-Lipschitz, so φ >= φ(x) − r throughout the ball of radius r around x.
   [[nodiscard]] BoundingBox bounding_box() const;
 
  private:

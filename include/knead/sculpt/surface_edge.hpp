@@ -9,7 +9,7 @@ enum class SurfaceEdge { u0, u1, v0, v1 };
   constexpr const char* names[] = {"u0", "u1", "v0", "v1"};
   return names[static_cast<int>(edge)];
 }
-/// The direction whose end the edge is: 0 for u0 and u1, along which v runs.
+/// The direction across the edge: 0 for u0 and u1, along which v runs.
 [[nodiscard]] constexpr int edge_across(SurfaceEdge edge) { return static_cast<int>(edge) / 2; }
 /// The direction that runs along the edge.
 [[nodiscard]] constexpr int edge_along(SurfaceEdge edge) { return 1 - edge_across(edge); }

@@ -10,11 +10,11 @@ namespace knead {
 /// How a tool acts on the surface (thesis § 4.3, § 6.4.2).
 enum class ToolMode {
   proximity,  ///< the surface is drawn to the tool's surface from either side, within `range`
-  collision,  ///< what has entered the tool is pushed out; nothing else is touched
+  collision,  ///< points inside the tool are pushed out; no others are affected
   imprint,    ///< collision whose result becomes the new rest shape
 };
 
-/// Which way a proximity tool acts.
+/// The direction in which a proximity tool acts.
 enum class ToolDirection { pull, push };
 
 /// A shaped tool: Hookean springs between the surface and the tool (thesis Eq. 4.25).
@@ -24,38 +24,38 @@ struct Tool {
   ToolMode mode = ToolMode::collision;
   double stiffness = 1e4;  ///< k: force per length and parameter area
   double range = 0.5;      ///< proximity: no force at this distance and beyond; unused by collision
-  bool rigid = false;      ///< collision: raise k until nothing enters by more than `rigid_gap` of the tool's size
+  bool rigid = false;      ///< collision: raise k until nothing penetrates by more than `rigid_gap` of the tool's size
   double friction = 0;     ///< collision: Coulomb's coefficient
-  double plasticity = 0;   ///< share of the displacement that stays when the tool is taken away, 0 to 1
+  double plasticity = 0;   ///< share of the displacement that remains when the tool is removed, 0 to 1
   ToolDirection direction = ToolDirection::pull;
 
   [[nodiscard]] bool collides() const { return mode != ToolMode::proximity; }
 };
 
-/// Beyond this, the rounding of positions alone makes forces larger than those of the material: the entry into a tool
-/// is then less than 1e-9 of the surface's size anyway.
+/// Above this, the rounding of positions alone causes forces larger than those of the material: the penetration is then
+/// less than 1e-9 of the surface's size anyway.
 inline constexpr double max_tool_stiffness = 1e10;
 
-/// How far anything may enter a rigid tool, in sizes of the tool.
+/// How far anything may penetrate a rigid tool, in sizes of the tool.
 inline constexpr double rigid_gap = 1e-4;
 
 /// Checks stiffness from 0 to the maximum, range > 0 where it is used, friction >= 0, plasticity from 0 to 1,
 /// all finite; the error names the field.
 [[nodiscard]] Expected<Tool> validated(const Tool& tool);
 
-/// The mirror image of a tool in the plane through `point` with this normal (of length 1); nothing where the tool is
-/// its own image, to 1e-9 of its size. Errors: those of the shape.
+/// The mirror image of a tool in the plane through `point` with this normal (of length 1); none where the tool is its
+/// own image, to 1e-9 of its size. Errors: those of the shape.
 [[nodiscard]] Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, const Point& normal);
 
-/// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian ∂²ψ, which need not
-/// be positive: a surface pressed against a ball is pushed sideways off its top.
+/// What a tool does to one point x: a potential ψ(x), the force −∇ψ of its springs, and the Hessian ∂²ψ, which may be
+/// indefinite: a surface pressed against a ball is pushed sideways off its top.
 ///
 /// With φ the signed distance of x to the tool (negative inside), n its gradient and H its Hessian:
 /// collision  ψ = k/2 min(φ, 0)², force −k φ n inside;
 /// proximity  ψ = −k r²/6 (1 − φ²/r²)³ within the range r, force −k φ (1 − φ²/r²)² n, which is k φ near the tool and
-///            falls to zero with two derivatives at the range's end; to push, the signs are turned;
+///            falls to zero with two derivatives at the end of the range; to push, the signs are flipped;
 /// Hessian    ψ'' n nᵀ + ψ' H.
-/// Where no direction is nearest, as at the centre of a sphere, the force is zero.
+/// Where the nearest direction is not unique, as at the centre of a sphere, the force is zero.
 struct ToolAction {
   bool active = false;
   double potential = 0;
@@ -65,7 +65,7 @@ struct ToolAction {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
 
-/// A tool as a model sees it, in coordinates (x − centre) / length of the file's.
+/// A tool in the coordinates of the model, (x − centre) / length with x in the file's.
 class ModelTool {
  public:
   ModelTool(const Tool& tool, const Point& centre, double length);
@@ -76,15 +76,15 @@ class ModelTool {
   /// The smallest feature of the shape, but at most 1.
   [[nodiscard]] double size() const { return size_; }
 
-  /// Collision keeps points this far away from the tool (0 unless said), in units of the model.
+  /// Collision keeps points this far from the tool (0 by default), in units of the model.
   void set_offset(double offset);
   [[nodiscard]] double offset() const { return offset_; }
 
   /// Signed distance to the tool itself.
   [[nodiscard]] double distance(const Point& x) const;
   [[nodiscard]] ToolAction action(const Point& x) const;
-  /// A bit for every side of the tool's box that x lies beyond: points that share a bit have nothing of the tool
-  /// between them.
+  /// A bit for every side of the tool's box that x lies beyond: no part of the tool lies between points that share a
+  /// bit.
   [[nodiscard]] unsigned char sides(const double* x) const {
     unsigned result = 0;
     for (int c = 0; c < 3; ++c) {
@@ -93,7 +93,7 @@ class ModelTool {
     }
     return static_cast<unsigned char>(result);
   }
-  /// False where it is certain that nothing in the box is acted on.
+  /// False only where the tool certainly acts on nothing in the box.
   [[nodiscard]] bool may_reach(const Point& lower, const Point& upper) const;
 
  private:

@@ -7,14 +7,14 @@ namespace knead {
 
 struct AnyCommand;
 
-/// What a user can do, as a value: {"do": name, field: value, …} with every field in its own type. `parse_command`
+/// A user action as a value: {"do": name, field: value, …}, every field in its own type. `parse_command`
 /// makes one (command_json.hpp), `Session::execute` applies it. Immutable; copies share the fields.
 class Command {
  public:
-  /// Of one kind in src/session/commands.hpp, the list of all.
+  /// Of one of the kinds listed in src/session/commands.hpp.
   explicit Command(AnyCommand command);
 
-  /// What `do` calls it.
+  /// Its name under `do`.
   [[nodiscard]] std::string_view name() const;
   [[nodiscard]] const AnyCommand& any() const { return *any_; }
 

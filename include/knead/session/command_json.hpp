@@ -10,50 +10,50 @@
 
 namespace knead {
 
-// The language of commands has two versions. In version 1, the first, fields that the shape of a tool or a new surface
-// does not have are left out with a note, and a `material` that names nothing resets stretch and bend; in version 2
+// The command language has two versions. In version 1, fields that the shape of a tool or a new surface does not have
+// are ignored with a note, and a `material` that names nothing resets stretch and bend; in version 2
 // both are errors, and scripts begin with `default_hold`.
 
-/// One command from its JSON form, of version 1 unless it says otherwise ("knead": 2). Errors (input) name the field;
+/// One command from its JSON form, in version 1 unless it says otherwise ("knead": 2). Errors (input) name the field;
 /// an unknown command or field lists the known ones.
 [[nodiscard]] Expected<Command> parse_command(std::string_view json);
 
-/// The JSON form of a command, every field written out, numbers to 17 significant digits; parsing it gives the same
-/// command back.
+/// The JSON form of a command, every field written out, numbers to 17 significant digits; parsing it gives back the
+/// same command.
 [[nodiscard]] std::string to_json(const Command& command);
 
-// The JSON form of what a scene keeps: that of the command that asks for it.
+// The JSON form of parts of a scene: that of the command that makes them.
 [[nodiscard]] std::string to_json(const Constraint& constraint);
 [[nodiscard]] std::string to_json(const SceneForce& force);
 [[nodiscard]] std::string to_json(const Load& load);
 [[nodiscard]] std::string to_json(const EvolutionPolicy& evolution);
 [[nodiscard]] std::string to_json(const SeamPolicy& seams);
 
-/// With what a session begins unless it is told otherwise: {"do": "hold", "mode": "trim", "all": true}, so that the
-/// neighbours of every face still fit.
+/// The first command of a session by default: {"do": "hold", "mode": "trim", "all": true}, so that every face still
+/// fits its neighbours.
 [[nodiscard]] Command default_hold();
 
 /// The commands of a script {"knead": 2, "commands": [...]}, the first of them `default_hold`; a script of version 1
 /// begins without it. `name` stands for the file in errors, which give the line
 /// of a syntax error, or the path of a wrong value ("commands[2].radius").
-/// \param before how many commands come before those that the script lists; may be null
+/// \param before number of commands before those that the script lists; may be null
 [[nodiscard]] Expected<std::vector<Command>> parse_script(std::string_view json, const std::string& name,
                                                           std::size_t* before = nullptr);
 
-/// A script of these commands, one per line. It is of version 1, so that nothing comes before them.
+/// A script of these commands, one per line, in version 1, so that no command precedes them.
 [[nodiscard]] std::string script_json(const std::vector<Command>& commands);
 
 /// All commands, in the order of the help.
 [[nodiscard]] std::vector<std::string> command_names();
 
-/// For help texts: every command in a line, and below it the names of its fields with their defaults.
+/// For help texts: every command on a line, and below it the names of its fields with their defaults.
 [[nodiscard]] std::string command_help();
 
-/// What one command does, and every field in a line: name, meaning, default. Error (usage): no such command.
+/// What one command does, and every field on a line: name, meaning, default. Error (usage): no such command.
 [[nodiscard]] Expected<std::string> command_help(const std::string& name);
 
-/// The fields of a command as a table in Markdown: field, default, meaning. Empty where there is no such command or it
-/// has no fields.
+/// The fields of a command as a table in Markdown: field, default, meaning. Empty if there is no such command or it has
+/// no fields.
 [[nodiscard]] std::string command_table(const std::string& name);
 
 /// JSON schemas (draft 2020-12) of scripts, and of Knead documents (docs/knead-document.md).

@@ -11,14 +11,14 @@
 
 namespace knead {
 
-/// A surface of a document as it was opened.
+/// A surface of a document as opened.
 using DocumentSurface = SourceSurface;
 
-/// What a session works on: a file that was opened, in any format that keeps surfaces, or none yet. Immutable; copies
+/// What a session works on: an opened file, in any format that stores surfaces, or none yet. Immutable; copies
 /// share the data.
 class Document {
  public:
-  /// Errors (input): the file cannot be read; its format is not known or it breaks the rules of its format.
+  /// Errors (input): the file cannot be read, its format is unknown, or it violates its format.
   [[nodiscard]] static Expected<Document> open(const std::filesystem::path& path);
   [[nodiscard]] static Document from(std::shared_ptr<const Source> source);
   /// Without a file: surfaces are made by commands, and saving writes a new one.
@@ -26,15 +26,15 @@ class Document {
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] bool is_fresh() const { return !source_; }
-  /// Length unit of a fresh document, unless the first surface made in it says another one.
+  /// Length unit of a fresh document, unless the first surface made in it has another.
   [[nodiscard]] const std::string& unit() const { return unit_; }
   [[nodiscard]] const std::vector<DocumentSurface>& surfaces() const;
-  /// The file that was opened; null in a fresh document.
+  /// The opened file; null in a fresh document.
   [[nodiscard]] const Source* source() const { return source_.get(); }
-  /// The same as a STEP file, for what only STEP has: faces and their trimming. Null where it is none.
+  /// The same as a STEP file, for what only STEP has: faces and their trimming. Null for other formats.
   [[nodiscard]] const step::File* step_file() const { return source_ ? source_->step_file() : nullptr; }
 
-  /// The bytes of the file with these surfaces in place of the original ones (one each); of a fresh document, a STEP
+  /// The bytes of the file with these surfaces in place of the original ones (one each); for a fresh document, a STEP
   /// file with exactly these, in the unit of the first one.
   [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces) const;
 

@@ -14,7 +14,7 @@
 
 namespace knead {
 
-/// What one step did.
+/// The record of one step.
 struct StepRecord {
   int surface = 0;    ///< index into the state's surfaces: the first one selected
   double time = 0;    ///< seconds
@@ -22,30 +22,30 @@ struct StepRecord {
   double stretch = 0, bend = 0, kinetic = 0, contact = 0;  ///< by term, see ActiveStep
   double residual = 0;                                     ///< relative imbalance of forces, see ActiveStep
   double largest_displacement = 0;                         ///< from the surface as opened, file units
-  double gap = 0;        ///< deepest entry into a collision tool, in sizes of that tool
+  double gap = 0;        ///< deepest penetration of a collision tool, in sizes of that tool
   double violation = 0;  ///< of the constraints, file units
   int iterations = 0;
   bool converged = true;
-  bool limited = false;  ///< the limit holds something back
-  std::string note;      ///< what stood in the way, and what would help
+  bool limited = false;  ///< the limit restrains some point
+  std::string note;      ///< what went wrong, and what would help
 
   friend bool operator==(const StepRecord&, const StepRecord&) = default;
 };
 
-/// What happened so far.
+/// The record of a session so far.
 struct SessionRecord {
   std::vector<StepRecord> steps;
   std::vector<SeamReport> seam_reports;  ///< of the model of the last step; patches are indices of surfaces
-  std::vector<std::string> notes;        ///< what commands did on the way: refinements, lines kept smooth
+  std::vector<std::string> notes;        ///< side effects of commands: refinements, lines kept smooth
   std::optional<double> energy_before;   ///< energy before the first step
 };
 
-/// The whole state at one moment. A value: undo puts an earlier one back, bit for bit.
+/// The whole state at one moment. A value: undo restores an earlier one, bit for bit.
 struct SessionState : Scene, SessionRecord {};
 
 /// A document and its history of commands: the model and controller of every user interface.
 ///
-/// Every command either takes effect whole or returns an `Error` and changes nothing. Undo and redo restore states bit
+/// Every command either takes full effect or returns an `Error` and changes nothing. Undo and redo restore states bit
 /// for bit. Not thread-safe.
 class Session {
  public:
@@ -54,21 +54,20 @@ class Session {
   Session& operator=(Session&&) noexcept;
   ~Session();
 
-  /// Called after each step of a command that steps with the number done and the number asked for.
+  /// Called after each step of a stepping command with the numbers of steps done and requested.
   using Progress = std::function<void(int, int)>;
 
   [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {});
 
-  /// Makes the last entry of the history one with the entry before it: undo then takes both back at once, and the state
-  /// between them is forgotten. For what is many commands but one act, as a stroke that follows the pointer. Equal
-  /// `step` commands that come to stand side by side become one with the sum of their counts, which is the same,
-  /// and so does a stroke that goes on with one whose tool is still down. Nothing happens where there are fewer than
-  /// two entries, or where something can be redone.
+  /// Merges the last entry of the history with the one before it: undo then reverts both at once, and the state between
+  /// them is dropped. For many commands that are one action, such as a stroke that follows the pointer. Equal `step`
+  /// commands that become adjacent are merged into one with the sum of their counts, which is equivalent, and so is a
+  /// stroke with the one it continues. Does nothing if there are fewer than two entries, or if something can be redone.
   void join();
 
   [[nodiscard]] const Document& document() const { return document_; }
   [[nodiscard]] const SessionState& state() const { return *states_[position_]; }
-  /// The commands whose effect stands, in order: with the document, all of the session.
+  /// The commands in effect, in order: together with the document, the whole session.
   [[nodiscard]] std::vector<Command> journal() const;
   [[nodiscard]] bool can_undo() const { return position_ > 0; }
   [[nodiscard]] bool can_redo() const { return position_ + 1 < states_.size(); }
@@ -77,32 +76,32 @@ class Session {
   [[nodiscard]] Expected<double> energy();
   /// max |S − S_opened| of one surface, file units; accuracy as `largest_distance` (spline/extremum.hpp).
   [[nodiscard]] double largest_displacement(int surface) const;
-  /// Control points of one surface that are no longer where they were opened, or no longer weigh as much, bit for bit;
-  /// all of them where its knots are others.
+  /// Number of control points of one surface whose position or weight differs from the opened one, bit for bit; all of
+  /// them if its knots differ.
   [[nodiscard]] int moved_control_points(int surface) const;
   /// The document's file with the present surfaces.
   [[nodiscard]] Expected<std::string> save() const;
 
-  /// All of the session but the document's file, as bytes: every state of the history with every number as it is, and
-  /// the commands. What states share is written once. Where the surfaces of the history need more than `history_bytes`
-  /// the oldest states are left out: their commands stay in the journal, but undo goes back no further.
+  /// The whole session except the document's file, as bytes: every state of the history with every number as it is, and
+  /// the commands. Data shared by states is written once. If the surfaces of the history need more than
+  /// `history_bytes`, the oldest states are omitted: their commands stay in the journal but cannot be undone.
   [[nodiscard]] std::string snapshot(std::size_t history_bytes = std::size_t{64} << 20U) const;
-  /// The session that `snapshot` was taken of, bit for bit, undo and redo included; nothing is computed. Errors
-  /// (input): bytes that are damaged, of another version, or of a document with other surfaces.
+  /// The session of which `snapshot` was taken, bit for bit, with undo and redo; nothing is recomputed. Errors (input):
+  /// bytes that are damaged, of another version, or of a document with other surfaces.
   [[nodiscard]] static Expected<Session> restore(Document document, std::string_view snapshot);
 
  private:
   struct ModelCache;
 
-  /// What faces show of those surfaces whose edges are held, which a snapshot leaves to the document.
+  /// Restores the visible regions of surfaces whose edges are held, which a snapshot leaves to the document.
   void know_faces();
 
   Document document_;
-  std::vector<Command> earlier_;  // of a history that was restored in part: they stand, and cannot be taken back
+  std::vector<Command> earlier_;  // of a partly restored history: in effect, and cannot be undone
   std::vector<std::shared_ptr<const SessionState>> states_;  // one more than entries_
-  std::vector<std::vector<Command>> entries_;                // what undo takes back at once
+  std::vector<std::vector<Command>> entries_;                // what undo reverts at once
   std::size_t position_ = 0;
-  std::unique_ptr<ModelCache> cache_;  // the last model: its factorisation serves until a setting changes
+  std::unique_ptr<ModelCache> cache_;  // the last model: its factorisation is reused until a setting changes
 };
 
 }  // namespace knead

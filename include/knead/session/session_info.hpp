@@ -6,13 +6,13 @@
 
 namespace knead {
 
-// What a page shows of a session, as JSON. The same descriptions make the page's TypeScript types, so that none is
-// written by hand.
+// What a page shows of a session, as JSON. The page's TypeScript types are generated from the same
+// descriptions.
 
 /// Surfaces, tools, settings, notes, the last step; no control points (docs/studio.md).
 [[nodiscard]] std::string session_json(const Session& session);
 
-/// The steps from number `first` on, [{energy, stretch, …}, …].
+/// The steps from index `first` on, [{energy, stretch, …}, …].
 [[nodiscard]] std::string steps_json(const SessionState& state, std::size_t first);
 
 /// The edges of the faces on every surface of a STEP file that was moved, [{surface, tolerance, edges, unknown}, …]: how
@@ -22,7 +22,7 @@ namespace knead {
 /// {"error": {kind, what, where, remedy, message}}.
 [[nodiscard]] std::string error_json(const Error& error);
 
-/// A TypeScript module of the types of all of these, and of all commands (`AnyCommand`).
+/// A TypeScript module with the types of all these and of all commands (`AnyCommand`).
 [[nodiscard]] std::string session_typescript();
 
 }  // namespace knead

@@ -14,10 +14,10 @@ namespace knead {
 ///   Σ_k coefficient_k X_{unknown_k} = value            where `normal` is not set: three conditions, one per
 ///   coordinate; Σ_k coefficient_k n · X_{unknown_k} = n · value    where it is.
 struct LinearConstraint {
-  std::string name;                           ///< what it is called in messages ("edge u0", "pin at (0.5, 0.5)")
+  std::string name;                           ///< its name in messages ("edge u0", "pin at (0.5, 0.5)")
   std::vector<std::pair<int, double>> terms;  ///< (unknown, coefficient); an unknown may occur more than once
   Point value = Point::Zero();
-  std::optional<Point> normal = {};  ///< any length but zero
+  std::optional<Point> normal = {};  ///< any non-zero length
 
   friend bool operator==(const LinearConstraint&, const LinearConstraint&) = default;
 };

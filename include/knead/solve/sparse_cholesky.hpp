@@ -19,18 +19,18 @@ class SparseCholesky {
   /// The same for one column.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
-  /// What solving touches of the factor where right sides are zero but at some unknowns.
+  /// The part of the factor that a solve uses when right sides are zero except at some unknowns.
   struct Part {
     std::vector<int> rows;    ///< those unknowns, as rows of the factor
     std::vector<int> panels;  ///< of the factor
   };
   /// Cost: O(rows of those panels).
   [[nodiscard]] Part part(std::span<const int> unknowns) const;
-  /// A X = B for B given at the unknowns of the part, in their order, and X wanted there only. Cost: O(nonzeros of the
-  /// part), on a tensor net a fraction of the whole that shrinks with its size. Bits: those of `solve`.
+  /// A X = B for B given at the unknowns of the part, in their order, and X needed only there. Cost: O(nonzeros of the
+  /// part), on a tensor net a fraction of the whole that shrinks with its size. Same bits as `solve`.
   [[nodiscard]] Points solve_within(const Part& part, const Points& b) const;
   [[nodiscard]] Eigen::VectorXd solve_within(const Part& part, const Eigen::VectorXd& b) const;
-  /// The same for all of X: half of `solve`, and half of `solve_within`.
+  /// The same for all of X: half the work of `solve`, and half of `solve_within`.
   [[nodiscard]] Points solve_from(const Part& part, const Points& b) const;
   [[nodiscard]] Eigen::VectorXd solve_from(const Part& part, const Eigen::VectorXd& b) const;
 

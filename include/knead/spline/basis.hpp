@@ -7,14 +7,14 @@
 
 namespace knead {
 
-/// Values and derivatives of the p + 1 basis functions that live on one span, at one parameter.
+/// Values and derivatives of the p + 1 basis functions that are non-zero on one span, at one parameter.
 ///
 /// N_{s-p+r}^(d)(u) for r = 0 … p, d = 0 … order, the polynomial piece of span s: Cox–de Boor by spans and Piegl &
 /// Tiller, The NURBS Book, A2.3. Derivatives above p are zero. Because the span is given, one-sided derivatives at
 /// repeated knots are exact: ask for `find_span(u, side)` first.
 ///
 /// \param span   a span of positive length, as `KnotVector::find_span` or `spans` return it; u may lie anywhere on it,
-///               both ends included (outside of it the piece is extrapolated).
+///               both ends included (outside it the piece is extrapolated).
 /// \param out    (order + 1)(p + 1) numbers, out[d (p + 1) + r].
 /// Cost: O(p² + p² order), no allocation. Accuracy: values are sums of non-negative terms, relative error below
 /// 4 p ulp inside the span.
@@ -23,11 +23,11 @@ void basis_derivatives(const KnotVector& knots, int span, double u, int order, d
 /// The values alone, out[r] = N_{span-p+r}(u), r = 0 … p. Non-negative; they sum to 1 up to rounding.
 void basis_values(const KnotVector& knots, int span, double u, double* out);
 
-/// Basis functions of one direction tabulated at many parameters: the unit of work of everything that evaluates.
+/// Basis functions of one direction tabulated at many parameters: the unit of work of every evaluation.
 struct BasisTable {
   int degree = 0;
   int order = 0;                    ///< highest derivative tabulated
-  std::vector<int> first;           ///< first[k] = index of the first function that lives at parameter k
+  std::vector<int> first;           ///< first[k] = index of the first function that is non-zero at parameter k
   std::vector<double> derivatives;  ///< N^(d)_{first[k]+r}(u_k) at [(k (order + 1) + d) (p + 1) + r]
 
   [[nodiscard]] int size() const { return static_cast<int>(first.size()); }

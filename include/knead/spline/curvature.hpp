@@ -10,7 +10,7 @@ namespace knead {
 ///   first   E = S_u·S_u, F = S_u·S_v, G = S_v·S_v,
 ///   second  L = n·S_uu, M = n·S_uv, N = n·S_vv      (do Carmo, Differential Geometry of Curves and
 ///   Surfaces, 2.5, 3.3).
-/// What is needed where a surface has been evaluated on a grid; `curvature` does the rest for single points.
+/// For surfaces already evaluated on a grid; `curvature` serves single points.
 struct FundamentalForms {
   double e = 0, f = 0, g = 0;  ///< length²
   double l = 0, m = 0, n = 0;  ///< length

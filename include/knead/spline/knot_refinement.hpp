@@ -8,31 +8,31 @@
 
 namespace knead {
 
-/// The knots with more of them inside the domain, each entry of `inserted` once (repetitions and any order allowed).
+/// The knots with `inserted` added inside the domain, each entry once (repetitions and any order allowed).
 ///
 /// Ends of an unclamped domain may be repeated too; the outermost functions are then left without support inside.
-/// Errors, by the index in `inserted`: a knot that is not finite or outside of the domain, or that would stand more
-/// than p + 1 times.
+/// Errors, by the index in `inserted`: a knot that is not finite or outside the domain, or whose multiplicity would
+/// exceed p + 1.
 [[nodiscard]] Expected<KnotVector> with_knots(const KnotVector& knots, std::span<const double> inserted);
 
-/// The same where the functions are taken for periodic: each inserted knot replaces knots outside of the domain by its
-/// images one period away, so that knot differences go on repeating. Knots that stay keep their bits; images are
+/// The same for periodic functions: the images of each inserted knot one period away replace knots outside the domain,
+/// so that knot differences remain periodic. Knots that stay keep their bits; images are
 /// rounded sums. Errors: as above; a clamped end; a knot at an end of the domain.
 [[nodiscard]] Expected<KnotVector> with_periodic_knots(const KnotVector& knots, std::span<const double> inserted);
 
-/// The knots of degree p + 1 whose functions span all those of degree p on the domain: every knot once more.
+/// The knots of degree p + 1 whose functions span all those of degree p on the domain: every knot repeated once more.
 ///
-/// The domain stays as it is, clamped ends stay clamped, and at an unclamped end those p + 1 outer knots are kept that
-/// are nearest to it. Functions without support in the domain (unclamped ends with repeated knots) are not kept.
+/// The domain is unchanged, clamped ends stay clamped, and at an unclamped end the p + 1 outer knots nearest to it are
+/// kept. Functions without support in the domain (unclamped ends with repeated knots) are dropped.
 /// Errors: the degree would exceed `max_degree`.
 [[nodiscard]] Expected<KnotVector> elevated_knots(const KnotVector& knots);
 
-/// Clamped, with every knot inside the domain p + 1 times: the functions p + 1 by p + 1 are the Bernstein polynomials
-/// of one span of positive length each.
+/// Clamped, with every knot inside the domain p + 1 times: each group of p + 1 functions is the Bernstein basis of one
+/// span of positive length.
 [[nodiscard]] KnotVector bezier_knots(const KnotVector& knots);
 
 /// Midpoints of all spans of positive length that the interval meets in more than a point (for an interval without
-/// length: that it touches), ascending. A span whose ends are neighbouring doubles has none.
+/// length: that it touches), ascending. A span whose ends are adjacent doubles has none.
 [[nodiscard]] std::vector<double> span_midpoints(const KnotVector& knots, Interval interval);
 
 /// The linear map R from the coefficients of a spline in one direction to those of the same function on finer knots, of
@@ -40,16 +40,16 @@ namespace knead {
 ///
 /// Row i has the p + 1 entries of one span, by blossoming: c̃_i = f(y_{i+1}, …, y_{i+p}) with f the polar form of a
 /// polynomial piece under Ñ_i, expanded by the Oslo recursion (Cohen, Lyche & Riesenfeld 1980); for degree p + 1 the
-/// mean of f over the p + 1 ways to leave one of y_{i+1} … y_{i+p+1} out (Prautzsch 1984). A row whose arguments are p
-/// neighbouring knots of the coarse vector is a unit row, exactly. Where the finer knots come from `with_knots`,
+/// mean of f over the p + 1 ways to omit one of y_{i+1} … y_{i+p+1} (Prautzsch 1984). A row whose arguments are p
+/// consecutive knots of the coarse vector is a unit row, exactly. Where the finer knots come from `with_knots`,
 /// `with_periodic_knots`, `elevated_knots` or `bezier_knots` of clamped knots, every product of the recursion is
 /// non-negative: entries are accurate to 4 (p + 1) ulp each, whatever the knots. Bézier rows that cut unclamped ends
-/// extrapolate knots outside of the domain only and are accurate relative to the largest entry.
+/// extrapolate only knots outside the domain and are accurate relative to the largest entry.
 /// Immutable.
 class Refinement {
  public:
   /// Checks that the domain is the same bit for bit, the degree the same or one higher, and every knot inside the
-  /// domain repeated as often as `from` needs (as many times more as the degree grows).
+  /// domain repeated as often as `from` needs (more by the increase in degree).
   /// Cost: O(n p²), and O(n p³) where the degree grows.
   [[nodiscard]] static Expected<Refinement> create(KnotVector from, KnotVector to);
 
@@ -62,15 +62,15 @@ class Refinement {
     return std::span(values_).subspan(static_cast<std::size_t>(i) * width, width);
   }
   [[nodiscard]] int first(int i) const { return first_[static_cast<std::size_t>(i)]; }
-  /// The j of a row that is 1 at j and 0 elsewhere: that coefficient is taken over bit for bit. −1 for other rows.
+  /// The j of a row that is 1 at j and 0 elsewhere: that coefficient is copied bit for bit. −1 for other rows.
   [[nodiscard]] int copied(int i) const { return copied_[static_cast<std::size_t>(i)]; }
 
-  /// Applies R along the middle one of three indices, as in a tensor-product net with `inner` numbers per step of this
+  /// Applies R along the middle of three indices, as in a tensor-product net with `inner` numbers per step of this
   /// direction: out[(o ñ + i) inner + c] = Σ_j R_ij in[(o n + j) inner + c], 0 <= o < outer. `in` holds outer · n ·
   /// inner numbers, `out` outer · ñ · inner; they must not overlap.
   void apply(const double* in, double* out, int outer, int inner) const;
 
-  /// R as an ñ × n matrix; entries that are zero are left out.
+  /// R as an ñ × n matrix without explicit zeros.
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
 
  private:

@@ -9,7 +9,7 @@ namespace knead {
 
 inline constexpr int max_degree = 15;
 
-/// Which one-sided limit is meant where a piecewise polynomial jumps.
+/// Which one-sided limit to take where a piecewise polynomial jumps.
 enum class Side { left, right };
 
 /// A closed interval [lower, upper] of the parameter line.
@@ -22,9 +22,10 @@ struct Interval {
 
 /// A knot vector x_0 <= x_1 <= … <= x_{n+p} of degree p with its n basis functions N_0 … N_{n-1}.
 ///
-/// The domain is [x_p, x_n]. Clamped or not; a knot may be repeated up to p + 1 times, inside as at the ends. Spans are
-/// named by the index s of their left knot, [x_s, x_{s+1}]; only spans of positive length inside the domain carry basis
-/// functions N_{s-p} … N_s. Knots are kept exactly as given: nothing is snapped, merged or rescaled. Immutable.
+/// The domain is [x_p, x_n]. Clamped or not; a knot may be repeated up to p + 1 times, in the interior as at the ends.
+/// Spans are numbered by the index s of their left knot, [x_s, x_{s+1}]; only spans of positive length inside the
+/// domain carry basis functions N_{s-p} … N_s. Knots are kept exactly as given: nothing is snapped, merged or rescaled.
+/// Immutable.
 class KnotVector {
  public:
   /// Checks: degree 1 to 15, at least 2(p + 1) knots, all finite, non-decreasing, none repeated more than p + 1 times,
@@ -42,8 +43,8 @@ class KnotVector {
   [[nodiscard]] double operator[](int i) const { return knots_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] Interval domain() const { return {(*this)[degree_], (*this)[count()]}; }
 
-  /// The span of positive length that holds u: the one to the right of u, or to the left with `Side::left`. At the ends
-  /// of the domain the only span there is is taken, so the function is defined on the closed domain, last knot
+  /// The span of positive length that contains u: the one to the right of u, or to the left with `Side::left`. At the
+  /// ends of the domain the only adjacent span is taken, so functions are defined on the closed domain, last knot
   /// included. Requires: u in the domain (asserted). Cost: O(log n).
   [[nodiscard]] int find_span(double u, Side side = Side::right) const;
 
@@ -55,7 +56,7 @@ class KnotVector {
   [[nodiscard]] bool clamped_end() const { return knots_.back() == (*this)[count()]; }
   [[nodiscard]] bool clamped() const { return clamped_start() && clamped_end(); }
 
-  /// How often the value u stands in the knot vector (exact comparison).
+  /// How often the value u occurs in the knot vector (exact comparison).
   [[nodiscard]] int multiplicity(double u) const;
   /// The largest multiplicity of a knot strictly inside the domain; 0 if there is none.
   [[nodiscard]] int max_interior_multiplicity() const;

@@ -22,9 +22,9 @@ using Point = Eigen::Vector3d;
 template <int D>
 class Spline {
  public:
-  /// Checks: as many control points as the knots ask for, all finite; weights either none, or one per control point,
-  /// finite. An `Error` names the index. Negative and zero weights are kept as they are: what must be positive is the
-  /// denominator Σ w N on the domain, and whoever divides by it says so where it is not.
+  /// Checks: as many control points as the knots require, all finite; weights either none, or one per control point,
+  /// finite. An `Error` names the index. Negative and zero weights are accepted: only the denominator Σ w N must be
+  /// positive on the domain, and functions that divide by it report where it is not.
   [[nodiscard]] static Expected<Spline> create(std::array<KnotVector, D> knots, Points control_points,
                                                std::vector<double> weights = {});
 
@@ -32,10 +32,10 @@ class Spline {
   [[nodiscard]] const std::array<KnotVector, D>& knots() const { return knots_; }
   /// Number of control points in each direction.
   [[nodiscard]] std::array<int, D> net() const;
-  /// Number of control points in all.
+  /// Total number of control points.
   [[nodiscard]] int size() const { return static_cast<int>(control_points_.rows()); }
   [[nodiscard]] const Points& control_points() const { return control_points_; }
-  /// True where the spline was made with weights, be they all equal.
+  /// True if the spline was made with weights, even if all are equal.
   [[nodiscard]] bool rational() const { return !weights_.empty(); }
   /// One weight per control point, in their order; empty for a polynomial spline.
   [[nodiscard]] std::span<const double> weights() const { return weights_; }

@@ -14,8 +14,8 @@ namespace knead {
 /// nor parametrisation change, up to rounding: with positive weights points move by less than 24 (p + 1) ulp of the
 /// largest coordinate of the net, evaluation before and after included, whatever the ratio of the weights. Control
 /// points and weights of `Refinement::copied` rows keep their bits. A displacement or a rest shape on the same net is
-/// carried along as a spline of its own: `refined(*spline.with_control_points(displacement), …)`. Cost: O(size p).
-/// Errors: `refinement.from()` is not the knot vector of that direction (usage); a weight comes out zero (numerical).
+/// refined as a spline of its own: `refined(*spline.with_control_points(displacement), …)`. Cost: O(size p).
+/// Errors: `refinement.from()` is not the knot vector of that direction (usage); a weight becomes zero (numerical).
 template <int D>
 [[nodiscard]] Expected<Spline<D>> refined(const Spline<D>& spline, int direction, const Refinement& refinement);
 
@@ -25,7 +25,7 @@ template <int D>
                                                const std::array<std::vector<double>, D>& inserted);
 
 /// The same function with the degree of one direction raised `times` times (`elevated_knots`; *The NURBS Book*, 5.5).
-/// Continuity stays what it is: every knot is repeated as often again. Errors: degree above `max_degree`.
+/// Continuity is unchanged: every knot is repeated as many times more. Errors: degree above `max_degree`.
 template <int D>
 [[nodiscard]] Expected<Spline<D>> elevate_degree(const Spline<D>& spline, int direction, int times = 1);
 
