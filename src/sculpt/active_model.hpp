@@ -17,7 +17,7 @@ inline const double dynamic_stage = 1 - std::sqrt(0.5);
 
 inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
-/// What a step works with; all matrices on all unknowns, in normalised units.
+/// The data of a step; all matrices on all unknowns, in normalised units.
 template <int D>
 struct ActiveSpline<D>::Model {
   ActiveSettings<D> settings;
@@ -27,13 +27,13 @@ struct ActiveSpline<D>::Model {
   std::vector<ToolLoad<D>> loads;
   std::vector<GrevilleForce<D>> greville;  // for the analytic route
   double length;
-  Point centre;   // positions are computed relative to this point, to keep digits where coordinates are large
+  Point centre;   // positions are relative to this point, to keep digits where coordinates are large
   double extent;  // diagonal of the control points, in units of `length`
   Points rest;
   SparseMatrix stretch, bend, stiffness, weight, mass, damping, a;
   ConstrainedCholesky inverse;
 
-  /// What X is measured from.
+  /// The origin of X.
   [[nodiscard]] Points origin(const ActiveState& state) const {
     if (settings.rest == RestMode::none) return centre.transpose().replicate(rest.rows(), 1);
     return state.rest.rows() > 0 ? state.rest : rest;

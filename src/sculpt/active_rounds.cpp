@@ -19,7 +19,7 @@ constexpr double route_tolerance = 1e-9;
 
 }  // namespace
 
-/// One minimisation with the tools as they are.
+/// One minimisation with the present tools.
 template <int D>
 void ActiveSpline<D>::Run::descend(const StepProblem& step) {
   const ContactSummary part = minimise_step(step, potential, y);
@@ -44,8 +44,8 @@ typename ActiveSpline<D>::Run::Entries ActiveSpline<D>::Run::entries(const Point
   return found;
 }
 
-/// Hardens the rigid tool that is entered at Gauss points, and begins contact further out with those that are entered
-/// in between. False where that tool is as hard as it gets: one round more will show what remains.
+/// Stiffens the rigid tool that is penetrated at Gauss points, and starts contact further out for those penetrated in
+/// between. False if that tool is at its maximum stiffness: one more round will show what remains.
 template <int D>
 bool ActiveSpline<D>::Run::keep_out(const Entries& found, const PotentialState& at_gauss_points) {
   bool harder = true;
@@ -74,7 +74,7 @@ void ActiveSpline<D>::Run::tell_entered(const Entries& found) {
   }
 }
 
-/// The minimum with rigid tools kept out, at Gauss points and between them, in at most `max_rigid_rounds` rounds.
+/// The minimum without penetration of rigid tools, at and between Gauss points, in at most `max_rigid_rounds` rounds.
 template <int D>
 PotentialState ActiveSpline<D>::Run::touch_rigid(const StepProblem& step) {
   for (int rounds_left = max_rigid_rounds;;) {
@@ -96,7 +96,7 @@ PotentialState ActiveSpline<D>::Run::touch_rigid(const StepProblem& step) {
   }
 }
 
-/// The same under the limit: it is kept at Gauss points, so between them it is drawn in until it holds everywhere.
+/// The same under the limit, which is enforced at Gauss points and tightened until it holds between them too.
 template <int D>
 PotentialState ActiveSpline<D>::Run::keep_within_limit(const StepProblem& step) {
   if (!(limit > 0)) return touch_rigid(step);
@@ -138,8 +138,8 @@ Points ActiveSpline<D>::Run::greville_correction(const Points& x) const {
   return difference;
 }
 
-/// The minimum; on the analytic route with a correction of the forces that lags behind: F_analytic − F_Gauss at the
-/// last result goes to the right side until it no longer changes it.
+/// The minimum; on the analytic route with a lagged correction of the forces: F_analytic − F_Gauss at the last result
+/// is added to the right side until the result stops changing.
 template <int D>
 PotentialState ActiveSpline<D>::Run::settle(const StepProblem& step) {
   PotentialState reached = keep_within_limit(step);

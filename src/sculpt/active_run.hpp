@@ -9,8 +9,8 @@
 
 namespace knead {
 
-/// One step: predict (the forces and the problem it starts from), touch (what tools, friction and point forces do),
-/// balance (the minimum, in rounds for what is rigid, limited or analytic), accept (checks, and the result).
+/// One step: predict (the forces and the initial problem), touch (the actions of tools, friction and point forces),
+/// balance (the minimum, in rounds if rigid, limited or analytic), accept (checks, and the result).
 template <int D>
 struct ActiveSpline<D>::Run {
   Run(const Model& model, const ActiveState& state, std::span<const Tool> tools, const ActiveLoads& loads,
@@ -21,7 +21,7 @@ struct ActiveSpline<D>::Run {
   [[nodiscard]] Expected<ActiveStep> accept();
 
  private:
-  /// How far rigid tools are entered, anywhere, in their sizes.
+  /// How far rigid tools are penetrated, anywhere, in their sizes.
   struct Entries {
     std::vector<double> of_tool;  // 0 for tools that are not rigid
     double deepest = 0;
@@ -44,7 +44,7 @@ struct ActiveSpline<D>::Run {
   std::span<const Tool> tools;
   const ActiveLoads& loads;
   std::vector<ModelTool> scaled;  // the tools, in the model's units
-  Points file_origin, before;     // what X is measured from, and X₀
+  Points file_origin, before;     // the origin of X, and X₀
   Points external;                // G
   StepProblem problem;
   PatchPotential<D> potential;
@@ -52,7 +52,7 @@ struct ActiveSpline<D>::Run {
   Points limit_origin;  // these control points
   Points y;             // X − X₀
   Points velocity;      // after a dynamic step
-  Points lagged;        // what the analytic route adds to the forces of Gauss points
+  Points lagged;        // what the analytic route adds to the Gauss forces
   PotentialState contact;
   ContactSummary summary = {0, 0, true, true};
   std::string note;

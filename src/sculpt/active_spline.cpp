@@ -12,7 +12,7 @@
 namespace knead {
 namespace {
 
-/// Rows and columns of the block moved by `first`, to be one of several on the diagonal.
+/// Appends the block with rows and columns shifted by `first`, as one of several on the diagonal.
 void add_block(const SparseMatrix& block, int first, std::vector<Eigen::Triplet<double>>& entries) {
   for (Eigen::Index j = 0; j < block.outerSize(); ++j) {
     for (SparseMatrix::InnerIterator it(block, j); it; ++it) {
@@ -83,7 +83,7 @@ std::array<Energy<D>, 2> parts(const MaterialOf<D>& material) {
   return result;
 }
 
-/// The rest shape: its control points, patch after patch, and what places are measured by.
+/// The rest shape: its control points, patch after patch, and its centre and size.
 struct RestShape {
   std::vector<int> rows = {0};  // first of every patch, and the end
   Points points;
@@ -104,7 +104,7 @@ RestShape at_rest(const std::vector<Spline<D>>& patches) {
   return rest;
 }
 
-/// What is assembled patch by patch; everything in the units of the first patch's scaling.
+/// The parts assembled patch by patch; everything in the units of the first patch's scaling.
 template <int D>
 struct Assembly {
   std::vector<DomainScaling<D>> scalings;
@@ -121,7 +121,7 @@ Expected<SparseMatrix> assemble_energy(const Spline<D>& patch, const Energy<D>& 
   return matrix->assemble();
 }
 
-/// The matrices of patch k, whose scaling is known already.
+/// The matrices of patch k, whose scaling is already known.
 template <int D>
 Expected<void> assemble_matrices(const Spline<D>& patch, std::size_t k, const ActiveSettings<D>& settings,
                                  const StiffnessOptions& options, Assembly<D>& to) {
@@ -150,7 +150,7 @@ Expected<void> assemble_matrices(const Spline<D>& patch, std::size_t k, const Ac
   return {};
 }
 
-/// What evaluates the forces of tools on patch k.
+/// The evaluation of tool forces on patch k.
 template <int D>
 Expected<void> assemble_forces(const Spline<D>& patch, std::size_t k, const ActiveSettings<D>& settings,
                                const StiffnessOptions& options, Assembly<D>& to) {
@@ -186,7 +186,7 @@ Expected<Assembly<D>> assemble(const std::vector<Spline<D>>& patches, const Acti
   return result;
 }
 
-/// What the settings hold, as conditions on X in units of `length`.
+/// The constraints of the settings, as conditions on X in units of `length`.
 template <int D>
 Expected<ConstraintSpace> hold(const ActiveSettings<D>& settings, const RestShape& rest, double length) {
   const int size = rest.rows.back();
@@ -227,12 +227,12 @@ SparseMatrix step_matrix(const ActiveSettings<D>& settings, const SparseMatrix& 
   return k + settings.lambda * identity;
 }
 
-/// A⁻¹ on what is free to move.
+/// A⁻¹ on the free unknowns.
 template <int D>
 Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space, const ActiveSettings<D>& settings) {
   const bool undamped =
       settings.evolution == Evolution::stationary || (settings.evolution == Evolution::acm && settings.lambda == 0);
-  // Such a displacement costs no energy: there would be no balance to go to.
+  // Such a displacement costs no energy: there would be no equilibrium.
   if (undamped && space.free_count() > 0 && !holds_in_place(space, settings.held)) {
     return numerical_error("nothing holds the model in place, so it has no position of balance", "evolve",
                            "hold an edge or pin points, or use another mode or a positive lambda");

@@ -9,7 +9,7 @@
 namespace knead {
 namespace {
 
-constexpr double run_away = 1e4;  // a step longer than this many sizes of the model is refused
+constexpr double run_away = 1e4;  // a step longer than this many model sizes is refused
 constexpr double first_rigid_stiffness = 1e6;
 constexpr double developed_slip = 1e-4;     // friction is fully developed at this displacement, in lengths of the model
 constexpr double missed_constraint = 1e-9;  // of the size of the model
@@ -22,7 +22,7 @@ std::vector<ModelTool> in_model_units(std::span<const Tool> tools, const Point& 
 
 }  // namespace
 
-/// G: all forces but those of tools, in normalised units.
+/// G: all forces except those of tools, in normalised units.
 template <int D>
 Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state, const ActiveLoads& given) const {
   Points g = Points::Zero(rest.rows(), 3);
@@ -53,7 +53,7 @@ template <int D>
 void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const Points& external,
                                     const PotentialState& contact, std::span<const Tool> tools) const {
   const ConstraintSpace& space = inverse.space();
-  // Forces on what is free: of tools and loads, of the free part of the net, and of the part that is held. K
+  // Forces on the free unknowns: from tools and loads, the free part of the net, and the held part. K
   // annihilates constants: without their mean the numbers are smaller, and so is the rounding.
   const Points y = x.rowwise() - x.colwise().mean();
   const Points stretching = stretch * y, bending = bend * y;
@@ -134,7 +134,7 @@ void ActiveSpline<D>::Run::balance_dynamic() {
   const double tau = dynamic_stage * m.settings.time_step;
   const Points b = problem.b;
   const Points v0 = state.velocity.rows() > 0 ? Points(state.velocity / m.length) : Points::Zero(y.rows(), 3);
-  // What a stage starts from: the step's beginning, then further on along the first stage.
+  // The start of a stage: the beginning of the step, then a point further along the first stage.
   Points advance = Points::Zero(y.rows(), 3), v = v0;
   for (int k = 0; k < 2 && summary.finite; ++k) {
     problem.b = b + m.mass * (advance / (tau * tau) + v / tau) + m.damping * (advance / tau);

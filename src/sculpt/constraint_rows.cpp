@@ -71,7 +71,7 @@ SelectedRows select_rows(const std::vector<Terms>& rows, double tolerance) {
   }
   Eigen::Index next = 0;
   for (auto& [unknown, column] : columns) column = next++;
-  // The conditions are the columns of the matrix: those are what the decomposition chooses from.
+  // The conditions are the columns of the matrix, from which the decomposition chooses.
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(next, static_cast<Eigen::Index>(rows.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) {
     for (const auto& [unknown, c] : rows[k]) a(columns.at(unknown), static_cast<Eigen::Index>(k)) += c;
@@ -81,7 +81,7 @@ SelectedRows select_rows(const std::vector<Terms>& rows, double tolerance) {
   const auto remainder_of = [&](Eigen::Index rank) {
     return rank == most ? 0.0 : qr.remainder(rank).cwiseAbs().colwise().sum().maxCoeff();
   };
-  // The diagonal of R decreases, and a remainder is at most √n times it; what rounding leaves is not independent.
+  // The diagonal of R decreases, and a remainder is at most √n times it; remainders of rounding are not independent.
   SelectedRows result;
   for (double threshold = tolerance;; threshold /= 4) {
     Eigen::Index rank = 0;
@@ -89,7 +89,7 @@ SelectedRows select_rows(const std::vector<Terms>& rows, double tolerance) {
     result.remainder = remainder_of(rank);
     if (result.remainder > tolerance && threshold > 1e-13) continue;
     for (Eigen::Index k = 0; k < rank; ++k) result.chosen.push_back(qr.order()[k]);
-    std::ranges::sort(result.chosen);  // neighbours together: elimination is many times faster then
+    std::ranges::sort(result.chosen);  // neighbours together: elimination is then many times faster
     return result;
   }
 }

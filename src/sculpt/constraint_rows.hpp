@@ -41,7 +41,7 @@ struct LocalBasis {
   std::vector<double> values;
 
   LocalBasis(const KnotVector& knots, int span, double u, int order);
-  /// N_i^(order), 0 for functions that do not live here.
+  /// N_i^(order), 0 for functions that vanish here.
   [[nodiscard]] double at(int i, int order) const {
     const int r = i - first;
     if (r < 0 || r > degree) return 0;
@@ -58,12 +58,12 @@ struct LocalBasis {
 [[nodiscard]] Expected<Terms> rational_row(const Surface& s, double u, double v, int span_u, int span_v, int along = -1,
                                            double* denominator = nullptr);
 
-/// Appends a condition with zero right side: zero coefficients left out, the others divided by the largest; a single
-/// control point without a normal becomes held. Nothing where all are zero.
+/// Appends a condition with zero right side: zero coefficients are omitted, the others divided by the largest; a single
+/// control point without a normal becomes held. Appends nothing if all are zero.
 void append(ConstraintList& to, const std::string& name, Terms terms, const std::optional<Point>& normal = {});
 
-/// Rows that all others are combinations of, best conditioned first, and the largest |r|_1 of what is left of the
-/// others.
+/// Rows of which all others are combinations, best conditioned first, and the largest |r|_1 of the others'
+/// remainders.
 struct SelectedRows {
   std::vector<int> chosen;
   double remainder = 0;

@@ -18,8 +18,8 @@ using detail::LocalBasis;
 using detail::NetAcross;
 using detail::Terms;
 
-/// The row of control points that the line c of span `span` runs through; −1 where it runs through none: where less
-/// than p knots of the span's functions lie at c.
+/// The row of control points through which the line c of span `span` runs; −1 if there is none: if fewer than p knots
+/// of the span's functions lie at c.
 int row_on_line(const KnotVector& knots, int span, double c) {
   const int p = knots.degree();
   if (c == knots[span] && knots[span - p + 1] == c) return span - p;
@@ -54,7 +54,7 @@ Expected<void> hold_line(const NetAcross& net, double c, int order, const std::s
   return {};
 }
 
-/// Spans from the one that holds `interval.lower` to the one that holds `interval.upper`, as first and last.
+/// Spans from the one containing `interval.lower` to the one containing `interval.upper`, as first and last.
 Expected<std::pair<int, int>> covering_spans(const KnotVector& knots, Interval interval, const char* name) {
   for (double end : {interval.lower, interval.upper}) {
     if (auto inside = detail::check_parameter(knots, end, name); !inside) return std::unexpected(inside.error());
@@ -89,7 +89,7 @@ Expected<ConstraintSpace> constraint_space(const ConstraintList& list, const Poi
   for (LinearConstraint& c : scaled) c.value /= size;
   auto space = ConstraintSpace::create(static_cast<int>(list.held.size()), scaled, list.held);
   if (!space) return space;
-  // The space passes over conditions on held unknowns alone: whether they are met depends on where those are.
+  // The space skips conditions on held unknowns alone: whether they are met depends on the positions of those.
   const Points x = space->feasible(displacement / size);
   const double rounding = 1e-9 * std::max(1.0, x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0);
   for (const LinearConstraint& c : scaled) {
@@ -146,7 +146,7 @@ Expected<void> pin_point(const Surface& rest, double u, double v, const std::opt
       append(to, name, std::move(row));
       continue;
     }
-    // Σ R (P − place) and not Σ R P − place: exactly zero where the point is there already, digits kept far from 0.
+    // Σ R (P − place), not Σ R P − place: exactly zero if the point is already there, and accurate far from 0.
     Point way = Point::Zero();
     std::erase_if(row, [](const auto& term) { return term.second == 0; });
     for (const auto& [unknown, c] : row) way += c * (*place - rest.control_points().row(unknown).transpose());
@@ -166,7 +166,7 @@ Expected<FrozenRegion> freeze_region(const Surface& rest, Interval u, Interval v
   const FrozenRegion region{bounds(rest.knots(0), *spans_u), bounds(rest.knots(1), *spans_v)};
   const std::string name =
       fmt::format("frozen [{}, {}] x [{}, {}]", region.u.lower, region.u.upper, region.v.lower, region.v.upper);
-  // Functions between spans that are not empty: those of empty spans inside live on a neighbour, or nowhere but there.
+  // Functions between non-empty spans: those of empty spans inside are non-zero on a neighbour, or only there.
   for (int i = spans_u->first - rest.knots(0).degree(); i <= spans_u->second; ++i) {
     for (int j = spans_v->first - rest.knots(1).degree(); j <= spans_v->second; ++j) {
       to.hold(i * rest.net()[1] + j, name);

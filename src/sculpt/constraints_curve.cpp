@@ -14,7 +14,7 @@ using detail::Terms;
 constexpr double least_tolerance = 1e-9;
 constexpr int most_chords = 4096;  // per span
 
-/// Where the segment from a to b crosses knots, as shares of its length, without the ends.
+/// Where the segment from a to b crosses knots, as fractions of its length, without the ends.
 void add_crossings(const KnotVector& knots, double a, double b, std::vector<double>& cuts) {
   for (const int span : knots.spans()) {
     const double t = (knots[span] - a) / (b - a);
@@ -22,7 +22,7 @@ void add_crossings(const KnotVector& knots, double a, double b, std::vector<doub
   }
 }
 
-/// The spans that hold the open piece around the middle parameter: both sides where it runs along a line that tears.
+/// The spans that contain the open piece around the middle parameter: both sides if it runs along a tear.
 std::vector<int> spans_of_piece(const KnotVector& knots, double a, double b, double middle) {
   if (a == b) return detail::spans_at(knots, a, 0);
   return {knots.find_span(middle)};
@@ -50,7 +50,7 @@ Expected<void> add_piece(const Surface& s, const std::array<double, 2>& from, co
     return w;
   };
   double largest = 0, smallest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k <= 2 * degree; ++k) {  // Chebyshev points 0, 2, 4 … carry conditions, those between show W
+  for (int k = 0; k <= 2 * degree; ++k) {  // Chebyshev points 0, 2, 4 … carry conditions, those between sample W
     Terms row;
     const auto w = at(0.5 - 0.5 * std::cos(std::numbers::pi * k / (2 * degree)), &row);
     if (!w) return std::unexpected(w.error());
@@ -98,7 +98,7 @@ Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polylin
       }
     }
   }
-  for (Eigen::Index k = 0; k < polyline.rows(); ++k) {  // a vertex on a line that tears lies on both sides of it
+  for (Eigen::Index k = 0; k < polyline.rows(); ++k) {  // a vertex on a tear lies on both sides of it
     const double u = polyline(k, 0), v = polyline(k, 1);
     const auto spans_u = detail::spans_at(rest.knots(0), u, 0), spans_v = detail::spans_at(rest.knots(1), v, 0);
     if (spans_u.size() * spans_v.size() == 1) continue;
@@ -120,7 +120,7 @@ Expected<Parameters<2>> parameter_polyline(const Surface& rest, const Curve& par
   if (auto valid = detail::check_tolerance(tolerance, "curve"); !valid) return std::unexpected(valid.error());
   const KnotVector& knots = parameter_curve.knots(0);
   for (int chords = 1; chords <= most_chords; chords *= 2) {
-    std::vector<double> parameters;  // ends of chords and, between them, their middles
+    std::vector<double> parameters;  // ends of chords and, between them, their midpoints
     for (const int span : knots.spans()) {
       for (int k = 0; k < 2 * chords; ++k)
         parameters.push_back(std::lerp(knots[span], knots[span + 1], k / (2.0 * chords)));

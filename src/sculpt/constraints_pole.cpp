@@ -6,7 +6,7 @@
 namespace knead {
 namespace {
 
-/// V_j = Σ_k a_jk V_{basis_k}: for every column of `ring` (3 × n) its coefficients over `rank` independent columns.
+/// V_j = Σ_k a_jk V_{basis_k}: the coefficients of every column of `ring` (3 × n) over `rank` independent columns.
 struct RingRelation {
   int rank = 0;
   std::vector<int> basis;

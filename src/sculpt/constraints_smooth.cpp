@@ -15,7 +15,7 @@ using detail::LocalBasis;
 using detail::NetAcross;
 using detail::Terms;
 
-constexpr double proportional = 1e-7;  // weights that are proportional but for the rounding of their decimals
+constexpr double proportional = 1e-7;  // weights that are proportional up to the rounding of their decimals
 
 /// A knot line of multiplicity p or p + 1: its two sides, and the rest shape at samples along it.
 struct Line {
@@ -93,7 +93,7 @@ double proportion(const std::vector<double>& a, const std::vector<double>& b, co
   return f;
 }
 
-/// σ and κ of the weights at the line, and whether they are fixed along it.
+/// σ and κ of the weights at the line, and whether they are constant along it.
 struct WeightRatios {
   double sigma = 1, kappa = 0;
   bool positions = true, derivatives = true;
@@ -139,7 +139,7 @@ void add(Terms& sum, const Terms& row, double factor) {
   for (const auto& [unknown, c] : row) sum.emplace_back(unknown, factor * c);
 }
 
-/// Unknowns that stand in it more than once are united.
+/// Merges repeated unknowns.
 Terms united(Terms terms) {
   std::ranges::sort(terms);
   Terms result;
@@ -153,7 +153,7 @@ Terms united(Terms terms) {
   return result;
 }
 
-/// Derivatives of D on one side of the line at the sample v: in no direction, across, along.
+/// D on one side of the line at the sample v, with its derivatives across and along.
 Expected<std::array<Terms, 3>> rows_at(const Line& line, double v, int span_across) {
   std::array<Terms, 3> result;
   const Surface& s = line.net.surface();

@@ -14,14 +14,14 @@ using detail::LocalBasis;
 using detail::NetAcross;
 using detail::Terms;
 
-constexpr double proportional = 1e-7;  // weights that are proportional but for the rounding of their decimals
+constexpr double proportional = 1e-7;  // weights that are proportional up to the rounding of their decimals
 
 struct Frame {
   Point normal;
   std::array<Point, 2> tangents;
 };
 
-/// Tangents along axes where the normal is one: fewer coordinates are then coupled.
+/// Tangents along axes if the normal is an axis: fewer coordinates are then coupled.
 Expected<Frame> frame_of(const MirrorPlane& plane) {
   if (!plane.point.allFinite() || !plane.normal.allFinite() || !(plane.normal.norm() > 0)) {
     return input_error("the plane has no position or no direction", "plane");
@@ -68,7 +68,7 @@ EdgeRows edge_rows(const NetAcross& net, bool at_end) {
   return rows;
 }
 
-/// The image of knot k is a + b − x_k; the nearest that stands in the list.
+/// The image of knot k is a + b − x_k; this is the distance to the nearest in the list.
 double distance_to_nearest(const std::vector<double>& sorted, double x) {
   const auto after = std::ranges::lower_bound(sorted, x);
   double distance = std::numeric_limits<double>::infinity();

@@ -6,15 +6,15 @@
 
 namespace knead {
 
-/// The control points that contacts act on, and the inverse of A between them. Forces of contacts live here, and so
-/// does what Newton's iteration has to know of a displacement: arrays have one row per control point of the
-/// neighbourhood, in a fixed order to which `extend` appends.
+/// The control points affected by contacts, and the inverse of A between them. Contact forces are confined to them, and
+/// so are the displacements that Newton's iteration needs: arrays have one row per control point of the neighbourhood,
+/// in a fixed order to which `extend` appends.
 class ContactNeighbourhood {
  public:
   explicit ContactNeighbourhood(const ConstrainedCholesky& inverse)
       : inverse_(inverse), inside_(static_cast<std::size_t>(inverse.space().size()), 0) {}
 
-  /// Takes in what is marked.
+  /// Adds the marked control points.
   void extend(const std::vector<char>& marks) {
     std::vector<int> points = part_.points;
     for (std::size_t i = 0; i < marks.size(); ++i) {
@@ -36,13 +36,13 @@ class ContactNeighbourhood {
     for (Eigen::Index k = 0; k < size(); ++k) all.row(part_.points[static_cast<std::size_t>(k)]) = here.row(k);
     return all;
   }
-  /// The same array with rows of zeros for what was taken in since.
+  /// The same array with zero rows for control points added since.
   [[nodiscard]] Points grown(const Points& here) const {
     Points result = Points::Zero(size(), 3);
     result.topRows(here.rows()) = here;
     return result;
   }
-  /// A⁻¹ of forces here, seen from here.
+  /// A⁻¹ of forces here, restricted to the neighbourhood.
   [[nodiscard]] Points inverse(const Points& forces) const { return inverse_.solve_within(part_, forces); }
   /// The same at all control points.
   [[nodiscard]] Points inverse_everywhere(const Points& forces) const { return inverse_.solve_from(part_, forces); }

@@ -11,17 +11,17 @@ namespace {
 
 constexpr int max_newton_iterations = 60;
 constexpr int max_cg_iterations = 400;
-constexpr int max_solves = 1500;  // of one minimisation: a step that needs more ends where it is, and says so
-// The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step. It is compared with what the step
-// weighs against each other, |F|, |K X₀| and the first imbalance in the same norm.
+constexpr int max_solves = 1500;  // per minimisation: a step that needs more stops there and says so
+// The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step. It is compared with the terms that
+// the step balances, |F|, |K X₀| and the first imbalance, in the same norm.
 constexpr double relative_tolerance = 1e-11;
-constexpr double followed_tolerance = 1e-8;  // of a tool that is followed along a path, in many small steps
-constexpr double rounded_tolerance = 1e-9;   // where the rounding of forces computed afresh does not allow more
+constexpr double followed_tolerance = 1e-8;  // for a tool followed along a path in many small steps
+constexpr double rounded_tolerance = 1e-9;   // where the rounding of recomputed forces does not allow more
 constexpr double cancellation = 1e-12;
 constexpr double sufficient_decrease = 1e-4;
 constexpr double rounding = 1e-14;
 constexpr int max_rounded_steps = 4;
-// Stages of stiffness on the way to a stiff tool.
+// Stages of increasing stiffness towards a stiff tool.
 constexpr double soft_stiffness = 1e4;
 constexpr double stiffening = 30;
 constexpr double far_from_balance = 1e-2;
@@ -30,10 +30,10 @@ constexpr int max_stage_iterations = 20;
 
 double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
-/// Contacts act on few control points, and the minimum is sought in what those see. Let r be the imbalance of forces
-/// b − AY + F at some Y₀, the anchor, and s = A⁻¹r: that takes the whole net, once. From there on all directions, and
-/// so all residuals, are combinations β r + E e, with forces e in the neighbourhood (E puts them there) whose images
-/// A⁻¹E e need only be known there as well. Only a new Y is again wanted everywhere.
+/// Contacts affect few control points, and the minimum is sought within their neighbourhood. Let r be the imbalance of
+/// forces b − AY + F at some Y₀, the anchor, and s = A⁻¹r: computed once on the whole net. From then on all directions,
+/// and so all residuals, are combinations β r + E e, with forces e in the neighbourhood (E embeds them) whose images
+/// A⁻¹E e are needed only there as well. Only a new Y is again needed everywhere.
 struct Anchor {
   Points y, r, s;
   double rs;         // rᵀ A⁻¹ r
@@ -46,7 +46,7 @@ struct Combination {
   double beta = 0;
   Points e;
 
-  /// (β r + E e)ᵀ A⁻¹ (β r + E e), given what A⁻¹ makes of it in the neighbourhood.
+  /// (β r + E e)ᵀ A⁻¹ (β r + E e), given its image under A⁻¹ in the neighbourhood.
   [[nodiscard]] double norm(const Anchor& anchor, const Points& image) const {
     return beta * (beta * anchor.rs + dot(anchor.s_here, e)) + dot(e, image);
   }
@@ -60,8 +60,8 @@ struct Combination {
 };
 
 /// (A + H) d = r by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
-/// returns A d. Where A + H turns out not to be positive, the answer is the sum of the steps so far, or A⁻¹r: a
-/// direction of descent in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). \param image of r.
+/// returns A d. If A + H turns out not to be positive, the result is the sum of the steps so far, or A⁻¹r: a descent
+/// direction in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). \param image of r.
 Combination newton_direction(const Potential& potential, const PotentialState& state, const Anchor& anchor,
                              const ContactNeighbourhood& near, Combination r, const Points& image, double tolerance,
                              int& solves) {
@@ -101,7 +101,7 @@ class Minimisation {
 
   ContactSummary summary;
 
-  /// To be called after the potential has changed.
+  /// Call after the potential has changed.
   void renew() { state_ = potential_.evaluate(problem_.start + y_); }
 
   /// The imbalance of forces, as a share of the norm of b.
@@ -110,8 +110,8 @@ class Minimisation {
     return std::sqrt(std::max(0.0, here.rs)) / norm_of_b(here);
   }
 
-  /// Until the decrement is `tolerance` of what the step weighs against each other. With `certain` what was found is
-  /// measured again from an anchor of its own, with all forces computed afresh.
+  /// Iterates until the decrement is `tolerance` of the terms that the step balances. With `certain` the result is
+  /// measured again from its own anchor, with all forces recomputed.
   void iterate(double tolerance, int max_iterations, bool certain) {
     summary.converged = false;
     Progress progress{tolerance, max_iterations};
@@ -122,7 +122,7 @@ class Minimisation {
       const double decrement = std::sqrt(std::max(0.0, from.rs));
       if (finished(decrement, progress)) return;
       if (decrement > 0.5 * before && decrement <= rounded_tolerance * progress.largest) {
-        summary.converged = true;  // what is left is the rounding of AY: another round would find the same
+        summary.converged = true;  // the remainder is the rounding of AY: another round would find the same
         return;
       }
       before = decrement;
@@ -139,27 +139,27 @@ class Minimisation {
   PotentialState state_;
   double norm_of_b_ = -1;
 
-  /// Why a round ended: the decrement is small enough; it is too small against β r to be known from this anchor; or
-  /// there is nothing more to be done.
+  /// Why a round ended: the decrement is small enough; it is too small relative to β r to be resolved from this anchor;
+  /// or no further progress is possible.
   enum class Round { small, blurred, over };
 
-  /// How far one call of `iterate` is.
+  /// The progress of one call of `iterate`.
   struct Progress {
     double tolerance;
     int max_iterations;
-    double largest = -1;  // of what the step weighs against each other; -1: not known yet
+    double largest = -1;  // of the terms that the step balances; -1: not known yet
     int iteration = 0;
-    int rounded_steps = 0;  // taken where the gain is below rounding
+    int rounded_steps = 0;  // steps taken where the gain is below rounding
   };
 
-  /// Where the iteration stands, seen from an anchor.
+  /// The present iterate relative to an anchor.
   struct View {
     Anchor& from;
     ContactNeighbourhood& near;
     Combination left;  // b − AY
     double quadratic;  // ½ YᵀAY − Yᵀb
 
-    /// The same of another Y, Y₀ + u: there b − AY is known, so that no product with A is needed.
+    /// The same at another Y = Y₀ + u, where b − AY is known, so that no product with A is needed.
     [[nodiscard]] double quadratic_at(const Points& y, const Combination& left_there) const {
       const Points u = y - from.y;
       return from.quadratic -
@@ -228,7 +228,7 @@ class Minimisation {
     return std::sqrt(std::max(0.0, dot(force, near.inverse(force))));
   }
 
-  /// Whether to stop here, and how that counts.
+  /// Whether to stop here, and with which outcome.
   bool finished(double decrement, Progress& progress) {
     progress.largest = std::max(progress.largest, decrement);
     if (decrement > progress.tolerance * progress.largest && std::isfinite(decrement)) return false;
@@ -236,7 +236,7 @@ class Minimisation {
     return true;
   }
 
-  /// r = b − AY + F where the iteration stands.
+  /// r = b − AY + F at the present iterate.
   void update(const View& view, Residual& at) {
     at.r = view.left;
     at.r.e += view.near.gather(state_.force);
@@ -248,9 +248,9 @@ class Minimisation {
   Direction direction(const View& view, const Residual& at, const Progress& progress) {
     Direction to{at.r, {}, 0};
     if (!state_.contacts.empty()) {
-      // Loose while far away, tight near the end, where a step must not undo what the one before it gained. Never
-      // below what counts as converged: in what is left then there is rounding only, and directions made of it leave
-      // the constraints.
+      // Loose while far away, tight near the end, where a step must not undo the gain of the previous one. Never below
+      // the convergence tolerance: the remainder is then only rounding, and directions made from it violate the
+      // constraints.
       const double decrement = at.decrement(), tolerance = progress.tolerance, largest = progress.largest;
       const double cg_tolerance =
           std::clamp(0.1 * decrement / largest, std::clamp(0.1 * tolerance * largest / decrement, 1e-8, 1e-2), 1e-2);
@@ -271,7 +271,7 @@ class Minimisation {
            rounding * (problem_.energy + std::abs(view.quadratic) + std::abs(state_.potential) + view.from.rs);
   }
 
-  /// Goes along the direction: halved until Φ decreases enough; where values decide nothing, in full.
+  /// Steps along the direction, halved until Φ decreases enough; a full step if values are not decisive.
   void advance(View& view, const Direction& to, bool rounded) {
     const double here = view.quadratic + state_.potential;
     for (double t = 1;; t /= 2) {
@@ -307,7 +307,7 @@ class Minimisation {
       ++summary.iterations;
       const Direction to = direction(view, at, progress);
       const bool rounded = is_rounded(view, to);
-      // A few full steps take what the gradient still sees.
+      // A few full steps gain what the gradient can still resolve.
       if (rounded && ++progress.rounded_steps > max_rounded_steps) {
         summary.converged = true;
         return Round::over;
@@ -316,7 +316,7 @@ class Minimisation {
       ++progress.iteration;
       update(view, at);
       if (finished(at.decrement(), progress)) return std::isfinite(at.decrement()) ? Round::small : Round::over;
-      // β r and E e cancel, and so do the squares that the decrement is the root of.
+      // β r and E e cancel, and so do the squares under the root of the decrement.
       if (at.rs < cancellation * at.r.beta * at.r.beta * from.rs) return Round::blurred;
     }
   }
@@ -326,8 +326,8 @@ class Minimisation {
 
 ContactSummary minimise_step(const StepProblem& problem, Potential& potential, Points& y) {
   Minimisation minimisation(problem, potential, y);
-  // A very stiff tool is met by way of softer ones: from afar its springs would throw the surface about. A step that
-  // starts near its balance, as most do, has nothing to gain from that.
+  // A very stiff tool is approached through softer ones: from afar its springs would throw the surface about. A step
+  // that starts near equilibrium, as most do, gains nothing from that.
   const double stiffest = potential.stiffest();
   if (!problem.near && stiffest > soft_stiffness && minimisation.imbalance() > far_from_balance) {
     for (double cap = soft_stiffness; cap < stiffest; cap *= stiffening) {

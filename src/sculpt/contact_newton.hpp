@@ -18,9 +18,9 @@ struct StepProblem {
   const SparseMatrix& a;
   const ConstrainedCholesky& inverse;  // of A on the free unknowns
   Points b;
-  Points start;       // control points x₀ that Ψ is evaluated at for Y = 0
-  double energy;      // ½ X₀ᵀ K X₀: the size of the numbers that Φ is a difference of
-  bool near = false;  // Y begins close to the minimum: stiff tools are met as they are
+  Points start;       // control points x₀ at which Ψ is evaluated for Y = 0
+  double energy;      // ½ X₀ᵀ K X₀: the magnitude of the terms whose difference is Φ
+  bool near = false;  // Y starts close to the minimum: stiff tools are used at full stiffness
 };
 
 /// Minimises, starting from `y` (feasible), which becomes the minimum.

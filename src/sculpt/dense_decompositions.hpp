@@ -30,8 +30,8 @@ class PivotedQr {
   [[nodiscard]] const Eigen::VectorXi& order() const;
   /// |R_kk|.
   [[nodiscard]] double pivot(Eigen::Index k) const;
-  /// What the first `rank` pivots leave of the other columns, in the order of the pivots. \param rank below the number
-  /// of rows and of columns
+  /// The remainders of the other columns after the first `rank` pivots, in pivot order. \param rank less than the
+  /// numbers of rows and columns
   [[nodiscard]] Eigen::MatrixXd remainder(Eigen::Index rank) const;
 
  private:

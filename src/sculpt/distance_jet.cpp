@@ -8,7 +8,7 @@ namespace {
 
 double length(const Range& r) { return r.upper - r.lower; }
 
-/// The patch slightly further along side d, away from its end.
+/// The patch slightly further along direction d, away from its end.
 PatchJet nudged(const Patch& patch, std::array<double, 2> at, std::size_t d) {
   const Range& side = patch.domain.side[d];
   at[d] += (at[d] - side.lower < side.upper - at[d] ? 1e-4 : -1e-4) * length(side);
@@ -30,7 +30,7 @@ Point foot_normal(const Foot& foot, const Patch& patch) {
 
 namespace {
 
-/// The surface near a foot: its derivatives, taken slightly beside a pole, and along which parameters it goes on.
+/// The surface near a foot: its derivatives, taken slightly off a pole, and the parameters along which it continues.
 struct Vicinity {
   PatchJet jet;
   std::array<bool, 2> free;
@@ -46,14 +46,14 @@ Vicinity vicinity(const Foot& foot, const Patch& patch, double size) {
       v.free[d] = false;  // an apex, or an end where the curvature is infinite
       continue;
     }
-    // A pole: its curvatures are those slightly beside it, up to the square of that distance.
+    // A pole: its curvatures are those slightly off it, up to the square of that distance.
     v.jet = nudged(patch, foot.at, 1 - d);
     break;
   }
   return v;
 }
 
-/// The Hessian where the surface goes on along both parameters, n its normal on the side of r.normal:
+/// The Hessian where the surface continues along both parameters, n its normal on the side of r.normal:
 /// −T G⁻¹ L (G − φ L)⁻¹ Tᵀ, G and L the fundamental forms.
 Eigen::Matrix3d hessian_of_surface(const DistanceJet& r, const PatchJet& j, const Point& n,
                                    const Eigen::Matrix3d& across) {
@@ -70,7 +70,7 @@ Eigen::Matrix3d hessian_of_surface(const DistanceJet& r, const PatchJet& j, cons
   return -(across * t) * middle * (across * t).transpose();
 }
 
-/// The same along an edge with derivatives e and ee, about which the distance turns.
+/// The same along an edge with derivatives e and ee, around which the distance is rotationally symmetric.
 Eigen::Matrix3d hessian_of_edge(const DistanceJet& r, const Point& e, const Point& ee, const Eigen::Matrix3d& across) {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   const double bend = r.normal.dot(ee), g = e.squaredNorm(), m = g - r.distance * bend;

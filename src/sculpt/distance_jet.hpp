@@ -10,7 +10,7 @@ struct DistanceJet {
   Point normal = Point::Zero();
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
-/// The unit normal S_u × S_v at a foot (at a pole that of a point very near it); zero where there is none.
+/// The unit normal S_u × S_v at a foot (at a pole, of a point very near it); zero where undefined.
 [[nodiscard]] Point foot_normal(const Foot& foot, const Patch& patch);
 [[nodiscard]] DistanceJet distance_jet(const Point& x, const Foot& foot, const Patch& patch, double sign, double size);
 

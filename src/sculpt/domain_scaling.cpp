@@ -31,7 +31,7 @@ Expected<DomainScaling<D>> normalised_scaling(const Spline<D>& rest) {
   }
   double total = 0;
   std::array<double, D> lengths{};
-  // One span of the first direction after the other, so that a large net needs no large memory.
+  // One span of the first direction at a time, so that a large net does not need much memory.
   const int block = rest.knots(0).degree() + 4;
   for (int begin = 0; begin < q[0].basis.size(); begin += block) {
     const BasisTable rows = q[0].basis.slice(begin, begin + block);

@@ -16,21 +16,21 @@ namespace knead {
 /// M = ⊗ G00, both applied direction by direction, never assembled.
 /// Rational splines: R_j = w_j N_j / W with W = Σ w N, so that f_h(g) W(g) = Σ_j (w_j c_j) N_j(g): interpolate f times
 /// the denominator in the polynomial basis, divide the coefficients by the weights, and multiply by the rational mass
-/// matrix (Gauss points, see `StiffnessOptions`). That keeps constants: a constant f has c_j = f, and F is its load to
-/// the accuracy of M. (Interpolating f/W and using polynomial Gramians, F_i = w_i Σ_j G_ij c_j, would be consistent too
-/// but not exact for constants.)
+/// matrix (Gauss points, see `StiffnessOptions`). This reproduces constants: a constant f has c_j = f, and F is its
+/// load to the accuracy of M. (Interpolating f/W and using polynomial Gramians, F_i = w_i Σ_j G_ij c_j, would be
+/// consistent too but not exact for constants.)
 ///
 /// Accuracy against ∫ Φᵀ f: for f ∘ S with p + 1 continuous derivatives on every span the interpolation error, hence
 /// each F_i / ∫ R_i, is O(h^{p+1}). A collision force has a kink at the edge of the contact: O(h) there, and forces
-/// reach beyond the edge with decaying, alternating signs, as interpolation does (docs/materials-and-loads.md has
-/// figures). F is no gradient of a potential: its derivative is not symmetric. Use it as a correction that lags behind.
+/// extend beyond the edge with decaying, alternating signs, as interpolation does (docs/materials-and-loads.md has
+/// figures). F is not the gradient of a potential: its derivative is not symmetric. Use it as a lagged correction.
 ///
 /// Order of points: as control points, last direction fastest; the points are those of `GrevilleInterpolation`, with
 /// both one-sided limits at knots of multiplicity p + 1. Immutable, const is thread-safe.
 template <int D>
 class GrevilleForce {
  public:
-  /// Errors (numerical): abscissae that coincide in rounding; a denominator that is not positive; (input): a weight of
+  /// Errors (numerical): abscissae that coincide by rounding; a denominator that is not positive; (input): a weight of
   /// 0, whose coefficient no force determines.
   [[nodiscard]] static Expected<GrevilleForce> create(const Spline<D>& shape, const DomainScaling<D>& scaling,
                                                       const StiffnessOptions& options = {});

@@ -5,7 +5,7 @@
 
 namespace knead {
 
-/// The largest |S| of a displacement field. Of volumes the samples alone, 2p + 3 to a span.
+/// The largest |S| of a displacement field. For volumes at samples only, 2p + 3 per span.
 template <int D>
 double largest_of(const Spline<D>& field) {
   if constexpr (D == 2) return largest_norm(field).value;

@@ -20,13 +20,14 @@ double volume(const DomainScaling<D>& scaling) {
   return product;
 }
 
-/// Σ over a tensor grid of points: F_i = Σ_q weight_q R_i(q) f_q, f one row per point, last direction fastest. Rational
-/// bases by the values divided by the denominator; the sum over each direction is a transposed `contract_along`.
+/// Σ over a tensor grid of points: F_i = Σ_q weight_q R_i(q) f_q, f one row per point, last direction fastest. For
+/// rational bases the values are divided by the denominator; the sum over each direction is a transposed
+/// `contract_along`.
 template <int D>
 Expected<Points> integrate(const Spline<D>& shape, const std::array<BasisTable, D>& tables,
                            const std::array<std::vector<double>, D>& weights, Points f) {
   if (shape.rational()) {
-    // The denominator is the rational basis' numerator summed: the spline of the weights, as a coordinate.
+    // The denominator is the sum of the rational basis's numerators: the spline of the weights, as a coordinate.
     Points w = Points::Zero(shape.size(), 3);
     for (int i = 0; i < shape.size(); ++i) w(i, 0) = shape.weights()[static_cast<std::size_t>(i)];
     const auto denominator_spline = Spline<D>::create(shape.knots(), std::move(w));

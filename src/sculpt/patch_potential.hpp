@@ -17,13 +17,13 @@ class PatchPotential final : public Potential {
     for (const ModelTool& tool : tools_) given_.push_back(tool.stiffness());
   }
 
-  /// Friction from the contacts at x on; it is fully developed after moving by `slip`.
+  /// Friction from the contacts at x; it is fully developed after moving by `slip`.
   void grip(const Points& x, double slip) {
     if (std::ranges::none_of(tools_, [](const ModelTool& t) { return t.tool().friction > 0 && t.tool().collides(); }))
       return;
     for (std::size_t k = 0; k < loads_.size(); ++k) friction_.push_back(loads_[k].anchors(x, rows_[k], tools_, slip));
   }
-  /// No point may be further than `distance` from where `original` has it.
+  /// No point may be further than `distance` from its position in `original`.
   void limit(const Points& original, double distance, double stiffness) {
     limits_.clear();
     for (std::size_t k = 0; k < loads_.size(); ++k) {
@@ -39,7 +39,7 @@ class PatchPotential final : public Potential {
   /// Collision with tool k starts this much further out.
   void set_offset(std::size_t k, double offset) { tools_[k].set_offset(offset); }
   [[nodiscard]] double offset(std::size_t k) const { return tools_[k].offset(); }
-  /// How deep anything reaches into tool k itself, between Gauss points too.
+  /// The deepest penetration of tool k itself, also between Gauss points.
   [[nodiscard]] double deepest_entry(std::size_t k, const Points& x) const {
     double deepest = 0;
     for (std::size_t l = 0; l < loads_.size(); ++l)

@@ -15,18 +15,18 @@ struct ContactPoint {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
 
-/// A potential Ψ, its force −∇Ψ and its linearisation at one place.
+/// A potential Ψ, its force −∇Ψ and its linearisation at one position.
 struct PotentialState {
   double potential = 0;
   Points force;  ///< N × 3
   std::vector<ContactPoint> contacts;
-  double entry = 0;       ///< deepest entry into a collision tool, in sizes of that tool
-  int entered = -1;       ///< that tool, as an index
+  double entry = 0;       ///< deepest penetration of a collision tool, in sizes of that tool
+  int entered = -1;       ///< the index of that tool
   double coarseness = 0;  ///< longest span in contact with a tool, in sizes of that tool
-  bool limited = false;   ///< some point is held back by a limit
+  bool limited = false;   ///< some point is restrained by a limit
 };
 
-/// A potential of the positions of all control points: what tools, friction and limits are to the solver.
+/// A potential of the positions of all control points: the solver's view of tools, friction and limits.
 class Potential {
  public:
   virtual ~Potential() = default;

@@ -10,7 +10,7 @@
 namespace knead {
 namespace {
 
-/// A tenth of an edge: less in common than that is a corner, not a seam.
+/// A tenth of an edge: a shorter common part is a corner, not a seam.
 constexpr double least_common_part = 0.1;
 
 struct Edge {
@@ -20,14 +20,14 @@ struct Edge {
   Points points;
   Point lower, upper;
   double length = 0, longest = 0;  // of the polyline, and of its longest piece
-  /// For piece k, from sample k to the next, a length that the curve strays from it by less than: an arc with second
-  /// differences d of its samples strays by d/8.
+  /// For piece k, from sample k to the next, a bound on the deviation of the curve from it: an arc with second
+  /// differences d of its samples deviates by d/8.
   std::vector<double> stray;
   struct Block {
     Eigen::Index begin, end;  // pieces
     Point lower, upper;
   };
-  std::vector<Block> blocks;  // of neighbouring pieces, to pass over many at once
+  std::vector<Block> blocks;  // of neighbouring pieces, to skip many at once
 };
 
 constexpr Eigen::Index block_size = 16;
@@ -52,7 +52,7 @@ void complete(Edge& edge) {
   }
 }
 
-/// How an edge lies beside a curve: the nearest points of its samples.
+/// The position of an edge relative to a curve: the nearest points of its samples.
 struct Beside {
   bool all = true;
   double gap = 0, common = 0;  // over the samples within the tolerance; length of the pieces between such
@@ -129,7 +129,7 @@ double mapped_gap(const Edge& edge, const Edge& other, bool reversed) {
   return there ? (there->points() - edge.points).rowwise().norm().maxCoeff() : INFINITY;
 }
 
-/// The isocurves between two opposite edges stay within the tolerance of the edge.
+/// Whether the isocurves between two opposite edges stay within the tolerance of the edge.
 bool flat_between(const Edge& edge, double tolerance) {
   const int across = edge_across(edge.id.edge);
   const Interval domain = edge.surface->knots(across).domain(), along = edge.surface->knots(1 - across).domain();
@@ -215,7 +215,7 @@ Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double 
     }
   }
 
-  // Sweep along x; between samples a curve strays from them by less than a piece of its polyline.
+  // Sweep along x; between samples a curve deviates by less than a piece of its polyline.
   std::vector<const Edge*> order;
   for (const Edge& edge : edges) order.push_back(&edge);
   const auto begin = [](const Edge* edge) { return edge->lower.x() - edge->longest; };

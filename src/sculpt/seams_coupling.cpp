@@ -17,7 +17,7 @@ using seams::RowMatrix;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// One seam on its way into constraints.
+/// One seam being converted to constraints.
 struct Coupling {
   const Seam& seam;
   const Surface &a, &b;
@@ -89,7 +89,7 @@ bool Coupling::periodic() {
   return true;
 }
 
-/// All edge points of both sides move alike: D is constant where every E_j is its weight times the same displacement.
+/// All edge points of both sides move by the same displacement: D is constant if every E_j is its weight times it.
 void Coupling::rigid(const std::string& why) {
   if (!options.rigid) {
     reason("not coupled: " + why);
@@ -149,7 +149,7 @@ void Coupling::whole(const Expected<seams::RestMeeting>& rest) {
 
 void Coupling::tangents(const seams::EdgeForms& forms_a, const seams::EdgeForms& forms_b,
                         const seams::CommonSpace& space, const seams::RestMeeting& rest) {
-  // Folded onto each other, as at a thin trailing edge, is as good as smooth: the same condition keeps both.
+  // Folded onto each other, as at a thin trailing edge, counts as smooth: the same condition preserves both.
   if ((rest.ratio >= 0 ? rest.angle : rest.fold) > options.angle) {
     return reason(fmt::format("C0: a sharp edge, {:.3g} degrees at rest", rest.angle * 180 / std::numbers::pi));
   }

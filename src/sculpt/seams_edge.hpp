@@ -7,7 +7,7 @@
 
 namespace knead::seams {
 
-/// The end of the domain that an edge lies at.
+/// The end of the domain at which an edge lies.
 [[nodiscard]] double edge_end(const Surface& surface, SurfaceEdge edge);
 
 /// `surface` and its derivatives at t = (x − lower)/length in [0, 1] along an edge.

@@ -10,7 +10,7 @@ namespace {
 
 using seams::InnerKnot;
 
-/// What one direction of a patch is to become.
+/// The target of one direction of a patch.
 struct Target {
   int degree = 0;
   std::vector<InnerKnot> inner;
@@ -23,7 +23,7 @@ std::vector<InnerKnot> mirrored(std::vector<InnerKnot> inner, bool mirror) {
   return inner;
 }
 
-/// Raises `target` to hold what `other` holds; true where that changed it.
+/// Extends `target` to contain `other`; true if that changed it.
 bool take_over(Target& target, const Target& other, bool mirror, double agreement) {
   bool changed = false;
   if (other.degree > target.degree) {
@@ -68,7 +68,7 @@ std::vector<SeamRefinement> seam_refinements(std::span<const Surface* const> pat
     assert(e.patch >= 0 && static_cast<std::size_t>(e.patch) < patches.size());
     return targets[static_cast<std::size_t>(e.patch)][static_cast<std::size_t>(edge_along(e.edge))];
   };
-  // Each pass carries knots one seam further. The maps are t and 1 − t only, so no more than the mirrored union
+  // Each pass carries knots one seam further. The only maps are t and 1 − t, so at most the mirrored union
   // appears.
   for (bool changed = true; changed;) {
     changed = false;
@@ -86,7 +86,7 @@ std::vector<SeamRefinement> seam_refinements(std::span<const Surface* const> pat
       const Interval domain = knots.domain();
       const Target& wanted = targets[patch][static_cast<std::size_t>(d)];
       SeamRefinement refinement{static_cast<int>(patch), d, wanted.degree - knots.degree(), {}};
-      std::vector<double> own;  // values behind the inner knots, bit for bit
+      std::vector<double> own;  // values of the inner knots, bit for bit
       for (double x : knots.knots()) {
         if (x > domain.lower && x < domain.upper && (own.empty() || own.back() != x)) own.push_back(x);
       }

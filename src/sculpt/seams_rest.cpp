@@ -53,7 +53,7 @@ void agree_ratios(std::span<const Surface* const> patches, std::span<const Seam>
   const auto length = [&](const PatchEdge& e) {
     return patches[static_cast<std::size_t>(e.patch)]->knots(edge_across(e.edge)).domain().length();
   };
-  std::vector<double> values = {0};  // of |log ρ| per normalised parameter: the most exact seams state them
+  std::vector<double> values = {0};  // of |log ρ| per normalised parameter, set by the most exact seams
   for (std::size_t k : order) {
     RestMeeting& rest = *rests[k];
     // d/dt = length d/dx: S_a' length_a = −(ρ length_a/length_b) S_b' length_b.

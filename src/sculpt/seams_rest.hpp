@@ -8,7 +8,7 @@ namespace knead::seams {
 struct RestMeeting {
   double angle = 0;                ///< largest angle between the tangent planes
   double fold = 0;                 ///< largest angle between them and a fold: π minus the smallest angle
-  double ratio = 0;                ///< ρ of the least squares of S_a' + ρ S_b'; 0 where S_b' vanishes
+  double ratio = 0;                ///< ρ by least squares of S_a' + ρ S_b'; 0 if S_b' vanishes
   double deviation = 0;            ///< largest |S_a' + ρ S_b'| / |S_a'|
   double lowest = 0, highest = 0;  ///< of |S_a'|/|S_b'|
 };
@@ -16,11 +16,11 @@ struct RestMeeting {
 /// Samples at which a side's derivative is below 1e-6 of its largest (poles) are left out.
 [[nodiscard]] Expected<RestMeeting> rest_meeting(const Surface& a, const Surface& b, const Seam& seam);
 
-/// Makes ratios equal that differ by rounding in the file. Per normalised parameter, ρ and 1/ρ alike, each takes the
-/// nearest value stated before it, by 1 or by a seam that deviates less, within 1e-7 or thrice its own deviation.
-/// Around a corner of four patches opposite seams have the same ratio; if it differed in the last digits, both
-/// conditions together would hold the tangents of the corner still. `deviation` grows by the change. Null entries are
-/// passed over.
+/// Equalises ratios that differ only by rounding in the file. Per normalised parameter, treating ρ and 1/ρ alike, each
+/// takes the nearest earlier value, 1 or that of a seam with less deviation, within 1e-7 or three times its own
+/// deviation. Around a corner of four patches opposite seams have the same ratio; if it differed in the last digits,
+/// both conditions together would fix the tangents at the corner. `deviation` grows by the change. Null entries are
+/// skipped.
 void agree_ratios(std::span<const Surface* const> patches, std::span<const Seam> seams,
                   std::span<RestMeeting* const> rests);
 

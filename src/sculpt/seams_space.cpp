@@ -28,7 +28,7 @@ void add_blossom(const KnotVector& x, int s, std::span<const double> arguments, 
   const int p = x.degree();
   std::vector<double> g(at(p + 1), 0.0);  // g[j − (s − p)]
   g[at(p)] = 1;
-  for (int r = p; r >= 1; --r) {  // the narrowest quotients take the first argument: all terms are non-negative
+  for (int r = p; r >= 1; --r) {  // the first argument goes to the narrowest quotients: all terms are non-negative
     const double t = arguments[at(p - r)];
     std::vector<double> next(at(p + 1), 0.0);
     for (int j = s - p + r; j <= s; ++j) {
@@ -43,7 +43,7 @@ void add_blossom(const KnotVector& x, int s, std::span<const double> arguments, 
 }
 
 /// Coefficients on `to` from those on `from`: same domain [0, 1], `to` clamped with all inner knots of `from`, its
-/// degree the same or one higher (then a mean over the arguments left out, Prautzsch 1984).
+/// degree the same or one higher (then a mean over the omitted argument, Prautzsch 1984).
 RowMatrix coarse_to_fine(const KnotVector& from, const KnotVector& to) {
   const int p = from.degree(), q = to.degree();
   assert(q == p || q == p + 1);
@@ -85,8 +85,8 @@ std::optional<RowMatrix> onto(int degree, const std::vector<double>& knots, int 
   return RowMatrix(coarse_to_fine(*from, *to) * result);
 }
 
-/// Of the conditions R_a E_a = R_b E_b as many as are independent: columns of both less the dimension of what the
-/// spaces have in common, which is known. Elimination could not tell the others from rounding after some tens of them.
+/// The independent ones of the conditions R_a E_a = R_b E_b: their number, the columns of both minus the dimension of
+/// the intersection, is known. After a few dozen, elimination could not tell the others from rounding.
 std::vector<Eigen::Index> independent_rows(const RowMatrix& from_a, const RowMatrix& from_b, Eigen::Index common) {
   Eigen::MatrixXd both(from_a.cols() + from_b.cols(), from_a.rows());
   both << Eigen::MatrixXd(from_a.transpose()), -Eigen::MatrixXd(from_b.transpose());
@@ -104,7 +104,7 @@ std::vector<double> normalised_knots(const KnotVector& knots, bool reversed) {
   std::vector<double> t;
   t.reserve(knots.knots().size());
   for (double x : knots.knots()) {
-    // Each end by its own distance, so that mirrored knots have mirrored values.
+    // Measured from the nearer end, so that mirrored knots have mirrored values.
     const double from_start = (x - domain.lower) / domain.length(), from_end = (domain.upper - x) / domain.length();
     t.push_back(reversed ? (from_start < from_end ? 1 - from_start : from_end)
                          : (from_start < from_end ? from_start : 1 - from_end));

@@ -10,7 +10,7 @@ namespace knead::seams {
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// A knot strictly inside the domain, at t in (0, 1), and how often it stands.
+/// A knot strictly inside the domain, at t in (0, 1), and its multiplicity.
 struct InnerKnot {
   double t = 0;
   int multiplicity = 0;
@@ -25,20 +25,20 @@ struct InnerKnot {
                                                                               std::span<const InnerKnot> b,
                                                                               double agreement);
 
-/// Two univariate spline spaces on one finer one: the highest degree, all knots.
+/// Two univariate spline spaces embedded in a finer one: the higher degree, all knots.
 struct CommonSpace {
   RowMatrix from_a, from_b;  ///< coefficients on the common space from those of a, of b (b in its own order)
-  /// Rows k of from_a E_a = from_b E_b that imply all others: all of them where the degrees agree.
+  /// Rows k of from_a E_a = from_b E_b that imply all others: all of them if the degrees agree.
   std::vector<Eigen::Index> independent;
-  bool same = false;    ///< a, b and the common space are one
+  bool same = false;    ///< a, b and the common space are identical
   double mismatch = 0;  ///< largest distance of knots that count as the same
 };
 
-/// None where the knots cannot be told apart once normalised (spans of less than an ulp of the domain).
+/// None if normalised knots cannot be distinguished (spans of less than an ulp of the domain).
 [[nodiscard]] std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b, bool reversed,
                                                       double agreement);
 
-/// What an edge is made of: numerator coefficients along the edge as linear forms of the patch's control points.
+/// The linear forms of an edge: numerator coefficients along it in terms of the patch's control points.
 struct EdgeForms {
   RowMatrix value, derivative;                ///< E_j = Σ_i N_i(end) w_ij X_ij; the same with the inward N_i'
   Eigen::VectorXd weight, weight_derivative;  ///< row sums: the same of 1

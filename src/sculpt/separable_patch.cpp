@@ -32,7 +32,7 @@ MonotoneCurve MonotoneCurve::arc(const Vector2& centre, const Vector2& size, dou
   return c;
 }
 
-/// The monotone factors that all derivatives are made of; a power with exponent 0 is 1, at σ = 0 too.
+/// The monotone factors of all derivatives; a power with exponent 0 is 1, also at σ = 0.
 struct MonotoneCurve::Factors {
   double x, y;    ///< X, Y
   double w1, w2;  ///< w^(−1/p−1), w^(−1/p−2), w = 1 + s^p; they fall

@@ -7,8 +7,8 @@ namespace knead::detail {
 /// A plane curve over σ in [0, 1] whose coordinates are monotone: a segment, origin + size σ, or half a quarter of a
 /// superellipse, origin + (size.x X, size.y Y) with X^p + Y^p = 1, p = 2/e:
 ///   s = σ^m, X = (1 + s^p)^(−1/p), Y = s X,  or X and Y exchanged (the other half).
-/// s = Y/X runs evenly where a trigonometric parameter crowds; m makes second derivatives bounded where 1 < p < 2 or
-/// p < 1 (at σ = 0 the curve then has infinite curvature or a cusp, and its first derivative vanishes).
+/// s = Y/X is evenly distributed where a trigonometric parameter crowds; m makes second derivatives bounded for 1 < p <
+/// 2 or p < 1 (at σ = 0 the curve then has infinite curvature or a cusp, and its first derivative vanishes).
 class MonotoneCurve {
  public:
   using Vector2 = Eigen::Vector2d;
@@ -17,8 +17,8 @@ class MonotoneCurve {
 
   /// The curve and its first two derivatives at σ.
   [[nodiscard]] std::array<Vector2, 3> at(double sigma) const;
-  /// The same six numbers' ranges over [lower, upper], ranges[derivative][coordinate], and as a fourth row those of the
-  /// first derivative divided by σ^k, k the smaller of the exponents with which its coordinates vanish at σ = 0.
+  /// The ranges of the same six numbers over [lower, upper], ranges[derivative][coordinate], and in a fourth row those
+  /// of the first derivative divided by σ^k, k the smaller exponent with which its coordinates vanish at σ = 0.
   [[nodiscard]] std::array<std::array<Range, 2>, 4> over(const Range& sigma) const;
 
  private:
@@ -32,7 +32,7 @@ class MonotoneCurve {
 };
 
 /// S(u, v) = offset + scale ∘ (f g, f k, h) with (f, h)(u) and (g, k)(v) monotone curves: every surface of revolution
-/// and every superquadric, one octant at a time. `axes` says which coordinate each of the three becomes.
+/// and every superquadric, one octant at a time. `axes` gives the coordinate that each of the three becomes.
 class SeparablePatch final : public Patch {
  public:
   SeparablePatch(const ParameterRectangle& rectangle, const MonotoneCurve& meridian, const MonotoneCurve& parallel,

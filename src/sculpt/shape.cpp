@@ -12,7 +12,7 @@ namespace {
 
 using detail::Kernel;
 
-/// The first thing wrong with a shape's numbers, as an error that names the field.
+/// The first invalid number of a shape, as an error that names the field.
 class Check {
  public:
   Check& positive(double x, const char* field) { return bound(std::isfinite(x) && x > 0, x, field, "a number > 0"); }
@@ -41,7 +41,7 @@ class Check {
 
 Point vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
-/// Shapes that check and build themselves.
+/// Shapes that validate and build themselves.
 template <class S>
 concept BuildsItself = requires(const S& s, const Point& scale) {
   detail::shape_kernel(s, scale);
@@ -129,7 +129,7 @@ struct Build {
 
   Expected<Kernel> operator()(const BuildsItself auto& s) const { return detail::shape_kernel(s, scale); }
 
-  /// Solids of revolution: straight meridians keep their form when the axis alone is scaled otherwise.
+  /// Solids of revolution: straight meridians keep their form when only the axis is scaled differently.
   template <class Solid>
   Expected<Kernel> operator()(const Solid& s) const {
     constexpr bool straight = std::is_same_v<Solid, CylinderShape> || std::is_same_v<Solid, ConeShape>;

@@ -16,7 +16,7 @@ class Sphere final : public ShapeKernel {
   Nearest nearest(const Point& x) const override {
     Nearest r;
     double norm = x.norm();
-    if (!(norm > 1e-150 && norm < 1e150)) norm = x.stableNorm();  // squares that under- or overflow
+    if (!(norm > 1e-150 && norm < 1e150)) norm = x.stableNorm();  // the squares under- or overflow
     r.distance = norm - radius_;
     if (norm == 0) {
       r.point = Point(0, 0, radius_);
@@ -63,7 +63,7 @@ class Box final : public ShapeKernel {
     const double reach = beyond.stableNorm();
     if (reach > 0) {
       Point n = beyond / reach;
-      // A way along one axis is that axis exactly, and its distance is a difference.
+      // A direction along one axis is exactly that axis, and the distance is a difference.
       const int axes = static_cast<int>((beyond.array() > 0).count());
       int axis = 0;
       beyond.maxCoeff(&axis);
@@ -96,7 +96,8 @@ class Box final : public ShapeKernel {
 
 /// The nearest point solves y_i = a_i² x_i / (τ + a_i² − a_0²), a_0 the smallest semi-axis, with τ the root of the
 /// convex decreasing g(τ) = Σ (a_i x_i / (τ + a_i² − a_0²))² − 1 on τ > 0: Newton's iteration from the left of the root
-/// rises towards it and cannot miss (D. Eberly, Distance from a Point to an Ellipsoid; here with Newton's iteration).
+/// increases towards it and always converges (D. Eberly, Distance from a Point to an Ellipsoid; here with Newton's
+/// iteration).
 class Ellipsoid final : public ShapeKernel {
  public:
   explicit Ellipsoid(const Point& semi_axes) : a_(semi_axes) {
@@ -180,7 +181,7 @@ class Ellipsoid final : public ShapeKernel {
 
     return y;
   }
-  /// x has no part along two or three equal shortest axes, and the nearest point has.
+  /// x has no component along two or three equal shortest axes, but the nearest point has.
   [[nodiscard]] bool symmetric_tie(const Point& x, const Point& y) const {
     int equal = 0;
     double part = 0;

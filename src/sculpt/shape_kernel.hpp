@@ -6,7 +6,7 @@
 
 namespace knead::detail {
 
-/// A shape with its scale, in its own frame: what PlacedShape turns and moves.
+/// A scaled shape in its own frame, which PlacedShape rotates and moves.
 class ShapeKernel {
  public:
   ShapeKernel() = default;
@@ -17,7 +17,7 @@ class ShapeKernel {
   [[nodiscard]] virtual Nearest nearest(const Point& x) const = 0;
 
   double size = 1;
-  BoundingBox box;  ///< in the own frame
+  BoundingBox box;  ///< in its own frame
 };
 
 using Kernel = std::unique_ptr<ShapeKernel>;
@@ -29,7 +29,7 @@ using Kernel = std::unique_ptr<ShapeKernel>;
 [[nodiscard]] Kernel plane_kernel();
 
 /// One piece of a meridian in the half plane (ρ, z), ρ >= 0: the segment from a to b with its outward normal on the
-/// right of the way from a to b, or a quarter of an ellipse
+/// right when going from a to b, or a quarter of an ellipse
 /// a + (cos · b.x, sin · b.y), 0 <= angle <= π/2, whose outside is away from a (outward) or towards it.
 struct MeridianPiece {
   enum class Kind { segment, arc } kind = Kind::segment;
@@ -60,7 +60,7 @@ using Meridian = std::vector<MeridianPiece>;
 /// The surface scaled in its own coordinates. Errors: a Bézier weight that is not positive.
 [[nodiscard]] Expected<Kernel> spline_kernel(const Surface& surface, const Point& scale);
 
-/// Shapes that check and build themselves, each in a file of its own. Errors name the field.
+/// Shapes that validate and build themselves, each in its own file. Errors name the field.
 [[nodiscard]] Expected<Kernel> shape_kernel(const WedgeShape& shape, const Point& scale);
 
 }  // namespace knead::detail

@@ -87,7 +87,7 @@ class Revolution final : public ShapeKernel {
     Foot2 best;
     for (const MeridianPiece& piece : pieces_) {
       const Foot2 f = foot_of(piece, q);
-      // Of two ends at the same place the one that is reached along its normal tells the side.
+      // Of two ends at the same place, the one reached along its normal determines the side.
       if (f.squared < best.squared || (f.squared == best.squared && f.smooth && !best.smooth)) best = f;
     }
     if (!best.smooth) {

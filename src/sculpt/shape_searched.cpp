@@ -15,7 +15,7 @@ constexpr ParameterRectangle meridian_only = {{Range{0, 1}, Range{0, 0}}};
 
 constexpr std::array<bool, 2> both_halves = {false, true};
 
-/// Adds the patches that a meridian curve sweeps over the first quarter of the superellipse of exponent e.
+/// Adds the patches swept by a meridian curve over the first quarter of the superellipse of exponent e.
 void sweep(Patches& patches, const MonotoneCurve& meridian, double e, const Point& scale, bool round = false) {
   if (round) {
     const MonotoneCurve start = MonotoneCurve::arc(Vector2::Zero(), Vector2::Ones(), 1, false);

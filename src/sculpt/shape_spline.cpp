@@ -26,7 +26,7 @@ class SplineKernel final : public ShapeKernel {
   }
 
  private:
-  /// 1 where x is outside. On a crease the sum of the normals that meet there decides (J. Baerentzen and H. Aanaes,
+  /// 1 where x is outside. On a crease the sum of the adjacent normals decides (J. Baerentzen and H. Aanaes,
   /// Signed distance computation using the angle weighted pseudonormal; on an edge both angles are equal).
   [[nodiscard]] double side(const Point& x, const FootResult& found) const {
     const bool pressed = found.best.pressed[0] || found.best.pressed[1];

@@ -34,7 +34,7 @@ struct Profile {
   Vector2 centre = {0.0, height - rounding}, normal = {cos, sin}, down = {sin, -cos};
   Vector2 corner = {(rounding + centre.y() * sin) / cos, 0.0};
 
-  /// The profile with this tangent of half its opening angle.
+  /// The profile for this tangent of half the opening angle.
   [[nodiscard]] static Profile create(double tangent, double height, double rounding) {
     const double cos = 1 / std::sqrt(1 + tangent * tangent);
     return {cos, tangent * cos, height, rounding};
@@ -105,7 +105,7 @@ class Wedge final : public ShapeKernel {
   double half_;
 };
 
-/// The rounded wedge scaled unequally across its ridge, whose arc becomes one of an ellipse, by search.
+/// The rounded wedge scaled unequally across its ridge, whose arc becomes elliptic, by search.
 Kernel scaled_wedge(const WedgeShape& s, const Point& scale) {
   const Profile plain = Profile::create(tangent_of(s), s.height, s.rounding);
   const Vector2 across(scale.y(), scale.z());

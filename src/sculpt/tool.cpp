@@ -27,7 +27,7 @@ Expected<Tool> validated(const Tool& tool) {
 
 namespace {
 
-/// The surface with x reversed and u run through backwards, so that its outside stays outside.
+/// The surface with x and u reversed, so that its outside stays outside.
 Expected<Surface> flipped(const Surface& s) {
   const auto [m, n] = s.net();
   std::vector<double> knots(s.knots(0).knots().begin(), s.knots(0).knots().end()), weights;
@@ -49,7 +49,7 @@ Expected<Surface> flipped(const Surface& s) {
 }  // namespace
 
 Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, const Point& normal) {
-  // All shapes but surfaces are symmetric in their own x: reflected in space and in x they are turned only.
+  // All shapes but surfaces are symmetric in their own x: reflected in space and in x they are merely rotated.
   const Placement& at = tool.shape.placement();
   const Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
   const Eigen::Matrix3d turn = reflection * at.rotation.toRotationMatrix() * Eigen::Vector3d(-1, 1, 1).asDiagonal();
@@ -64,11 +64,11 @@ Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, con
   }
   auto placed = PlacedShape::create(shape, image);
   if (!placed) return std::unexpected(placed.error());
-  // Its own image has the same distances everywhere; a few dozen places tell.
+  // A tool that is its own image has the same distances everywhere; a few dozen places suffice.
   const double size = std::isfinite(tool.shape.size()) ? tool.shape.size() : 1;
   bool same = true;
   for (int k = 0; k < 40 && same; ++k) {
-    const double t = 2.399963 * k, z = (k + 0.5) / 20 - 1, r = std::sqrt(1 - z * z);  // a spiral round the tool
+    const double t = 2.399963 * k, z = (k + 0.5) / 20 - 1, r = std::sqrt(1 - z * z);  // a spiral around the tool
     const Point x = at.position + (1 + 0.1 * (k % 7)) * size * Point(r * std::cos(t), r * std::sin(t), z);
     same = std::abs(tool.shape.nearest(x).distance - placed->nearest(x).distance) <= 1e-9 * size;
   }
@@ -81,7 +81,7 @@ Expected<std::optional<Tool>> mirrored(const Tool& tool, const Point& point, con
 ModelTool::ModelTool(const Tool& tool, const Point& centre, double length)
     : tool_(tool), length_(length), range_(tool.range / length) {
   const Placement& at = tool.shape.placement();
-  // Finite minus finite: the placement stays valid unless it overflows, and then the shape is out of reach anyway.
+  // Finite minus finite: the placement stays valid unless it overflows, in which case the shape is out of reach anyway.
   if (auto moved = tool.shape.moved(at.rotation, at.position - centre)) tool_.shape = std::move(*moved);
   size_ = std::min(tool.shape.size() / length, 1.0);
   const BoundingBox box = tool_.shape.bounding_box();

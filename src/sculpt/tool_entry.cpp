@@ -13,7 +13,7 @@ constexpr std::size_t refined = 12;
 
 }  // namespace
 
-/// The search for the deepest entry into a tool: samples, then a compass search from the deepest of them.
+/// The search for the deepest penetration of a tool: samples, then a compass search from the deepest ones.
 template <int D>
 class ToolLoad<D>::EntrySearch {
  public:
@@ -66,7 +66,7 @@ class ToolLoad<D>::EntrySearch {
     load_.box_of(element, x_, first_, lower, upper);
     if (load_.in_hull_ && !tool_.may_reach(lower, upper)) return;
     Candidate c{0, element, {}, {}};
-    // Between samples the shape may reach further in, but not by more than its control points are apart.
+    // Between samples the shape may penetrate further, but by no more than the extent of its control points.
     const double reach = (upper - lower).norm();
     std::array<int, D> counts, k{};
     std::array<double, D> begin, end;
@@ -83,7 +83,7 @@ class ToolLoad<D>::EntrySearch {
     } while (advance(k, counts));
   }
 
-  /// Counts on through 0 … counts[d] in all directions, the last one fastest; false after the last.
+  /// Advances through 0 … counts[d] in all directions, the last one fastest; false after the last.
   [[nodiscard]] static bool advance(std::array<int, D>& k, const std::array<int, D>& counts) {
     for (std::size_t d = D; d-- > 0;) {
       if (++k[d] <= counts[d]) return true;
@@ -100,7 +100,7 @@ class ToolLoad<D>::EntrySearch {
     candidates_.insert(std::ranges::upper_bound(candidates_, c.depth, std::greater{}, &Candidate::depth), c);
   }
 
-  /// The depth that a compass search finds within the candidate's element.
+  /// The depth found by a compass search within the candidate's element.
   [[nodiscard]] double refine(Candidate& c) const {
     for (double h = 1; h > 1e-6; h /= 2) {
       for (std::size_t d = 0; d < D; ++d) {

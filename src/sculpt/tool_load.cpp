@@ -55,7 +55,7 @@ Expected<std::vector<int>> pieces(const std::vector<double>& lengths, int per_sp
   std::vector<int> result;
   double total = 0;
   for (double length : lengths) {
-    // Rounded up with a grain of slack, so that a length that is a whole multiple but for rounding is taken as whole.
+    // Rounded up with a little slack, so that a length that is a whole multiple up to rounding counts as whole.
     const double wanted = std::max(1.0, std::ceil(length * points_per_detail / (detail * per_span) * (1 - 1e-6)));
     total += wanted * per_span;
     if (total > max_points_per_direction) {
@@ -146,7 +146,7 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
           at = static_cast<int>(result.anchors.size());
           result.anchors.push_back(anchor);
         } else if (anchor.grip > result.anchors[static_cast<std::size_t>(at)].grip) {
-          result.anchors[static_cast<std::size_t>(at)] = anchor;  // between two tools the stronger grips
+          result.anchors[static_cast<std::size_t>(at)] = anchor;  // of two tools the stronger one grips
         }
       });
     }

@@ -11,7 +11,7 @@
 
 namespace knead {
 
-/// Dry friction, lagged: the normal forces and the places of all points in contact when a step began.
+/// Dry friction, lagged: the normal forces and positions of all points in contact at the start of a step.
 struct FrictionAnchors {
   struct Anchor {
     double grip = 0;  ///< Coulomb's coefficient times the normal force per parameter measure
@@ -23,30 +23,30 @@ struct FrictionAnchors {
 };
 
 /// A bound on the displacement of every material point from an original shape: penalty stiffness·(|D| − distance)²/2
-/// beyond.
+/// beyond it.
 struct DisplacementLimit {
   double distance = 0, stiffness = 0;
   Points original;  ///< control points, in the units of the load
 };
 
 /// The forces of shaped tools on a spline, integrated over it: F_i = ∫ R_i f(S) dû (thesis Eqs. 4.23, 4.25), by Gauss
-/// points of the parameter domain, R_i the (rational) basis. Everything is in the units of a `DomainScaling`.
+/// points in the parameter domain, R_i the (rational) basis. Everything is in the units of a `DomainScaling`.
 ///
-/// The Gauss grid belongs to the knots and weights and to the size of the tools, and is kept from step to step: at
-/// least p + 1 points per span, and as many more as make points lie closer than a sixth of the smallest tool. Only
-/// spans whose control points come near a tool are evaluated (the shape lies in their convex hull; with a weight that
-/// is not positive it need not, and all are), so that the cost follows the contact, not the grid.
+/// The Gauss grid depends on the knots and weights and on the size of the tools, and is kept from step to step: at
+/// least p + 1 points per span, and enough that they lie closer than a sixth of the smallest tool. Only spans whose
+/// control points come near a tool are evaluated (the shape lies in their convex hull; with a weight that is not
+/// positive it may not, and all are), so the cost depends on the contact, not the grid.
 template <int D>
 class ToolLoad {
  public:
   /// \param spline the rest shape, in file units; its spans are measured to choose the number of points.
   /// \param detail the length to resolve, in file units (smallest size or range of the tools); infinite: p + 1 points
   ///               per span.
-  /// Error (input): the tool is so small that more than 100,000 points would be needed in a direction.
+  /// Error (input): the tool is so small that a direction would need more than 100,000 points.
   [[nodiscard]] static Expected<ToolLoad> create(const Spline<D>& spline, const DomainScaling<D>& scaling,
                                                  double detail);
 
-  /// What acts on the shape, in normalised units.
+  /// Everything that acts on the shape, in normalised units.
   struct Actors {
     std::span<const ModelTool> tools;
     const FrictionAnchors* friction = nullptr;
@@ -66,9 +66,8 @@ class ToolLoad {
   [[nodiscard]] FrictionAnchors anchors(const Points& x, int first, std::span<const ModelTool> tools,
                                         double slip) const;
 
-  /// How deep the shape with control points x reaches into a tool, anywhere and not at Gauss points alone: sampled
-  /// three times as densely, and the deepest samples refined by a compass search, to 1e-6 of the distance of the
-  /// samples.
+  /// How deep the shape with control points x penetrates a tool, anywhere, not only at Gauss points: sampled three
+  /// times as densely, with the deepest samples refined by a compass search to 1e-6 of the sample distance.
   [[nodiscard]] double deepest_entry(const Points& x, int first, const ModelTool& tool) const;
 
   [[nodiscard]] long long points() const;
@@ -100,7 +99,7 @@ class ToolLoad {
   std::array<std::vector<int>, D> spans_;       // first Gauss point of every span, and the end
   std::array<std::vector<double>, D> lengths_;  // of every span, normalised
   std::vector<double> weights_;                 // of the control points; empty for a polynomial spline
-  bool in_hull_ = true;                         // no weight is negative or zero
+  bool in_hull_ = true;                         // all weights are positive
 };
 
 }  // namespace knead

@@ -7,7 +7,7 @@
 
 namespace knead {
 
-/// The Gauss points of one span per direction, the first control points it sees, and the span's number.
+/// The Gauss points of one span per direction, the first control points that affect it, and the span's number.
 template <int D>
 struct ToolLoad<D>::Element {
   std::array<int, D> begin, end, first, span;
@@ -43,7 +43,7 @@ void ToolLoad<D>::for_each_element(const F& f) const {
   }
 }
 
-/// f(row) for every control point that the element sees.
+/// f(row) for every control point that affects the element.
 template <int D>
 template <class F>
 void ToolLoad<D>::for_each_control_point(const Element& element, const F& f) const {

@@ -9,7 +9,7 @@ namespace knead {
 namespace {
 
 /// Potential, slope / displacement and curvature of friction that grips with force `grip` after `slip`: quadratic up to
-/// there, linear beyond.
+/// `slip`, linear beyond.
 struct Grip {
   double potential, slope, curvature;
 };
@@ -21,7 +21,7 @@ Grip grip_at(double displacement, double grip, double slip) {
 
 }  // namespace
 
-/// One evaluation of the potential on a patch: which elements an actor may reach, and what it does at their points.
+/// One evaluation of the potential on a patch: which elements an actor may reach, and its effect at their points.
 template <int D>
 class ToolLoad<D>::Evaluation {
  public:

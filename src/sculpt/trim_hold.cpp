@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double rounding =
-    8 * std::numeric_limits<double>::epsilon();  // of the domain: what is off by less is not off
-constexpr double grain = 1e-9;                   // of the domain: what touches by less does not touch
+    8 * std::numeric_limits<double>::epsilon();  // of the domain: smaller deviations do not count
+constexpr double grain = 1e-9;                   // of the domain: smaller overlaps do not count
 constexpr double share_of_cell = 0.25;
 
 /// The spans of one direction and the functions over them.
@@ -31,7 +31,7 @@ struct Direction {
   }
   [[nodiscard]] int count() const { return static_cast<int>(spans.size()); }
 
-  /// Spans that meet more than a grain of [lower, upper], as first and one behind last.
+  /// Spans that meet more than a grain of [lower, upper], as first and one past the last.
   [[nodiscard]] std::array<int, 2> meeting(double lower, double upper) const {
     const double e = grain * domain.length();
     const auto begin = lines.begin(), end = lines.end();
@@ -39,13 +39,13 @@ struct Direction {
     const auto last = std::lower_bound(begin, end, upper + e) - begin;
     return {std::clamp(static_cast<int>(first), 0, count()), std::clamp(static_cast<int>(last), 0, count())};
   }
-  /// Spans in the support of function i, as first and one behind last.
+  /// Spans in the support of function i, as first and one past the last.
   [[nodiscard]] std::array<int, 2> support(int i) const {
     const auto first = std::lower_bound(spans.begin(), spans.end(), i) - spans.begin();
     const auto last = std::upper_bound(spans.begin(), spans.end(), i + knots.degree()) - spans.begin();
     return {static_cast<int>(first), static_cast<int>(last)};
   }
-  /// N_i has a derivative of order <= `order` that is not zero at c, from inside its support.
+  /// Whether N_i has a non-zero derivative of order <= `order` at c, from inside its support.
   [[nodiscard]] bool acts(int i, double c, int order) const {
     const int p = knots.degree();
     const double lower = knots[i], upper = knots[i + p + 1];
@@ -57,15 +57,15 @@ struct Direction {
   }
 };
 
-/// A piece of a knot line that is held.
+/// A held piece of a knot line.
 struct Line {
   int direction;
   double at;
   Interval along;
-  bool exact = true;  ///< the edge is on it but for rounding
+  bool exact = true;  ///< the edge lies on it up to rounding
 };
 
-/// The spans of a surface with what runs through them.
+/// The spans of a surface, with the edges that run through them.
 class Cells {
  public:
   Cells(const Surface& surface, const VisibleRegion& region, double tolerance)
@@ -102,7 +102,7 @@ class Cells {
     }
   }
 
-  /// The number of an edge that is held and runs through the support of (i, j); −1: none does.
+  /// The number of a held edge that runs through the support of (i, j); −1: none.
   [[nodiscard]] int held_in_support(int i, int j) const {
     const auto us = u_.support(i), vs = v_.support(j);
     for (int a = us[0]; a < us[1]; ++a) {
@@ -141,7 +141,7 @@ class Cells {
     if (v > 0) snap_[1] = std::max(snap_[1], std::min(tolerance / v, 1e-4 * v_.domain.length()));
   }
 
-  /// Whole turns that bring some of a chord into the domain of a closed surface.
+  /// Whole turns that bring part of a chord into the domain of a closed surface.
   [[nodiscard]] std::vector<Vector2d> turns(const Vector2d& a, const Vector2d& b) const {
     std::array<std::vector<double>, 2> shifts;
     for (int d = 0; d < 2; ++d) {
@@ -188,7 +188,7 @@ class Cells {
       }
     }
   }
-  /// So many that each is shorter than a share of every span it meets.
+  /// The number of pieces such that each is shorter than a share of every span it meets.
   [[nodiscard]] int pieces_of(const Vector2d& a, const Vector2d& b) const {
     double pieces = 1;
     for (int d = 0; d < 2; ++d) {
@@ -206,14 +206,14 @@ class Cells {
   Direction u_, v_;
   std::array<double, 2> snap_{};
   std::vector<bool> crossed_, visible_;
-  std::vector<int> held_;  // the first edge that is held and runs through
+  std::vector<int> held_;  // the first held edge that runs through
 };
 
-/// The order to hold along a line so that an edge which only runs close to it keeps this one: a tangent plane that is
-/// kept on the line alone turns beside it in proportion to the distance. At a pole likewise, where normals turn fast.
+/// The order to hold along a line so that an edge that only runs close to it keeps this one: a tangent plane kept only
+/// on the line turns off it in proportion to the distance. The same at a pole, where normals turn fast.
 int beside_line(int order) { return order > 0 ? order + 1 : order; }
 
-/// Control points that act on a line.
+/// Control points that affect a line.
 void hold_line(const Cells& cells, const Line& line, int order, int columns, std::vector<int>& by, int number) {
   const Direction &across = cells.direction(line.direction), &along = cells.direction(1 - line.direction);
   const auto [first, last] = along.meeting(line.along.lower, line.along.upper);

@@ -9,10 +9,10 @@
 namespace knead {
 namespace {
 
-constexpr int smooth_degree = 3;  // to which degree 1 is raised
+constexpr int smooth_degree = 3;  // the degree to which degree 1 is raised
 constexpr int least_cap = 2500;
 constexpr double grown = 4;
-constexpr double coarse_enough = 1.5;  // spans that are longer than they should be by less stay
+constexpr double coarse_enough = 1.5;  // spans that are too long by less than this factor stay
 constexpr int samples_per_span = 4;
 
 /// An isocurve through a place: the distance of its points from the place along it, in space.
@@ -39,7 +39,7 @@ class Isocurve {
     if (!before) return std::unexpected(before.error());
     return sum;
   }
-  /// The parameter at this length from the place towards `end`, or `end`; by steps of a 64th of the length.
+  /// The parameter at this length from the place towards `end`, or `end`; in steps of a 64th of the length.
   [[nodiscard]] Expected<double> reach(double length_to, double end) const {
     constexpr int steps = 64;
     const double from = at_[direction_];
@@ -52,7 +52,7 @@ class Isocurve {
       auto next = point(next_u);
       if (!next) return std::unexpected(next.error());
       const double way = (*next - *before).norm();
-      if (way > 2 * length_to / steps) {  // too far at once
+      if (way > 2 * length_to / steps) {  // too large a step
         step /= 2;
         if (std::abs(step) < 1e-12 * std::abs(end - from)) return u;
         continue;
