@@ -15,7 +15,7 @@ constexpr double pole_flatness = 1e-6;
 constexpr double symmetry_tolerance = 1e-6;  // of the surface's size
 constexpr double symmetry_angle = 1e-3;
 
-/// Appends what one constraint asks for.
+/// Appends the conditions of one constraint.
 struct Asked {
   const Surface& reference;
   const Surface& rest;
@@ -68,12 +68,12 @@ struct Asked {
 
   Expected<void> operator()(const EdgeSymmetry& c) const { return symmetry_constraints(reference, c, list); }
   Expected<void> operator()(const MirrorSymmetry& c) const { return symmetry_constraints(reference, c, list); }
-  // Edges of faces are held together, by `hold_face_edges`.
+  // Edges of faces are held all at once, by `hold_face_edges`.
   Expected<void> operator()(const TrimHolds&) const { return {}; }
   Expected<void> operator()(const TrimEdgeHold&) const { return {}; }
 
  private:
-  /// What `f` appends is held where it was when that was asked for, not where it is at rest.
+  /// What `f` appends is held where it was when requested, not where it is at rest.
   template <class F>
   Expected<void> holding(const F& f) const {
     const std::size_t first = list.constraints.size();
@@ -83,7 +83,7 @@ struct Asked {
   }
 };
 
-/// Rows and control points that are held by their numbers.
+/// Rows and control points held by their indices.
 void hold_numbered(const std::array<int, 2>& net, int rows, const std::set<std::array<int, 2>>& pins,
                    ConstraintList& list) {
   const auto [m, n] = net;
@@ -127,7 +127,7 @@ Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::
       return std::unexpected(done.error());
     }
   }
-  if (s.mode == RestMode::none) return list;  // the energy acts on the shape itself: there is no rest to stay smooth to
+  if (s.mode == RestMode::none) return list;  // the energy acts on the shape itself: no rest shape to stay smooth to
   if (s.smooth_knot_lines) {
     const auto lines = keep_smooth(*s.reference, {}, list);
     if (!lines) return std::unexpected(lines.error());
@@ -161,7 +161,7 @@ Expected<std::vector<std::uint8_t>> held_points(const HeldInput& input) {
     if (std::holds_alternative<EdgeSymmetry>(constraint) || std::holds_alternative<MirrorSymmetry>(constraint)) {
       continue;
     }
-    // Which control points are held depends on the basis alone, which all shapes share.
+    // Which control points are held depends only on the basis, which all shapes share.
     if (auto done = std::visit(Asked{*where, *where, *where, list}, constraint); !done) {
       return std::unexpected(done.error());
     }

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// All constraints on one surface; terms count its own control points. What may bend or tear is noted.
+/// All constraints on one surface; terms are numbered by its own control points. Notes what may bend or tear.
 [[nodiscard]] Expected<ConstraintList> constraints_of(const SurfaceInput& surface, std::vector<std::string>& notes);
 
 }  // namespace knead

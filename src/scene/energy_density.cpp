@@ -27,7 +27,7 @@ Expected<DomainScaling<2>> energy_scaling(const EnergyScalingInput& input) {
 Expected<std::vector<double>> energy_density(const SceneSurface& surface, const DomainScaling<2>& scaling,
                                              const std::array<std::span<const double>, 2>& parameters,
                                              const std::array<const BasisTable*, 2>& tables) {
-  // The displacement is a spline of the same basis.
+  // The displacement is a spline on the same basis.
   auto field =
       surface.mode == RestMode::none
           ? Expected<Surface>(*surface.current)

@@ -25,7 +25,7 @@ bool varies(const MaterialFieldOf<2>& material) {
          field(material.mass) || field(material.damping);
 }
 
-/// Coefficients as constants where one material serves all surfaces, else as fields.
+/// Coefficients as constants if all surfaces have the same material, else as fields.
 void set_material(const std::vector<SurfaceInput>& surfaces, ActiveSettings<2>& settings) {
   const MaterialFieldOf<2>& material = surfaces.front().material;
   const bool varying = std::ranges::any_of(
@@ -69,7 +69,7 @@ Expected<std::vector<int>> hold_surfaces(const std::vector<SurfaceInput>& surfac
 
 Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches) {
   const double tolerance = policy.tolerance.value_or(suggested_seam_tolerance(patches));
-  if (tolerance == 0) return FoundSeams{};  // surfaces that are one point
+  if (tolerance == 0) return FoundSeams{};  // surfaces that collapse to one point
   return find_seams(patches, tolerance);
 }
 

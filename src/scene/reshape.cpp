@@ -9,7 +9,7 @@ namespace {
 
 using Shape2 = std::shared_ptr<const Surface>;
 
-/// Of all shapes on the present basis but `opened`: those of the surface, and those that its constraints are about.
+/// All shapes on the present basis except `opened`: those of the surface and those of its constraints.
 std::vector<Shape2*> shapes_of(SceneSurface& surface) {
   std::vector<Shape2*> shapes = {&surface.reference, &surface.rest, &surface.current};
   for (KeptConstraint& kept : surface.constraints) shapes.push_back(&kept.where);
@@ -63,7 +63,7 @@ Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
   if (auto free = check_pins(s); !free) return std::unexpected(free.error());
   Coarsening done;
   for (int d = 0; d < 2; ++d) {
-    // Each direction may spend half of the tolerance.
+    // Each direction may use half of the tolerance.
     std::vector<Shape2*> shapes = {&s.reference, &s.rest};
     if (same_basis(*s.opened, *s.current)) shapes.push_back(&s.opened);
     for (KeptConstraint& kept : s.constraints) shapes.push_back(&kept.where);

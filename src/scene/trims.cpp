@@ -14,7 +14,7 @@ namespace {
 
 constexpr double least_tolerance = 1e-7;  // of the size
 
-/// |S_current − S_opened| at fractions, which may lie a turn off on closed surfaces.
+/// |S_current − S_opened| at fractions, which may be off by a turn on closed surfaces.
 Expected<double> deviation_at(const SceneSurface& s, Eigen::Vector2d at) {
   for (int d = 0; d < 2; ++d) {
     if (s.visible->closed[static_cast<std::size_t>(d)] && (at[d] < 0 || at[d] > 1)) at[d] -= std::floor(at[d]);
@@ -76,7 +76,7 @@ Expected<std::optional<TrimContact>> trim_contact(const SceneSurface& s, const T
   const auto entry = [&](const Point& p) {
     return tool.collides() ? probe.distance(p) : std::abs(probe.distance(p)) - reach;
   };
-  // First the deepest point; where that is close to an edge, the one that is deep and far from edges.
+  // First the deepest point; if that is close to an edge, one that is both deep and far from edges.
   auto best = visible_least(*s.current, region, entry);
   if (!best) return std::unexpected(best.error());
   if (!*best || (*best)->distance >= 0) return std::nullopt;

@@ -18,7 +18,7 @@ namespace knead::archive {
 
 static_assert(std::endian::native == std::endian::little, "snapshots are written as the numbers lie in memory");
 
-/// Appends values to bytes. Surfaces are numbered where they first appear, so that what was shared is shared again.
+/// Appends values to bytes. Surfaces are numbered where they first appear, so that sharing is restored.
 class Writer {
  public:
   static constexpr bool writing = true;
@@ -54,7 +54,7 @@ class Writer {
 
   [[nodiscard]] const std::string& out() const { return out_; }
   [[nodiscard]] const std::vector<std::shared_ptr<const Surface>>& surfaces() const { return surfaces_; }
-  /// The bytes so far; begins anew, but goes on numbering surfaces.
+  /// Returns the bytes so far and starts afresh, but continues the numbering of surfaces.
   [[nodiscard]] std::string take() { return std::exchange(out_, {}); }
 
  private:
@@ -63,12 +63,12 @@ class Writer {
   std::unordered_map<const Surface*, std::size_t> numbers_;
 };
 
-/// Takes values from bytes. What cannot be right makes it `bad` from there on: nothing is read outside the bytes.
+/// Reads values from bytes. Invalid data makes it `bad` from there on: nothing is read outside the bytes.
 class Reader {
  public:
   static constexpr bool writing = false;
 
-  /// Of bytes in the given version of the format.
+  /// Reads bytes in the given version of the format.
   Reader(std::string_view bytes, const std::vector<std::shared_ptr<const Surface>>& surfaces, int version)
       : rest_(bytes), surfaces_(surfaces), version_(version) {}
 
@@ -112,7 +112,7 @@ class Reader {
     x = surfaces_[k];
   }
 
-  /// A count of things of at least `size` bytes each; 0 where there cannot be as many.
+  /// A count of items of at least `size` bytes each; 0 if there cannot be that many.
   [[nodiscard]] std::size_t length(std::size_t size) {
     std::size_t n = 0;
     count(n);

@@ -9,8 +9,8 @@
 #include "knead/session/session.hpp"
 #include "restated.hpp"
 
-// One function per type that says what it is made of, for writing and for reading. Structured bindings name all
-// members: a new one does not compile until it is here too.
+// One function per type that lists its members, for writing and for reading. Structured bindings name all members:
+// adding one does not compile until it is listed here too.
 
 namespace knead::archive {
 
@@ -63,7 +63,7 @@ void optional(A& a, T& x) {
   if (x) pass(a, *x);
 }
 
-/// A list of things of at least `least` bytes each.
+/// A list of items of at least `least` bytes each.
 template <class A, class T>
 void list(A& a, T& x, std::size_t least = 4) {
   if constexpr (A::writing) {
@@ -74,7 +74,7 @@ void list(A& a, T& x, std::size_t least = 4) {
   for (auto& element : x) pass(a, element);
 }
 
-/// What a command says, as the JSON form of that command, which parses to the same.
+/// The content of a command, as the JSON form of that command, which parses back to the same.
 template <class C, class T>
 void command(Writer& a, const T& x) {
   a.text(to_json(x));
@@ -206,7 +206,7 @@ template <class A>
 void pass(A& a, Of<A, SceneSurface>& s) {
   auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, hold_rows, pins, constraints,
          smooth_knot_lines, smooth_poles, plastic, visible] = s;
-  if constexpr (!A::writing) visible.reset();  // the document knows it
+  if constexpr (!A::writing) visible.reset();  // the document provides it
   for (auto* x : {&id, &name, &unit}) pass(a, *x);
   for (auto* x : {&opened, &reference, &rest, &current}) pass(a, *x);
   pass(a, velocity);

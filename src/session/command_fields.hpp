@@ -5,9 +5,9 @@
 
 namespace knead {
 
-// What several commands have. Each command's header declares, next to its struct C,
+// Fields shared by several commands. Each command's header declares, next to its struct C,
 //   Expected<void> Executor::execute(const C&)   what it does
-//   void describe(C&, Fields&)                   what it is made of
+//   void describe(C&, Fields&)                   its fields
 // and its .cpp file defines both.
 
 std::span<const Choice> choices(StepWeight);

@@ -40,7 +40,7 @@ Expected<int> version_in(const Json& json, std::string_view what, const char* fo
   return input_error(fmt::format("the version of the {} is neither 1 nor 2", what), "knead", form);
 }
 
-/// Fields that the rest of a command leaves without a meaning: errors, or of version 1 noted.
+/// Fields made meaningless by the rest of a command: errors, or notes in version 1.
 template <class C>
 Expected<void> leave_out(const Json& json, int version, const C& command, AnyCommand& any) {
   if constexpr (requires { inapplicable(command, std::string_view{}); }) {
@@ -62,7 +62,7 @@ Expected<void> leave_out(const Json& json, int version, const C& command, AnyCom
   return {};
 }
 
-/// A command of this version, unless it says itself of which it is.
+/// A command of this version, unless it states its own.
 Expected<Command> read_command(const Json& given, int version) {
   Json json = spelled_out(given);
   if (json.is(Json::Kind::object) && json.find("knead") != nullptr) {

@@ -43,7 +43,7 @@
 
 namespace knead {
 
-/// All commands there are, in the order of the help. Lengths are in file units unless a command says `relative`;
+/// All commands, in the order of the help. Lengths are in file units unless a command says `relative`;
 /// (s, t) are fractions 0 to 1 of the parameter domain.
 using CommandVariant =
     std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand, PinCommand,
@@ -58,15 +58,15 @@ const Type& type_of<CommandVariant>();
 
 struct AnyCommand {
   CommandVariant fields;
-  /// Of version 1, where fields do not apply: what is executed and kept in their stead, and what is noted of it.
+  /// In version 1, where fields do not apply: what is executed and kept instead, and the note about it.
   std::optional<CommandVariant> without = {};
   std::vector<std::string> notes = {};
 };
 
-/// A command of these fields.
+/// A command with these fields.
 [[nodiscard]] inline Command make_command(CommandVariant fields) { return Command(AnyCommand{std::move(fields)}); }
 
-/// The fields of a command of this kind; null where it is of another one.
+/// The fields of a command of this kind; null if it is of another.
 template <class C>
 [[nodiscard]] const C* fields_of(const Command& command) {
   return std::get_if<C>(&command.any().fields);

@@ -5,11 +5,11 @@
 
 namespace knead::archive {
 
-/// Writes a described value as it lies in memory: its parts in the order of the description, variants and choices as
-/// numbers, lists and optionals after their count. Opaque parts are shared surfaces.
+/// Writes a described value: its parts in the order of the description, variants and choices as numbers, lists and
+/// optionals preceded by their count. Opaque parts are shared surfaces.
 void write(Writer& a, const Type& type, const void* value);
 
-/// Reads what `write` wrote; makes the reader bad where it cannot be.
+/// Reads what `write` wrote; makes the reader bad on invalid data.
 void read(Reader& a, const Type& type, void* value);
 
 }  // namespace knead::archive

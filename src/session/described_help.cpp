@@ -43,13 +43,13 @@ std::string without_links(std::string text) {
   return text;
 }
 
-/// "; > 0": what the range says, where the help does not.
+/// "; > 0": the range, if the help does not state it.
 std::string range_note(const Field& field) {
   const std::string range = in_words(field.range);
   return range.empty() ? "" : (field.help.empty() ? "" : "; ") + range;
 }
 
-/// The records of a flat variant count as part of the record: their fields, each once.
+/// Visits the fields of a record, including those of the records of a flat variant, each once.
 void each_field(const Type& record, std::vector<std::string_view>& seen, auto&& visit) {
   for (const Field& field : record.fields) {
     if (std::ranges::find(seen, field.name) != seen.end()) continue;

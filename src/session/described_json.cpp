@@ -24,7 +24,7 @@ std::string numbers_wanted(const Type& type) {
                                             : "lists of numbers");
 }
 
-/// Reads what is no record; says what the value should have been, or nothing on success.
+/// Reads anything but a record; returns what the value should have been, or nothing on success.
 std::string read_value(const Json& json, const Type& type, void* value, double factor, bool uniform = false) {
   switch (type.kind) {
     case Kind::boolean:
@@ -122,7 +122,7 @@ std::optional<Error> read_part(const Json& json, const Type& type, void* value, 
   }
 }
 
-/// Reads the fields of one record that are in the object; nothing is said of what else is there.
+/// Reads the fields of one record that are in the object; ignores any other members.
 std::optional<Error> read_fields(const Json& json, const Type& type, void* record) {
   for (const Field& field : type.fields) {
     void* member = field.of(record);

@@ -5,26 +5,26 @@
 
 namespace knead {
 
-/// Reads an object's members into the fields of a record; fields that are not there keep their values. Members named
-/// `tag`, which told the type, are passed over. Errors (input) name the field, with its path: an unknown one, with the
-/// known ones listed; one of another type; a required one that is missing.
+/// Reads an object's members into the fields of a record; missing fields keep their values. Members named `tag`, which
+/// gave the type, are skipped. Errors (input) name the field, with its path: an unknown one, with the known ones
+/// listed; one of the wrong type; a required one that is missing.
 [[nodiscard]] Expected<void> read_record(const Json& json, const Type& type, void* record, std::string_view tag = {});
 
-/// Reads an object into a variant: its tag says which. Errors: as above; an unknown name lists the known ones, which
-/// are called `what` ("shape": "the shapes are: …").
+/// Reads an object into a variant: its tag says which. Errors: as above; for an unknown name the known ones are listed,
+/// called `what` ("shape": "the shapes are: …").
 [[nodiscard]] Expected<void> read_variant(const Json& json, const Type& type, void* variant, std::string_view what);
 
-/// How a field without a value is written; variants always leave it out, as commands do.
+/// How a field without a value is written; variants always omit it, as commands do.
 enum class Absent { left_out, null };
 
 /// The JSON form of a value. Records are objects with their fields in order, variants have their tag first; opaque
 /// parts are left out.
 [[nodiscard]] std::string to_json(const Type& type, const void* value, Absent absent = Absent::left_out);
 
-/// Names with commas between them.
+/// Names separated by commas.
 [[nodiscard]] std::string joined(const std::vector<std::string_view>& names);
 [[nodiscard]] std::vector<std::string_view> names_of(std::span<const Choice> choices);
-/// Of a record, those of a flat variant's tag and of all its alternatives among them, each once.
+/// The names of a record's fields, including a flat variant's tag and the fields of all its alternatives, each once.
 [[nodiscard]] std::vector<std::string_view> field_names(const Type& type);
 [[nodiscard]] std::vector<std::string_view> variant_names(const Type& type);
 

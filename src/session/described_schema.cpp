@@ -64,7 +64,7 @@ class Schema {
     return "{\"enum\":[" + text + "]}";
   }
 
-  /// With its description and default put in front.
+  /// With its description and default in front.
   std::string member(const Field& field, const Type& owner) {
     std::string schema = field.flat ? names(variant_names(*field.type)) : value(*field.type, &field);
     if (field.uniform) schema = "{\"anyOf\":[" + value(*field.type->element, &field) + "," + schema + "]}";

@@ -4,9 +4,9 @@
 
 namespace knead {
 
-// What a description says, for people and for other programs.
+// Descriptions as text, for people and for other programs.
 
-/// A default for people: as few digits as it takes; empty where there is none to show (optionals, empty lists).
+/// A default for people: with the fewest digits; empty if there is none to show (optionals, empty lists).
 [[nodiscard]] std::string shown_default(const Field& field, const Type& record);
 
 /// The names of a record's fields with their defaults, in lines of at most 110 characters, indented by 14.
@@ -19,21 +19,21 @@ namespace knead {
 [[nodiscard]] std::string markdown_table(const Type& record);
 
 /// A JSON schema (draft 2020-12) of a value's JSON form, without "$schema"; records forbid unknown members. Members
-/// without a value may be left out, or are null.
+/// without a value may be omitted, or are null.
 [[nodiscard]] std::string schema_of(const Type& type, Absent absent = Absent::left_out);
 
-/// Collects TypeScript declarations, each type once, those that others need first.
+/// Collects TypeScript declarations, each type once, after the types it uses.
 class TypeScript {
  public:
   std::string text;
 
-  /// A record as `name`, or a variant as the union `name` of its records, which are called as they are with `suffix`
-  /// ("step" is StepCommand); records inside are called as they are ("step info" is StepInfo). What may be left out is
-  /// optional, or with Absent::null null, where what is no std::optional is always there.
+  /// A record as `name`, or a variant as the union `name` of its records, which keep their names plus `suffix` ("step"
+  /// is StepCommand); records inside keep their names ("step info" is StepInfo). Members that may be omitted are
+  /// optional, or with Absent::null null; then all but std::optional members are always present.
   void declare(const Type& type, const std::string& name, const std::string& suffix, Absent absent = Absent::left_out);
 
-  /// What the records of a variant are made of, as the constant `name`: per record its help and its numbers, with unit
-  /// and the values that they have by default.
+  /// The contents of a variant's records, as the constant `name`: per record its help and its numbers, with units and
+  /// default values.
   void list(const Type& variant, const std::string& name);
 
  private:

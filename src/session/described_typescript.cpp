@@ -33,7 +33,7 @@ std::string about(const Field& field) {
   return text.empty() ? "" : fmt::format("  /** {} */\n", text);
 }
 
-/// A string of JavaScript.
+/// A JavaScript string literal.
 std::string literal(std::string_view text) {
   std::string quoted = "'";
   for (const char c : text) {
@@ -88,7 +88,7 @@ void TypeScript::record(const Type& type, const std::string& name, std::string_v
   for (const Field& field : type.fields) {
     if (field.type->kind == Kind::opaque) continue;
     if (!field.flat) {
-      // A record of a variant leaves out what is absent, whatever is round it.
+      // A record of a variant omits what is absent, whatever contains it.
       const bool null = absent == Absent::null;
       const bool there =
           null ? tag.empty() || field.type->kind != Kind::optional : field.presence == Presence::required;

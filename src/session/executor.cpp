@@ -72,7 +72,7 @@ Expected<void> Executor::keep(const Constraint& constraint) {
 
 Expected<void> Executor::check_constraints() {
   if (auto known = know_trims(); !known) return known;
-  // What cannot be made is refused now and not at the next step. A large lambda makes a model of whatever can step.
+  // What cannot be made is refused now, not at the next step. A large lambda gives a model for anything that can step.
   EvolutionPolicy evolution;
   evolution.lambda = 1e6;
   auto model = make_model(model_input(state, evolution));
@@ -85,7 +85,7 @@ Expected<void> Executor::change_basis(SceneSurface& surface, const SurfaceChange
     return input_error("a limit is measured on the weights and knots that the surface was opened with", "limit",
                        R"(end it first: {"do":"limit"})");
   }
-  // `opened` stays what it is: deviations are measured from there.
+  // `opened` is unchanged: deviations are measured from it.
   if (auto done = knead::change_basis(surface, change); !done) return done;
   surface.velocity.resize(0, 3);  // it is a spline on the old basis
   return surface.constraints.empty() ? Expected<void>() : check_constraints();

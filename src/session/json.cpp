@@ -68,8 +68,8 @@ class Builder : public nlohmann::json_sax<Library> {
     }
     return true;
   }
-  std::vector<Json> open_;          // lists and objects not ended yet, from the outside in
-  std::vector<std::string> names_;  // of members whose values are not there yet
+  std::vector<Json> open_;          // lists and objects still open, from the outside in
+  std::vector<std::string> names_;  // of members whose values are still to come
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace knead {
 
-/// A JSON value as it was written. (The parser's library is seen by json.cpp alone.)
+/// A JSON value as written. (Only json.cpp sees the parser's library.)
 struct Json {
   enum class Kind { null, boolean, number, text, list, object };
   Kind kind = Kind::null;
@@ -17,23 +17,23 @@ struct Json {
   double number = 0;
   std::string text = {};
   std::vector<Json> list = {};
-  std::vector<std::pair<std::string, Json>> members = {};  ///< each name once, the last of equal ones
+  std::vector<std::pair<std::string, Json>> members = {};  ///< each name once; of duplicates the last
 
   [[nodiscard]] bool is(Kind other) const { return kind == other; }
-  /// The member of that name; null where there is none.
+  /// The member of that name; null if there is none.
   [[nodiscard]] const Json* find(std::string_view name) const;
 };
 
 /// Errors: what is not JSON, with its line.
 [[nodiscard]] Expected<Json> parse_json(std::string_view text);
 
-/// For messages: the value on one line, numbers with as few digits as it takes.
+/// For messages: the value on one line, numbers with the fewest digits.
 [[nodiscard]] std::string shown(const Json& json);
 
 /// Text in quotes with escapes; what is not UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string json_text(std::string_view text);
 
-/// 17 significant digits, which read back to the same bits; null for what is not finite.
+/// 17 significant digits, which read back to the same bits; null if not finite.
 [[nodiscard]] std::string json_number(double value);
 
 }  // namespace knead

@@ -15,7 +15,7 @@ std::string net_note(const SceneSurface& s) {
 
 namespace {
 
-/// The rectangle of parameters of all spans whose control points come near the tool; nothing where there are none.
+/// The rectangle of parameters of all spans whose control points come near the tool; none if there are none.
 std::optional<std::array<Interval, 2>> reach_of(const Surface& surface, const Tool& tool) {
   const ModelTool probe(tool, Point::Zero(), 1);
   const std::vector<int> us = surface.knots(0).spans(), vs = surface.knots(1).spans();

@@ -4,10 +4,10 @@
 
 namespace knead {
 
-/// The command that asks for a constraint on the selected surface.
+/// The command that puts a constraint on the selected surface.
 [[nodiscard]] Command restated(const Constraint& constraint);
 
-/// The constraint that a command asks for; nothing where it asks for none, or for several.
+/// The constraint that a command makes; nothing if it makes none or several.
 [[nodiscard]] std::optional<Constraint> constraint_of(const Command& command);
 
 }  // namespace knead

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-// The forms of files, as they are written.
+// The forms of files as written.
 
 struct ScriptForm {
   int version = 1;

@@ -68,7 +68,7 @@ std::vector<Command> Session::journal() const {
 
 namespace {
 
-/// Whether the second stroke is the first one led on, so that one stroke along both paths is the same.
+/// Whether the second stroke continues the first, so that one stroke along both paths is equivalent.
 bool goes_on(const StrokeCommand& first, const StrokeCommand& second) {
   return first.open.value_or(false) && first.tool == second.tool && first.relative == second.relative &&
          first.plasticity == second.plasticity && first.steps == second.steps && first.plastic == second.plastic;
@@ -115,7 +115,7 @@ void Session::know_faces() {
       if (!holds_trims(s.constraints)) continue;
       auto found = known.find(s.id);
       if (found == known.end()) {
-        // Where they cannot be followed the next step says so.
+        // If they cannot be followed the next step says so.
         auto region = visible_region(*file, s.id);
         found = known.emplace(s.id, region ? std::make_shared<const VisibleRegion>(std::move(*region)) : nullptr).first;
       }
@@ -132,8 +132,8 @@ Expected<double> Session::energy() {
     const SceneSurface& s = state().surfaces[static_cast<std::size_t>(k)];
     return s.mode == RestMode::shape && s.current == s.rest;
   });
-  if (at_rest) return 0;  // also where no model can be made
-  // The energy does not depend on how steps are made; a large lambda makes a model of whatever can be stepped at all.
+  if (at_rest) return 0;  // even if no model can be made
+  // The energy does not depend on how steps are made; a large lambda gives a model for anything that can be stepped.
   ModelInput input = model_input(state(), state().evolution);
   if (cache_->model) {
     ModelInput same = cache_->model->input;

@@ -12,7 +12,7 @@
 
 namespace knead {
 
-// What is told of each part of a session: plain values that are filled from the state, and their descriptions.
+// What is reported of each part of a session: plain values filled from the state, and their descriptions.
 
 struct SurfaceInfo {
   std::string id, name, unit;
@@ -122,7 +122,7 @@ static void describe(SeamInfo& s, Fields& fields) {
   fields.add("reason", s.reason, {.help = "why it is no more than that"});
 }
 
-// The command that would ask for it, so with its name.
+// The command that would make it, hence with its name.
 static std::string_view tag_of(const std::variant<LoadCommand>*) { return "do"; }
 static std::string_view tag_of(const std::variant<EvolveCommand>*) { return "do"; }
 

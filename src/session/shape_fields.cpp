@@ -11,7 +11,7 @@
 namespace knead {
 namespace {
 
-/// The numbers of a field that holds nothing else: none for an optional without a value.
+/// The numbers of a purely numeric field: none for an optional without a value.
 std::span<double> numbers_of(const Field& field, void* record) {
   const Type* type = field.type;
   void* value = field.of(record);
@@ -24,7 +24,7 @@ std::span<double> numbers_of(const Field& field, void* record) {
   return {static_cast<double*>(value), type->kind == Kind::array ? type->length : 1};
 }
 
-/// The numbers of a shape's measure; none where it does not have it.
+/// The numbers of a shape's measure; none if it does not have it.
 std::span<double> measure_of(Shape& shape, std::string_view name, double& factor) {
   const Type& shapes = type_of<Shape>();
   const Field* field = shapes.variants[shape.index()]->find(name);
@@ -40,7 +40,7 @@ double radius_of(const ShapeFields& f, double unit, double diagonal, Shape* befo
   return present.empty() ? 0.1 * diagonal : present.front();
 }
 
-/// The fields that a shape has, as commands name them.
+/// The fields of a shape, as commands name them.
 std::vector<std::string_view> fields_of_shape(const Type& shape) {
   std::vector<std::string_view> names;
   if (shape.find("sizes") != nullptr) names.emplace_back("radius");
@@ -53,7 +53,7 @@ bool names_any(ShapeFields fields) {
                              [&](const Field& field) { return field.type->count(field.of(&fields)) > 0; });
 }
 
-/// The measures that several shapes have, or that need more words than those of their shape.
+/// The measures that several shapes have, or that need more explanation than their shape's.
 void add_named_measures(ShapeFields& f, Fields& fields, std::string_view fallback = {}) {
   const auto otherwise = [fallback](std::string_view as_new) { return fallback.empty() ? as_new : fallback; };
   fields.add("radius", f.radius,
@@ -91,7 +91,7 @@ void add_named_measures(ShapeFields& f, Fields& fields, std::string_view fallbac
               .fallback = fallback});
 }
 
-/// A number that shapes have and the measures above do not name.
+/// A number of shapes that the measures above do not name.
 struct OtherMeasure {
   std::string_view name;
   std::string help, fallback;
@@ -182,7 +182,7 @@ Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, do
     spline->surface = executor.state.surfaces[static_cast<std::size_t>(*index)].current;
     return shape;
   }
-  if (auto* cone = std::get_if<ConeShape>(&shape)) cone->height = 2;  // as high as it is wide, as a cylinder
+  if (auto* cone = std::get_if<ConeShape>(&shape)) cone->height = 2;  // as high as it is wide, like a cylinder
   std::optional<Shape> old;
   if (before != nullptr) old = *before;
   const double radius = radius_of(f, unit, diagonal, old ? &*old : nullptr);
@@ -191,7 +191,7 @@ Expected<Shape> make_shape(std::string_view name, ShapeFields f, double unit, do
     const std::span<double> numbers = numbers_of(field, shapes.at(&shape, 0));
     const Field* asked = type_of<ShapeFields>().find(field.name);
     const std::span<double> given = asked != nullptr ? numbers_of(*asked, &f) : std::span<double>();
-    // A radius that is given means all sizes.
+    // A given radius means all sizes.
     const bool stays = old && !(field.name == "sizes" && f.radius);
     double factor = 1;
     const std::span<double> present = stays ? measure_of(*old, field.name, factor) : std::span<double>();

@@ -10,42 +10,41 @@
 
 namespace knead {
 
-/// The measures of a tool's shape as commands name them. What is left out has a default that the shape decides.
+/// The measures of a tool's shape as commands name them. The defaults depend on the shape.
 struct ShapeFields {
   std::optional<double> radius;  ///< default: a tenth of the surface's bounding-box diagonal
   std::optional<double> minor, height, top_radius, thickness, rounding;
   std::optional<Vector3> sizes;  ///< semi-axes or half sizes
   std::optional<std::array<double, 2>> exponents;
   std::optional<std::string> surface;  ///< of shape "surface": its id
-  /// Measures that only the description of a shape knows of, in the order in which `add_measures` names them.
+  /// Measures known only to the description of a shape, in the order in which `add_measures` names them.
   std::array<std::optional<double>, 8> others;
 };
 
 void describe(ShapeFields& f, Fields& fields);
 
-/// The measures among the fields of a command. What holds where one is left out: as for a new tool, or as given.
+/// Adds the measures to the fields of a command. `fallback`: the default in words; empty: those of a new tool.
 void add_measures(ShapeFields& f, Fields& fields, std::string_view fallback = {});
 
 /// "sphere, ellipsoid, …"
 [[nodiscard]] const std::string& shape_names();
 [[nodiscard]] std::string_view shape_name(const Shape& shape);
 
-/// The error for a field that a shape, by its name, does not have but another one does; else nothing. A radius counts
-/// as a field where there are `sizes`.
+/// The error for a field that a shape, given by name, does not have but another does; else nothing. A radius counts as
+/// a field if there are `sizes`.
 [[nodiscard]] std::optional<Error> no_measure_of(std::string_view shape, std::string_view field);
 /// The same for a shape with these fields.
 [[nodiscard]] Error no_such_measure(std::string_view shape, std::string_view field,
                                     const std::vector<std::string_view>& fields);
 
-/// The shape with these measures. Those that are given are times `unit`, where they are lengths. Of the others, those
-/// that `before` has stay; the rest are those of the shape as it is made by default, for a radius of 1, times the
-/// radius, which is a tenth of `diagonal` where nothing says more. Errors (input): a shape or a surface that there is
-/// not.
+/// The shape with these measures. Given lengths are multiplied by `unit`. Of the others, those that `before` has stay;
+/// the rest are the defaults of the shape, for a radius of 1, times the radius, which defaults to a tenth of
+/// `diagonal`. Errors (input): an unknown shape or surface.
 [[nodiscard]] Expected<Shape> make_shape(std::string_view name, ShapeFields fields, double unit, double diagonal,
                                          const Executor& executor, const Shape* before = nullptr);
 
-/// The shape with the measures that are named in place of its own. With another name, the measures that both shapes
-/// have stay. Errors: as above, and a field that the shape does not have.
+/// The shape with the named measures in place of its own. With another name, the measures common to both shapes stay.
+/// Errors: as above, and a field that the shape does not have.
 [[nodiscard]] Expected<Shape> edited_shape(const Shape& shape, std::string_view name, const ShapeFields& fields,
                                            double unit, double diagonal, const Executor& executor);
 

@@ -12,10 +12,10 @@ using archive::Reader;
 using archive::Writer;
 
 constexpr std::string_view magic = "Knead snapshot 2\n";
-constexpr std::string_view magic_before = "Knead snapshot 1\n";  // without probes, open strokes and what they leave
+constexpr std::string_view magic_before = "Knead snapshot 1\n";  // without probes, open strokes or their results
 static_assert(magic.size() == magic_before.size());
 
-/// FNV-1a over words of eight bytes: damage is found, not tampering.
+/// FNV-1a over words of eight bytes: detects damage, not tampering.
 std::uint64_t checksum(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (std::size_t k = 0; k < bytes.size(); k += 8) {
@@ -98,7 +98,7 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   archive::optional(a, energy_before);
 }
 
-/// Whether an open stroke is one of the selected surfaces and of a tool that there is.
+/// Whether an open stroke fits the selected surfaces and an existing tool.
 bool fits(const OpenStroke& stroke, const Scene& scene) {
   const std::vector<int> selection = scene.selection();
   if (stroke.before.size() != selection.size() || !(stroke.path.spacing > 0)) return false;
@@ -119,7 +119,7 @@ bool fits(const OpenStroke& stroke, const Scene& scene) {
          std::ranges::any_of(scene.tools, [&](const Tool& t) { return t.name == stroke.tool; });
 }
 
-/// Reads a state into one that begins as a copy of the one before it.
+/// Reads a state into one that starts as a copy of the previous one.
 void read_state(Reader& a, SessionState& state) {
   auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes, stroke] =
       static_cast<Scene&>(state);
@@ -138,7 +138,7 @@ void read_state(Reader& a, SessionState& state) {
     pass(a, surfaces[k]);
     if (a.bad()) return;
     const SceneSurface& s = surfaces[k];
-    for (const auto& other : {s.reference, s.rest}) {  // `opened` may have another, once the basis was edited
+    for (const auto& other : {s.reference, s.rest}) {  // `opened` may differ once the basis was edited
       if (other->net() != s.current->net()) return a.fail();
     }
   }

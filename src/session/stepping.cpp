@@ -10,14 +10,14 @@
 namespace knead {
 namespace {
 
-constexpr double coarse = 0.5;      // spans longer than this share of a tool follow it with a loss
+constexpr double coarse = 0.5;      // spans longer than this share of a tool follow it less accurately
 constexpr double too_coarse = 1;    // longer than this, they cannot follow it
-constexpr int max_refinements = 5;  // of the net under a tool, where refining is permitted
+constexpr int max_refinements = 5;  // of the net under a tool, if refining is permitted
 
 /// Rounds of halving after which spans are no longer coarse.
 int halvings(double coarseness) { return static_cast<int>(std::ceil(std::log2(coarseness / coarse))); }
 
-/// What a user is told of a step: its own note, or that the net is too coarse for a tool.
+/// The note on a step for the user: its own, or that the net is too coarse for a tool.
 std::string note_of(const ActiveStep& step) {
   if (!step.note.empty() || step.coarseness <= too_coarse) return step.note;
   return fmt::format(
@@ -26,7 +26,7 @@ std::string note_of(const ActiveStep& step) {
       step.coarseness, halvings(step.coarseness) == 1 ? "once" : fmt::format("{} times", halvings(step.coarseness)));
 }
 
-/// The step left every selected surface at rest and where it was opened.
+/// Whether the step left every selected surface at rest and as opened.
 bool nothing_moved(const Scene& scene, const ActiveStep& step) {
   Eigen::Index first = 0;
   for (int index : scene.selection()) {
@@ -72,7 +72,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     if (!allow_held && more.empty() && step->gap > 0 && nothing_moved(state, *step)) {
       const Error error = all_held(step->gap_tool);
       if (holds_edges()) return std::unexpected(error);
-      note = error.what + "; " + error.remedy;  // asked for, row by row or point by point: said, not refused
+      note = error.what + "; " + error.remedy;  // requested, row by row or point by point: reported, not refused
     }
     if (auto taken = take(*step); !taken) return taken;
     if (auto sound = check_folds(); !sound) return sound;

@@ -15,7 +15,7 @@ bool any_held(const SceneSurface& s) {
   return s.visible && std::ranges::any_of(trim_orders(s.constraints, *s.visible), [](int order) { return order >= 0; });
 }
 
-/// Refines a surface round a place, which may lie this far from the nearest held edge.
+/// Refines a surface around a place that may lie this far from the nearest held edge.
 Expected<void> refine_round(Executor& executor, SceneSurface& s, const TrimContact& contact, double size) {
   if (executor.state.permission == RefinePermission::never || !s.pins.empty()) return {};
   const auto refinement = trim_refinement(*s.reference, contact.at, contact.distance, std::isfinite(size) ? size : 0,

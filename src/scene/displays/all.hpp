@@ -4,7 +4,7 @@
 
 namespace knead {
 
-// Each is defined in the file of its name.
+// Each is defined in the file named after it.
 Display deviation_display();
 Display mean_curvature_display();
 Display gaussian_curvature_display();

@@ -10,7 +10,7 @@ Expected<std::vector<double>> values(const DisplayInput& input) {
   const SceneSurface& surface = input.scene.surfaces[static_cast<std::size_t>(input.surface)];
   const Surface& opened = *surface.opened;
   const Surface& drawn = input.opened ? opened : *surface.current;
-  // Where its knots were edited since: its own basis at the same parameters.
+  // If its knots have been edited since: its own basis at the same parameters.
   const auto before = opened.knots() == drawn.knots()
                           ? evaluate_grid<2>(opened, input.tables)
                           : evaluate_grid<2>(opened, {input.parameters[0], input.parameters[1]});

@@ -17,7 +17,7 @@ Expected<DomainScaling<2>> scaling_of(const DisplayInput& input) {
   return kept.back().second;
 }
 
-/// `energy_density`; 0 for the shape as it was opened, which is at rest, and for a surface without area.
+/// `energy_density`; 0 for the shape as opened, which is at rest, and for a surface without area.
 Expected<std::vector<double>> values(const DisplayInput& input) {
   const auto none = [&] { return std::vector<double>(static_cast<std::size_t>(input.normals.rows()), 0.0); };
   if (input.opened) return none();

@@ -27,7 +27,7 @@ Display gap_display() {
           .unit = "length",
           .is_signed = true,
           .help = "Distance to the nearest tool; blue is inside it.",
-          .share = 0.1,  // what matters is near to them
+          .share = 0.1,  // the relevant values are near the tools
           .values = values};
 }
 
