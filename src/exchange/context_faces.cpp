@@ -21,8 +21,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double clearance = 0.35;    // of points inside from the outline, in steps
-constexpr double off_surface = 0.02;  // of the extent of the face: edges may be that far from its surface
+constexpr double clearance = 0.35;    // of interior points from the outline, in steps
+constexpr double off_surface = 0.02;  // of the extent of the face: how far edges may be from its surface
 constexpr double most_inside = 1e5;   // points
 
 // Chart coordinates: whole steps where the surface is curved; where it is straight the face is one step long.
@@ -70,7 +70,7 @@ double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d&
   return (a + share * side - p).norm();
 }
 
-// In the middle of every whole step across a straight direction.
+// At the midpoint of every whole step across a straight direction.
 std::vector<Vector2d> points_between(std::span<const std::vector<Vector2d>> loops, int straight) {
   std::vector<Vector2d> result;
   const int across = 1 - straight;
@@ -102,7 +102,7 @@ std::vector<Vector2d> points_between(std::span<const std::vector<Vector2d>> loop
   return result;
 }
 
-// Some triangle reaches over more steps than chords of one step allow.
+// Whether some triangle spans more steps than chords of one step allow.
 bool too_wide(std::span<const std::vector<Vector2d>> loops, std::span<const Triangle> triangles, int across) {
   std::vector<double> places;
   for (const auto& loop : loops) {
@@ -164,7 +164,7 @@ class Tessellator {
     auto surface = surface_of(face, on_it);
     if (!surface) return std::unexpected(std::move(surface.error()));
     surface->set_steps(chord_);
-    // Now on the left seen from the tip of the surface's normal, not the face's.
+    // Now on the left as seen from the tip of the surface's normal, not the face's.
     if (!face.same_sense) {
       for (Loop& loop : *loops) std::reverse(loop.begin(), loop.end());
     }
@@ -224,7 +224,7 @@ class Tessellator {
     outline_of(part.outer);
     for (const auto& hole : part.holes) outline_of(hole);
     const auto straight = surface.straight();
-    // Where the surface is straight one way, points on the outline mostly will do.
+    // Where the surface is straight in one direction, points on the outline usually suffice.
     auto inside = straight[0] || straight[1] ? std::vector<Vector2d>() : points_inside(outline);
     auto triangles = triangulate(outline, inside);
     if (!triangles) return false;

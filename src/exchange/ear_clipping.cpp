@@ -8,13 +8,13 @@ namespace knead {
 namespace {
 
 using Eigen::Vector2d;
-using Ring = std::vector<std::uint32_t>;  // indices of points; those at a bridge stand twice
+using Ring = std::vector<std::uint32_t>;  // indices of points; those at a bridge occur twice
 
 class Clipper {
  public:
   explicit Clipper(std::span<const Vector2d> points) : points_(points) {}
 
-  // Joins a hole to the ring: from its leftmost point to a point of the ring that sees it, to the left.
+  // Joins a hole to the ring: from its leftmost point to a visible point of the ring to the left.
   bool bridge(Ring& ring, const Ring& hole) const {
     std::size_t left = 0;
     for (std::size_t k = 1; k < hole.size(); ++k) {
@@ -42,7 +42,7 @@ class Clipper {
     auto left = n;
     std::uint32_t k = 0;
     std::size_t idle = 0;
-    bool flat = false;  // also ears without area, once no other is left
+    bool flat = false;  // also ears without area, once no others are left
     while (left > 3) {
       const auto a = ring[before[k]], b = ring[k], c = ring[next[k]];
       if (is_ear(ring, next, before, k, flat)) {
@@ -69,13 +69,13 @@ class Clipper {
  private:
   const Vector2d& at(std::uint32_t k) const { return points_[k]; }
 
-  // Where on the ring a ray to the left goes: the end of the side that is hit first, or a corner before it (Eberly).
+  // Where a ray to the left meets the ring: the end of the first side hit, or a corner in front of it (Eberly).
   std::optional<std::size_t> visible(const Ring& ring, const Vector2d& p) const {
     double hit = -std::numeric_limits<double>::infinity();
     std::optional<std::size_t> best;
     const auto n = ring.size();
     for (std::size_t k = 0; k < n; ++k) {
-      // The ring is counter-clockwise: seen from inside, sides on the left go down.
+      // The ring is counter-clockwise: seen from inside, sides on the left run downwards.
       const Vector2d &a = at(ring[k]), &b = at(ring[(k + 1) % n]);
       if (p.y() > a.y() || p.y() < b.y() || a.y() == b.y()) continue;
       const double x = a.x() + (p.y() - a.y()) * (b.x() - a.x()) / (b.y() - a.y());
@@ -86,8 +86,8 @@ class Clipper {
       if (x == p.x() && p.y() == b.y()) best = (k + 1) % n;
     }
     if (!best || hit == p.x()) return best;
-    // Corners within the triangle of p, the hit and the end of the side would be in the way: the one of them that is
-    // seen under the smallest angle to the ray is seen itself.
+    // Corners within the triangle of p, the hit and the end of the side would be in the way: the one at the smallest
+    // angle to the ray is itself visible.
     const Vector2d m = at(ring[*best]);
     const Vector2d h(hit, p.y());
     double steepest = std::numeric_limits<double>::infinity();
@@ -131,7 +131,7 @@ class Clipper {
       if (p.x() < lower.x() || p.x() > upper.x() || p.y() < lower.y() || p.y() > upper.y()) continue;
       if (p == a || p == b || p == c) continue;
       if (!in_triangle(a, b, c, p)) continue;
-      // A corner that bulges into the ring is in the way only if the ring turns there.
+      // Only a reflex corner, which bulges into the ring, can be in the way.
       if (doubled_area(at(ring[before[i]]), p, at(ring[next[i]])) <= 0) return false;
     }
     return true;
@@ -153,7 +153,7 @@ std::optional<std::vector<Triangle>> clip_ears(std::span<const Vector2d> points,
   if (rings.empty()) return std::vector<Triangle>();
   Ring ring = std::move(rings.front());
   rings.erase(rings.begin());
-  // From left to right, so that every bridge has all that lies to its left before it.
+  // From left to right, so that everything to the left of a bridge is joined before it.
   const auto leftmost = [&](const Ring& hole) {
     double x = std::numeric_limits<double>::infinity();
     for (const auto k : hole) x = std::min(x, points[k].x());

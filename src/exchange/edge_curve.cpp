@@ -10,7 +10,7 @@
 namespace knead::step {
 namespace {
 
-constexpr int max_nesting = 8;         // curves of curves; more is a loop
+constexpr int max_nesting = 8;         // nested curves; more is a loop
 constexpr int max_halvings = 7;        // of one piece of a curve
 constexpr double close_enough = 1e-6;  // of the extent: ends of a closed spline
 
@@ -198,8 +198,8 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, double chord) 
     std::sort(coarse.begin(), coarse.end());
     coarse.erase(std::unique(coarse.begin(), coarse.end()), coarse.end());
   } else {
-    // An ellipse evenly by its angle: its chords then keep `chord` times the longer semi-axis. The others are refined
-    // from a few pieces.
+    // An ellipse is divided evenly by angle: its chords are then within `chord` times the longer semi-axis. The others
+    // are refined from a few pieces.
     const int pieces = domain_ ? std::max(1, static_cast<int>(std::ceil((to - from) / angle - 1e-9))) : 4;
     coarse.clear();
     for (int k = 0; k <= pieces; ++k) coarse.push_back(k == pieces ? to : from + (to - from) * k / pieces);
@@ -211,7 +211,7 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, double chord) 
     if (k > 0) box.extend(at((coarse[k - 1] + coarse[k]) / 2));
   }
   const double tolerance = chord * box.diagonal().norm() / 2;
-  // Halved from the left, the far ends waiting.
+  // Halved from the left, with the far ends on a stack.
   std::vector<double> result = {from};
   std::vector<std::pair<double, int>> waiting;
   for (std::size_t k = coarse.size(); k-- > 1;) waiting.emplace_back(coarse[k], 0);
@@ -223,7 +223,7 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, double chord) 
     const double length = chord_ab.norm();
     const double off = length > 0 ? (m - a).cross(chord_ab).norm() / length : (m - a).norm();
     const double turn = std::atan2((m - a).cross(b - m).norm(), (m - a).dot(b - m));
-    // Halves of a circle's piece turn by half its angle.
+    // Halves of a circular arc turn by half its angle.
     const bool fine = off <= tolerance && (turn <= 0.51 * angle || off <= 0.02 * tolerance);
     if (fine || halvings >= max_halvings) {
       result.push_back(end);

@@ -13,40 +13,40 @@
 
 namespace knead::step {
 
-/// Axes of a placement, orthonormal: x is the reference direction made normal to the axis z, and y = z × x.
+/// Axes of a placement, orthonormal: x is the reference direction orthogonalised to the axis z, and y = z × x.
 struct Frame {
   Point origin = Point::Zero();
   Point x = Point::UnitX(), y = Point::UnitY(), z = Point::UnitZ();
 };
 
-/// None where the axis has no length, or the reference direction is along it.
+/// None if the axis has zero length, or the reference direction is along it.
 [[nodiscard]] std::optional<Frame> frame_of(const Placement& placement);
 
-/// A curve of a STEP file as its parameter gives it (ISO 10303-42): LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA,
-/// POLYLINE and B-spline curves; TRIMMED_CURVE, and SURFACE_CURVE with its subtypes, by the curve they are made of.
+/// A curve of a STEP file in its own parametrisation (ISO 10303-42): LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA,
+/// POLYLINE and B-spline curves; TRIMMED_CURVE, and SURFACE_CURVE with its subtypes, by their underlying curve.
 class EdgeCurve {
  public:
-  /// Errors (input): the entity is of another form, or lacks what its form has.
+  /// Errors (input): the entity is of another type, or incomplete.
   [[nodiscard]] static Expected<EdgeCurve> read(const Reader& reader, std::uint32_t instance);
 
   [[nodiscard]] Point at(double t) const;
-  /// Central difference where the curve is a spline, exact elsewhere.
+  /// A central difference for splines, exact otherwise.
   [[nodiscard]] Point derivative(double t) const;
-  /// Of the point of the curve nearest to p; of conics that on the ray from the centre.
+  /// Of the point of the curve nearest to p; for conics, of the one on the ray from the centre.
   [[nodiscard]] double parameter(const Point& p) const;
   /// The domain of splines; 0 … 2π of circles and ellipses.
   [[nodiscard]] std::optional<Interval> domain() const { return domain_; }
-  /// The curve is closed: t and t + the length of the domain are the same point.
+  /// Whether the curve is closed: t and t + the length of the domain give the same point.
   [[nodiscard]] bool closed() const { return closed_; }
   /// A straight line.
   [[nodiscard]] bool straight() const { return std::holds_alternative<Line>(form_); }
-  /// An odd number of TRIMMED_CURVEs runs against the curve.
+  /// Whether an odd number of TRIMMED_CURVEs runs against the curve.
   [[nodiscard]] bool turned() const { return turned_; }
 
-  /// Parameters from `from` to `to` > from, both among them. Of circles and ellipses at even steps of no more than
-  /// 2 acos(1 − chord): chords are then within `chord` · radius. Of others so close that chords are within `chord` ·
-  /// half the extent of the whole piece, and turn no more than a circle's would, but where that moves less than a
-  /// fiftieth of the tolerance. `to` may lie up to one period behind the domain of a closed curve.
+  /// Parameters from `from` to `to` > from, both included. Circles and ellipses at even steps of at most 2 acos(1 −
+  /// chord): chords are then within `chord` · radius. Others so closely that chords are within `chord` · half the
+  /// extent of the whole piece, and turn no more than a circle's would, unless that moves less than a fiftieth of the
+  /// tolerance. `to` may lie up to one period past the domain of a closed curve.
   [[nodiscard]] std::vector<double> subdivided(double from, double to, double chord) const;
 
  private:
@@ -67,7 +67,7 @@ class EdgeCurve {
   bool closed_ = false, turned_ = false;
 };
 
-/// Angle between neighbouring points of a circle whose chords keep `chord` · radius: 2 acos(1 − chord).
+/// Angle between neighbouring points of a circle whose chords are within `chord` · radius: 2 acos(1 − chord).
 [[nodiscard]] double chord_angle(double chord);
 
 }  // namespace knead::step

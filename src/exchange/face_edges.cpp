@@ -17,14 +17,14 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double chord = 2e-4;     // of edges in space
-constexpr double straight = 2e-4;  // of an edge's extent: as far as a chord may be from its course
+constexpr double straight = 2e-4;  // of an edge's extent: how far a chord may be from its course
 constexpr int max_halvings = 7;
 
 std::string name_of(const Reader& reader, std::uint32_t instance) {
   return "#" + std::to_string(reader.file().instance(instance).id);
 }
 
-/// The EDGE_CURVEs round a face, once for every time that a loop runs along them.
+/// The EDGE_CURVEs around a face, once for every time a loop runs along them.
 std::vector<std::uint32_t> edges_of(const Reader& reader, const Face& face) {
   std::vector<std::uint32_t> result;
   for (const auto bound : reader.references(face.bounds)) {
@@ -65,7 +65,7 @@ class Course {
     for (const Point& p : points) {
       feet.push_back(foot(p, feet.empty() ? std::nullopt : std::optional(feet.back()), near_));
     }
-    // At a pole the parameter round it is that of the point before or after.
+    // At a pole the parameter around it is that of the point before or after.
     for (std::size_t k = 1; k < feet.size(); ++k) settle(feet[k], feet[k - 1]);
     for (std::size_t k = feet.size() - 1; k-- > 0;) settle(feet[k], feet[k + 1]);
     for (std::size_t k = 1; k < feet.size(); ++k) unwrap(feet[k].at, feet[k - 1].at);
@@ -85,7 +85,7 @@ class Course {
   }
 
  private:
-  /// The foot nearest to p; one that is found from `before` will do if it is within `near`.
+  /// The foot nearest to p; one found from `before` is accepted if it is within `near`.
   LoopPoint foot(const Point& p, const std::optional<LoopPoint>& before, double near) const {
     std::optional<Vector2d> hint;
     if (before && !before->free[0] && !before->free[1]) hint = before->at;
@@ -111,8 +111,8 @@ class Course {
   }
   void halve(TrimEdge& edge, const Point& p, const Vector2d& a, const Point& q, const Vector2d& b, int depth) {
     const Point middle = 0.5 * (p + q);
-    // The middle of a chord is not on the surface, and where two sides of the surface lie close together, as at the
-    // trailing edge of a blade, the other one may be nearer.
+    // The midpoint of a chord is not on the surface, and where two sides of the surface are close together, as at the
+    // trailing edge of a blade, the other side may be nearer.
     LoopPoint m = foot(middle, LoopPoint{0.5 * (a + b)}, near_ + 0.1 * (q - p).norm());
     if (m.free[0] || m.free[1]) return;
     unwrap(m.at, a);

@@ -38,7 +38,7 @@ Expected<Loop> EdgeSampler::sample(std::uint32_t instance) const {
   double to = curve->parameter(backwards ? *start : *end);
   const auto domain = curve->domain();
   if (curve->closed()) {
-    // Forwards from the one to the other; the same vertex twice is the whole curve.
+    // Forwards from one to the other; the same vertex twice means the whole curve.
     const double near = 1e-9 * domain->length();
     if (from >= domain->upper - near) from = domain->lower;
     if (same_vertex) to = from;
@@ -47,7 +47,7 @@ Expected<Loop> EdgeSampler::sample(std::uint32_t instance) const {
     from = domain->lower;
     to = domain->upper;
   } else if (to < from) {
-    std::swap(from, to);  // against the sense the edge states, yet the same points
+    std::swap(from, to);  // against the stated sense of the edge, yet the same points
     backwards = !backwards;
   }
   Loop points;
@@ -81,7 +81,7 @@ Expected<Loop> EdgeSampler::loop(std::uint32_t instance) {
   const auto path = reader.attributes(instance, "PATH", 1, 1);
   if (!reader.is(instance, "EDGE_LOOP") || path.empty())
     return reader.error(instance, "a loop of a known form is needed here");
-  std::unordered_map<std::uint32_t, std::array<int, 2>> ways;  // how often along each edge, against it
+  std::unordered_map<std::uint32_t, std::array<int, 2>> ways;  // how often along each edge, and against it
   for (const auto oriented : reader.references(path[0])) {
     const auto own = reader.attributes(oriented, "ORIENTED_EDGE", 3, 2);
     const auto element = own.empty() ? std::nullopt : reader.reference(own[0]);

@@ -8,7 +8,7 @@
 
 namespace knead::step {
 
-/// Points round a bound of a face, the last one not the first again.
+/// Points around a bound of a face, without repeating the first.
 using Loop = std::vector<Point>;
 
 /// The edges of a file as points, each sampled once: two faces that meet at an edge have the same points there.
@@ -17,13 +17,14 @@ class EdgeSampler {
   /// \param chord as in `EdgeCurve::subdivided`
   EdgeSampler(const Reader& reader, double chord) : reader_(&reader), chord_(chord) {}
 
-  /// From the start vertex of an EDGE_CURVE to its end vertex. Errors (input): the curve's form is not known, or
+  /// From the start vertex of an EDGE_CURVE to its end vertex. Errors (input): the curve's type is unknown, or
   /// something is missing.
   [[nodiscard]] Expected<const Loop*> edge(std::uint32_t instance);
 
-  /// The loops of a list of FACE_BOUNDs, each in the direction that the bound gives it: with the face on its left seen
-  /// from the tip of the face's normal. What bounds nothing is left out: a VERTEX_LOOP, and a loop that runs along all
-  /// of its edges both ways, as round the seams of a whole torus (in an order that need not be that of its parameters).
+  /// The loops of a list of FACE_BOUNDs, each in the direction given by the bound: with the face on its left as seen
+  /// from the tip of the face's normal. Loops that bound nothing are omitted: a VERTEX_LOOP, and a loop that runs along
+  /// all of its edges in both directions, as along the seams of a whole torus (not necessarily in the order of its
+  /// parameters).
   [[nodiscard]] Expected<std::vector<Loop>> loops(std::uint32_t bounds);
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double off_surface = 0.02;  // of the extent of the face: edges may be that far from its surface
+constexpr double off_surface = 0.02;  // of the extent of the face: how far edges may be from its surface
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 
 namespace knead::step {
 
-/// The bounds of a face as polygons over the plane of the unwrapped parameters of its surface. `size` is the diagonal
+/// The bounds of a face as polygons in the plane of the unwrapped parameters of its surface. `size` is the diagonal
 /// of its net. Errors (input): its edges cannot be followed, or do not lie on its surface.
 [[nodiscard]] Expected<std::vector<RegionPart>> region_of(const Reader& reader, const Face& face, EdgeSampler& edges,
                                                           const SurfaceFoot& feet, double size);
@@ -18,7 +18,7 @@ namespace knead::step {
 /// Appends a part, once for every turn that brings some of it into the domain.
 void add_turns(const RegionPart& part, const ParameterSpace& space, std::vector<TrimFace>& faces);
 
-/// A point lies on a surface where its foot is no farther than this share of the net's diagonal.
+/// A point lies on a surface if its foot is no farther than this share of the net's diagonal.
 inline constexpr double on_surface = 1e-5;
 
 }  // namespace knead::step

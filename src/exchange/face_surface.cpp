@@ -100,7 +100,7 @@ Expected<FaceSurface> FaceSurface::read_elementary(const Reader& reader, std::ui
   return surface;
 }
 
-/// Makes the half angle of a cone its tangent, by the unit that brings the cone closest to the points on it.
+/// Replaces the half angle of a cone by its tangent, in the unit that brings the cone closest to the points on it.
 bool FaceSurface::find_half_angle(std::span<const Point> on_it, std::span<const double> angle_units) {
   const double angle = minor_;
   double best = std::numeric_limits<double>::infinity();
@@ -158,7 +158,7 @@ void FaceSurface::set_poles() {
   constexpr double quarter = turn / 4;
   if (kind_ == Kind::sphere) poles_ = {-quarter, quarter};
   if (kind_ == Kind::cone) {
-    // One nappe: that on which the radius is positive.
+    // One nappe: the one on which the radius is positive.
     const double apex = -radius_ / minor_;
     poles_[minor_ > 0 ? 0 : 1] = apex;
   }
@@ -293,7 +293,7 @@ void FaceSurface::set_steps(double chord) {
   angle_step_ = turn / std::ceil(turn / chord_angle(chord));
   if (profile_) steps_ = profile_->subdivided(range_.lower, range_.upper, chord);
   if (waist_ > 0) {
-    // Rulings that are not parallel: a cell of a by b is off its surface by up to a b / 4 at the waist.
+    // Rulings that are not parallel: a cell of a by b deviates from its surface by up to a b / 4 at the waist.
     const double pieces = std::clamp(std::ceil(2 * range_.length() / (waist_ * angle_step_)), 1.0, 1000.0);
     steps_.clear();
     for (double k = 0; k <= pieces; ++k) steps_.push_back(range_.lower + range_.length() * k / pieces);
@@ -302,7 +302,7 @@ void FaceSurface::set_steps(double chord) {
 
 namespace {
 
-// Piecewise linear between whole steps, and on as in the outermost ones.
+// Piecewise linear between whole steps, extrapolated from the outermost ones.
 double steps_at(const std::vector<double>& steps, double t) {
   auto k = std::upper_bound(steps.begin() + 1, steps.end() - 1, t) - steps.begin() - 1;
   const auto i = static_cast<std::size_t>(k);

@@ -10,24 +10,25 @@
 
 namespace knead::step {
 
-/// Where a point of a surface lies in its parameters.
+/// The parameters of a point on a surface.
 struct Foot {
   Eigen::Vector2d parameters = Eigen::Vector2d::Zero();
-  /// At a pole: any u is right. (On a B-spline surface: either direction.)
+  /// At a pole: any u is valid. (On a B-spline surface: in either direction.)
   std::array<bool, 2> free = {false, false};
 };
 
 /// A surface of a STEP file that is not a B-spline: PLANE, CYLINDRICAL_, CONICAL_, SPHERICAL_ and TOROIDAL_SURFACE,
-/// SURFACE_OF_REVOLUTION, SURFACE_OF_LINEAR_EXTRUSION, with the parameters that ISO 10303-42 gives it; but that the u
-/// of an extrusion and the v of a revolution are those of the swept curve.
+/// SURFACE_OF_REVOLUTION, SURFACE_OF_LINEAR_EXTRUSION, parametrised as in ISO 10303-42, except that the u of an
+/// extrusion and the v of a revolution are those of the swept curve.
 class FaceSurface {
  public:
-  /// \param on_it points of the edges of the face: how much of an unbounded swept curve is needed, and what unit the
-  ///   angle of a cone is in (the one of `angle_units`, radians each, that brings the cone closest to these points)
-  /// Errors (input): the form is another, or lacks what it has.
+  /// \param on_it points of the edges of the face: they determine how much of an unbounded swept curve is needed, and
+  ///   the unit of a cone's angle (the one of `angle_units`, radians each, that brings the cone closest to these
+  ///   points)
+  /// Errors (input): another type of entity, or an incomplete one.
   [[nodiscard]] static Expected<FaceSurface> read(const Reader& reader, std::uint32_t instance,
                                                   std::span<const Point> on_it, std::span<const double> angle_units);
-  /// Of a face without surface (FACE with a POLY_LOOP): the plane of the loop by Newell's normal.
+  /// For a face without surface (FACE with a POLY_LOOP): the plane of the loop by Newell's normal.
   [[nodiscard]] static std::optional<FaceSurface> plane_of(std::span<const Point> loop);
 
   [[nodiscard]] bool plane() const { return kind_ == Kind::plane; }
@@ -40,15 +41,15 @@ class FaceSurface {
 
   /// Length of one turn in u, in v; 0 where it is not closed.
   [[nodiscard]] const std::array<double, 2>& periods() const { return periods_; }
-  /// The v below and above which there is nothing, where u is a single point.
+  /// The lower and upper limits of v, at which the surface is a single point for all u.
   [[nodiscard]] const std::array<std::optional<double>, 2>& poles() const { return poles_; }
 
-  /// Steps such that chords of one step keep `chord` times the radius (of swept curves: half their extent). Chart
-  /// coordinates count steps; 0 stands for straight directions, which need none.
+  /// Steps such that chords of one step are within `chord` times the radius (for swept curves: half their extent).
+  /// Chart coordinates count steps; 0 stands for straight directions, which need none.
   void set_steps(double chord);
   [[nodiscard]] Eigen::Vector2d chart(const Eigen::Vector2d& uv) const;
   [[nodiscard]] Eigen::Vector2d from_chart(const Eigen::Vector2d& steps) const;
-  /// True for directions along which the surface is straight, and its normal the same.
+  /// True for directions along which the surface is straight and its normal constant.
   [[nodiscard]] std::array<bool, 2> straight() const;
 
  private:
@@ -80,8 +81,8 @@ class FaceSurface {
   bool lemon_ = false;  // the inner part of a torus that crosses its axis
   std::optional<EdgeCurve> profile_;
   Interval range_ = {};                    // of the profile
-  double waist_ = 0;                       // of the hyperboloid that a skew line revolves to: its least radius
-  bool one_side_ = false;                  // only what of the profile lies on the positive side of the axis
+  double waist_ = 0;                       // of the hyperboloid swept by a skew line: its smallest radius
+  bool one_side_ = false;                  // only the part of the profile on the positive side of the axis
   Point side_ = Point::Zero();             // that side
   std::vector<double> sample_parameters_;  // fine samples of the profile: for `nearest`
   std::vector<Eigen::Vector2d> samples_;
@@ -91,7 +92,7 @@ class FaceSurface {
   std::array<std::optional<double>, 2> poles_ = {};
 };
 
-/// The radians of every unit of plane angles that a file assigns; 1 (radians) where it assigns none.
+/// The radians of every plane angle unit that a file assigns; 1 (radians) if it assigns none.
 [[nodiscard]] std::vector<double> plane_angle_units(const Reader& reader);
 
 }  // namespace knead::step

@@ -78,7 +78,7 @@ Expected<std::string> read_file(const std::filesystem::path& path) {
 
 #ifdef __wasi__
 
-// A browser keeps its files by other means.
+// A browser stores its files by other means.
 Expected<void> write_file_atomically(const std::filesystem::path& path, std::string_view) {
   return system_error(path, "cannot be written", ENOTSUP, "take the bytes and store them yourself");
 }
@@ -120,7 +120,7 @@ Expected<void> write_file_atomically(const std::filesystem::path& path, std::str
   if (::fsync(file.get()) != 0) return give_up(errno);
   if (file.close() != 0) return give_up(errno);
   if (::rename(temporary.c_str(), target.c_str()) != 0) return give_up(errno);
-  // The rename itself is made durable; a file system that cannot do so has still done it.
+  // The rename itself is made durable; on a file system that cannot do so it has still happened.
   Descriptor parent(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (parent.get() >= 0) static_cast<void>(::fsync(parent.get()));
   return {};

@@ -16,7 +16,7 @@ constexpr int component_float = 5126, component_unsigned_int = 5125, target_vert
 
 using Json = nlohmann::ordered_json;
 
-/// Metres per unit; glTF's lengths are metres. 1 where the unit is not known.
+/// Metres per unit; glTF's lengths are metres. 1 if the unit is unknown.
 double metres(std::string_view unit) {
   constexpr std::pair<std::string_view, double> known[] = {
       {"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"dm", 0.1}, {"m", 1}, {"km", 1e3}, {"inch", 0.0254}, {"foot", 0.3048}};
@@ -26,12 +26,12 @@ double metres(std::string_view unit) {
   return 1;
 }
 
-/// The chunk of numbers, and what the JSON says of them.
+/// The chunk of numbers, and the JSON that describes it.
 struct Buffer {
   std::string bytes;
   Json views = Json::array(), accessors = Json::array();
 
-  /// Ends a view that began at byte `begin`; the index of an accessor of all of it.
+  /// Ends a view that began at byte `begin`; returns the index of an accessor for all of it.
   int finish(std::size_t begin, int target, Json accessor) {
     accessor["bufferView"] = views.size();
     views.push_back({{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}, {"target", target}});
@@ -39,7 +39,7 @@ struct Buffer {
     return static_cast<int>(accessors.size()) - 1;
   }
 
-  /// Vectors in single precision with their bounds, which viewers place their camera by: those of the numbers written.
+  /// Vectors in single precision with the bounds of the numbers written, by which viewers place their camera.
   int vectors(const Points& points) {
     const std::size_t begin = bytes.size();
     for (Eigen::Index k = 0; k < points.rows(); ++k) append_point<float>(bytes, points.row(k));
@@ -81,7 +81,7 @@ Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOpt
   for (const SurfaceMesh& mesh : all->meshes) {
     if (mesh.triangles.empty()) continue;  // accessors must not be empty
     if (auto fits = fits_single_precision(mesh, "glTF"); !fits) return std::unexpected(fits.error());
-    Points unit = mesh.normals;  // glTF wants unit vectors of points that no triangle has too, as beside a pole
+    Points unit = mesh.normals;  // glTF requires unit vectors even at points of no triangle, as beside a pole
     for (Eigen::Index k = 0; k < unit.rows(); ++k) {
       if (unit.row(k).isZero(0)) unit.row(k) << 0, 0, 1;
     }
@@ -95,7 +95,8 @@ Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOpt
     nodes.push_back({{"name", mesh.name}, {"mesh", meshes.size() - 1}});
   }
   if (meshes.empty()) return numerical_error("the surfaces have no area", {}, "write STEP");
-  // Above the surfaces a node turns z up into y up and units into metres, so that coordinates stay those of the file.
+  // A parent node of the surfaces converts z up to y up and units to metres, so that coordinates stay those of the
+  // file.
   const double scale = metres(options.unit);
   nodes.insert(nodes.begin(), Json{{"name", options.title},
                                    {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},

@@ -4,7 +4,7 @@
 
 namespace knead::detail {
 
-/// One function per format, each in a file of its own. A new format is declared and listed here.
+/// One function per format, each in its own file. A new format is declared and listed here.
 [[nodiscard]] Format step_format();
 [[nodiscard]] Format stl_format();
 [[nodiscard]] Format obj_format();

@@ -33,7 +33,7 @@ class StepSource final : public Source {
   std::vector<UnreadableSurface> unreadable_;
 };
 
-/// The first token of an exchange structure, behind white space, comments and a byte order mark.
+/// The first token of an exchange structure, after white space, comments and a byte order mark.
 bool recognises(std::string_view bytes) {
   constexpr std::size_t enough = 4096;
   return bytes.substr(0, enough).find("ISO-10303-21") != std::string_view::npos;

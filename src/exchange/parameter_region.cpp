@@ -27,7 +27,8 @@ bool cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector
   return ((s > 0) != (t > 0)) && ((u > 0) != (v > 0)) && s != t;
 }
 
-/// The segment from a to b meets no edge of the loops, moved by whole turns; edges that end in a or b do not count.
+/// Whether the segment from a to b meets no edge of the loops, shifted by whole turns; edges that end in a or b do not
+/// count.
 class Sight {
  public:
   Sight(const ParameterSpace& space, const std::vector<const Unwrapped*>& loops) : space_(space), loops_(loops) {}
@@ -73,7 +74,7 @@ class Sight {
   const std::vector<const Unwrapped*>& loops_;
 };
 
-// From point k once round and to point k again, a turn farther.
+// From point k once around to point k again, one turn further.
 Polygon round_from(const Unwrapped& loop, std::size_t k, int d, double period) {
   Polygon result;
   const auto n = loop.points.size();
@@ -86,7 +87,7 @@ Polygon round_from(const Unwrapped& loop, std::size_t k, int d, double period) {
   return result;
 }
 
-// The strip between two loops that go round in direction d, `below` towards larger parameters.
+// The strip between two loops that wind in direction d, `below` towards larger parameters.
 std::optional<Polygon> strip(const Unwrapped& below, const Unwrapped& above, int d, double period, const Sight& sight) {
   struct Cut {
     double length;
@@ -111,7 +112,7 @@ std::optional<Polygon> strip(const Unwrapped& below, const Unwrapped& above, int
     if (!sight.clear(below.points[cut.from].at, to)) continue;
     Polygon result = round_from(below, cut.from, d, period);
     Polygon back = round_from(above, cut.to, d, period);
-    // Back the other way: from where the first one has arrived.
+    // Back in the other direction: from the end of the first one.
     const bool same_way = below.winding[std::size_t(d)] == above.winding[std::size_t(d)];
     if (same_way) std::reverse(back.begin(), back.end());
     shift(back, d,
@@ -182,7 +183,7 @@ std::optional<Polygon> everything(const ParameterSpace& space, const Sight& sigh
 
 // Moves a loop by whole turns into one of the polygons; false if it lies in none.
 bool place(Polygon& loop, const ParameterSpace& space, const std::vector<RegionPart>& parts, std::size_t& which) {
-  // A point just inside of the loop would do as well; corners may touch the outline.
+  // A point just inside the loop would do as well; corners may touch the outline.
   Vector2d probe = (loop[0].at + loop[1 % loop.size()].at) / 2;
   for (which = 0; which < parts.size(); ++which) {
     Vector2d lower = parts[which].outer[0].at, upper = lower;
@@ -209,7 +210,7 @@ bool place(Polygon& loop, const ParameterSpace& space, const std::vector<RegionP
   return false;
 }
 
-/// Loops that wind round the surface, all in one direction (−1: there is none), and loops that do not.
+/// Loops that wind around the surface, all in one direction (−1: none), and loops that do not.
 struct Bounds {
   int direction = -1;
   std::vector<Unwrapped> round;
@@ -240,10 +241,10 @@ double mean_height(const Unwrapped& loop, int d) {
   return sum / static_cast<double>(loop.points.size());
 }
 
-/// The region is above a loop that runs in u, below one that runs against it; with u and v exchanged the reverse.
+/// The region is above a loop that runs along u and below one that runs against it; the reverse with u and v exchanged.
 bool upwards(const Unwrapped& loop, int d) { return (loop.winding[std::size_t(d)] > 0) == (d == 0); }
 
-/// What lies between loops that wind round in direction d, and between them and the poles.
+/// The parts between loops that wind in direction d, and between them and the poles.
 Expected<void> between_round_loops(const ParameterSpace& space, std::vector<Unwrapped> round, int d, const Sight& sight,
                                    std::vector<RegionPart>& parts) {
   const double period = space.periods[std::size_t(d)], other = space.periods[std::size_t(1 - d)];
@@ -269,7 +270,7 @@ Expected<void> between_round_loops(const ParameterSpace& space, std::vector<Unwr
       polygon = strip(round[0], round[1], d, period, sight);
       round.erase(round.begin(), round.begin() + 2);
     } else {
-      // Alone: up to the pole it looks at, or the only one there is.
+      // Alone: up to the pole it faces, or the only one.
       const auto end = upwards(round[0], d) ? (ends[1] ? ends[1] : ends[0]) : (ends[0] ? ends[0] : ends[1]);
       if (!end) return no_region("one of its bounds goes round the surface and none faces it");
       polygon = cap(round[0], *end, d, period, sight);
@@ -281,7 +282,7 @@ Expected<void> between_round_loops(const ParameterSpace& space, std::vector<Unwr
   return {};
 }
 
-/// Loops that do not wind round, the largest first: holes of what is there, or parts of their own.
+/// Loops that do not wind, the largest first: holes of existing parts, or parts of their own.
 Expected<void> add_plain_loops(const ParameterSpace& space, std::vector<Polygon> plain, const Sight& sight,
                                std::vector<RegionPart>& parts) {
   std::sort(plain.begin(), plain.end(),

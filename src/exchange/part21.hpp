@@ -17,7 +17,7 @@ struct ByteRange {
   std::uint32_t end = 0;
 };
 
-/// What a parameter of an exchange structure is (ISO 10303-21, 6.4 and 10.2).
+/// The kind of a parameter of an exchange structure (ISO 10303-21, 6.4 and 10.2).
 enum class Part21Kind : std::uint8_t {
   integer,
   real,
@@ -40,7 +40,7 @@ struct Part21Value {
   Part21Kind kind = Part21Kind::unset;
   ByteRange bytes;
   std::uint32_t next = 0;
-  std::uint32_t target = no_instance;  ///< reference: index of the instance, `no_instance` if outside of the file;
+  std::uint32_t target = no_instance;  ///< reference: index of the instance, `no_instance` if outside the file;
                                        ///< typed: length of the keyword
 };
 
@@ -51,18 +51,18 @@ struct Part21Instance {
   ByteRange record;         ///< the record alone: KEYWORD(…), or (KEYWORD(…)KEYWORD(…)…)
   std::uint32_t first = 0;  ///< its parts (kind `typed`) are values first … last
   std::uint32_t last = 0;
-  std::uint32_t scope = no_instance;  ///< the instance within whose &SCOPE it stands
+  std::uint32_t scope = no_instance;  ///< the instance whose &SCOPE contains it
   std::uint32_t uses = 0;             ///< number of references to it, ANCHOR section included, export lists not
   bool complex = false;               ///< external mapping: several parts
 };
 
 /// A parsed exchange structure (ISO 10303-21, editions 1 to 3): every record and parameter with its bytes.
 ///
-/// Comments, print control directives and line breaks may stand between any two tokens; &SCOPE (edition 1), several
+/// Comments, print control directives and line breaks may occur between any two tokens; &SCOPE (edition 1), several
 /// DATA sections (edition 2) and ANCHOR, REFERENCE and SIGNATURE sections (edition 3) are read. Beyond the standard,
-/// these common deviations are let pass, since the bytes stay as they are: a byte order mark, lower-case keywords,
+/// these common deviations are accepted, since the bytes are kept as they are: a byte order mark, lower-case keywords,
 /// reals without a digit before the point or with an exponent letter D or e, bytes above 127 in strings, NUL or ^Z at
-/// the end. Errors (input), with line and entity: whatever else is not the grammar; unterminated strings and comments;
+/// the end. Errors (input), with line and entity: anything else outside the grammar; unterminated strings and comments;
 /// names defined twice or referred to but not defined; names above 2^63 − 1; more than 200 nested lists; more than 4
 /// GB. Cost: linear in the size of the file. Immutable.
 class Part21File {

@@ -116,7 +116,7 @@ Part21Token Part21Lexer::keyword() {
   std::uint32_t k = position_;
   if (at(k) == '!' || at(k) == '&') ++k;
   if (!is_letter(at(k))) return bad("a keyword without letters");
-  // The hyphen belongs to ISO-10303-21 and END-ISO-10303-21 alone.
+  // Hyphens occur only in ISO-10303-21 and END-ISO-10303-21.
   while (is_letter(at(k)) || is_digit(at(k)) || at(k) == '-') ++k;
   return token(Part21Token::Kind::keyword, k);
 }
@@ -135,7 +135,7 @@ Part21Token Part21Lexer::instance_name() {
 
 Part21Token Part21Lexer::delimited(Part21Token::Kind kind, char last, const char* problem) {
   std::uint32_t k = position_ + 1;
-  // None of these may run over the end of a line, except a binary, which is wrapped like a string.
+  // None of these may continue past the end of a line, except a binary, which is wrapped like a string.
   while (k < bytes_.size() && at(k) != last && (kind == Part21Token::Kind::binary || !is_space(at(k)))) ++k;
   if (at(k) != last || k >= bytes_.size()) return bad(problem);
   return token(kind, k + 1);

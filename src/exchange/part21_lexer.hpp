@@ -21,7 +21,7 @@ struct Part21Token {
     name,    // #12
     other,   // @12, #NAME, @NAME, <resource>
     symbol,  // one of ( ) , ; = / $ * { } :
-    bad,     // nothing the grammar knows: `problem` says why
+    bad,     // not in the grammar: `problem` says why
   };
   Kind kind = Kind::end;
   std::uint32_t begin = 0;
@@ -29,7 +29,7 @@ struct Part21Token {
   const char* problem = nullptr;
 };
 
-/// Cuts the bytes into tokens, one at a time. A bad token is returned again and again.
+/// Splits the bytes into tokens, one at a time. A bad token is returned repeatedly.
 class Part21Lexer {
  public:
   explicit Part21Lexer(std::string_view bytes) : bytes_(bytes) {}

@@ -142,7 +142,7 @@ bool Part21Parser::reference_section() {
 
 bool Part21Parser::signature_section() {
   section_ = "SIGNATURE section";
-  // Its content is text in base 64 and not made of tokens.
+  // Its content is base 64 text, not tokens.
   const auto end = file_.bytes_.find("ENDSEC", token_.end);
   if (end == std::string::npos) return fail("the SIGNATURE section is not closed", "put ENDSEC; behind it");
   lexer_.set_position(static_cast<std::uint32_t>(end));

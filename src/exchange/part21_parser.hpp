@@ -11,7 +11,7 @@ namespace knead {
 
 /// Recursive descent over the grammar of ISO 10303-21, annex A, filling a `Part21File`.
 ///
-/// Functions return false after `fail` has kept the first error.
+/// Functions return false after `fail` has stored the first error.
 class Part21Parser {
  public:
   explicit Part21Parser(Part21File& file) : file_(file), lexer_(file.bytes_) {}

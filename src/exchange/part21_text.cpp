@@ -64,8 +64,8 @@ std::size_t utf8_length(std::string_view text, std::size_t k) {
   return length;
 }
 
-// Of an unsigned number that is not zero: the power of ten just above it, as far as that is needed to tell a number
-// that is too large for a double from one that is too small.
+// The power of ten just above a non-zero unsigned number, precise enough to tell a number too large for a double from
+// one too small.
 std::int64_t decimal_magnitude(std::string_view text) {
   const auto mark = std::min(text.find_first_of("eE"), text.size());
   const auto mantissa = text.substr(0, mark);
@@ -83,7 +83,7 @@ std::int64_t decimal_magnitude(std::string_view text) {
   return exponent + point - lead;
 }
 
-// One string literal on its way to UTF-8.
+// Decodes one string literal to UTF-8.
 class Decoder {
  public:
   explicit Decoder(std::string_view text) : text_(text) {
@@ -140,7 +140,7 @@ class Decoder {
     } else if (rest.starts_with("\\N\\") || rest.starts_with("\\F\\")) {
       k_ += 3;
     } else {
-      out_ += '\\';  // not a directive; a path of a careless writer
+      out_ += '\\';  // not a directive: an unescaped path
       ++k_;
     }
   }
@@ -227,8 +227,8 @@ std::string format_real(double value) {
   return text;
 }
 
-// As std::to_chars would have it: fixed notation, or scientific where that is shorter. Its tables alone would be an
-// eighth of what the studio's module takes over a network.
+// As std::to_chars does: fixed notation, or scientific if shorter. Its tables alone would be an eighth of the studio
+// module's download size.
 std::string format_shortest_real(double value) {
   if (!std::isfinite(value)) return fmt::format("{}", value);
   const std::string shortest = fmt::format("{}", std::abs(value)), sign = std::signbit(value) ? "-" : "";

@@ -16,14 +16,14 @@ namespace {
 
 constexpr int samples_per_edge = 17;
 constexpr int most_samples = 129;
-constexpr int max_nesting = 8;  // curves of curves; more is a loop
+constexpr int max_nesting = 8;  // nested curves; more is a loop
 
 struct Ends {
   Point start;
   Point end;
 };
 
-// Attribute of an entity whose complex form declares it elsewhere than its simple form counts it.
+// An attribute that the complex form of an entity declares in another place than the simple form.
 std::optional<std::uint32_t> reference_at(const Reader& reader, std::uint32_t instance, std::string_view declared_by,
                                           std::size_t inherited, std::size_t k) {
   const auto own = reader.attributes(instance, declared_by, inherited, k + 1);
@@ -67,7 +67,7 @@ std::optional<Points> conic(const Reader& reader, std::uint32_t instance, const 
   };
   const double from = angle(ends.start);
   double to = angle(ends.end);
-  // Counter-clockwise from start to end; the same vertex twice is the whole circle.
+  // Counter-clockwise from start to end; the same vertex twice means the whole circle.
   if (to <= from + 1e-9) to += 2 * std::numbers::pi;
   Points result(2 * samples_per_edge, 3);
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
@@ -108,7 +108,7 @@ std::optional<Points> spline(const Reader& reader, std::uint32_t instance, const
     if (from >= domain.upper - near) from = domain.lower;
     if (to <= from + near) to += domain.length();
   } else if (to < from) {
-    std::swap(from, to);  // against the sense the edge states, yet the same points
+    std::swap(from, to);  // against the stated sense of the edge, yet the same points
   }
   const int count =
       std::min(most_samples, samples_per_edge + 4 * static_cast<int>(table->curve().knots(0).spans().size()));
@@ -219,7 +219,7 @@ CurveTable::Foot CurveTable::closest(const Point& point, double limit) const {
   Eigen::Index best = 0;
   Foot foot{0, distances.minCoeff(&best)};
   foot.parameter = parameters_[static_cast<std::size_t>(best)];
-  // The foot may lie beside any tabulated local minimum that its chords can reach down from.
+  // The foot may lie next to any tabulated local minimum whose chords allow a smaller distance.
   for (Eigen::Index k = 0; k < distances.size(); ++k) {
     const auto before = std::max<Eigen::Index>(k - 1, 0);
     const auto after = std::min<Eigen::Index>(k + 1, distances.size() - 1);

@@ -14,30 +14,31 @@ namespace knead::step {
 /// Reads a B_SPLINE_CURVE in three dimensions in any of its forms, as `read_b_spline_surface` reads surfaces.
 [[nodiscard]] Expected<Curve> read_b_spline_curve(const Reader& reader, std::uint32_t instance);
 
-/// Points along an EDGE_CURVE from its start to its end vertex, one per row, the more the more spans its curve has.
+/// Points along an EDGE_CURVE from its start to its end vertex, one per row; their number grows with the spans of the
+/// curve.
 ///
-/// Known forms of curve: LINE, CIRCLE, ELLIPSE, POLYLINE (taken whole), B-spline curves, TRIMMED_CURVE of these
+/// Known types of curve: LINE, CIRCLE, ELLIPSE, POLYLINE (taken whole), B-spline curves, TRIMMED_CURVE of these
 /// (between the vertices of the edge), and SURFACE_CURVE, SEAM_CURVE, INTERSECTION_CURVE of these (by their curve in
-/// space). None for other forms and for curves that cannot be read.
+/// space). None for other types and for curves that cannot be read.
 [[nodiscard]] std::optional<Points> sample_edge(const Reader& reader, std::uint32_t edge);
 
 /// The parameter of the point of a curve nearest to `point`, and the distance: the best of the tabulated points and
 /// their neighbourhoods, by Newton's iteration.
 class CurveTable {
  public:
-  /// Tabulates the curve. Errors: as of `evaluate`.
+  /// Tabulates the curve. Errors: as for `evaluate`.
   [[nodiscard]] static Expected<CurveTable> create(Curve curve);
 
   struct Foot {
     double parameter = 0;
     double distance = 0;
   };
-  /// Feet farther away than `limit` may be given roughly.
+  /// Feet farther away than `limit` may be approximate.
   [[nodiscard]] Foot closest(const Point& point, double limit = std::numeric_limits<double>::infinity()) const;
   [[nodiscard]] const Curve& curve() const { return curve_; }
   [[nodiscard]] const std::vector<double>& parameters() const { return parameters_; }
   [[nodiscard]] const Points& points() const { return points_; }
-  /// First and last point agree to `tolerance`.
+  /// Whether first and last point agree to `tolerance`.
   [[nodiscard]] bool closed(double tolerance) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace knead::step {
 
-/// What a `File` holds.
+/// The data of a `File`.
 struct File::Data {
   explicit Data(Part21File parsed) : records(std::move(parsed)) {}
 
@@ -18,7 +18,7 @@ struct File::Data {
   std::string schema;
   std::vector<SurfaceEntity> surfaces;
   std::vector<std::uint32_t> surface_instances;                // of each of `surfaces`
-  std::vector<std::vector<std::uint32_t>> control_point_refs;  // of each: the values that refer to its control points
+  std::vector<std::vector<std::uint32_t>> control_point_refs;  // for each: the values that refer to its control points
   std::unordered_map<std::string, std::size_t> surface_index;  // by id
   std::vector<UnreadableSurface> unreadable;
   std::vector<Instance> instances;

@@ -15,9 +15,9 @@ namespace knead::step {
 
 /// Reads the attributes of entities: the layer between parameters (part21.hpp) and geometry.
 ///
-/// An entity type is found by name in a simple record and in the parts of a complex one alike. In a simple record the
-/// attributes of the supertypes come first (ISO 10303-21, 10.2.5.2); so an attribute is given by the entity that
-/// declares it, by the number of inherited attributes before those, and by its place among them.
+/// An entity type is found by name both in a simple record and in the parts of a complex one. In a simple record the
+/// attributes of the supertypes come first (ISO 10303-21, 10.2.5.2); so an attribute is specified by the entity that
+/// declares it, the number of inherited attributes before those, and its place among them.
 class Reader {
  public:
   explicit Reader(const Part21File& file) : file_(&file) {}
@@ -28,16 +28,16 @@ class Reader {
   [[nodiscard]] std::string label(std::uint32_t instance) const;
   /// The part of the instance (a value of kind `typed`) with this name.
   [[nodiscard]] std::optional<std::uint32_t> part(std::uint32_t instance, std::string_view entity) const;
-  /// Some part of the instance has this name.
+  /// Whether some part of the instance has this name.
   [[nodiscard]] bool is(std::uint32_t instance, std::string_view entity) const {
     return part(instance, entity).has_value();
   }
 
   /// The attributes that `entity` itself declares: in a complex instance the parameters of that part; in a simple one
-  /// those behind the first `inherited` ones. Empty if there are fewer than `count`.
+  /// those after the first `inherited` ones. Empty if there are fewer than `count`.
   [[nodiscard]] std::vector<std::uint32_t> attributes(std::uint32_t instance, std::string_view entity,
                                                       std::size_t inherited, std::size_t count) const;
-  /// All parameters of a simple instance; of a complex one those of the part with this name.
+  /// All parameters of a simple instance; those of the part with this name of a complex one.
   [[nodiscard]] std::vector<std::uint32_t> parameters(std::uint32_t instance, std::string_view entity) const {
     return attributes(instance, entity, 0, 0);
   }
@@ -46,10 +46,10 @@ class Reader {
   [[nodiscard]] std::optional<int> integer(std::uint32_t value) const;
   /// Index of the instance referred to; none for anything but a reference within the file.
   [[nodiscard]] std::optional<std::uint32_t> reference(std::uint32_t value) const;
-  /// The instances of a list of references, others left out.
+  /// The instances in a list of references; other values are omitted.
   [[nodiscard]] std::vector<std::uint32_t> references(std::uint32_t list) const;
   [[nodiscard]] std::string string(std::uint32_t value) const;            ///< decoded; empty for $
-  [[nodiscard]] std::string_view enumeration(std::uint32_t value) const;  ///< without its points
+  [[nodiscard]] std::string_view enumeration(std::uint32_t value) const;  ///< without its dots
   [[nodiscard]] bool is_list(std::uint32_t value) const { return file_->value(value).kind == Part21Kind::list; }
 
   /// Label of a REPRESENTATION_ITEM: the first parameter of a simple record.

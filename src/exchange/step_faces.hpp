@@ -7,16 +7,16 @@
 
 namespace knead::step {
 
-/// An ADVANCED_FACE, FACE_SURFACE or FACE as its record gives it.
+/// An ADVANCED_FACE, FACE_SURFACE or FACE as given by its record.
 struct Face {
   std::uint32_t instance = no_instance;
   std::uint32_t bounds = 0;             ///< the value of its list of FACE_BOUNDs
-  std::uint32_t surface = no_instance;  ///< none: a FACE has no geometry but that of its loops
+  std::uint32_t surface = no_instance;  ///< none: a FACE has only the geometry of its loops
   bool same_sense = true;
 };
 
 /// All faces, in the order of the file. RECTANGULAR_TRIMMED_SURFACE and CURVE_BOUNDED_SURFACE stand for the surface
-/// that they cut: the bounds of the face say more.
+/// that they trim: the bounds of the face are more precise.
 [[nodiscard]] std::vector<Face> read_faces(const Reader& reader);
 
 }  // namespace knead::step

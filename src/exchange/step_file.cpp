@@ -71,7 +71,7 @@ Expected<File> File::parse(std::string bytes, std::string name) {
   for (std::size_t k = 0; k < read.size(); ++k) {
     const auto id = "#" + std::to_string(data->records.instance(read[k].instance).id);
     const auto closed = closed_directions(read[k].surface);
-    // A surface that no representation leads to still has the file's unit if there is only one.
+    // A surface not reached from any representation still has the file's unit if there is only one.
     std::string unit = "unknown";
     if (context_of[k] >= 0) unit = contexts[static_cast<std::size_t>(context_of[k])].unit.name;
     if (context_of[k] < 0 && !contexts.empty() && one_unit) unit = contexts.front().unit.name;

@@ -96,7 +96,7 @@ class Assemblies {
     linked_.try_emplace(*second, *first);
   }
 
-  // PRODUCT_DEFINITION -> PRODUCT_DEFINITION_FORMATION -> PRODUCT, by place: each has subtypes of other names.
+  // PRODUCT_DEFINITION -> PRODUCT_DEFINITION_FORMATION -> PRODUCT, by position: each has subtypes with other names.
   std::string product(Index definition) const {
     const auto step = [this](Index from, std::string_view entity, std::size_t k) -> std::optional<Index> {
       const auto own = reader_.attributes(from, entity, 0, k + 1);
@@ -118,7 +118,7 @@ class Assemblies {
     const auto first = attribute(reader_, *transformation, "ITEM_DEFINED_TRANSFORMATION", 0, 2);
     const auto second = attribute(reader_, *transformation, "ITEM_DEFINED_TRANSFORMATION", 0, 3);
     if (!first || !second) return;
-    // rep_1 is the component by convention (CAx-IF recommended practice); some writers turn it round.
+    // rep_1 is the component by convention (CAx-IF recommended practice); some writers reverse it.
     const auto rep_1 = reader_.reference(own[2]);
     const auto rep_2 = reader_.reference(own[3]);
     const auto has = [this](std::optional<Index> definition, std::optional<Index> representation) {
@@ -138,7 +138,7 @@ class Assemblies {
   std::unordered_map<Index, Index> linked_;             // representations related without a transformation
 };
 
-// For each mapped item the representation among whose items it is.
+// For each mapped item, the representation that lists it.
 std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector<Index>& mapped) {
   std::unordered_map<Index, Index> result;
   for (const auto k : mapped) result.emplace(k, no_instance);

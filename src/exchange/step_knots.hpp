@@ -8,7 +8,7 @@
 
 namespace knead::step {
 
-/// Which knots an entity without a knot list implies (ISO 10303-42, default_b_spline_knots and
+/// The knots implied by an entity without a knot list (ISO 10303-42, default_b_spline_knots and
 /// default_b_spline_knot_mult): spaced by 1, beginning
 ///   uniform:       at -p, each once (n + p + 1 knots, unclamped, domain [0, n - p]);
 ///   quasi-uniform: at 0, p + 1 times at the ends, once inside;

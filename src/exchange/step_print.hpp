@@ -8,7 +8,7 @@
 
 namespace knead::step {
 
-/// A knot vector as STEP lists it: distinct values and how often each stands.
+/// A knot vector as STEP lists it: distinct values and their multiplicities.
 struct PrintedKnots {
   std::string multiplicities;  ///< "(4,1,4)"
   std::string values;          ///< "(0.,0.5,1.)"
@@ -17,8 +17,8 @@ struct PrintedKnots {
 /// \param number the text of a knot
 [[nodiscard]] PrintedKnots print_knots(const KnotVector& knots, const std::function<std::string(double)>& number);
 
-/// "((a,b),(c,d))": entry k = i · columns + j is item(k); every row after the first on a line of its own where the file
-/// has lines.
+/// "((a,b),(c,d))": entry k = i · columns + j is item(k); every row after the first on its own line if the file has
+/// line breaks.
 [[nodiscard]] std::string print_net(int rows, int columns, const std::function<std::string(int)>& item,
                                     std::string_view line_break);
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t attributes_with_knots = attributes_of_b_spline_surface + 5;
 
-/// Where the comma between two parameters stands; comments may stand there too.
+/// The position of the comma between two parameters, where there may also be comments.
 std::uint32_t comma_between(const std::string& bytes, std::uint32_t from) {
   while (bytes[from] != ',') {
     from = bytes.compare(from, 2, "/*") == 0 ? static_cast<std::uint32_t>(bytes.find("*/", from) + 2) : from + 1;
@@ -50,7 +50,7 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
   const auto bytes = file_.value(record.first).bytes;
   const std::string name(file_.text(values[0]));
   const std::string keyword = form ? implied_keyword(*form) : "";
-  // From the keyword to the comma behind the name: comments there go.
+  // From the keyword to the comma after the name: comments there are lost.
   const auto own = comma_between(file_.bytes(), file_.value(values[0]).bytes.end) + 1;
   const std::string first = implied && *form == ImpliedKnots::bezier ? keyword + "()" : "";
   changes_.push_back({{bytes.begin, own}, "(" + first + "BOUNDED_SURFACE()B_SPLINE_SURFACE("});

@@ -193,7 +193,7 @@ std::array<bool, 2> closed_directions(const Surface& surface) {
     const auto last = boundary_curve(surface, direction, 1);
     if (!first || !last) continue;
     bool same = (first->control_points() - last->control_points()).rowwise().norm().maxCoeff() <= tolerance;
-    // Weights say the same curve up to a common factor.
+    // Weights with a common factor describe the same curve.
     if (surface.rational()) {
       const auto a = first->weights();
       const auto b = last->weights();
@@ -203,7 +203,7 @@ std::array<bool, 2> closed_directions(const Surface& surface) {
       const double w_b = b[static_cast<std::size_t>(largest - a.begin())];
       for (std::size_t k = 0; k < a.size(); ++k) same = same && std::abs(a[k] / w_a - b[k] / w_b) <= relative;
     }
-    // A net collapsed all along this direction has no inside to close around.
+    // A net collapsed along this whole direction has no interior to close around.
     const auto net = surface.net();
     const Eigen::Index step = direction == 0 ? net[1] : 1;
     bool collapsed = true;

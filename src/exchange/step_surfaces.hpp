@@ -11,14 +11,14 @@
 
 namespace knead::step {
 
-/// A surface with the parameters its control points come from.
+/// A surface with the parameters from which its control points come.
 struct ReadSurface {
   std::uint32_t instance = no_instance;
   Surface surface;
   std::vector<std::uint32_t> references;  ///< values of kind `reference`, in the order of the control points
 };
 
-/// B_SPLINE_SURFACE in any of its forms, simple or as part of a complex instance.
+/// Whether it is a B_SPLINE_SURFACE in any form, simple or as part of a complex instance.
 [[nodiscard]] bool is_b_spline_surface(const Reader& reader, std::uint32_t instance);
 
 /// Reads one (ISO 10303-42, b_spline_surface and its subtypes). Errors (input) with entity and line.
@@ -27,7 +27,7 @@ struct ReadSurface {
 /// The number of attributes of B_SPLINE_SURFACE with the name it inherits.
 inline constexpr std::size_t attributes_of_b_spline_surface = 8;
 
-/// The values of its u multiplicities, v multiplicities, u knots, v knots, and whatever follows; empty where it lists
+/// The values of its u multiplicities, v multiplicities, u knots, v knots, and whatever follows; empty if it lists
 /// none.
 [[nodiscard]] std::vector<std::uint32_t> knot_parameters(const Reader& reader, std::uint32_t instance);
 
@@ -42,8 +42,8 @@ inline constexpr std::size_t attributes_of_b_spline_surface = 8;
 [[nodiscard]] std::array<bool, 2> closed_directions(const Surface& surface);
 
 /// The boundary isocurve on which `direction` has its first (end = 0) or last (end = 1) parameter, over the knots of
-/// the other direction: the net is contracted by the basis at that parameter. Rational where the surface is; a control
-/// point whose weight comes out zero is given weight zero at the origin.
+/// the other direction: the net is contracted by the basis at that parameter. Rational if the surface is; a control
+/// point whose weight becomes zero is placed at the origin with weight zero.
 [[nodiscard]] Expected<Curve> boundary_curve(const Surface& surface, int direction, int end);
 
 /// Diagonal of the bounding box of the control points.

@@ -44,7 +44,7 @@ bool same_bits(std::span<const double> a, std::span<const double> b) {
 
 Expected<void> Surgeon::move_points(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
                                     const Points& old_points, const Points& new_points) {
-  // The control points by the record they come from, in their order.
+  // The control points grouped by their record, in order.
   std::unordered_map<std::uint32_t, std::vector<Eigen::Index>> occurrences;
   std::vector<std::uint32_t> order;
   for (std::size_t k = 0; k < refs.size(); ++k) {
@@ -58,7 +58,7 @@ Expected<void> Surgeon::move_points(std::uint32_t instance, const std::vector<st
     if (auto done = move(point, occurrences[point], refs, old_points, new_points, inserted); !done) return done;
   }
   if (!inserted.empty()) {
-    // Right behind the surface: there they are in its scope and its DATA section, whatever the scope of the
+    // Right after the surface: there they are in its scope and its DATA section, whatever the scope of the
     // originals.
     const auto end = file_.instance(instance).bytes.end;
     insert(end, std::move(inserted));
@@ -80,12 +80,12 @@ std::string Surgeon::result() {
   return out;
 }
 
-// One CARTESIAN_POINT and the control points (rows) it stands for.
+// One CARTESIAN_POINT and the control points (rows) it represents.
 Expected<void> Surgeon::move(std::uint32_t point, const std::vector<Eigen::Index>& rows,
                              const std::vector<std::uint32_t>& refs, const Points& old_points, const Points& new_points,
                              std::string& inserted) {
   const auto old_bits = bits_of(old_points, rows.front());
-  // Distinct new positions, in order; a row that stays is served by the record as it is.
+  // Distinct new positions, in order; a row that stays keeps using the record.
   std::vector<std::vector<Eigen::Index>> moved;
   bool some_stay = false;
   for (const auto row : rows) {
@@ -132,7 +132,7 @@ std::vector<Surgeon::Change> Surgeon::rewritten(const Coordinates& coordinates, 
   return result;
 }
 
-// The record of a point under another name, with its label, spacing and comments, and some coordinates replaced.
+// A copy of a point's record under another name, with its label, spacing and comments, and some coordinates replaced.
 std::string Surgeon::copy_of(std::uint32_t point, const std::string& name, const std::vector<Change>& changes) const {
   const auto& instance = file_.instance(point);
   std::string text = name + "=";
@@ -179,8 +179,8 @@ Expected<void> Surgeon::replace_surface(std::uint32_t instance, const std::vecto
   return write_knots(instance, before, after);
 }
 
-// The name of the record of each new control point: one that has its value stays with it; records that only this
-// surface used and no longer needs take over new values; the rest are new.
+// The name of the record of each new control point: a record with its value is kept; records that only this surface
+// used and no longer needs take over new values; the rest are new.
 Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::uint32_t>& refs,
                                                         const Points& old_points, const Points& new_points,
                                                         std::string& inserted) {
@@ -251,7 +251,7 @@ Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& befor
       insert(file_.value(*reader_.part(instance, "B_SPLINE_SURFACE")).bytes.end,
              std::string(with_knots) + "(" + text + ")");
     } else {
-      // The knots follow the attributes of B_SPLINE_SURFACE, all of which must be there.
+      // The knots follow the attributes of B_SPLINE_SURFACE, all of which must be present.
       if (const auto given = file_.children(record.first).size(); given != attributes_of_b_spline_surface) {
         return reader_.error(instance,
                              "it has " + std::to_string(given) + " attributes, so knots cannot be listed behind them",
@@ -271,7 +271,7 @@ Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& befor
     change(listed[d], printed.multiplicities);
     change(listed[d + 2], printed.values);
   }
-  // The kind of knots (uniform, piecewise Bezier, …) need not be theirs any more.
+  // The stated kind of knots (uniform, piecewise Bezier, …) may no longer apply.
   if (listed.size() > 4 && !same_keyword(reader_.enumeration(listed[4]), "UNSPECIFIED"))
     change(listed[4], ".UNSPECIFIED.");
   return {};

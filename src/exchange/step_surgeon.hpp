@@ -18,21 +18,21 @@ namespace knead::step {
 [[nodiscard]] bool same_bits(const Points& a, const Points& b);
 [[nodiscard]] bool same_bits(std::span<const double> a, std::span<const double> b);
 
-/// Collects what must change in the bytes of a file so that surfaces become other ones, and nothing else.
+/// Collects the changes in the bytes of a file that replace surfaces and nothing else.
 class Surgeon {
  public:
   explicit Surgeon(const Part21File& file) : file_(file), reader_(file), names_(file) {}
 
-  /// Other control points on the same net.
+  /// Moves control points on the same net.
   /// \param refs values that refer to the control points, in their order
   [[nodiscard]] Expected<void> move_points(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
                                            const Points& old_points, const Points& new_points);
 
-  /// Another net, other degrees, knots or weights as well (rational if it was).
+  /// Replaces the net, including degrees, knots and weights (rational if it was).
   [[nodiscard]] Expected<void> replace_surface(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
                                                const Surface& before, const Surface& after);
 
-  /// The bytes of the file with everything changed.
+  /// The bytes of the file with all changes.
   [[nodiscard]] std::string result();
 
  private:
@@ -49,14 +49,14 @@ class Surgeon {
   [[nodiscard]] Expected<std::vector<std::string>> point_names(const std::vector<std::uint32_t>& refs,
                                                                const Points& old_points, const Points& new_points,
                                                                std::string& inserted);
-  /// A record without weights becomes one with them, and with the knots of `after`.
+  /// Gives a record without weights the weights and knots of `after`.
   [[nodiscard]] Expected<void> become_rational(std::uint32_t instance, const Surface& before, const Surface& after);
   [[nodiscard]] Expected<void> write_knots(std::uint32_t instance, const Surface& before, const Surface& after);
   [[nodiscard]] std::vector<Change> rewritten(const Coordinates& coordinates, const Points& old_points,
                                               Eigen::Index old_row, const Points& points, Eigen::Index row) const;
   [[nodiscard]] std::string copy_of(std::uint32_t point, const std::string& name,
                                     const std::vector<Change>& changes) const;
-  // The text of a number: as it stands in the list (of lists), if it is there, and in the fewest digits otherwise.
+  // The text of a number: as in the list (of lists) if it occurs there, otherwise in the fewest digits.
   [[nodiscard]] std::function<std::string(double)> texts(std::uint32_t list) const;
   [[nodiscard]] std::string line_break() const;
   void change(std::uint32_t value, std::string text) {

@@ -12,7 +12,7 @@ namespace {
 
 struct Unit {
   std::string_view name;
-  std::string_view prefix;  // of the metre; for a conversion based unit empty
+  std::string_view prefix;  // of the metre; empty for a conversion based unit
   double millimetres = 0;   // of a conversion based unit
   std::string_view label = {};
 };
@@ -28,7 +28,7 @@ constexpr std::array<Unit, 7> units = {{{"mm", ".MILLI."},
 // The DATA section, record by record.
 class Records {
  public:
-  /// Adds "#n=record;" and gives back "#n".
+  /// Adds "#n=record;" and returns "#n".
   std::string add(const std::string& record) {
     auto name = next();
     text_ += name + "=" + record + ";\n";

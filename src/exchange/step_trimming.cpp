@@ -76,7 +76,7 @@ class NaturalBoundary {
     const auto domain = side.table.curve().knots(0).domain();
     const auto [lower, upper] = std::minmax(from, to);
     if (side.closed && upper - lower > domain.length() / 2) {
-      // Over the point where the closed curve begins.
+      // Across the start of the closed curve.
       side.covered.push_back({upper, domain.upper});
       side.covered.push_back({domain.lower, lower});
     } else {
@@ -84,8 +84,8 @@ class NaturalBoundary {
     }
   }
 
-  // Gaps may be as long as vertices may be off: twice the tolerance at each end. Not by the chord alone: a whole closed
-  // curve has none.
+  // Gaps may be as long as the error of the vertices: twice the tolerance at each end. The chord alone does not decide:
+  // that of a whole closed curve is zero.
   [[nodiscard]] bool short_arc(const Curve& curve, double from, double to) const {
     constexpr int pieces = 8;
     for (int k = 1; k <= pieces; ++k) {
@@ -114,13 +114,13 @@ class NaturalBoundary {
   double tolerance_ = 0;
 };
 
-// The bounds of one face; false where they leave the boundary or are of an unknown form.
+// The bounds of one face; false if they leave the boundary or are of an unknown type.
 bool add_bounds(const Reader& reader, std::uint32_t bounds, NaturalBoundary& boundary) {
   for (const auto bound : reader.references(bounds)) {
     const auto own = reader.attributes(bound, "FACE_BOUND", 1, 1);
     const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
     if (!loop) return false;
-    if (reader.is(*loop, "VERTEX_LOOP")) continue;  // a pole, or a mark that bounds nothing
+    if (reader.is(*loop, "VERTEX_LOOP")) continue;  // a pole, or a point that bounds nothing
     if (!reader.is(*loop, "EDGE_LOOP")) return false;
     const auto path = reader.attributes(*loop, "PATH", 1, 1);
     if (path.empty()) return false;
@@ -134,7 +134,7 @@ bool add_bounds(const Reader& reader, std::uint32_t bounds, NaturalBoundary& bou
   return true;
 }
 
-// RECTANGULAR_TRIMMED_SURFACE and CURVE_BOUNDED_SURFACE that cut their basis surface.
+// The basis surface trimmed by a RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE.
 std::optional<std::uint32_t> cut_surface(const Reader& reader, std::uint32_t instance,
                                          const std::unordered_map<std::uint32_t, std::size_t>& index,
                                          const std::vector<ReadSurface>& surfaces) {

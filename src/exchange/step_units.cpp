@@ -50,7 +50,7 @@ std::optional<LengthUnit> si_unit(const Reader& reader, std::uint32_t unit) {
   return std::nullopt;
 }
 
-// The number of a MEASURE_WITH_UNIT, LENGTH_MEASURE(25.4), and the unit it counts.
+// The number of a MEASURE_WITH_UNIT, LENGTH_MEASURE(25.4), and its unit.
 struct Measure {
   double value = 0;
   std::uint32_t unit = no_instance;
@@ -107,7 +107,7 @@ bool is_unit_context(const Reader& reader, std::uint32_t instance) {
   return reader.is(instance, "GLOBAL_UNIT_ASSIGNED_CONTEXT");
 }
 
-// Marks what the items of one representation lead to.
+// Marks everything reached from the items of one representation.
 class Reach {
  public:
   Reach(const Reader& reader, const std::vector<bool>& representation)

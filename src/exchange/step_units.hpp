@@ -19,9 +19,9 @@ struct UnitContext {
 /// Every GLOBAL_UNIT_ASSIGNED_CONTEXT with a LENGTH_UNIT (ISO 10303-41 and -43), in the order of the file.
 [[nodiscard]] std::vector<UnitContext> read_unit_contexts(const Reader& reader);
 
-/// For each given instance the context its representation has: an index into `contexts`, or -1 where none leads to it
-/// or contexts that differ in unit do. With one context that is simply it; otherwise references are followed from the
-/// items of each representation (an instance that refers to a context directly), not into other representations.
+/// For each given instance the context of its representation: an index into `contexts`, or -1 if it is reached from
+/// none or from contexts with different units. A single context applies to all; otherwise references are followed from
+/// the items of each representation (an instance that refers to a context directly), not into other representations.
 /// Cost: linear in the file for each context.
 [[nodiscard]] std::vector<int> contexts_of(const Reader& reader, const std::vector<UnitContext>& contexts,
                                            const std::vector<std::uint32_t>& instances);

@@ -14,7 +14,7 @@ bool same_surface(const Surface& a, const Surface& b) {
          same_bits(a.weights(), b.weights());
 }
 
-// Reads the result again: every surface must be what was asked for, bit for bit, or what it was before.
+// Reads the result again: every surface must be as requested, bit for bit, or as before.
 Expected<void> check(const std::string& bytes, const File::Data& before,
                      const std::unordered_map<std::size_t, const Surface*>& wanted) {
   const auto broken = [&](const std::string& id) {
@@ -44,7 +44,7 @@ Expected<std::size_t> find(const File::Data& data, const std::string& id) {
                                "name one of those that `info` lists", data.records.name()});
 }
 
-// What a record of the file cannot say although it can be computed with.
+// Rejects surfaces that can be computed with but not written to a record of the file.
 Expected<void> writable(const Surface& before, const Surface& after) {
   if (before.rational() && !after.rational()) return input_error("the weights of the file's surface are missing");
   for (int d = 0; d < 2; ++d) {

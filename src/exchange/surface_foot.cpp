@@ -7,7 +7,7 @@
 namespace knead::step {
 namespace {
 
-constexpr double single_point = 1e-6;  // of the net's diagonal: an edge of the domain no longer than that is a pole
+constexpr double single_point = 1e-6;  // of the net's diagonal: an edge of the domain no longer than this is a pole
 constexpr double at_pole = 1e-5;       // fractions
 
 }  // namespace

@@ -12,18 +12,18 @@ namespace knead::step {
 /// Finds the parameters of points that lie on a B-spline surface, in fractions of its domain.
 class SurfaceFoot {
  public:
-  /// Errors: as of `ClosestPointSearch`.
+  /// Errors: as for `ClosestPointSearch`.
   [[nodiscard]] static Expected<SurfaceFoot> create(const Surface& surface);
 
-  /// The fractions of the point of the surface nearest to p, and its distance. `hint`: fractions from which to go
-  /// downhill first; the whole surface is searched where that ends farther away than `tolerance`.
+  /// The fractions of the point of the surface nearest to p, and its distance. `hint`: fractions from which to descend
+  /// first; the whole surface is searched if that ends farther away than `tolerance`.
   struct Result {
     Foot foot;
     double distance = 0;
   };
   [[nodiscard]] Result nearest(const Point& p, const std::optional<Eigen::Vector2d>& hint, double tolerance) const;
 
-  /// Closed directions have period 1; edges of the domain that are one point are poles.
+  /// Closed directions have period 1; edges of the domain that collapse to one point are poles.
   [[nodiscard]] const ParameterSpace& space() const { return space_; }
 
  private:

@@ -19,7 +19,7 @@ struct SurfaceMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// The triangles of all surfaces, as `save_surfaces` describes them, and how many there are.
+/// The triangles of all surfaces, as described at `save_surfaces`, and their number.
 struct SurfaceMeshes {
   std::vector<SurfaceMesh> meshes;
   std::size_t triangles = 0;
@@ -32,12 +32,12 @@ struct SurfaceMeshes {
 /// Whether all coordinates can be written in single precision; if not, an error that names the surface and the format.
 [[nodiscard]] Expected<void> fits_single_precision(const SurfaceMesh& mesh, std::string_view format);
 
-/// ", lengths in mm", or nothing where the unit is not known.
+/// ", lengths in mm", or nothing if the unit is unknown.
 [[nodiscard]] inline std::string lengths_in(const std::string& unit) {
   return unit.empty() ? "" : ", lengths in " + unit;
 }
 
-/// Appends a number as binary formats have it, little endian.
+/// Appends a number as in binary formats, little endian.
 template <class T>
 void append(std::string& to, T value) {
   auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);

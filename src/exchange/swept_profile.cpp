@@ -1,4 +1,4 @@
-// The curves that surfaces of revolution and of linear extrusion sweep, seen along the sweep.
+// The profile curves of surfaces of revolution and of linear extrusion, seen along the sweep.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr double sample_chord = 1e-3;
 
 }  // namespace
 
-/// Of a revolution: distance from the axis and height; of an extrusion: the place across its direction.
+/// For a revolution: distance from the axis and height; for an extrusion: the position across its direction.
 Eigen::Vector2d FaceSurface::section(const Point& p) const {
   const Point d = p - frame_.origin;
   const double x = d.dot(frame_.x), y = d.dot(frame_.y);
@@ -38,8 +38,8 @@ Expected<void> FaceSurface::tabulate(const Reader& reader, std::uint32_t instanc
   return {};
 }
 
-/// How much of the profile is needed. As far as the face can reach, where it has no end: a point on the face is as far
-/// from the axis, or along it, as that of the curve it comes from.
+/// The needed part of the profile. If it is unbounded, as far as the face can reach: a point on the face is as far from
+/// the axis, or along it, as the point of the curve that sweeps it.
 Expected<void> FaceSurface::find_range(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it) {
   const bool revolution = kind_ == Kind::revolution;
   if (const auto domain = profile_->domain()) {
@@ -52,13 +52,13 @@ Expected<void> FaceSurface::find_range(const Reader& reader, std::uint32_t insta
     for (const Point& p : on_it) {
       const double reach = revolution ? section(p).norm() + first : (section(p) - section(start)).norm();
       double t = 1;
-      for (const double sign : {-1.0, 1.0}) {  // in both directions from t = 0 until that far away
+      for (const double sign : {-1.0, 1.0}) {  // in both directions from t = 0 up to that distance
         t = sign * std::max(reach, 1e-9);
         if (!profile_->straight()) {
           for (t = sign; (section(profile_->at(t)) - section(start)).norm() < reach && std::abs(t) < 700; t *= 2) {
           }
         } else if (!revolution) {
-          // Only what is across the direction of the extrusion counts.
+          // Only distances across the direction of the extrusion count.
           const double across = (section(profile_->at(1)) - section(start)).norm();
           if (!(across > 1e-9)) return reader.error(instance, "it is swept along itself");
           t = sign * std::max(reach, 1e-9) / across;
@@ -72,7 +72,7 @@ Expected<void> FaceSurface::find_range(const Reader& reader, std::uint32_t insta
   return {};
 }
 
-/// A circle whose middle is on the axis sweeps everything twice: the side of its largest extent will do.
+/// A circle whose centre is on the axis sweeps everything twice: the side of its largest extent suffices.
 void FaceSurface::find_side() {
   double largest = 0;
   for (int k = 0; k <= 64; ++k) {
@@ -84,7 +84,7 @@ void FaceSurface::find_side() {
   }
 }
 
-/// Of a line that meets the axis, only the cone's one nappe that the face is on; of one that passes it, the waist.
+/// For a line that meets the axis, keeps only the nappe of the cone with the face; for a skew one, finds the waist.
 Expected<void> FaceSurface::end_at_axis(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it) {
   if (profile_->domain() != std::nullopt || !profile_->straight()) return {};
   const Point a = profile_->at(0) - frame_.origin;

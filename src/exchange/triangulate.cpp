@@ -40,7 +40,7 @@ class Mesh {
         const auto [found, fresh] = open.emplace(key(corner(t, i), corner(t, i + 1)), std::pair(t, i));
         if (fresh || found->second.first == none) continue;
         const auto [other, j] = found->second;
-        // A third triangle on one side: something is degenerate there, and stays.
+        // A third triangle on one side: degenerate, and left so.
         if (neighbours_[other][std::size_t(j)] != none) continue;
         neighbours_[other][std::size_t(j)] = t;
         neighbours_[t][std::size_t(i)] = other;
@@ -92,7 +92,7 @@ class Mesh {
     }
   }
 
-  // Flips sides of the waiting triangles, and of what that changes, until all circles are empty.
+  // Flips sides of the waiting triangles, and of those this changes, until all circles are empty.
   void settle(std::vector<std::uint32_t> waiting) {
     // Rounding might make two sides flip in turn; Delaunay needs fewer than this.
     std::size_t budget = 64 + 64 * waiting.size() + (waiting.size() > 3 ? waiting.size() * 64 : 0);
@@ -119,7 +119,7 @@ class Mesh {
     const double then = std::min(doubled_area(c, a, d), doubled_area(c, d, b));
     const double size = (a - b).squaredNorm() + (c - d).squaredNorm();
     if (!(then > 1e-12 * size)) return false;
-    if (now <= 1e-12 * size) return true;  // without area: no circle
+    if (now <= 1e-12 * size) return true;  // no area, hence no circle
     return in_circle(a, b, c, d) > 1e-10 * size * size;
   }
 
@@ -143,7 +143,7 @@ class Mesh {
     return true;
   }
 
-  // Walks from the last triangle towards p; where a bound is in the way all are looked at.
+  // Walks from the last triangle towards p; searches all if a bound is in the way.
   std::uint32_t locate(const Vector2d& p) {
     auto t = last_ < triangles_.size() ? last_ : 0;
     for (std::size_t steps = 0; steps < 200; ++steps) {

@@ -12,17 +12,17 @@ namespace knead {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// The constrained Delaunay triangulation of a polygon with holes, and of points inside of it.
+/// The constrained Delaunay triangulation of a polygon with holes and points inside it.
 ///
 /// \param loops the polygon counter-clockwise, then its holes clockwise
-/// \param inside further points, in the polygon and not on its sides
-/// \returns counter-clockwise triangles; indices count the points of `loops` in order, then `inside`. None where sides
-///   cross each other so that no ear is left.
+/// \param inside further points, in the polygon but not on its sides
+/// \returns counter-clockwise triangles; indices count the points of `loops` in order, then `inside`. None if sides
+///   cross so that no ear is left.
 ///
 /// Holes are bridged to the outline and ears cut off (Meisters 1975; Eberly, "Triangulation by ear clipping"), which
-/// needs no point outside and no tolerance; then sides that are no bounds are flipped until every circumcircle is empty
-/// (Lawson 1977), and further points are put in one by one, each with its flips. Cost: O(n²) in the points of the
-/// loops at worst; about O(k) for k points inside that come row by row.
+/// needs no point outside and no tolerance; then sides that are not bounds are flipped until every circumcircle is
+/// empty (Lawson 1977), and further points are inserted one by one, each with its flips. Cost: O(n²) in the points of
+/// the loops at worst; about O(k) for k points inside given row by row.
 [[nodiscard]] std::optional<std::vector<Triangle>> triangulate(std::span<const std::vector<Eigen::Vector2d>> loops,
                                                                std::span<const Eigen::Vector2d> inside);
 

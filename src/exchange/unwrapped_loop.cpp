@@ -46,7 +46,7 @@ Unwrapped unwrap(const ParameterSpace& space, std::span<const LoopPoint> loop, i
         const auto& ends = space.poles[static_cast<std::size_t>(1 - d)];
         const bool upper =
             !ends[0] || (ends[1] && std::abs(*ends[1] - pole->at[1 - d]) < std::abs(*ends[0] - pole->at[1 - d]));
-        // Downwards (d = 0) at the upper end; the other way round where the pole is an end of u.
+        // Downwards (d = 0) at the upper end; reversed if the pole is an end of u.
         const bool down = upper == (d == 0);
         const double near = 1e-6 * period;
         while (period > 0 && down && next.at[d] > before[d] - near) next.at[d] -= period;

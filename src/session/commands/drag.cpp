@@ -13,8 +13,8 @@ namespace {
 
 constexpr int footprint_samples = 13;  // in either direction
 
-/// The points of a footprint: all samples of the domain whose place is within `radius` of the centre, each with the
-/// share of the force that it takes.
+/// The points of a footprint: all samples of the domain within `radius` of the centre in space, each with its share of
+/// the force.
 Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fractions& at, double radius,
                                             double strength) {
   const auto centre_at = parameters_at(surface, at);
@@ -25,7 +25,7 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fracti
   here << (*centre_at)[0], (*centre_at)[1];
   const auto jet = evaluate<2>(surface, here, 1);
   if (!jet) return std::unexpected(jet.error());
-  // A rectangle of parameters that holds the disc in the tangent plane, half as much again.
+  // A rectangle of parameters that contains the disc in the tangent plane, enlarged by half.
   std::array<std::vector<double>, 2> parameters;
   for (std::size_t d = 0; d < 2; ++d) {
     const double speed = (d == 0 ? jet->at({1, 0}) : jet->at({0, 1})).row(0).norm();
@@ -53,7 +53,7 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fracti
       forces.push_back(std::move(force));
     }
   }
-  if (forces.empty()) {  // smaller than the distance of the samples: the one point
+  if (forces.empty()) {  // smaller than the sample distance: a single point
     PointForce force;
     force.terms = basis_terms(surface, *centre_at, 0);
     force.to = *centre;

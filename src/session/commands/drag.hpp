@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Takes hold of a surface point with a footprint, drags it and lets go.
+/// Grips a surface point with a footprint, drags it and lets go.
 struct DragCommand {
   Fractions at = {0.5, 0.5};
   Vector3 by = {0, 0, 0};
@@ -13,7 +13,7 @@ struct DragCommand {
   int steps = 4;
   double plasticity = 1;
   bool relative = false;
-  std::optional<bool> middle = {};  ///< of what is visible, instead of `at`
+  std::optional<bool> middle = {};  ///< of the visible part, instead of `at`
 };
 
 template <>

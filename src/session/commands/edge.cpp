@@ -63,7 +63,7 @@ template <>
 Expected<void> Executor::execute(const EdgeCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   if (c.edge) return hold_face_edge(*this, c);
-  // One by one, so that they can be freed so.
+  // One by one, so that they can be freed one by one.
   const std::vector<SurfaceEdge> edges = edges_of(c.which);
   const int order = c.hold == EdgeCondition::position ? 0 : c.hold == EdgeCondition::clamped ? 1 : 2;
   for (int k : state.selection()) {

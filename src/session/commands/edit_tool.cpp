@@ -3,7 +3,7 @@
 namespace knead {
 namespace {
 
-/// Where the tool goes, and how it is turned and scaled.
+/// The tool's new position, rotation and scale.
 Expected<Placement> placement_of(const EditToolCommand& c, const Placement& before, double unit, Executor& executor) {
   if (c.axis && c.orientation) {
     return input_error("both axis and orientation are given", "orientation", "give one of them");

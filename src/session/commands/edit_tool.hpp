@@ -4,18 +4,18 @@
 
 namespace knead {
 
-/// Changes a tool that there is: the fields that are given, and nothing else.
+/// Changes an existing tool: only the given fields.
 struct EditToolCommand {
   std::optional<std::string> tool;  ///< its name; default: the only tool
   std::optional<std::string> name;  ///< the same
   std::optional<std::string> shape;
   ShapeFields measures;
-  std::optional<Vector3> axis;  ///< turned there the shortest way: its turn about its own axis stays
+  std::optional<Vector3> axis;  ///< rotated there the shortest way, without twist about its own axis
   std::optional<std::array<double, 4>> orientation;
   std::optional<Vector3> scale;
   std::optional<Vector3> position;
   std::optional<Fractions> at;
-  std::optional<bool> middle;  ///< of what is visible, instead of `at`
+  std::optional<bool> middle;  ///< of the visible part, instead of `at`
   std::optional<ToolMode> mode;
   std::optional<double> stiffness, range;
   std::optional<ToolDirection> direction;

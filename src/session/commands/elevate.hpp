@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Raises the degree, the same shape.
+/// Raises the degree without changing the shape.
 struct ElevateCommand {
   std::array<int, 2> by = {1, 1};
 };

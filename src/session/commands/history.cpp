@@ -2,7 +2,7 @@
 
 namespace knead {
 
-// The session itself goes to another state of its history; no state is changed.
+// The session itself moves to another state of its history; no state is changed.
 
 void describe(UndoCommand&, Fields& fields) { fields.name("undo", "take back the last command"); }
 

@@ -4,10 +4,10 @@
 
 namespace knead {
 
-/// Takes back the last command that was not taken back yet.
+/// Reverts the last command not yet undone.
 struct UndoCommand {};
 
-/// Does again what was taken back last.
+/// Repeats the command undone last.
 struct RedoCommand {};
 
 template <>

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// What a hold is about: outer rows of control points, or the edges of the faces on a surface.
+/// What a hold applies to: outer rows of control points, or the edges of the faces on a surface.
 enum class HoldMode { rows, trim, trim_g1, trim_g2, free };
 
 std::span<const Choice> choices(HoldMode);
@@ -14,7 +14,7 @@ std::span<const Choice> choices(HoldMode);
 struct HoldCommand {
   int rows = 2;
   std::optional<HoldMode> mode = {};  ///< default: rows
-  std::optional<bool> all = {};       ///< of every surface of the document, not of the selected ones
+  std::optional<bool> all = {};       ///< for every surface of the document, not just the selected ones
 };
 
 template <>

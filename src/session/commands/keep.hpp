@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Keeps a curve of the surface where it is: an isoparametric line, or a polyline of (s, t).
+/// Keeps a curve of the surface in place: an isoparametric line, or a polyline of (s, t).
 struct KeepCommand {
   Keep keep;
 };

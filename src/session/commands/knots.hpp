@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Other knots for the same control points: the shape changes, for good.
+/// Other knots for the same control points: a permanent change of shape.
 struct KnotsCommand {
   std::string direction;      ///< "u" or "v"
   std::vector<double> knots;  ///< the whole vector, as many as before, on the same domain

@@ -29,7 +29,7 @@ Expected<void> Executor::execute(const LatticeCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
   if (c.steps < 1) return input_error(fmt::format("{} steps are too few", c.steps), "steps", "use 1 or more");
-  // The lattice moves control points, so it must hold all of them.
+  // The lattice moves control points, so it must contain all of them.
   BoundingBox box;
   bool first = true;
   for (int index : state.selection()) {
@@ -67,7 +67,7 @@ Expected<void> Executor::execute(const LatticeCommand& c) {
     if (!points) return std::unexpected(points.error());
     auto moved = s.current->with_control_points(*points);
     if (!moved) return std::unexpected(moved.error());
-    s.current = s.rest = std::make_shared<const Surface>(std::move(*moved));  // the block bore the energy, not they
+    s.current = s.rest = std::make_shared<const Surface>(std::move(*moved));  // the block carries the energy, not they
     s.velocity.resize(0, 3);
   }
   return {};

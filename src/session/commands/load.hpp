@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Loads on the selected surfaces; each command replaces the loads before it.
+/// Loads on the selected surfaces; each command replaces the previous loads.
 struct LoadCommand {
   Load load;
 };

@@ -4,12 +4,12 @@
 
 namespace knead {
 
-/// Has the report tell where a surface point is at the end: `"measurements": [{"name", "surface", "at", "point",
+/// Makes the report give the final position of a surface point: `"measurements": [{"name", "surface", "at", "point",
 /// "displacement", "normal"}]`. Replaces the measurement of that name.
 struct MeasureCommand {
   std::string name = "point";
   Fractions at = {0.5, 0.5};
-  std::optional<bool> middle = {};  ///< of what is visible, instead of `at`
+  std::optional<bool> middle = {};  ///< of the visible part, instead of `at`
 };
 
 template <>

@@ -122,7 +122,7 @@ Expected<Curve> profile_of(const NewCommand& c) {
 }
 
 Expected<Surface> turned(const NewCommand& c) {
-  // What the circle has already.
+  // Already determined by the circle.
   if (!c.knots_u.empty()) {
     return input_error("round shapes have their own knots in u", "knots_u", "leave it out: u is a circle of degree 2");
   }
@@ -155,7 +155,7 @@ Expected<Surface> shape_of(const NewCommand& c) {
   return turned(c);
 }
 
-/// The surface with its origin at `position`; bits stay where that is zero.
+/// The surface with its origin at `position`; bits are unchanged where that is zero.
 Expected<Surface> placed(Surface surface, const Vector3& position) {
   if (position == Vector3{0, 0, 0}) return surface;
   Points points = surface.control_points();

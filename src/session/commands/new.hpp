@@ -18,16 +18,16 @@ struct NewCommand {
   std::vector<double> knots_u, knots_v;  ///< empty: clamped, uniform on [0, 1]
   std::vector<Vector3> points;           ///< instead of a shape: all control points, (i, j) at i n + j
   std::vector<double> weights;           ///< one for each; empty: none
-  Vector3 position = {0, 0, 0};          ///< where the origin of the shape goes
-  std::optional<std::string> unit;       ///< default: that of the surfaces there are, at first mm
-  std::optional<std::string> name;       ///< default: what it is
+  Vector3 position = {0, 0, 0};          ///< of the origin of the shape
+  std::optional<std::string> unit;       ///< default: that of existing surfaces, else mm
+  std::optional<std::string> name;       ///< default: its kind
 };
 
 template <>
 Expected<void> Executor::execute(const NewCommand& c);
 void describe(NewCommand& c, Fields& fields);
 
-/// Version 1: programs wrote the size of a plane for every shape, where it says nothing.
+/// Version 1: programs wrote the size of a plane for every shape; elsewhere it is ignored.
 void read_as_version_1(NewCommand& c);
 
 /// The error for a measure that the shape of the command does not have; nothing for other fields.

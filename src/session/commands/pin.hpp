@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Pins control points (i, j), or a surface point, in addition to what is pinned already.
+/// Pins control points (i, j), or a surface point, in addition to those already pinned.
 struct PinCommand {
   std::vector<std::array<int, 2>> control_points;
   std::optional<Fractions> at;

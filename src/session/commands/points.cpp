@@ -12,7 +12,7 @@ namespace knead {
 namespace {
 
 constexpr double symmetry_tolerance = 1e-9;  // of the largest move
-constexpr double limit_tolerance = 1e-6;     // relative, as of steps
+constexpr double limit_tolerance = 1e-6;     // relative, as for steps
 
 bool same_bits(const Points& a, const Points& b, Eigen::Index row) {
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -21,7 +21,7 @@ bool same_bits(const Points& a, const Points& b, Eigen::Index row) {
   return true;
 }
 
-/// What keeps a symmetry; of other constraints nothing.
+/// Appends a symmetry; ignores other constraints.
 Expected<void> append_symmetry(const Surface& reference, const Constraint& constraint, ConstraintList& list) {
   if (const auto* edge = std::get_if<EdgeSymmetry>(&constraint)) return symmetry_constraints(reference, *edge, list);
   if (const auto* mirror = std::get_if<MirrorSymmetry>(&constraint)) {
@@ -30,7 +30,7 @@ Expected<void> append_symmetry(const Surface& reference, const Constraint& const
   return {};
 }
 
-/// What must not be moved by hand either: frozen regions, and halves of a symmetry without their images.
+/// Refuses what must not be moved by hand: frozen regions, and halves of a symmetry without their images.
 Expected<void> allowed(const SceneSurface& s, const std::vector<int>& named, const Points& motion) {
   const int n = s.current->net()[1];
   for (const KeptConstraint& kept : s.constraints) {
@@ -125,8 +125,8 @@ Expected<void> Executor::execute(const PointsCommand& c) {
                          c.by ? "by" : "to", R"(move it less, or end the limit: {"do":"limit"})");
     }
   }
-  // Clay: what the shape is measured from, and where things are held, goes along. Where it was the same place it still
-  // is, to the bit.
+  // Clay: the reference shapes and held positions move along. Places that coincided still do, to the
+  // bit.
   const auto along = [&](std::shared_ptr<const Surface>& shape) -> Expected<void> {
     if (shape == s.current) {
       shape = current;

@@ -4,10 +4,10 @@
 
 namespace knead {
 
-/// Moves control points by hand. The shape that comes is clay: it stays.
+/// Moves control points by hand. The resulting shape is clay: it is permanent.
 struct PointsCommand {
   NamedPoints points;
-  std::optional<Vector3> by;  ///< all alike; or:
+  std::optional<Vector3> by;  ///< the same for all; or:
   std::vector<Vector3> to;    ///< one place for each
   bool relative = false;      ///< `by` is in fractions of the bounding-box diagonal
 };

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Finer nets, the same shape: halves spans in a region or under a tool, or inserts knots.
+/// Refines nets without changing the shape: halves spans in a region or under a tool, or inserts knots.
 struct RefineCommand {
   std::optional<std::array<Fractions, 2>> region;
   std::optional<std::string> under;  ///< name of a tool

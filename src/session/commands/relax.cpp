@@ -13,12 +13,12 @@ namespace knead {
 namespace {
 
 /// Of the bump w = (1 - ρ²)² on a disc of radius 1, clamped at its edge: ∫|∇w|² / ∫w² = 20/3 and ∫(Δw)² / ∫w² = 320/3.
-/// A plate under tension with β = r²/16 · α resists it by stretch and by bend alike, with 2 · 20/3 · α / r².
+/// A plate under tension with β = r²/16 · α resists it equally by stretch and by bend, with 2 · 20/3 · α / r² in all.
 constexpr double bend_share = 1. / 16;
 constexpr double resistance = 2 * 20. / 3;
 
-/// Whether each control point acts chiefly within the ball: the surface point at its Greville abscissae lies there.
-/// That whose point is nearest to the centre always does.
+/// Whether each control point acts mainly within the ball: the surface point at its Greville abscissae lies there. The
+/// one whose point is nearest to the centre always counts.
 Expected<std::vector<bool>> within(const Surface& surface, const Point& centre, double radius) {
   const auto [m, n] = surface.net();
   Parameters<2> places(surface.size(), 2);
@@ -92,7 +92,7 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   const auto scaling = normalised_scaling(*(*surface)->reference);
   if (!scaling) return std::unexpected(scaling.error());
 
-  // A thin plate that has no rest shape, with all that lies outside pinned: the step of the model in a state of its
+  // A thin plate without a rest shape, with everything outside pinned: the step of the model in a state of its
   // own.
   const double unit_radius = radius / scaling->length, bend = bend_share * unit_radius * unit_radius;
   SessionState trial = state;
@@ -114,9 +114,9 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
     }
   }
   EvolutionPolicy plate;
-  const double share = std::min(c.strength, 0.999);  // all of it would be the static solution
+  const double share = std::min(c.strength, 0.999);  // 1 would be the static solution
   plate.lambda = resistance / (unit_radius * unit_radius) * (1 - share) / share;
-  std::optional<SceneModel> model;  // the one that steps use stays as it is
+  std::optional<SceneModel> model;  // the one used by steps is unchanged
   std::optional<StrokeModel> unused;
   Executor own{document, model, unused, trial, progress};
   if (auto done = own.run(1, plate); !done) return done;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kinds[] = {"hold", "pins", "edges", "freeze", "keep", "symmetry"};
 
-/// What `release` calls a constraint.
+/// The name of a constraint in `release`.
 struct KindOf {
   std::string_view operator()(const EdgeHold&) const { return "edges"; }
   std::string_view operator()(const PointPin&) const { return "pins"; }

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Frees what is held of the selected surfaces: all, or the kinds that are named.
+/// Frees what is held on the selected surfaces: all of it, or the named kinds.
 struct ReleaseCommand {
   std::optional<std::vector<std::string>> what;  ///< left out: all
 };

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Takes a tool out of the scene; of what it did, its plasticity stays.
+/// Removes a tool from the scene; its plastic deformation remains.
 struct RemoveCommand {
   std::optional<std::string> tool;  ///< default: the only tool
 };

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Makes the present shape of the selected surfaces their rest shape, and says what the energy acts on.
+/// Makes the present shape of the selected surfaces their rest shape, and sets what the energy acts on.
 struct RestCommand {
   RestMode mode = RestMode::shape;
 };

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// How patches that are selected together are coupled.
+/// How patches selected together are coupled.
 struct SeamsCommand {
   SeamPolicy seams;
 };

@@ -4,7 +4,8 @@
 
 namespace knead {
 
-/// Chooses the surfaces that the following commands act on. A document with one surface has it selected already.
+/// Selects the surfaces that the following commands act on. A document's only surface is selected by
+/// default.
 struct SelectCommand {
   std::optional<std::string> surface;                ///< id of the entity, "#123"
   std::optional<std::vector<std::string>> surfaces;  ///< several, which then move together

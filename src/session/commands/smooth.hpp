@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Whether knot lines of full multiplicity are kept from bending, and poles from tearing.
+/// Whether knot lines of full multiplicity are kept from creasing, and poles from tearing.
 struct SmoothCommand {
   bool knot_lines = true;
   bool poles = true;

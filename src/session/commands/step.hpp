@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// What a step goes on in spite of: that all is held which a tool touches.
+/// A condition that a step may ignore: that everything a tool touches is held.
 enum class StepAllowance { held };
 
 std::span<const Choice> choices(StepAllowance);

@@ -13,7 +13,7 @@ namespace {
 
 Point point_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
-/// Where the tool goes, and how it is turned and scaled.
+/// The tool's position, rotation and scale.
 Expected<Placement> placement_of(const ToolCommand& c, double unit, SceneSurface& surface, Executor& executor) {
   Placement placement;
   if (c.axis && c.orientation) {
@@ -107,7 +107,7 @@ Expected<void> Executor::execute(const ToolCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
   const bool on_surface = c.at || c.middle.value_or(false);
-  const bool own_place = c.shape == "surface" && !c.position && !on_surface;  // a surface is where it is
+  const bool own_place = c.shape == "surface" && !c.position && !on_surface;  // a surface stays in place
   if (!own_place && c.position.has_value() == on_surface) {
     return input_error(on_surface ? "both position and at are given" : "neither position nor at is given", "position",
                        "give one of them");

@@ -4,12 +4,12 @@
 
 namespace knead {
 
-/// Puts a tool into the scene, or replaces the one of that name.
+/// Adds a tool to the scene, or replaces the one of that name.
 struct ToolCommand {
   std::string name = "tool";
   std::string shape = "sphere";
   ShapeFields measures;
-  std::optional<Vector3> axis;                       ///< where the tool's own z points; or:
+  std::optional<Vector3> axis;                       ///< direction of the tool's own z; or:
   std::optional<std::array<double, 4>> orientation;  ///< quaternion [x, y, z, w]
   std::optional<Vector3> scale;                      ///< along its own axes
   std::optional<Vector3> position;                   ///< of the centre; or:
@@ -21,7 +21,7 @@ struct ToolCommand {
   bool rigid = false;
   double friction = 0;
   double plasticity = 0;
-  std::optional<bool> middle = {};  ///< of what is visible, instead of `at`
+  std::optional<bool> middle = {};  ///< of the visible part, instead of `at`
   bool relative = false;            ///< lengths and position are fractions of the bounding-box diagonal
 };
 
@@ -39,7 +39,7 @@ void describe(ToolCommand& c, Fields& fields);
 /// The rotation of a quaternion [x, y, z, w]. Error (input): it is zero or not finite.
 [[nodiscard]] Expected<Eigen::Quaterniond> rotation_of(const std::array<double, 4>& orientation);
 
-/// The surface point at fractions of the domain, or in the middle of what is visible. Errors: those of `place_on`.
+/// The surface point at fractions of the domain, or in the middle of the visible part. Errors: those of `place_on`.
 [[nodiscard]] Expected<Point> point_at(Executor& executor, SceneSurface& surface, const SurfacePlace& place);
 
 }  // namespace knead

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Turns a tool about its centre.
+/// Rotates a tool about its centre.
 struct TurnCommand {
   std::optional<std::string> tool;
   Vector3 axis = {0, 0, 1};

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Other weights for control points, which stay: the shape changes, for good.
+/// Other weights for the same control points: a permanent change of shape.
 struct WeightsCommand {
   NamedPoints points;
   std::optional<double> weight;  ///< > 0; or:
