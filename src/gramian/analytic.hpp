@@ -15,7 +15,7 @@ class Analytic {
  public:
   explicit Analytic(const KnotVector& knots)
       : knots_(knots), p_(knots.degree()), extended_(knots.knots().begin(), knots.knots().end()) {
-    // Thesis Thm 5.2 holds on knots that go on at the end; any will do, and repetitions of the last keep differences
+    // Thesis Thm 5.2 needs knots extended at the end; any will do, and repetitions of the last keep differences
     // small.
     extended_.insert(extended_.end(), static_cast<std::size_t>(p_ + 2), extended_.back());
   }
@@ -25,7 +25,7 @@ class Analytic {
   void accumulate(int a, int b, Add add) {
     const std::vector<int> spans = knots_.spans();
     const Interval domain = knots_.domain();
-    // The start of the domain: the functions jump from nothing to what they are.
+    // The start of the domain: the functions jump from zero to their values.
     tabulate_values(spans.front(), domain.lower);
     jump(-1, spans.front());
     contribute(spans.front(), a, b, 0, add);
@@ -46,7 +46,7 @@ class Analytic {
     for (int q = 1; q <= 2 * p_ + 1; ++q) {
       Real saved = 0;
       for (int r = 0; r < q; ++r) {
-        // Functions that begin left of the first one that lives on the span are never asked for.
+        // Functions that begin left of the first one on the span are never needed.
         const int first = span + 1 - q + r;
         if (first < 0) continue;
         const Real upper = x(span + 1 + r), lower = x(first), quotient = values_[q - 1][r] / (upper - lower);
@@ -57,7 +57,7 @@ class Analytic {
     }
   }
 
-  /// jump_[r][c] = [N_{first-p+c}^(r)] at the knot between spans `left` and `right` (-1: outside of the domain), for
+  /// jump_[r][c] = [N_{first-p+c}^(r)] at the knot between spans `left` and `right` (-1: outside the domain), for
   /// the functions of the left span, or of the right one where there is no left.
   void jump(int left, int right) {
     SpanValues<Real> side[order_limit];
@@ -101,7 +101,7 @@ class Analytic {
       for (int k = 0; j + k <= span; ++k) {
         sum += c[k] * (Real(x(j + k + q)) - Real(x(j + k))) / Real(q);
         c[k] = sum;
-        // Functions that end left of the span, as the first ones of a lowered degree do, are zero at u.
+        // Functions that end left of the span, such as the first ones of a lowered degree, are zero at u.
         if (const int at = q - (span - j - k); at >= 0) result += sum * values_[q][at];
       }
       integral_[m] = result;

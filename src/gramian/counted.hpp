@@ -6,8 +6,8 @@
 
 namespace knead {
 
-/// A double that counts the operations done with it, for this thread: what a template is run on to learn its cost.
-/// Comparisons, copies and changes of sign are not counted.
+/// A double that counts the operations done with it, per thread: templates are run on it to measure their cost.
+/// Comparisons, copies and sign changes are not counted.
 struct Counted {
   double value;
 
@@ -15,7 +15,7 @@ struct Counted {
   Counted(double x) : value(x) {}  // NOLINT(google-explicit-constructor): it stands in for a double
   explicit operator double() const { return value; }
 
-  /// What this thread has counted; assign {} to begin anew.
+  /// The count of this thread; assign {} to reset.
   static OperationCount& count() {
     static thread_local OperationCount operations;
     return operations;

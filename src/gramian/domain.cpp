@@ -7,10 +7,10 @@
 namespace knead::detail {
 namespace {
 
-/// Adds the share of span s to the terms of the functions whose common support leaves the domain.
+/// Adds the contribution of span s to the terms of functions whose common support extends beyond the domain.
 ///
-/// In extended precision: near the end of a support the two terms of a derivative nearly cancel, and beside the small
-/// integral that is left their rounding errors would count.
+/// In extended precision: near the end of a support the two terms of a derivative nearly cancel, and their rounding
+/// errors would matter relative to the small remaining integral.
 template <class Cut>
 void add_span(const KnotVector& knots, int s, GramianSet& set, Cut cut) {
   using Real = long double;
@@ -41,8 +41,8 @@ void add_span(const KnotVector& knots, int s, GramianSet& set, Cut cut) {
 }  // namespace
 
 bool within_kernel_range(const KnotVector& knots) {
-  // Repeated knots are split by 2^-300; spans must keep clear of that, and of overflow. Two knots that differ are as
-  // far apart as their last bit at least, so only knots next to zero can be too near.
+  // Repeated knots are split by 2^-300; spans must stay clear of that, and of overflow. Distinct knots differ by at
+  // least their last bit, so only knots next to zero can be too close.
   constexpr double smallest = 0x1p-240, largest = 0x1p240, far_from_zero = 0x1p-180;
   const std::span<const double> x = knots.knots();
   if (x.back() - x.front() > largest) return false;

@@ -7,7 +7,7 @@ namespace knead::detail {
 KernelCall::KernelCall(const KnotVector& knots, GramianSet& set) {
   const std::span<const double> all = knots.knots();
   const int size = static_cast<int>(all.size());
-  // The tail begins early enough that rows behind the last, which kernels sweep too, find their knots in it.
+  // The tail begins early enough to contain the knots of rows past the last, which kernels sweep too.
   knots_.body = all.data();
   knots_.size = size;
   knots_.tail_begin = std::max(0, size - KernelKnots::readable);

@@ -7,7 +7,7 @@
 
 namespace knead::detail {
 
-/// The knots and the four band matrices as the kernels want them. Valid as long as both arguments live.
+/// The knots and the four band matrices as the kernels need them. Valid as long as both arguments exist.
 class KernelCall {
  public:
   KernelCall(const KnotVector& knots, GramianSet& set);
@@ -20,10 +20,10 @@ class KernelCall {
   KernelOutput output_;
 };
 
-/// The p + 1 points that the Gauss kernels want.
+/// The p + 1 points that the Gauss kernels need.
 [[nodiscard]] GaussPoints gauss_points(int degree);
 
-/// Matrices of the right size for the four terms; those that fit already are kept, whatever they hold.
+/// Matrices of the right size for the four terms; those that already fit are kept, whatever their content.
 void resize(GramianSet& set, const KnotVector& knots);
 
 }  // namespace knead::detail

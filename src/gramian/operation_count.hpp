@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// Floating-point operations, as they are done.
+/// Floating-point operations performed.
 struct OperationCount {
   long additions = 0;  ///< and subtractions
   long multiplications = 0;
@@ -16,9 +16,9 @@ struct OperationCount {
   }
 };
 
-/// How many operations the four Gramians cost by a method: the method itself is run, on numbers that count. Copied rows
-/// (equal spans) count as if they were computed. gauss and recurrence are the kernels that `gramians` runs (gauss to
-/// degree 7; above, and where distances of knots are out of the range of the kernels, the count of gauss is zero).
+/// The number of operations a method needs for the four Gramians: the method itself is run on counting numbers. Copied
+/// rows (equal spans) count as if computed. gauss and recurrence are the kernels that `gramians` runs (gauss to degree
+/// 7; above, and where knot distances are out of the range of the kernels, the count of gauss is zero).
 [[nodiscard]] OperationCount count_operations(const KnotVector& knots, GramianMethod method);
 
 }  // namespace knead

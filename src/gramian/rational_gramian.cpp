@@ -17,8 +17,8 @@ using detail::RationalAxis;
 using detail::RationalPiece;
 using Orders = std::array<int, 2>;
 
-constexpr int most_points = 24;  ///< a piece that asks for more is halved
-constexpr int deepest = 60;      ///< halvings of one span before we give up
+constexpr int most_points = 24;  ///< a piece that needs more is halved
+constexpr int deepest = 60;      ///< halvings of one span before giving up
 
 /// Integrates ∂^a R_I ∂^b R_J over one span (or product of spans) to a given error.
 class SpanIntegrator {
@@ -30,7 +30,7 @@ class SpanIntegrator {
         local_(static_cast<std::size_t>(functions) * functions),
         values_(static_cast<std::size_t>(6 * functions)) {}
 
-  /// The integrals of all pairs, row by row, into local(). False where no halving gave the denominator a positive
+  /// The integrals of all pairs, row by row, into local(). False if no halving gave the denominator a positive
   /// bound.
   [[nodiscard]] bool integrate(const RationalPiece& piece, double allowed) {
     std::fill(local_.begin(), local_.end(), 0.0);
@@ -42,7 +42,7 @@ class SpanIntegrator {
   [[nodiscard]] int pieces() const { return pieces_; }
   [[nodiscard]] int largest_points() const { return largest_points_; }
 
-  /// local() += the rule of these points, without a bound.
+  /// local() += the rule with these points, without a bound.
   void add_rule(const RationalPiece& piece, Orders points) {
     const auto ru = detail::unit_gauss<double>(points[0]), rv = detail::unit_gauss<double>(points[1]);
     detail::SpanValues<double> u[3], v[3];
@@ -139,7 +139,7 @@ class RationalNet {
 
   [[nodiscard]] int functions() const { return (u_.degree() + 1) * (v_ != nullptr ? v_->degree() + 1 : 1); }
 
-  /// visit(piece, indices) for every element, in order; stops where it returns false.
+  /// visit(piece, indices) for every element, in order; stops when it returns false.
   template <class Visit>
   bool for_elements(Visit visit) const {
     std::vector<RationalAxis> along_v;
@@ -168,7 +168,7 @@ class RationalNet {
     return true;
   }
 
-  /// max_I sqrt(G^aa_II G^bb_II), roughly: the size that a tolerance is a fraction of.
+  /// max_I sqrt(G^aa_II G^bb_II), roughly: the size to which a tolerance is relative.
   [[nodiscard]] double size(Orders a, Orders b) const {
     std::vector<double> diagonal[2];
     const Orders order[2] = {a, b};
@@ -203,7 +203,7 @@ template <class Matrix, class Add>
 Expected<void> integrate(const RationalNet& net, Orders a, Orders b, double tolerance, RationalGramian<Matrix>& summary,
                          Add add) {
   const double size = net.size(a, b);
-  // An entry gathers from as many elements as functions live on one.
+  // An entry sums as many elements as there are functions on one.
   const double allowed = size > 0 ? tolerance * size / net.functions() : 1;
   SpanIntegrator integrator(a, b, net.functions());
   double worst = 0;

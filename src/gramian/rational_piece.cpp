@@ -133,7 +133,7 @@ double RationalPiece::bound(double rho_u, double rho_v, std::array<int, 2> a, st
       }
     }
   }
-  // |W| >= the mean coefficient less all others.
+  // |W| >= the mean coefficient minus all others.
   const double lowest = 2 * denominator_coefficient(0, 0, 0) - w[0];
   if (!(lowest > 0)) return std::numeric_limits<double>::infinity();
 

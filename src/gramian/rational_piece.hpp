@@ -13,8 +13,8 @@ inline constexpr int rational_order = 2;  ///< highest total derivative
 /// Position of the multi-index (k, l), k + l <= 2, in 00, 10, 01, 20, 11, 02.
 constexpr int order_index(int k, int l) { return (k + l) * (k + l + 1) / 2 + l; }
 
-/// One direction of a piece of the domain on which all functions are polynomials: a part of a span, or, for curves in
-/// the second direction, nothing: one function that is 1 on an interval of length 1.
+/// One direction of a piece of the domain on which all functions are polynomials: a part of a span, or, for the second
+/// direction of curves, a dummy: one function that is 1 on an interval of length 1.
 struct RationalAxis {
   const KnotVector* knots = nullptr;
   int span = 0;
@@ -31,10 +31,10 @@ struct RationalAxis {
   [[nodiscard]] RationalAxis half(int which) const;
 };
 
-/// The rational functions of one piece and what is known of them on Bernstein ellipses.
+/// The rational functions of one piece and their bounds on Bernstein ellipses.
 class RationalPiece {
  public:
-  /// `weights` (p + 1)(q + 1) of them, second direction fastest, those of the functions that live on the piece.
+  /// `weights`: the (p + 1)(q + 1) weights of the functions on the piece, second direction fastest.
   RationalPiece(std::array<RationalAxis, 2> axes, const double* weights);
 
   [[nodiscard]] const RationalAxis& axis(int direction) const { return axes_[static_cast<std::size_t>(direction)]; }
@@ -45,10 +45,10 @@ class RationalPiece {
   void evaluate(const SpanValues<double> (&u)[3], const SpanValues<double> (&v)[3], double* out) const;
 
   /// A bound of |∂^a R_I ∂^b R_J| over all functions, for u on the ellipse rho_u and v on the ellipse rho_v (1: the
-  /// interval itself). Infinite where the denominator has no positive lower bound there.
+  /// interval itself). Infinite if the denominator has no positive lower bound there.
   [[nodiscard]] double bound(double rho_u, double rho_v, std::array<int, 2> a, std::array<int, 2> b) const;
 
-  /// How much of the denominator varies with a direction: where to halve.
+  /// How much the denominator varies along a direction: decides where to halve.
   [[nodiscard]] double variation(int direction) const;
 
  private:

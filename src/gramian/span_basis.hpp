@@ -6,15 +6,16 @@
 
 namespace knead::detail {
 
-/// One derivative order of the p + 1 functions that live on a span.
+/// One derivative order of the p + 1 functions on a span.
 template <class Real>
 using SpanValues = Real[max_degree + 1];
 
 /// N_{span-p+r}^(d) at u = lower + t (upper − lower), r = 0 … p, for each d of `orders[0 … count)`.
 ///
 /// [lower, upper] is a piece of the span or all of it. Like `basis_derivatives`, but u is given by t and 1 − t inside
-/// the piece and never formed, so that no digit is lost on spans that are short beside the size of the knots. Values
-/// are sums of non-negative terms; a derivative is d differences of values of degree p − d. Orders above p give zero.
+/// the piece and never formed, so that no digits are lost on spans that are short relative to the size of the knots.
+/// Values are sums of non-negative terms; a derivative is d differences of values of degree p − d. Orders above p give
+/// zero.
 template <class Real>
 void span_basis(const KnotVector& knots, int span, double lower, double upper, Real t, Real complement,
                 const int* orders, int count, SpanValues<Real>* out) {

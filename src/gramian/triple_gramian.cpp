@@ -35,7 +35,7 @@ Expected<std::vector<Piece>> common_pieces(const KnotVector& first, const KnotVe
 
 namespace {
 
-constexpr int highest_order = 2 * max_degree;  // above this all is zero anyway; keeps sums of orders in range
+constexpr int highest_order = 2 * max_degree;  // above this everything is zero anyway; keeps sums of orders in range
 
 Expected<int> points_for(int degree, int a, int b) {
   if (a < 0 || b < 0 || a > highest_order || b > highest_order) {
@@ -89,7 +89,7 @@ Expected<TripleGramian> triple_gramian(const KnotVector& coefficient_knots, cons
   result.degree_ = p;
   result.coefficient_count_ = coefficient_knots.count();
   result.symmetric_ = a == b;
-  // First which coefficient functions meet which pair, then their integrals.
+  // First the coefficient functions that overlap each pair, then their integrals.
   const std::size_t entries = static_cast<std::size_t>(n) * static_cast<std::size_t>(2 * p + 1);
   std::vector<int> last(entries, -1);
   result.first_.assign(entries, 0);

@@ -5,8 +5,8 @@
 namespace knead::detail {
 
 /// Gauss–Legendre on [0, 1]: t, 1 − t and the weight, each correct to a relative ulp (of extended precision up to a
-/// few). On short spans and high degrees basis functions need 1 − t as exactly as t; taking it from the rule on [-1, 1]
-/// would lose digits near both ends.
+/// few). On short spans and for high degrees basis functions need 1 − t as exactly as t; taking it from the rule on
+/// [-1, 1] would lose digits near both ends.
 template <class Real>
 struct UnitGaussRule {
   std::span<const Real> t, complement, weights;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int max_order = max_degree + 1;
 
-/// The triangle of A2.3: ndu[j][r], r <= j, holds N_{s-j+r,j}(u); ndu[r][j], r < j, the knot difference it is made
-/// with.
+/// The triangle of A2.3: ndu[j][r], r <= j, holds N_{s-j+r,j}(u); ndu[r][j], r < j, the knot difference used to compute
+/// it.
 void fill_triangle(const KnotVector& knots, int span, double u, double ndu[max_order][max_order]) {
   const int p = knots.degree();
   double left[max_order], right[max_order];

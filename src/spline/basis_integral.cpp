@@ -7,7 +7,7 @@ namespace knead {
 namespace {
 
 /// The knots of one basis function, t_0 … t_{p+1}, continued by repetition at both ends. Functions k >= 0 of any degree
-/// on them depend on nothing else.
+/// on them depend only on these.
 class LocalKnots {
  public:
   LocalKnots(const KnotVector& knots, int i) : knots_(knots), i_(i), p_(knots.degree()) {}
@@ -16,7 +16,7 @@ class LocalKnots {
   [[nodiscard]] double first() const { return (*this)[0]; }
   [[nodiscard]] double last() const { return (*this)[p_ + 1]; }
 
-  /// s with t_s <= u < t_{s+1}, or t_s < u <= t_{s+1}; −1 outside of the support.
+  /// s with t_s <= u < t_{s+1}, or t_s < u <= t_{s+1}; −1 outside the support.
   [[nodiscard]] int span(double u, Side side) const {
     for (int s = 0; s <= p_; ++s) {
       const double a = (*this)[s], b = (*this)[s + 1];

@@ -39,7 +39,7 @@ struct Hull {
   }
 };
 
-/// The hull of ∂^a of a Bézier net over a rectangle with sides of these lengths; zero where a length is.
+/// The hull of ∂^a of a Bézier net over a rectangle with sides of these lengths; zero if a length is zero.
 Hull derivative_hull(const Net& net, int p, int q, int a, int b, double length_u, double length_v) {
   Hull hull;
   if (a > p || b > q || (a > 0 && length_u == 0) || (b > 0 && length_v == 0)) {
@@ -153,7 +153,7 @@ PatchBounds BezierPatch::bounds(const ParameterRectangle& at) const {
     b[7] = b[2];
     return b;
   }
-  // Quotients about the middle of the hull, so that the terms with S are small.
+  // Quotients about the centre of the hull, so that the terms with S are small.
   Hull cartesian;
   double w_low = net[0].w(), w_high = w_low;
   for (const Vector4& point : net) {

@@ -32,7 +32,7 @@ class BezierPatch final : public Patch {
 /// All pieces of a surface, span by span, v fastest; coordinates times `scale`. Errors: a Bézier weight that is not
 /// positive, named by its span.
 [[nodiscard]] Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Surface& surface, const Point& scale);
-/// The same of a curve.
+/// The same for a curve.
 [[nodiscard]] Expected<std::vector<std::unique_ptr<Patch>>> bezier_patches(const Curve& curve);
 
 }  // namespace knead::detail

@@ -24,7 +24,7 @@ Expected<std::vector<std::unique_ptr<detail::Patch>>> pieces_of(const Surface& s
   return detail::bezier_patches(surface, Point::Ones());
 }
 
-/// |x − S|²/2 with its derivatives by the fractions of the domain, so that all directions count alike.
+/// |x − S|²/2 with its derivatives by fractions of the domain, so that all directions have equal weight.
 template <int D>
 struct LocalModel {
   double distance = std::numeric_limits<double>::infinity();
@@ -88,7 +88,7 @@ ClosestPoint<D> descend(const Spline<D>& spline, const Point& x, const std::arra
     for (int d = 0; d < D; ++d) u[at(d)] = parameter(d, here[d]);
     const auto model = model_at<D>(spline, x, u);
     if (!model) break;
-    // Where rounding hides the fall of the distance, that of the gradient decides.
+    // Where rounding hides the decrease of the distance, that of the gradient decides.
     const bool level = model->distance <= best.distance * (1 + 1e-14);
     if (model->distance < best.distance * (1 - 1e-14) || (level && model->gradient.norm() < best.gradient.norm())) {
       best = *model;
@@ -131,8 +131,8 @@ struct ClosestPointSearch<D>::Data {
 
   Spline<D> spline;
   std::array<std::vector<Interval>, D> spans;  // of positive length
-  std::optional<detail::FootSearch> search;    // none: a Bézier weight is not positive, or all is one point
-  std::array<std::vector<double>, D> samples;  // where there is no search
+  std::optional<detail::FootSearch> search;    // none: a Bézier weight is not positive, or the spline is one point
+  std::array<std::vector<double>, D> samples;  // if there is no search
   Points points;
 };
 
@@ -183,7 +183,7 @@ ClosestPoint<D> ClosestPointSearch<D>::nearest(const Point& x) const {
     result.certified = found.certified;
     return result;
   }
-  // From the nearest samples that are not neighbours.
+  // From the nearest non-adjacent samples.
   Eigen::VectorXd distances = (data_->points.rowwise() - x.transpose()).rowwise().squaredNorm();
   std::array<int, D> counts;
   for (int d = 0; d < D; ++d) counts[at(d)] = static_cast<int>(data_->samples[at(d)].size());

@@ -22,7 +22,7 @@ void append_indices(MultiIndex<D>& a, std::size_t direction, int left, std::vect
   }
 }
 
-/// Contracts the (p + 1)^D control points that live at one parameter point, first direction first. Sums are formed in
+/// Contracts the (p + 1)^D control points that affect one parameter point, first direction first. Sums are formed in
 /// the same order as on grids, so that both give the same bits.
 template <int D>
 class LocalContraction {
@@ -37,7 +37,7 @@ class LocalContraction {
     local_.resize(block);
   }
 
-  /// out[k · width + c] for multi-index k at the point number `row` of every table.
+  /// out[k · width + c] for multi-index k at point `row` of every table.
   void point(int row, double* out) {
     double* end = local_.data();
     gather(0, row, net_.data(), end);
@@ -77,7 +77,7 @@ class LocalContraction {
   const std::array<const BasisTable*, D>& tables_;
   int order_;
   std::vector<double> local_;
-  std::array<std::vector<double>, D> reduced_;  ///< what is left after direction d
+  std::array<std::vector<double>, D> reduced_;  ///< the remainder after direction d
 };
 
 }  // namespace

@@ -9,8 +9,8 @@
 namespace knead {
 namespace {
 
-// Two doubles side by side: every 64-bit target has them. All arithmetic is lane by lane, in the order of the scalar
-// code, so results do not depend on the vector width.
+// Two doubles side by side: available on every 64-bit target. All arithmetic is lane by lane, in the order of the
+// scalar code, so results do not depend on the vector width.
 using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
 
 /// The last direction's basis with parameters side by side, so that neighbouring points of one span are computed at
@@ -52,7 +52,7 @@ class TransposedBasis {
 };
 
 /// Σ_r basis[r · stride + k] coefficients[3 r + c] for k = 0 … count − 1, written to out[3 k + c].
-/// `Fixed` is the number of terms where it is known to the compiler, else 0 and `terms` holds it.
+/// `Fixed` is the number of terms if known at compile time, else 0 and `terms` holds it.
 template <std::size_t Fixed>
 void sum_run(const double* coefficients, const double* basis, std::size_t stride, std::size_t terms, std::size_t count,
              double* out) {
@@ -119,7 +119,7 @@ SumRun sum_run_for(std::size_t width, std::size_t terms) {
 }
 
 /// Walks the grid row by row. At every parameter of a direction but the last, the net is contracted once for every
-/// derivative that is needed further in; what is left is a smaller net. In the last direction whole rows are summed.
+/// derivative needed further in, leaving a smaller net. In the last direction whole rows are summed.
 template <int D>
 class GridWalk {
  public:
@@ -136,7 +136,7 @@ class GridWalk {
     if (rational_) homogeneous_.resize(result.derivatives.size() * basis_.size() * 4);
   }
 
-  /// False where a denominator is not positive; `at()` then names the point.
+  /// False if a denominator is not positive; `at()` then gives the point.
   bool run() { return walk(0, {{MultiIndex<D>{}, net_.data()}}); }
   [[nodiscard]] const std::array<std::size_t, D>& at() const { return at_; }
 
@@ -216,7 +216,7 @@ class GridWalk {
   detail::QuotientRule<D> quotient_;
   SumRun sum_run_;
   Evaluation<D>& result_;
-  std::array<std::vector<double>, D> nets_;  ///< what is left after direction d, one net per derivative
+  std::array<std::vector<double>, D> nets_;  ///< the net remaining after direction d, one per derivative
   std::vector<double> homogeneous_;          ///< one row of a rational spline, by derivative and point
   std::size_t row_ = 0;
   std::array<std::size_t, D> at_{};

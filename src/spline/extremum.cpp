@@ -13,7 +13,7 @@
 namespace knead {
 namespace {
 
-/// S and its derivatives to order 2 (00, 10, 01, 20, 11, 02) at one point, without going over the whole net.
+/// S and its derivatives to order 2 (00, 10, 01, 20, 11, 02) at one point, without traversing the whole net.
 struct Jet {
   std::array<Point, 6> d;
 };
@@ -59,7 +59,7 @@ struct Value {
   Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
 };
 
-/// The functions that are maximised: f = S·S, or ± one coordinate.
+/// The functions to maximise: f = S·S, or ± one coordinate.
 struct SquaredNorm {
   [[nodiscard]] double at(const Point& s) const { return s.squaredNorm(); }
   [[nodiscard]] Value at(const Jet& j) const {
@@ -87,8 +87,8 @@ struct Coordinate {
   }
 };
 
-/// Sample parameters of one direction with the basis of the span they were taken for, so that both one-sided limits at
-/// a knot are seen.
+/// Sample parameters of one direction with the basis of the span they belong to, so that both one-sided limits at a
+/// knot are sampled.
 struct Samples {
   std::vector<double> parameters;
   BasisTable table;
@@ -111,7 +111,7 @@ Samples sample_spans(const KnotVector& knots) {
   return samples;
 }
 
-/// The way up from a sample of f.
+/// The ascent from a sample of f.
 template <class Function>
 class Ascent {
  public:
@@ -139,7 +139,7 @@ class Ascent {
     return std::binary_search(knots.begin(), knots.end(), x_[d]);
   }
 
-  /// Goes to y if that is higher.
+  /// Moves to y if f is larger there.
   bool go(const Eigen::Vector2d& y) {
     const double there = f_.at(jet_at(surface_, y[0], y[1]).d[0]);
     if (!(there > value_)) return false;
@@ -148,20 +148,20 @@ class Ascent {
     return true;
   }
 
-  /// Newton's iteration, each direction on its own where f is not concave; true where it arrives at a smooth maximum.
+  /// Newton's iteration, each direction on its own where f is not concave; true if it reaches a smooth maximum.
   bool climb() {
     for (int iteration = 0; iteration < 20; ++iteration) {
       const Value here = f_.at(jet_at(surface_, x_[0], x_[1]));
       const Eigen::Vector2d g = here.gradient;
-      // Directions that lead out of the domain are held.
+      // Directions that lead out of the domain are fixed.
       bool held[2];
       for (int d = 0; d < 2; ++d)
         held[d] = (x_[d] <= domain_[d].lower && g[d] <= 0) || (x_[d] >= domain_[d].upper && g[d] >= 0);
       Eigen::Vector2d step = Eigen::Vector2d::Zero();
       const double det = here.hessian.determinant();
       if (!held[0] && !held[1] && here.hessian(0, 0) < 0 && det > 0) step = -here.hessian.inverse() * g;
-      if (!step.allFinite()) step.setZero();  // all but singular
-      // A Newton step that short changes f by its square; inside a span nothing but a maximum is there.
+      if (!step.allFinite()) step.setZero();  // nearly singular
+      // A Newton step this short changes f by its square; inside a span the point is then a maximum.
       constexpr double arrived = 1e-7;
       if (!step.isZero(0) && std::abs(step[0]) <= arrived * spacing_[0] && std::abs(step[1]) <= arrived * spacing_[1] &&
           !on_knot(0) && !on_knot(1)) {
@@ -211,7 +211,7 @@ struct Peak {
   Eigen::Vector2d at, spacing;
 };
 
-/// The spans of a surface and their samples; one for several functions.
+/// The spans of a surface and their samples, shared by several functions.
 class SampledSpans {
  public:
   explicit SampledSpans(const Surface& surface)
@@ -220,7 +220,7 @@ class SampledSpans {
         v_(sample_spans(surface.knots(1))),
         in_hull_(std::ranges::all_of(surface.weights(), [](double w) { return w > 0; })) {}
 
-  /// False where a denominator is not positive: then the net is all there is.
+  /// False if a denominator is not positive: then only the net can be used.
   [[nodiscard]] bool valid() const {
     if (in_hull_) return true;
     return evaluate_grid<2>(surface_, std::array<const BasisTable*, 2>{&u_.table, &v_.table}).has_value();
@@ -230,9 +230,9 @@ class SampledSpans {
   [[nodiscard]] SurfaceMaximum maximise(const Function& f) const {
     std::vector<Peak> peaks = peaks_of(f);
     std::ranges::sort(peaks, std::ranges::greater{}, &Peak::value);
-    // A plateau makes every sample a peak: the best few will do, since equal values refine to equal values.
+    // On a plateau every sample is a peak: the best few suffice, since equal values refine to equal values.
     constexpr std::size_t refined = 8;
-    std::vector<Eigen::Vector2d> begun;  // a peak on a knot line is one of both its spans
+    std::vector<Eigen::Vector2d> begun;  // a peak on a knot line belongs to both adjacent spans
     SurfaceMaximum best;
     for (const Peak& peak : peaks) {
       if (std::ranges::find(begun, peak.at) != begun.end()) continue;
@@ -249,8 +249,8 @@ class SampledSpans {
   Samples u_, v_;
   bool in_hull_;
 
-  /// f is convex and the surface of a span lies in the hull of its control points, so that f is nowhere larger than at
-  /// those: spans that cannot reach what others have are not sampled.
+  /// f is convex and the surface of a span lies in the hull of its control points, so f is nowhere larger than at
+  /// those: spans that cannot exceed the best value are not sampled.
   template <class Function>
   std::vector<Peak> peaks_of(const Function& f) const {
     const int n = surface_.net()[1], p = u_.table.degree, q = v_.table.degree, rows = p + 3, columns = q + 3;
@@ -343,8 +343,8 @@ class SampledSpans {
 SurfaceMaximum largest_norm(const Surface& surface) {
   const double size = surface.control_points().cwiseAbs().maxCoeff();
   if (std::isfinite(size) && size > 0 && std::abs(std::ilogb(size)) > 100) {
-    // Squares, and products of squares, of numbers far from 1 leave the range of numbers; a power of two costs no
-    // digit.
+    // Squares, and products of squares, of numbers far from 1 over- or underflow; scaling by a power of two is
+    // exact.
     const int half = -std::ilogb(size) / 2, rest = -std::ilogb(size) - half;
     const auto scaled =
         surface.with_control_points(surface.control_points() * std::ldexp(1.0, half) * std::ldexp(1.0, rest));

@@ -10,7 +10,7 @@ std::size_t index(Eigen::Index k) { return static_cast<std::size_t>(k); }
 
 double length(const Range& r) { return r.upper - r.lower; }
 
-/// Where the iteration stands: parameters w and the jet j there.
+/// The present iterate: parameters w and the jet j there.
 class Descent {
  public:
   Descent(const Point& x, const Patch& patch, const ParameterRectangle& within, const std::array<double, 2>& start,
@@ -29,7 +29,7 @@ class Descent {
     }
   }
 
-  /// Towards a cusp the steps shrink without end: the cusp itself is asked too.
+  /// Towards a cusp the steps shrink indefinitely: the cusp itself is tried too.
   void try_cusps() {
     for (Eigen::Index k = 0; k < 2; ++k) {
       const Range& side = within_.side[index(k)];
@@ -74,16 +74,16 @@ class Descent {
  private:
   struct Step {
     Eigen::Vector2d by = Eigen::Vector2d::Zero();
-    bool newton = true;  // else Gauss and Newton's, where |x − S|² is not convex
+    bool newton = true;  // else Gauss–Newton, where |x − S|² is not convex
   };
 
-  /// Half of that of |x − S|².
+  /// Half the gradient of |x − S|².
   [[nodiscard]] Eigen::Vector2d gradient() const {
     const Point r = j_[0] - x_;
     return {r.dot(j_[1]), r.dot(j_[2])};
   }
 
-  /// The parameters that no side of the rectangle stops.
+  /// The parameters not blocked by a side of the rectangle.
   [[nodiscard]] std::array<bool, 2> free_sides(const Eigen::Vector2d& g) const {
     std::array<bool, 2> free{};
     for (std::size_t d = 0; d < 2; ++d) {
@@ -120,7 +120,7 @@ class Descent {
     return step;
   }
 
-  /// Goes a step, shortened until it leads closer to x; how far that is in space, to second order.
+  /// Takes a step, shortened until it leads closer to x; returns its length in space, to second order.
   double advance(const Step& step, const std::array<bool, 2>& free) {
     const double squared = (j_[0] - x_).squaredNorm();
     Eigen::Vector2d next = w_;

@@ -8,13 +8,13 @@ namespace {
 
 constexpr int most_cells = 8000;
 constexpr double smallest_cell = 1e-6;  ///< of the size
-constexpr double margin = 1e-12;        ///< of squared lengths: what rounding may hide
+constexpr double margin = 1e-12;        ///< of squared lengths: differences hidden by rounding
 
 std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 double length(const Range& r) { return r.upper - r.lower; }
 
-/// Tangents turn little enough over a leaf that the tests of `examine` mostly decide at once.
+/// Whether tangents turn so little over a leaf that the tests of `examine` usually decide at once.
 bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size) {
   for (std::size_t d = 0; d < 2; ++d) {
     if (length(at.side[d]) == 0) continue;
@@ -27,8 +27,8 @@ bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size
   return true;
 }
 
-/// The side along which the cell is to be halved: the longer one in space. Where a cell touches a pole and the tangents
-/// that leave it still turn a lot, it is the side that goes round the pole.
+/// The side along which to halve the cell: the longer one in space. If a cell touches a pole and the tangents leaving
+/// it still vary a lot, it is the side around the pole.
 std::size_t side_to_halve(const PatchBounds& b, const ParameterRectangle& at) {
   const std::array<double, 2> extent = {b[1].magnitude() * length(at.side[0]), b[2].magnitude() * length(at.side[1])};
   if (length(at.side[0]) == 0) return 1;
@@ -45,7 +45,7 @@ std::array<ParameterRectangle, 2> halves(const ParameterRectangle& at, std::size
   return h;
 }
 
-/// Of two feet that rounding cannot tell apart: the one where the gradient is less, then the one further from a
+/// Of two feet that differ only by rounding: the one with the smaller gradient, then the one further from a
 /// pole.
 bool firmer(const Foot& a, const Foot& b) {
   if (std::abs(a.pressure - b.pressure) > 1e-11) return a.pressure < b.pressure;
@@ -58,8 +58,8 @@ struct FootSearch::Query {
   Point x;
   double bound = std::numeric_limits<double>::infinity();
   std::vector<Foot> feet;
-  double limit = bound;  ///< what is not further than `bound` as far as rounding lets one tell
-  double rounding = 0;   ///< a length that does not count
+  double limit = bound;  ///< distances within rounding of `bound`
+  double rounding = 0;   ///< a negligible length
 
   int patch = 0;               ///< where `bound` was found
   std::array<double, 2> at{};  ///< and at which parameters
@@ -151,7 +151,7 @@ FootResult FootSearch::nearest(const Point& x) const {
     }
     Open a = {nodes_[index(node.child[0])].box.squared_distance(x), node.child[0]};
     Open b = {nodes_[index(node.child[1])].box.squared_distance(x), node.child[1]};
-    if (a.lower < b.lower) std::swap(a, b);  // the nearer one is taken first
+    if (a.lower < b.lower) std::swap(a, b);  // the nearer one is examined first
     stack[open++] = a;
     stack[open++] = b;
   }
@@ -170,7 +170,7 @@ FootResult FootSearch::nearest(const Point& x) const {
     if (f.squared <= tie && (best == nullptr || firmer(f, *best))) best = &f;
   }
   result.best = *best;
-  for (int round = 0; round < 2; ++round) {  // the second where the first went to a cusp
+  for (int round = 0; round < 2; ++round) {  // the second if the first went to a cusp
     const Foot polished = descend(q, result.best.patch, patches_[index(result.best.patch)]->domain, result.best.at);
     if (polished.squared > tie || polished.at == result.best.at) break;
     result.best = polished;

@@ -12,7 +12,7 @@ namespace knead::detail {
 
 /// S, S_u, S_v, S_uu, S_uv, S_vv at one parameter point.
 using PatchJet = std::array<Point, 6>;
-/// Boxes that hold the same six over a rectangle of parameters, and S_u and S_v divided by positive functions of the
+/// Boxes that contain the same six over a rectangle of parameters, and S_u and S_v divided by positive functions of the
 /// parameters (the same for all coordinates), so that they do not vanish at poles and cusps.
 using PatchBounds = std::array<Range3, 8>;
 
@@ -33,12 +33,12 @@ class Patch {
   virtual ~Patch() = default;
   [[nodiscard]] virtual PatchBounds bounds(const ParameterRectangle& at) const = 0;
   [[nodiscard]] virtual PatchJet jet(double u, double v) const = 0;
-  /// Asked where ∂S along `side` vanishes: true where a whole side of the rectangle is one point (a pole), false where
-  /// the curve itself comes to a halt (a cusp, or infinite curvature).
+  /// Called where ∂S along `side` vanishes: true if a whole side of the rectangle is one point (a pole), false if the
+  /// curve itself stops (a cusp, or infinite curvature).
   [[nodiscard]] virtual bool pole(std::size_t side, const std::array<double, 2>& at) const = 0;
 
   ParameterRectangle domain;
-  double orientation;  ///< 1 where S_u × S_v points outwards, −1 where it points inwards
+  double orientation;  ///< 1 if S_u × S_v points outwards, −1 if inwards
 };
 
 /// A point of a patch where the distance to x is stationary, or smallest on the patch's border.
@@ -47,34 +47,33 @@ struct Foot {
   int patch = -1;
   std::array<double, 2> at{};
   PatchJet jet{};
-  std::array<bool, 2> pressed{};  ///< the distance would fall further beyond the border in this direction
-  double pressure = 0;            ///< the sine of the angle that is missing to a right one, to either tangent
+  std::array<bool, 2> pressed{};  ///< the distance would decrease beyond the border in this direction
+  double pressure = 0;            ///< the sine of the deviation from a right angle, to either tangent
 };
 
-/// The foot that Newton's iteration on |x − S|² over the rectangle `within` of a patch finds from `start`. Its `patch`
-/// is 0, or −1 where the distance falls further beyond a side of the rectangle that is not the patch's border.
+/// The foot found from `start` by Newton's iteration on |x − S|² over the rectangle `within` of a patch. Its `patch` is
+/// 0, or −1 if the distance decreases beyond a side of the rectangle that is not the patch's border.
 [[nodiscard]] Foot descended(const Point& x, const Patch& patch, const ParameterRectangle& within,
                              const std::array<double, 2>& start, double size);
 
 struct FootResult {
   Foot best;
-  /// Other patches' feet at the same place as `best`: what meets there. Only where `best` is pressed.
+  /// Feet of other patches at the same place as `best`: those that meet there. Only if `best` is pressed.
   std::vector<Foot> neighbours;
   bool certified = true;
-  int cells = 0;  ///< how many were examined
+  int cells = 0;  ///< number of cells examined
 };
 
 /// The point of a set of patches that is nearest to x, by branch and bound.
 ///
 /// A cell (a rectangle of a patch) is discarded where its box is further away than the best point so far, or where the
-/// gradient of |x − S|² cannot vanish in it by interval arithmetic (then its minimum lies on its border: if that is
-/// the border of the patch, the search goes on there, in one variable less). Where the Hessian is positive definite
-/// all over the cell, Newton's iteration finds its only minimum; all other cells are halved. What is left at cells of
-/// 1e-6 of the size is not examined further: `certified` says whether it could hide a point nearer by 1e-11 of the
-/// size.
+/// gradient of |x − S|² cannot vanish in it by interval arithmetic (then its minimum lies on its border: if that is the
+/// border of the patch, the search continues there, in one variable less). Where the Hessian is positive definite
+/// throughout the cell, Newton's iteration finds its only minimum; all other cells are halved. Cells below 1e-6 of the
+/// size are not examined further: `certified` says whether they could hide a point nearer by 1e-11 of the size.
 class FootSearch {
  public:
-  /// \param size the length that tolerances are relative to
+  /// \param size the length to which tolerances are relative
   FootSearch(std::vector<std::unique_ptr<Patch>> patches, double size);
 
   [[nodiscard]] FootResult nearest(const Point& x) const;

@@ -36,7 +36,7 @@ Expected<GrevilleInterpolation> GrevilleInterpolation::create(const KnotVector& 
   };
   for (int i = result.begin_; i < result.end_; ++i) {
     const int first = result.basis_.first[static_cast<std::size_t>(i)];
-    // Functions of the span other than those within the band or outside of begin … end are zero here.
+    // Functions of the span outside the band or outside begin … end are zero here.
     for (int r = 0; r <= p; ++r) {
       const int j = first + r;
       if (j >= std::max(result.begin_, i - p) && j < std::min(result.end_, i + p + 1)) {

@@ -34,8 +34,8 @@ class QuotientRule {
   explicit QuotientRule(int order);
 
   /// \param homogeneous (wx, wy, wz, w) of multi-index k at homogeneous + k · stride
-  /// \param row         row of `out[k]` that is written, for every k
-  /// False, with nothing written, where w is not positive.
+  /// \param row         row of `out[k]` to write, for every k
+  /// False, with nothing written, if w is not positive.
   bool apply(const double* homogeneous, std::size_t stride, Eigen::Index row, std::vector<Points>& out) const;
 
  private:

@@ -23,7 +23,7 @@ void polar_form(const KnotVector& x, int span, const double* arguments, Row& out
     }
   }
   // Outwards from the span, first to the right and then to the left: in this order each argument leaves only functions
-  // for which the next one has factors of one sign.
+  // for which the next one has factors of the same sign.
   Row ordered{};
   const double* inside = std::lower_bound(arguments, arguments + p, x[span]);
   std::reverse_copy(arguments, inside, std::copy(inside, arguments + p, ordered.begin()));
@@ -42,7 +42,7 @@ void polar_form(const KnotVector& x, int span, const double* arguments, Row& out
   }
 }
 
-/// Where function i of y has no support in the domain and is one of x: the index it has there; −1 otherwise.
+/// If function i of y has no support in the domain and is one of x: its index there; −1 otherwise.
 int outside(const KnotVector& x, const KnotVector& y, int i) {
   const int p = x.degree();
   const Interval domain = y.domain();
@@ -111,7 +111,7 @@ Expected<KnotVector> with_periodic_knots(const KnotVector& knots, std::span<cons
     }
   }
   const auto all = merged(knots.knots(), std::move(more));
-  // The p knots next to the domain on either side; at its ends what stood there stays.
+  // The p knots next to the domain on either side; the knots at its ends stay.
   const auto before = std::ranges::lower_bound(knots.knots(), a) - knots.knots().begin();
   const auto after = knots.knots().end() - std::ranges::upper_bound(knots.knots(), b);
   const auto first = std::ranges::lower_bound(all, a) - before, last = std::ranges::upper_bound(all, b) + after;
@@ -189,7 +189,7 @@ Expected<Refinement> Refinement::create(KnotVector from, KnotVector to) {
       result.values_.insert(result.values_.end(), row.begin(), row.begin() + p + 1);
       continue;
     }
-    // A piece under function i; any would do.
+    // A piece under function i; any will do.
     const int span = x.find_span(std::clamp(y[i], domain.lower, domain.upper));
     if (q == p) {
       polar_form(x, span, arguments, row);

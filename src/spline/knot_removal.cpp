@@ -34,7 +34,7 @@ struct Layout {
   }
 };
 
-/// What removing one knot u of multiplicity m does to the rows first … last: their coefficients must satisfy
+/// The effect of removing one knot u of multiplicity m on the rows first … last: their coefficients must satisfy
 /// Σ (−1)^(k − first) size_k c_k = 0.
 struct Relation {
   int first = 0, last = 0, knot = 0;
@@ -87,7 +87,7 @@ void violation(const Rows& c, const Layout& layout, const Relation& r, Eigen::Ro
   }
 }
 
-/// How far points must move at least, in the control points of this knot's neighbourhood.
+/// A lower bound on the movement of points, from the control points near this knot.
 double smallest_change(const Rows& c, const Layout& layout, const Relation& r) {
   Eigen::RowVectorXd jump;
   Eigen::VectorXd total;
@@ -110,7 +110,7 @@ double smallest_change(const Rows& c, const Layout& layout, const Relation& r) {
   return worst;
 }
 
-/// The coefficients without the knot, changed as little as can be.
+/// The coefficients without the knot, changed as little as possible.
 Rows without_knot(Rows c, const Layout& layout, const Relation& r) {
   Eigen::RowVectorXd jump;
   Eigen::VectorXd total;
@@ -124,7 +124,7 @@ Rows without_knot(Rows c, const Layout& layout, const Relation& r) {
           ((i - r.first) % 2 == 0 ? share : -share) * jump.segment(line * layout.width(), layout.width());
     }
   }
-  // New rows from both ends, dividing by the larger coefficient each; the equation left over in the middle holds.
+  // New rows from both ends, dividing by the larger coefficient each; the remaining equation in the middle holds.
   Rows result(count - 1, c.cols());
   result.topRows(r.first + 1) = c.topRows(r.first + 1);
   result.bottomRows(count - r.last) = c.bottomRows(count - r.last);
@@ -142,7 +142,7 @@ Rows without_knot(Rows c, const Layout& layout, const Relation& r) {
   return result;
 }
 
-/// A bound for the distance of the spline `coarse` from the spline `fine`, both with positive weights; infinite where
+/// A bound for the distance of the spline `coarse` from the spline `fine`, both with positive weights; infinite if
 /// there is none.
 double certified_distance(const Rows& coarse, const Rows& fine, const Layout& layout, const Refinement& refinement) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -203,12 +203,12 @@ std::vector<int> inner_knots(const KnotVector& knots) {
 struct Reduction {
   KnotVector knots;
   Rows rows;
-  std::vector<int> origin;  ///< row of the original net that a row still is; −1 if it was changed
+  std::vector<int> origin;  ///< row of the original net that a row still equals; −1 if changed
   std::vector<double> removed, refused;
-  std::map<double, double> change;  ///< `smallest_change` by knot, where it is still true
+  std::map<double, double> change;  ///< `smallest_change` by knot, where still valid
   double bound = 0;
 
-  /// Forgets what depends on rows that change, or on knots, when the knot of this index goes.
+  /// Drops what depends on changed rows or knots when the knot of this index is removed.
   void forget_around(int knot) {
     const int reach = 2 * knots.degree() + 3, last = static_cast<int>(knots.knots().size()) - 1;
     change.erase(change.lower_bound(knots[std::max(0, knot - reach)]),
@@ -216,7 +216,7 @@ struct Reduction {
   }
 };
 
-/// Removes one more knot; false if none may go.
+/// Removes one more knot; false if none can be removed.
 bool remove_one(Reduction& state, const Rows& original, const KnotVector& original_knots, const Layout& layout,
                 double tolerance) {
   std::vector<std::pair<double, Relation>> candidates;

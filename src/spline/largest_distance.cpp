@@ -64,7 +64,7 @@ double largest_distance(const Surface& a, const Surface& b) {
         std::array<double, 2> there = best;
         there[d] = std::clamp(best[d] + sign * share * step[d], domain.lower, domain.upper);
         const auto p = evaluate_point<2>(a, there), q = evaluate_point<2>(b, there);
-        if (!p || !q) continue;  // a denominator vanishes between the samples: what they showed stands
+        if (!p || !q) continue;  // a denominator vanishes between the samples: their maximum stands
         const double distance = (*p - *q).norm();
         if (distance <= largest) continue;
         largest = distance;

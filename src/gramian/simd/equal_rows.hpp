@@ -5,10 +5,10 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// Rows are asked for and copied by as many as fill a cache line.
+/// Rows are compared and copied in groups that fill a cache line.
 inline constexpr int row_chunk = 8;
 
-/// `equal_rows_begin` where the first spans are found to be equal.
+/// `equal_rows_begin` once the first spans are found to be equal.
 template <int P>
 __attribute__((noinline)) inline int equal_rows_found(const KernelKnots& knots, int end) {
   constexpr int K = P + 1;
@@ -35,18 +35,18 @@ __attribute__((noinline)) inline int equal_rows_found(const KernelKnots& knots, 
 }
 
 /// The rows from the result on down to `end` see the same distances d(i, k), k = 1 … p + 1, to the last bit, as row
-/// `end` and all the rows that it depends on: then they are the same as that row, and so is whatever was computed on
-/// the way. The result is `end` less a multiple of `row_chunk`, and `end` itself where the rows differ.
+/// `end` and all the rows that it depends on: then they are equal to that row, and so are all intermediate results. The
+/// result is `end` minus a multiple of `row_chunk`, and `end` itself if the rows differ.
 template <int P>
 KNEAD_INLINE int equal_rows_begin(const KernelKnots& knots, int end) {
   if (end < row_chunk || end >= knots.size - P - 1) return end;
   const double* x = knots.from(end);
-  if (!(x[1] > x[0]) || x[2] - x[1] != x[1] - x[0]) return end;  // as almost always
+  if (!(x[1] > x[0]) || x[2] - x[1] != x[1] - x[0]) return end;  // the usual case
   return equal_rows_found<P>(knots, end);
 }
 
-/// Row `end` into rows begin … end − 1, a diagonal after the other: the rows as a whole would be as many streams of
-/// stores as there are diagonals.
+/// Copies row `end` to rows begin … end − 1, one diagonal at a time: all at once would need as many store streams as
+/// there are diagonals.
 template <int P>
 inline void copy_rows(const KernelOutput& out, int begin, int end) {
   const auto fill = [&](double* diagonal) {

@@ -7,8 +7,8 @@ namespace knead::detail::KNEAD_ISA {
 
 /// p + 1 Gauss points per span for a degree known at compile time: a span per lane.
 ///
-/// First the matrices of `block` spans are made, each the products of the p + 1 functions that live on it; then row i
-/// of the band is the sum over the spans of its support, which for neighbouring rows lie side by side. Tuned like the
+/// First the matrices of `block` spans are computed, each the products of the p + 1 functions on it; then row i of the
+/// band is the sum over the spans of its support, which are adjacent for neighbouring rows. Tuned like the
 /// recurrence (registers, two reciprocals per division, the lower half of G10 from the upper), so that the two can be
 /// compared.
 template <int P>
@@ -21,7 +21,7 @@ class FixedGauss {
       : knots_(knots), out_(out), points_(points), rows_(knots.size - K) {}
 
   void run() {
-    // Column P + c of `local_` is span first + c; the P columns before are the last spans of the block before.
+    // Column P + c of `local_` is span first + c; the P columns before are the last spans of the previous block.
     for (int first = P; first - P < rows_; first += block) {
       reciprocals(first);
       for (int c = 0; c < block && first + c - P < rows_; c += lanes) span_group(first + c, c);
@@ -61,7 +61,7 @@ class FixedGauss {
     const double* x = knots_.from(span - P) + P;
     const Lanes a = load(x), b = load(x + 1);
     Lanes h = b - a;
-    if (span + lanes > rows_) {  // spans behind the domain do not count
+    if (span + lanes > rows_) {  // spans past the domain do not count
       double length[8];
       store(length, h);
       for (int l = 0; l < lanes; ++l) length[l] = span + l < rows_ ? length[l] : 0;
@@ -102,7 +102,7 @@ class FixedGauss {
     });
   }
 
-  /// Cox–de Boor from t and 1 − t; derivatives are differences of the lower degrees on the way.
+  /// Cox–de Boor from t and 1 − t; derivatives are differences of the intermediate lower degrees.
   KNEAD_INLINE void at_point(int g, Lanes h, Lanes root, const Lanes* left, const Lanes* right, const Lanes* reciprocal,
                              Lanes* values, Lanes* slopes, Lanes* bends) const {
     const double t = points_.t[g], complement = points_.complement[g];

@@ -4,7 +4,7 @@
 
 namespace knead::detail {
 
-/// Knots for kernels that read whole vectors, and knots behind the last, which repeat it.
+/// Knots for kernels that read whole vectors, and past the last knot, which is repeated there.
 struct KernelKnots {
   static constexpr int readable = 128;  ///< more than any kernel reads at once
 
@@ -17,9 +17,9 @@ struct KernelKnots {
   [[nodiscard]] const double* from(int i) const { return i + readable <= size ? body + i : tail + (i - tail_begin); }
 };
 
-/// Where entry (i, i + s) of the four terms goes: g[term] + s · stride[term] + i, s = 0 … p, and −s for the lower half
-/// of g10: lower10 + (s − 1) · stride[3] + i is entry (i + s, i), s = 1 … p. Whole vectors are stored, up to 8 numbers
-/// past the end of the row range.
+/// The location of entry (i, i + s) of the four terms: g[term] + s · stride[term] + i, s = 0 … p, and −s for the lower
+/// half of g10: lower10 + (s − 1) · stride[3] + i is entry (i + s, i), s = 1 … p. Whole vectors are stored, up to 8
+/// numbers past the end of the row range.
 struct KernelOutput {
   double* g[4];  ///< 00, 11, 22, 10
   std::size_t stride[4];
@@ -34,14 +34,14 @@ struct GaussPoints {
 /// The kernels of one instruction set.
 struct GramianKernels {
   int lanes;
-  /// All four terms by the recurrence, whole supports (as if the domain held them all), p = 1 … 15.
+  /// All four terms by the recurrence, over whole supports (as if inside the domain), p = 1 … 15.
   void (*recurrence)(const KernelKnots& knots, int degree, const KernelOutput& out);
   /// All four terms by p + 1 Gauss points over spans p … n − 1, the domain; p = 1 … 7. The lower half of 10 is minus
-  /// the upper one, which is right but where an unclamped domain cuts both functions.
+  /// the upper one, which is correct except where an unclamped domain cuts both functions.
   void (*gauss)(const KernelKnots& knots, int degree, const GaussPoints& points, const KernelOutput& out);
 };
 
-// Null where the compiler does not target the instruction set.
+// Null if the compiler does not target the instruction set.
 extern const GramianKernels* const scalar_kernels;
 extern const GramianKernels* const vector128_kernels;
 extern const GramianKernels* const avx2_kernels;

@@ -1,4 +1,4 @@
-// Included by one translation unit per instruction set, which defines KNEAD_LANES and KNEAD_ISA. Everything stands in a
+// Included by one translation unit per instruction set, which defines KNEAD_LANES and KNEAD_ISA. Everything is in a
 // namespace of that instruction set, and nothing from the standard library is instantiated here: an inline function
 // that the linker shares between translation units could otherwise carry AVX code into the portable ones.
 #pragma once
@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#if defined(KNEAD_COUNTING)  // not for speed: nothing need be inlined
+#if defined(KNEAD_COUNTING)  // not for speed: nothing needs to be inlined
 #define KNEAD_INLINE inline
 #define KNEAD_LAMBDA
 #else
@@ -24,13 +24,13 @@ inline constexpr int lanes = KNEAD_LANES;
 
 // Rows i, i + 1, … i + lanes − 1 of one quantity.
 #if defined(KNEAD_COUNTING)
-using Lanes = Counted;  // a double that counts what is done with it
+using Lanes = Counted;  // a double that counts its operations
 KNEAD_INLINE Lanes load(const double* p) { return *p; }
 KNEAD_INLINE void store(double* p, Lanes v) { *p = v.value; }
 KNEAD_INLINE Lanes splat(double x) { return x; }
 KNEAD_INLINE double first(Lanes v) { return v.value; }
 KNEAD_INLINE bool any_not_positive(Lanes v) { return !(v.value > 0); }
-KNEAD_INLINE int differs(Lanes, Lanes) { return 1; }  // no row is copied: all are to be counted
+KNEAD_INLINE int differs(Lanes, Lanes) { return 1; }  // no row is copied: all must be counted
 KNEAD_INLINE bool any(int mask) { return mask != 0; }
 KNEAD_INLINE Lanes shifted(Lanes, double next) { return next; }
 #elif KNEAD_LANES == 1

@@ -5,8 +5,8 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// The positive recurrence for any degree up to 15: the same as `FixedRecurrence`, but by blocks of rows in memory, one
-/// (k, l, s) at a time. Row `block` of every array is row 0 of the block before, which lies above: the carry.
+/// The positive recurrence for any degree up to 15: the same as `FixedRecurrence`, but on blocks of rows in memory, one
+/// (k, l, s) at a time. Row `block` of every array is row 0 of the previous block, which lies above: the carry.
 class BlockedRecurrence {
   static constexpr int block = 32, padded = block + 8, max_K = 16, arrays = max_K * (max_K + 1) / 2;
   using Rows = double[padded];
@@ -53,7 +53,7 @@ class BlockedRecurrence {
       const int l = m - k;
       if (l < 0 || l > K_ || (k == 1 && l < 2)) continue;
       for (int s = l == 0 ? 1 : 0; s < k; ++s) {
-        if (k == K_ && l < K_ && s == 0) continue;  // never asked for
+        if (k == K_ && l < K_ && s == 0) continue;  // never needed
         double* at = now[index(k, s)];
         at[block] = carry_[k][l][s];
         if (k == 2 && l == 0) {
@@ -71,7 +71,7 @@ class BlockedRecurrence {
     }
   }
 
-  /// s = 0: S[k][l][0] = S[l][k-1][1] + S[k][l-1][1]; terms with s = 1 need an order of two at least.
+  /// s = 0: S[k][l][0] = S[l][k-1][1] + S[k][l-1][1]; terms with s = 1 need an order of at least two.
   void diagonal(int k, int l, const Rows* before, double* at) const {
     const bool one = l >= 2, other = k >= 2;
     const double* a = before[index(l < 2 ? 2 : l, 1)];
@@ -103,7 +103,7 @@ class BlockedRecurrence {
     });
   }
 
-  /// The levels that the output is made of, with the masks of functions of lower order that have no support.
+  /// The levels that make the output, with the masks of functions of lower order without support.
   void keep(int k, int l, const Rows* now) {
     if (k == p_ - 1 && l == p_ - 1) {
       for (int s = 0; s < k; ++s) {
@@ -155,7 +155,7 @@ class BlockedRecurrence {
     for (int s = 0; s <= p_; ++s) {
       const auto at = [&](int term) { return out_.g[term] + static_cast<std::size_t>(s) * out_.stride[term] + first; };
       for (int r = 0; r < rows; r += lanes) {
-        // Exactly zero where supports do not overlap, whatever the splitting made of it.
+        // Exactly zero where supports do not overlap, whatever the splitting gave.
         const Lanes overlap = load(x_ + r + K_) - load(x_ + r + s);
         const auto put = [&](double* to, Lanes v) { store(to, where_positive(v, overlap)); };
         put(at(0) + r, load(full_[s] + r) * factor.g00);

@@ -6,8 +6,8 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// The positive recurrence for cubics, written out: what `FixedRecurrence<3>` does with the terms that are equal or
-/// zero found by hand, ordered so that values die early, and scaled from the start so that G00 needs no factor at the
+/// The positive recurrence for cubics, written out: `FixedRecurrence<3>` with equal and zero terms eliminated by hand,
+/// ordered so that values are short-lived, and scaled from the start so that G00 needs no factor at the
 /// end.
 ///
 /// Sklm below is S[k][l][m](i), times the factor of G00; S4.. and S.4. carry the supports of the functions of order 4.
@@ -63,7 +63,7 @@ class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
     const Lanes s431 = d13 * (s321.next + s321.next) + (d01 * s331.here + s422);
     const Lanes s432 = d22 * s331.next + (d02 * s332.here + s423), s433 = d31 * s332.next;
 
-    // Exactly zero where supports do not overlap, whatever the splitting made of it.
+    // Exactly zero where supports do not overlap, whatever the splitting gave.
     const auto put = [&](int term, int s, Lanes value) KNEAD_LAMBDA {
       if constexpr (Split) value = s == 0 ? value : where_positive(value, x4 - (s == 1 ? x1 : s == 2 ? x2 : x3));
       store(out.g[term] + static_cast<std::size_t>(s) * out.stride[term] + row, value);
@@ -95,7 +95,7 @@ class CubicRecurrence : public RowSweep<3, CubicRecurrence> {
     put(1, 2, (t1[2].here + (t1[2].next - t1[1].next)) * factor11);
     put(1, 3, t1[2].next * -factor11);
     unrolled<0, 4>([&](auto s) KNEAD_LAMBDA { put(2, s, difference<s, 3>(q)); });
-    Lanes edge = splat(0);  // half of what the square of a function jumps by
+    Lanes edge = splat(0);  // half the jump of the square of a function
     if constexpr (Split) edge = 0.5 * (where_positive(splat(1), x3 - x0) - where_positive(splat(1), x4 - x1));
     put(3, 0, edge);
     put(3, 1, (cross[1].here - cross[0].next) * factor10);

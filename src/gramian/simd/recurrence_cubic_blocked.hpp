@@ -6,12 +6,12 @@
 
 namespace knead::detail::KNEAD_ISA {
 
-/// The positive recurrence for cubics, written out: what `FixedRecurrence<3>` does with the terms that are equal or
-/// zero found by hand, and scaled from the start so that G00 needs no factor at the end.
+/// The positive recurrence for cubics, written out: `FixedRecurrence<3>` with equal and zero terms eliminated by hand,
+/// and scaled from the start so that G00 needs no factor at the end.
 ///
 /// The rows are swept downwards in blocks, and a block in three stages and then diagonal by diagonal, each a loop over
-/// its rows: a stage asks for row i + 1 only of what an earlier stage has left in the block's table. So "i + 1" is a
-/// load from the next place, no row waits for the one before, and a stage needs few registers.
+/// its rows: a stage reads row i + 1 only of values that an earlier stage has left in the block's table. So "i + 1" is
+/// a load from the next place, no row waits for the previous one, and a stage needs few registers.
 ///
 /// Sklm below is S[k][l][m](i), times the factor of G00; S4.. and S.4. carry the supports of the functions of order 4.
 class BlockedCubicRecurrence {
@@ -21,7 +21,7 @@ class BlockedCubicRecurrence {
                           factor22 = factors(3).g22 / factor00, factor10 = factors(3).g10 / factor00;
 
   /// D1 … D4 are the distances d(i, k), R2 and R3 the reciprocals of two of them, W.. the weights of order 3, Half one
-  /// half of S440, Q. the inner products of the first derivatives of quadratics. D1 … R3 are asked for beyond i + 1.
+  /// half of S440, Q. the inner products of the first derivatives of quadratics. D1 … R3 are needed beyond i + 1.
   enum Quantity {
     // clang-format off
     D1, D2, D4, R3, D3, R2, W01, S201, S301,                            // of stage 0
@@ -30,8 +30,8 @@ class BlockedCubicRecurrence {
     quantities
     // clang-format on
   };
-  /// Alone, the quantities of a row stand side by side, as neighbouring stores of a processor join; vectors want the
-  /// rows side by side.
+  /// For scalars, the quantities of a row are adjacent, as processors combine adjacent stores; vectors need the rows
+  /// adjacent.
   static constexpr int width = 37;
 
  public:
@@ -40,14 +40,14 @@ class BlockedCubicRecurrence {
  private:
   BlockedCubicRecurrence(const KernelKnots& knots, const KernelOutput& out)
       : knots_(knots), out_(out), rows_(knots.size - K) {
-    // What stands behind the uppermost block; the rest is written before it is read.
+    // The values past the uppermost block; the rest is written before it is read.
     for (int q = 0; q < width; ++q) {
       for (int c = block; c < block + 2 * chunk; c += lanes) store(at(q, c), splat(0));
     }
   }
 
   void sweep() {
-    // Rows behind the last have no support of their own; they only fill the table.
+    // Rows past the last have no support of their own; they only fill the table.
     for (int end = (rows_ + K + lanes - 1) / lanes * lanes; end > 0;) {
       if (const int begin = equal_rows_begin<P>(knots_, end); begin < end) {
         copy_rows<P>(out_, begin, end);
@@ -75,7 +75,7 @@ class BlockedCubicRecurrence {
 
   template <bool Split>
   __attribute__((noinline)) void compute(int begin, int end) {
-    // Row i stands in column i + shift; the row after the block in column `block`, where the block before left it.
+    // Row i is in column i + shift; the row after the block in column `block`, where the previous block left it.
     const int shift = block - end, stop = end < rows_ ? end : rows_;
     for (int row = begin; row < end; row += chunk) {
       if (row < stop) fetch<0>(row);
@@ -111,7 +111,7 @@ class BlockedCubicRecurrence {
     }
   }
 
-  /// Has a third of the lines that a chunk will be written to brought near while the block is computed.
+  /// Prefetches a third of the lines to which a chunk will be written while the block is computed.
   template <int third>
   KNEAD_INLINE void fetch(int row) const {
     const auto ask = [&](int term, int s) KNEAD_LAMBDA {
@@ -126,7 +126,7 @@ class BlockedCubicRecurrence {
     }
   }
 
-  /// The uppermost chunk, which may be cut short, sees the knots behind the last, which are repeated.
+  /// The uppermost chunk, which may be cut short, uses the repeated knots past the last.
   template <bool Split>
   KNEAD_INLINE static int chunk_end(int row, int end) {
     return Split && end < row + chunk ? end : row + chunk;
@@ -301,7 +301,7 @@ class BlockedCubicRecurrence {
     constexpr Index<0> here;
     constexpr Index<1> next;
     if constexpr (s == 0) {
-      // Half of what the square of a function jumps by.
+      // Half the jump of the square of a function.
       if constexpr (Split) return 0.5 * (kept(splat(1), row, 3, 0, 0) - kept(splat(1), row, 3, 1, 1));
       return splat(0);
     } else if constexpr (s == 1) {
@@ -319,7 +319,7 @@ class BlockedCubicRecurrence {
     return where_positive(where_positive(value, load(x + a + k) - load(x + a)), load(x + b + k) - load(x + b));
   }
 
-  /// Exactly zero where supports do not overlap, whatever the splitting made of it.
+  /// Exactly zero where supports do not overlap, whatever the splitting gave.
   template <bool Split, int s>
   KNEAD_INLINE void put(double* to, int row, Lanes value) const {
     if constexpr (Split && s > 0) {
@@ -335,7 +335,7 @@ class BlockedCubicRecurrence {
     return lanes == 1 ? c * width + q : q * (block + 2 * chunk) + c;
   }
   [[nodiscard]] KNEAD_INLINE Lanes get(Quantity q, int c) const { return load(at(q, c)); }
-  /// The same of row i + n.
+  /// The same for row i + n.
   template <int n>
   [[nodiscard]] KNEAD_INLINE Lanes ahead(Quantity q, int c) const {
     return load(at(q, c + n));

@@ -9,7 +9,7 @@ namespace knead::detail::KNEAD_ISA {
 /// The positive recurrence for a degree known at compile time; docs/gramians/recurrence.md derives it.
 ///
 /// S[k][l][s](i) is the scaled inner product of the functions (i, order k) and (i + s, order l), k + l = m at level m.
-/// Rows of order K = p + 1 are kept multiplied by their support d(i, K), which saves the division by it.
+/// Rows of order K = p + 1 are stored multiplied by their support d(i, K), which saves the division by it.
 template <int P>
 class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
   using Sweep = RowSweep<P, FixedRecurrence<P>>;
@@ -62,12 +62,12 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
       auto& now = level[m % 2];
       auto& before = level[(m + 1) % 2];
       unrolled<0, K>([&](auto k_) KNEAD_LAMBDA {
-        constexpr int k = K - k_, l = m - k;  // k falls, so that S[l][k] stands when S[k][l], k < l, is asked for
+        constexpr int k = K - k_, l = m - k;  // k decreases, so that S[l][k] is known when S[k][l], k < l, is needed
         if constexpr (l >= 0 && l <= K && !(k == 1 && l == 0)) {
           unrolled<0, k>([&](auto s_) KNEAD_LAMBDA {
             constexpr int s = s_;
             if constexpr ((l == 0 && s == 0) || (k == K && l < K && s == 0)) {
-              return;  // zero, and never asked for
+              return;  // zero, and never needed
             } else if constexpr (k == 1 && l == 1 && P != 2) {
               return;
             } else if constexpr (k < l && l < K && s == 0) {
@@ -116,7 +116,7 @@ class FixedRecurrence : public RowSweep<P, FixedRecurrence<P>> {
     Pair q[K];
     weighted_differences(t2, rho, q);
     if (!wanted) return;
-    // Exactly zero where supports do not overlap, whatever the splitting made of it.
+    // Exactly zero where supports do not overlap, whatever the splitting gave.
     const auto put = [&](double* at, auto s, Lanes value) KNEAD_LAMBDA {
       if constexpr (Split && s > 0) value = where_positive(value, x[K] - x[s]);
       store(at, value);

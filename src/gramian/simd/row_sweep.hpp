@@ -8,9 +8,9 @@ namespace knead::detail::KNEAD_ISA {
 
 /// Sweeps the rows of the Gramians downwards in groups of `lanes`, all levels of a group in registers.
 ///
-/// What a row needs of the next row is the same register moved by one lane; the lane that comes in is row 0 of the
-/// group before, kept in a carry. `Kernel` derives from this and has `compute<Split>(x, out, row, wanted)`: the group
-/// of rows `row`, … from the knots at x, into `out` where wanted, with repeated knots split where `Split`.
+/// The values that a row needs from the next row are the same register shifted by one lane; the incoming lane is row 0
+/// of the previous group, kept in a carry. `Kernel` derives from this and has `compute<Split>(x, out, row, wanted)`:
+/// the group of rows `row`, … from the knots at x, into `out` where wanted, with repeated knots split where `Split`.
 template <int P, class Kernel>
 class RowSweep {
  protected:
@@ -20,13 +20,13 @@ class RowSweep {
   static void run(const KernelKnots& knots, const KernelOutput& out) {
     Kernel kernel;
     const int rows = knots.size - K, last = (rows - 1) / lanes;
-    // Rows behind the last have no support of their own; they only fill the carries.
+    // Rows past the last have no support of their own; they only fill the carries.
     for (int group = (rows + P) / lanes; group >= 0; --group) {
       const int end = (group + 1) * lanes;
       if (const int begin = equal_rows_begin<P>(knots, end); begin < end) {
         copy_rows<P>(out, begin, end);
         group = begin / lanes;
-        kernel.empty_ = 0;  // the rows above are known to see no empty span
+        kernel.empty_ = 0;  // the rows above are known to have no empty span
         continue;
       }
       const double* x = knots.from(group * lanes);
@@ -89,8 +89,8 @@ class RowSweep {
   }
 
  private:
-  /// True where some span that the group's rows or the rows they reach through the carries see has zero length. Groups
-  /// are asked in their order; the answers of those before are remembered.
+  /// Whether some span used by the group's rows, or by the rows they reach through the carries, has zero length. Groups
+  /// are queried in order; earlier answers are remembered.
   bool near_empty_span(const double* x) {
     constexpr unsigned window = (1u << ((lanes + 2 * K - 2) / lanes + 1)) - 1;
     empty_ = (empty_ << 1) | (any_not_positive(load(x + 1) - load(x)) ? 1u : 0u);
