@@ -9,7 +9,7 @@
 
 namespace knead::studio {
 
-/// Numbers that lie in the module's memory until the next call, and their name for the page.
+/// Numbers that stay in the module's memory until the next call, and their name for the page.
 struct Buffer {
   std::string_view name;
   std::string_view type;  ///< "float32", "float64", "uint32" or "uint8"
@@ -28,7 +28,7 @@ struct Buffer {
       : name(named), type(typed), data(at), count(size) {}
 };
 
-/// {"positions": {"type": "float32", "at": 1234, "count": 96}, …}: what `readBuffers` of the page reads (buffers.ts).
+/// {"positions": {"type": "float32", "at": 1234, "count": 96}, …}: the input of the page's `readBuffers` (buffers.ts).
 [[nodiscard]] std::string buffers_json(std::initializer_list<Buffer> buffers);
 
 }  // namespace knead::studio

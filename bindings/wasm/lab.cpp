@@ -1,7 +1,7 @@
 // Basis functions and Gramians of one knot vector as WebAssembly exports them: the studio's lab. The caller
 // writes doubles to `lab_input(count)`, calls, and reads JSON from `lab_text()` and doubles from `lab_buffer(which)`;
-// every call may grow the memory, so that views of it must be taken anew. Functions that can fail return 0 then, the
-// text is {"error": …}, and what was there before stays.
+// every call may grow the memory, so views of it must be renewed. Functions that can fail return 0 on failure; the text
+// is then {"error": …}, and the previous state stays.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -84,8 +84,8 @@ KNEAD_EXPORT(lab_input) double* lab_input(std::size_t count) {
 KNEAD_EXPORT(lab_text) const char* lab_text() { return held().text.data(); }
 KNEAD_EXPORT(lab_text_size) std::size_t lab_text_size() { return held().text.size(); }
 
-/// The input becomes the knot vector that all that follows is about: {"count", "domain", "clamped", "greville",
-/// "integrals"}, the last two per function, ∫N_i over the line.
+/// Sets the knot vector of all following calls from the input: {"count", "domain", "clamped", "greville", "integrals"},
+/// the last two per function, ∫N_i over the line.
 KNEAD_EXPORT(lab_knots) int lab_knots(int degree) {
   auto made = KnotVector::create(degree, held().input);
   if (!made) return fail(made.error());
@@ -103,7 +103,7 @@ KNEAD_EXPORT(lab_knots) int lab_knots(int degree) {
                  {"integrals", std::move(integrals)}});
 }
 
-/// Samples all functions: buffers 0 points, 1 offsets (32-bit integers), 2 impulses, as `Curves` has them.
+/// Samples all functions: buffers 0 points, 1 offsets (32-bit integers), 2 impulses, as in `Curves`.
 KNEAD_EXPORT(lab_curves) int lab_curves(int order, int pixels) {
   if (!held().knots) return without_knots();
   if (const auto wrong = wrong_order(order)) return fail(*wrong);

@@ -10,7 +10,7 @@
 namespace knead::lab {
 namespace {
 
-/// The same functions, `before` more in front, on knots whose domain is their whole range: every piece of every
+/// The same functions, plus `before` in front, on knots whose domain is their whole range: every piece of every
 /// function can be evaluated from either side of its ends.
 struct WholeLine {
   KnotVector knots;
@@ -21,7 +21,7 @@ struct WholeLine {
     const auto x = knots.knots();
     const int before = p + 1 - knots.multiplicity(x.front()), after = p + 1 - knots.multiplicity(x.back());
     auto made = KnotVector::create(p, extended_knots(knots, before, after));
-    return made ? WholeLine{std::move(*made), before} : WholeLine{knots, 0};  // it is valid: nothing else can be wrong
+    return made ? WholeLine{std::move(*made), before} : WholeLine{knots, 0};  // it is valid: nothing else can fail
   }
 };
 
@@ -62,7 +62,7 @@ class Sampler {
     if (order_ < 0 && support_end < end) sample_piece(i, support_end, end, -order_ - 1);
   }
 
-  /// A piece of that degree: a line needs two points.
+  /// A piece of this degree: a line needs two points.
   void sample_piece(int i, double a, double b, int degree) {
     const double length = whole_.knots.domain().length();
     constexpr int most = 120;

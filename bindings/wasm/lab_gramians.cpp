@@ -89,7 +89,7 @@ Expected<std::array<double, 3>> time_gramians(const KnotVector& knots, int a, in
     const auto passed = [](Clock::time_point since) {
       return std::chrono::duration<double>(Clock::now() - since).count();
     };
-    // Browsers let the clock tick every 0.1 ms only: batches are doubled until they are longer than that.
+    // Browser clocks tick only every 0.1 ms: batches are doubled until they take longer than that.
     constexpr double readable = 0.4e-3;
     double quickest = std::numeric_limits<double>::infinity();
     for (int runs = 1; quickest == std::numeric_limits<double>::infinity() || passed(start) < budget;) {

@@ -12,17 +12,17 @@ inline constexpr std::array<GramianMethod, 3> compared_methods{GramianMethod::ga
 /// Which methods are subtracted from which, as indices of `compared_methods`.
 inline constexpr std::array<std::array<int, 2>, 3> compared_pairs{{{0, 2}, {1, 2}, {1, 0}}};
 
-/// The largest entry of a difference, and where it is; −1 where all entries agree.
+/// The largest entry of a difference and its position; −1 if all entries agree.
 struct WorstEntry {
   double absolute = 0, relative = 0;
   int absolute_row = -1, absolute_column = -1, relative_row = -1, relative_column = -1;
 };
 
 /// One Gramian by every method. A table is a band, row by row: entry (i, j), |i − j| <= p, at i (2p + 1) + j − i + p,
-/// zero outside of the matrix.
+/// zero outside the matrix.
 struct Comparison {
   int size = 0, half_bandwidth = 0;
-  std::array<GramianMethod, 3> used;               ///< who computed it: see `used_gramian_method`
+  std::array<GramianMethod, 3> used;               ///< the method that computed it: see `used_gramian_method`
   std::array<std::vector<double>, 3> values;       ///< per method
   std::vector<double> absolute_integral;           ///< ∫|N_i^(a) N_j^(b)|
   std::array<std::vector<double>, 3> differences;  ///< per pair
@@ -30,13 +30,13 @@ struct Comparison {
   std::array<WorstEntry, 3> worst;
 };
 
-/// Errors: those of `gramian`. The absolute integral is what errors of a quadrature are measured against; it is taken
-/// by p + 1 Gauss points on each of 2 to 16 equal pieces of a span (fewer where there are many spans), exact where the
-/// product has one sign on a piece, and good to some percent elsewhere.
+/// Errors: those of `gramian`. Quadrature errors are measured against the absolute integral; it uses p + 1 Gauss points
+/// on each of 2 to 16 equal pieces of a span (fewer if there are many spans), is exact where the product has one sign
+/// on a piece, and accurate to a few percent elsewhere.
 [[nodiscard]] Expected<Comparison> compare_gramians(const KnotVector& knots, int a, int b);
 
-/// Seconds that one Gramian takes by each of `compared_methods`: the mean over as many runs as fit into `budget`
-/// seconds per method, one at least.
+/// Seconds per Gramian for each of `compared_methods`: the mean over as many runs as fit into `budget` seconds per
+/// method, at least one.
 [[nodiscard]] Expected<std::array<double, 3>> time_gramians(const KnotVector& knots, int a, int b, double budget);
 
 }  // namespace knead::lab

@@ -1,5 +1,5 @@
-// What Debian's libraries for WebAssembly expect of a program and nobody there provides: they are compiled with stack
-// protection, which the sandbox has no need of.
+// Symbols that Debian's WebAssembly libraries expect and nothing provides: they are compiled with stack protection,
+// which the sandbox does not need.
 #include <cstdint>
 
 extern "C" {

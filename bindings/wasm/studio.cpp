@@ -164,7 +164,7 @@ KNEAD_EXPORT(knead_snapshot) int knead_snapshot(std::size_t history_bytes) {
   return held().session ? answer(held().session->snapshot(history_bytes)) : without_session();
 }
 
-/// The text is a TypeScript module of what the session's answers are made of. Needs no session.
+/// The text is a TypeScript module with the types of the session's answers and the file formats. Needs no session.
 KNEAD_EXPORT(knead_types) int knead_types() {
   return answer(session_typescript() + "\nexport const fileFormats = " + format_json() + " as const;\n");
 }
@@ -257,7 +257,7 @@ KNEAD_EXPORT(knead_material) int knead_material(int surface, int rows, int colum
   return answer(material_json(held().material));
 }
 
-/// All surfaces as one file of the format with this place in the list of formats. The text is the file.
+/// All surfaces as one file of the format at this position in the list of formats. The text is the file.
 KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
   auto& session = held().session;
   if (!session) return without_session();

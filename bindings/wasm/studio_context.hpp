@@ -10,11 +10,11 @@
 
 namespace knead::studio {
 
-/// The faces round the surfaces as triangles; points relative to the origin asked for.
+/// The faces around the surfaces as triangles; points relative to the requested origin.
 struct ContextPicture {
   std::vector<float> positions, normals;  ///< 3 per point
   std::vector<std::uint32_t> indices;     ///< 3 per triangle
-  std::vector<SkippedFace> skipped;       ///< what could not be made triangles
+  std::vector<SkippedFace> skipped;       ///< faces that could not be triangulated
 };
 
 [[nodiscard]] ContextPicture context_picture(const step::File& file, const Point& origin);
@@ -22,7 +22,7 @@ struct ContextPicture {
 /// {"buffers": …, "skipped": [{"id": "#12", "reason": "…"}, …]}
 [[nodiscard]] std::string context_json(const ContextPicture& context);
 
-/// {"faces": [[[s, t, s, t, …], …], …]}: of each face its loops, in fractions of the domain; null for a whole surface.
+/// {"faces": [[[s, t, s, t, …], …], …]}: the loops of each face, in fractions of the domain; null for a whole surface.
 [[nodiscard]] std::string trim_json(const SurfaceTrim& trim);
 
 }  // namespace knead::studio

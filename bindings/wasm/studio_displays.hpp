@@ -9,17 +9,17 @@
 namespace knead::studio {
 
 /// [{"name", "title", "unit", "signed", "palette", "help", "limits" (null without), "share", "compares", "settings":
-/// [{"name", "title", "unit", "value", "help"}, …]}, …]: what menus and legends are made of.
+/// [{"name", "title", "unit", "value", "help"}, …]}, …]: the data of menus and legends.
 [[nodiscard]] std::string displays_json();
 
-/// A display and its settings as the page asks for them.
+/// A display and its settings as requested by the page.
 struct AskedDisplay {
   const Display* display = nullptr;  ///< null: none
   std::vector<std::vector<double>> settings;
 };
 
-/// Reads {"display": "draft", "settings": {"direction": [0, 0, 1]}}; an empty text, or "none", asks for none.
-/// Errors (usage): no such display or setting (`display_settings`), no JSON.
+/// Reads {"display": "draft", "settings": {"direction": [0, 0, 1]}}; an empty text, or "none", means none. Errors
+/// (usage): no such display or setting (`display_settings`), invalid JSON.
 [[nodiscard]] Expected<AskedDisplay> read_display(std::string_view text);
 
 }  // namespace knead::studio

@@ -9,7 +9,7 @@
 
 namespace knead::studio {
 
-/// The coefficients of a material by their values on a grid over the domain, v fastest.
+/// The coefficients of a material as values on a grid over the domain, v fastest.
 struct MaterialSamples {
   std::array<std::vector<double>, 3> alpha, beta;  ///< 11, 12, 22
 };

@@ -77,7 +77,7 @@ Expected<void> PictureMaker::make(const Scene& scene, int index, const PictureOp
 
 Expected<void> PictureMaker::find_held(const SceneSurface& surface) {
   const HeldInput by = held_input(surface);
-  for (const auto& [known, held] : held_) {  // kept curves take their time
+  for (const auto& [known, held] : held_) {  // kept curves are slow
     if (!(known == by)) continue;
     picture_.held = held;
     return {};
@@ -107,7 +107,7 @@ void PictureMaker::find_normals() {
   for (int k = 0; k < rows; ++k) {
     for (int l = 0; l < columns; ++l) {
       Point normal;
-      // At a pole the derivatives vanish or are parallel: the next point inside has the limit, up to a pixel.
+      // At a pole the derivatives vanish or are parallel: the next point inside gives the limit, up to a pixel.
       if (!normal_at(k, l, normal)) {
         const int inner_k = std::clamp(k, 1, std::max(1, rows - 2)),
                   inner_l = std::clamp(l, 1, std::max(1, columns - 2));

@@ -11,7 +11,7 @@
 namespace knead::studio {
 
 /// A surface as a grid of points to draw: `pieces` per span, so that every knot line is a line of the grid. Grid point
-/// (k, l) is row k · counts[1] + l. Positions are relative to the origin asked for, so that single precision suffices.
+/// (k, l) is row k · counts[1] + l. Positions are relative to the requested origin, so that single precision suffices.
 struct Picture {
   std::array<std::uint32_t, 2> counts = {0, 0};
   std::vector<float> positions, normals;        ///< 3 per grid point; normals of length 1
@@ -19,18 +19,18 @@ struct Picture {
   std::vector<float> fractions_s, fractions_t;  ///< of the domain, per grid line
   std::vector<std::uint32_t> lines_u, lines_v;  ///< grid lines that are knot lines, ends of the domain included
   std::vector<float> net;                       ///< control points, 3 each
-  std::vector<std::uint8_t> held;  ///< per control point, by whatever holds it: 0, 1 or 2 as of `held_points`
+  std::vector<std::uint8_t> held;               ///< per control point: 0, 1 or 2 as in `held_points`
 };
 
-/// {"counts": [m, n], "buffers": …}: where the numbers of a picture lie, by the names of its members.
+/// {"counts": [m, n], "buffers": …}: the locations of a picture's numbers, by the names of its members.
 [[nodiscard]] std::string picture_json(const Picture& picture);
 
 /// How a surface is drawn.
 struct PictureOptions {
-  Point origin = Point::Zero();  ///< what positions are relative to
-  int detail = 96;               ///< grid lines wanted per direction
+  Point origin = Point::Zero();  ///< positions are relative to it
+  int detail = 96;               ///< desired grid lines per direction
   AskedDisplay display = {};
-  bool opened = false;  ///< the shape as it was opened, not the present one
+  bool opened = false;  ///< the shape as opened, not the present one
 };
 
 /// Makes pictures of one surface after the other; tables and memory are kept while the knots stay the same.

@@ -30,7 +30,7 @@ class Builder {
     triangle(a, c, d);
   }
 
-  /// Left out where two corners are the same place.
+  /// Omitted if two corners coincide.
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (at(a) == at(b) || at(b) == at(c) || at(c) == at(a)) return;
     for (const std::uint32_t k : {a, b, c}) picture_.indices.push_back(k);
@@ -47,7 +47,7 @@ class Builder {
     }
   }
 
-  /// Normals as the mean of those of the triangles that meet in a place, by area.
+  /// Normals as the area-weighted mean over the triangles that meet at a place.
   void smooth() {
     std::map<std::array<float, 3>, Point> sums;
     const auto sum_at = [&](std::size_t k) -> Point& {
@@ -84,7 +84,7 @@ struct ProfilePoint {
   double r, z, normal_r, normal_z;
 };
 
-/// The profile, from below to above with the outside to the right, turned about z.
+/// The profile, from bottom to top with the outside to the right, revolved about z.
 ToolPicture turned(const std::vector<ProfilePoint>& profile, bool open = false) {
   Builder b;
   for (const ProfilePoint& p : profile) {
@@ -134,7 +134,7 @@ struct PictureOf {
   ToolPicture operator()(const BoxShape& s) const {
     constexpr int pieces = 6;  // of a rounded edge
     Builder b;
-    // Every direction between two octants stands twice.
+    // Every direction between two octants occurs twice.
     std::vector<std::array<double, 2>> rows;     // angle, side of z
     std::vector<std::array<double, 3>> columns;  // angle, sides of x and y
     for (const double side : {-1.0, 1.0}) {
@@ -256,7 +256,7 @@ struct PictureOf {
   }
 
  private:
-  /// sign(x) |x|^e, 0 for what is 0 but for rounding.
+  /// sign(x) |x|^e, 0 for what is 0 up to rounding.
   static double power(double x, double e) {
     return std::abs(x) < 1e-12 ? 0 : std::copysign(std::pow(std::abs(x), e), x);
   }
@@ -319,7 +319,7 @@ ToolPicture from_distances(const PlacedShape& shape, int cells) {
       }
     }
   }
-  // An edge of the lattice that the surface crosses: the points of the four cells round it.
+  // An edge of the lattice that the surface crosses: the points of the four cells around it.
   for (int i = 1; i + 1 < n[0]; ++i) {
     for (int j = 1; j + 1 < n[1]; ++j) {
       for (int k = 1; k + 1 < n[2]; ++k) {

@@ -10,8 +10,8 @@
 namespace knead {
 namespace {
 
-// 113 bits: near the ends a weight is about 1 / (1 − x²) times more sensitive than its abscissa, which costs 80-bit
-// numbers the last bit of the weights above 60 points.
+// 113 bits: near the ends a weight is about 1 / (1 − x²) times more sensitive than its abscissa, so 80-bit numbers lose
+// the last bit of the weights above 60 points.
 #if LDBL_MANT_DIG >= 113
 using Wide = long double;
 #else
@@ -36,8 +36,8 @@ struct Node {
 
 /// The k-th root of P_n from the left and its weight 2 / ((1 − x²) P_n'(x)²), for the right half of the roots.
 Node node(int n, int k) {
-  // Tricomi's first guess, Newton's iteration in double, and one step that squares what error that leaves away: near
-  // the ends up to 1e-13, for P_n is steep there.
+  // Tricomi's initial guess, Newton's iteration in double, and one more step that squares the remaining error: up to
+  // 1e-13 near the ends, where P_n is steep.
   double guess = std::cos(std::numbers::pi * (n - 1 - k + 0.75) / (n + 0.5));
   if (2 * k == n - 1) guess = 0;
   for (int iteration = 0; iteration < 8; ++iteration) {
@@ -48,7 +48,7 @@ Node node(int n, int k) {
   Wide x = guess, value = 0, derivative = 0;
   legendre(n, x, value, derivative);
   const Wide step = 2 * k == n - 1 ? Wide(0) : -value / derivative;
-  // P' moves along: Legendre's equation gives P''.
+  // P' is updated too: Legendre's equation gives P''.
   derivative += step * (2 * x * derivative - n * (n + 1) * value) / (1 - x * x);
   x += step;
   return {static_cast<double>(x), static_cast<double>(2 / ((1 - x * x) * derivative * derivative))};

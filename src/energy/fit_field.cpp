@@ -56,7 +56,7 @@ Expected<SplineField<D>> interpolate(const ParameterFunction<D>& f, const std::a
     places[d] = interpolation[d].abscissae();
     const double lower = knots[d].domain().lower, upper = knots[d].domain().upper;
     for (std::size_t i = 0; i < places[d].size(); ++i) {
-      // The limit from the left of a function known by its values only; at the end of the domain that is the value
+      // The limit from the left of a function known only by its values; at the end of the domain it is the value
       // itself.
       if (interpolation[d].sides()[i] == Side::left && places[d][i] < upper)
         places[d][i] = std::nextafter(places[d][i], lower);
@@ -77,7 +77,7 @@ Expected<SplineField<D>> interpolate(const ParameterFunction<D>& f, const std::a
   return SplineField<D>::create(knots, std::move(*values));
 }
 
-/// Errors and differences of one set of samples, and which spans they condemn.
+/// Errors and differences of one set of samples, and the spans to halve.
 template <int D>
 struct Judgement {
   double error = 0;
@@ -160,7 +160,7 @@ Judgement<D> judge(const std::vector<double>& f, const std::vector<double>& appr
     if (error <= headroom * tolerance) continue;
     const std::array<double, D> size = differences<D>(f, corner, strides, counts, degrees);
     const double largest = *std::ranges::max_element(size);
-    // What is far below the error cannot be its cause: that comes from a neighbour, which is marked itself.
+    // Differences far below the error cannot be its cause, which is then a neighbour, itself marked.
     if (largest < 0.1 * error) continue;
     for (std::size_t d = 0; d < D; ++d) {
       if (size[d] >= 0.2 * largest) result.marked[d][span[d]] = result.any = true;

@@ -16,7 +16,7 @@ bool varies(const Coefficient<D>& c) {
   return std::holds_alternative<SplineField<D>>(c);
 }
 
-/// The multi-index of coefficient k, as a place in a message.
+/// The multi-index of coefficient k, for messages.
 template <int D>
 std::string place_of(const SplineField<D>& field, std::size_t k) {
   std::string text;

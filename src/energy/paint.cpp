@@ -12,7 +12,7 @@ namespace {
 
 double fade(double s) { return s <= 0 ? 1 : s >= 1 ? 0 : 1 - s * s * s * (10 - 15 * s + 6 * s * s); }
 
-/// Distance from u to the interval, the shorter way round where closed.
+/// Distance from u to the interval, the shorter way around if closed.
 double outside(double u, double lower, double upper, double period, bool closed) {
   const double direct = std::max({lower - u, u - upper, 0.0});
   if (!closed || direct == 0) return direct;
@@ -27,8 +27,8 @@ double gap(double a, double b, double lower, double upper, double period, bool c
   return closed ? std::min({apart(0), apart(period), apart(-period)}) : apart(0);
 }
 
-/// Coefficients of functions on whose whole support the weight is 0, or 1, are made that number: interpolation leaves
-/// some ten-thousandths there. On such a support the fit only gets better, as all coefficients lie in [0, 1].
+/// Sets coefficients of functions on whose whole support the weight is 0, or 1, to that number: interpolation is off by
+/// some ten-thousandths there. On such a support the fit only improves, as all coefficients lie in [0, 1].
 template <int D>
 std::vector<double> settled(const SplineField<D>& fit, const Region<D>& region) {
   std::vector<double> c = fit.coefficients();
@@ -46,7 +46,7 @@ std::vector<double> settled(const SplineField<D>& fit, const Region<D>& region) 
       const double a = std::max(knots[i], domain.lower), b = std::min(knots[i + knots.degree() + 1], domain.upper);
       const double lower = box ? box->lower[d] : ball->centre[d], upper = box ? box->upper[d] : ball->centre[d];
       const double near = region.factors[d] * gap(a, b, lower, upper, domain.length(), region.closed[d]);
-      // Straight, which is no shorter than the way round.
+      // The direct distance, which is no shorter than the way around.
       const double far = region.factors[d] * std::max({lower - a, b - upper, 0.0});
       nearest += near * near;
       farthest += far * far;
@@ -99,7 +99,7 @@ class Blend {
         double tolerance)
       : old_(old), values_(values), ranges_(ranges), tolerance_(tolerance) {}
 
-  /// The fields; without value where some are off by more than the tolerance: then the spans are marked.
+  /// The fields; no value if some are off by more than the tolerance: then the spans are marked.
   Expected<std::optional<std::vector<SplineField<D>>>> on(const std::array<KnotVector, D>& grid,
                                                           const std::vector<double>& weight) {
     samples_.clear();
@@ -127,7 +127,7 @@ class Blend {
     return result;
   }
 
-  /// Halves the marked spans; false where none can be.
+  /// Halves the marked spans; false if none can be.
   [[nodiscard]] bool halve(std::array<KnotVector, D>& grid) const {
     bool changed = false;
     for (std::size_t d = 0; d < D; ++d) changed = detail::halve(grid[d], marked_[d]) || changed;
@@ -170,7 +170,7 @@ class Blend {
   std::array<std::vector<bool>, D> marked_;
 };
 
-/// Between what values the painted coefficients stay: those of the old field and the new one.
+/// The range of the painted coefficients: between those of the old field and the new value.
 template <int D>
 Interval range_of(const Coefficient<D>& old, double value) {
   if (const auto* field = std::get_if<SplineField<D>>(&old)) {

@@ -37,7 +37,7 @@ Expected<BasisQuadrature> gauss_basis_between(const KnotVector& knots, const std
       const double upper = next == breaks.end() ? knots[span + 1] : std::min(*next, knots[span + 1]);
       const double half = (upper - lower) / 2, middle = lower + half;
       for (std::size_t g = 0; g < rule.abscissae.size(); ++g) {
-        // Strictly inside, so that the span to the right is the one meant; a piece of a single ulp has no inside.
+        // Strictly inside, so that the span to the right is the intended one; a piece of a single ulp has no interior.
         const double u = std::clamp(middle + half * rule.abscissae[g], lower, std::nextafter(upper, lower));
         result.parameters.push_back(u);
         result.weights.push_back(half * rule.weights[g]);
@@ -66,8 +66,8 @@ int highest_order(const std::vector<Term>& energy) {
   return order;
 }
 
-/// K by the points of `quadrature`, element by element. varying[t] is what multiplies the coefficient of term t at
-/// every point of the grid, last direction fastest; empty: one.
+/// K by the points of `quadrature`, element by element. varying[t] multiplies the coefficient of term t at every point
+/// of the grid, last direction fastest; empty: one.
 template <int D>
 class ElementAssembly {
  public:
@@ -109,7 +109,7 @@ class ElementAssembly {
     return false;
   }
 
-  /// Basis, weight and place of every point of the element.
+  /// Basis, weight and position of every point of the element.
   Expected<void> evaluate(const std::array<std::size_t, D>& element) {
     std::array<int, D> points;
     int total = 1;
@@ -151,7 +151,7 @@ class ElementAssembly {
       }
       block.noalias() += (a * scaled.asDiagonal()) * b.transpose();
     }
-    // The two terms of a symmetric pair are rounded apart; the mean of both halves is symmetric to the last bit.
+    // The two terms of a symmetric pair are rounded separately; the mean of both halves is symmetric to the last bit.
     return 0.5 * (block + block.transpose());
   }
 

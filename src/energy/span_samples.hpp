@@ -28,8 +28,8 @@ struct SpanSamples {
   }
 };
 
-/// Halves the marked spans (flags by the order of `knots.spans()`), and neighbours until no span is more than twice as
-/// long as the next one where it was not before. Spans too short to halve stay. Returns whether anything changed.
+/// Halves the marked spans (flags in the order of `knots.spans()`), and neighbours until no span is more than twice as
+/// long as the next one unless it was before. Spans too short to halve stay. Returns whether anything changed.
 inline bool halve(KnotVector& knots, std::vector<bool> marked) {
   const std::vector<int> spans = knots.spans();
   const auto length = [&](std::size_t k) { return (knots[spans[k] + 1] - knots[spans[k]]) / (marked[k] ? 2 : 1); };
@@ -37,7 +37,7 @@ inline bool halve(KnotVector& knots, std::vector<bool> marked) {
     grew = false;
     for (std::size_t k = 0; k + 1 < spans.size(); ++k) {
       for (const auto& [a, b] : {std::pair{k, k + 1}, std::pair{k + 1, k}}) {
-        // a becomes too short beside b because it is halved.
+        // Halving a would make it too short relative to b.
         if (marked[a] && !marked[b] && length(b) > 2.001 * length(a)) marked[b] = grew = true;
       }
     }

@@ -9,8 +9,8 @@
 
 namespace knead {
 
-/// Where the entries of a D-fold tensor product of band matrices stand in compressed storage: row i = (i_0, …, i_{D−1})
-/// holds the columns j with |i_d − j_d| <= p_d, sorted with the last direction fastest.
+/// The positions of the entries of a D-fold tensor product of band matrices in compressed storage: row i = (i_0, …,
+/// i_{D−1}) holds the columns j with |i_d − j_d| <= p_d, sorted with the last direction fastest.
 template <int D>
 struct TensorPattern {
   std::array<int, D> net, degree;
@@ -33,7 +33,7 @@ struct TensorPattern {
     return i;
   }
 
-  /// The pattern of all directions but the last, which is taken to have one function.
+  /// The pattern of all directions but the last, treated as having one function.
   [[nodiscard]] TensorPattern outer() const {
     TensorPattern pattern = *this;
     pattern.net[D - 1] = 1;
@@ -100,7 +100,7 @@ template <int D>
 [[nodiscard]] Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D>& energy,
                                                        int gauss_points);
 
-/// The same with coefficients that vary: they are evaluated at the Gauss points, and spans are cut at their knots.
+/// The same with varying coefficients: they are evaluated at the Gauss points, and spans are cut at their knots.
 template <int D>
 [[nodiscard]] Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const FieldEnergy<D>& energy,
                                                        int gauss_points);

@@ -5,8 +5,8 @@
 namespace knead {
 namespace {
 
-/// Solves for a known smooth displacement: what an ill-conditioned matrix reproduces worst, since an energy hardly
-/// resists it. A singular matrix that rounding let pass the factorisation is found here too.
+/// Solves for a known smooth displacement, which an ill-conditioned matrix reproduces worst, since the energy hardly
+/// resists it. This also detects a singular matrix that passed the factorisation by rounding.
 Expected<void> check_digits(const SparseMatrix& reduced, const SparseCholesky& cholesky) {
   constexpr double tolerance = 1e-3;
   const Points known = Points::Ones(reduced.rows(), 3);

@@ -7,18 +7,18 @@
 
 namespace knead {
 
-/// A symmetric system A X = B on the unknowns that linear constraints leave: T (Tᵀ A T)⁻¹ Tᵀ, factored once.
+/// A symmetric system A X = B on the unknowns left by linear constraints: T (Tᵀ A T)⁻¹ Tᵀ, factored once.
 /// Immutable, const is thread-safe.
 class ConstrainedCholesky {
  public:
-  /// Factors Tᵀ A T and checks that solving for a known displacement, the same at every independent unknown, gives it
-  /// back to 1e-3. Errors (numerical): not positive definite, or too close to singular for the check.
+  /// Factors Tᵀ A T and checks that solving for a known displacement, the same at every independent unknown, reproduces
+  /// it to 1e-3. Errors (numerical): not positive definite, or too close to singular for the check.
   [[nodiscard]] static Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space);
 
   /// The X = T y that solves Tᵀ A X = Tᵀ B, for B of N × 3. Cost: O(nonzeros of the factor).
   [[nodiscard]] Points solve(const Points& b) const;
 
-  /// What solving touches where right sides are zero but at some points.
+  /// The part used by a solve when right sides are zero except at some points.
   struct Part {
     std::vector<int> points;
     std::vector<ConstraintSpace::Term> terms;  ///< rows of T of those points, over `count` unknowns
@@ -39,7 +39,7 @@ class ConstrainedCholesky {
       : space_(std::move(space)), cholesky_(std::move(cholesky)) {}
 
   ConstraintSpace space_;
-  std::optional<SparseCholesky> cholesky_;  // none where nothing is free
+  std::optional<SparseCholesky> cholesky_;  // none if nothing is free
 };
 
 }  // namespace knead

@@ -77,7 +77,7 @@ struct ConstraintSpace::Elimination {
       of = std::max(of, std::abs(c));
     }
     if (largest <= dependent_below * row.scale) {
-      if (largest_held > dependent_below * row.scale) return {};  // a condition on what is held: true or not, it stays
+      if (largest_held > dependent_below * row.scale) return {};  // a condition on held unknowns: it stays, true or not
       for (int k = 0; k < width; ++k) {
         if (std::abs(row.value[k]) > contradictory_above * row.size * std::max(row.scale, 1e-300)) {
           return input_error(fmt::format("the constraint contradicts {}", names_of(row.sources, name)), names[at(name)],
@@ -344,7 +344,7 @@ Points ConstraintSpace::feasible(const Points& x) const {
         add(free_[at(static_cast<int>(it.col()))], it.value());
       for (decltype(rows_)::InnerIterator it(held_rows_, k); it; ++it) add(static_cast<int>(it.col()), it.value());
       double& entry = coupled_ ? result.data()[unknown] : result(unknown, c);
-      if (std::abs(entry - sum) > 1e-15 * size) entry = sum;  // what differs by rounding alone satisfies it already
+      if (std::abs(entry - sum) > 1e-15 * size) entry = sum;  // a difference of rounding already satisfies it
     }
   }
   return result;

@@ -11,10 +11,10 @@ namespace knead {
 
 /// All X that satisfy a list of linear constraints: X = T y + d with independent unknowns y.
 ///
-/// Some unknowns may be held: they keep whatever value they have, to the last bit, and d depends on it. The constraints
-/// are eliminated one after the other: each gives one unknown that is not held as a combination of others, the pivot
-/// being among its largest coefficients. Constraints that follow from those before, or meet held unknowns only, are
-/// passed over. Without a constraint along a normal the three coordinates share one T (N × m); with one, T maps m
+/// Some unknowns may be held: they keep their value, to the last bit, and d depends on it. The constraints are
+/// eliminated one by one: each expresses one unknown that is not held as a combination of others, the pivot being among
+/// its largest coefficients. Constraints that follow from earlier ones, or involve held unknowns only, are skipped.
+/// Without a constraint along a normal the three coordinates share one T (N × m); with one, T maps m
 /// numbers to all 3N coordinates (`coupled`). Immutable.
 class ConstraintSpace {
  public:
@@ -26,9 +26,9 @@ class ConstraintSpace {
 
   /// \param size number of unknown points N.
   /// \param held one flag per unknown point; empty: none.
-  /// Errors (input): a constraint that contradicts others, both named; an unknown that there is not; a number that is
-  /// not finite, a normal of no length. Two constraints count as dependent where elimination leaves less than 1e-11 of
-  /// the largest coefficient, and as contradictory where it then leaves more than 1e-9 of the right sides (or of 1, the
+  /// Errors (input): a constraint that contradicts others, both named; an unknown that does not exist; a number that is
+  /// not finite, a normal of zero length. Two constraints count as dependent if elimination leaves less than 1e-11 of
+  /// the largest coefficient, and as contradictory if it then leaves more than 1e-9 of the right sides (or of 1, the
   /// model's size).
   [[nodiscard]] static Expected<ConstraintSpace> create(int size, std::span<const LinearConstraint> constraints,
                                                         const std::vector<bool>& held = {});
@@ -37,19 +37,19 @@ class ConstraintSpace {
   /// Length of y: independent points, or independent coordinates where `coupled`.
   [[nodiscard]] int free_count() const { return static_cast<int>(free_.size()); }
   [[nodiscard]] bool coupled() const { return coupled_; }
-  /// True where point i is held, or constrained to one place.
+  /// True if point i is held, or constrained to one place.
   [[nodiscard]] bool is_determined(int i) const;
 
   /// Tᵀ b: m × 3, or m × 1 where `coupled`.
   [[nodiscard]] Eigen::MatrixXd reduce(const Points& b) const;
   /// T y.
   [[nodiscard]] Points expand(const Eigen::MatrixXd& y) const;
-  /// The same for m × 3, without detour; only where not `coupled`.
+  /// The same for m × 3, directly; only if not `coupled`.
   [[nodiscard]] Points reduce_points(const Points& b) const;
   [[nodiscard]] Points expand_points(const Points& y) const;
   /// One coefficient of T.
   struct Term {
-    int row;      ///< an index into the rows asked for; three per row and one per coordinate where `coupled`
+    int row;      ///< an index into the requested rows; three per row and one per coordinate where `coupled`
     int unknown;  ///< of y
     double coefficient;
   };
@@ -58,16 +58,16 @@ class ConstraintSpace {
   /// Tᵀ A T, or Tᵀ (A ⊗ I) T where `coupled`.
   [[nodiscard]] SparseMatrix restrict(const SparseMatrix& a) const;
 
-  /// A force that does the same work on every T y as b, Tᵀ(lumped b) = Tᵀ b, and acts on independent unknowns alone:
-  /// what the constraints bear is left out.
+  /// A force that does the same work on every T y as b, Tᵀ(lumped b) = Tᵀ b, and acts only on independent unknowns: the
+  /// part borne by the constraints is omitted.
   [[nodiscard]] Points lumped(const Points& b) const;
 
-  /// X with the same independent unknowns that satisfies the constraints. Rows that do already keep their bits.
+  /// The X with the same independent unknowns that satisfies the constraints. Rows that already do keep their bits.
   [[nodiscard]] Points feasible(const Points& x) const;
 
   /// The largest |Σ c X − value| over the constraints, as given.
   [[nodiscard]] double violation(const Points& x) const { return worst(x).second; }
-  /// The same with the number of that constraint; −1 where there is none.
+  /// The same with the index of that constraint; −1 if there is none.
   [[nodiscard]] std::pair<int, double> worst(const Points& x) const;
   [[nodiscard]] const std::vector<LinearConstraint>& constraints() const { return constraints_; }
 

@@ -19,7 +19,7 @@ struct Single {
   void scale(double l) { value *= l; }
 };
 
-/// Four of them: two vectors of two, which is what WebAssembly and every x86-64 have.
+/// Four of them: two vectors of two, available in WebAssembly and on every x86-64.
 struct Four {
   typedef double Pair __attribute__((vector_size(16), may_alias));
   Pair a, b;

@@ -7,7 +7,7 @@
 
 namespace knead {
 
-/// A lower triangular matrix L cut into panels of up to four neighbouring columns that mostly have the same rows: a
+/// A lower triangular matrix L divided into panels of up to four adjacent columns that mostly have the same rows: a
 /// panel stores a dense block over the union of their rows. Substitution then reads each row of the unknowns once per
 /// panel instead of once per column, and fills vector registers. A few zeros are stored to make panels wider, never
 /// more than a quarter of a panel.
@@ -19,14 +19,14 @@ class Panels {
   /// \param lower L, columns sorted, diagonal first and not zero.
   explicit Panels(const SparseMatrix& lower);
 
-  /// The panels that a right side touches which is zero but in these rows, and that the solution in these rows depends
-  /// on: ascending.
+  /// The panels involved if the right side is zero except in these rows and the solution is needed only there,
+  /// ascending.
   [[nodiscard]] std::vector<int> reach(std::span<const int> rows) const;
   [[nodiscard]] const std::vector<int>& all() const { return all_; }
 
   /// L y = b and Lᵀ x = y, in place, `columns` values per row, by these panels: all of them, or a reach. Every row of
-  /// the forward sweep sums in the order of the columns of L; rows of the backward sweep sum what lies below their
-  /// panel first. `columns`: 1, or 4 for three (the last is carried along; x aligned to 16 bytes).
+  /// the forward sweep sums in the order of the columns of L; rows of the backward sweep first sum the entries below
+  /// their panel. `columns`: 1, or 4 for three (the last is carried along; x aligned to 16 bytes).
   template <int columns>
   void forward(double* x, std::span<const int> panels) const;
   template <int columns>

@@ -9,7 +9,7 @@ namespace knead {
 
 struct SparseCholesky::Factor {
   Panels panels;          // L
-  Eigen::VectorXi order;  // order[i] = place of unknown i in the reordered system
+  Eigen::VectorXi order;  // order[i] = position of unknown i in the reordered system
 };
 
 Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) {
@@ -33,7 +33,7 @@ Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) {
 
 namespace {
 
-/// Columns side by side as `Panels` wants them: three and one more.
+/// Columns side by side as `Panels` needs them: three and one more.
 template <class Values>
 inline constexpr int columns = Values::ColsAtCompileTime == 1 ? 1 : 4;
 template <class Values>
