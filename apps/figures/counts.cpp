@@ -24,7 +24,7 @@ double operations(int degree, int count, GramianMethod method) {
   return static_cast<double>(count_operations(*KnotVector::clamped_uniform(degree, count), method).total());
 }
 
-/// What each further span costs, away from the ends.
+/// The cost of each further span, away from the ends.
 template <class Count>
 double per_span(Count count) {
   return static_cast<double>(count(200) - count(100)) / 100;

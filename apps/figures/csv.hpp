@@ -10,7 +10,7 @@ namespace knead::figures {
 
 using CsvRow = std::map<std::string, std::string>;
 
-/// Rows of a comma-separated file by the names of its first line; empty where there is no such file.
+/// Rows of a comma-separated file by the names of its first line; empty if there is no such file.
 inline std::vector<CsvRow> read_csv(const std::string& path) {
   std::ifstream file(path);
   std::vector<CsvRow> rows;

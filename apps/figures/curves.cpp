@@ -45,7 +45,7 @@ Chart of_all(const std::string& title, const std::string& y, int derivative) {
   Chart chart(title, "u", y);
   for (int i = 0; i < knots().count(); ++i) {
     Points points = sampled([&](double u, Side side) { return basis_function(knots(), i, derivative, u, side); });
-    // On its support alone, so that the last drawn does not cover the axis; from zero and back to it where it jumps.
+    // Only on its support, so that the last one drawn does not cover the axis; from zero and back to it where it jumps.
     const double from = knots()[i], to = knots()[i + 4];
     std::erase_if(points, [&](const auto& point) {
       return point.first < from || point.first > to || (from > 0 && point.first == from && point.second == 0) ||

@@ -35,7 +35,7 @@ Points by_analytic(const std::vector<TableRow>& rows, const std::string& term, i
     const double error = ours ? row.error(1) : row.error_of(std::stold(row.printed_analytic));
     points.emplace_back(std::pow(10, -row.r), ours ? percent(error) : 100 * error);
   }
-  // The thesis prints 15 digits: what is within their rounding counts as no error, as in its figures.
+  // The thesis prints 15 digits: differences within their rounding count as no error, as in its figures.
   if (!ours) std::erase_if(points, [](const auto& point) { return point.second < 100 * 2e-15; });
   return points;
 }

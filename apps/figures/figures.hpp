@@ -5,7 +5,7 @@
 
 namespace knead::figures {
 
-/// What is written: pictures by their file names, and the page that shows them beside the numbers.
+/// The output: pictures by their file names, and the page that shows them beside the numbers.
 struct Report {
   std::map<std::string, std::string> pictures;
   std::string page;  ///< Markdown
@@ -20,16 +20,17 @@ struct Report {
 
 /// Figs. 5.1, 5.9, 5.21 to 5.25: basis functions, derivatives, Dirac weights and integrals on {0⁴, 1, …, 5, 6⁴}.
 void add_curves(Report& report);
-/// Figs. 5.31 to 5.41: samples, evaluations and operations, counted as they are done, beside the thesis' formulas.
+/// Figs. 5.31 to 5.41: samples, evaluations and operations, counted while running, beside the thesis' formulas.
 void add_counts(Report& report);
 /// Tables 5.3 to 5.20.
 void add_tables(Report& report, const std::string& data);
-/// Figs. 5.46 to 5.49: the error against the distance of two knots, the terms it comes from, and what does not help.
+/// Figs. 5.46 to 5.49: the error against the distance of two knots, the terms that cause it, and remedies that do not
+/// help.
 void add_errors(Report& report, const std::string& data);
 /// Figs. 5.50 to 5.57: the cubic Gramians on {0⁴, 1, …, 12, 13⁴}, the printed entries beside ours.
 void add_matrices(Report& report, const std::string& data);
 
-/// All of it. `data` is the folder of what the thesis prints.
+/// All of it. `data` is the folder with the thesis' published numbers.
 [[nodiscard]] Report whole_report(const std::string& data);
 
 }  // namespace knead::figures

@@ -10,7 +10,7 @@ namespace knead::figures {
 namespace {
 
 constexpr double height = 480, plot_width = 560, left = 84, top = 48, bottom = 58, letter = 6.6;
-// Okabe and Ito's colours, told apart by colour-blind readers too, without their yellow, which is pale on white.
+// Okabe and Ito's colours, distinguishable by colour-blind readers too, without their yellow, which is pale on white.
 constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
                                    "#56b4e9", "#555555", "#7a3e9d", "#8c564b", "#000000"};
 

@@ -13,7 +13,7 @@ struct Style {
   int colour = -1;  ///< of the palette; -1: the next one
   bool dashed = false;
   bool markers = false;   ///< a dot at every point
-  bool in_legend = true;  ///< false where another series stands for this one too
+  bool in_legend = true;  ///< false if another series stands for this one too
 };
 
 /// A chart as SVG text: lines and impulses over linear or logarithmic axes, with a legend. Ranges are those of the
@@ -27,11 +27,11 @@ class Chart {
     log_x_ = x, log_y_ = y;
     return *this;
   }
-  /// A line through the points; values that a logarithmic axis cannot show are left out.
+  /// A line through the points; values that a logarithmic axis cannot show are omitted.
   void line(std::string name, Points points, Style style = {}) {
     series_.push_back({std::move(name), std::move(points), style, false});
   }
-  /// A vertical stroke from zero to every point. The strokes of several series over one point stand side by side.
+  /// A vertical stroke from zero to every point. The strokes of several series over one point are drawn side by side.
   void impulses(std::string name, Points points, Style style = {}) {
     series_.push_back({std::move(name), std::move(points), style, true});
   }

@@ -125,7 +125,7 @@ class Run {
         steps = triangle_.derivatives(p_);
       });
       evaluated();
-      // The step of the last derivative at the knot between this span and the one before is known only now.
+      // The jump of the last derivative at the knot between this span and the one before is known only now.
       if (k > 0) assemble(spans[k - 1], before, steps, integrals);
       for (int t = 0; t < 4; ++t) {
         if (reuse_ == Reuse::none) {
@@ -179,7 +179,7 @@ class Run {
     return row;
   }
 
-  /// What stands beside the jump of order r in ∫ N_i^(a) N_j^(b), t = 0 … 3 for G00, G11, G22, G10: N_j^(b) integrated
+  /// The factor of the jump of order r in ∫ N_i^(a) N_j^(b), t = 0 … 3 for G00, G11, G22, G10: N_j^(b) integrated
   /// r − a + 1 times.
   Row chain(int t, int r, int span) {
     constexpr int order[] = {0, 1, 2, 1}, both[] = {0, 2, 4, 1};

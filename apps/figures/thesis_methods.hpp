@@ -11,14 +11,14 @@ namespace knead::figures {
 
 enum class ThesisMethod { gaussian, analytic };  ///< Algs. 5.1 and 5.5
 
-/// The triangle of values (thesis Figs. 5.8, 5.26) once per sample for all that is wanted of it, or once for each.
+/// The triangle of values (thesis Figs. 5.8, 5.26) once per sample for all its uses, or once for each.
 enum class Reuse { all_in_one, none };
 
-/// What a run of one of the thesis' algorithms cost. Counted while it runs, on numbers that count.
+/// The cost of a run of one of the thesis' algorithms, counted while it runs on counting numbers.
 struct Work {
   long spans = 0;
   long samples = 0;           ///< points at which basis functions are evaluated
-  long evaluations = 0;       ///< functions that a triangle of values was made for
+  long evaluations = 0;       ///< functions for which a triangle of values was computed
   OperationCount recursions;  ///< in the triangles and the differences of derivatives
   OperationCount operations;  ///< in all
 
@@ -34,7 +34,7 @@ struct ThesisGramians {
   std::array<std::vector<double>, 4> upper;
 };
 
-/// The thesis' own algorithms as it states them, to learn what they cost; `gramians` is what to compute with.
+/// The thesis' own algorithms as stated, to measure their cost; for computing use `gramians`.
 ///
 /// Gaussian: Alg. 5.1 with the factor (b − a)/2 that the printed one lacks. Analytic: Alg. 5.5 with the integrals of
 /// Alg. 5.4 (without its last suffix sum), the values of degree p + 1 … 2p + 1 for the p + 1 functions wanted alone

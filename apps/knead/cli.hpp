@@ -10,10 +10,10 @@
 
 namespace knead::cli {
 
-/// What a sub-command does once its arguments are parsed.
+/// The action of a sub-command once its arguments are parsed.
 using Action = std::function<Expected<void>()>;
 
-// Each declares its sub-command on `app` and returns what to run when it was called.
+// Each declares its sub-command on `app` and returns its action.
 Action add_info(CLI::App& app);
 Action add_sculpt(CLI::App& app);
 Action add_commands(CLI::App& app);
@@ -23,18 +23,18 @@ Action add_basis(CLI::App& app);
 Action add_mesh(CLI::App& app);
 Action add_schema(CLI::App& app);
 
-/// Stands at the end of every help text.
+/// The end of every help text.
 inline constexpr std::string_view exit_codes =
     "Exit codes: 0 success, 2 wrong usage, 3 bad input, 4 numerical failure.";
 
-/// What --method says in the help texts: all names, and the default.
+/// The help text of --method: all names, and the default.
 [[nodiscard]] std::string gramian_method_help();
 
-/// Numbers separated by commas or white space; a comma stands behind a number, and the last one may end the text.
-/// A usage error names `option` and the entry that is no number.
+/// Numbers separated by commas or white space; a comma follows a number, and the last one may end the text. A usage
+/// error names `option` and the entry that is not a number.
 [[nodiscard]] Expected<std::vector<double>> parse_numbers(const std::string& text, const std::string& option);
 
-/// To 17 significant digits, which gives the same double back; what is not finite becomes null.
+/// To 17 significant digits, which give back the same double; null if not finite.
 [[nodiscard]] std::string json_number(double value);
 
 }  // namespace knead::cli

@@ -7,14 +7,14 @@
 
 namespace knead::cli {
 
-/// A line for every surface of which edges of faces are known: how many are held, how far the surface is from them now,
-/// and what is left free.
+/// A line for every surface with known edges of faces: how many are held, the present distance of the surface from
+/// them, and what is free.
 void print_edges(const SessionState& state);
 
 /// The same with every edge, as a JSON list.
 [[nodiscard]] std::string edges_json(const SessionState& state);
 
-/// For every surface on which faces lie: what is visible of it, its middle, and the edges with their neighbours.
+/// For every surface on which faces lie: its visible part, its middle, and the edges with their neighbours.
 void print_faces(const step::File& file);
 
 }  // namespace knead::cli

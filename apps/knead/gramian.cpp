@@ -43,7 +43,7 @@ struct Result {
   std::optional<double> error_bound;  // of the rational method
 };
 
-/// Row i of the band: G(i, i − p) … G(i, i + p), zero outside of the matrix.
+/// Row i of the band: G(i, i − p) … G(i, i + p), zero outside the matrix.
 void print_json(int degree, const Result& result) {
   const std::vector<NamedGramian>& gramians = result.gramians;
   const int count = gramians.front().matrix.size();
@@ -91,7 +91,7 @@ Expected<Result> compute(const Options& options, const KnotVector& knots) {
   const std::string chosen = options.method.empty() ? std::string(name(default_gramian_method)) : options.method;
   const auto method = gramian_method(chosen);
   if (!method) return std::unexpected(method.error().within("--method"));
-  const int a = options.a, b = options.b;  // 0, 0 where all terms are asked for, which go one way
+  const int a = options.a, b = options.b;  // 0, 0 if all terms are requested, which use one method
   Result result{std::string(name(used_gramian_method(knots, a, b, *method))), {}, {}};
   if (options.all) {
     auto set = knead::gramians(knots, *method);
@@ -105,7 +105,7 @@ Expected<Result> compute(const Options& options, const KnotVector& knots) {
   return result;
 }
 
-/// With weights: to a tolerance, or by the approximation that takes the denominator as constant on a span.
+/// With weights: to a tolerance, or by the approximation with a constant denominator per span.
 Expected<Result> compute_rational(const Options& options, const KnotVector& knots) {
   const auto weights = parse_numbers(options.weights, "--rational-weights");
   if (!weights) return std::unexpected(weights.error());

@@ -36,7 +36,7 @@ Expected<KnotVector> KnotsOption::read() const {
                       : Expected<KnotVector>(std::unexpected(numbers.error()));
   if (made) return made;
   Error error = made.error();
-  error.kind = ErrorKind::input;  // what is wrong stands in a file, not in the call
+  error.kind = ErrorKind::input;  // the mistake is in a file, not in the call
   error.file = file;
   return std::unexpected(error);
 }

@@ -21,7 +21,7 @@ int exit_code(knead::ErrorKind kind) {
   return 4;
 }
 
-/// CLI11's account of what is wrong with the arguments, with the command it concerns, in one line.
+/// CLI11's description of an error in the arguments, with the command concerned, in one line.
 knead::Error usage_error(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
   const auto used = app.get_subcommands();
   if (used.empty() && !first.empty() && first.front() != '-') {
@@ -56,7 +56,7 @@ std::vector<std::string> joined_arguments(int argc, char** argv) {
       break;
     }
   }
-  return {arguments.rbegin(), arguments.rend()};  // CLI11 takes them last first
+  return {arguments.rbegin(), arguments.rend()};  // CLI11 takes them in reverse order
 }
 
 }  // namespace

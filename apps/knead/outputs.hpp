@@ -12,9 +12,9 @@ struct NamedFile {
   std::string option, path;
 };
 
-/// Finds out before the work begins what would keep the results from being written. Errors: an output that is the same
-/// file as another output or as one of `inputs` (usage); a directory that is missing or may not be written to (input).
-/// Devices and pipes are always taken to be writable, and different from one another.
+/// Checks before the work begins whether the results can be written. Errors: an output that is the same
+/// file as another output or as one of `inputs` (usage); a directory that is missing or not writable (input). Devices
+/// and pipes are always assumed writable, and different from one another.
 [[nodiscard]] Expected<void> check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
 }  // namespace knead::cli

@@ -12,7 +12,7 @@
 namespace knead::cli {
 namespace {
 
-/// Dark blue over teal to yellow: evenly rising lightness (after the viridis map of matplotlib, five stops).
+/// Dark blue over teal to yellow: evenly increasing lightness (after the viridis map of matplotlib, five stops).
 std::string colour(double t) {
   static constexpr std::array<std::array<double, 3>, 5> stops = {
       {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};

@@ -133,7 +133,7 @@ std::string report_json(const SessionState& state, const Outcome& o, const std::
   return text + "]" + probes + "}\n";
 }
 
-/// What the probes of the scene find: of each list its entries.
+/// The readings of the scene's probes: the entries of each list.
 Expected<std::string> probes_json(const SessionState& state) {
   const auto vector = [](const Point& p) {
     return fmt::format("[{},{},{}]", json_number(p[0]), json_number(p[1]), json_number(p[2]));
@@ -201,7 +201,7 @@ void print_summary(const Options& options, const Session& session, const Outcome
   }
 }
 
-/// The CAD file comes last: where it stands, everything that was asked for does.
+/// The CAD file comes last: if it exists, everything requested has been written.
 Expected<void> write_results(const Options& options, const Session& session, const Outcome& o) {
   auto bytes = session.save();
   if (!bytes) return std::unexpected(bytes.error());
@@ -236,7 +236,7 @@ Expected<void> write_results(const Options& options, const Session& session, con
 Expected<void> run(const Options& options) {
   if (options.output.empty()) return usage_error("the name is empty", "--output", "name the STEP file to write");
   const NamedFile file{"FILE", options.file}, script{"--script", options.script}, output{"--output", options.output};
-  // The surface may be sculpted in place: only --output may name the file that is read.
+  // The surface may be sculpted in place: only --output may name the input file.
   if (auto possible = check_outputs({output}, {script}); !possible) return possible;
   const NamedFile report{"--report", options.report}, picture{"--picture", options.picture};
   if (auto possible = check_outputs({report, picture}, {file, script, output}); !possible) return possible;
@@ -246,7 +246,7 @@ Expected<void> run(const Options& options) {
   }
   const auto text = read_file(options.script);
   if (!text) return std::unexpected(text.error());
-  std::size_t before = 0;  // commands that the script's version stands for
+  std::size_t before = 0;  // commands implied by the script's version
   const auto commands = parse_script(*text, options.script, &before);
   if (!commands) return std::unexpected(commands.error());
   auto document = options.fresh ? Document::fresh("sheet") : Document::open(options.file);
