@@ -20,10 +20,10 @@ namespace knead {
 /// A REAL of ISO 10303-21 with 17 significant digits, "-1.2345678901234567E+02": `parse_real` gives back the same bits.
 [[nodiscard]] std::string format_real(double value);
 
-/// A REAL with as few digits as give back the same bits, "0.5", "1.", "1.E-05", "-1.2345678901234567E+200".
+/// A REAL with the fewest digits that restore the same bits, "0.5", "1.", "1.E-05", "-1.2345678901234567E+200".
 [[nodiscard]] std::string format_shortest_real(double value);
 
-/// A string literal with its quotes for a text in UTF-8: ' and \\ doubled, everything outside of ASCII's printable
+/// A string literal with its quotes for a text in UTF-8: ' and \\ doubled, everything outside ASCII's printable
 /// characters as \X2\ or \X4\. What is not UTF-8 becomes U+FFFD. `decode_string` gives the text back.
 [[nodiscard]] std::string encode_string(std::string_view text);
 

@@ -47,7 +47,7 @@ struct SurfaceCurvature {
 /// The second form is expressed in the orthonormal frame S_u/|S_u|, n × S_u/|S_u| and its symmetric 2 × 2 matrix
 /// diagonalised in closed form, so that nothing is lost near umbilics. Accuracy: a few ulp of the largest curvature,
 /// times (|S_u| |S_v| / |S_u × S_v|)². Cost: one evaluation of order 2.
-/// Errors: (u, v) outside of the domain or not finite (input); no tangent plane there, as at a pole, or a denominator
+/// Errors: (u, v) outside the domain or not finite (input); no tangent plane there, as at a pole, or a denominator
 /// that is not positive (numerical).
 [[nodiscard]] Expected<SurfaceCurvature> curvature(const Surface& surface, const std::array<double, 2>& at,
                                                    Side side = Side::right);
@@ -59,7 +59,7 @@ struct CurveCurvature {
   double curvature = 0;           ///< κ = |C' × C''| / |C'|³ >= 0, 1/length
 };
 
-/// The curvature of a curve at t. Errors: t outside of the domain or not finite (input); C' = 0, or a denominator that
+/// The curvature of a curve at t. Errors: t outside the domain or not finite (input); C' = 0, or a denominator that
 /// is not positive (numerical).
 [[nodiscard]] Expected<CurveCurvature> curvature(const Curve& curve, double t, Side side = Side::right);
 
