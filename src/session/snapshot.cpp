@@ -56,8 +56,8 @@ struct Neighbour {
 };
 
 void write_state(Writer& a, const SessionState& state, Neighbour& before) {
-  const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission,
-               probes, stroke] = static_cast<const Scene&>(state);
+  const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
+               stroke] = static_cast<const Scene&>(state);
   const auto& [steps, seam_reports, notes, energy_before] = static_cast<const SessionRecord&>(state);
   archive::optional(a, selected);
   list(a, together);
@@ -121,8 +121,8 @@ bool fits(const OpenStroke& stroke, const Scene& scene) {
 
 /// Reads a state into one that starts as a copy of the previous one.
 void read_state(Reader& a, SessionState& state) {
-  auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes, stroke] =
-      static_cast<Scene&>(state);
+  auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
+         stroke] = static_cast<Scene&>(state);
   auto& [steps, seam_reports, notes, energy_before] = static_cast<SessionRecord&>(state);
   selected.reset();
   archive::optional(a, selected);

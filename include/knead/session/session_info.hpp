@@ -15,8 +15,8 @@ namespace knead {
 /// The steps from index `first` on, [{energy, stretch, …}, …].
 [[nodiscard]] std::string steps_json(const SessionState& state, std::size_t first);
 
-/// The edges of the faces on every surface of a STEP file that was moved, [{surface, tolerance, edges, unknown}, …]: how
-/// far the surface is along each from where it was. Measured as by `trim_report`.
+/// The edges of the faces on every surface of a STEP file that was moved, [{surface, tolerance, edges, unknown}, …]:
+/// how far the surface is along each from where it was. Measured as by `trim_report`.
 [[nodiscard]] std::string edges_json(const Session& session);
 
 /// {"error": {kind, what, where, remedy, message}}.

@@ -8,7 +8,8 @@ namespace {
 /// Whether the stroke leaves its dents as it goes.
 bool leaves_along(const StrokeCommand& c, const Scene& scene) {
   if (c.plastic && c.plastic != StrokePlasticity::material) return c.plastic == StrokePlasticity::along;
-  return c.open.value_or(false) || (scene.selected && scene.surfaces[static_cast<std::size_t>(*scene.selected)].plastic.along);
+  return c.open.value_or(false) ||
+         (scene.selected && scene.surfaces[static_cast<std::size_t>(*scene.selected)].plastic.along);
 }
 
 }  // namespace
