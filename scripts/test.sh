@@ -20,7 +20,7 @@ build() {
 }
 build_wasm_tests() {
   scripts/setup.sh wasm
-  scripts/configure.sh wasm
+  scripts/configure.sh wasm KNEAD_BUILD_TESTS=ON
   cmake --build build/wasm --target gramian_values
 }
 studio_tests() (cd web && npm run --silent "$1")

@@ -9,6 +9,7 @@
 #define KNEAD_COUNTING
 #define KNEAD_ISA isa_counting
 #define KNEAD_LANES 1
+#include "simd/gauss.inc"
 #include "simd/kernels.inc"
 
 namespace knead {

@@ -21,6 +21,9 @@ struct SurfaceInfo {
   Vector3 lower = {0, 0, 0}, upper = {0, 0, 0};
   std::array<std::optional<double>, 3> alpha, beta;
   std::optional<double> mass, damping;
+  std::optional<MaterialPreset> preset;
+  double plasticity = 0, yield = 0, locality = 0;
+  LengthUnit lengths = LengthUnit::radii;
   RestMode rest = RestMode::shape;
   int faces = 0, hold = 0, pins = 0;
   std::vector<std::array<int, 2>> pinned;
@@ -42,6 +45,11 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("beta", s.beta, {.help = "likewise"});
   fields.add("mass", s.mass, {.help = "null where it varies"});
   fields.add("damping", s.damping, {.help = "null where it varies"});
+  fields.add("preset", s.preset, {.help = "the material by name that it has"});
+  fields.add("plasticity", s.plasticity, {.help = "share of a displacement that strokes leave"});
+  fields.add("yield", s.yield, {.help = "up to this displacement they leave nothing"});
+  fields.add("locality", s.locality, {.help = "how far a dent is felt"});
+  fields.add("lengths", s.lengths, {.help = "what `yield` and `locality` count"});
   fields.add("rest", s.rest);
   fields.add("faces", s.faces, {.help = "of the file that lie on it"});
   fields.add("hold", s.hold, {.help = "outer rows of control points that do not move"});
@@ -234,6 +242,11 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
   std::ranges::transform(s.material.beta, info.beta.begin(), constant);
   info.mass = constant(s.material.mass);
   info.damping = constant(s.material.damping);
+  info.preset = preset_of(s);
+  info.plasticity = s.plastic.share;
+  info.yield = s.plastic.yield;
+  info.locality = s.plastic.locality;
+  info.lengths = s.plastic.in_radii ? LengthUnit::radii : LengthUnit::file;
   info.rest = s.mode;
   if (const step::File* file = session.document().step_file()) {
     const step::SurfaceEntity* in_file = file->find_surface(s.id);
@@ -345,6 +358,7 @@ std::string session_typescript() {
   types.declare(type_of<EdgesInfo>(), "EdgesInfo", "Info", Absent::null);
   types.declare(type_of<ErrorInfo>(), "EngineErrorInfo", "Info", Absent::null);
   types.list(type_of<Shape>(), "shapes");
+  types.text += "\nexport const materials = " + json_of(named_materials()) + " as const;\n";
   return "// Generated from the engine's descriptions; not to be edited. Lengths are in file units.\n\n" +
          std::move(types.text);
 }

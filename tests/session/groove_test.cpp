@@ -108,6 +108,8 @@ TEST(Groove, MaterialsKeepTheirShare) {
   for (const char* springs : {"rubber", "cloth", "membrane"}) {
     EXPECT_EQ(deepest(fmt::format(R"("preset":"{}")", springs)), 0) << springs;
   }
+  // Past its yield of 3, and wider than clay.
+  EXPECT_NEAR(deepest(R"("preset":"sheet metal")"), depth - 0.15 * radius, 0.05 * depth);
   EXPECT_NEAR(deepest(R"("preset":"clay","yield":0.1)"), clay - 0.1 * radius, 0.05 * depth)
       << "what goes beyond the yield";
   EXPECT_NEAR(deepest(R"("preset":"clay")", R"(,"plasticity":0.5)"), 0.5 * clay, 1e-3 * depth);

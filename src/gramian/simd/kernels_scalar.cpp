@@ -1,4 +1,4 @@
-// Omitted (KNEAD_SCALAR_KERNELS=0) where only vectors are ever used: in the studio's module.
+// Omitted (KNEAD_SCALAR_KERNELS=0) where only vectors are ever used: in WebAssembly.
 #if !defined(KNEAD_SCALAR_KERNELS) || KNEAD_SCALAR_KERNELS
 #define KNEAD_ISA isa_scalar
 #define KNEAD_LANES 1

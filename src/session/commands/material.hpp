@@ -5,13 +5,24 @@
 namespace knead {
 
 /// Materials that there are by name.
-enum class MaterialPreset { clay, wax, rubber, cloth, membrane };
+enum class MaterialPreset { clay, wax, rubber, sheet_metal, cloth, membrane };
 
 /// What lengths of a material are counted in.
 enum class LengthUnit { radii, file };
 
 std::span<const Choice> choices(MaterialPreset);
 std::span<const Choice> choices(LengthUnit);
+
+/// A material that has a name, as pages show it: α11 = α22 and β11 = β12 = β22.
+struct NamedMaterial {
+  std::string name, help;
+  double alpha = 0, beta = 0;
+};
+[[nodiscard]] std::vector<NamedMaterial> named_materials();
+void describe(NamedMaterial& m, Fields& fields);
+
+/// The material by name that a surface has; none where it has one of its own.
+[[nodiscard]] std::optional<MaterialPreset> preset_of(const SceneSurface& surface);
 
 /// Sets stretch and bend coefficients, mass and damping of the selected surfaces, everywhere or in a region. What is
 /// not named stays as it is.

@@ -9,6 +9,9 @@ type Props<K extends keyof HTMLElementTagNameMap> = Partial<Omit<HTMLElementTagN
   data?: Record<string, string>;
 };
 
+/** A name of the engine's as a title: "top_radius" is Top radius. */
+export const title = (name: string): string => name.charAt(0).toUpperCase() + name.slice(1).replaceAll('_', ' ');
+
 export function h<K extends keyof HTMLElementTagNameMap>(tag: K, props: Props<K> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   const { class: className, aria, data, ...rest } = props;

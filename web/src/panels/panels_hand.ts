@@ -1,12 +1,11 @@
 import * as THREE from 'three';
 
 import { format, parseLength } from '../document/units';
-import type { PointsCommand } from '../engine/generated';
+import { materials, type PointsCommand } from '../engine/generated';
 import { brushModes, paintModes } from '../tools/modes';
 import type { App } from './app';
-import { field, h, numberInput, select, slider, toggle } from './dom';
+import { field, h, numberInput, select, slider, title, toggle } from './dom';
 import { note, panel, row } from './panel';
-import { presets } from './panels_model';
 import { shapeTitles } from './panels_scene';
 
 /** What the pointer does, and how: a panel for brushes and paint, one for control points. */
@@ -100,7 +99,7 @@ function materialFields(app: App): (Node | null)[] {
     app.changed();
   };
   return [
-    row(...presets.map((p) => toggle(p.name, settings.alpha === p.alpha && settings.beta === p.beta, () => set({ alpha: p.alpha, beta: p.beta }), p.about))),
+    row(...materials.map((m) => toggle(title(m.name), settings.alpha === m.alpha && settings.beta === m.beta, () => set({ alpha: m.alpha, beta: m.beta }), m.help))),
     field('Stretch α', numberInput('Stretch to paint', settings.alpha, (alpha) => set({ alpha: Math.max(0, alpha) }))),
     field('Bend β', numberInput('Bend to paint', settings.beta, (beta) => set({ beta: Math.max(0, beta) }))),
     field('Softness', slider('Softness of the paint', settings.softness, [0, 1], (softness) => set({ softness })), 'Share of the radius over which the paint fades'),

@@ -1,46 +1,32 @@
-import type { EvolveCommand, LoadCommand, MaterialCommand } from '../engine/generated';
+import { type EvolveCommand, type LoadCommand, type MaterialCommand, materials } from '../engine/generated';
 import type { Command } from '../engine/session_types';
 import type { App } from './app';
-import { field, h, numberInput, toggle } from './dom';
+import { field, h, numberInput, title, toggle } from './dom';
 import { note, panel, row } from './panel';
 import { energyChart } from './plot';
-
-interface Preset {
-  name: string;
-  about: string;
-  alpha: number;
-  beta: number;
-  lambda: number;
-  /** How far a dent is felt, in radii of the tool; 0: as far as lambda lets it. */
-  locality: number;
-}
-
-export const presets: Preset[] = [
-  { name: 'Clay', about: 'gives way where it is pressed and nowhere else', alpha: 0.1, beta: 0.001, lambda: 100, locality: 0.25 },
-  { name: 'Rubber', about: 'stretches far and wants back', alpha: 1, beta: 0.01, lambda: 5, locality: 0 },
-  { name: 'Sheet metal', about: 'resists bending: wide, fair dents', alpha: 0.05, beta: 0.05, lambda: 20, locality: 0 },
-  { name: 'Cloth', about: 'hardly resists bending', alpha: 1, beta: 0.0002, lambda: 5, locality: 0 },
-  { name: 'Membrane', about: 'stretch alone: a soap film', alpha: 1, beta: 0, lambda: 1, locality: 0 },
-];
 
 export function materialPanel(app: App): HTMLElement {
   const chosen = () => app.state?.surfaces[app.state.selection[0] ?? -1];
   return panel(app, 'Material', () => {
     const s = chosen();
-    return s ? [s.alpha, s.beta, s.mass, s.damping, s.rest, app.state!.evolve] : null;
+    return s ? [s.alpha, s.beta, s.mass, s.damping, s.preset, s.plasticity, s.yield, s.locality, s.lengths, s.rest, app.state!.evolve] : null;
   }, () => {
     const s = chosen();
     if (!s) return [note('Select a surface.')];
     const set = (change: Partial<MaterialCommand>) => void app.execute([{ do: 'material', ...change }]);
     const one = (values: (number | null)[]) => (values[0] === values[2] ? values[0]! : null);
-    const fits = (p: Preset) => one(s.alpha) === p.alpha && one(s.beta) === p.beta;
+    const chosenMaterial = materials.find((m) => m.name === s.preset);
+    const counted = s.lengths === 'radii' ? 'in radii of the tool' : 'in units of the file';
     return [
-      row(...presets.map((p) => toggle(p.name, fits(p), () => void app.execute([
-        { do: 'material', alpha: [p.alpha, 0, p.alpha], beta: [p.beta, p.beta, p.beta], locality: p.locality },
-        { ...app.state!.evolve, do: 'evolve', lambda: p.lambda, ...(app.state!.evolve.mode === 'static' ? { mode: 'acm' as const } : {}) },
-      ]), p.about))),
-      note(presets.find(fits) ? `${presets.find(fits)!.name} ${presets.find(fits)!.about}.` : s.alpha.includes(null) || s.beta.includes(null)
+      row(...materials.map(({ name, help }) => toggle(title(name), name === s.preset, () => void app.execute([
+        { do: 'material', preset: name },
+        ...(app.state!.evolve.mode === 'static' ? [{ ...app.state!.evolve, mode: 'acm' } as const] : []),
+      ]), help))),
+      note(chosenMaterial ? `${title(chosenMaterial.name)}: ${chosenMaterial.help}.` : s.alpha.includes(null) || s.beta.includes(null)
         ? 'Varies over the surface: it was painted.' : 'A material of your own.'),
+      field('Stays', numberInput('Plasticity', s.plasticity, (plasticity) => set({ plasticity })), 'Share of a stroke that stays, 0 to 1'),
+      field('Yield', numberInput('Yield', s.yield, (y) => set({ yield: y, lengths: s.lengths })), `Up to this displacement nothing stays, ${counted}`),
+      field('Locality', numberInput('Locality', s.locality, (locality) => set({ locality, lengths: s.lengths })), `How far a dent is felt, ${counted}; 0: as far as λ lets it`),
       field('Stretch α', numberInput('Stretch', one(s.alpha), (a) => set({ alpha: [a, 0, a] })), 'Resistance to stretch (Eq. 4.8)'),
       field('Bend β', numberInput('Bend', one(s.beta), (b) => set({ beta: [b, b, b] })), 'Resistance to bending (Eq. 4.8)'),
       field('Mass', numberInput('Mass', s.mass, (mass) => set({ mass })), 'Per area: for swinging, and for gravity'),

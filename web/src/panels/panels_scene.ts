@@ -2,7 +2,7 @@ import { format, parseLength } from '../document/units';
 import { type EditToolCommand, shapes } from '../engine/generated';
 import type { Command, ToolInfo } from '../engine/session_types';
 import type { App } from './app';
-import { field, h, iconButton, numberInput, select, toggle } from './dom';
+import { field, h, iconButton, numberInput, select, title, toggle } from './dom';
 import { note, panel, row } from './panel';
 
 const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? 'mm';
@@ -38,8 +38,6 @@ export function surfacesPanel(app: App): HTMLElement {
     ];
   });
 }
-
-const title = (name: string): string => name.charAt(0).toUpperCase() + name.slice(1).replaceAll('_', ' ');
 
 /** The shapes with their titles. */
 export const shapeTitles = Object.keys(shapes).map((name) => [name, name === 'surface' ? 'Surface of the document' : title(name)] as const);
