@@ -90,5 +90,29 @@ TEST(RealFiles, SurfacesOfEveryKindBendWithoutCreasesAndKeepTheirConstraints) {
   EXPECT_GE(lines, 10);
 }
 
+TEST(RealFiles, CollapsedCapsOfAWingAreLeftOutOfWhatIsConnected) {
+  const std::filesystem::path file = std::string(KNEAD_SHARED_DIR) + "/data/cad/simple_wing.stp";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the collection of CAD files is not there";
+  const auto document = Document::open(file);
+  ASSERT_TRUE(document) << document.error().message();
+  int moved = 0, refused = 0;
+  for (const DocumentSurface& s : document->surfaces()) {
+    Session session{Document(*document)};
+    const auto select = R"({"do":"select","surface":")" + s.id + R"(","connected":true})";
+    const auto command = parse_command(select);
+    ASSERT_TRUE(command);
+    if (const auto done = session.execute(*command); !done) {
+      EXPECT_EQ(done.error().what, s.id + " has no area");
+      ++refused;
+      continue;
+    }
+    EXPECT_NE(session.state().notes.back().find("left out: it has no area"), std::string::npos);
+    run(session, {R"({"do":"step"})"});
+    ++moved;
+  }
+  EXPECT_EQ(moved, 7);
+  EXPECT_EQ(refused, 6);
+}
+
 }  // namespace
 }  // namespace knead

@@ -2,7 +2,40 @@
 
 #include <algorithm>
 
+#include "knead/sculpt/domain_scaling.hpp"
+
 namespace knead {
+namespace {
+
+/// The indices, followed by those of all surfaces that seams connect with them, except surfaces without area (collapsed
+/// caps), which have a note. Errors (input): one of the given surfaces has no area.
+Expected<std::vector<int>> connected(std::vector<int> chosen, SessionState& state) {
+  const auto collapsed = [&](int k) {
+    return !normalised_scaling<2>(*state.surfaces[static_cast<std::size_t>(k)].reference);
+  };
+  const auto id = [&](int k) { return state.surfaces[static_cast<std::size_t>(k)].id; };
+  for (int k : chosen) {
+    if (collapsed(k)) return input_error(id(k) + " has no area", "surface", "choose a surface that is not collapsed");
+  }
+  std::vector<const Surface*> all;
+  for (const SceneSurface& s : state.surfaces) all.push_back(s.reference.get());
+  const auto found = seams_between(state.seams, all);
+  if (!found) return std::unexpected(found.error());
+  std::vector<int> left_out;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    for (const Seam& seam : found->seams) {
+      if (seam.kind == SeamKind::partial) continue;
+      const int other = seam.a.patch == chosen[k] ? seam.b.patch : seam.b.patch == chosen[k] ? seam.a.patch : -1;
+      if (other < 0 || std::ranges::find(chosen, other) != chosen.end()) continue;
+      if (std::ranges::find(left_out, other) != left_out.end()) continue;
+      (collapsed(other) ? left_out : chosen).push_back(other);
+    }
+  }
+  for (int k : left_out) state.notes.push_back(id(k) + " is connected but left out: it has no area");
+  return chosen;
+}
+
+}  // namespace
 
 void describe(SelectCommand& c, Fields& fields) {
   fields.name("select", "choose the surfaces that the following commands act on");
@@ -27,17 +60,9 @@ Expected<void> Executor::execute(const SelectCommand& c) {
     if (std::ranges::find(chosen, *index) == chosen.end()) chosen.push_back(*index);
   }
   if (c.connected) {
-    std::vector<const Surface*> all;
-    for (const SceneSurface& s : state.surfaces) all.push_back(s.reference.get());
-    const auto found = seams_between(state.seams, all);
-    if (!found) return std::unexpected(found.error());
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-      for (const Seam& seam : found->seams) {
-        if (seam.kind == SeamKind::partial) continue;
-        const int other = seam.a.patch == chosen[k] ? seam.b.patch : seam.b.patch == chosen[k] ? seam.a.patch : -1;
-        if (other >= 0 && std::ranges::find(chosen, other) == chosen.end()) chosen.push_back(other);
-      }
-    }
+    auto all = connected(std::move(chosen), state);
+    if (!all) return std::unexpected(all.error());
+    chosen = std::move(*all);
   }
   state.selected = chosen.front();
   state.together.assign(chosen.begin() + 1, chosen.end());
