@@ -178,6 +178,14 @@ KNEAD_EXPORT(knead_edges) int knead_edges() {
   return held().session ? answer(edges_json(*held().session)) : without_session();
 }
 
+/// The text is `room_json`.
+KNEAD_EXPORT(knead_room) int knead_room(int surface) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  if (surface < 0 || surface >= static_cast<int>(session->state().surfaces.size())) return answer("null");
+  return answer(room_json(*session, static_cast<std::size_t>(surface)));
+}
+
 /// The text is the saved file.
 KNEAD_EXPORT(knead_save) int knead_save() {
   if (!held().session) return without_session();

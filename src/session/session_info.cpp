@@ -339,6 +339,18 @@ std::string edges_json(const Session& session) {
   return json_of(infos);
 }
 
+std::string room_json(const Session& session, std::size_t surface) {
+  const SceneSurface& s = session.state().surfaces[surface];
+  std::shared_ptr<const VisibleRegion> region = s.visible;
+  const step::File* file = session.document().step_file();
+  if (!region && file != nullptr && file->find_surface(s.id) != nullptr) {
+    if (auto found = visible_region(*file, s.id)) region = std::make_shared<const VisibleRegion>(std::move(*found));
+  }
+  if (!region || region->edges.empty()) return "null";
+  const auto middle = visible_middle(*s.current, *region);
+  return middle ? json_of(middle->distance) : "null";
+}
+
 std::string steps_json(const SessionState& state, std::size_t first) {
   return json_of(std::vector<StepRecord>(
       state.steps.begin() + static_cast<std::ptrdiff_t>(std::min(first, state.steps.size())), state.steps.end()));

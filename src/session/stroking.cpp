@@ -73,10 +73,16 @@ Expected<double> felt_area(const Scene& scene, const OpenStroke& stroke) {
   return area * scaling->length * scaling->length;
 }
 
-/// A shape on the net of another one, whose knots are these and more.
-Expected<Surface> onto_net(const Surface& shape, const Surface& like) {
+/// A shape on the net of another one, whose degrees are these or more, as are its knots then.
+Expected<Surface> onto_net(Surface shape, const Surface& like) {
   std::array<std::vector<double>, 2> more;
   for (std::size_t d = 0; d < 2; ++d) {
+    const int direction = static_cast<int>(d), times = like.knots(direction).degree() - shape.knots(direction).degree();
+    if (times > 0) {
+      auto elevated = elevate_degree<2>(shape, direction, times);
+      if (!elevated) return std::unexpected(elevated.error());
+      shape = std::move(*elevated);
+    }
     std::ranges::set_difference(like.knots()[d].knots(), shape.knots()[d].knots(), std::back_inserter(more[d]));
   }
   return insert_knots<2>(shape, more);

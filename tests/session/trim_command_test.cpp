@@ -64,6 +64,18 @@ TEST(TrimCommands, AScriptOfVersion2HoldsTheEdgesOfFacesAndRefinesForIt) {
   EXPECT_FALSE(session.state().notes.empty());
 }
 
+// The net of degree 1 gets a higher degree between tool and edges while the stroke is under way.
+TEST(TrimCommands, AStrokeInClayLeavesItsGrooveInAFlatFace) {
+  Session session(document(disc().file));
+  const auto done = run(session, R"({"do":"material","preset":"clay"},
+    {"do":"tool","name":"ball","radius":0.05,"position":[0.3,0.4,0.2],"plasticity":1},
+    {"do":"stroke","tool":"ball","path":[[0.3,0.4,0.03],[0.35,0.65,0.03],[0.45,0.7,0.03]]})");
+  ASSERT_TRUE(done) << done.error().message();
+  EXPECT_NEAR(session.largest_displacement(0), 0.02, 0.002);
+  EXPECT_EQ(largest_gap(session), 0);
+  EXPECT_EQ(session.state().surfaces[0].current->knots(0).degree(), 3);
+}
+
 TEST(TrimCommands, AScriptOfVersion1HoldsNothingByItself) {
   Session session(document(disc().file));
   const auto done = run(session, ball + R"(,{"do":"step"})", 1);

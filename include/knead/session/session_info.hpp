@@ -19,6 +19,10 @@ namespace knead {
 /// how far the surface is along each from where it was. Measured as by `trim_report`.
 [[nodiscard]] std::string edges_json(const Session& session);
 
+/// How large a tool the visible part of a surface has room for: the distance of its visible middle from the nearest
+/// edge of a face, file units. "null" if no edges of faces are known. Cost: that of `visible_middle`.
+[[nodiscard]] std::string room_json(const Session& session, std::size_t surface);
+
 /// {"error": {kind, what, where, remedy, message}}.
 [[nodiscard]] std::string error_json(const Error& error);
 

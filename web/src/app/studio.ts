@@ -137,6 +137,11 @@ export class Studio implements App {
     return this.display.detail;
   }
 
+  sizeBrush(radius: number): void {
+    this.hand.brush.settings.radius = Math.min(radius, 0.08 * this.diagonal);
+    this.changed();
+  }
+
   showContext(context: Context | null, trims: Trim[]): void {
     this.viewer.showContext(context, trims);
   }
@@ -150,7 +155,7 @@ export class Studio implements App {
     const info = this.state!.surfaces[surface]!;
     await this.attempt(async () => {
       await this.client.execute([{ do: 'select', surface: info.id }]);
-      await makeReady(this, info, true);
+      await makeReady(this, surface, true);
       this.documents.keeper.touch();
     });
   }

@@ -1,4 +1,4 @@
-import { type Command, EngineError, type SurfaceInfo } from '../engine/session_types';
+import { type Command, EngineError } from '../engine/session_types';
 import { autosave, type Kept } from './autosave';
 import { clay } from './clay';
 import { loadContext } from './context';
@@ -136,7 +136,7 @@ export class Documents {
   private async firstLook(): Promise<void> {
     const { host } = this;
     const surfaces = host.state!.surfaces;
-    if (surfaces.length === 1) await makeReady(host, surfaces[0]!, false);
+    if (surfaces.length === 1) await makeReady(host, 0, false);
     else if (host.state!.selection.length === 0 || this.file?.kind === 'rhino') {
       host.notify({ kind: 'info', text: `${surfaces.length} surfaces: click the one to sculpt.` });
     }
@@ -148,9 +148,13 @@ const canonical = (commands: Command[]): string =>
 
 /**
  * Makes clay that is held at its edges of a selected surface as it came. What faces lie on is held along their edges, so
- * that they go on meeting their neighbours; a surface alone by its outer rows. `join`: with the act before.
+ * that they go on meeting their neighbours, and the brush fits between them; a surface alone by its outer rows. `join`: with
+ * the act before.
  */
-export async function makeReady(host: Pick<Host, 'client' | 'notify'>, surface: SurfaceInfo, join: boolean): Promise<void> {
+export async function makeReady(host: Host, index: number, join: boolean): Promise<void> {
+  const surface = host.state!.surfaces[index]!;
+  const room = surface.faces > 0 ? await host.client.room(index) : null;
+  if (room) host.sizeBrush(0.5 * room);
   if (surface.hold > 0 || surface.pins > 0 || surface.constraints.length > 0 || surface.moved > 0) return;
   const rows = Math.min(2, Math.floor((Math.min(...surface.net) - 2) / 2));
   const alone: Command[] = [...(rows > 0 ? [{ do: 'hold', rows } as const] : []), ...clay];

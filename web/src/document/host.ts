@@ -26,6 +26,8 @@ export interface Host {
   changed(): void;
   /** The next frame is of another session. Gives back what takes that back. */
   begin(): () => void;
+  /** The brush becomes no larger than this, file units. */
+  sizeBrush(radius: number): void;
   /** What stands round the surfaces, and what of each is seen. */
   showContext(context: Context | null, trims: Trim[]): void;
   /** The view as a PNG file, with `scale` pixels for each of the page's. */

@@ -86,6 +86,7 @@ export class Client {
     return { snapshot: bytes!, journal: text! };
   };
   restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array) => this.ask({ kind: 'restore', source, name, snapshot });
+  room = async (surface: number): Promise<number | null> => JSON.parse((await this.ask({ kind: 'room', surface })).text!) as number | null;
   save = async (): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> => {
     const { bytes, text } = await this.ask({ kind: 'save' });
     return { bytes: bytes!, edges: JSON.parse(text!) as EdgesInfo[] };

@@ -23,6 +23,7 @@ interface Exports {
   knead_steps(first: number): number;
   knead_journal(): number;
   knead_edges(): number;
+  knead_room(surface: number): number;
   knead_save(): number;
   knead_origin(axis: number): number;
   knead_displays(): number;
@@ -104,6 +105,11 @@ export class Engine {
   /** The edges of the faces on every surface of a STEP file that was moved. */
   edges(): EdgesInfo[] {
     return this.json(this.wasm.knead_edges()) as EdgesInfo[];
+  }
+
+  /** How far the visible middle of a surface is from the nearest edge of a face; null where no edges are known. */
+  room(surface: number): number | null {
+    return this.json(this.wasm.knead_room(surface)) as number | null;
   }
 
   save(): Uint8Array {

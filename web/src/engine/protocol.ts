@@ -30,6 +30,8 @@ export type Request =
   | { kind: 'mesh'; format: MeshFormat; detail: number }
   /** The other faces of the file, and the trims of the surfaces as text (`Trim[]`). */
   | { kind: 'context' }
+  /** `Engine.room` as text. */
+  | { kind: 'room'; surface: number }
   | { kind: 'save' }
   | { kind: 'journal' }
   /** The session as bytes, with its journal as text. `kept`: it need not be computed again from here on. */

@@ -154,6 +154,9 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
         context ? [context.positions, context.normals, context.indices].map((a) => a.buffer as ArrayBuffer) : []);
       return;
     }
+    case 'room':
+      post({ kind: 'done', id, text: JSON.stringify(engine.room(request.surface)) });
+      return;
     case 'save':
       post({ kind: 'done', id, bytes: engine.save(), text: JSON.stringify(engine.edges()) });
       return;
