@@ -20,7 +20,8 @@ const char* hold_name(int order) {
 template <class F>
 void for_each_report(const SessionState& state, const F& f) {
   for (const SceneSurface& s : state.surfaces) {
-    if (!s.visible || s.visible->edges.empty() || !holds_trims(s.constraints)) continue;
+    const bool moved = s.current != s.opened;
+    if (!s.visible || s.visible->edges.empty() || !(moved || holds_trims(s.constraints))) continue;
     const auto report = trim_report(s);
     if (report) f(s, *report);
   }

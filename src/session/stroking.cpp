@@ -77,9 +77,8 @@ Expected<double> felt_area(const Scene& scene, const OpenStroke& stroke) {
 Expected<Surface> onto_net(Surface shape, const Surface& like) {
   std::array<std::vector<double>, 2> more;
   for (std::size_t d = 0; d < 2; ++d) {
-    const int direction = static_cast<int>(d), times = like.knots(direction).degree() - shape.knots(direction).degree();
-    if (times > 0) {
-      auto elevated = elevate_degree<2>(shape, direction, times);
+    if (const int times = like.knots()[d].degree() - shape.knots()[d].degree(); times > 0) {
+      auto elevated = elevate_degree<2>(shape, static_cast<int>(d), times);
       if (!elevated) return std::unexpected(elevated.error());
       shape = std::move(*elevated);
     }

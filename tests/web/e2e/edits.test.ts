@@ -23,6 +23,22 @@ const execute = async (...list: Command[]) => {
   await settled(studio.page);
 };
 
+describe('a stroke that is refused', () => {
+  it('leaves no brush behind, and nothing in the history', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    await execute({ do: 'scaling', mode: 'raw' }); // strokes need a model in normalised units
+    const before = await commands(page);
+    await page.keyboard.press('b');
+    await stroke(page, [-10, 0], [10, 0]);
+    await expect.poll(() => page.locator('.notice.error').count()).toBeGreaterThan(0);
+    await settled(page);
+    expect(await commands(page)).toEqual(before);
+    expect(await page.evaluate(() => (window as never as { studio: { state: { tools: unknown[] } } }).studio.state.tools)).toEqual([]);
+    for (const close of await page.locator('.notice.error button[aria-label=Close]').all()) await close.click();
+  });
+});
+
 describe('a painted material', () => {
   const samples = async (coefficient: string) =>
     (await commands(studio.page)).filter((c) => c.do === 'material').filter((c) => c.coefficient === coefficient).at(-1)!.samples!;

@@ -13,7 +13,8 @@ export function closedEdges(surfaces: readonly EdgesInfo[], unit: string): strin
     const count = open.length === 1 ? 'One edge is' : `${open.length} edges are`;
     said.unshift(`${count} open: ${some}${open.length > 3 ? ', …' : ''}.`);
   } else if (edges.length > 0) {
-    said.unshift(`All edges closed to ${length(Math.max(...edges.map((e) => e.allowed)))}.`);
+    const allowed = Math.max(...edges.map((e) => e.allowed));
+    said.unshift(`All edges closed to ${allowed === thousandth ? '0.001 mm' : length(allowed)}.`);
   }
   return said.join(' ');
 }

@@ -80,12 +80,19 @@ export class Hand {
   private actions(): BrushActions {
     const { host } = this;
     return {
-      begin: async (commands) => (await host.execute(commands)) !== null,
+      begin: async (commands) => {
+        const [first, ...rest] = commands;
+        if ((await host.execute([first!])) === null) return false;
+        if (rest.length === 0 || (await host.execute(rest, true)) !== null) return true;
+        await host.execute([{ do: 'undo' }]); // what is refused leaves nothing behind
+        return false;
+      },
       follow: (commands, join) => host.client.follow(commands, join),
       end: async (commands) => {
         await host.client.followed();
-        if (commands.length > 0) await host.execute(commands, true);
-        else await host.execute([]);
+        if ((await host.execute(commands, commands.length > 0)) !== null || commands.at(-1)?.do !== 'remove') return;
+        // The end of the stroke is refused: what was done before stays without its brush, or all is taken back.
+        if ((await host.execute([commands.at(-1)!], true)) === null) await host.execute([{ do: 'undo' }]);
       },
       cancel: async () => {
         await host.client.followed();
