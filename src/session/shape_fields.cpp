@@ -67,10 +67,10 @@ void add_named_measures(ShapeFields& f, Fields& fields, std::string_view fallbac
               .range = above(0),
               .fallback = otherwise("a quarter of the radius")});
   fields.add("height", f.height,
-             {.help = "of cylinder, cone and capsule (without its caps)",
+             {.help = "of cylinder, cone, capsule (without its caps) and wedge (from its foot to its ridge)",
               .unit = Unit::length,
               .range = above(0),
-              .fallback = otherwise("twice the radius")});
+              .fallback = otherwise("twice the radius; of a wedge a tenth of the diagonal")});
   fields.add("top_radius", f.top_radius, {.help = "of a cone", .unit = Unit::length, .fallback = otherwise("`0`")});
   fields.add("thickness", f.thickness,
              {.help = "wall of a bowl",
@@ -78,7 +78,9 @@ void add_named_measures(ShapeFields& f, Fields& fields, std::string_view fallbac
               .range = above(0),
               .fallback = otherwise("a tenth of the radius")});
   fields.add("rounding", f.rounding,
-             {.help = "edge radius of a box", .unit = Unit::length, .fallback = otherwise("`0`")});
+             {.help = "radius of the edges of a box, or of the ridge of a wedge",
+              .unit = Unit::length,
+              .fallback = otherwise("`0`")});
   fields.add("sizes", f.sizes,
              {.help = "`[a, b, c]`: semi-axes of (super)ellipsoids, half sides of a box",
               .unit = Unit::length,

@@ -67,17 +67,19 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fracti
 }  // namespace
 
 void describe(DragCommand& c, Fields& fields) {
-  fields.name("drag", "take hold of a surface point, drag it and let go, as one command");
-  fields.add("at", c.at, {.help = "`[s, t]`: the point", .unit = Unit::fraction});
+  fields.name("drag", "grip a surface point, drag it and let it go, as one command");
+  fields.add("at", c.at,
+             {.help = "`[s, t]`: the point; or `\"middle\"`, the visible point farthest from all edges",
+              .unit = Unit::fraction});
   fields.add("by", c.by, {.help = "`[dx, dy, dz]`", .unit = Unit::length, .presence = Presence::required});
   fields.add("radius", c.radius,
              {.help = "of the footprint, a length", .unit = Unit::length, .fallback = "a tenth of the diagonal"});
   fields.add("strength", c.strength, {.help = "spring constant of the grip"});
-  fields.add("steps", c.steps, {.help = "on the way"});
+  fields.add("steps", c.steps, {.help = "number of steps along the way"});
   fields.add("plasticity", c.plasticity,
              {.help = "share of the displacement that becomes rest shape", .unit = Unit::fraction});
   fields.add("relative", c.relative, {.help = "`by` and `radius` are fractions of the diagonal"});
-  fields.add("middle", c.middle, {.help = "the visible point farthest from all edges, instead of `at`"});
+  fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
 }
 
 template <>

@@ -47,7 +47,7 @@ std::span<const Choice> choices(EdgeCondition) {
   static constexpr Choice list[] = {{"position", EdgeCondition::position},
                                     {"clamped", EdgeCondition::clamped, "with its tangent planes"},
                                     {"curvature", EdgeCondition::curvature, "with its curvatures too"},
-                                    {"free", EdgeCondition::free, "no longer"}};
+                                    {"free", EdgeCondition::free, "not held"}};
   return list;
 }
 

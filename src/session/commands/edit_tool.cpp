@@ -38,22 +38,22 @@ Expected<Placement> placement_of(const EditToolCommand& c, const Placement& befo
 }  // namespace
 
 void describe(EditToolCommand& c, Fields& fields) {
-  fields.name("edit_tool", "change fields of a tool; what is not named stays as it is");
-  constexpr About as_of_tool = {.help = "as of `tool`"};
-  constexpr About length = {.help = "as of `tool`", .unit = Unit::length};
+  fields.name("edit_tool", "change fields of a tool; fields not given stay as they are");
+  constexpr About as_of_tool = {.help = "as for `tool`"};
+  constexpr About length = {.help = "as for `tool`", .unit = Unit::length};
   fields.add("tool", c.tool, {.help = "its name; or:", .fallback = "the only tool"});
   fields.add("name", c.name, {.help = "its name", .fallback = "the only tool"});
   fields.add("shape", c.shape,
-             {.help = "another shape: measures that both shapes have stay, the others are those of a new tool"});
+             {.help = "another shape: measures that both shapes have are kept, the others are those of a new tool"});
   add_measures(c.measures, fields, "as it was");
   fields.add("axis", c.axis,
-             {.help = "the tool turns there the shortest way, so that its turn about its own axis stays; or:"});
+             {.help = "new direction of its own z axis, reached the shortest way, without twist about that axis; or:"});
   fields.add("orientation", c.orientation, as_of_tool);
-  fields.add("scale", c.scale, {.help = "as of `tool`, not times the scale before"});
+  fields.add("scale", c.scale, {.help = "as for `tool`; replaces the previous scale"});
   fields.add("position", c.position, length);
-  fields.add("at", c.at, {.help = "as of `tool`", .unit = Unit::fraction});
+  fields.add("at", c.at, {.help = "as for `tool`", .unit = Unit::fraction});
   fields.add("middle", c.middle, as_of_tool);
-  fields.add("mode", c.mode, {.help = "the stiffness stays"});
+  fields.add("mode", c.mode, {.help = "how it acts; the stiffness does not change"});
   fields.add("stiffness", c.stiffness, as_of_tool);
   fields.add("range", c.range, length);
   fields.add("direction", c.direction, {.help = "of proximity"});

@@ -5,7 +5,7 @@
 namespace knead {
 
 void describe(ElevateCommand& c, Fields& fields) {
-  fields.name("elevate", "raise the degree, the same shape");
+  fields.name("elevate", "raise the degree without changing the shape");
   fields.add("by", c.by, {.help = "in u and in v"});
 }
 

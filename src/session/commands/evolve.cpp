@@ -22,9 +22,10 @@ std::span<const Choice> choices(ForceRoute) {
 
 std::span<const Choice> choices(Evolution) {
   static constexpr Choice list[] = {
-      {"acm", Evolution::acm, "sinks towards the balance"},
-      {"static", Evolution::stationary, "is the balance, and an error (exit code 4) where nothing holds the surface"},
-      {"dynamic", Evolution::dynamic, "has mass and swings"}};
+      {"acm", Evolution::acm, "moves towards equilibrium"},
+      {"static", Evolution::stationary,
+       "goes to equilibrium at once; an error (exit code 4) if nothing holds the surface"},
+      {"dynamic", Evolution::dynamic, "has mass and oscillates"}};
   return list;
 }
 
@@ -32,8 +33,8 @@ void describe(EvolveCommand& c, Fields& fields) {
   fields.name("evolve", "what steps do; static solves at once");
   fields.add("mode", c.evolution.mode);
   fields.add("lambda", c.evolution.lambda,
-             {.help = "acm: λ ≥ 0, inverse step size: small goes straight to equilibrium, large creeps. 0 needs "
-                      "something that holds"});
+             {.help = "acm: λ ≥ 0, inverse step size: small goes straight to equilibrium, large creeps. 0 requires "
+                      "that something is held"});
   fields.add("time_step", c.evolution.time_step, {.help = "dynamic: time per step"});
   fields.add("weight", c.evolution.weight, {.help = "acm: the weights of a step"});
   fields.add("route", c.evolution.route, {.help = "how tool forces are integrated"});

@@ -23,7 +23,8 @@ void describe(ForceCommand& c, Fields& fields) {
              {.help = "`[s, t]`: the surface point", .unit = Unit::fraction, .presence = Presence::required});
   fields.add("to", c.force.to, {.help = "`[x, y, z]`", .unit = Unit::length, .presence = Presence::required});
   fields.add("strength", c.force.strength, {.help = "spring constant, or k of the volcano's k/r²"});
-  fields.add("core", c.force.core, {.help = "length within which a volcano no longer grows", .unit = Unit::length});
+  fields.add("core", c.force.core,
+             {.help = "distance within which the force of a volcano no longer grows", .unit = Unit::length});
 }
 
 template <>

@@ -4,9 +4,9 @@ namespace knead {
 
 // The session itself moves to another state of its history; no state is changed.
 
-void describe(UndoCommand&, Fields& fields) { fields.name("undo", "take back the last command"); }
+void describe(UndoCommand&, Fields& fields) { fields.name("undo", "undo the last command"); }
 
-void describe(RedoCommand&, Fields& fields) { fields.name("redo", "do again what was taken back last"); }
+void describe(RedoCommand&, Fields& fields) { fields.name("redo", "redo the command undone last"); }
 
 template <>
 Expected<void> Executor::execute(const UndoCommand&) {

@@ -5,12 +5,13 @@
 namespace knead {
 
 void describe(KnotsCommand& c, Fields& fields) {
-  fields.name("knots", "other knots for the same control points: the shape changes for good");
+  fields.name("knots", "set knots for the same control points: the shape changes permanently");
   fields.add("direction", c.direction, {.help = "`\"u\"` or `\"v\"`", .presence = Presence::required});
-  fields.add("knots", c.knots,
-             {.help = "the whole knot vector, as long as before, none more often than the degree inside the domain, "
-                      "which stays: trimming and painted materials live in it",
-              .presence = Presence::required});
+  fields.add(
+      "knots", c.knots,
+      {.help = "the whole knot vector, of the same length, with multiplicities up to the degree inside the domain, "
+               "which does not change: trims and painted materials refer to it",
+       .presence = Presence::required});
 }
 
 template <>

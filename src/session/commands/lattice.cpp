@@ -13,9 +13,9 @@ void describe(LatticeCommand& c, Fields& fields) {
   fields.name("lattice", "deform the surfaces with an elastic block of space that the tools act on");
   fields.add("net", c.net, {.help = "control points of the block along x, y, z"});
   fields.add("degree", c.degree, {.help = "along x, y, z"});
-  fields.add(
-      "margin", c.margin,
-      {.help = "how far the block reaches beyond the control points, of their diagonal", .unit = Unit::fraction});
+  fields.add("margin", c.margin,
+             {.help = "how far the block reaches beyond the control points, as a share of their diagonal",
+              .unit = Unit::fraction});
   fields.add("steps", c.steps, {.help = "number of steps"});
   fields.add("lambda", c.lambda, {.help = "inverse step size"});
   fields.add(

@@ -9,7 +9,7 @@
 namespace knead {
 
 void describe(LimitCommand& c, Fields& fields) {
-  fields.name("limit", "no point moves further from the surface as opened");
+  fields.name("limit", "limit the displacement of every point from the surface as opened");
   fields.add("distance", c.distance, {.help = "a length > 0", .unit = Unit::length, .fallback = "no limit"});
   fields.add("relative", c.relative, {.help = "`distance` is a fraction of the diagonal"});
 }

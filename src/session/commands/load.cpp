@@ -3,7 +3,7 @@
 namespace knead {
 
 void describe(LoadCommand& c, Fields& fields) {
-  fields.name("load", "loads everywhere on the selected surfaces; replaces those before");
+  fields.name("load", "loads everywhere on the selected surfaces; replaces earlier ones");
   fields.add("vector", c.load.vector, {.help = "force per area"});
   fields.add("gravity", c.load.gravity, {.help = "acceleration; the force is mass times this"});
   fields.add("pressure", c.load.pressure, {.help = "force per area along the normal S_u × S_v"});

@@ -161,7 +161,7 @@ std::optional<MaterialPreset> preset_of(const SceneSurface& s) {
 }
 
 void describe(MaterialCommand& c, Fields& fields) {
-  fields.name("material", "resistance to stretch and bend, in the order 11, 12, 22; what is not named stays");
+  fields.name("material", "resistance to stretching and bending, in the order 11, 12, 22; fields not given stay");
   fields.add("alpha", c.alpha, {.help = "stretch; α11, α22 ≥ 0 and α12² ≤ α11 α22", .fallback = "as it was"});
   fields.add("beta", c.beta, {.help = "bend; none negative", .fallback = "as it was"});
   fields.add("mass", c.mass, {.help = "per area, for `evolve` dynamic and `load` gravity", .fallback = "as it was"});
@@ -173,8 +173,8 @@ void describe(MaterialCommand& c, Fields& fields) {
               .fallback = "everywhere"});
   fields.add("falloff", c.falloff, {.help = "width of the border of the region, in fractions", .unit = Unit::fraction});
   fields.add("coefficient", c.coefficient,
-             {.help = "`alpha11` … `beta22`, `mass` or `damping`: this one alone, by samples; `alpha` and `beta` are "
-                      "not read then"});
+             {.help = "`alpha11` … `beta22`, `mass` or `damping`: only this one, by samples; `alpha` and `beta` are "
+                      "then ignored"});
   fields.add("counts", c.counts, {.help = "`[m, n]` samples over the domain, its ends included"});
   fields.add("samples", c.samples,
              {.help = "m n numbers, along v first, linear in between; all that is convex coefficient by coefficient"});

@@ -7,10 +7,13 @@
 namespace knead {
 
 void describe(MeasureCommand& c, Fields& fields) {
-  fields.name("measure", "have the report tell where a surface point is at the end");
+  fields.name("measure", "report the final position of a surface point");
   fields.add("name", c.name, {.help = "what the report calls it"});
-  fields.add("at", c.at, {.help = "`[s, t]`: a point of the first selected surface", .unit = Unit::fraction});
-  fields.add("middle", c.middle, {.help = "the visible point farthest from all edges, instead of `at`"});
+  fields.add("at", c.at,
+             {.help = "`[s, t]`: a point of the first selected surface; or `\"middle\"`, the visible point farthest "
+                      "from all edges",
+              .unit = Unit::fraction});
+  fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
 }
 
 template <>

@@ -197,7 +197,7 @@ void describe(NewCommand& c, Fields& fields) {
       "size", c.size,
       {.help = "of a plane: width along x (u) and height along y (v)", .unit = Unit::length, .fallback = "`[1, 1]`"});
   fields.add("radius", c.radius,
-             {.help = "of cylinder and sphere; of a torus that of the middle of its tube",
+             {.help = "of cylinder and sphere; of a torus, to the middle of its tube",
               .unit = Unit::length,
               .fallback = "`0.5`"});
   fields.add("height", c.height, {.help = "of a cylinder", .unit = Unit::length, .fallback = "twice the radius"});
@@ -207,13 +207,14 @@ void describe(NewCommand& c, Fields& fields) {
               .fallback = "a quarter of the radius"});
   fields.add("profile", c.profile,
              {.help = "of a revolution: `[[r, z], …]`, r ≥ 0, control points of a B-spline of degree `degree[1]`"});
-  fields.add("degree", c.degree, {.help = "in u and v; v alone of cylinder and revolution; sphere and torus have 2"});
-  fields.add("net", c.net, {.help = "control points in u and v; v alone of a cylinder"});
+  fields.add("degree", c.degree,
+             {.help = "in u and v; only v for cylinder and revolution; sphere and torus have degree 2"});
+  fields.add("net", c.net, {.help = "control points in u and v; only v for a cylinder"});
   fields.add("knots_u", c.knots_u,
-             {.help = "knot vector of u; the net follows from it. Not of round shapes",
+             {.help = "knot vector of u, which determines the net; not for round shapes",
               .fallback = "clamped, uniform on [0, 1]"});
   fields.add("knots_v", c.knots_v,
-             {.help = "knot vector of v; not of sphere and torus", .fallback = "clamped, uniform on [0, 1]"});
+             {.help = "knot vector of v; not for sphere and torus", .fallback = "clamped, uniform on [0, 1]"});
   fields.add(
       "points", c.points,
       {.help = "instead of a shape: all control points `[x, y, z]`, point (i, j) at place i n + j of a net m × n"});
@@ -224,14 +225,14 @@ void describe(NewCommand& c, Fields& fields) {
   fields.add("position", c.position, {.help = "where the origin of the shape goes", .unit = Unit::length});
   fields.add("unit", c.unit,
              {.help = "`um`, `mm`, `cm`, `m`, `km`, `inch` or `foot`; a document has one",
-              .fallback = "as the surfaces before, at first `\"mm\"`"});
-  fields.add("name", c.name, {.help = "its label in the file", .fallback = "what it is"});
+              .fallback = "that of existing surfaces, otherwise `\"mm\"`"});
+  fields.add("name", c.name, {.help = "its label in the file", .fallback = "its kind"});
 }
 
 template <>
 Expected<void> Executor::execute(const NewCommand& c) {
   if (!document.is_fresh()) {
-    return input_error("surfaces can be made in a document without a file only", {},
+    return input_error("surfaces can only be made in a document without a file", {},
                        "start with `knead sculpt --new`, without a FILE");
   }
   const std::string present = state.surfaces.empty() ? document.unit() : state.surfaces.front().unit;

@@ -9,7 +9,7 @@ namespace knead {
 void describe(PinCommand& c, Fields& fields) {
   fields.name("pin", "hold control points or a surface point, in addition to those held already");
   fields.add("control_points", c.control_points,
-             {.help = "`[[i, j], …]`, i along u and j along v, from 0; this or `at`. They are known by their numbers, "
+             {.help = "`[[i, j], …]`, i along u and j along v, from 0; this or `at`. They are identified by number, "
                       "so the net cannot be refined while they are pinned"});
   fields.add("at", c.at, {.help = "`[s, t]`: a surface point", .unit = Unit::fraction});
   fields.add("to", c.to,

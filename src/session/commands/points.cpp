@@ -64,7 +64,7 @@ Expected<void> allowed(const SceneSurface& s, const std::vector<int>& named, con
 }  // namespace
 
 void describe(PointsCommand& c, Fields& fields) {
-  fields.name("points", "move control points of the selected surface by hand, for good");
+  fields.name("points", "move control points of the selected surface by hand, permanently");
   describe(c.points, fields);
   fields.add("by", c.by, {.help = "`[dx, dy, dz]` for all of them; this or `to`", .unit = Unit::length});
   fields.add("to", c.to,

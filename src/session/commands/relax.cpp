@@ -64,7 +64,7 @@ void describe(RelaxCommand& c, Fields& fields) {
   fields.add("radius", c.radius,
              {.help = "how far it reaches, a length", .unit = Unit::length, .fallback = "a tenth of the diagonal"});
   fields.add("strength", c.strength,
-             {.help = "about the share that goes of a bump (1 − ρ²/r²)² on a sheet, > 0, up to 1: λ = 40 (1 − "
+             {.help = "about the share removed of a bump (1 − ρ²/r²)² on a sheet, > 0, up to 1: λ = 40 (1 − "
                       "strength) / (3 r² strength); smaller bumps lose more"});
   fields.add("relative", c.relative, {.help = "`radius` is a fraction of the diagonal"});
 }

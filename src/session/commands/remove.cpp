@@ -5,7 +5,7 @@
 namespace knead {
 
 void describe(RemoveCommand& c, Fields& fields) {
-  fields.name("remove", "take a tool or force out of the scene; its plasticity stays");
+  fields.name("remove", "remove a tool or force from the scene; a tool's plastic deformation remains");
   fields.add("tool", c.tool, {.help = "its name", .fallback = "the only one"});
 }
 

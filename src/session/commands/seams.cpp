@@ -8,7 +8,7 @@ void describe(SeamsCommand& c, Fields& fields) {
   fields.name("seams", "couple selected surfaces, and each with itself, along shared edges");
   fields.add("couple", c.seams.couple, {.help = "`false`: they may tear apart"});
   fields.add("tolerance", c.seams.tolerance,
-             {.help = "how far edges may lie apart and still be a seam, a length",
+             {.help = "how far apart the edges of a seam may be, a length",
               .unit = Unit::length,
               .fallback = "1e-4 of the diagonal of the selected surfaces"});
 }

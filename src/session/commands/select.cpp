@@ -42,7 +42,7 @@ void describe(SelectCommand& c, Fields& fields) {
   fields.add("surface", c.surface, {.help = "id as `knead info` lists it, `\"#123\"`; this or `surfaces`"});
   fields.add("surfaces", c.surfaces, {.help = "several of them"});
   fields.add("connected", c.connected,
-             {.help = "and all surfaces that seams connect with these, directly or through others"});
+             {.help = "also all surfaces that seams connect with these, directly or through others"});
 }
 
 template <>

@@ -5,7 +5,8 @@
 namespace knead {
 
 std::span<const Choice> choices(StepAllowance) {
-  static constexpr Choice names[] = {{"held", StepAllowance::held, "a tool may touch what is held alone"}};
+  static constexpr Choice names[] = {
+      {"held", StepAllowance::held, "no error if everything that a tool touches is held"}};
   return names;
 }
 

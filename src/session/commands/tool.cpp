@@ -76,19 +76,22 @@ std::span<const Choice> choices(ToolDirection) {
 }
 
 void describe(ToolCommand& c, Fields& fields) {
-  fields.name("tool", "put a tool into the scene, or replace the one of that name");
+  fields.name("tool", "add a tool to the scene, or replace the one of that name");
   fields.add("name", c.name, {.help = "what `move` and `remove` call it"});
   fields.add("shape", c.shape, {.help = shape_names()});
   add_measures(c.measures, fields);
-  fields.add("axis", c.axis, {.help = "where its own z axis points; or:", .fallback = "`[0, 0, 1]`"});
+  fields.add("axis", c.axis, {.help = "direction of its own z axis; or:", .fallback = "`[0, 0, 1]`"});
   fields.add("orientation", c.orientation,
-             {.help = "how it is turned, a quaternion `[x, y, z, w]` of any length", .fallback = "`[0, 0, 0, 1]`"});
+             {.help = "its rotation, a quaternion `[x, y, z, w]` of any length", .fallback = "`[0, 0, 0, 1]`"});
   fields.add("scale", c.scale, {.help = "factors along its own axes", .fallback = "`[1, 1, 1]`"});
   fields.add("position", c.position,
-             {.help = "`[x, y, z]` of the centre; this or `at` is needed (a `surface` lies where it is without)",
+             {.help = "`[x, y, z]` of the centre; this or `at` is needed (a `surface` stays in place without them)",
               .unit = Unit::length});
-  fields.add("at", c.at, {.help = "`[s, t]`: the centre on the surface as it is now", .unit = Unit::fraction});
-  fields.add("middle", c.middle, {.help = "the visible point farthest from all edges, instead of `at`"});
+  fields.add("at", c.at,
+             {.help = "`[s, t]`: the centre on the surface as it is now; or `\"middle\"`, the visible point farthest "
+                      "from all edges",
+              .unit = Unit::fraction});
+  fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
   fields.add("mode", c.mode);
   fields.add("stiffness", c.stiffness, {.help = "k, from 0 to 1e10", .fallback = "`1e4`; `100` for proximity"});
   fields.add("range", c.range,

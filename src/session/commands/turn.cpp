@@ -8,9 +8,10 @@ void describe(TurnCommand& c, Fields& fields) {
   fields.name("turn", "turn a tool about its centre");
   fields.add("tool", c.tool, {.help = "its name", .fallback = "the only tool"});
   fields.add("axis", c.axis, {.help = "direction of the axis, in space"});
-  fields.add(
-      "angle", c.angle,
-      {.help = "degrees, counterclockwise seen against the axis", .unit = Unit::angle, .presence = Presence::required});
+  fields.add("angle", c.angle,
+             {.help = "in degrees, counterclockwise when the axis points at the viewer",
+              .unit = Unit::angle,
+              .presence = Presence::required});
 }
 
 template <>

@@ -7,10 +7,10 @@
 namespace knead {
 
 void describe(WeightsCommand& c, Fields& fields) {
-  fields.name("weights", "other weights: control points stay, the shape changes for good");
+  fields.name("weights", "set weights: control points stay, the shape changes permanently");
   describe(c.points, fields);
-  fields.add("weight", c.weight, {.help = "what each weighs, > 0; 1 where nothing was said before; this or `by`"});
-  fields.add("by", c.by, {.help = "a factor > 0 for the weight of each"});
+  fields.add("weight", c.weight, {.help = "weight of each, > 0; 1 unless set before; this or `by`"});
+  fields.add("by", c.by, {.help = "a factor > 0 by which each weight is multiplied"});
 }
 
 template <>
