@@ -93,13 +93,13 @@ Action add_basis(CLI::App& app) {
   command->add_option("--index", options->index, "which function, counted from 0 (default 0)");
   CLI::Option* derivative =
       command->add_option("--derivative", options->derivative, "order of the derivative (default 0)");
-  command->add_option("--integral", options->integral, "how often to integrate from the left")->excludes(derivative);
+  command->add_option("--integral", options->integral, "number of integrations from the left")->excludes(derivative);
   command->add_option("--samples", options->samples, "number of samples, ends included (default 101)");
   command->add_option("--from", options->from, "first parameter (default: start of the domain)");
   command->add_option("--to", options->to, "last parameter (default: end of the domain)");
   command->add_option("--format", options->format, "csv (default) or json")->check(CLI::IsMember({"csv", "json"}));
   command->footer(
-      "At a knot the limit from the right is taken. JSON also lists where the derivative jumps; of the derivative of\n"
+      "At a knot the limit from the right is taken. JSON also lists where the derivative jumps; for the derivative of\n"
       "order degree + 1, which is zero elsewhere, it lists the weights of the Dirac impulses.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };

@@ -164,13 +164,13 @@ Action add_gramian(CLI::App& app) {
   command
       ->add_option(
           "--tolerance", options->tolerance,
-          "error allowed with weights, relative to the largest entry (default 1e-10); the JSON tells the bound")
+          "error allowed with weights, relative to the largest entry (default 1e-10); the JSON gives the bound")
       ->needs(weights);
   command->add_option("--format", options->format, "json (default) or csv")->check(CLI::IsMember({"json", "csv"}));
   command->footer(
-      "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside of the matrix; 17 significant digits. \"method\" is "
+      "Row i of \"band\" holds G(i, i-p) … G(i, i+p), zero outside the matrix; 17 significant digits. \"method\" is "
       "the\n"
-      "one used: recurrence knows 00, 10, 01, 11 and 22 and leaves other orders to gauss.\n" +
+      "one used: recurrence covers 00, 10, 01, 11 and 22 and leaves other orders to gauss.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };
 }

@@ -113,7 +113,7 @@ Action add_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "list the B-spline surfaces of a CAD file");
   command->add_option("FILE", options->file, "STEP file")->required()->type_name("");
   command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");
-  command->add_flag("--faces", options->faces, "list what faces show of the surfaces, and their edges");
+  command->add_flag("--faces", options->faces, "list the visible parts of the surfaces, and the edges of their faces");
   command->footer(
       "Coordinates and boxes are in the surface's own frame and units; the box is that of the whole\n"
       "untrimmed surface; `net` counts control points; knots are listed with their multiplicity.\n" +

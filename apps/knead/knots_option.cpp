@@ -9,7 +9,7 @@ namespace knead::cli {
 void KnotsOption::add_to(CLI::App& command) {
   command.add_option("--degree", degree, "degree of the basis, 1 to 15")->required();
   command.add_option("--knots", knots,
-                     "all knots, separated by commas, each as often as its multiplicity; may begin with a minus sign");
+                     "all knots, separated by commas, each repeated to its multiplicity; may begin with a minus sign");
   command.add_option("--knots-file", file, "file with the knots, separated by commas or white space");
 }
 

@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(std::string(knead::cli::exit_codes) +
              "\nErrors are one line on standard error: file, place, what is wrong; remedy."
-             "\n`knead COMMAND --help` tells more about a command.");
+             "\n`knead COMMAND --help` explains a command.");
   const std::array<knead::cli::Action, 8> actions = {knead::cli::add_info(app),      knead::cli::add_sculpt(app),
                                                      knead::cli::add_commands(app),  knead::cli::add_gramian(app),
                                                      knead::cli::add_stiffness(app), knead::cli::add_basis(app),

@@ -61,12 +61,12 @@ Action add_mesh(CLI::App& app) {
       ->type_name("");
   command
       ->add_option("-o,--out", options->output,
-                   "mesh to write; its format is that of the ending: " + list_of_endings(FormatContent::triangles))
+                   "mesh to write; the ending selects the format: " + list_of_endings(FormatContent::triangles))
       ->required();
   command->add_option("--detail", options->detail, "grid lines per direction of each surface, 1 to 2000")
       ->capture_default_str();
   command->footer(
-      "The mesh is a picture of the exact surfaces, each whole and untrimmed, in the file's units: a grid whose "
+      "The mesh approximates the exact surfaces, each whole and untrimmed, in the file's units: a grid whose "
       "points\n"
       "lie on the surface, every knot line among its lines, counterclockwise seen from where S_u x S_v points. It "
       "need\n"

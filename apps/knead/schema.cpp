@@ -8,7 +8,7 @@ namespace knead::cli {
 Action add_schema(CLI::App& app) {
   auto form = std::make_shared<std::string>("script");
   CLI::App* command = app.add_subcommand("schema", "print the JSON schema of scripts or of Knead documents");
-  command->add_option("FORM", *form, "script or document; script unless said")->type_name("");
+  command->add_option("FORM", *form, "script (default) or document")->type_name("");
   command->footer(std::string(exit_codes));
   return [form]() -> Expected<void> {
     if (*form != "script" && *form != "document") {

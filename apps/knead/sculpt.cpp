@@ -278,10 +278,10 @@ Action add_sculpt(CLI::App& app) {
   command->add_option("FILE", options->file, "STEP file to sculpt; it is not changed, unless --output names it too")
       ->type_name("");
   command->add_flag("--new", options->fresh, "start without a FILE: the script makes surfaces with the command new");
-  command->add_option("-o,--output", options->output, "STEP file to write; it appears whole or not at all")->required();
+  command->add_option("-o,--output", options->output, "STEP file to write, completely or not at all")->required();
   command->add_option("--script", options->script, "JSON file with the commands")->required();
-  command->add_option("--report", options->report, "JSON file to write what every step did to, see below");
-  command->add_option("--picture", options->picture, "SVG file to draw the displacement over (u, v) to");
+  command->add_option("--report", options->report, "JSON file for the report, see below");
+  command->add_option("--picture", options->picture, "SVG file for a picture of the displacement over (u, v)");
   command->footer(
       R"(The script is {"knead": 2, "commands": [{"do": "...", ...}, ...]}. Lengths are in file units. The edges of faces are held;
 a script of version 1 holds nothing by itself. The commands, and under each

@@ -23,7 +23,7 @@ Expected<SceneSurface*> Executor::selected_alone() {
   if (!surface || state.together.empty()) return surface;
   return input_error(
       fmt::format("{} surfaces are selected", state.together.size() + 1), "select",
-      fmt::format(R"(select the one that is meant alone: {{"do":"select","surface":"{}"}})", (*surface)->id));
+      fmt::format(R"(select only the one that is meant: {{"do":"select","surface":"{}"}})", (*surface)->id));
 }
 
 Expected<int> Executor::find_surface(const std::string& id) const {
@@ -51,7 +51,7 @@ Expected<Tool*> Executor::find_tool(const std::optional<std::string>& name) {
     known += (known.empty() ? "" : ", ") + t.name;
   }
   if (known.empty()) return input_error("there is no tool", "tool", "make one first with the command tool");
-  return input_error(name ? fmt::format("there is no tool \"{}\"", *name) : "which tool is not said", "tool",
+  return input_error(name ? fmt::format("there is no tool \"{}\"", *name) : "no tool is named", "tool",
                      "the tools are: " + known);
 }
 

@@ -230,7 +230,8 @@ std::string Session::snapshot(std::size_t history_bytes) const {
 
 Expected<Session> Session::restore(Document document, std::string_view bytes) {
   const int version = bytes.starts_with(magic) ? 2 : 1;
-  if (version == 1 && !bytes.starts_with(magic_before)) return damaged("these bytes are no snapshot of this version");
+  if (version == 1 && !bytes.starts_with(magic_before))
+    return damaged("these bytes are not a snapshot of this version");
   bytes.remove_prefix(magic.size());
   std::uint64_t sum = 0;
   std::vector<std::shared_ptr<const Surface>> surfaces;
@@ -242,7 +243,7 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
   if (opened != document.surfaces().size()) return damaged("the snapshot belongs to another document");
   for (std::size_t k = head.length(8); k > 0; --k) {
     auto surface = read_surface(head);
-    if (!surface) return damaged("the snapshot holds a surface that cannot be");
+    if (!surface) return damaged("the snapshot contains an invalid surface");
     surfaces.push_back(std::move(surface));
   }
   Reader a(head.rest(), surfaces, version);
@@ -265,7 +266,7 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
     session.states_.push_back(std::make_shared<const SessionState>(state));
   }
   if (a.bad() || !a.at_end() || session.position_ > session.entries_.size()) {
-    return damaged("the snapshot holds what this program does not know");
+    return damaged("the snapshot contains data unknown to this program");
   }
   session.know_faces();
   return session;

@@ -22,10 +22,11 @@ Expected<void> refine_round(Executor& executor, SceneSurface& s, const TrimConta
                                           trim_refinement_cap(*executor.document_surface(s)));
   if (!refinement) return std::unexpected(refinement.error());
   if (refinement->capped) {
-    executor.state.notes.push_back(fmt::format(
-        "{}: the net between tool and held edges stays coarser than it should be, as it may have {} control points; "
-        "refine it where it matters with {{\"do\":\"refine\"}}",
-        s.id, trim_refinement_cap(*executor.document_surface(s))));
+    executor.state.notes.push_back(
+        fmt::format("{}: the net between tool and held edges stays coarser than it should be, as it is limited to {} "
+                    "control points; "
+                    "refine it where it matters with {{\"do\":\"refine\"}}",
+                    s.id, trim_refinement_cap(*executor.document_surface(s))));
   }
   if (refinement->empty()) return {};
   return executor.change_net(s, [&](const Surface& shape) { return refinement->apply(shape); });

@@ -34,9 +34,8 @@ Expected<void> Executor::execute(const KnotsCommand& c) {
   if (!made) return std::unexpected(made.error().within("knots"));
   const Interval is = made->domain(), was = before.domain();
   if (is.lower != was.lower || is.upper != was.upper) {
-    return input_error(
-        fmt::format("the domain would be [{}, {}]", is.lower, is.upper), "knots",
-        fmt::format("keep it [{}, {}]: trimming and painted materials live in it", was.lower, was.upper));
+    return input_error(fmt::format("the domain would be [{}, {}]", is.lower, is.upper), "knots",
+                       fmt::format("keep it [{}, {}]: trims and painted materials refer to it", was.lower, was.upper));
   }
   if (made->max_interior_multiplicity() > made->degree()) {
     return input_error("the surface would be torn along a knot", "knots",

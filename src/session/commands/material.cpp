@@ -207,7 +207,7 @@ template <>
 Expected<void> Executor::execute(const MaterialCommand& given) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   if (!names_something(given)) {
-    return input_error("nothing is named", "alpha",
+    return input_error("no field is given", "alpha",
                        "give a preset, alpha, beta, mass, damping, plasticity, yield, locality, or coefficient");
   }
   if (auto checked = check_plastic(given); !checked) return checked;

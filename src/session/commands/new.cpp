@@ -107,7 +107,7 @@ Expected<Curve> profile_of(const NewCommand& c) {
   if (!knots) return std::unexpected(knots.error());
   if (knots->count() != count) {
     return input_error(fmt::format("{} points of the profile for knots of {}", count, knots->count()), "profile",
-                       "give as many as the knots ask for: their number less degree and one");
+                       "give as many as the knots require: their number minus the degree minus one");
   }
   if (auto checked = check_weights(c.weights, count); !checked) return std::unexpected(checked.error());
   Points points(count, 3);

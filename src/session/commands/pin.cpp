@@ -20,7 +20,7 @@ template <>
 Expected<void> Executor::execute(const PinCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
-  if (c.to && !c.at) return input_error("there is no point to bring there", "to", "give at, the surface point");
+  if (c.to && !c.at) return input_error("there is no point to move there", "to", "give at, the surface point");
   if (c.control_points.empty() && !c.at) {
     return input_error("nothing is pinned", "control_points", "give control_points, or at");
   }

@@ -53,8 +53,8 @@ Expected<void> allowed(const SceneSurface& s, const std::vector<int>& named, con
         for (const auto& [row, coefficient] : c.terms) sum += coefficient * motion.row(row).transpose();
         const double off = c.normal ? std::abs(c.normal->normalized().dot(sum)) : sum.norm();
         if (off <= symmetry_tolerance * largest) continue;
-        return input_error("the symmetry that is kept would be lost", "which",
-                           "move the mirror images too, each the other way, or release the symmetry first");
+        return input_error("the kept symmetry would be lost", "which",
+                           "move the mirror images too, each mirrored, or release the symmetry first");
       }
     }
   }
@@ -81,14 +81,14 @@ Expected<void> Executor::execute(const PointsCommand& c) {
   const auto named = indices_of(c.points, s.current->net());
   if (!named) return std::unexpected(named.error());
   if (c.by.has_value() == !c.to.empty()) {
-    return input_error("one of by and to is needed", "by", "give [dx, dy, dz], or a list of places");
+    return input_error("one of by and to is needed", "by", "give [dx, dy, dz], or a list of positions");
   }
   if (!c.to.empty() && c.relative) {
-    return input_error("places are not relative", "relative", "leave it out, or give by");
+    return input_error("positions are not relative", "relative", "leave it out, or give by");
   }
   if (!c.to.empty() && c.to.size() != named->size()) {
-    return input_error(fmt::format("{} places for {} control points", c.to.size(), named->size()), "to",
-                       "give one for each; what is named twice counts once");
+    return input_error(fmt::format("{} positions for {} control points", c.to.size(), named->size()), "to",
+                       "give one for each; a point named twice counts once");
   }
   double unit = 1;
   if (c.relative) {

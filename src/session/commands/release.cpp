@@ -35,7 +35,7 @@ Expected<void> Executor::execute(const ReleaseCommand& c) {
   const std::vector<std::string> what = c.what.value_or(std::vector<std::string>{});
   for (std::size_t k = 0; k < what.size(); ++k) {
     if (std::ranges::find(kinds, what[k]) != std::end(kinds)) continue;
-    return input_error(fmt::format("\"{}\" is nothing that holds", what[k]), fmt::format("what[{}]", k),
+    return input_error(fmt::format("\"{}\" cannot be released", what[k]), fmt::format("what[{}]", k),
                        "use hold, pins, edges, freeze, keep or symmetry");
   }
   const auto meant = [&](std::string_view kind) { return !c.what || std::ranges::find(what, kind) != what.end(); };
