@@ -15,7 +15,7 @@ import { Viewer } from '../view/viewer';
 
 const keptSteps = 400; // of the plot
 
-/** What the page knows and can do: the line to the session, the viewer, and what the user has chosen. */
+/** What the page knows and can do: the connection to the session, the viewer, and what the user has chosen. */
 export class Studio implements App {
   readonly client: Client;
   readonly viewer: Viewer;
@@ -25,14 +25,14 @@ export class Studio implements App {
   frame: Frame | null = null;
   steps: StepInfo[] = [];
   framesPerSecond = 0;
-  /** Counts what was done, so that the history knows when to look again. */
+  /** Counts commands, so that the history knows when to update. */
   changes = 0;
   readonly documents = new Documents(this);
   readonly saving = new Saving(this, this.documents);
-  /** Milliseconds that the worker took for this session's commands. */
+  /** Milliseconds that the worker has spent on this session's commands. */
   computedTime = 0;
 
-  /** Panels draw themselves anew on these. */
+  /** Panels are redrawn on these. */
   readonly onChange: (() => void)[] = [];
   notify: (notice: Notice) => void = () => {};
 
@@ -94,7 +94,7 @@ export class Studio implements App {
     this.changed();
   }
 
-  /** Executes commands as one entry of the history. Null where something went wrong; the user has been told then. */
+  /** Executes commands as one entry of the history. Null if something went wrong, which the user has then been told. */
   async execute(commands: Command[], join = false): Promise<true | null> {
     return this.attempt(async () => {
       await this.client.execute(commands, join);
@@ -121,7 +121,7 @@ export class Studio implements App {
 
   // --- documents: document/documents.ts, document/saving.ts ---------------------------------------------------------
 
-  /** The next frame is of another session. Gives back what takes that back. */
+  /** The next frame belongs to another session. Returns a function that reverts this. */
   begin(): () => void {
     const { fresh, steps, stepsEnd, computedTime } = this;
     const tool = this.viewer.selectedTool;
@@ -150,7 +150,7 @@ export class Studio implements App {
     return this.viewer.picture(scale);
   }
 
-  /** Selects a surface. One that nothing was said about becomes clay with held edges: pressed, it would float away. */
+  /** Selects a surface. One without settings becomes clay with held edges; otherwise it would float away when pressed. */
   async select(surface: number): Promise<void> {
     const info = this.state!.surfaces[surface]!;
     await this.attempt(async () => {
@@ -172,7 +172,7 @@ export class Studio implements App {
     this.changed();
   }
 
-  /** Pictures as the display says from now on, of the present shapes or of those that were opened. */
+  /** From now on pictures follow the display, of the present shapes or of those that were opened. */
   askForPictures(opened: boolean): void {
     const { detail, colour, colourSettings } = this.display;
     const display = colour ? { display: colour.name, settings: colourSettings[colour.name] ?? {} } : plain;
@@ -201,13 +201,13 @@ export class Studio implements App {
     try {
       localStorage.setItem('knead', JSON.stringify({ display: { ...this.display, colour: null }, theme: this.theme }));
     } catch {
-      // Without storage the settings last as long as the page.
+      // Without storage the settings last until the page is closed.
     }
   }
 
   private numbers: { of: string; data: Promise<SurfaceNumbers> } | null = null;
 
-  /** The numbers of a surface as it is now; asked for once per change. */
+  /** The numbers of a surface as it is now; requested once per change. */
   surfaceData(surface: number): Promise<SurfaceNumbers> {
     const of = `${surface} ${this.changes}`;
     if (this.numbers?.of !== of) this.numbers = { of, data: this.client.surface(surface) };

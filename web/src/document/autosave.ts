@@ -5,7 +5,7 @@ export interface Kept {
   id: string;
   name: string;
   when: number;
-  /** How many commands stand. */
+  /** Number of commands in effect. */
   commands: number;
   journal: string;
   snapshot: Uint8Array;
@@ -32,7 +32,7 @@ function database(): Promise<IDBDatabase> {
   });
 }
 
-/** One transaction: all of it is kept, or nothing. */
+/** One transaction: all of it is written, or nothing. */
 async function transact<T>(mode: IDBTransactionMode, act: (store: (name: Store) => IDBObjectStore) => IDBRequest<T>): Promise<T> {
   const db = await database();
   try {
@@ -49,7 +49,7 @@ async function transact<T>(mode: IDBTransactionMode, act: (store: (name: Store) 
 }
 
 export const autosave = {
-  /** The source, which never changes, is written the first time only. */
+  /** The source, which never changes, is written only the first time. */
   write: (kept: Kept, source: Source | null) =>
     transact('readwrite', (store) => {
       if (source) store('sources').put(source, kept.id);
@@ -64,10 +64,10 @@ export const autosave = {
     }),
 };
 
-/** The mark of a session that is open in some tab: held as long as the tab lives, gone with it however it ends. */
+/** The mark of a session that is open in some tab: held as long as the tab is open, released however it closes. */
 const lockOf = (id: string) => `knead session ${id}`;
 
-/** Marks a session as this tab's; gives back what ends that. */
+/** Marks a session as this tab's; returns a function that ends this. */
 export function hold(id: string): () => void {
   let release = () => {};
   const until = new Promise<void>((resolve) => (release = resolve));
@@ -75,7 +75,7 @@ export function hold(id: string): () => void {
   return release;
 }
 
-/** Ids of the sessions that some tab holds. */
+/** Ids of the sessions that some tab has open. */
 export async function heldIds(): Promise<Set<string>> {
   const { held = [] } = (await navigator.locks?.query()) ?? {};
   return new Set(held.map((lock) => lock.name ?? '').filter((name) => name.startsWith(lockOf(''))).map((name) => name.slice(lockOf('').length)));

@@ -1,7 +1,7 @@
 import type { EdgesInfo } from '../engine/generated';
 import { format, parseLength } from './units';
 
-/** Whether the faces of a saved file still meet, in words; empty where none was moved. Lengths of `surfaces` in `unit`. */
+/** Whether the faces of a saved file still meet, in words; empty if none was moved. Lengths of `surfaces` in `unit`. */
 export function closedEdges(surfaces: readonly EdgesInfo[], unit: string): string {
   const said = surfaces.filter((s) => s.unknown).map((s) => `Whether ${s.surface} still meets its neighbours is not known: ${s.unknown}.`);
   const thousandth = parseLength('0.001mm', unit) ?? 0;

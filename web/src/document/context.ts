@@ -1,6 +1,6 @@
 import type { Host } from './host';
 
-/** Asks for what stands round the surfaces of the opened file; `current` is false once another file is open. */
+/** Requests the surroundings of the surfaces of the opened file; `current` is false once another file is open. */
 export async function loadContext(host: Host, current: () => boolean): Promise<void> {
   await host.attempt(async () => {
     const { context, trims } = await host.client.context();

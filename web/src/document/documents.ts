@@ -9,7 +9,7 @@ import { type KneadDocument, readKnead, type Source } from './knead_file';
 /** Opening: a file, a scene, or what a tab left behind. Saving is in `saving.ts`. */
 export class Documents {
   readonly keeper: Keeper;
-  /** The file that the session began with; null where it began without one. */
+  /** The file that the session began with; null if it began without one. */
   file: Source | null = null;
   name = 'sheet';
   /** Files that the user gave, opened or refused. */
@@ -95,11 +95,11 @@ export class Documents {
       await this.begin(name, source, () => this.host.client.restore(step?.bytes ?? null, step?.name ?? name, snapshot));
       return true;
     } catch {
-      return false; // of another version, or damaged: the commands have it all
+      return false; // of another version, or damaged: the commands suffice
     }
   }
 
-  /** What a tab left behind goes on here, as the same session. */
+  /** What a tab left behind continues here, as the same session. */
   async recover(kept: Kept): Promise<void> {
     const { host } = this;
     await host.attempt(async () => {
@@ -109,13 +109,13 @@ export class Documents {
         await this.replay(kept.name, source, (JSON.parse(kept.journal) as { commands: Command[] }).commands);
       }
       this.keeper.begin(kept.id, true);
-      // A stroke that was cut off ends here: its ball does not stay in the scene.
+      // An interrupted stroke ends here: its ball does not stay in the scene.
       if (host.state?.tools.some((t) => t.name === 'brush')) await host.client.execute([{ do: 'remove', tool: 'brush' }], true);
       host.changed();
     });
   }
 
-  /** Begins a session; where `act` fails the one before goes on. */
+  /** Begins a session; if `act` fails, the previous one continues. */
   private async begin(name: string, file: Source | null, act: () => Promise<unknown>): Promise<void> {
     const goOn = this.host.begin();
     try {
@@ -132,7 +132,7 @@ export class Documents {
     this.host.changed();
   }
 
-  /** A single surface is made ready to sculpt; of several the user chooses. */
+  /** A single surface is made ready to sculpt; among several the user chooses. */
   private async firstLook(): Promise<void> {
     const { host } = this;
     const surfaces = host.state!.surfaces;

@@ -10,8 +10,8 @@ const historyBytes = 48 * 2 ** 20; // of shapes that undo can go back to after a
 const mostSessions = 6;
 
 /**
- * Keeps the session in the browser: source, commands, and a snapshot of all states. A recovery computes nothing again
- * but what came after the last snapshot, which is never much more than `mostUnkept`.
+ * Keeps the session in the browser: source, commands, and a snapshot of all states. A recovery recomputes only
+ * what came after the last snapshot, which is never much more than `mostUnkept`.
  */
 export class Keeper {
   private id = '';
@@ -19,19 +19,19 @@ export class Keeper {
   private dirty = false;
   private sourceKept = false;
   private playing = false;
-  private written = 0; // when it was last begun
+  private written = 0; // when writing last began
   private timer = 0;
   private writing: Promise<void> | null = null;
   private failed = false;
 
   constructor(private readonly host: Host, private readonly documents: { readonly file: Source | null; readonly name: string }) {
-    // What is not kept yet when the page goes away: the browser lets a transaction that has begun end.
+    // Whatever is not saved yet when the page goes away: the browser completes a transaction that has begun.
     document.addEventListener('visibilitychange', () => {
       if (document.visibilityState === 'hidden') void this.keep();
     });
   }
 
-  /** From here on the session is another one: a new one, or one that was kept. */
+  /** From here on the session is another one: new, or restored. */
   begin(id: string = crypto.randomUUID(), sourceKept = false): void {
     clearTimeout(this.timer);
     this.release();
@@ -50,7 +50,7 @@ export class Keeper {
     this.timer = window.setTimeout(() => void this.keep(), pause);
   }
 
-  /** A frame came: so much has been computed since the last snapshot, by strokes and by playing too. */
+  /** A frame has arrived: so much has been computed since the last snapshot, including strokes and playing. */
   computed(unkept: number, playing: boolean): void {
     if (this.playing && !playing) this.touch();
     this.playing = playing;
@@ -88,7 +88,7 @@ export class Keeper {
     }
   }
 
-  /** Sessions that no tab has open, the newest first; too old ones are forgotten. */
+  /** Sessions that no tab has open, newest first; those that are too old are dropped. */
   async left(): Promise<Kept[]> {
     const held = await heldIds();
     const all = (await autosave.all()).filter((k) => k.id !== this.id && !held.has(k.id) && k.commands > 0).sort((a, b) => b.when - a.when);

@@ -33,7 +33,7 @@ export function writeKnead(document: { name: string; source: Source | null; jour
 const isObject = (x: unknown): x is Record<string, unknown> => typeof x === 'object' && x !== null && !Array.isArray(x);
 const fields = ['knead', 'name', 'source', 'commands', 'snapshot'];
 
-/** Throws an Error whose message says where in the document something is wrong, and what would be right. */
+/** Throws an Error whose message says where the document is wrong, and what would be right. */
 export function readKnead(text: string): KneadDocument {
   let json: unknown;
   try {

@@ -6,9 +6,9 @@ import type { Host } from './host';
 import { writeKnead } from './knead_file';
 
 const historyBytes = 16 * 2 ** 20; // of shapes, in a document
-const longSession = 2000; // milliseconds of steps from which on a document carries its snapshot
+const longSession = 2000; // milliseconds of steps from which a document includes its snapshot
 
-/** Saving: what the browser downloads, in the formats of the menu. */
+/** Saving: the downloads, in the formats of the menu. */
 export class Saving {
   constructor(private readonly host: Host, private readonly documents: Documents) {}
 

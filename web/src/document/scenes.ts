@@ -2,7 +2,7 @@ import bonnetUrl from '../../../samples/bonnet.step?url';
 import type { Command, Vector3 } from '../engine/session_types';
 import { clay } from './clay';
 
-/** A scene of the gallery: commands on an empty document, or a file of the page. */
+/** A scene of the gallery: commands on an empty document, or a file served with the page. */
 export interface Scene {
   name: string;
   about: string;

@@ -3,7 +3,7 @@ const metres: Record<string, number> = {
   '″': 0.0254, ft: 0.3048, foot: 0.3048, feet: 0.3048, "'": 0.3048, '′': 0.3048, yd: 0.9144, mil: 2.54e-5, thou: 2.54e-5,
 };
 
-/** A typed number: "3", "-.5", "2,5", "1e-3", "3/4", "1 1/2". Null where it is none. */
+/** A typed number: "3", "-.5", "2,5", "1e-3", "3/4", "1 1/2". Null if it is not a number. */
 export function parseNumber(text: string): number | null {
   const fraction = /^\s*([-+]?)(?:(\d+)\s+)?(\d+)\s*[/⁄]\s*(\d+)\s*$/.exec(text);
   if (fraction) {
@@ -16,7 +16,7 @@ export function parseNumber(text: string): number | null {
   return Number.isFinite(value) ? value : null;
 }
 
-/** A typed length in units of the file: "3", "3mm", "0.1 in", "1 1/2 in". Null where it is none, or the file's unit is not known. */
+/** A typed length in units of the file: "3", "3mm", "0.1 in", "1 1/2 in". Null if it is not a length or the file's unit is unknown. */
 export function parseLength(text: string, fileUnit: string): number | null {
   const [, number, unit] = /^(.*?)\s*([a-zµ]*|["'″′])\s*$/is.exec(text.replace(/e(?=[-+]?\d)/i, '\u0001'))!;
   const value = parseNumber(number!.replace('\u0001', 'e'));
@@ -27,7 +27,7 @@ export function parseLength(text: string, fileUnit: string): number | null {
   return typed === file ? value : (value * typed) / file;
 }
 
-/** Up to four significant digits, as short as can be. */
+/** Up to four significant digits, as short as possible. */
 export function format(value: number): string {
   if (!Number.isFinite(value)) return '–';
   if (value === 0) return '0';

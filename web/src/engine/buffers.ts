@@ -1,9 +1,9 @@
-/** Where numbers lie in the module's memory, by name: bindings/wasm/buffers.hpp. */
+/** Where numbers are in the module's memory, by name: bindings/wasm/buffers.hpp. */
 export type BufferTable = Record<string, { type: string; at: number; count: number }>;
 
 const sizes: Record<string, number> = { float32: 4, float64: 8, uint32: 4, uint8: 1 };
 
-/** Copies of the buffers of a call. A name that is not there, or is of another type, is an error of the binding. */
+/** Copies of the buffers of a call. A missing name, or one of another type, is an error of the binding. */
 export class Buffers {
   constructor(private readonly memory: ArrayBuffer, private readonly table: BufferTable) {}
 

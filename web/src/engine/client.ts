@@ -16,7 +16,7 @@ interface Waiting {
   reject(error: Error): void;
 }
 
-/** The page's end of the line to the worker. */
+/** The page's end of the connection to the worker. */
 export class Client {
   onFrame: (frame: Frame) => void = () => {};
   /** Errors that no request waits for. */
@@ -49,7 +49,7 @@ export class Client {
 
   private draw(frame: Frame): void {
     this.onFrame(frame);
-    // The next one after this one is on the screen; a hidden page draws nothing and must not hold up the session.
+    // Request the next one once this one is on the screen; a hidden page draws nothing and must not hold up the session.
     if (document.hidden) setTimeout(() => this.send({ kind: 'drawn' }), 0);
     else requestAnimationFrame(() => this.send({ kind: 'drawn' }));
   }
@@ -103,8 +103,8 @@ export class Client {
   journal = async (): Promise<string> => (await this.ask({ kind: 'journal' })).text!;
 
   /**
-   * Commands that follow the pointer: while one act is under way only the newest of those that wait is kept, so that
-   * the page is never more than one ahead. They are asked for at the moment they are sent.
+   * Commands that follow the pointer: while one act is under way only the newest waiting one is kept, so that
+   * the page is never more than one ahead. They are made at the moment they are sent.
    */
   follow(commands: () => Command[], join: boolean): void {
     this.live = { commands, join };

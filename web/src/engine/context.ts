@@ -1,11 +1,11 @@
-/** What stands round the surfaces: the triangles of the other faces of the file, relative to the session's origin. */
+/** The surroundings of the surfaces: triangles of the other faces of the file, relative to the session's origin. */
 export interface Context {
   positions: Float32Array;
   normals: Float32Array;
   indices: Uint32Array;
-  /** Faces that could not be made triangles, and why. */
+  /** Faces that could not be triangulated, and why. */
   skipped: { id: string; reason: string }[];
 }
 
-/** Of each face of a surface its loops, s and t in turn: it shows what an odd number of them encloses. Null: all. */
+/** The loops of each face on a surface, s and t alternating: the parts enclosed by an odd number of loops are visible. Null: all. */
 export type Trim = { faces: number[][][] } | null;

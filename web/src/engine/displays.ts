@@ -6,7 +6,7 @@ export interface DisplaySetting {
   name: string;
   title: string;
   unit: string;
-  /** Where the user says nothing. */
+  /** Default. */
   value: SettingValue;
   help: string;
 }
@@ -19,10 +19,10 @@ export interface DisplayInfo {
   signed: boolean;
   palette: 'diverging' | 'rising';
   help: string;
-  /** The values at the ends of the palette; null: of the largest value that there is, times `share`. */
+  /** The values at the ends of the palette; null: the largest value present, times `share`. */
   limits: [number, number] | null;
   share: number;
-  /** With the shape as it was opened. */
+  /** Compared with the shape as it was opened. */
   compares: boolean;
   settings: DisplaySetting[];
 }

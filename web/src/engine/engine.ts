@@ -45,7 +45,7 @@ export class Engine {
     return new Engine(await start<Exports>(bytes));
   }
 
-  /** Bytes of linear memory: it grows, and never shrinks. */
+  /** Bytes of linear memory, which grows and never shrinks. */
   get memorySize(): number {
     return this.wasm.memory.buffer.byteLength;
   }
@@ -97,17 +97,17 @@ export class Engine {
     this.json(this.wasm.knead_restore(sourceSize, nameBytes.length));
   }
 
-  /** The script of everything that stands, one command per line. */
+  /** The script of all commands in effect, one per line. */
   journal(): string {
     return new TextDecoder().decode(this.bytes(this.wasm.knead_journal()));
   }
 
-  /** The edges of the faces on every surface of a STEP file that was moved. */
+  /** The edges of the faces on every surface of a STEP file that has moved. */
   edges(): EdgesInfo[] {
     return this.json(this.wasm.knead_edges()) as EdgesInfo[];
   }
 
-  /** How far the visible middle of a surface is from the nearest edge of a face; null where no edges are known. */
+  /** How far the visible middle of a surface is from the nearest edge of a face; null if no edges are known. */
   room(surface: number): number | null {
     return this.json(this.wasm.knead_room(surface)) as number | null;
   }
@@ -120,7 +120,7 @@ export class Engine {
     return new Float64Array(this.bytes(this.wasm.knead_control_points(surface)).buffer as ArrayBuffer);
   }
 
-  /** The other faces of the file; null where nothing was opened, or all of it are surfaces. */
+  /** The other faces of the file; null if nothing was opened or all faces are surfaces. */
   context(): Context | null {
     const found = this.json(this.wasm.knead_context()) as { buffers: BufferTable; skipped: Context['skipped'] } | null;
     if (!found) return null;
@@ -150,7 +150,7 @@ export class Engine {
     return this.json(this.wasm.knead_displays()) as DisplayInfo[];
   }
 
-  /** A surface, or with `opened` the shape as it came, with about `detail` grid lines per direction. */
+  /** A surface, or with `opened` its original shape, with about `detail` grid lines per direction. */
   picture(surface: number, detail: number, display: DisplayChoice = plain, opened = false): Picture {
     this.give(new TextEncoder().encode(JSON.stringify(display)));
     const found = this.json(this.wasm.knead_picture(surface, detail, opened ? 1 : 0)) as { counts: [number, number]; buffers: BufferTable };
@@ -192,7 +192,7 @@ export class Engine {
     new Uint8Array(this.wasm.memory.buffer, at, bytes.length).set(bytes);
   }
 
-  /** A copy of the text of the last call; throws what the call said went wrong. */
+  /** A copy of the text of the last call; throws the error that the call reported. */
   private bytes(succeeded: number): Uint8Array {
     const at = this.wasm.knead_text();
     const bytes = new Uint8Array(this.wasm.memory.buffer, at, this.wasm.knead_text_size()).slice();

@@ -10,14 +10,14 @@ export interface PictureSettings {
   opened?: boolean;
 }
 
-/** What the page asks of the worker. Every request is answered by one `Reply` of its number. */
+/** Requests of the page to the worker. Every request is answered by one `Reply` with its number. */
 export type Request =
   | { kind: 'open'; bytes: Uint8Array; name: string; script?: string }
   | { kind: 'fresh'; name: string; commands: Command[] }
   /** Commands that are one act: with `join` they also belong to the entry of the history before them. */
   | { kind: 'execute'; commands: Command[]; join: boolean }
   | { kind: 'pictures'; settings: PictureSettings }
-  /** Steps until `stop`, or, to rest, until nothing moves any more. */
+  /** Steps until `stop`, or, to rest, until nothing moves. */
   | { kind: 'play'; toRest: boolean }
   | { kind: 'stop' }
   /** The page has drawn the last frame: the next one may come. */
@@ -34,14 +34,14 @@ export type Request =
   | { kind: 'room'; surface: number }
   | { kind: 'save' }
   | { kind: 'journal' }
-  /** The session as bytes, with its journal as text. `kept`: it need not be computed again from here on. */
+  /** The session as bytes, with its journal as text. `kept`: nothing up to here needs recomputing. */
   | { kind: 'snapshot'; historyBytes: number; kept: boolean }
   | { kind: 'restore'; source: Uint8Array | null; name: string; snapshot: Uint8Array };
 
 export interface Frame {
   state: SessionInfo;
   pictures: Picture[];
-  /** Of tools that are new, or have another shape than in the frame before; by their names. */
+  /** Of tools that are new or have changed shape since the previous frame, by name. */
   toolPictures: Record<string, ToolPicture>;
   /** Steps from number `firstStep` on, for the plot. */
   firstStep: number;
@@ -52,7 +52,7 @@ export interface Frame {
   computeTime: number;
   pictureTime: number;
   memory: number;
-  /** Milliseconds of commands since the last snapshot: what a recovery would have to compute again. */
+  /** Milliseconds of commands since the last snapshot: what a recovery would have to recompute. */
   unkept: number;
 }
 

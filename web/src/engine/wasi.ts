@@ -1,6 +1,6 @@
 /**
- * The few system calls that the compiled C++ library may make. There is no file system and there are no arguments; what
- * is not listed here answers "not supported" (52), and says so through its return value.
+ * The few system calls that the compiled C++ library may make. There are no file system and no arguments; calls not
+ * listed here return "not supported" (52).
  */
 function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memory): WebAssembly.Imports {
   const view = () => new DataView(memory().buffer);
@@ -37,7 +37,7 @@ function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memor
   return imports;
 }
 
-/** Starts a compiled C++ library, as it arrives or from its bytes, and gives back what it exports. */
+/** Starts a compiled C++ library, as it arrives or from its bytes, and returns its exports. */
 export async function start<Exports extends { memory: WebAssembly.Memory; _initialize(): void }>(
   bytes: BufferSource | Promise<Response>,
 ): Promise<Exports> {

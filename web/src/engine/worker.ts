@@ -9,7 +9,7 @@ import { type Command, EngineError, type EngineErrorInfo, type ToolInfo, type To
 const engineLoaded = Engine.load(fetch(wasmUrl));
 let settings: PictureSettings = { detail: 96, display: plain };
 let playing: 'no' | 'on' | 'toRest' = 'no';
-let ownEntry = false; // the steps of this play have begun their entry of the history
+let ownEntry = false; // the steps of this play have begun their history entry
 let frameDrawn = true;
 let frameDue = false;
 let shownSteps = 0;
@@ -29,7 +29,7 @@ function errorInfo(error: unknown): EngineErrorInfo {
 const besideShape = new Set(['name', 'mode', 'stiffness', 'range', 'rigid', 'friction', 'plasticity', 'direction', 'position', 'rotation', 'scale', 'size']);
 let shownShapes = new Map<string, string>(); // by the names of the tools of the last frame
 
-/** Pictures of the shapes that the page has not got. */
+/** Pictures of the shapes that the page does not have yet. */
 function newToolPictures(engine: Engine, tools: readonly ToolInfo[]): Record<string, ToolPicture> {
   const shapes = new Map(tools.map((tool) => [tool.name, JSON.stringify(Object.entries(tool).filter(([field]) => !besideShape.has(field)))]));
   const pictures = Object.fromEntries(tools.flatMap(({ name }, k) =>
@@ -86,7 +86,7 @@ function sendFrame(engine: Engine): void {
 
 function playOn(engine: Engine): void {
   if (playing === 'no') return;
-  if (!frameDrawn) return; // `drawn` comes back here
+  if (!frameDrawn) return; // `drawn` calls this again
   try {
     execute(engine, [{ do: 'step' }], ownEntry);
     ownEntry = true;
@@ -205,7 +205,7 @@ self.onmessage = async (event: MessageEvent<{ id: number; request: Request }>) =
     await handle(engine, id, request);
   } catch (error) {
     post({ kind: 'failed', id, error: errorInfo(error) });
-    if (hasSession(engine)) sendFrame(engine); // part of an act may stand
+    if (hasSession(engine)) sendFrame(engine); // part of an act may have taken effect
   }
 };
 

@@ -6,7 +6,7 @@ import type { Hand } from '../tools/hand';
 import type { ToolHost } from '../tools/host';
 import type { Display, Theme } from '../view/display';
 
-/** What panels, bars and keys show and set: the page, as app/studio.ts is it. */
+/** What panels, bars and keys show and set: the page, implemented by app/studio.ts. */
 export interface App extends ToolHost {
   readonly hand: Hand;
   readonly documents: Documents;

@@ -8,7 +8,7 @@ import { saveEntries } from './save_menu';
 import { shortcuts } from './shortcuts';
 import { toggleTour } from './tour';
 
-/** Bars at the top and the left, messages, the overlay of shortcuts, the welcome. */
+/** Bars at the top and the left, messages, the overlay of shortcuts, the welcome screen. */
 
 export function topBar(app: App): HTMLElement {
   const picker = h('input', { type: 'file', accept: '.step,.stp,.p21,.3dm,.knead,.json', hidden: true, aria: { label: 'File to open' } });
@@ -85,7 +85,7 @@ export function toolRail(app: App): HTMLElement {
   return h('nav', { class: 'rail', aria: { label: 'What the pointer does' } }, ...buttons.map(([, b]) => b));
 }
 
-/** Messages at the lower edge: never in the way of the clay, errors until they are dismissed. */
+/** Messages at the lower edge: never over the clay, errors until they are dismissed. */
 export function notices(app: App): HTMLElement {
   const stack = h('div', { class: 'notices', aria: { live: 'polite' } });
   app.notify = (notice: Notice) => {

@@ -9,7 +9,7 @@ type Props<K extends keyof HTMLElementTagNameMap> = Partial<Omit<HTMLElementTagN
   data?: Record<string, string>;
 };
 
-/** A name of the engine's as a title: "top_radius" is Top radius. */
+/** A name from the engine as a title: "top_radius" is Top radius. */
 export const title = (name: string): string => name.charAt(0).toUpperCase() + name.slice(1).replaceAll('_', ' ');
 
 export function h<K extends keyof HTMLElementTagNameMap>(tag: K, props: Props<K> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
@@ -69,7 +69,7 @@ export function icon(name: string): SVGSVGElement {
   return svg;
 }
 
-/** A button with an icon; its label is its accessible name and its tip. */
+/** A button with an icon; its label is its accessible name and its tooltip. */
 export function iconButton(name: string, label: string, onclick: () => void, text?: string): HTMLButtonElement {
   return h('button', { class: text ? 'button labelled' : 'button', type: 'button', title: label, onclick, aria: { label } },
     icon(name), text && h('span', {}, text));

@@ -12,7 +12,7 @@ const choices: readonly (readonly [Continuity, string, string])[] = [
   ['symmetry', 'Symmetry', 'It stays in its plane, and the surface meets that at right angles: half of a symmetric model'],
 ];
 
-/** A click on an edge of the surface asks, beside it, what is to hold there. */
+/** A menu beside a clicked edge of the surface: what to hold there. */
 export function listenToEdges(app: App): void {
   let open: HTMLElement | null = null;
   const close = () => {
@@ -51,6 +51,6 @@ function asking(app: App, surface: number, edge: Edge, continuity: Continuity): 
   const wish: Command[] = continuity === 'symmetry' ? [{ do: 'symmetry', edge, ...app.hand.edges.plane(edge) }]
     : [{ do: 'edge', which: edge, hold: continuity }];
   const symmetric = info.constraints.some((c) => c.do === 'symmetry' && c.edge === edge);
-  // Symmetries are freed together: those of other edges are asked for again.
+  // Symmetries are freed together: those of other edges are requested again.
   return symmetric ? [...released('symmetry', info.constraints.filter((c) => c.do === 'symmetry' && c.edge !== edge)), ...wish] : wish;
 }

@@ -16,7 +16,7 @@ export function listenToKeys(app: App): void {
   });
 }
 
-/** True where the key meant something. */
+/** True if the key was handled. */
 function handle(app: App, event: KeyboardEvent): boolean {
   const key = event.key.toLowerCase();
   const viewport = app.viewer.main;
@@ -45,7 +45,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
   if (app.hand.points.active) {
     const lock = ({ x: 'x', y: 'y', z: 'z', n: 'normal' } as const)[key];
     if (lock) app.hand.points.setLock(lock);
-    return true; // nothing else while points are in the hand
+    return true; // nothing else while points are being dragged
   }
   const mode = modes.find(([, , k]) => k === key);
   if (mode && !event.altKey) {
@@ -57,7 +57,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
     for (const v of app.viewer.viewports) v.gizmo.setMode(kind);
     app.changed();
   };
-  // Digits by their place on the keyboard, so that Shift does not change them.
+  // Digits by their position on the keyboard, so that Shift does not change them.
   const view = { Digit1: ['front', 'back'], Digit2: ['right', 'left'], Digit3: ['top', 'bottom'] }[event.code];
   if (view) viewport.turn(view[event.shiftKey ? 1 : 0] as Side);
   else if (event.code === 'Digit0') {

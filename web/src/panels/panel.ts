@@ -2,8 +2,8 @@ import type { App } from './app';
 import { h } from './dom';
 
 /**
- * A section of the side bar. `draw` makes its content anew when what it depends on, `key`, has changed, but never under
- * the user's hands: not while a control in it has the focus. Hidden while it has nothing to say (`shown`).
+ * A section of the side bar. `draw` recreates its content when what it depends on, `key`, has changed, but not while a
+ * control in it has the focus. Hidden while it has nothing to show (`shown`).
  */
 export function panel(app: App, title: string, key: (app: App) => unknown, draw: (app: App) => (Node | null)[], open = true,
                       shown: (app: App) => boolean = () => true): HTMLElement {
@@ -21,7 +21,7 @@ export function panel(app: App, title: string, key: (app: App) => unknown, draw:
     drawn = now;
     const name = body.contains(focus) ? focus?.getAttribute('aria-label') : null;
     body.replaceChildren(...draw(app).filter((n): n is Node => n !== null));
-    // What had the focus has it again.
+    // Restore the focus.
     if (name) body.querySelector<HTMLElement>(`[aria-label="${CSS.escape(name)}"]`)?.focus({ preventScroll: true });
   };
   app.onChange.push(update);

@@ -10,7 +10,7 @@ const shapes = [['plane', 'Sheet'], ['cylinder', 'Cylinder'], ['sphere', 'Sphere
 type Shape = (typeof shapes)[number][0];
 const units = ['mm', 'cm', 'm', 'inch', 'foot'] as const;
 
-/** Numbers in a text, separated by spaces, commas or semicolons; null where one is none. */
+/** Numbers in a text, separated by spaces, commas or semicolons; null if one is not a number. */
 export function numbers(text: string): number[] | null {
   const all = text.split(/[\s,;]+/).filter(Boolean).map((t) => parseNumber(t));
   return all.includes(null) ? null : (all as number[]);
@@ -40,7 +40,7 @@ interface Patch {
   held: boolean;
 }
 
-/** The command of what the panel says; a text where it cannot be made. */
+/** The command for what the panel shows; an error text if there is none. */
 export function newCommand(p: Patch): NewCommand | string {
   const command: NewCommand = { do: 'new', name: p.shape === 'points' ? 'patch' : p.shape === 'plane' ? 'sheet' : p.shape, unit: p.unit };
   if (p.position.some((x) => x !== 0)) command.position = p.position;

@@ -30,7 +30,7 @@ export function displayPanel(app: App): HTMLElement {
 
 const unitOf = (app: App): string => app.state?.surfaces[0]?.unit ?? 'mm';
 
-/** What colours the surfaces: the displays that the engine describes, the limits of the colours, settings of its own. */
+/** What colours the surfaces: the displays that the engine describes, the colour limits, the settings of the display. */
 function colourFields(app: App): (Node | null)[] {
   const { colour } = app.display;
   const { displays } = app.client;
@@ -41,7 +41,7 @@ function colourFields(app: App): (Node | null)[] {
   return [choose, note(colour.help), limitFields(app, colour), ...colour.settings.map((s) => settingField(app, colour, s))];
 }
 
-/** One number where the colours are the same to both sides, or two. */
+/** One number if the colours are symmetric, otherwise two. */
 function limitFields(app: App, colour: DisplayInfo): HTMLElement {
   const { limits: [lower, upper], autoLimits } = app.display;
   const parse = (text: string) => (colour.unit === 'length' ? parseLength(text, unitOf(app)) : parseNumber(text));
@@ -55,7 +55,7 @@ function limitFields(app: App, colour: DisplayInfo): HTMLElement {
       colour.limits ? 'Those of the display' : 'The largest value that there is')));
 }
 
-/** A number or a vector that a display asks for. */
+/** A number or a vector that a display needs. */
 function settingField(app: App, colour: DisplayInfo, setting: DisplaySetting): HTMLElement {
   const own = app.display.colourSettings[colour.name] ?? {};
   const value = own[setting.name] ?? setting.value;

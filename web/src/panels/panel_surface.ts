@@ -7,7 +7,7 @@ import { numbers } from './panel_create';
 
 const small = (label: string, title: string, onclick: () => void) => h('button', { class: 'button small', type: 'button', title, onclick }, label);
 
-/** Knots that are multiple are written once with their count: 0×4. */
+/** Multiple knots are written once, with their count: 0×4. */
 export function knotText(knots: readonly number[]): string {
   const parts: string[] = [];
   for (let k = 0; k < knots.length;) {
@@ -19,7 +19,7 @@ export function knotText(knots: readonly number[]): string {
   return parts.join('  ');
 }
 
-/** The knot vector of such a text; null where it is none. */
+/** The knot vector of such a text; null if it is not one. */
 export function readKnots(text: string): number[] | null {
   const result: number[] = [];
   for (const part of text.split(/[\s,;]+/).filter(Boolean)) {
@@ -31,7 +31,7 @@ export function readKnots(text: string): number[] | null {
   return result;
 }
 
-/** Degree, net, knots and weights of the selected surface: to see, and to change. */
+/** Degree, net, knots and weights of the selected surface: for viewing and editing. */
 export function surfacePanel(app: App): HTMLElement {
   const chosen = (a: App) => a.state?.surfaces[a.state.selection[0] ?? -1];
   let data: SurfaceNumbers | null = null;

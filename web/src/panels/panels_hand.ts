@@ -8,7 +8,7 @@ import { field, h, numberInput, select, slider, title, toggle } from './dom';
 import { note, panel, row } from './panel';
 import { shapeTitles } from './panels_scene';
 
-/** What the pointer does, and how: a panel for brushes and paint, one for control points. */
+/** What the pointer does: a panel for brushes and paint, one for control points. */
 
 const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? 'mm';
 const length = (app: App) => (text: string) => parseLength(text, unitOf(app));
@@ -107,7 +107,7 @@ function materialFields(app: App): (Node | null)[] {
   ];
 }
 
-/** Of control points: which are chosen, where they are, by how much to move them, their weights. */
+/** Control points: which are chosen, their positions, the displacement, their weights. */
 export function pointsPanel(app: App): HTMLElement {
   const key = (a: App) => [[...a.hand.points.chosen], a.hand.points.lock, a.hand.points.net, a.changes, unitOf(a)];
   return panel(app, 'Control points', key, () => {

@@ -42,13 +42,13 @@ export function surfacesPanel(app: App): HTMLElement {
 /** The shapes with their titles. */
 export const shapeTitles = Object.keys(shapes).map((name) => [name, name === 'surface' ? 'Surface of the document' : title(name)] as const);
 
-/** Measures that go by another word in the panel. */
+/** Measures with a different name in the panel. */
 const words: Record<string, string> = { minor: 'Tube', thickness: 'Wall', sizes: 'Semi-axes' };
 
 /** A length that is the same in every direction as one number. */
 const single = (value: number | [number, number] | undefined): number => (Array.isArray(value) ? value[0] : value ?? 0);
 
-/** The command that changes these fields of a tool. A shape without a radius of its own is as large as the one before. */
+/** The command that changes these fields of a tool. A shape without a radius of its own is as large as the previous one. */
 function edited(tool: ToolInfo, change: Partial<EditToolCommand>): EditToolCommand {
   const command: EditToolCommand = { do: 'edit_tool', tool: tool.name, ...change };
   const shape = change.shape ?? tool.shape;

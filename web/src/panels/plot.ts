@@ -10,7 +10,7 @@ const terms = [
   ['contact', '--plot-4'],
 ] as const;
 
-/** The bar below: energy by term over the last steps, and the numbers of the last one. */
+/** The bar below: energy by term over the last steps, and the values of the last one. */
 export function statusBar(app: App): HTMLElement {
   const canvas = h('canvas', { class: 'plot', width: 220, height: 44, aria: { label: 'Energy by term over the last steps' } });
   const legend = h('div', { class: 'legend' }, ...terms.map(([name]) => h('span', { class: `key ${name}` }, name)));

@@ -3,7 +3,7 @@ import type { App } from './app';
 
 const when = (kept: Kept) => new Date(kept.when).toLocaleString(undefined, { dateStyle: 'medium', timeStyle: 'short' });
 
-/** Says at the lower edge what closed tabs have left behind: the last session first, the older ones on request. */
+/** Shows at the lower edge what closed tabs have left behind: the last session first, the older ones on request. */
 export async function offerRecovery(app: App): Promise<void> {
   const left = await app.documents.keeper.left().catch(() => []);
   const offer = (kept: Kept, older: Kept[]) =>

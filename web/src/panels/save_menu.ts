@@ -3,7 +3,7 @@ import type { App } from './app';
 
 const meshFormats = fileFormats.filter((format) => format.content === 'triangles');
 
-/** Name, what it is, what it does. */
+/** Name, description, action. */
 export const saveEntries = (app: App): [string, string, () => void][] => [
   ['STEP file', 'the file as it was opened, with the sculpted surfaces in it', () => void app.saving.step()],
   ['Rhino file', '.3dm: the one that was opened with the sculpted surfaces in it, or a new one', () => void app.saving.rhino()],

@@ -1,19 +1,19 @@
 import type { App } from './app';
 import { h, iconButton } from './dom';
 
-/** The tour for a first visit: a card in the corner of the stage that goes on by itself when its step has been done. */
+/** The tour for a first visit: a card in the corner of the stage that advances by itself when its step has been done. */
 
 interface Step {
   title: string;
   text: string;
-  /** What the card speaks of, outlined meanwhile. */
+  /** What the card refers to, outlined meanwhile. */
   target?: string;
   enter?(app: App): void;
-  /** True as soon as the user has done it; compared with what stood when the step began. */
+  /** True as soon as the user has done it; compared with the state when the step began. */
   done?(app: App, before: Mark): boolean;
 }
 
-/** What a step may look at to see that something has happened since it began. */
+/** What a step may inspect to tell whether something has happened since it began. */
 interface Mark {
   steps: number;
   redo: boolean;
@@ -87,7 +87,7 @@ function mark(app: App): Mark {
 
 let end: (() => void) | null = null;
 
-/** Begins the tour, or ends it where it is on. */
+/** Starts the tour, or ends it if it is running. */
 export function toggleTour(app: App): void {
   if (end) end();
   else begin(app);
@@ -133,7 +133,7 @@ function begin(app: App): void {
     card.classList.remove('done');
     outline(step.target);
   };
-  // A step that has been done says so, and goes on when there was time to see what happened.
+  // A completed step says so, and the tour advances once there was time to see what happened.
   const watch = () => {
     if (card.classList.contains('done') || !steps[current]!.done?.(app, before)) return;
     card.classList.add('done');
@@ -143,7 +143,7 @@ function begin(app: App): void {
       if (end && current === at && card.classList.contains('done')) show(at + 1);
     }, 1600);
   };
-  const timer = setInterval(watch, 300); // cameras move without a change of the session
+  const timer = setInterval(watch, 300); // cameras move without changing the session
   const close = () => {
     clearInterval(timer);
     outline();
@@ -155,7 +155,7 @@ function begin(app: App): void {
   show(0);
 }
 
-/** Where the page may not keep anything, every visit is taken for a later one. */
+/** If the page may not store anything, every visit counts as a later one. */
 function seen(): boolean {
   try {
     return localStorage.getItem(seenKey) !== null;

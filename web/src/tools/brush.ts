@@ -11,21 +11,21 @@ import { Ring } from './ring';
 export interface BrushSettings {
   /** Radius of the ball, file units. */
   radius: number;
-  /** How deep it goes, in radii; how much of a bump smoothing takes. */
+  /** How deep it goes, in radii; how much of a bump smoothing removes. */
   strength: number;
-  /** The pressure of a pen lessens the strength. */
+  /** The pressure of a pen scales the strength down. */
   pressure: boolean;
 }
 
-/** What the pointer asks of the session. */
+/** The pointer's requests to the session. */
 export interface BrushActions {
   /** A new act of these commands; resolves once they are done, false if they failed. */
   begin(commands: Command[]): Promise<boolean>;
-  /** Goes on with the act; what comes too fast is left out. */
+  /** Continues the act; requests that come too fast are dropped. */
   follow(commands: () => Command[], join: boolean): void;
   /** Ends the act. */
   end(commands: Command[]): Promise<void>;
-  /** Takes the act back. */
+  /** Reverts the act. */
   cancel(): Promise<void>;
   place(point: THREE.Vector3, normal: THREE.Vector3): void;
   select(surface: number): Promise<void>;
@@ -45,7 +45,7 @@ interface Stroke {
   frozen: (GridPicker | null)[];
   begun: Promise<boolean>;
   start: THREE.Vector3;
-  /** Centres of the ball that the session has not been told of, and the radius that it has. */
+  /** Centres of the ball not yet sent to the session, and its radius. */
   ahead: Vector3[];
   radius: number;
   at: [number, number];
@@ -58,7 +58,7 @@ export class Brush implements PointerTool {
   settings: BrushSettings = { radius: 1, strength: 0.5, pressure: true };
 
   private stroke: Stroke | null = null;
-  /** Hold-drag: how far the pointer is from where it began, and what it began with. */
+  /** Hold-drag: how far the pointer is from its start, and the initial values. */
   private sizing: { x: number; y: number; radius: number; strength: number; hit: Hit | null } | null = null;
   private readonly ring: Ring;
 
@@ -98,7 +98,7 @@ export class Brush implements PointerTool {
       void this.actions.select(hit.surface);
       return true;
     }
-    // The shape at the press is what the pointer moves along, so that a stroke keeps its depth.
+    // The pointer moves along the shape at the time of the press, so that a stroke keeps its depth.
     const frozen = this.viewer.pickers;
     const kind = this.mode === 'grab' ? 'grab' : this.mode === 'smooth' || event.shiftKey ? 'smooth' : 'ball';
     const inward = (this.mode === 'push') !== event.altKey;
@@ -142,7 +142,7 @@ export class Brush implements PointerTool {
     else void this.followOn(stroke, () => this.smooth(place), true);
   }
 
-  /** To the right larger, upwards deeper. */
+  /** Rightwards larger, upwards deeper. */
   private resize(from: NonNullable<Brush['sizing']>, event: PointerEvent): void {
     this.settings.radius = from.radius * Math.exp((event.clientX - from.x) / 120);
     this.settings.strength = Math.min(1, Math.max(0.02, from.strength - (event.clientY - from.y) / 300));
@@ -200,7 +200,7 @@ export class Brush implements PointerTool {
     return [centre.x + x, centre.y + y, centre.z + z];
   }
 
-  /** A ball that is put down, and stays down. */
+  /** Puts a ball down, which stays down. */
   private ball(position: Vector3): Command[] {
     return [
       { do: 'tool', name: brushName, shape: 'sphere', radius: this.settings.radius, position, mode: 'collision', plasticity: 1 },
@@ -212,7 +212,7 @@ export class Brush implements PointerTool {
     return [{ do: 'relax', at: at.fractions, radius: this.settings.radius, strength: this.settings.strength * at.press }];
   }
 
-  /** On along all places that the pointer has been at since: the session takes them at a distance of its own. */
+  /** Continues along all pointer positions since the last call: the session uses its own spacing. */
   private led(stroke: Stroke): Command[] {
     const path = stroke.ahead.splice(0);
     if (path.length === 0) return [];
@@ -239,7 +239,7 @@ export class Brush implements PointerTool {
 
   private showRing({ point, normal }: { point: THREE.Vector3; normal: THREE.Vector3 }): void {
     const { radius, strength } = this.settings;
-    // Where a ball that deep cuts the plane.
+    // Where a ball at that depth cuts the plane.
     const ball = this.mode === 'push' || this.mode === 'pull';
     this.ring.show(point, normal, ball ? radius * Math.sqrt(Math.max(0.05, 1 - (1 - strength) ** 2)) : radius);
   }

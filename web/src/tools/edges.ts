@@ -17,7 +17,7 @@ const colours: Record<Continuity, number> = {
   free: 0x8a97a5, position: 0xe0b13a, clamped: 0xe88433, curvature: 0xd6483d, symmetry: 0x9a6fd0,
 };
 
-/** What is asked of an edge. The rows that a surface is held by are another matter. */
+/** What is requested of an edge. The rows by which a surface is held are separate. */
 export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
   let found: Continuity = 'free';
   for (const c of info.constraints) {
@@ -27,10 +27,10 @@ export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
   return found;
 }
 
-/** Shows the edges of the selected surface in the colour of what is asked of them; a click on one asks for something else. */
+/** Shows the edges of the selected surface in the colour of what is requested of them; a click on one changes it. */
 export class Edges implements PointerTool {
   readonly active = false;
-  /** A click on an edge, where on the page. */
+  /** A click on an edge, with its position on the page. */
   onEdge: (surface: number, edge: Edge, at: { x: number; y: number }) => void = () => {};
 
   private readonly lines: Line2[] = [];
@@ -43,7 +43,7 @@ export class Edges implements PointerTool {
     return this.viewer.frame?.state.selection[0];
   }
 
-  /** Places along an edge, 3 numbers each, scene coordinates. */
+  /** Points along an edge, 3 numbers each, scene coordinates. */
   points(edge: Edge): Float32Array | null {
     const picture = this.surface === undefined ? null : this.viewer.surfaces[this.surface]?.picture;
     if (!picture) return null;
@@ -85,7 +85,7 @@ export class Edges implements PointerTool {
     return line;
   }
 
-  /** The edge under the pointer, to `reach` pixels. */
+  /** The edge under the pointer, within `reach` pixels. */
   at(viewport: Viewport, event: { clientX: number; clientY: number }, reach: number): Edge | null {
     let best: Edge | null = null;
     let nearest = reach;
@@ -130,7 +130,7 @@ export class Edges implements PointerTool {
     this.refresh(this.shown);
   }
 
-  /** For symmetry about an edge: the plane across the axis along which the edge's places differ least. */
+  /** For symmetry about an edge: the plane perpendicular to the axis along which the edge's points differ least. */
   plane(edge: Edge): { point: Vector3; normal: Vector3 } {
     const points = this.points(edge)!;
     const box = new THREE.Box3().setFromArray(Array.from(points));

@@ -4,7 +4,7 @@ import type { Command } from '../engine/session_types';
 import type { Viewport } from '../view/viewport';
 import type { ToolHost } from './host';
 
-/** Sends what the user's hand does to a tool: by how much it was moved, turned and resized since the last command. */
+/** Sends changes made to a tool by hand: how far it was moved, turned and resized since the last command. */
 export function followGizmo(host: ToolHost, viewport: Viewport): void {
   const { gizmo } = viewport;
   const sent = { position: new THREE.Vector3(), turn: new THREE.Quaternion(), scale: new THREE.Vector3(1, 1, 1) };
@@ -17,7 +17,7 @@ export function followGizmo(host: ToolHost, viewport: Viewport): void {
     sent.scale.copy(object.scale);
   };
 
-  /** From what was sent last to where the object is now, and a step of the surface unless it plays anyway. */
+  /** From the state sent last to the present one, and a step of the surface unless it is playing anyway. */
   const commands = (): Command[] => {
     const { object } = gizmo;
     const tool = host.viewer.selectedTool;
@@ -51,7 +51,7 @@ export function followGizmo(host: ToolHost, viewport: Viewport): void {
   gizmo.addEventListener('objectChange', () => {
     if (!gizmo.dragging) return;
     used = true;
-    // The first command begins an entry of the history; those after it belong to it.
+    // The first command begins a history entry; later ones belong to it.
     host.client.follow(commands, begun);
     begun = true;
   });

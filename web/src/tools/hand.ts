@@ -10,7 +10,7 @@ import { Paint, type PaintKind } from './paint';
 import { PointEditor } from './point_edit';
 import { Pointers, type PointerTool } from './pointers';
 
-/** Everything that the pointer can do, and which of it a press means now. */
+/** Everything that the pointer can do, and which of these a press now means. */
 export class Hand {
   readonly brush: Brush;
   readonly points: PointEditor;
@@ -48,7 +48,7 @@ export class Hand {
     this.host.changed();
   }
 
-  /** Something that Esc would take back is under way. */
+  /** Something that Esc would revert is under way. */
   get active(): boolean {
     return [this.brush, this.points, this.paint].some((tool) => tool.active);
   }
@@ -59,7 +59,7 @@ export class Hand {
     return paintModes.includes(this.mode) ? this.paint : this.brush;
   }
 
-  /** What is drawn over the surface follows the surface. */
+  /** Marks drawn over the surface follow it. */
   private refresh(): void {
     this.host.viewer.editing = this.mode === 'points' || this.mode === 'pin';
     this.points.refresh(this.mode === 'points');
@@ -84,14 +84,14 @@ export class Hand {
         const [first, ...rest] = commands;
         if ((await host.execute([first!])) === null) return false;
         if (rest.length === 0 || (await host.execute(rest, true)) !== null) return true;
-        await host.execute([{ do: 'undo' }]); // what is refused leaves nothing behind
+        await host.execute([{ do: 'undo' }]); // a refused act leaves nothing behind
         return false;
       },
       follow: (commands, join) => host.client.follow(commands, join),
       end: async (commands) => {
         await host.client.followed();
         if ((await host.execute(commands, commands.length > 0)) !== null || commands.at(-1)?.do !== 'remove') return;
-        // The end of the stroke is refused: what was done before stays without its brush, or all is taken back.
+        // If the end of the stroke is refused, what was done before stays without its brush, or all is reverted.
         if ((await host.execute([commands.at(-1)!], true)) === null) await host.execute([{ do: 'undo' }]);
       },
       cancel: async () => {

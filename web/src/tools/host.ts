@@ -2,21 +2,21 @@ import type { Host } from '../document/host';
 import type { Command } from '../engine/session_types';
 import type { Viewer } from '../view/viewer';
 
-/** What the pointer's tools need of the page round them. */
+/** What the pointer's tools need from the page. */
 export interface ToolHost extends Host {
   readonly viewer: Viewer;
-  /** Counts the frames, so that what follows from one is made once. */
+  /** Counts the frames, so that what depends on one is computed once. */
   readonly changes: number;
   /** Called when something has changed. */
   readonly onChange: (() => void)[];
   playing(): boolean;
-  /** Executes commands as one entry of the history, or with `join` as part of the entry before them. */
+  /** Executes commands as one history entry, or with `join` as part of the previous entry. */
   execute(commands: Command[], join?: boolean): Promise<true | null>;
-  /** Selects a surface; one that nothing was said about is made ready to sculpt. */
+  /** Selects a surface; one without settings is made ready to sculpt. */
   select(surface: number): Promise<void>;
 }
 
-/** What a click in the mode `place` puts into the scene. */
+/** What a click in the mode `place` adds to the scene. */
 export interface Placing {
   shape: string;
   /** Id of the surface that is the tool, of the shape `surface`. */

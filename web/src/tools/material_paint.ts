@@ -2,16 +2,16 @@ import { coefficients, type Command, type MaterialSamples, type Picture, type Su
 
 /** Painted material: samples of the coefficients over the domain, linear in between (docs/scripts.md, `material`). */
 
-/** Those that paint sets; α12 stays as it is. */
+/** The coefficients that paint sets; α12 is unchanged. */
 const painted = coefficients.filter((c) => c !== 'alpha12');
 
 const most = 33;
 
-/** As finely as the net can follow, within reason. */
+/** As fine as the net can resolve, within limits. */
 export const sampleCounts = ({ net, degree }: SurfaceInfo): [number, number] =>
   net.map((n, d) => Math.min(most, Math.max(9, n - degree[d]! + 1))) as [number, number];
 
-/** Where the samples lie: places of the drawn grid, 3 numbers each. */
+/** Positions of the samples on the drawn grid, 3 numbers each. */
 export function samplePlaces({ counts, s, t, positions }: Picture, [m, n]: [number, number]): Float32Array {
   const nearest = (lines: Float32Array, count: number) => {
     let k = 0;
@@ -39,7 +39,7 @@ export function blended(base: MaterialSamples, share: Float32Array, alpha: numbe
   });
 }
 
-/** How far each span's material is from that which most of the surface has: 0 alike, 1 ten times as stiff or soft. */
+/** How much each span's material differs from that of most of the surface: 0 the same, 1 ten times as stiff or soft. */
 export function difference({ counts: [m, n], values }: MaterialSamples, linesS: readonly number[], linesT: readonly number[]): Float32Array {
   const stiff = [...values.beta11].map((b, k) => Math.log10(Math.max(b, 1e-9)) + Math.log10(Math.max(values.alpha11[k]!, 1e-9)));
   const tally = new Map<string, number>();

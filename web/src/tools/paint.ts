@@ -18,7 +18,7 @@ export interface PaintSettings {
 
 export interface PaintActions {
   execute(commands: Command[]): Promise<unknown>;
-  /** What a surface is made of now. */
+  /** The present material of a surface. */
   material(surface: number, counts: [number, number]): Promise<MaterialSamples>;
   select(surface: number): Promise<void>;
 }
@@ -34,7 +34,7 @@ interface Stroke {
   erase: boolean;
   /** Spans, row by row; for pins, control points. */
   marked: Uint8Array;
-  /** Of material: where its samples lie, and how much of the paint each has got. */
+  /** For material: the positions of its samples, and how much paint each has received. */
   places: Float32Array;
   share: Float32Array;
   start: Hit;
@@ -44,7 +44,7 @@ interface Stroke {
 
 /**
  * Marks a part of the surface by dragging over it: control points under the brush, or whole knot spans that it touches.
- * Released, that becomes commands: one entry of the history.
+ * On release this becomes commands: one history entry.
  */
 export class Paint implements PointerTool {
   settings: PaintSettings = { alpha: 0.05, beta: 0.05, softness: 0.4 };
@@ -89,7 +89,7 @@ export class Paint implements PointerTool {
   drag(event: PointerEvent): void {
     const { stroke } = this;
     if (!stroke) return;
-    // Between two places of the pointer nothing is left out.
+    // Nothing between two positions of the pointer is left out.
     const { x, y } = stroke.at;
     const way = Math.hypot(event.clientX - x, event.clientY - y);
     if (way > 3) stroke.moved = true;
@@ -117,7 +117,7 @@ export class Paint implements PointerTool {
       mark(stroke.marked, [[s - 1e-5, s + 1e-5], [t - 1e-5, t + 1e-5]], linesS, linesT);
       const columns = picture.linesV.length - 1;
       const n = picture.counts[1];
-      // Points within a span, none of its border: those belong to the next one as well.
+      // Points inside a span, none on its border: those belong to the next span as well.
       for (let a = 0; a + 1 < picture.linesU.length; ++a) {
         for (let b = 0; b < columns; ++b) {
           if (stroke.marked[a * columns + b]) continue;
@@ -174,7 +174,7 @@ export class Paint implements PointerTool {
     if (commands.length > 0) await this.actions.execute(commands);
   }
 
-  /** In the mode `material`: tints what is of another material than most of the surface. */
+  /** In the mode `material`: tints spans whose material differs from that of most of the surface. */
   async refresh(shown: boolean, changes: number): Promise<void> {
     const of = shown ? `${changes}` : '';
     if (of === this.shown || this.active) return;
@@ -238,5 +238,5 @@ export class Paint implements PointerTool {
   }
 }
 
-/** Frees one kind of what is held; what is to stay of it is asked for again. */
+/** Frees one kind of what is held; the part that is to stay is requested again. */
 export const released = (what: 'pins' | 'freeze' | 'symmetry', stay: readonly Command[]): Command[] => [{ do: 'release', what: [what] }, ...stay];

@@ -8,7 +8,7 @@ import type { Viewport } from '../view/viewport';
 import type { PointerTool } from './pointers';
 
 export interface PointActions {
-  /** A new entry of the history; false where it failed. */
+  /** Adds a history entry; false if it failed. */
   begin(commands: Command[]): Promise<boolean>;
   follow(commands: () => Command[], join: boolean): void;
   end(commands: Command[]): Promise<void>;
@@ -25,7 +25,7 @@ interface Hold {
   normal: THREE.Vector3;
   by: THREE.Vector3;
   pointer: { x: number; y: number };
-  /** The first command is on its way; null while the pointer has not moved. */
+  /** Set once the first command has been sent; null while the pointer has not moved. */
   begun: Promise<boolean> | null;
   cancelled: boolean;
 }
@@ -67,7 +67,7 @@ export class PointEditor implements PointerTool {
     return surface === undefined ? [0, 0] : this.viewer.frame!.state.surfaces[surface]!.net;
   }
 
-  /** After every frame: what is chosen is shown where it is now, and forgotten where the net became another. */
+  /** After every frame: the chosen points are shown where they are now, or forgotten if the net has changed. */
   refresh(shown: boolean): void {
     const { surface } = this;
     const of = surface === undefined ? '' : `${this.viewer.frame!.state.surfaces[surface]!.id} ${this.net.join()}`;
@@ -89,14 +89,14 @@ export class PointEditor implements PointerTool {
     this.actions.changed();
   }
 
-  /** The rows, along v (of constant i) or u (of constant j), that hold the chosen points. */
+  /** The rows, along v (constant i) or u (constant j), that contain the chosen points. */
   chooseRows(direction: 'u' | 'v'): void {
     const [m, n] = this.net;
     const rows = new Set([...this.chosen].map((k) => (direction === 'v' ? Math.floor(k / n) : k % n)));
     this.choose(gridIndices(m, n).filter((k) => rows.has(direction === 'v' ? Math.floor(k / n) : k % n)));
   }
 
-  /** Which points a command is about. */
+  /** The points to which a command applies. */
   which(): ReturnType<typeof wholeRows> {
     const [m, n] = this.net;
     return wholeRows([...this.chosen].sort((a, b) => a - b), m, n);
@@ -166,7 +166,7 @@ export class PointEditor implements PointerTool {
     this.send(hold);
   }
 
-  /** A key while dragging: along one axis only, or again freely. */
+  /** A key while dragging: restricts the motion to one axis, or frees it again. */
   setLock(lock: Lock): void {
     this.lock = this.lock === lock ? null : lock;
     if (this.hold) this.send(this.hold);
@@ -188,7 +188,7 @@ export class PointEditor implements PointerTool {
     return this.lock === 'normal' ? hold.normal : new THREE.Vector3(Number(this.lock === 'x'), Number(this.lock === 'y'), Number(this.lock === 'z'));
   }
 
-  /** In the plane that faces the viewer, or to the point of the axis that is nearest to the ray. */
+  /** In the plane facing the viewer, or to the point of the axis nearest to the ray. */
   private moved(hold: Hold): THREE.Vector3 {
     const { viewport, start, pointer } = hold;
     const axis = this.direction(hold);
@@ -232,7 +232,7 @@ export class PointEditor implements PointerTool {
     const [x0, x1] = [Math.min(box.x, event.clientX), Math.max(box.x, event.clientX)];
     const [y0, y1] = [Math.min(box.y, event.clientY), Math.max(box.y, event.clientY)];
     if (x1 - x0 < 4 && y1 - y0 < 4) {
-      // A click: on another surface it means that one.
+      // A click on another surface selects that surface.
       const hit = this.viewer.pick(box.viewport, event);
       if (hit && !this.viewer.frame!.state.selection.includes(hit.surface)) void this.actions.select(hit.surface);
       else if (!box.add) this.choose([]);

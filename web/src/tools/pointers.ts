@@ -1,7 +1,7 @@
 import type { Navigator } from '../view/navigator';
 import type { Viewport } from '../view/viewport';
 
-/** What the pointer does in one of the modes. Only one of them is at work at a time. */
+/** What the pointer does in one of the modes. Only one mode is active at a time. */
 export interface PointerTool {
   readonly active: boolean;
   /** A press of the main button; false leaves it to the view. */
@@ -12,10 +12,10 @@ export interface PointerTool {
   cancel(): Promise<void>;
   /** The pointer moves without a button, or, without a viewport, has left. */
   hover?(viewport: Viewport | null, event?: PointerEvent): void;
-  /** Pressed and released in one place, and nothing else wanted it. */
+  /** Pressed and released in one place, and not handled by anything else. */
   click?(viewport: Viewport, event: PointerEvent): void;
   doubleClick?(viewport: Viewport, event: MouseEvent): void;
-  /** True where the wheel means something to it. */
+  /** True if it handles the wheel. */
   wheel?(event: WheelEvent): boolean;
 }
 
@@ -36,7 +36,7 @@ export class Pointers {
     element.addEventListener('pointermove', (e) => this.move(viewport, e), first);
     element.addEventListener('pointerup', (e) => this.up(viewport, e), first);
     element.addEventListener('pointercancel', (e) => this.lost(viewport, e), first);
-    // The gizmo knows only now whether a finger is on it; only what it leaves moves the view.
+    // Only now does the gizmo know whether a finger is on it; the view takes only what it leaves.
     element.addEventListener('pointerdown', (e) => this.downAfterGizmo(viewport, e));
     element.addEventListener('pointerleave', () => this.tool().hover?.(null));
     element.addEventListener('wheel', (e) => this.wheel(viewport, e), { capture: true, passive: false });
@@ -55,7 +55,7 @@ export class Pointers {
       this.fingers.set(event.pointerId, { clientX: event.clientX, clientY: event.clientY });
       if (this.fingers.size > 1) {
         event.stopImmediatePropagation();
-        void this.busy?.cancel(); // the second finger: it was meant to be a motion of the view
+        void this.busy?.cancel(); // the second finger: the gesture was meant to move the view
         this.busy = null;
         this.pressed = null;
         viewport.element.setPointerCapture(event.pointerId);
@@ -141,7 +141,7 @@ export class Pointers {
     this.free(viewport, event);
   }
 
-  /** Esc. False if there was nothing to take back. */
+  /** Esc. False if there was nothing to revert. */
   async cancel(): Promise<boolean> {
     const { busy } = this;
     this.busy = null;

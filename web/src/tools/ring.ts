@@ -2,7 +2,7 @@ import * as THREE from 'three';
 
 import type { Viewer } from '../view/viewer';
 
-/** The circle round the pointer that shows how far a brush reaches. */
+/** The circle around the pointer that shows how far a brush reaches. */
 export class Ring {
   private readonly line: THREE.LineLoop<THREE.BufferGeometry, THREE.LineBasicMaterial>;
 

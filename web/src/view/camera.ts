@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-/** Motions of a camera that looks at `target`; a point that they are about stays where it is on the screen. */
+/** Motions of a camera that looks at `target`; the point that they act about keeps its place on the screen. */
 export interface View {
   readonly camera: THREE.PerspectiveCamera | THREE.OrthographicCamera;
   readonly target: THREE.Vector3;
@@ -40,7 +40,7 @@ export function pan(view: View, dx: number, dy: number, at: THREE.Vector3, heigh
   camera.updateMatrixWorld();
 }
 
-/** Shows everything `factor` times as large (perspective: from so much nearer); `at` stays where it is on the screen. */
+/** Shows everything `factor` times as large (perspective: from correspondingly nearer); `at` keeps its place on the screen. */
 export function zoom({ camera, target }: View, factor: number, at: THREE.Vector3): void {
   if (camera instanceof THREE.OrthographicCamera) {
     const towards = camera.getWorldDirection(new THREE.Vector3());

@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { Context } from '../engine/context';
 import type { Display, Palette } from './display';
 
-/** The other faces of the opened file, in grey: to see what is sculpted in its place. They hide what is behind them, and cannot be picked. */
+/** The other faces of the opened file, in grey, to show what is sculpted in its surroundings. They hide what is behind them and cannot be picked. */
 export class ContextView {
   readonly mesh = new THREE.Mesh(
     new THREE.BufferGeometry(),

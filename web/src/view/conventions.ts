@@ -1,4 +1,4 @@
-/** What the mouse does to a view, as in programs that people know. A brush or a tool under the pointer comes first. */
+/** What the mouse does to a view, as in well-known programs. A brush or a tool under the pointer comes first. */
 
 export type Motion = 'orbit' | 'pan' | 'zoom';
 export const conventions = ['knead', 'blender', 'rhino', 'fusion'] as const;
@@ -25,7 +25,7 @@ export const conventionText: Record<Convention, [string, string, string]> = {
 
 const [left, middle, right] = [0, 1, 2];
 
-/** Null where the press means nothing to the view. A view along an axis pans where another orbits. */
+/** Null if the press means nothing to the view. A view along an axis pans where others orbit. */
 export function motionOf(convention: Convention, press: Press, axial: boolean): Motion | null {
   const turns: Motion = axial ? 'pan' : 'orbit';
   if (press.button === left) return convention === 'knead' || press.altKey ? turns : null;

@@ -13,20 +13,20 @@ export interface Display {
   grid: boolean;
   /** The other faces of the file. */
   context: boolean;
-  /** Only what the faces of the file show of their surfaces. */
+  /** Only the parts of surfaces that the faces of the file show. */
   trimmed: boolean;
   zebra: boolean;
   /** What colours the surfaces; null: nothing. */
   colour: DisplayInfo | null;
-  /** What the user has set of displays, by their names. */
+  /** The user's settings of displays, by their names. */
   colourSettings: Record<string, Record<string, SettingValue>>;
-  /** Values that have the full colour, below and above. */
+  /** Values of full colour, below and above. */
   limits: [number, number];
-  /** The limits follow from the values, or are those of the display. */
+  /** The limits follow from the values or the display. */
   autoLimits: boolean;
   pointSize: number;
   fourViews: boolean;
-  /** Which one is shown where there are not four. */
+  /** Which view is shown if there are not four. */
   view: ViewName;
   /** What the mouse does to a view. */
   convention: Convention;

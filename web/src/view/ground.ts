@@ -50,7 +50,7 @@ export class Ground {
         uniform vec2 offset, middle;
         uniform vec3 thin, strong;
         varying vec2 place;
-        // How much of a pixel lines at whole numbers of x cover; none where they lie too densely.
+        // How much of a pixel lines at whole numbers of x cover; none if they are too dense.
         float lines(vec2 x) {
           vec2 width = max(fwidth(x), vec2(1e-6));
           vec2 near = abs(fract(x - 0.5) - 0.5) / width;
@@ -76,13 +76,13 @@ export class Ground {
     this.mesh.material.uniforms.strong!.value.set(palette.gridStrong);
   }
 
-  /** Lies right for this view: `lowest` is the height of the ground, `radius` that of the scene, both scene coordinates. */
+  /** Places the grid for this view: `lowest` is the height of the ground, `radius` that of the scene, both scene coordinates. */
   prepare(view: Viewport, lowest: number, radius: number, origin: readonly number[]): void {
     const { uniforms } = this.mesh.material;
     const pixel = view.pixel();
     this.step = roundStepAbove(leastPixels * pixel);
     const normal = view.axial ? view.camera.getWorldDirection(new THREE.Vector3()).negate() : new THREE.Vector3(0, 0, 1);
-    // In which plane the lines lie, and where that is.
+    // The plane of the lines, and its position.
     const [u, v]: [number, number] = Math.abs(normal.z) > 0.5 ? [0, 1] : Math.abs(normal.y) > 0.5 ? [0, 2] : [1, 2];
     const axis = (k: number) => new THREE.Vector3().setComponent(k, 1);
     uniforms.u!.value.copy(axis(u));

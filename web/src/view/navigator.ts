@@ -22,14 +22,14 @@ const fingers = (places: Place[]) => ({
   angle: places.length > 1 ? Math.atan2(places[1]!.clientY - places[0]!.clientY, places[1]!.clientX - places[0]!.clientX) : 0,
 });
 
-/** Moves the cameras: by mouse in one of the conventions, by wheel, by one to three fingers. */
+/** Moves the cameras: by mouse in one of the conventions, by wheel, or by one to three fingers. */
 export class Navigator {
   convention: Convention = 'knead';
 
   private drag: Drag | null = null;
   private touch: { viewport: Viewport; pivot: THREE.Vector3; places: Map<number, Place> } | null = null;
 
-  /** `pointAt`: what lies under a pointer, or, off the surface, the point at its depth that the view is about. */
+  /** `pointAt`: the point under a pointer, or, off the surface, the point at the depth of the view's target. */
   constructor(private readonly pointAt: (viewport: Viewport, at: Place) => THREE.Vector3) {}
 
   get active(): boolean {
@@ -71,7 +71,7 @@ export class Navigator {
     this.touch = null;
   }
 
-  /** Two fingers pan, zoom and turn; three orbit. The list of those that touch, after each change and motion. */
+  /** Two fingers pan, zoom and turn; three orbit. Takes the list of touching fingers after each change and motion. */
   touched(viewport: Viewport, places: Map<number, Place>): void {
     const before = this.touch;
     const same = before && before.viewport === viewport && before.places.size === places.size
@@ -104,7 +104,7 @@ export class Navigator {
   wheel(viewport: Viewport, event: WheelEvent): void {
     event.preventDefault();
     const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : event.deltaMode === WheelEvent.DOM_DELTA_PAGE ? 300 : 1;
-    // A trackpad's pinch comes as a wheel with Ctrl, and finer.
+    // A trackpad's pinch arrives as a wheel event with Ctrl, in finer steps.
     const rate = event.ctrlKey ? 0.01 : 0.0016;
     const amount = THREE.MathUtils.clamp(event.deltaY * lines * rate, -0.7, 0.7);
     zoom(viewport, Math.exp(-amount), this.pointAt(viewport, event));

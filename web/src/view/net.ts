@@ -11,7 +11,7 @@ type Region = [[number, number], [number, number]];
 
 export const gridIndices = (m: number, n: number): number[] => Array.from({ length: m * n }, (_, k) => k);
 
-/** The shortest way for a command to say which points: whole rows where there are only such. `chosen` is sorted. */
+/** The shortest way for a command to name points: whole rows if there are only such. `chosen` is sorted. */
 export function wholeRows(chosen: readonly number[], m: number, n: number): { rows_u: number[] } | { rows_v: number[] } | { which: number[] } {
   const rows = [...new Set(chosen.map((k) => Math.floor(k / n)))];
   if (rows.length * n === chosen.length) return { rows_u: rows };
@@ -20,7 +20,7 @@ export function wholeRows(chosen: readonly number[], m: number, n: number): { ro
   return { which: [...chosen] };
 }
 
-/** Few rectangles that cover exactly the marked cells of an m × n grid: each as wide, then as high, as it can be. */
+/** Few rectangles that cover exactly the marked cells of an m × n grid: each as wide, then as high, as possible. */
 export function blocks(marked: ArrayLike<number | boolean>, m: number, n: number): Block[] {
   const left = Array.from({ length: m * n }, (_, k) => Boolean(marked[k]));
   const found: Block[] = [];
@@ -42,7 +42,7 @@ export function blocks(marked: ArrayLike<number | boolean>, m: number, n: number
 const short = (x: number) => Number(x.toPrecision(6));
 
 /**
- * A region in fractions of the domain for a block of spans. `inside`: a little less than they are, for commands that round
+ * A region in fractions of the domain for a block of spans. `inside`: slightly smaller than the spans, for commands that round
  * outward to whole spans, so that single precision cannot reach into the next one.
  */
 export function region({ u, v }: Block, linesS: readonly number[], linesT: readonly number[], inside: boolean): Region {
@@ -54,7 +54,7 @@ export function region({ u, v }: Block, linesS: readonly number[], linesT: reado
   return [between(linesS, u), between(linesT, v)];
 }
 
-/** Marks the spans that a region touches: those the session rounds it to. */
+/** Marks the spans that a region touches, to which the session rounds it. */
 export function mark(into: Uint8Array, [[s0, s1], [t0, t1]]: Region, linesS: readonly number[], linesT: readonly number[]): void {
   const touched = (lines: readonly number[], from: number, to: number) =>
     lines.slice(1).map((end, k) => end > from + 1e-6 && lines[k]! < to - 1e-6);

@@ -6,14 +6,14 @@ const block = 8; // cells of the grid per side of a box
 
 export interface GridHit {
   point: THREE.Vector3;
-  /** Towards where the ray came from. */
+  /** Towards the origin of the ray. */
   normal: THREE.Vector3;
   /** (s, t) of the domain. */
   fractions: [number, number];
   distance: number;
 }
 
-/** Where rays meet the drawn triangles of a picture, by boxes round blocks of them; made when it is asked first. */
+/** Where rays meet the drawn triangles of a picture, by boxes around blocks of them; built on first use. */
 export class GridPicker {
   private boxes: Float32Array | null = null; // lower and upper corner of each block
   private readonly rows: number;

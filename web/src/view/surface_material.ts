@@ -46,7 +46,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       uniform bool trimmed;
       uniform vec3 accent;
 
-      // Blue below, grey at zero, red above; the brightness changes evenly to both sides.
+      // Blue below, grey at zero, red above; the brightness changes evenly on both sides.
       vec3 diverging(float x) {
         x = clamp(x, -1.0, 1.0);
         vec3 middle = vec3(0.87);
@@ -54,7 +54,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
         return mix(middle, end, abs(x));
       }
 
-      // From pale to dark, for what is never negative.
+      // From pale to dark, for values that are never negative.
       vec3 rising(float x) {
         x = clamp(x, 0.0, 1.0);
         vec3 low = vec3(0.95, 0.94, 0.86), middle = vec3(0.93, 0.6, 0.25), high = vec3(0.55, 0.1, 0.25);
@@ -66,7 +66,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
         if (!gl_FrontFacing) n = -n;
         vec3 v = normalize(vView);
         vec3 base = gl_FrontFacing ? front : back;
-        // What the legend shows is what leaves here, after the conversion to the screen's colours.
+        // The legend shows the output of this, after the conversion to the screen's colours.
         if (mode == 2) base = pow(diverging(vValue < 0.0 ? -vValue / limits.x : vValue / limits.y), vec3(2.2));
         if (mode == 3) base = pow(rising(vValue / limits.y), vec3(2.2));
         if (mode == 1) {

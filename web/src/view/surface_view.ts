@@ -15,7 +15,7 @@ export class SurfaceView {
   picture: Picture | null = null;
   /** Of the present picture. */
   picker: GridPicker | null = null;
-  /** Control points are shown whatever the display says. */
+  /** Control points are shown regardless of the display. */
   editing = false;
 
   private mask: THREE.Texture | null = null;
@@ -87,7 +87,7 @@ export class SurfaceView {
     this.restyle(display, palette, selected);
   }
 
-  /** What the surface shows of itself where it is drawn trimmed; null: all. It is the view's from now on. */
+  /** The visible part of the surface if it is drawn trimmed; null: all. The view owns it from now on. */
   set trim(mask: THREE.Texture | null) {
     this.mask?.dispose();
     this.mask = mask;
@@ -108,7 +108,7 @@ export class SurfaceView {
     for (const part of [this.knotLines, this.isocurves]) part.geometry.setAttribute('uv', this.mesh.geometry.getAttribute('uv'));
   }
 
-  /** Hatches what the session keeps from moving: the whole spans that frozen regions touch. */
+  /** Hatches what the session prevents from moving: the whole spans that frozen regions touch. */
   private showFrozen(info: SurfaceInfo): void {
     const regions = info.constraints.filter((c) => c.do === 'freeze').map((c) => c.region);
     const frozen = JSON.stringify(regions);
@@ -174,7 +174,7 @@ export class SurfaceView {
     this.normals.visible = display.normals;
     this.isocurves.material.color.set(palette.isocurve);
     this.isocurves.material.opacity = palette.isocurveOpacity;
-    // What lies on a pale surface is dark in either theme.
+    // Lines on a pale surface are dark in either theme.
     const over = coloured || display.zebra ? palettes.light : palette;
     this.knotLines.material.color.set(over.knotLine);
     this.knotLines.material.opacity = 0.9;
@@ -223,7 +223,7 @@ export function lineFractions({ s, t, linesU, linesV }: Picture): [number[], num
   return [[...linesU].map((k) => s[k]!), [...linesV].map((k) => t[k]!)];
 }
 
-/** Where each point of the grid lies among the spans, as texture coordinates: v then u. */
+/** The position of each grid point among the spans, as texture coordinates: v, then u. */
 function spanCoordinates({ counts, linesU, linesV }: Picture): Float32Array {
   const along = (count: number, lines: Uint32Array) => {
     const result = new Float32Array(count);

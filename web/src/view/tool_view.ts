@@ -7,7 +7,7 @@ import type { Palette } from './display';
 export class ToolView {
   readonly object: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
   private unbounded = false;
-  private extent = 1; // side of the square that stands for a plane
+  private extent = 1; // side of the square that represents a plane
 
   constructor(public tool: ToolInfo) {
     this.object = new THREE.Mesh(

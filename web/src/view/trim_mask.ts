@@ -2,7 +2,7 @@ import * as THREE from 'three';
 
 import type { Trim } from '../engine/context';
 
-/** Pixels per direction of the domain: many masks together take no more memory than a few. */
+/** Pixels per direction of the domain: many masks together use no more memory than a few. */
 const sizeFor = (masks: number) => (masks <= 8 ? 1024 : masks <= 32 ? 512 : 256);
 
 /** Of all surfaces; only trimmed ones have one. */
@@ -11,7 +11,7 @@ export function trimMasks(trims: Trim[]): (THREE.Texture | null)[] {
   return trims.map((trim) => trimMask(trim, size));
 }
 
-/** A picture of what a surface shows: opaque within its trims, over s to the right and t downwards. Null: all of it. */
+/** A picture of the visible part of a surface: opaque within its trims, over s to the right and t downwards. Null: all of it. */
 function trimMask(trim: Trim, size: number): THREE.Texture | null {
   if (!trim) return null;
   const canvas = document.createElement('canvas');

@@ -29,7 +29,7 @@ export class Viewer {
   readonly surfaces: SurfaceView[] = [];
   readonly tools = new Map<string, ToolView>();
   readonly ground = new Ground();
-  /** Rings round the pointer and the like, drawn on top. */
+  /** Rings around the pointer and the like, drawn on top. */
   readonly overlay = new THREE.Group();
   origin: [number, number, number] = [0, 0, 0];
   frame: Frame | null = null;
@@ -100,7 +100,7 @@ export class Viewer {
     this.restyle();
   }
 
-  /** Takes over a frame of the worker. The views are fitted when `fresh`. */
+  /** Takes over a frame of the worker. The views are fitted if `fresh`. */
   show(frame: Frame, fresh: boolean): void {
     this.frame = frame;
     this.origin = frame.origin;
@@ -126,7 +126,7 @@ export class Viewer {
     this.redraw();
   }
 
-  /** What stands round the surfaces of the frame, and what of each is seen. */
+  /** The surroundings of the surfaces of the frame, and the visible part of each. */
   showContext(context: Context | null, trims: Trim[]): void {
     this.context.show(context);
     const masks = trimMasks(trims);
@@ -161,7 +161,7 @@ export class Viewer {
       }
       const picture = this.frame!.toolPictures[info.name];
       if (picture) view.picture = picture;
-      // While a tool is in the user's hand the picture is ahead of the session.
+      // While the user drags a tool, the picture is ahead of the session.
       if (!(dragging && info.name === this.selectedTool)) {
         view.show(info, this.origin, size, this.palette, info.name === this.selectedTool);
       }
@@ -218,7 +218,7 @@ export class Viewer {
     this.resize();
   }
 
-  /** What the pointer is on: the nearest surface, as it was drawn last or as it was when `frozen` was taken. */
+  /** What is under the pointer: the nearest surface, as last drawn or as it was when `frozen` was taken. */
   pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: readonly (GridPicker | null)[]): Hit | null {
     const { ray } = viewport.ray(event, this.raycaster);
     let best: (Hit & { distance: number }) | null = null;
@@ -239,7 +239,7 @@ export class Viewer {
     return (hit?.object.userData.tool as string | undefined) ?? null;
   }
 
-  /** Index of the control point of a surface that lies under the pointer, to `reach` pixels. */
+  /** Index of the control point of a surface under the pointer, within `reach` pixels. */
   pickControlPoint(viewport: Viewport, event: { clientX: number; clientY: number }, surface: number, reach = 9): number | null {
     const net = this.surfaces[surface]?.picture?.net;
     if (!net) return null;

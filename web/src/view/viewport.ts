@@ -29,7 +29,7 @@ export class Viewport {
   readonly axial: boolean;
 
   private side: Side;
-  private extent = 1; // half the height of what an orthographic camera sees
+  private extent = 1; // half the height that an orthographic camera sees
   private reach = 1; // from the target to the camera when it was fitted
   private readonly bar = document.createElement('span');
 
@@ -56,7 +56,7 @@ export class Viewport {
     return { width: Math.max(1, this.element.clientWidth), height: Math.max(1, this.element.clientHeight) };
   }
 
-  /** Looks at a sphere from where it looks from now, filling the window. */
+  /** Looks at a sphere from the present direction, filling the window. */
   fit(centre: THREE.Vector3, radius: number): void {
     const { camera } = this;
     const r = Math.max(radius, 1e-9);
@@ -83,7 +83,7 @@ export class Viewport {
   turn(to: Side | 'perspective'): void {
     if (to !== 'perspective') this.side = to;
     const from = to === 'perspective' ? oblique : sides[to].from.clone();
-    // Straight from above or below a camera that keeps upright cannot look.
+    // A camera that stays upright cannot look straight from above or below.
     if (!this.axial && (to === 'top' || to === 'bottom')) from.y = -0.004;
     this.aim(from.normalize());
     this.moved();

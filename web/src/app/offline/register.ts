@@ -1,6 +1,6 @@
 import type { App } from '../../panels/app';
 
-/** Keeps the page for the time without a network, and says when a newer version is there. */
+/** Keeps the page for use without a network, and reports when a newer version is available. */
 export async function workOffline(app: App): Promise<void> {
   if (!import.meta.env.PROD || !('serviceWorker' in navigator)) return;
   try {
@@ -13,7 +13,7 @@ export async function workOffline(app: App): Promise<void> {
       });
     const watch = (worker: ServiceWorker) =>
       worker.addEventListener('statechange', () => {
-        // Without a controller it is the first version: nothing to tell.
+        // Without a controller this is the first version: there is nothing to report.
         if (worker.state === 'installed' && navigator.serviceWorker.controller) offer(worker);
       });
     if (registration.waiting && navigator.serviceWorker.controller) offer(registration.waiting);
@@ -21,7 +21,7 @@ export async function workOffline(app: App): Promise<void> {
     registration.addEventListener('updatefound', () => registration.installing && watch(registration.installing));
     await navigator.serviceWorker.ready;
     document.documentElement.dataset.offline = 'ready';
-    // Now, and when the user comes back to a tab that was open for long. Without a network there is nothing newer.
+    // Now, and when the user returns to a tab that has been open for long. Without a network there is nothing newer.
     const look = () => void registration.update().catch(() => {});
     document.addEventListener('visibilitychange', () => document.visibilityState === 'visible' && look());
     look();
@@ -30,7 +30,7 @@ export async function workOffline(app: App): Promise<void> {
   }
 }
 
-/** What is open is kept first, and offered again by the new page. */
+/** What is open is saved first, and offered again by the new page. */
 async function takeOver(app: App, worker: ServiceWorker): Promise<void> {
   await app.documents.keeper.keep();
   navigator.serviceWorker.addEventListener('controllerchange', () => location.reload(), { once: true });

@@ -1,6 +1,6 @@
 /**
- * Keeps the page's files, so that the studio works without a network once it was loaded. A version is kept whole or not
- * at all: every file is compared with the hash that the build wrote down, and a page gets all its files from one version,
+ * Keeps the page's files, so that the studio works without a network once it has been loaded. A version is kept whole or not
+ * at all: every file is compared with the hash recorded by the build, and a page gets all its files from one version,
  * as those in assets/ are named by their content. A new version waits until the page asks for it or every tab is closed.
  */
 const worker = self as unknown as ServiceWorkerGlobalScope;
@@ -18,7 +18,7 @@ async function sha256(response: Response): Promise<string> {
 }
 
 async function keep(cache: Cache, path: string): Promise<void> {
-  // What is not named by its content must not come from the browser's own cache.
+  // Files not named by their content must not come from the browser's own cache.
   const response = await fetch(base + path, { cache: path.startsWith('assets/') ? 'default' : 'no-cache' });
   if (!response.ok || (await sha256(response.clone())) !== manifest.files[path]) throw new Error(`${path} is not of version ${manifest.version}`);
   await cache.put(base + path, response);
@@ -38,7 +38,7 @@ worker.addEventListener('install', (event) => {
 
 worker.addEventListener('activate', (event) => {
   event.waitUntil((async () => {
-    // The version before may still be open in another tab, which loads parts of it later.
+    // The previous version may still be open in another tab, which loads parts of it later.
     const old = (await caches.keys()).filter((name) => name.startsWith(prefix) && name !== own);
     await Promise.all(old.slice(0, -1).map((name) => caches.delete(name)));
     await worker.clients.claim();

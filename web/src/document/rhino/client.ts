@@ -3,7 +3,7 @@ import type { RhinoContents } from './read';
 import type { RhinoReply, RhinoRequest } from './worker';
 import type { Written } from './write';
 
-/** The line to the worker that knows Rhino files; it is started, and its module loaded, when the first one is needed. */
+/** The connection to the worker that handles Rhino files; it is started, and its module loaded, when first needed. */
 class RhinoClient {
   private worker: Worker | null = null;
   private next = 1;

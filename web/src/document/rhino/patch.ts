@@ -12,8 +12,8 @@ export interface Patch {
 
 /**
  * openNURBS leaves out the first and the last knot of the n + p + 1 of a knot vector: no basis function depends on them
- * inside the domain, from knot p to knot n. Any value that does not lie inside gives exactly the same surface; taken are
- * those of openNURBS (`superfluousKnot`): the repeated end of a clamped vector, the next of a periodic one.
+ * inside the domain, from knot p to knot n. Any value outside it gives exactly the same surface; Knead uses
+ * those of openNURBS (`superfluousKnot`): the repeated end of a clamped vector, the next knot of a periodic one.
  */
 function fullKnots(list: { toList(): number[]; superfluousKnot(start: boolean): number }): number[] {
   const knots = list.toList();
@@ -60,7 +60,7 @@ export function nurbsOf(rhino: Rhino, patch: Patch): RhinoNurbs {
 
 const sameNumbers = (a: number[], b: number[]) => a.length === b.length && a.every((x, k) => Object.is(x, b[k]));
 
-/** The same degree, knots and number of control points: only places and weights may differ. */
+/** The same degree, knots and number of control points: only positions and weights may differ. */
 export const sameSpace = (a: Patch, b: Patch): boolean =>
   sameNumbers(a.degree, b.degree) && sameNumbers(a.knots_u, b.knots_u) && sameNumbers(a.knots_v, b.knots_v) &&
   (a.weights === null) === (b.weights === null);

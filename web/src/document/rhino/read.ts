@@ -11,14 +11,14 @@ export interface RhinoSource {
 
 export interface RhinoContents {
   surfaces: RhinoSource[];
-  /** As the session has it; where it has none like that of the file, mm, and the file's in `otherUnit`. */
+  /** As the session names it; mm if the session lacks the file's unit, which is then in `otherUnit`. */
   unit: string;
   otherUnit: string | null;
   /** What cannot be sculpted, as text: "2 meshes". */
   skipped: string[];
 }
 
-/** Names of units as the session has them, and as Rhino has them. */
+/** Names of units in the session and in Rhino. */
 export const rhinoUnits: Record<string, string> = {
   um: 'Microns', mm: 'Millimeters', cm: 'Centimeters', m: 'Meters', km: 'Kilometers', inch: 'Inches', foot: 'Feet',
 };

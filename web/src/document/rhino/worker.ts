@@ -7,7 +7,7 @@ import { rewriteRhino, writeRhino, type Written } from './write';
 
 export type RhinoRequest =
   | { kind: 'read'; bytes: Uint8Array }
-  /** Into the file as it was opened, or a new one. */
+  /** Writes into the file as it was opened, or into a new one. */
   | { kind: 'write'; source: Uint8Array | null; surfaces: { name: string; patch: Patch }[]; unit: string };
 
 export interface RhinoReply {

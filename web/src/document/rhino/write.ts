@@ -4,7 +4,7 @@ import { openRhino, readRhino, rhinoUnits, type RhinoSource } from './read';
 
 export interface Written {
   bytes: Uint8Array;
-  /** Surfaces that now lie beside the solid they are a face of, by name. */
+  /** Surfaces that are now separate from the solid they are a face of, by name. */
   beside: string[];
 }
 
@@ -30,7 +30,7 @@ function addSurface(rhino: Rhino, file: RhinoFile, name: string, patch: Patch): 
  *
  * A surface object keeps its attributes and its place; its control points are set, or, where knots or degree have
  * changed, the object is replaced. A polysurface of one untrimmed face is replaced by one of the new surface. A face
- * among several, or trimmed, cannot be exchanged through rhino3dm: its new surface is added with the attributes of the
+ * among several, or trimmed, cannot be replaced through rhino3dm: its new surface is added with the attributes of the
  * polysurface, which stays.
  */
 export function rewriteRhino(rhino: Rhino, source: Uint8Array, surfaces: { name: string; patch: Patch }[]): Written {

@@ -27,7 +27,7 @@ export class CurvesView {
     while (this.curves.children.length > n) this.curves.lastChild!.remove();
     while (this.curves.children.length < n) this.curves.append(s('path'));
     let breaks = '';
-    const nothing = model.curves.lowest === model.curves.highest; // but impulses
+    const nothing = model.curves.lowest === model.curves.highest; // except impulses
     for (let i = 0; i < n; ++i) {
       let d = '';
       if (nothing) {
@@ -39,7 +39,7 @@ export class CurvesView {
         if (!Number.isFinite(v)) continue;
         const jumps = k > offsets[i]! && points[2 * k - 2] === u && points[2 * k - 1] !== v;
         const [x, y] = [frame.x(u).toFixed(2), frame.y(v).toFixed(2)];
-        // Limits that differ by rounding only are one place of the picture.
+        // Limits that differ only by rounding are one point of the picture.
         if (jumps && Math.abs(frame.y(points[2 * k - 1]!) - frame.y(v)) > 0.5) {
           breaks += `M${x} ${frame.y(points[2 * k - 1]!).toFixed(2)}V${y}`;
           d += `M${x} ${y}`;
@@ -52,7 +52,7 @@ export class CurvesView {
     this.light(dark);
   }
 
-  /** What is pointed at stands out. */
+  /** Highlights what is under the pointer. */
   light(dark: boolean): void {
     const { highlight } = this.model;
     const lit = (i: number) => highlight !== null && (highlight.i === i || highlight.j === i);
@@ -82,11 +82,11 @@ export class CurvesView {
     const lines: Node[] = [];
     const [low, high] = model.basis.domain;
     const [first, last] = [model.now.knots[0]!, model.now.knots.at(-1)!];
-    // Outside of the domain there are functions, but no curve or surface.
+    // Outside the domain there are functions, but no curve or surface.
     for (const [from, to] of [[first, low], [high, last]] as const) {
       if (to > from) lines.push(s('rect', { class: 'lab-outside', x: frame.x(from), y: margin.top, width: frame.x(to) - frame.x(from), height: frame.bottom - margin.top }));
     }
-    // Where there is nothing but impulses the heights are their weights.
+    // If there are only impulses, the heights are their weights.
     const { lowest, highest, weight } = model.curves;
     const weights = weight > 0 && !(highest > lowest);
     const range: [number, number] = weights ? [-frame.v[1], frame.v[1]] : frame.v;
@@ -110,7 +110,7 @@ export class CurvesView {
     const arrows: Node[] = [];
     for (const knot of new Set(all.map((f) => f.knot))) {
       const here = all.filter((f) => f.knot === knot && Number.isFinite(f.weight));
-      // Those of several functions at one knot stand beside each other.
+      // Impulses of several functions at one knot are drawn side by side.
       const plain = here.filter((f) => f.order === 0);
       plain.forEach((f, k) => {
         const x = frame.x(knot) + (k - (plain.length - 1) / 2) * Math.min(6, 40 / plain.length);
@@ -121,7 +121,7 @@ export class CurvesView {
           s('path', { d: `M${x} ${tip}l-3.5 ${head}h7z`, stroke: 'none' }),
           s('text', { x, y: tip + (f.weight > 0 ? -4 : 12), 'text-anchor': 'middle', stroke: 'none' }, format(f.weight))));
       });
-      // Derivatives of impulses have no height to draw: a mark on the axis, named when it is looked at.
+      // Derivatives of impulses have no height to draw: a mark on the axis, named when pointed at.
       const higher = here.filter((f) => f.order > 0);
       higher.forEach((f) => {
         const x = frame.x(knot);

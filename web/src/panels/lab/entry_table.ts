@@ -8,7 +8,7 @@ const cellWidth = 78;
 const headWidth = 34;
 const rowHeight = 21;
 
-/** The numbers of a matrix: only those that can be seen are in the page. Arrow keys go from entry to entry. */
+/** The numbers of a matrix: only visible ones are in the page. Arrow keys move from entry to entry. */
 export class EntryTable {
   private readonly head = h('thead');
   private readonly body = h('tbody');
@@ -63,7 +63,7 @@ export class EntryTable {
     this.point(at);
   }
 
-  /** Scrolls as far as it takes to see an entry. */
+  /** Scrolls until an entry is visible. */
   reveal(at: Highlight): void {
     const { element } = this;
     const [left, top] = [at.j * cellWidth, at.i * rowHeight];
@@ -155,7 +155,7 @@ function label(cell: HTMLTableCellElement, index: number, scope: 'row' | 'col'):
   cell.dataset[scope === 'row' ? 'i' : 'j'] = String(index);
 }
 
-/** As many rows and cells as wanted, behind a heading each. */
+/** As many rows and cells as needed, each after a heading. */
 function fill(part: HTMLTableSectionElement, rows: number, columns: number, kind: 'td' | 'th'): void {
   while (part.rows.length > rows) part.deleteRow(-1);
   while (part.rows.length < rows) part.append(h('tr', {}, h('th')));

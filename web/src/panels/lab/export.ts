@@ -2,7 +2,7 @@ import type { Gramians, Curves } from './module';
 import { methods, pairs } from './module';
 import { exact } from './names';
 
-/** What is seen, as text for other programs: numbers with all their digits. */
+/** What is shown, as text for other programs: numbers with all their digits. */
 
 export function curvesCsv({ points, offsets, impulses }: Curves): string {
   const lines = ['function,u,value'];
@@ -29,7 +29,7 @@ export function gramiansCsv(g: Gramians): string {
 
 const carried = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-linejoin', 'opacity', 'fill-opacity', 'stroke-opacity', 'font-size', 'font-family', 'visibility'];
 
-/** The picture alone in a file: what style sheets say about it stands in the elements. */
+/** The picture as a file of its own, with the styles written into the elements. */
 export function svgText(svg: SVGSVGElement, background: string): string {
   const copy = svg.cloneNode(true) as SVGSVGElement;
   const from = [...svg.querySelectorAll<SVGElement>('*')];
@@ -54,7 +54,7 @@ export function svgText(svg: SVGSVGElement, background: string): string {
   return new XMLSerializer().serializeToString(copy);
 }
 
-/** Into the clipboard; where the browser refuses that, into a file. True where it was the clipboard. */
+/** Into the clipboard or, if the browser refuses that, into a file. True for the clipboard. */
 export async function copyText(text: string, name: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

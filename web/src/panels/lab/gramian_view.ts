@@ -8,7 +8,7 @@ import { duration, exact, gramianName, sub, tiny } from './names';
 const shortcuts: [number, number][] = [[0, 0], [1, 0], [1, 1], [2, 2]];
 const highest = 15;
 
-/** Every table there is of a Gramian, by name. */
+/** Every table of a Gramian, by name. */
 const tables = {
   gauss: ['gauss', (g: Gramians) => g.values[0]!],
   analytic: ['analytic', (g: Gramians) => g.values[1]!],
@@ -79,7 +79,7 @@ export class GramianView {
     if (what.has('highlight')) this.light();
   }
 
-  /** Everything anew, after other numbers or other colours. */
+  /** Redraws everything, after a change of numbers or colours. */
   draw(): void {
     const { model } = this;
     const { gramians } = model;
@@ -125,7 +125,7 @@ export class GramianView {
     this.say();
   }
 
-  /** Methods and what they differ by: in the whole matrix, and in the entry that is pointed at, with all digits. */
+  /** Methods and their differences: in the whole matrix, and in the entry that is pointed at, with all digits. */
   private say(): void {
     const { model } = this;
     const { bandwidth: p, values, differences, relative, used, worst } = model.gramians;

@@ -12,7 +12,7 @@ export type Scale = 'signed' | 'power' | 'spy';
 
 const red = [204, 66, 52];
 const blue = [52, 112, 204];
-const powers = [-18, -10] as const; // of a relative difference: none of the colour, all of it
+const powers = [-18, -10] as const; // of a relative difference: no colour, full colour
 
 /** A small picture of a matrix; pointing at it names the entry. */
 export class HeatMap {
@@ -61,7 +61,7 @@ export class HeatMap {
     context.putImageData(image, 0, 0);
   }
 
-  /** A colour and how much of it. Roots make small entries visible beside large ones. */
+  /** A colour and its intensity. Roots make small entries visible beside large ones. */
   private shade(value: number, largest: number, own: number[]): [number[], number] {
     if (!Number.isFinite(value)) return [red, 1];
     if (this.scale === 'spy') return [own, value === 0 ? 0.14 : 1];
@@ -71,7 +71,7 @@ export class HeatMap {
     return [red, 0.12 + 0.88 * Math.min(1, Math.max(0, t))];
   }
 
-  /** Puts the picture on the page, with the row and the column of what is pointed at. */
+  /** Puts the picture on the page, with the row and the column under the pointer. */
   draw(highlight: Highlight | null, line: string): void {
     const { canvas } = this;
     const ratio = Math.min(window.devicePixelRatio, 2);

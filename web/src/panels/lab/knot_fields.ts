@@ -43,7 +43,7 @@ export class LabControls {
   }
 }
 
-/** The knots as text, the one that was touched last as a number, and the way back to the surface. */
+/** The knots as text, the one touched last as a number, and the transfer back to the surface. */
 export class KnotFields {
   readonly element: HTMLElement;
   private readonly list = h('input', { class: 'number lab-list', type: 'text', spellcheck: false, autocomplete: 'off', aria: { label: 'All knots' } });
@@ -116,7 +116,7 @@ export class KnotFields {
       this.detail.textContent = `${functionName(i, 0)} and ${functionName(j, 0)}: ${low < high ? `both on ${support}` : 'nowhere both'}`;
       return;
     }
-    // Jumps of the lowest order tell how smooth a function is at a knot.
+    // Jumps of the lowest order show how smooth a function is at a knot.
     const smooth = module.jumps(i).map((at) => [at.knot, at.lowest - 1] as const);
     const usual = Math.max(...smooth.map(([, c]) => c));
     const less = smooth.filter(([, c]) => c < usual).map(([knot, c]) => `${continuity(c)} at ${format(knot)}`);

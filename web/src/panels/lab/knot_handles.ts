@@ -9,7 +9,7 @@ interface Drag {
   pointer: number;
   x: number;
   group: Group;
-  /** Which of the copies go: known once the pointer has moved. */
+  /** Which of the copies move: known once the pointer has moved. */
   first: number;
   last: number;
   start: number[];
@@ -17,7 +17,7 @@ interface Drag {
 
 /**
  * The knots below the plot: one stack of dots per value. Dragging takes the copy that lies in the direction of the drag,
- * with Shift all of them; near a neighbour a knot becomes one with it, unless Alt is held.
+ * with Shift all of them; near a neighbour a knot merges with it, unless Alt is held.
  */
 export class KnotHandles {
   readonly element = s('g', { role: 'group', 'aria-label': 'Knots' });
@@ -52,7 +52,7 @@ export class KnotHandles {
     all.forEach((g, k) => set(this.lines.children[k]!, { x1: frame.x(g.value), x2: frame.x(g.value), y1: margin.top, y2: y }));
     const focused = [...this.handles.children].indexOf(document.activeElement as SVGGElement);
     all.forEach((g, k) => this.show(this.handles.children[k] as SVGGElement, g));
-    // The focus goes with the knot that it is on, to whichever stack that is in now.
+    // The focus follows its knot to whichever stack the knot is in now.
     if (focused >= 0 && model.active >= 0) {
       const at = all.findIndex((g) => model.active >= g.first && model.active < g.first + g.count);
       if (at >= 0 && at !== focused) (this.handles.children[at] as SVGGElement).focus({ preventScroll: true });
@@ -88,7 +88,7 @@ export class KnotHandles {
       'aria-valuetext': `${value}, ${copies}`, 'aria-valuemin': finite(low), 'aria-valuemax': finite(high) });
     handle.classList.toggle('active', model.active >= first && model.active < first + count);
     set(handle, { transform: `translate(${x.toFixed(2)} ${y})` });
-    // Many knots have small dots, without the rings that tell those of a few apart.
+    // Many knots have small dots, without the rings that separate the dots of a few.
     const crowded = model.now.knots.length * 6 > frame.right - margin.left;
     const atEnd = x > frame.width - 44;
     const drawn = `${count} ${crowded} ${atEnd}`;
@@ -178,7 +178,7 @@ export class KnotHandles {
     this.model.edit({ degree, knots: removed(knots, first + count - 1) });
   }
 
-  /** True where the key meant something. */
+  /** True if the key was handled. */
   private key(event: KeyboardEvent, group: Group): boolean {
     const { model, frame } = this;
     const { first, count, value } = group;

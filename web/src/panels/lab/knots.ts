@@ -1,6 +1,6 @@
 import type { Command } from '../../engine/session_types';
 
-/** Editing of knot vectors as lists of numbers. Knots are only ever put where the user puts them: nothing is rescaled. */
+/** Editing of knot vectors as lists of numbers. Knots are placed only where the user puts them: nothing is rescaled. */
 
 export type Direction = 'u' | 'v';
 
@@ -9,7 +9,7 @@ export interface Direct {
   knots: number[];
 }
 
-/** A knot that stands `count` times, at the indices `first` … `first + count − 1`. */
+/** A knot that occurs `count` times, at the indices `first` … `first + count − 1`. */
 export interface Group {
   value: number;
   first: number;
@@ -26,7 +26,7 @@ export function groups(knots: readonly number[]): Group[] {
   return all;
 }
 
-/** How far the indices first … last may go together without passing a neighbour. */
+/** How far the indices first … last can move together without passing a neighbour. */
 export function room(knots: readonly number[], first: number, last: number): [number, number] {
   return [first > 0 ? knots[first - 1]! : -Infinity, last + 1 < knots.length ? knots[last + 1]! : Infinity];
 }
@@ -74,7 +74,7 @@ export function withDegree({ degree, knots }: Direct, to: number): Direct {
   return { degree: to, knots: [...before, ...inside, ...after] };
 }
 
-/** Numbers separated by commas or white space; or where there is none. */
+/** Numbers separated by commas or white space; otherwise the first entry that is not a number. */
 export function parseKnots(text: string): number[] | { at: number; text: string } {
   const words = text.split(/[\s,;]+/).filter((w) => w !== '');
   const numbers = words.map(Number);
@@ -82,10 +82,10 @@ export function parseKnots(text: string): number[] | { at: number; text: string 
   return bad < 0 ? numbers : { at: bad, text: words[bad]! };
 }
 
-/** The shortest text that is the same number again; knots one per word. */
+/** The shortest text that reads back as the same number; one knot per word. */
 export const knotText = (knots: readonly number[]): string => knots.map(String).join(', ');
 
-/** What `to` has and `from` has not, where `from` loses nothing. */
+/** What `to` has and `from` does not, if `from` loses nothing. */
 function additions(from: readonly number[], to: readonly number[]): number[] | null {
   const more: number[] = [];
   let k = 0;
@@ -96,7 +96,7 @@ function additions(from: readonly number[], to: readonly number[]): number[] | n
   return k === from.length ? more : null;
 }
 
-/** What would make a surface's knots these ones: a command, nothing to do, or why there is none. */
+/** What turns a surface's knots into these: a command, nothing to do, or the reason why it is impossible. */
 export type Change = { kind: 'same' } | { kind: 'command'; command: Command; about: string } | { kind: 'impossible'; why: string };
 
 export function change(direction: Direction, surface: Direct, wanted: Direct): Change {

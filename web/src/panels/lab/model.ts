@@ -4,7 +4,7 @@ import { change, type Change, type Direct, type Direction, withDegree } from './
 import type { Basis, Curves, Gramians, LabModule } from './module';
 import { readDirections } from './surface';
 
-/** What the pointer or the keyboard is at: a function, or an entry of the Gramian. */
+/** What the pointer or the keyboard is on: a function, or an entry of the Gramian. */
 export interface Highlight {
   i: number;
   j: number;
@@ -15,13 +15,13 @@ export type What = 'knots' | 'order' | 'gramian' | 'highlight' | 'times' | 'surf
 const settleTime = 250; // milliseconds without an edit, after which times are measured
 const budget = 0.005; // seconds per method
 
-/** The knots that the panel is about, and all that the module says about them. */
+/** The knots in the panel, and everything that the module computes from them. */
 export class LabModel {
   direction: Direction = 'u';
   order = 0;
   a = 1;
   b = 1;
-  /** The surface's knots; null where there is no surface. */
+  /** The surface's knots; null if there is no surface. */
   surface: { name: string; unit: string; rational: boolean; directions: Record<Direction, Direct> } | null = null;
   now: Direct = { degree: 3, knots: [0, 0, 0, 0, 0.2, 0.4, 0.6, 0.8, 1, 1, 1, 1] };
   basis: Basis;
@@ -72,7 +72,7 @@ export class LabModel {
     return this.original ? change(this.direction, this.original, this.now) : { kind: 'impossible', why: 'there is no surface' };
   }
 
-  /** Reads the selected surface's knots anew. What was edited stays, unless another surface was selected. */
+  /** Reads the selected surface's knots again. Edits stay, unless another surface was selected. */
   async follow(): Promise<void> {
     this.reading ??= this.read().finally(() => (this.reading = null));
     return this.reading;
@@ -118,7 +118,7 @@ export class LabModel {
 
   // --- edits -------------------------------------------------------------------------------------------------------
 
-  /** Other knots. Where they are no knot vector the ones before stay, and `error` says why. */
+  /** Sets the knots. If they are not a knot vector, the previous ones stay and `error` says why. */
   edit(wanted: Direct): boolean {
     try {
       this.basis = this.module.setKnots(wanted.degree, wanted.knots);
@@ -173,7 +173,7 @@ export class LabModel {
     this.changed('surface');
   }
 
-  /** Everybody is told once before the next picture, however much has changed until then. */
+  /** All listeners are notified once before the next picture, however much has changed by then. */
   changed(...what: What[]): void {
     for (const w of what) this.due.add(w);
     if (this.request === 0 && !this.closed) this.request = requestAnimationFrame(() => this.update());

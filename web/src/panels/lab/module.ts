@@ -17,7 +17,7 @@ interface Exports {
   lab_buffer_size(which: number): number;
 }
 
-/** What is known of a knot vector at once. */
+/** What is known about a knot vector immediately. */
 export interface Basis {
   count: number;
   domain: [number, number];
@@ -53,7 +53,7 @@ export type Method = (typeof methods)[number];
 /** Differences, in the order of the module's tables: which minus which. */
 export const pairs: readonly (readonly [Method, Method])[] = [['gauss', 'recurrence'], ['analytic', 'recurrence'], ['analytic', 'gauss']];
 
-/** Per pair; rows and columns are −1 where nothing differs. A number is null where it is not finite. */
+/** Per pair; rows and columns are −1 if nothing differs. A number is null if it is not finite. */
 export interface Worst {
   absolute: number | null;
   absoluteAt: [number, number];
@@ -65,7 +65,7 @@ export interface Worst {
 export interface Gramians {
   size: number;
   bandwidth: number;
-  /** Who computed what was asked of gauss, analytic and recurrence. */
+  /** The methods actually used for gauss, analytic and recurrence. */
   used: string[];
   worst: Worst[];
   values: Float64Array[];
@@ -87,7 +87,7 @@ export class LabModule {
     return this.wasm.memory.buffer.byteLength;
   }
 
-  /** What all else is about from now on. Throws, and keeps the knots from before, where these are no knot vector. */
+  /** Sets the knots for all other calls. Throws, and keeps the previous knots, if these are not a knot vector. */
   setKnots(degree: number, knots: readonly number[]): Basis {
     const at = this.wasm.lab_input(knots.length);
     new Float64Array(this.wasm.memory.buffer, at, knots.length).set(knots);

@@ -1,4 +1,4 @@
-/** What orders of derivatives and integrals, functions and Gramians are called. */
+/** Names of orders of derivatives and integrals, of functions and of Gramians. */
 
 const times = ['', '', 'twice', 'three times', 'four times', 'five times', 'six times', 'seven times', 'eight times'];
 const ordinal = (n: number): string => {
@@ -29,10 +29,10 @@ export const impulseName = (k: number): string => `δ${k <= 3 ? '′'.repeat(k) 
 
 export const gramianName = (a: number, b: number): string => `G${sup(a)}${a > 9 || b > 9 ? '˒' : ''}${sup(b)}`;
 
-/** All digits: the same number when it is read again. */
+/** All digits, so that the same number is read back. */
 export const exact = (value: number): string => (Number.isFinite(value) ? value.toPrecision(17).replace('e+', 'e') : '–');
 
-/** A small number: two digits are enough to judge it by. */
+/** A small number: two digits suffice to judge it. */
 export const tiny = (value: number | null | undefined): string =>
   value === null || value === undefined || !Number.isFinite(value) ? '–' : value === 0 ? '0' : value.toExponential(1).replace('e+', 'e');
 

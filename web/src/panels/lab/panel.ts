@@ -12,12 +12,12 @@ import { Plot } from './plot';
 
 type Dock = 'below' | 'beside';
 
-const settleTime = 200; // milliseconds without a frame, after which the surface's knots are read anew
+const settleTime = 200; // milliseconds without a frame, after which the surface's knots are read again
 const smallest = 180;
 let open: LabPanel | null = null;
 let opening: Promise<void> | null = null;
 
-/** Opens the panel of basis functions and Gramians, or closes it where it is open. */
+/** Opens the panel of basis functions and Gramians, or closes it if it is open. */
 export async function toggleLab(app: App): Promise<void> {
   if (open) return open.close();
   opening ??= (async () => {
@@ -95,7 +95,7 @@ class LabPanel {
     this.plot.close();
     this.gramian.close();
     this.model.close();
-    // The keys go to the views again.
+    // Keys go to the views again.
     if (this.element.contains(document.activeElement)) this.stage.querySelector<HTMLElement>('.view-perspective')?.focus({ preventScroll: true });
     this.element.remove();
     this.stage.classList.remove('lab-below', 'lab-beside');
@@ -104,7 +104,7 @@ class LabPanel {
     this.app.changed();
   }
 
-  /** The session may have other knots now, the page other colours. */
+  /** The session may now have other knots, the page other colours. */
   private readonly look = (): void => {
     const { app } = this;
     if (this.theme !== app.theme) {
@@ -156,7 +156,7 @@ class LabPanel {
     try {
       localStorage.setItem('knead-lab', JSON.stringify({ dock: this.where, ...this.sizes }));
     } catch {
-      // Without storage it is where it was until the page is closed.
+      // Without storage the position lasts until the page is closed.
     }
   }
 

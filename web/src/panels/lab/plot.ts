@@ -63,7 +63,7 @@ export class Plot {
     this.draw();
   }
 
-  /** What is under the pointer: the value there of the nearest function, and the sum of all. */
+  /** Under the pointer: the value of the nearest function there, and the sum of all. */
   private point(event: PointerEvent): void {
     const box = this.svg.getBoundingClientRect();
     const [x, y] = [event.clientX - box.left, event.clientY - box.top];

@@ -2,7 +2,7 @@ import type { Curves } from './module';
 
 export const margin = { left: 52, right: 14, top: 24, bottom: 58 };
 
-/** Where parameters and values lie in the picture. */
+/** The positions of parameters and values in the picture. */
 export class PlotFrame {
   width = 600;
   height = 260;
@@ -24,7 +24,7 @@ export class PlotFrame {
     this.u = [low - pad, high + pad];
   }
 
-  /** Room for all values, and for arrows on both sides where there are some. */
+  /** Room for all values, and for any arrows on both sides. */
   fitV({ lowest, highest, weight }: Curves, order: number): void {
     let [low, high] = order === 0 ? [0, 1] : [lowest, highest];
     if (!(high > low)) [low, high] = [0, weight > 0 ? weight : 1];
@@ -42,7 +42,7 @@ export class PlotFrame {
   }
 
   y(v: number): number {
-    // Far outside of the picture all heights are alike, and numbers stay such that an SVG takes them.
+    // Far outside the picture heights are clamped, so that numbers stay valid in an SVG.
     const t = (v - this.v[0]) / (this.v[1] - this.v[0]);
     return this.bottom - Math.min(20, Math.max(-20, t)) * (this.bottom - margin.top);
   }
@@ -51,7 +51,7 @@ export class PlotFrame {
     return this.u[0] + ((x - margin.left) / (this.right - margin.left)) * (this.u[1] - this.u[0]);
   }
 
-  /** As round a number as there is within half a pixel or so. */
+  /** The roundest number within about half a pixel. */
   roundParameter(x: number): number {
     const quantum = 10 ** Math.floor(Math.log10((this.u[1] - this.u[0]) / (this.right - margin.left)));
     return Number((Math.round(this.parameter(x) / quantum) * quantum).toPrecision(12));
