@@ -4,7 +4,7 @@
 
 namespace knead {
 
-// The forms of files as written.
+// The formats of files as written.
 
 struct ScriptForm {
   int version = 1;
@@ -12,7 +12,7 @@ struct ScriptForm {
 };
 
 static void describe(ScriptForm& s, Fields& fields) {
-  fields.name("script", "What a session did.");
+  fields.name("script", "The commands of a session.");
   fields.add("knead", s.version,
              {.help = "the version of the form", .range = between(1, 2), .presence = Presence::required});
   fields.add("commands", s.commands, {.help = "run in order", .presence = Presence::required});
@@ -50,7 +50,7 @@ static void describe(DocumentForm& d, Fields& fields) {
   fields.add("name", d.name, {.help = "what the studio calls it"});
   fields.add("source", d.source, {.help = "left out: the session began without a file"});
   fields.add("commands", d.commands, {.help = "run in order", .presence = Presence::required});
-  fields.add("snapshot", d.snapshot, {.help = "the state that comes of it, in base64"});
+  fields.add("snapshot", d.snapshot, {.help = "the resulting state, in base64"});
 }
 
 static std::string whole_schema(const Type& type) {

@@ -12,7 +12,7 @@
 
 namespace knead {
 
-// What is reported of each part of a session: plain values filled from the state, and their descriptions.
+// What is reported about each part of a session: plain values filled from the state, and their descriptions.
 
 struct SurfaceInfo {
   std::string id, name, unit;
@@ -40,12 +40,12 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("net", s.net, {.help = "control points [m, n]; (i, j) is number i n + j"});
   fields.add("rational", s.rational);
   fields.add("lower", s.lower, {.help = "corner of the control points' bounding box", .unit = Unit::length});
-  fields.add("upper", s.upper, {.help = "the corner opposite", .unit = Unit::length});
+  fields.add("upper", s.upper, {.help = "the opposite corner", .unit = Unit::length});
   fields.add("alpha", s.alpha, {.help = "coefficients 11, 12, 22; null where one varies over the surface"});
   fields.add("beta", s.beta, {.help = "likewise"});
   fields.add("mass", s.mass, {.help = "null where it varies"});
   fields.add("damping", s.damping, {.help = "null where it varies"});
-  fields.add("preset", s.preset, {.help = "the material by name that it has"});
+  fields.add("preset", s.preset, {.help = "its named material, if it has one"});
   fields.add("plasticity", s.plasticity, {.help = "share of a displacement that strokes leave"});
   fields.add("yield", s.yield, {.help = "up to this displacement they leave nothing"});
   fields.add("locality", s.locality, {.help = "how far a dent is felt"});
@@ -53,10 +53,10 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("rest", s.rest);
   fields.add("faces", s.faces, {.help = "of the file that lie on it"});
   fields.add("hold", s.hold, {.help = "outer rows of control points that do not move"});
-  fields.add("pins", s.pins, {.help = "how many control points are pinned"});
+  fields.add("pins", s.pins, {.help = "number of pinned control points"});
   fields.add("pinned", s.pinned, {.help = "the pinned control points [i, j]"});
-  fields.add("constraints", s.constraints, {.help = "the commands that ask for what holds it"});
-  fields.add("moved", s.moved, {.help = "control points that are not as opened"});
+  fields.add("constraints", s.constraints, {.help = "the commands that restate what holds it"});
+  fields.add("moved", s.moved, {.help = "number of control points that are not as opened"});
 }
 
 struct ToolInfo {
@@ -105,8 +105,8 @@ static void describe(StepRecord& s, Fields& fields) {
   fields.add("violation", s.violation, {.help = "of constraints", .unit = Unit::length});
   fields.add("iterations", s.iterations);
   fields.add("converged", s.converged);
-  fields.add("limited", s.limited, {.help = "the limit holds something back"});
-  fields.add("note", s.note, {.help = "what stood in the way, and what would help"});
+  fields.add("limited", s.limited, {.help = "the limit restricts the displacement"});
+  fields.add("note", s.note, {.help = "what went wrong, and the remedy"});
 }
 
 std::span<const Choice> choices(SeamContinuity) {
@@ -127,10 +127,10 @@ static void describe(SeamInfo& s, Fields& fields) {
   fields.name("seam info", "");
   fields.add("continuity", s.continuity);
   fields.add("gap", s.gap, {.unit = Unit::length});
-  fields.add("reason", s.reason, {.help = "why it is no more than that"});
+  fields.add("reason", s.reason, {.help = "why the continuity is not higher"});
 }
 
-// The command that would make it, hence with its name.
+// The commands that would restate them, hence with their names.
 static std::string_view tag_of(const std::variant<LoadCommand>*) { return "do"; }
 static std::string_view tag_of(const std::variant<EvolveCommand>*) { return "do"; }
 
@@ -154,7 +154,7 @@ struct SessionInfo {
 };
 
 static void describe(SessionInfo& s, Fields& fields) {
-  fields.name("session info", "What the session says about itself.");
+  fields.name("session info", "The session as it is reported.");
   fields.add("name", s.name, {.help = "of the document"});
   fields.add("fresh", s.fresh, {.help = "it began without a file"});
   fields.add("selection", s.selection, {.help = "numbers of the selected surfaces, the first one first"});
@@ -169,7 +169,7 @@ static void describe(SessionInfo& s, Fields& fields) {
   fields.add("refine", s.refine);
   fields.add("seams", s.seams);
   fields.add("notes", s.notes);
-  fields.add("steps", s.steps, {.help = "how many there were"});
+  fields.add("steps", s.steps, {.help = "their number"});
   fields.add("last", s.last, {.help = "the last step"});
   fields.add("undo", s.undo);
   fields.add("redo", s.redo);
@@ -186,7 +186,7 @@ static void describe(EdgeInfo& e, Fields& fields) {
   fields.add("id", e.id);
   fields.add("faces", e.faces, {.help = "that meet there"});
   fields.add("deviation", e.deviation,
-             {.help = "of the surface from where it was, the largest along it", .unit = Unit::length});
+             {.help = "of the surface from its original position, the largest along the edge", .unit = Unit::length});
 }
 
 struct EdgesInfo {
@@ -197,9 +197,10 @@ struct EdgesInfo {
 };
 
 static void describe(EdgesInfo& e, Fields& fields) {
-  fields.name("edges info", "The edges of the faces on a surface that was moved.");
+  fields.name("edges info", "The edges of the faces on a surface that has moved.");
   fields.add("surface", e.surface, {.help = "its id"});
-  fields.add("tolerance", e.tolerance, {.help = "up to which the file says that faces meet", .unit = Unit::length});
+  fields.add("tolerance", e.tolerance,
+             {.help = "within which faces meet, according to the file", .unit = Unit::length});
   fields.add("edges", e.edges);
   fields.add("unknown", e.unknown, {.help = "why they cannot be followed"});
 }
