@@ -9,8 +9,8 @@
 namespace knead::figures {
 namespace {
 
-constexpr int most = max_degree + 1, highest = 2 * max_degree + 1;
-using Row = std::array<Counted, most>;
+constexpr int orders = max_degree + 1, highest = 2 * max_degree + 1;
+using Row = std::array<Counted, orders>;
 
 /// Values of B-splines at one point: function span − p + c, c = 0 … p, of degrees 0 … 2p + 1 (Figs. 5.8, 5.26).
 class Triangle {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int max_integral = 30, max_samples = 10'000'000;
 
-struct Options {
+struct BasisArguments {
   KnotsOption knots;
   int index = 0, samples = 101;
   std::optional<int> derivative, integral;
@@ -22,7 +22,7 @@ struct Options {
   std::string format = "csv";
 };
 
-Expected<void> check(const Options& options, int count) {
+Expected<void> check(const BasisArguments& options, int count) {
   if (options.index < 0 || options.index >= count) {
     return input_error(fmt::format("there is no basis function {}", options.index), "--index",
                        fmt::format("use 0 to {}", count - 1));
@@ -53,7 +53,7 @@ std::string jumps_json(const KnotVector& knots, int index, int order) {
   return fmt::format("\"{}\":[{}],", impulses ? "diracs" : "jumps", text);
 }
 
-Expected<void> run(const Options& options) {
+Expected<void> run(const BasisArguments& options) {
   const auto knots = options.knots.read();
   if (!knots) return std::unexpected(knots.error());
   if (auto checked = check(options, knots->count()); !checked) return checked;
@@ -87,7 +87,7 @@ Expected<void> run(const Options& options) {
 }  // namespace
 
 Action add_basis(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BasisArguments>();
   CLI::App* command = app.add_subcommand("basis", "sample a basis function, its derivatives or its repeated integrals");
   options->knots.add_to(*command);
   command->add_option("--index", options->index, "which function, counted from 0 (default 0)");

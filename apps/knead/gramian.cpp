@@ -14,7 +14,7 @@
 namespace knead::cli {
 namespace {
 
-struct Options {
+struct GramianArguments {
   KnotsOption knots;
   int a = 0, b = 0;
   std::string method, weights, format = "json";
@@ -79,7 +79,7 @@ void print_csv(int degree, const Result& result) {
 
 constexpr std::string_view constant_denominator = "constant-denominator", rational = "rational";
 
-std::vector<std::array<int, 2>> orders(const Options& options) {
+std::vector<std::array<int, 2>> orders(const GramianArguments& options) {
   if (options.all) return {{0, 0}, {1, 1}, {2, 2}, {1, 0}};
   return {{options.a, options.b}};
 }
@@ -87,7 +87,7 @@ std::vector<std::array<int, 2>> orders(const Options& options) {
 /// "21"; orders of two digits are kept apart, "10,2".
 std::string term_name(int a, int b) { return fmt::format("{}{}{}", a, a > 9 || b > 9 ? "," : "", b); }
 
-Expected<Result> compute(const Options& options, const KnotVector& knots) {
+Expected<Result> compute(const GramianArguments& options, const KnotVector& knots) {
   const std::string chosen = options.method.empty() ? std::string(name(default_gramian_method)) : options.method;
   const auto method = gramian_method(chosen);
   if (!method) return std::unexpected(method.error().within("--method"));
@@ -106,7 +106,7 @@ Expected<Result> compute(const Options& options, const KnotVector& knots) {
 }
 
 /// With weights: to a tolerance, or by the approximation with a constant denominator per span.
-Expected<Result> compute_rational(const Options& options, const KnotVector& knots) {
+Expected<Result> compute_rational(const GramianArguments& options, const KnotVector& knots) {
   const auto weights = parse_numbers(options.weights, "--rational-weights");
   if (!weights) return std::unexpected(weights.error());
   Result result{options.method.empty() ? std::string(rational) : options.method, {}, {}};
@@ -130,7 +130,7 @@ Expected<Result> compute_rational(const Options& options, const KnotVector& knot
   return result;
 }
 
-Expected<void> run(const Options& options) {
+Expected<void> run(const GramianArguments& options) {
   const auto knots = options.knots.read();
   if (!knots) return std::unexpected(knots.error());
   const auto result = options.weights.empty() ? compute(options, *knots) : compute_rational(options, *knots);
@@ -151,7 +151,7 @@ Expected<void> run(const Options& options) {
 }  // namespace
 
 Action add_gramian(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GramianArguments>();
   CLI::App* command = app.add_subcommand("gramian", "print Gramian matrices of a B-spline basis");
   options->knots.add_to(*command);
   CLI::Option* a = command->add_option("--a", options->a, "derivative of the row functions, 0 to 15 (default 0)");

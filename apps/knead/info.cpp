@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct InfoArguments {
   std::string file;
   bool json = false, faces = false;
 };
@@ -72,7 +72,7 @@ void print_text(const step::File& file) {
     fmt::print("           from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.lower.x(), box.lower.y(),
                box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
   }
-  for (const step::UnreadableSurface& s : file.unreadable_surfaces()) {
+  for (const UnreadableSurface& s : file.unreadable_surfaces()) {
     fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
   }
   if (!file.instances().empty()) {
@@ -81,7 +81,7 @@ void print_text(const step::File& file) {
   }
 }
 
-Expected<void> run(const Options& options) {
+Expected<void> run(const InfoArguments& options) {
   const auto file = step::File::read(options.file);
   if (!file) return std::unexpected(file.error());
   if (!options.json) {
@@ -91,7 +91,7 @@ Expected<void> run(const Options& options) {
   }
   Json surfaces = Json::array(), unreadable = Json::array(), instances = Json::array();
   for (const step::SurfaceEntity& s : file->surfaces()) surfaces.push_back(to_json(s));
-  for (const step::UnreadableSurface& s : file->unreadable_surfaces()) {
+  for (const UnreadableSurface& s : file->unreadable_surfaces()) {
     unreadable.push_back({{"id", s.id}, {"reason", s.reason.message()}});
   }
   for (const step::Instance& i : file->instances()) instances.push_back(to_json(i));
@@ -109,7 +109,7 @@ Expected<void> run(const Options& options) {
 }  // namespace
 
 Action add_info(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand("info", "list the B-spline surfaces of a CAD file");
   command->add_option("FILE", options->file, "STEP file")->required()->type_name("");
   command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");

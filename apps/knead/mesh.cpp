@@ -10,12 +10,12 @@
 namespace knead::cli {
 namespace {
 
-struct Options {
+struct MeshArguments {
   std::string file, output;
   int detail = SaveOptions{}.detail;
 };
 
-Expected<void> run(const Options& options) {
+Expected<void> run(const MeshArguments& options) {
   const auto format = format_of_name(options.output, FormatContent::triangles);
   if (!format) {
     Error error = format.error().within("--out");
@@ -54,7 +54,7 @@ Expected<void> run(const Options& options) {
 }  // namespace
 
 Action add_mesh(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MeshArguments>();
   CLI::App* command = app.add_subcommand("mesh", "write the B-spline surfaces of a CAD file as triangles");
   command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
       ->required()

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "cli.hpp"
 #include "faces.hpp"
 #include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
 #include "knead/sculpt/describe_shape.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
@@ -19,7 +21,7 @@
 namespace knead::cli {
 namespace {
 
-struct Options {
+struct SculptArguments {
   std::string file, output, script, report, picture;
   bool fresh = false;
   [[nodiscard]] const std::string& name() const { return fresh ? output : file; }
@@ -154,7 +156,7 @@ Expected<std::string> probes_json(const SessionState& state) {
   return text;
 }
 
-void print_summary(const Options& options, const Session& session, const Outcome& o) {
+void print_summary(const SculptArguments& options, const Session& session, const Outcome& o) {
   const SessionState& state = session.state();
   const std::string& file = options.name();
   if (!state.selected) {
@@ -202,7 +204,7 @@ void print_summary(const Options& options, const Session& session, const Outcome
 }
 
 /// The CAD file comes last: if it exists, everything requested has been written.
-Expected<void> write_results(const Options& options, const Session& session, const Outcome& o) {
+Expected<void> write_results(const SculptArguments& options, const Session& session, const Outcome& o) {
   auto bytes = session.save();
   if (!bytes) return std::unexpected(bytes.error());
   std::string picture;
@@ -233,11 +235,24 @@ Expected<void> write_results(const Options& options, const Session& session, con
   return {};
 }
 
-Expected<void> run(const Options& options) {
+/// Whether the name of the output promises what is written: it has no ending, that of the input, or one of a CAD
+/// format.
+Expected<void> check_ending(const SculptArguments& options) {
+  const auto ending = std::filesystem::path(options.output).extension();
+  if (ending.empty() || ending == std::filesystem::path(options.file).extension()) return {};
+  if (format_of_name(options.output, FormatContent::surfaces)) return {};
+  return usage_error(fmt::format("\"{}\" is not the name of a STEP file, and the result is one", options.output),
+                     "--output",
+                     fmt::format("use a name that ends in {}; `knead mesh` writes {}",
+                                 list_of_endings(FormatContent::surfaces), list_of_endings(FormatContent::triangles)));
+}
+
+Expected<void> run(const SculptArguments& options) {
   if (options.output.empty()) return usage_error("the name is empty", "--output", "name the STEP file to write");
   const NamedFile file{"FILE", options.file}, script{"--script", options.script}, output{"--output", options.output};
   // The surface may be sculpted in place: only --output may name the input file.
   if (auto possible = check_outputs({output}, {script}); !possible) return possible;
+  if (auto possible = check_ending(options); !possible) return possible;
   const NamedFile report{"--report", options.report}, picture{"--picture", options.picture};
   if (auto possible = check_outputs({report, picture}, {file, script, output}); !possible) return possible;
   if (options.fresh != options.file.empty()) {
@@ -273,7 +288,7 @@ Expected<void> run(const Options& options) {
 }  // namespace
 
 Action add_sculpt(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SculptArguments>();
   CLI::App* command = app.add_subcommand("sculpt", "run a script of sculpting commands on a CAD file");
   command->add_option("FILE", options->file, "STEP file to sculpt; it is not changed, unless --output names it too")
       ->type_name("");

@@ -12,7 +12,7 @@
 namespace knead::cli {
 namespace {
 
-struct Options {
+struct StiffnessArguments {
   std::string degree = "3", net, alpha = "1,0,1", beta = "0,0,0", method{name(default_gramian_method)};
   bool json = false;
 };
@@ -48,7 +48,7 @@ Expected<std::array<double, 3>> parse_triple(const std::string& text, const std:
   return std::array<double, 3>{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
-Expected<void> run(const Options& options) {
+Expected<void> run(const StiffnessArguments& options) {
   const auto degree = parse_pair(options.degree, "--degree", true);
   if (!degree) return std::unexpected(degree.error());
   const auto net = parse_pair(options.net, "--net", false);
@@ -96,7 +96,7 @@ Expected<void> run(const Options& options) {
 }  // namespace
 
 Action add_stiffness(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StiffnessArguments>();
   CLI::App* command =
       app.add_subcommand("stiffness", "assemble the stiffness matrix of a net on open uniform knots over [0,1]");
   command->add_option("--degree", options->degree, "degree, or one per direction as in 3x2 (default 3)");

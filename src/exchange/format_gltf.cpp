@@ -73,7 +73,7 @@ void append_chunk(std::string& to, std::uint32_t type, std::string content, char
   to += content;
 }
 
-Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+Expected<std::string> save_gltf(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   const auto all = meshes_of(surfaces, options);
   if (!all) return std::unexpected(all.error());
   Buffer buffer;
@@ -125,7 +125,7 @@ Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOpt
   return text + chunks;
 }
 
-constexpr std::string_view endings[] = {".glb"};
+constexpr std::string_view gltf_endings[] = {".glb"};
 
 }  // namespace
 
@@ -133,11 +133,11 @@ Format gltf_format() {
   return {
       .id = "gltf",
       .name = "glTF",
-      .endings = endings,
+      .endings = gltf_endings,
       .media_type = "model/gltf-binary",
       .content = FormatContent::triangles,
       .holds = "triangles with normals at the points, binary, single precision, a mesh per surface; shown in metres",
-      .save = save};
+      .save = save_gltf};
 }
 
 }  // namespace knead::detail

@@ -9,7 +9,7 @@
 namespace knead::detail {
 namespace {
 
-Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+Expected<std::string> save_obj(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   const auto all = meshes_of(surfaces, options);
   if (!all) return std::unexpected(all.error());
   std::string text = "# Knead" + lengths_in(options.unit) + "\n";
@@ -34,18 +34,18 @@ Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOpt
   return text;
 }
 
-constexpr std::string_view endings[] = {".obj"};
+constexpr std::string_view obj_endings[] = {".obj"};
 
 }  // namespace
 
 Format obj_format() {
   return {.id = "obj",
           .name = "OBJ",
-          .endings = endings,
+          .endings = obj_endings,
           .media_type = "model/obj",
           .content = FormatContent::triangles,
           .holds = "triangles with normals at the points, text, an object per surface",
-          .save = save};
+          .save = save_obj};
 }
 
 }  // namespace knead::detail

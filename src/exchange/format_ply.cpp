@@ -6,7 +6,7 @@
 namespace knead::detail {
 namespace {
 
-Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+Expected<std::string> save_ply(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   const auto all = meshes_of(surfaces, options);
   if (!all) return std::unexpected(all.error());
   Eigen::Index vertices = 0;
@@ -33,18 +33,18 @@ Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOpt
   return text;
 }
 
-constexpr std::string_view endings[] = {".ply"};
+constexpr std::string_view ply_endings[] = {".ply"};
 
 }  // namespace
 
 Format ply_format() {
   return {.id = "ply",
           .name = "PLY",
-          .endings = endings,
+          .endings = ply_endings,
           .media_type = "application/octet-stream",
           .content = FormatContent::triangles,
           .holds = "triangles with normals at the points, binary, points in double precision",
-          .save = save};
+          .save = save_ply};
 }
 
 }  // namespace knead::detail

@@ -11,12 +11,11 @@ class StepSource final : public Source {
     for (const step::SurfaceEntity& s : file_.surfaces()) {
       surfaces_.push_back({s.id, s.name, s.unit, std::make_shared<const Surface>(s.surface)});
     }
-    for (const step::UnreadableSurface& s : file_.unreadable_surfaces()) unreadable_.push_back({s.id, s.reason});
   }
 
   const std::string& name() const override { return file_.name(); }
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
-  const std::vector<UnreadableSurface>& unreadable() const override { return unreadable_; }
+  const std::vector<UnreadableSurface>& unreadable() const override { return file_.unreadable_surfaces(); }
   const step::File* step_file() const override { return &file_; }
 
   Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces) const override {
@@ -30,7 +29,6 @@ class StepSource final : public Source {
  private:
   step::File file_;
   std::vector<SourceSurface> surfaces_;
-  std::vector<UnreadableSurface> unreadable_;
 };
 
 /// The first token of an exchange structure, after white space, comments and a byte order mark.
@@ -45,7 +43,7 @@ Expected<std::shared_ptr<const Source>> open(std::string bytes, std::string name
   return std::make_shared<const StepSource>(std::move(*file));
 }
 
-Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+Expected<std::string> save_step(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   std::vector<step::NewSurface> made;
   for (const NamedSurface& s : surfaces) made.push_back({s.name, s.surface});
   step::TextOptions text;
@@ -54,20 +52,20 @@ Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOpt
   return step::text_of(made, text);
 }
 
-constexpr std::string_view endings[] = {".step", ".stp", ".p21"};
+constexpr std::string_view step_endings[] = {".step", ".stp", ".p21"};
 
 }  // namespace
 
 Format step_format() {
   return {.id = "step",
           .name = "STEP",
-          .endings = endings,
+          .endings = step_endings,
           .media_type = "model/step",
           .content = FormatContent::surfaces,
           .holds = "the surfaces themselves, and everything else of the file byte for byte",
           .recognises = recognises,
           .open = open,
-          .save = save};
+          .save = save_step};
 }
 
 }  // namespace knead::detail

@@ -6,7 +6,7 @@
 namespace knead::detail {
 namespace {
 
-Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+Expected<std::string> save_stl(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   const auto all = meshes_of(surfaces, options);
   if (!all) return std::unexpected(all.error());
   constexpr std::size_t header = 80;
@@ -24,18 +24,18 @@ Expected<std::string> save(std::span<const NamedSurface> surfaces, const SaveOpt
   return text;
 }
 
-constexpr std::string_view endings[] = {".stl"};
+constexpr std::string_view stl_endings[] = {".stl"};
 
 }  // namespace
 
 Format stl_format() {
   return {.id = "stl",
           .name = "STL",
-          .endings = endings,
+          .endings = stl_endings,
           .media_type = "model/stl",
           .content = FormatContent::triangles,
           .holds = "triangles with the normal of each, binary, single precision",
-          .save = save};
+          .save = save_stl};
 }
 
 }  // namespace knead::detail

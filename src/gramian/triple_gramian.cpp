@@ -35,12 +35,12 @@ Expected<std::vector<Piece>> common_pieces(const KnotVector& first, const KnotVe
 
 namespace {
 
-constexpr int highest_order = 2 * max_degree;  // above this everything is zero anyway; keeps sums of orders in range
+constexpr int max_order = 2 * max_degree;  // above this everything is zero anyway; keeps sums of orders in range
 
 Expected<int> points_for(int degree, int a, int b) {
-  if (a < 0 || b < 0 || a > highest_order || b > highest_order) {
+  if (a < 0 || b < 0 || a > max_order || b > max_order) {
     return usage_error(fmt::format("there are no derivatives of orders {} and {}", a, b), {},
-                       fmt::format("use 0 to {}", highest_order));
+                       fmt::format("use 0 to {}", max_order));
   }
   return std::max(0, degree - a - b) / 2 + 1;
 }

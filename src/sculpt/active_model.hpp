@@ -15,8 +15,6 @@ namespace knead {
 /// A dynamic step is two stages of this share of it (Alexander's method).
 inline const double dynamic_stage = 1 - std::sqrt(0.5);
 
-inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
-
 /// The data of a step; all matrices on all unknowns, in normalised units.
 template <int D>
 struct ActiveSpline<D>::Model {

@@ -8,6 +8,8 @@
 
 namespace knead::detail {
 
+inline constexpr double proportional = 1e-7;  // weights that are proportional up to the rounding of their decimals
+
 using Terms = std::vector<std::pair<int, double>>;
 
 /// A net seen across lines of one direction: i counts along `direction`, j along the lines.

@@ -13,9 +13,8 @@ namespace {
 
 using detail::LocalBasis;
 using detail::NetAcross;
+using detail::proportional;
 using detail::Terms;
-
-constexpr double proportional = 1e-7;  // weights that are proportional up to the rounding of their decimals
 
 /// A knot line of multiplicity p or p + 1: its two sides, and the rest shape at samples along it.
 struct Line {

@@ -12,9 +12,8 @@ namespace {
 
 using detail::LocalBasis;
 using detail::NetAcross;
+using detail::proportional;
 using detail::Terms;
-
-constexpr double proportional = 1e-7;  // weights that are proportional up to the rounding of their decimals
 
 struct Frame {
   Point normal;

@@ -28,8 +28,6 @@ constexpr double far_from_balance = 1e-2;
 constexpr double stage_tolerance = 1e-4;
 constexpr int max_stage_iterations = 20;
 
-double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
-
 /// Contacts affect few control points, and the minimum is sought within their neighbourhood. Let r be the imbalance of
 /// forces b − AY + F at some Y₀, the anchor, and s = A⁻¹r: computed once on the whole net. From then on all directions,
 /// and so all residuals, are combinations β r + E e, with forces e in the neighbourhood (E embeds them) whose images

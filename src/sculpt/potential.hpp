@@ -7,6 +7,8 @@
 
 namespace knead {
 
+inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
+
 /// A material point on which a force acts, and the derivative of that force.
 struct ContactPoint {
   int patch = 0;

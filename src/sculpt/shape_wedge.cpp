@@ -113,20 +113,20 @@ Kernel scaled_wedge(const WedgeShape& s, const Point& scale) {
   const Vector2 tip = (plain.centre + s.rounding * plain.normal).cwiseProduct(across), radii = s.rounding * across;
   const double half = 0.5 * s.length * scale.x();
 
-  constexpr ParameterRectangle whole = {{Range{0, 1}, Range{0, 1}}};
+  constexpr Range all = {0, 1};
   constexpr std::array<int, 3> axes = {1, 2, 0};
   const auto along = MonotoneCurve::segment(Vector2(1, 0), Vector2(1, 1)),
              out = MonotoneCurve::segment(Vector2(0, 1), Vector2(1, 1));
   Patches patches;
   // A piece of the profile is swept along the ridge, and from the middle of the foot over an end.
   const auto add = [&](const MonotoneCurve& curve, const Range& range, bool foot) {
-    const ParameterRectangle at = {{Range{0, 1}, range}};
+    const ParameterRectangle at = {{all, range}};
     patches.push_back(std::make_unique<SeparablePatch>(at, along, curve, Point(1, 1, half), Point::Zero(), axes));
     if (foot) return;
     patches.push_back(std::make_unique<SeparablePatch>(at, out, curve, Point(1, 1, half), Point::Zero(), axes));
   };
-  add(MonotoneCurve::segment(Vector2::Zero(), corner), whole.side[1], true);
-  if ((corner - tip).norm() > 1e-12 * corner.norm()) add(MonotoneCurve::segment(corner, tip), whole.side[1], false);
+  add(MonotoneCurve::segment(Vector2::Zero(), corner), all, true);
+  if ((corner - tip).norm() > 1e-12 * corner.norm()) add(MonotoneCurve::segment(corner, tip), all, false);
   // The arc's angles, from that of the flank's normal to a right angle, in halves of the quarter.
   if (plain.sin < plain.cos) {
     add(MonotoneCurve::arc(centre, radii, 1, false), Range{plain.sin / plain.cos, 1}, false);

@@ -113,6 +113,12 @@ struct Executor {
   Expected<void> show_stroke(bool down);
 };
 
+inline constexpr double coarse = 0.5;      // spans longer than this share of a tool follow it less accurately
+inline constexpr int max_refinements = 5;  // of the net under a tool at one place, if refining is permitted
+
+/// The note on a step for the user: its own, or that the net is too coarse for a tool.
+[[nodiscard]] std::string note_of(const ActiveStep& step);
+
 /// "#12: the net is now …", for the notes.
 [[nodiscard]] std::string net_note(const SceneSurface& surface);
 

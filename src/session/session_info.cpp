@@ -220,8 +220,6 @@ static void describe(ErrorInfo& e, Fields& fields) {
 
 namespace {
 
-Vector3 array_of(const Point& p) { return {p[0], p[1], p[2]}; }
-
 std::optional<double> constant(const Coefficient<2>& c) {
   const double* value = std::get_if<double>(&c);
   return value ? std::optional(*value) : std::nullopt;

@@ -10,22 +10,6 @@
 namespace knead {
 namespace {
 
-constexpr double coarse = 0.5;      // spans longer than this share of a tool follow it less accurately
-constexpr double too_coarse = 1;    // longer than this, they cannot follow it
-constexpr int max_refinements = 5;  // of the net under a tool, if refining is permitted
-
-/// Rounds of halving after which spans are no longer coarse.
-int halvings(double coarseness) { return static_cast<int>(std::ceil(std::log2(coarseness / coarse))); }
-
-/// The note on a step for the user: its own, or that the net is too coarse for a tool.
-std::string note_of(const ActiveStep& step) {
-  if (!step.note.empty() || step.coarseness <= too_coarse) return step.note;
-  return fmt::format(
-      "the net is too coarse to follow the tool: its spans are up to {:.2g} times the tool's size; "
-      "halve them {} with {{\"do\":\"refine\",\"under\":\"…\"}}",
-      step.coarseness, halvings(step.coarseness) == 1 ? "once" : fmt::format("{} times", halvings(step.coarseness)));
-}
-
 /// Whether the step left every selected surface at rest and as opened.
 bool nothing_moved(const Scene& scene, const ActiveStep& step) {
   Eigen::Index first = 0;
@@ -40,6 +24,16 @@ bool nothing_moved(const Scene& scene, const ActiveStep& step) {
 }
 
 }  // namespace
+
+std::string note_of(const ActiveStep& step) {
+  constexpr double too_coarse = 1;  // spans longer than this share of a tool cannot follow it
+  if (!step.note.empty() || step.coarseness <= too_coarse) return step.note;
+  const int halvings = static_cast<int>(std::ceil(std::log2(step.coarseness / coarse)));
+  return fmt::format(
+      "the net is too coarse to follow the tool: its spans are up to {:.2g} times the tool's size; "
+      "halve them {} with {{\"do\":\"refine\",\"under\":\"…\"}}",
+      step.coarseness, halvings == 1 ? "once" : fmt::format("{} times", halvings));
+}
 
 Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more, int done,
                              int total) {

@@ -13,9 +13,6 @@ namespace {
 constexpr double places_per_size = 8;    // of a stroke, along its path
 constexpr int max_places = 20000;        // of one command
 constexpr double hard = 300;             // stiffness of a tool, in λ: it gives way by about 1 % of its depth
-constexpr double coarse = 0.5;           // spans longer than this share of a tool follow it with a loss
-constexpr double too_coarse = 1;         // longer than this, they cannot follow it
-constexpr int max_refinements = 5;       // of the net under a tool at one place
 constexpr std::size_t along[] = {0, 2};  // α11 and α22, β11 and β22
 
 double mean(const Coefficient<2>& c) {
@@ -310,13 +307,7 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
     remember(stroke.history, stroke_cache->at_abscissae(stroke.last));
     iterations += step->iterations;
     converged = converged && step->converged;
-    if (note.empty()) note = step->note;
-    if (note.empty() && step->coarseness > too_coarse) {
-      note = fmt::format(
-          "the net is too coarse to follow the tool: its spans are up to {:.2g} times the tool's size; halve them "
-          "with {{\"do\":\"refine\",\"under\":\"…\"}}",
-          step->coarseness);
-    }
+    if (note.empty()) note = note_of(*step);
     last = std::move(*step);
     if (progress) progress(++done, static_cast<int>(places.size()));
   }

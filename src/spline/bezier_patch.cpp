@@ -10,8 +10,6 @@ namespace {
 using Net = BezierPatch::Net;
 using Vector4 = Eigen::Vector4d;
 
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
-
 /// Control points first, first + stride, …, of degree p, restricted to the part of [0, 1] left (right) of t.
 void keep_left(Vector4* first, int p, int stride, double t) {
   for (int r = 1; r <= p; ++r) {

@@ -6,10 +6,6 @@
 namespace knead::detail {
 namespace {
 
-std::size_t index(Eigen::Index k) { return static_cast<std::size_t>(k); }
-
-double length(const Range& r) { return r.upper - r.lower; }
-
 /// The present iterate: parameters w and the jet j there.
 class Descent {
  public:
@@ -34,7 +30,7 @@ class Descent {
     for (Eigen::Index k = 0; k < 2; ++k) {
       const Range& side = within_.side[index(k)];
       for (double end : {side.lower, side.upper}) {
-        if (w_[k] == end || std::abs(w_[k] - end) > 0.05 * length(side)) continue;
+        if (w_[k] == end || std::abs(w_[k] - end) > 0.05 * side.length()) continue;
         Eigen::Vector2d there = w_;
         there[k] = end;
         const PatchJet trial = patch_.jet(there[0], there[1]);
@@ -56,7 +52,7 @@ class Descent {
     for (std::size_t d = 0; d < 2; ++d) {
       const auto k = static_cast<Eigen::Index>(d);
       const Range &side = within_.side[d], &whole = patch_.domain.side[d];
-      if (length(whole) == 0) continue;
+      if (whole.length() == 0) continue;
       const bool low = w_[k] <= side.lower && g[k] > 0, high = w_[k] >= side.upper && g[k] < 0;
       const double push = std::abs(g[k]) / (j_[1 + d].norm() * (std::sqrt(f.squared) + 1e-3 * size_) + 1e-300);
       f.pressure = std::max(f.pressure, push);
@@ -89,7 +85,7 @@ class Descent {
     for (std::size_t d = 0; d < 2; ++d) {
       const Range& side = within_.side[d];
       const auto k = static_cast<Eigen::Index>(d);
-      free[d] = length(side) > 0 && !(w_[k] <= side.lower && g[k] >= 0) && !(w_[k] >= side.upper && g[k] <= 0);
+      free[d] = side.length() > 0 && !(w_[k] <= side.lower && g[k] >= 0) && !(w_[k] >= side.upper && g[k] <= 0);
     }
     return free;
   }

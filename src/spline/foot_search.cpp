@@ -10,19 +10,15 @@ constexpr int most_cells = 8000;
 constexpr double smallest_cell = 1e-6;  ///< of the size
 constexpr double margin = 1e-12;        ///< of squared lengths: differences hidden by rounding
 
-std::size_t index(int k) { return static_cast<std::size_t>(k); }
-
-double length(const Range& r) { return r.upper - r.lower; }
-
 /// Whether tangents turn so little over a leaf that the tests of `examine` usually decide at once.
 bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size) {
   for (std::size_t d = 0; d < 2; ++d) {
-    if (length(at.side[d]) == 0) continue;
+    if (at.side[d].length() == 0) continue;
     const Range3& t = b[1 + d];
     const double spread = 0.5 * t.diagonal();
     const double mid = 0.5 * std::hypot(t.axis[0].lower + t.axis[0].upper, t.axis[1].lower + t.axis[1].upper,
                                         t.axis[2].lower + t.axis[2].upper);
-    if (spread > 0.2 * mid && t.magnitude() * length(at.side[d]) > 0.02 * size) return false;
+    if (spread > 0.2 * mid && t.magnitude() * at.side[d].length() > 0.02 * size) return false;
   }
   return true;
 }
@@ -30,13 +26,13 @@ bool fine_enough(const PatchBounds& b, const ParameterRectangle& at, double size
 /// The side along which to halve the cell: the longer one in space. If a cell touches a pole and the tangents leaving
 /// it still vary a lot, it is the side around the pole.
 std::size_t side_to_halve(const PatchBounds& b, const ParameterRectangle& at) {
-  const std::array<double, 2> extent = {b[1].magnitude() * length(at.side[0]), b[2].magnitude() * length(at.side[1])};
-  if (length(at.side[0]) == 0) return 1;
-  if (length(at.side[1]) == 0) return 0;
+  const std::array<double, 2> extent = {b[1].magnitude() * at.side[0].length(), b[2].magnitude() * at.side[1].length()};
+  if (at.side[0].length() == 0) return 1;
+  if (at.side[1].length() == 0) return 0;
   const std::size_t longer = extent[0] >= extent[1] ? 0 : 1, round = 1 - longer;
   const Range3& t = b[1 + round];
   const bool touches = t.axis[0].holds_zero() && t.axis[1].holds_zero() && t.axis[2].holds_zero();
-  return touches && b[4].magnitude() * length(at.side[round]) > 0.5 * b[1 + longer].magnitude() ? round : longer;
+  return touches && b[4].magnitude() * at.side[round].length() > 0.5 * b[1 + longer].magnitude() ? round : longer;
 }
 
 std::array<ParameterRectangle, 2> halves(const ParameterRectangle& at, std::size_t side) {
@@ -112,7 +108,7 @@ int FootSearch::join(std::vector<int> nodes) {
   for (int k : nodes) box.include(nodes_[index(k)].box);
   std::size_t axis = 0;
   for (std::size_t a = 1; a < 3; ++a) {
-    if (length(box.axis[a]) > length(box.axis[axis])) axis = a;
+    if (box.axis[a].length() > box.axis[axis].length()) axis = a;
   }
   const auto middle = [&](int k) {
     const Range& r = nodes_[index(k)].box.axis[axis];
@@ -198,7 +194,7 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
     if (!q.close(bounds[0].squared_distance(q.x))) return;
     const Range3 way = bounds[0] - q.x;
     for (std::size_t d = 0; d < 2 && !changed; ++d) {
-      if (length(at.side[d]) == 0) continue;
+      if (at.side[d].length() == 0) continue;
       const Range slope = way.dot(bounds[6 + d]);
       const double rounding = 1e-14 * way.magnitude() * bounds[6 + d].magnitude();
       const bool first = at.side[d].lower == p.domain.side[d].lower, last = at.side[d].upper == p.domain.side[d].upper;
@@ -215,7 +211,7 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
     if (changed) bounds = p.bounds(at);
   }
   const Range3 way = bounds[0] - q.x;
-  const bool free_u = length(at.side[0]) > 0, free_v = length(at.side[1]) > 0;
+  const bool free_u = at.side[0].length() > 0, free_v = at.side[1].length() > 0;
   const Range uu = bounds[1].squared_norm() + way.dot(bounds[3]), vv = bounds[2].squared_norm() + way.dot(bounds[5]);
   bool convex = (!free_u || uu.lower > 0) && (!free_v || vv.lower > 0);
   if (convex && free_u && free_v) {
@@ -231,14 +227,14 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
   const double middle = (p.jet(c[0], c[1])[0] - q.x).squaredNorm();
   q.lower(middle, patch, c);
   const double fall =
-      way.dot(bounds[1]).magnitude() * length(at.side[0]) + way.dot(bounds[2]).magnitude() * length(at.side[1]);
+      way.dot(bounds[1]).magnitude() * at.side[0].length() + way.dot(bounds[2]).magnitude() * at.side[1].length();
   if (!q.close(middle - fall)) return;
   if (depth == 0) {
     const Foot f = descend(q, patch, p.domain, c);
     q.lower(f.squared, patch, f.at);
   }
   const double extent =
-      std::max(bounds[1].magnitude() * length(at.side[0]), bounds[2].magnitude() * length(at.side[1]));
+      std::max(bounds[1].magnitude() * at.side[0].length(), bounds[2].magnitude() * at.side[1].length());
   if (extent < smallest_cell * size_ || depth > 60) {
     const double hidden = q.bound - (middle - fall);
     if (hidden > 1e-11 * size_ * (size_ + std::sqrt(q.bound))) q.certified = false;

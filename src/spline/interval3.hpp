@@ -3,13 +3,18 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace knead::detail {
+
+/// A subscript of a standard container.
+[[nodiscard]] constexpr std::size_t index(Eigen::Index k) { return static_cast<std::size_t>(k); }
 
 /// [lower, upper], closed. Bounds are not rounded outwards: they carry the rounding of ordinary arithmetic.
 struct Range {
   double lower = 0, upper = 0;
 
+  [[nodiscard]] double length() const { return upper - lower; }
   [[nodiscard]] bool holds_zero() const { return lower <= 0 && upper >= 0; }
   [[nodiscard]] double magnitude() const { return std::max(std::abs(lower), std::abs(upper)); }
   friend Range operator+(Range a, Range b) { return {a.lower + b.lower, a.upper + b.upper}; }

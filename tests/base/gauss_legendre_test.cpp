@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "support/numbers.hpp"
 #include "support/quad_gramian.hpp"
 
 namespace knead {
@@ -13,7 +14,7 @@ namespace {
 
 using testing::Quad;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using testing::epsilon;
 
 double ulp(double x) { return std::nextafter(std::abs(x), INFINITY) - std::abs(x); }
 

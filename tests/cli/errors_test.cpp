@@ -128,6 +128,19 @@ TEST(Errors, NoOutputOverwritesAnotherFileOfTheCall) {
   EXPECT_FALSE(fs::exists(out));
 }
 
+TEST(Errors, AnOutputWhoseNamePromisesAnotherFormatIsRefused) {
+  const Workshop workshop;
+  const std::string script = workshop.script(Json::array());
+  for (const char* name : {"out.iges", "out.stl", "out.json"}) {
+    EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "-o", workshop / name, "--script", script}), 2,
+                           {"--output", name, ".step", "knead mesh"}));
+  }
+  EXPECT_EQ(workshop.files(), std::vector<std::string>{fs::path(script).filename().string()});
+  EXPECT_EQ(knead({"sculpt", bonnet(), "-o", workshop / "OUT.STP", "--script", script}).code, 0);
+  const std::string odd = workshop.file("part.txt", content_of(bonnet()));
+  EXPECT_EQ(knead({"sculpt", odd, "-o", odd, "--script", script}).code, 0) << "as the input is called";
+}
+
 TEST(Errors, WrongUsageIsNamed) {
   EXPECT_TRUE(fails_with(knead({}), 2, {"--help"}));
   EXPECT_TRUE(fails_with(knead({"squash"}), 2, {"squash", "info, sculpt, commands, gramian, stiffness"}));

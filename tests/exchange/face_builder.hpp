@@ -89,4 +89,10 @@ class FaceBuilder {
   int next_ = 100;
 };
 
+/// A unit square, the surface #10.
+inline const std::string square = unit_square_points() + bilinear_patch();
+
+/// The faces on it.
+inline step::File on_square(const FaceBuilder& builder) { return parse_or_die(step_text(square + builder.text())); }
+
 }  // namespace knead::testing

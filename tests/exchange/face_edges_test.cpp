@@ -9,12 +9,8 @@ namespace knead {
 namespace {
 
 using testing::FaceBuilder;
-
-const std::string square = testing::unit_square_points() + testing::bilinear_patch();
-
-step::File on_square(const FaceBuilder& builder) {
-  return testing::parse_or_die(testing::step_text(square + builder.text()));
-}
+using testing::on_square;
+using testing::square;
 
 TEST(FaceEdges, ASurfaceWithoutAFaceIsWholeAndHasNoEdges) {
   const auto region = visible_region(testing::parse_or_die(testing::step_text(square)), "#10");

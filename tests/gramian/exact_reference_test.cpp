@@ -10,12 +10,12 @@ namespace {
 
 using testing::Quad;
 
-constexpr int terms[4][2] = {{0, 0}, {1, 0}, {1, 1}, {2, 2}};
+constexpr int tabulated[4][2] = {{0, 0}, {1, 0}, {1, 1}, {2, 2}};
 
 /// A thousandth of the tightest bound that is tested with them, 1e-14; 10 as an entry by itself too.
 void expect_good_enough(const KnotVector& knots) {
   const int p = knots.degree();
-  for (const auto& [a, b] : terms) {
+  for (const auto& [a, b] : tabulated) {
     const testing::QuadGramian quad = testing::quad_gramian(knots, a, b);
     const std::vector<mpq_class> exact = testing::exact_gramian(knots, a, b);
     for (int i = 0; i < quad.n; ++i) {
@@ -68,7 +68,7 @@ TEST(QuadReference, measures_errors_beside_the_true_absolute_integrals) {
   for (const int p : {1, 2, 3, 5, 8, 12}) {
     const KnotVector knots = testing::thesis_knots(p, 1);
     const testing::QuadRule rule = testing::quad_rule(4);
-    for (const auto& [a, b] : terms) {
+    for (const auto& [a, b] : tabulated) {
       const testing::QuadGramian quad = testing::quad_gramian(knots, a, b);
       std::vector<Quad> fine(quad.absolutes.size());
       constexpr int pieces = 25;

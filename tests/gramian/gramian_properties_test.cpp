@@ -7,6 +7,7 @@
 #include "knead/gramian/gramian.hpp"
 #include "knead/spline/basis.hpp"
 #include "support/knot_families.hpp"
+#include "support/numbers.hpp"
 
 namespace knead {
 namespace {
@@ -32,7 +33,7 @@ void for_all_methods(Check check) {
   }
 }
 
-double largest(const MatrixXd& matrix) { return matrix.cwiseAbs().maxCoeff(); }
+using testing::largest;
 
 /// The largest entry of a difference of two G^ab, each beside sqrt(G^aa_ii G^bb_jj), which by Cauchy and Schwarz bounds
 /// G^ab_ij and is the size of what may have cancelled in it (for a lossy method beside the largest of these).

@@ -7,6 +7,7 @@
 
 #include "knead/gramian/gramian.hpp"
 #include "support/knot_families.hpp"
+#include "support/numbers.hpp"
 #include "support/quad_gramian.hpp"
 
 namespace knead {
@@ -81,7 +82,7 @@ Eigen::MatrixXd quad_rational(const KnotVector& knots, const std::vector<double>
   return result;
 }
 
-double largest(const Eigen::MatrixXd& matrix) { return matrix.cwiseAbs().maxCoeff(); }
+using testing::largest;
 
 /// What rounding may add to the bound: to each entry 1e-13 of the size of its functions.
 double rounding(const Eigen::MatrixXd& aa, const Eigen::MatrixXd& bb) {

@@ -6,6 +6,7 @@
 
 #include "knead/gramian/gramian.hpp"
 #include "support/knot_families.hpp"
+#include "support/numbers.hpp"
 #include "support/quad_gramian.hpp"
 
 namespace knead {
@@ -13,7 +14,7 @@ namespace {
 
 using testing::Quad;
 
-double largest(const Eigen::MatrixXd& matrix) { return matrix.cwiseAbs().maxCoeff(); }
+using testing::largest;
 
 TEST(TripleGramian, with_the_constant_coefficient_one_is_the_gramian) {
   for (const int p : {1, 2, 3, 5, 8}) {

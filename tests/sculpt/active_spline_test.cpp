@@ -5,20 +5,14 @@
 #include <Eigen/Geometry>
 
 #include "knead/spline/extremum.hpp"
+#include "sculpt/active.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
 
 namespace knead {
 namespace {
 
-std::vector<bool> rim(const Surface& s, int rows) {
-  const auto [m, n] = s.net();
-  std::vector<bool> held;
-  for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < n; ++j) held.push_back(i < rows || j < rows || i >= m - rows || j >= n - rows);
-  }
-  return held;
-}
+using testing::rim;
 
 ActiveSurface active(const Surface& s, const ActiveSettings<2>& settings) {
   auto made = ActiveSurface::create(s, settings);

@@ -5,6 +5,7 @@
 #include "knead/sculpt/loads.hpp"
 #include "knead/sculpt/tool.hpp"
 #include "spline/greville_interpolation.hpp"
+#include "support/numbers.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr DomainScaling<2> scaling = {1.0, {0.7, 2.5}};
 
-double largest(const Points& x) { return x.cwiseAbs().maxCoeff(); }
+using testing::largest;
 
 template <int D>
 GrevilleForce<D> route(const Spline<D>& s, const DomainScaling<D>& units, int points = 0) {

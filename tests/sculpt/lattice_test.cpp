@@ -9,10 +9,10 @@
 namespace knead {
 namespace {
 
-const BoundingBox box{Point(-1, 2, 0), Point(3, 4, 0)};  // flat: the margin gives it a thickness
+const BoundingBox flat_box{Point(-1, 2, 0), Point(3, 4, 0)};  // flat: the margin gives it a thickness
 
 TEST(Lattice, AtRestLeavesEveryBitAndUnderAnAffineMapIsThatMap) {
-  const auto lattice = Lattice::create(box, 0.1, {3, 2, 1}, {6, 4, 2});
+  const auto lattice = Lattice::create(flat_box, 0.1, {3, 2, 1}, {6, 4, 2});
   ASSERT_TRUE(lattice) << lattice.error().message();
   Points inside = testing::random_points(200, 3);
   for (int i = 0; i < 200; ++i)
@@ -47,9 +47,9 @@ TEST(Lattice, CarriesASurfaceAlongWithTheToolThatPressesTheSpace) {
 }
 
 TEST(Lattice, NamesWhatIsWrong) {
-  EXPECT_EQ(Lattice::create(box, 0, {3, 3, 3}, {6, 6, 6}).error().where, "margin");
-  EXPECT_NE(Lattice::create(box, 0.1, {3, 3, 3}, {3, 6, 6}).error().where.find("net"), std::string::npos);
-  const auto lattice = Lattice::create(box, 0.1, {3, 3, 3}, {6, 6, 6});
+  EXPECT_EQ(Lattice::create(flat_box, 0, {3, 3, 3}, {6, 6, 6}).error().where, "margin");
+  EXPECT_NE(Lattice::create(flat_box, 0.1, {3, 3, 3}, {3, 6, 6}).error().where.find("net"), std::string::npos);
+  const auto lattice = Lattice::create(flat_box, 0.1, {3, 3, 3}, {6, 6, 6});
   const std::vector<std::string> wrong = {"top"};
   EXPECT_NE(lattice->faces(wrong, 1).error().remedy.find("u0"), std::string::npos);
   Points outside(2, 3);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "knead/energy/stiffness.hpp"
+#include "support/numbers.hpp"
 #include "support/surfaces.hpp"
 
 namespace knead {
@@ -29,7 +30,7 @@ Points by_mass(const Surface& s, const Point& f) {
   return m->apply(f.transpose().replicate(s.size(), 1));
 }
 
-double largest(const Points& x) { return x.cwiseAbs().maxCoeff(); }
+using testing::largest;
 
 TEST(Load, ThatIsConstantIsTheSameByEveryRoute) {
   const Point f(0.3, -2, 1);

@@ -5,15 +5,15 @@ namespace {
 
 using namespace knead::testing;
 
-constexpr double rounding = 1e-13, angle_rounding = 1e-10;
+constexpr double corner_rounding = 1e-13, corner_angle_rounding = 1e-10;
 
 void expect_kept(const Coupled& c, SeamContinuity continuity) {
   const auto after = c.moved(11);
   for (const SeamReport& report : c.coupling.reports) {
     EXPECT_EQ(report.continuity, continuity) << report.reason;
-    EXPECT_LT(gap_change(c.patches, after, report.seam), rounding);
+    EXPECT_LT(gap_change(c.patches, after, report.seam), corner_rounding);
     if (report.continuity < SeamContinuity::g1) continue;
-    EXPECT_LT(angle_change(c.patches, after, report.seam), angle_rounding);
+    EXPECT_LT(angle_change(c.patches, after, report.seam), corner_angle_rounding);
   }
 }
 
@@ -87,7 +87,7 @@ TEST(SeamCorners, ACubeIsClosed) {
       for (const int i : {0, n - 1, n * (n - 1), n * n - 1}) {
         for (const int j : {0, n - 1, n * (n - 1), n * n - 1}) {
           if (patches[a].control_points().row(i) != patches[b].control_points().row(j)) continue;
-          EXPECT_LT((after[a].control_points().row(i) - after[b].control_points().row(j)).norm(), rounding);
+          EXPECT_LT((after[a].control_points().row(i) - after[b].control_points().row(j)).norm(), corner_rounding);
         }
       }
     }
@@ -118,10 +118,10 @@ TEST(SeamCorners, APeriodicTorusStaysPeriodicInAllDerivatives) {
   const auto across_u = evaluate_grid<2>(after, {ends_u, inside}, 2),
              across_v = evaluate_grid<2>(after, {inside, ends_v}, 1);
   for (const MultiIndex<2>& a : multi_indices<2>(2)) {
-    EXPECT_LT((across_u->at(a).topRows(3) - across_u->at(a).bottomRows(3)).cwiseAbs().maxCoeff(), rounding);
+    EXPECT_LT((across_u->at(a).topRows(3) - across_u->at(a).bottomRows(3)).cwiseAbs().maxCoeff(), corner_rounding);
     if (a[0] + a[1] > 1) continue;
     for (int k = 0; k < 3; ++k)
-      EXPECT_LT((across_v->at(a).row(2 * k) - across_v->at(a).row(2 * k + 1)).norm(), rounding);
+      EXPECT_LT((across_v->at(a).row(2 * k) - across_v->at(a).row(2 * k + 1)).norm(), corner_rounding);
   }
   const Coupled smooth({torus(u, v, 3, 2)}, {.most = SeamContinuity::g1});
   expect_kept(smooth, SeamContinuity::g1);
@@ -182,7 +182,7 @@ TEST(SeamCorners, AClampedTorusAndAnExactCylinderStaySmooth) {
   const Coupled ball({sphere()});
   ASSERT_EQ(ball.coupling.reports.size(), 1u);
   EXPECT_EQ(ball.report().continuity, SeamContinuity::g1);
-  EXPECT_LT(gap_change(ball.patches, ball.moved(2), ball.report().seam), rounding);
+  EXPECT_LT(gap_change(ball.patches, ball.moved(2), ball.report().seam), corner_rounding);
 }
 
 TEST(SeamCorners, ATranslationOfEverythingIsAlwaysAllowed) {
@@ -230,7 +230,7 @@ TEST(SeamCorners, RoundingInAFileHoldsNothing) {
     const auto after = c.moved(11, 0.005);  // small beside the smallest spans, 0.1: no derivative turns round
     for (const SeamReport& report : c.coupling.reports) {
       EXPECT_EQ(report.continuity, SeamContinuity::g1) << report.reason;
-      EXPECT_LT(gap_change(c.patches, after, report.seam), rounding);
+      EXPECT_LT(gap_change(c.patches, after, report.seam), corner_rounding);
       EXPECT_LT(angle_change(c.patches, after, report.seam), std::max(1e-6, report.deviation));
     }
     const int across = 6 * side - 2 * (side - 1);

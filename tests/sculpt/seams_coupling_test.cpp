@@ -7,8 +7,6 @@ namespace {
 
 using namespace knead::testing;
 
-const std::vector<SurfaceEdge> all_edges = {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1};
-
 /// Sums of some tens of products of numbers below 1, displacements of 0.1.
 constexpr double rounding = 1e-13;
 /// Normals of cross products of derivatives of size 0.01 and more, and an arc tangent.

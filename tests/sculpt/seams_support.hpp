@@ -9,6 +9,8 @@
 
 namespace knead::testing {
 
+inline const std::vector<SurfaceEdge> all_edges = {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1};
+
 inline std::vector<const Surface*> pointers(const std::vector<Surface>& patches) {
   std::vector<const Surface*> result;
   for (const Surface& s : patches) result.push_back(&s);

@@ -7,8 +7,6 @@ namespace {
 
 using namespace knead::testing;
 
-const std::vector<SurfaceEdge> all_edges = {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1};
-
 FoundSeams find(const std::vector<Surface>& patches, double tolerance = 1e-3) {
   auto found = find_seams(pointers(patches), tolerance);
   if (!found) ADD_FAILURE() << found.error().message();

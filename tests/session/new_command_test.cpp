@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sheet.hpp"
+#include "support/numbers.hpp"
 
 namespace knead {
 namespace {
@@ -15,7 +16,7 @@ using testing::run;
 using testing::same_bits;
 using testing::same_state;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using testing::epsilon;
 
 TEST(NewCommand, RoundShapesAreExactAndSelectThemselves) {
   Session session = fresh();

@@ -7,11 +7,12 @@
 #include "base/gauss_legendre.hpp"
 #include "knead/spline/basis.hpp"
 #include "support/knot_families.hpp"
+#include "support/numbers.hpp"
 
 namespace knead {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using testing::epsilon;
 
 TEST(BasisTable, RowsAreTheBasisAtEachParameterInTheGivenOrder) {
   const KnotVector knots = testing::uniform_clamped(3, 5);

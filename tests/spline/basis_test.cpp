@@ -8,6 +8,7 @@
 
 #include "quad_reference.hpp"
 #include "support/knot_families.hpp"
+#include "support/numbers.hpp"
 #include "support/quad_gramian.hpp"
 
 namespace knead {
@@ -15,7 +16,7 @@ namespace {
 
 using testing::Quad;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using testing::epsilon;
 
 /// Parameters of one span: its ends, their neighbours in double, and places between.
 std::vector<double> parameters_of(const KnotVector& knots, int s) {

@@ -6,11 +6,12 @@
 #include <limits>
 
 #include "sample_splines.hpp"
+#include "support/numbers.hpp"
 
 namespace knead {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using testing::epsilon;
 
 TEST(MultiIndices, AreOrderedByTotalAndThenByDescendingFirstIndex) {
   using Index = MultiIndex<2>;

@@ -5,12 +5,13 @@
 #include <limits>
 
 #include "support/knot_families.hpp"
+#include "support/numbers.hpp"
 
 namespace knead {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using testing::nan;
 
 void expect_error(int degree, std::vector<double> knots, const std::string& where, const std::string& what) {
   const auto made = KnotVector::create(degree, std::move(knots));

@@ -6,13 +6,14 @@
 
 #include "quad_reference.hpp"
 #include "sample_splines.hpp"
+#include "support/numbers.hpp"
 
 namespace knead {
 namespace {
 
 using testing::Quad;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using testing::epsilon;
 
 /// The full circle of radius r as a quadratic with nine control points (The NURBS Book, Example 7.2).
 Curve circle(double r) {

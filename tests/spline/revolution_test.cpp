@@ -9,11 +9,12 @@
 #include <numbers>
 
 #include "knead/spline/evaluate.hpp"
+#include "support/numbers.hpp"
 
 namespace knead {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+using testing::epsilon;
 
 /// A grid of parameters over [0, 1]², knots among them.
 Parameters<2> grid(int pieces) {

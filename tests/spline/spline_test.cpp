@@ -5,11 +5,12 @@
 #include <limits>
 
 #include "support/knot_families.hpp"
+#include "support/numbers.hpp"
 
 namespace knead {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using testing::nan;
 
 const KnotVector linear = testing::make_knots(1, {0, 0, 1, 1});
 const KnotVector quadratic = testing::make_knots(2, {0, 0, 0, 1, 2, 2, 2});

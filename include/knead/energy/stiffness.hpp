@@ -12,7 +12,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// How `Stiffness` is integrated.
 struct StiffnessOptions {
-  GramianMethod method = GramianMethod::gauss;
+  GramianMethod method = default_gramian_method;
   /// Gauss points per span and direction on rational splines; 0 means degree + 8, which integrates the basis of a
   /// quarter circle to about 1e-9.
   int rational_gauss_points = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "knead/base/error.hpp"
+#include "knead/exchange/source.hpp"
 #include "knead/spline/spline.hpp"
 
 namespace knead::step {
@@ -38,12 +39,6 @@ struct SurfaceEntity {
   bool trimmed = false;
 
   int faces = 0;  ///< faces of the file that lie on it
-};
-
-/// A B-spline surface entity that could not be made a `Surface`; the rest of the file is still usable.
-struct UnreadableSurface {
-  std::string id;
-  Error reason;
 };
 
 /// AXIS2_PLACEMENT_3D as the file gives it: directions are not normalised; an omitted axis is (0, 0, 1) and an omitted

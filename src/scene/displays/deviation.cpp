@@ -6,7 +6,7 @@ namespace knead {
 namespace {
 
 /// |S − S_opened| with the sign of (S − S_opened)·n.
-Expected<std::vector<double>> values(const DisplayInput& input) {
+Expected<std::vector<double>> deviations(const DisplayInput& input) {
   const SceneSurface& surface = input.scene.surfaces[static_cast<std::size_t>(input.surface)];
   const Surface& opened = *surface.opened;
   const Surface& drawn = input.opened ? opened : *surface.current;
@@ -34,7 +34,7 @@ Display deviation_display() {
               "How far each point is from where it was when opened: red along the normal, blue against it. Hold C to "
               "see it as opened.",
           .compares = true,
-          .values = values};
+          .values = deviations};
 }
 
 }  // namespace knead

@@ -9,7 +9,7 @@ namespace {
 
 /// asin(n·d / |d|), degrees: 90° where the surface faces the pull direction d, 0 where it is parallel to it, negative
 /// where it is undercut. 0 everywhere for a direction of length 0.
-Expected<std::vector<double>> values(const DisplayInput& input) {
+Expected<std::vector<double>> draft_angles(const DisplayInput& input) {
   const std::vector<double>& d = input.settings[0];
   const Point direction = Point(d[0], d[1], d[2]).stableNormalized();
   std::vector<double> result;
@@ -37,7 +37,7 @@ Display draft_angle_display() {
                         .value = {0, 0, 1},
                         .help = "Direction in which the part leaves the mould; turn it round where the normals point "
                                 "inwards"}},
-          .values = values};
+          .values = draft_angles};
 }
 
 }  // namespace knead

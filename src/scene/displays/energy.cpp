@@ -18,7 +18,7 @@ Expected<DomainScaling<2>> scaling_of(const DisplayInput& input) {
 }
 
 /// `energy_density`; 0 for the shape as opened, which is at rest, and for a surface without area.
-Expected<std::vector<double>> values(const DisplayInput& input) {
+Expected<std::vector<double>> energy_densities(const DisplayInput& input) {
   const auto none = [&] { return std::vector<double>(static_cast<std::size_t>(input.normals.rows()), 0.0); };
   if (input.opened) return none();
   const auto scaling = scaling_of(input);
@@ -35,7 +35,7 @@ Display energy_display() {
           .unit = "normalised",
           .palette = DisplayPalette::rising,
           .help = "Where stretch and bend store the energy of the displacement from the rest shape.",
-          .values = values};
+          .values = energy_densities};
 }
 
 }  // namespace knead

@@ -6,7 +6,7 @@
 namespace knead {
 namespace {
 
-Expected<std::vector<double>> values(const DisplayInput& input) {
+Expected<std::vector<double>> gaps(const DisplayInput& input) {
   const Points& points = input.evaluation.points();
   std::vector<double> result;
   for (Eigen::Index k = 0; k < points.rows(); ++k) {
@@ -28,7 +28,7 @@ Display gap_display() {
           .is_signed = true,
           .help = "Distance to the nearest tool; blue is inside it.",
           .share = 0.1,  // the relevant values are near the tools
-          .values = values};
+          .values = gaps};
 }
 
 }  // namespace knead
