@@ -24,6 +24,8 @@ const pause = (milliseconds = 700) => page.waitForTimeout(milliseconds);
 const scene = async (name) => {
   await page.locator('summary[aria-label^=Gallery]').click();
   await page.locator('details[open] .menu-item', { hasText: name }).click();
+  const leave = page.locator('dialog.question button', { hasText: 'Open without saving' });
+  if (await leave.isVisible()) await leave.click();
   await pause(1200);
 };
 const stroke = async (...places) => {

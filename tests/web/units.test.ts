@@ -37,16 +37,16 @@ describe('Knead documents', () => {
     'come back as they were written', (source) => {
       for (const snapshot of [null, bytes.slice(7)]) {
         const read = readKnead(writeKnead({ name: 'a "name"', source, journal, snapshot }));
-        expect(read).toEqual({ name: 'a "name"', source, commands, snapshot });
+        expect(read).toEqual({ name: 'a "name"', source, commands, script: null, snapshot });
       }
     });
 
   it('of version 1 are read: the source is a STEP file', () => {
     const old = `{"knead": 1, "name": "old.step", "source": "${toBase64(bytes)}", "commands": [{"do": "hold", "rows": 2}, {"do": "step", "count": 3}]}`;
-    expect(readKnead(old)).toEqual({ name: 'old.step', source: { kind: 'step', name: 'old.step', bytes }, commands, snapshot: null });
+    expect(readKnead(old)).toEqual({ name: 'old.step', source: { kind: 'step', name: 'old.step', bytes }, commands, script: null, snapshot: null });
   });
 
-  it('are scripts of the command line as well', () => expect(readKnead(journal).commands).toEqual(commands));
+  it('are scripts of the command line as well', () => expect(readKnead(journal)).toMatchObject({ commands, script: 1 }));
 
   it('may have no command yet', () => {
     expect(readKnead(writeKnead({ name: 'n', source: null, journal: '{"knead": 1, "commands": []}' })).commands).toEqual([]);

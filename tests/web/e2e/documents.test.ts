@@ -4,7 +4,7 @@ import { join } from 'node:path';
 
 import type { Page } from 'playwright-core';
 
-import { commands, distance, openStudio, positions, ready, root, scene, settled, stroke, type Studio } from './page';
+import { commands, distance, openFile as open, openStudio, positions, ready, root, scene, settled, stroke, type Studio } from './page';
 
 let studio: Studio;
 let directory: string;
@@ -21,14 +21,6 @@ afterEach(() => {
   expect(studio.problems).toEqual([]);
   expect(studio.foreign).toEqual([]);
 });
-
-async function open(page: Page, path: string): Promise<void> {
-  const count = () => page.evaluate(() => (window as never as { studio: { documents: { handled: number } } }).studio.documents.handled);
-  const before = await count();
-  await page.locator('input[type=file]').setInputFiles(path);
-  await expect.poll(count, { timeout: 20_000 }).toBe(before + 1);
-  await settled(page);
-}
 
 async function save(page: Page, entry: string): Promise<string> {
   await page.locator('summary[aria-label=Save]').click();

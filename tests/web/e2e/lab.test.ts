@@ -1,6 +1,6 @@
 import { execFileSync } from 'node:child_process';
 
-import { commands, downloaded, native, openStudio, settled, type Studio } from './page';
+import { commands, downloaded, native, openStudio, scene, settled, type Studio } from './page';
 
 let studio: Studio;
 const requests: string[] = [];
@@ -26,12 +26,7 @@ const paths = () => studio.page.locator('.lab-curves path').evaluateAll((all) =>
 const message = () => studio.page.locator('.lab-message').textContent();
 const apply = () => studio.page.locator('button[aria-label="Apply to the surface"]');
 
-async function gallery(name: string): Promise<void> {
-  const { page } = studio;
-  await page.locator('summary[aria-label^=Gallery]').click();
-  await page.locator('details[open] .menu-item', { hasText: name }).first().click();
-  await settled(page);
-}
+const gallery = (name: string) => scene(studio.page, name);
 
 /** Everything that was asked for has been drawn. */
 async function drawn(): Promise<void> {

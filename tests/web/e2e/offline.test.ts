@@ -5,7 +5,7 @@ import { join } from 'node:path';
 
 import type { Page } from 'playwright-core';
 
-import { distance, openStudio, positions, ready, root, serve, stroke } from './page';
+import { distance, openStudio, positions, ready, root, scene, serve, stroke } from './page';
 
 const offlineReady = (page: Page) => page.waitForSelector('html[data-offline=ready]', { state: 'attached', timeout: 30_000 });
 const workerOf = (directory: string) => join(directory, 'service-worker.js');
@@ -36,8 +36,7 @@ it('works without the server once it was loaded', async () => {
   await stroke(page, [0, 0], [30, 0]);
   expect(distance(await positions(page), flat)).toBeGreaterThan(1);
   // The scene that is a file of its own is there as well.
-  await page.locator('summary[aria-label^=Gallery]').click();
-  await page.locator('.menu-item', { hasText: 'Bonnet' }).click();
+  await scene(page, 'Bonnet');
   await expect.poll(() => page.locator('.document-name').textContent()).toContain('bonnet.step');
   expect(studio.problems).toEqual([]);
   expect(studio.foreign).toEqual([]);

@@ -80,10 +80,31 @@ interface App {
   client: { followed(): Promise<void>; journal(): Promise<string> };
 }
 
-/** Opens a scene of the gallery. */
+/** What the page asks before it opens something. */
+export const question = (page: Page) => page.locator('dialog.question');
+
+/** Answers what the page asks, if it does. */
+async function answer(page: Page, choice = 'Open without saving'): Promise<void> {
+  if (await question(page).isVisible()) await question(page).locator('button', { hasText: choice }).click();
+}
+
+/** Opens a scene of the gallery, whatever becomes of the one before. */
 export async function scene(page: Page, name: string): Promise<void> {
   await page.locator('summary[aria-label^=Gallery]').click();
   await page.locator('details[open] .menu-item').filter({ has: page.locator(`b:text-is("${name}")`) }).click();
+  await answer(page);
+  await settled(page);
+}
+
+/** Opens a file, whatever becomes of the document before. `choice`: of what the page asks about a script. */
+export async function openFile(page: Page, path: string, choice?: string): Promise<void> {
+  const count = () => page.evaluate(() => (window as never as { studio: { documents: { handled: number } } }).studio.documents.handled);
+  const before = await count();
+  await page.locator('input[type=file]').setInputFiles(path);
+  await expect.poll(async () => {
+    await answer(page, choice);
+    return count();
+  }).toBe(before + 1);
   await settled(page);
 }
 

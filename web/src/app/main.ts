@@ -15,6 +15,7 @@ import { brushPanel, pointsPanel } from '../panels/panels_hand';
 import { evolutionPanel, historyPanel, materialPanel } from '../panels/panels_model';
 import { constraintsPanel, surfacesPanel, toolsPanel } from '../panels/panels_scene';
 import { statusBar } from '../panels/plot';
+import { listenToQuestions } from '../panels/question';
 import { offerRecovery } from '../panels/recovery';
 import { offerTour } from '../panels/tour';
 import { workOffline } from './offline/register';
@@ -32,6 +33,7 @@ document.getElementById('studio')!.append(
   statusBar(app),
 );
 listenToKeys(app);
+listenToQuestions(app);
 listenToEdges(app);
 
 // Files dropped anywhere are opened.

@@ -1,7 +1,8 @@
 import * as THREE from 'three';
 
-import { Documents, makeReady } from '../document/documents';
-import type { Notice } from '../document/host';
+import { Documents } from '../document/documents';
+import type { Notice, Question } from '../document/host';
+import { makeReady } from '../document/ready';
 import { Saving } from '../document/saving';
 import { Client } from '../engine/client';
 import type { Context, Trim } from '../engine/context';
@@ -35,6 +36,7 @@ export class Studio implements App {
   /** Panels are redrawn on these. */
   readonly onChange: (() => void)[] = [];
   notify: (notice: Notice) => void = () => {};
+  ask: (question: Question) => Promise<string | null> = () => Promise.resolve(null);
 
   private fresh = false;
   private lastFrame = 0;
@@ -98,7 +100,7 @@ export class Studio implements App {
   async execute(commands: Command[], join = false): Promise<true | null> {
     return this.attempt(async () => {
       await this.client.execute(commands, join);
-      this.documents.keeper.touch();
+      this.documents.work(commands);
     });
   }
 
@@ -152,10 +154,8 @@ export class Studio implements App {
 
   /** Selects a surface. One without settings becomes clay with held edges; otherwise it would float away when pressed. */
   async select(surface: number): Promise<void> {
-    const info = this.state!.surfaces[surface]!;
     await this.attempt(async () => {
-      await this.client.execute([{ do: 'select', surface: info.id }]);
-      await makeReady(this, surface, true);
+      await makeReady(this, surface, false);
       this.documents.keeper.touch();
     });
   }
@@ -219,6 +219,7 @@ export class Studio implements App {
   }
 
   togglePlay(toRest = false): void {
+    this.documents.work([{ do: 'step' }]);
     void this.attempt(async () => void (await (this.playing() ? this.client.stop() : this.client.play(toRest))));
   }
 }

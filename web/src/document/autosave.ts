@@ -7,6 +7,8 @@ export interface Kept {
   when: number;
   /** Number of commands in effect. */
   commands: number;
+  /** How many of them belong to the opened document. Sessions of older versions do not say. */
+  opened?: number;
   journal: string;
   snapshot: Uint8Array;
   hasSource: boolean;

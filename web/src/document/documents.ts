@@ -1,10 +1,10 @@
-import { type Command, EngineError } from '../engine/session_types';
+import type { Command } from '../engine/session_types';
 import { autosave, type Kept } from './autosave';
-import { clay } from './clay';
 import { loadContext } from './context';
 import type { Host } from './host';
 import { Keeper } from './keeper';
 import { type KneadDocument, readKnead, type Source } from './knead_file';
+import { makeReady } from './ready';
 
 /** Opening: a file, a scene, or what a tab left behind. Saving is in `saving.ts`. */
 export class Documents {
@@ -19,6 +19,32 @@ export class Documents {
     this.keeper = new Keeper(host, this);
   }
 
+  /** Saves a Knead document; false where nothing was saved. */
+  saveDocument: () => Promise<boolean> = () => Promise.resolve(false);
+  private worked = false;
+
+  /** These commands are the user's work, which opening something else must not lose. */
+  work(commands: readonly Command[]): void {
+    this.worked ||= commands.some((c) => !['undo', 'redo', 'select'].includes(c.do));
+    this.keeper.touch();
+  }
+
+  /** All work is in a file. */
+  saved(): void {
+    this.worked = false;
+  }
+
+  /** Asks before something else is opened over unsaved work. */
+  private async mayLeave(): Promise<boolean> {
+    if (!this.worked || !this.host.state?.undo) return true;
+    const choice = await this.host.ask({
+      title: 'Open something else?',
+      text: `“${this.name}” has changes that are not saved. Its session stays in the list of recent ones.`,
+      choices: [{ id: 'save', label: 'Save and open', about: 'as a Knead document' }, { id: 'open', label: 'Open without saving' }],
+    });
+    return choice === 'save' ? this.saveDocument() : choice === 'open';
+  }
+
   async openFile(file: File): Promise<void> {
     await this.read(file);
     ++this.handled;
@@ -27,28 +53,60 @@ export class Documents {
 
   private async read(file: File): Promise<void> {
     const { host } = this;
-    const bytes = new Uint8Array(await file.arrayBuffer());
+    const bytes = async () => new Uint8Array(await file.arrayBuffer());
     if (/\.(knead|json)$/i.test(file.name)) {
-      await host.attempt(async () => this.openDocument(readKnead(new TextDecoder().decode(bytes))));
+      await host.attempt(async () => {
+        const document = readKnead(await file.text());
+        if (document.script) await this.openScript(document.commands, document.script, file.name);
+        else if (await this.mayLeave()) await this.openDocument(document);
+      });
     } else if (/\.(stp|step|p21)$/i.test(file.name)) {
-      await this.openStep(bytes, file.name);
+      if (await this.mayLeave()) await this.openStep(await bytes(), file.name);
     } else if (/\.3dm$/i.test(file.name)) {
-      await this.openRhino(bytes, file.name);
+      if (await this.mayLeave()) await this.openRhino(await bytes(), file.name);
     } else {
       host.notify({ kind: 'error', text: `“${file.name}” is not a kind of file that the studio reads`,
         remedy: 'open a STEP file (.step, .stp), a Rhino file (.3dm) or a Knead document (.knead)' });
     }
   }
 
-  async openStep(bytes: Uint8Array, name: string, commands: Command[] = []): Promise<true | null> {
+  /** Commands alone: only the user knows what they are meant for. */
+  private async openScript(commands: Command[], version: 1 | 2, name: string): Promise<void> {
+    const { host } = this;
+    const lost = this.worked && host.state?.undo ? `; “${this.name}” stays in the list of recent sessions` : '';
+    const choice = !host.state ? 'fresh' : await host.ask({
+      title: `Run the script “${name}”?`,
+      text: `It holds ${commands.length === 1 ? 'one command' : `${commands.length} commands`}, and no document of its own.`,
+      choices: [
+        { id: 'apply', label: `Apply to “${this.name}”`, about: 'One undo takes all of it back' },
+        { id: 'fresh', label: 'New document', about: `Runs it on an empty document${lost}` },
+      ],
+    });
+    if (choice === 'fresh') await this.replay(name, null, commands);
+    if (choice !== 'apply') return;
+    // What a script of version 2 begins with.
+    const held: Command[] = version === 2 ? [{ do: 'hold', mode: 'trim', all: true }] : [];
+    await host.client.execute([...held, ...commands]);
+    this.work(commands);
+  }
+
+  /** A ready scene, or a file of the page; `commands` are done on it. False where the work before is to stay. */
+  async openScene(name: string, commands: Command[], fetchFile?: () => Promise<Uint8Array | null>): Promise<boolean> {
+    if (!(await this.mayLeave())) return false;
+    if (!fetchFile) return (await this.startFresh(name, commands)) !== null;
+    const bytes = await fetchFile();
+    return bytes !== null && (await this.openStep(bytes, name)) !== null;
+  }
+
+  private async openStep(bytes: Uint8Array, name: string): Promise<true | null> {
     const { host } = this;
     return host.attempt(async () => {
-      await this.begin(name, { kind: 'step', name, bytes }, () => host.client.open(bytes, name, JSON.stringify({ knead: 1, commands })));
-      if (commands.length === 0) await this.firstLook();
+      await this.begin(name, { kind: 'step', name, bytes }, () => host.client.open(bytes, name));
+      await this.firstLook();
     });
   }
 
-  async openRhino(bytes: Uint8Array, name: string): Promise<true | null> {
+  private async openRhino(bytes: Uint8Array, name: string): Promise<true | null> {
     const { host } = this;
     return host.attempt(async () => {
       const { rhino } = await import('./rhino/client');
@@ -68,13 +126,13 @@ export class Documents {
     });
   }
 
-  async startFresh(name: string, commands: Command[]): Promise<true | null> {
+  private async startFresh(name: string, commands: Command[]): Promise<true | null> {
     const { host } = this;
     return host.attempt(() => this.begin(name, null, () => host.client.fresh(name, commands)));
   }
 
   private async openDocument({ name, source, commands, snapshot }: KneadDocument): Promise<void> {
-    if (snapshot && (await this.restored(name, source, snapshot))) {
+    if (snapshot && (await this.restored(name, source, snapshot, preparation(commands)))) {
       // What the snapshot holds must be what the commands say.
       const same = canonical((JSON.parse(await this.host.client.journal()) as { commands: Command[] }).commands) === canonical(commands);
       if (same) return;
@@ -86,13 +144,13 @@ export class Documents {
     const { client } = this.host;
     // The surfaces of a Rhino file are among the commands.
     return this.begin(name, source, () =>
-      source?.kind === 'step' ? client.open(source.bytes, source.name, JSON.stringify({ knead: 1, commands })) : client.fresh(name, commands));
+      source?.kind === 'step' ? client.open(source.bytes, source.name, commands, preparation(commands)) : client.fresh(name, commands, preparation(commands)));
   }
 
-  private async restored(name: string, source: Source | null, snapshot: Uint8Array): Promise<boolean> {
+  private async restored(name: string, source: Source | null, snapshot: Uint8Array, opened: number): Promise<boolean> {
     const step = source?.kind === 'step' ? source : null;
     try {
-      await this.begin(name, source, () => this.host.client.restore(step?.bytes ?? null, step?.name ?? name, snapshot));
+      await this.begin(name, source, () => this.host.client.restore(step?.bytes ?? null, step?.name ?? name, snapshot, opened));
       return true;
     } catch {
       return false; // of another version, or damaged: the commands suffice
@@ -102,11 +160,13 @@ export class Documents {
   /** What a tab left behind continues here, as the same session. */
   async recover(kept: Kept): Promise<void> {
     const { host } = this;
+    if (!(await this.mayLeave())) return;
     await host.attempt(async () => {
+      const { commands } = JSON.parse(kept.journal) as { commands: Command[] };
       const source = kept.hasSource ? ((await autosave.source(kept.id)) ?? null) : null;
-      if (!(await this.restored(kept.name, source, kept.snapshot))) {
+      if (!(await this.restored(kept.name, source, kept.snapshot, kept.opened ?? preparation(commands)))) {
         host.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands are done again.' });
-        await this.replay(kept.name, source, (JSON.parse(kept.journal) as { commands: Command[] }).commands);
+        await this.replay(kept.name, source, commands);
       }
       this.keeper.begin(kept.id, true);
       // An interrupted stroke ends here: its ball does not stay in the scene.
@@ -117,6 +177,7 @@ export class Documents {
 
   /** Begins a session; if `act` fails, the previous one continues. */
   private async begin(name: string, file: Source | null, act: () => Promise<unknown>): Promise<void> {
+    await this.keeper.finish();
     const goOn = this.host.begin();
     try {
       await act();
@@ -126,6 +187,7 @@ export class Documents {
     }
     this.name = name;
     this.file = file;
+    this.worked = false;
     this.keeper.begin();
     this.host.showContext(null, []);
     if (file?.kind === 'step') void loadContext(this.host, () => this.file === file);
@@ -136,37 +198,20 @@ export class Documents {
   private async firstLook(): Promise<void> {
     const { host } = this;
     const surfaces = host.state!.surfaces;
-    if (surfaces.length === 1) await makeReady(host, 0, false);
+    if (surfaces.length === 1) await makeReady(host, 0, true);
     else if (host.state!.selection.length === 0 || this.file?.kind === 'rhino') {
       host.notify({ kind: 'info', text: `${surfaces.length} surfaces: click the one to sculpt.` });
     }
   }
 }
 
+/** How many commands at the start only make and prepare what is sculpted: they are the document as it is opened. */
+function preparation(commands: readonly Command[]): number {
+  const prepares = (c: Command) => ['new', 'select', 'hold', 'edge', 'material', 'evolve', 'load', 'refine', 'elevate', 'freeze', 'pin', 'symmetry', 'seams', 'limit',
+    'scaling'].includes(c.do) || (c.do === 'tool' && c.name !== 'brush');
+  const first = commands.findIndex((c) => !prepares(c));
+  return first < 0 ? commands.length : first;
+}
+
 const canonical = (commands: Command[]): string =>
   JSON.stringify(commands.map((c) => Object.entries(c).sort(([a], [b]) => (a < b ? -1 : 1))));
-
-/**
- * Makes clay that is held at its edges of a selected surface as it came. What faces lie on is held along their edges, so
- * that they go on meeting their neighbours, and the brush fits between them; a surface alone by its outer rows. `join`: with
- * the act before.
- */
-export async function makeReady(host: Host, index: number, join: boolean): Promise<void> {
-  const surface = host.state!.surfaces[index]!;
-  const room = surface.faces > 0 ? await host.client.room(index) : null;
-  if (room) host.sizeBrush(0.5 * room);
-  if (surface.hold > 0 || surface.pins > 0 || surface.constraints.length > 0 || surface.moved > 0) return;
-  const rows = Math.min(2, Math.floor((Math.min(...surface.net) - 2) / 2));
-  const alone: Command[] = [...(rows > 0 ? [{ do: 'hold', rows } as const] : []), ...clay];
-  if (surface.faces === 0) {
-    await host.client.execute(alone, join);
-    return;
-  }
-  try {
-    await host.client.execute([{ do: 'hold', mode: 'trim' }, ...clay], join);
-  } catch (error) {
-    if (!(error instanceof EngineError)) throw error;
-    await host.client.execute(alone, join);
-    host.notify({ kind: 'info', text: `Only the outer rows of control points are held: ${error.info.what}. Neighbouring faces may part from this one.` });
-  }
-}

@@ -10,6 +10,14 @@ export interface Notice {
   actions?: { label: string; act: () => void }[];
 }
 
+/** What the user is asked before something is done. */
+export interface Question {
+  title: string;
+  text: string;
+  /** The first one is what Enter means. “Cancel” is always there. */
+  choices: { id: string; label: string; about?: string }[];
+}
+
 /** What opening, saving and keeping a document need of the page round them. */
 export interface Host {
   readonly client: Client;
@@ -20,6 +28,8 @@ export interface Host {
   /** Lines of the pictures per direction. */
   readonly detail: number;
   notify: (notice: Notice) => void;
+  /** The id of the choice; null where the user wants none of them. */
+  ask: (question: Question) => Promise<string | null>;
   /** Null where something went wrong; the user has been told then. */
   attempt(act: () => Promise<void>): Promise<true | null>;
   /** Panels and marks are redrawn. */

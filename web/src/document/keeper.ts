@@ -59,6 +59,13 @@ export class Keeper {
     void this.keep();
   }
 
+  /** Nothing of the session is left to keep: another may begin. */
+  async finish(): Promise<void> {
+    clearTimeout(this.timer);
+    await this.writing;
+    await this.keep();
+  }
+
   /** One at a time; what changes meanwhile waits for the next. */
   async keep(): Promise<void> {
     if (!this.dirty || this.failed) return;
@@ -74,11 +81,11 @@ export class Keeper {
   private async write(): Promise<void> {
     const { id, host } = this;
     try {
-      const { snapshot, journal } = await host.client.snapshot(historyBytes, true);
+      const { snapshot, journal, opened } = await host.client.snapshot(historyBytes, true);
       if (id !== this.id) return; // another document since
       const commands = (JSON.parse(journal) as { commands: Command[] }).commands.length;
       const { file, name } = this.documents;
-      const kept: Kept = { id, name, when: Date.now(), commands, journal, snapshot, hasSource: file !== null };
+      const kept: Kept = { id, name, when: Date.now(), commands, opened, journal, snapshot, hasSource: file !== null };
       await autosave.write(kept, this.sourceKept ? null : file);
       this.sourceKept = true;
       if (id === this.id) document.documentElement.dataset.kept = String(commands);

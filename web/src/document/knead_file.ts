@@ -13,6 +13,8 @@ export interface KneadDocument {
   name: string;
   source: Source | null;
   commands: Command[];
+  /** Commands alone, of this version: a document has a name or a source as well. */
+  script: 1 | 2 | null;
   /** The session as bytes; what it holds follows from source and commands, but takes no computing. */
   snapshot: Uint8Array | null;
 }
@@ -57,7 +59,8 @@ export function readKnead(text: string): KneadDocument {
   const name = json.name ?? 'document';
   const source = json.source === undefined ? null : json.knead === 1 ? oldSource(json.source, name) : readSource(json.source);
   const snapshot = json.snapshot === undefined ? null : bytesOf(json.snapshot, '"snapshot"');
-  return { name, source, commands, snapshot };
+  const script = json.name === undefined && json.source === undefined ? json.knead : null;
+  return { name, source, commands, script, snapshot };
 }
 
 /** Of version 1: the bytes of a STEP file. */

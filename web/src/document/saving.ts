@@ -10,15 +10,17 @@ const longSession = 2000; // milliseconds of steps from which a document include
 
 /** Saving: the downloads, in the formats of the menu. */
 export class Saving {
-  constructor(private readonly host: Host, private readonly documents: Documents) {}
+  constructor(private readonly host: Host, private readonly documents: Documents) {
+    documents.saveDocument = async () => (await this.knead()) !== null;
+  }
 
-  step = () => this.save(async (stem) => {
+  step = () => this.work(async (stem) => {
     const { bytes, edges } = await this.host.client.save();
     download(bytes, `${stem}-sculpted.step`, 'model/step');
     return closedEdges(edges, this.host.state!.surfaces[0]?.unit ?? '');
   });
 
-  knead = () => this.save(async (stem) => {
+  knead = () => this.work(async (stem) => {
     const { host } = this;
     const { snapshot, journal } = await host.client.snapshot(historyBytes, false);
     const { name, file } = this.documents;
@@ -27,7 +29,7 @@ export class Saving {
   }, false);
 
   /** Into the Rhino file that was opened, or a new one. */
-  rhino = () => this.save(async (stem) => {
+  rhino = () => this.work(async (stem) => {
     const { client, state } = this.host;
     const { file } = this.documents;
     const { rhino } = await import('./rhino/client');
@@ -57,10 +59,17 @@ export class Saving {
     download(await this.host.picture(scale), scale === 1 ? `${stem}.png` : `${stem}@${scale}x.png`, 'image/png');
   }, false);
 
+  /** What saves all work. */
+  private async work(...how: Parameters<Saving['save']>): Promise<true | null> {
+    const done = await this.save(...how);
+    if (done) this.documents.saved();
+    return done;
+  }
+
   /** Says where a tool still holds the shape: `shape` is false for what holds the tools as well. */
-  private async save(act: (stem: string) => Promise<string | undefined | void>, shape = true): Promise<void> {
+  private async save(act: (stem: string) => Promise<string | undefined | void>, shape = true): Promise<true | null> {
     const { host } = this;
-    await host.attempt(async () => {
+    return host.attempt(async () => {
       const stem = this.documents.name.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'surface';
       const said = await act(stem);
       const { tools, last } = host.state!;

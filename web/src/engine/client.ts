@@ -7,6 +7,7 @@ import { type Command, EngineError, type EngineErrorInfo, type MaterialSamples, 
 interface Answer {
   bytes?: Uint8Array;
   text?: string;
+  opened?: number;
   context?: Context | null;
   material?: MaterialSamples;
 }
@@ -75,17 +76,20 @@ export class Client {
     });
   }
 
-  open = (bytes: Uint8Array, name: string, script?: string) => this.ask({ kind: 'open', bytes, name, script });
-  fresh = (name: string, commands: Command[]) => this.ask({ kind: 'fresh', name, commands });
+  open = (bytes: Uint8Array, name: string, commands: Command[] = [], opened?: number) => this.ask({ kind: 'open', bytes, name, commands, opened });
+  fresh = (name: string, commands: Command[], opened?: number) => this.ask({ kind: 'fresh', name, commands, opened });
   execute = (commands: Command[], join = false) => this.ask({ kind: 'execute', commands, join });
+  /** Commands that belong to the opened document: undo does not go behind them. */
+  prepare = (commands: Command[]) => this.ask({ kind: 'execute', commands, join: false, opening: true });
   pictures = (settings: PictureSettings) => this.ask({ kind: 'pictures', settings });
   play = (toRest = false) => this.ask({ kind: 'play', toRest });
   stop = () => this.ask({ kind: 'stop' });
-  snapshot = async (historyBytes: number, kept: boolean): Promise<{ snapshot: Uint8Array; journal: string }> => {
-    const { bytes, text } = await this.ask({ kind: 'snapshot', historyBytes, kept });
-    return { snapshot: bytes!, journal: text! };
+  snapshot = async (historyBytes: number, kept: boolean): Promise<{ snapshot: Uint8Array; journal: string; opened: number }> => {
+    const { bytes, text, opened } = await this.ask({ kind: 'snapshot', historyBytes, kept });
+    return { snapshot: bytes!, journal: text!, opened: opened! };
   };
-  restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array) => this.ask({ kind: 'restore', source, name, snapshot });
+  restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array, opened: number) =>
+    this.ask({ kind: 'restore', source, name, snapshot, opened });
   room = async (surface: number): Promise<number | null> => JSON.parse((await this.ask({ kind: 'room', surface })).text!) as number | null;
   save = async (): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> => {
     const { bytes, text } = await this.ask({ kind: 'save' });

@@ -12,10 +12,14 @@ export interface PictureSettings {
 
 /** Requests of the page to the worker. Every request is answered by one `Reply` with its number. */
 export type Request =
-  | { kind: 'open'; bytes: Uint8Array; name: string; script?: string }
-  | { kind: 'fresh'; name: string; commands: Command[] }
-  /** Commands that are one act: with `join` they also belong to the entry of the history before them. */
-  | { kind: 'execute'; commands: Command[]; join: boolean }
+  /** A session on a file, or on nothing. The first `opened` of its commands, or all, belong to the document: undo does not go behind them. */
+  | { kind: 'open'; bytes: Uint8Array; name: string; commands: Command[]; opened?: number }
+  | { kind: 'fresh'; name: string; commands: Command[]; opened?: number }
+  /**
+   * Commands that are one act: with `join` they also belong to the entry of the history before them; with `opening` the
+   * document is open only now.
+   */
+  | { kind: 'execute'; commands: Command[]; join: boolean; opening?: boolean }
   | { kind: 'pictures'; settings: PictureSettings }
   /** Steps until `stop`, or, to rest, until nothing moves. */
   | { kind: 'play'; toRest: boolean }
@@ -36,7 +40,7 @@ export type Request =
   | { kind: 'journal' }
   /** The session as bytes, with its journal as text. `kept`: nothing up to here needs recomputing. */
   | { kind: 'snapshot'; historyBytes: number; kept: boolean }
-  | { kind: 'restore'; source: Uint8Array | null; name: string; snapshot: Uint8Array };
+  | { kind: 'restore'; source: Uint8Array | null; name: string; snapshot: Uint8Array; opened: number };
 
 export interface Frame {
   state: SessionInfo;
@@ -59,5 +63,5 @@ export interface Frame {
 export type Reply =
   | { kind: 'ready'; displays: DisplayInfo[] }
   | { kind: 'frame'; frame: Frame }
-  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; context?: Context | null; material?: MaterialSamples }
+  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; opened?: number; context?: Context | null; material?: MaterialSamples }
   | { kind: 'failed'; id: number; error: EngineErrorInfo };

@@ -1,12 +1,16 @@
 import { plain } from './displays';
 import { Engine } from './engine';
+import { History } from './history';
 import wasmUrl from './knead_studio.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo, type ToolInfo, type ToolPicture } from './session_types';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
 
-const engineLoaded = Engine.load(fetch(wasmUrl));
+const engineLoaded = Engine.load(fetch(wasmUrl)).then((engine) => {
+  history = new History(engine);
+  return engine;
+});
 let settings: PictureSettings = { detail: 96, display: plain };
 let playing: 'no' | 'on' | 'toRest' = 'no';
 let ownEntry = false; // the steps of this play have begun their history entry
@@ -16,6 +20,8 @@ let shownSteps = 0;
 let computeTime = 0;
 let unkept = 0;
 let quietSteps = 0;
+let beforePlay: ReturnType<History['mark']> | null = null;
+const historyBytes = 48 * 2 ** 20; // of shapes that the session before keeps where another cannot be opened
 
 const post = (reply: Reply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
 
@@ -38,21 +44,39 @@ function newToolPictures(engine: Engine, tools: readonly ToolInfo[]): Record<str
   return pictures;
 }
 
-/** Goes through the history instead of adding to it: nothing can be joined with it. */
+let history: History;
+
 const travels = (command: Command) => command.do === 'undo' || command.do === 'redo';
 
-function execute(engine: Engine, commands: Command[], join: boolean): void {
+function execute(commands: Command[], join: boolean, keep = false): void {
   const start = performance.now();
   try {
-    for (const [k, command] of commands.entries()) {
-      const joined = k === 0 ? join : !travels(commands[k - 1]!);
-      engine.execute(command, joined && !travels(command));
-      if (travels(command)) shownSteps = 0; // the steps are others now
-    }
+    history.execute(commands, join, keep);
   } finally {
+    if (commands.some(travels)) shownSteps = 0; // the steps are others now
     computeTime = performance.now() - start;
     unkept += computeTime;
   }
+}
+
+/** What the present session began with, for going back to it. */
+let source: { bytes: Uint8Array; name: string } | null = null;
+
+/** Begins another session; where that fails the one before goes on. */
+function begin(engine: Engine, next: typeof source, act: () => void): void {
+  stopPlaying();
+  const before = hasSession(engine) ? { snapshot: engine.snapshot(historyBytes), source, opened: history.opened, name: engine.state().name } : null;
+  try {
+    act();
+  } catch (error) {
+    if (before && error instanceof EngineError) {
+      engine.restore(before.source?.bytes ?? null, before.source?.name ?? before.name, before.snapshot);
+      history.resume(before.opened);
+    }
+    throw error;
+  }
+  source = next;
+  shownSteps = 0;
 }
 
 /** Sends the present state, or notes that it is due if the page has not drawn the one before. */
@@ -63,7 +87,7 @@ function sendFrame(engine: Engine): void {
   }
   frameDue = false;
   const start = performance.now();
-  const state = engine.state();
+  const state = history.state();
   const pictures = state.surfaces.map((_, k) => engine.picture(k, settings.detail, settings.display, settings.opened));
   const toolPictures = newToolPictures(engine, state.tools);
   if (state.steps < shownSteps) shownSteps = 0;
@@ -84,19 +108,26 @@ function sendFrame(engine: Engine): void {
   );
 }
 
+/** Steps that have moved nothing are no entry of the history. */
+function stopPlaying(): void {
+  if (playing !== 'no' && ownEntry && beforePlay) history.dropUnchanged(beforePlay);
+  playing = 'no';
+  beforePlay = null;
+}
+
 function playOn(engine: Engine): void {
   if (playing === 'no') return;
   if (!frameDrawn) return; // `drawn` calls this again
   try {
-    execute(engine, [{ do: 'step' }], ownEntry);
+    execute([{ do: 'step' }], ownEntry, true);
     ownEntry = true;
     const last = engine.state().last;
     if (playing === 'toRest' && last) {
       quietSteps = last.residual < 1e-4 ? quietSteps + 1 : 0;
-      if (quietSteps >= 2) playing = 'no';
+      if (quietSteps >= 2) stopPlaying();
     }
   } catch (error) {
-    playing = 'no';
+    stopPlaying();
     post({ kind: 'failed', id: 0, error: errorInfo(error) });
   }
   sendFrame(engine);
@@ -106,25 +137,28 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
   switch (request.kind) {
     case 'open':
     case 'fresh': {
-      playing = 'no';
-      shownSteps = 0;
       computeTime = 0;
       const start = performance.now();
-      if (request.kind === 'open') engine.openStep(request.bytes, request.name);
-      else engine.fresh(request.name);
-      const commands =
-        request.kind === 'fresh' ? request.commands
-        : request.script ? (JSON.parse(request.script) as { commands: Command[] }).commands
-        : [];
-      for (const command of commands) engine.execute(command);
+      const { commands, opened = commands.length } = request;
+      begin(engine, request.kind === 'open' ? { bytes: request.bytes, name: request.name } : null, () => {
+        if (request.kind === 'open') engine.openStep(request.bytes, request.name);
+        else engine.fresh(request.name);
+        for (const command of commands.slice(0, opened)) engine.execute(command);
+        history.begin();
+        for (const command of commands.slice(opened)) history.execute([command], false, true);
+      });
       unkept = performance.now() - start;
       sendFrame(engine);
       break;
     }
     case 'execute':
       // A command from outside ends the entry that playing has begun.
-      if (!request.join) ownEntry = false;
-      execute(engine, request.commands, request.join);
+      if (!request.join) {
+        ownEntry = false;
+        beforePlay = null;
+      }
+      execute(request.commands, request.join);
+      if (request.opening) history.begin();
       sendFrame(engine);
       break;
     case 'pictures':
@@ -136,10 +170,11 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       playing = request.toRest ? 'toRest' : 'on';
       ownEntry = false;
       quietSteps = 0;
+      beforePlay = history.mark();
       playOn(engine);
       break;
     case 'stop':
-      playing = 'no';
+      stopPlaying();
       sendFrame(engine);
       break;
     case 'drawn':
@@ -164,16 +199,18 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       post({ kind: 'done', id, bytes: engine.mesh(request.format, request.detail) });
       return;
     case 'restore':
-      engine.restore(request.source, request.name, request.snapshot);
-      playing = 'no';
-      shownSteps = computeTime = unkept = 0;
+      begin(engine, request.source && { bytes: request.source, name: request.name }, () => {
+        engine.restore(request.source, request.name, request.snapshot);
+        history.resume(request.opened);
+      });
+      computeTime = unkept = 0;
       sendFrame(engine);
       break;
     case 'snapshot': {
       const text = engine.journal();
       const bytes = engine.snapshot(request.historyBytes);
       if (request.kept) unkept = 0;
-      post({ kind: 'done', id, bytes, text }, [bytes.buffer as ArrayBuffer]);
+      post({ kind: 'done', id, bytes, text, opened: history.opened }, [bytes.buffer as ArrayBuffer]);
       return;
     }
     case 'surface':

@@ -4,6 +4,7 @@ import type { App } from './app';
 import { h, icon, iconButton } from './dom';
 import { galleryMenu } from './gallery_menu';
 import { openLab } from './lab/door';
+import { recentMenu } from './recent_menu';
 import { saveEntries } from './save_menu';
 import { shortcuts } from './shortcuts';
 import { toggleTour } from './tour';
@@ -28,7 +29,7 @@ export function topBar(app: App): HTMLElement {
   const save = menu('save', 'Save', 'Save', saveEntries(app));
   const bar = h('header', { class: 'top' },
     h('span', { class: 'brand' }, 'Knead'),
-    iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), save, picker,
+    iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), recentMenu(app), save, picker,
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
     h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
     iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,

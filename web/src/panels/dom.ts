@@ -26,6 +26,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(tag: K, props: Props<K>
 const paths: Record<string, string> = {
   open: 'M3 7V5h6l2 2h10v12H3zM3 10h18',
   gallery: 'M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z',
+  recent: 'M4 12a8 8 0 108-8 8 8 0 00-6.500 3.500M5 3.500v4.500h4.500M12 8v4.500l3 2',
   save: 'M12 4v11M7 11l5 5 5-5M4 20h16',
   undo: 'M8 5L4 9l4 4M4 9h10a6 6 0 010 12h-3',
   redo: 'M16 5l4 4-4 4M20 9H10a6 6 0 000 12h3',

@@ -10,17 +10,15 @@ export const slug = (name: string): string => name.toLowerCase().replace(/\W+/g,
 export const pictureOf = (scene: Scene): string | undefined => pictures[`../../../docs/pictures/gallery/${slug(scene.name)}.png`];
 
 export async function openScene(app: App, scene: Scene): Promise<void> {
-  if (!scene.file) {
-    await app.documents.startFresh(scene.document, scene.commands ?? []);
-    return;
-  }
-  const response = await fetch(scene.file).catch(() => null);
-  if (!response?.ok) {
+  const { file } = scene;
+  const fetchFile = file === undefined ? undefined : async () => {
+    const response = await fetch(file).catch(() => null);
+    if (response?.ok) return new Uint8Array(await response.arrayBuffer());
     app.notify({ kind: 'error', text: `“${scene.name}” could not be loaded`, remedy: 'see whether the network is there, and try again' });
-    return;
-  }
-  await app.documents.openStep(new Uint8Array(await response.arrayBuffer()), scene.document);
-  if (app.state && app.state.selection.length === 0) await app.select(0);
+    return null;
+  };
+  const opened = await app.documents.openScene(scene.document, scene.commands ?? [], fetchFile);
+  if (opened && app.state && app.state.selection.length === 0) await app.select(0);
 }
 
 export { scenes };

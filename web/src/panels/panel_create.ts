@@ -94,7 +94,7 @@ export function createPanel(app: App): HTMLElement {
       return;
     }
     const all: Command[] = [command, ...(patch.held && patch.shape === 'plane' ? [{ do: 'hold' as const, rows: Math.min(2, Math.floor((Math.min(...patch.net) - 2) / 2)) }] : []), ...clay];
-    if (fresh) await app.documents.startFresh(command.name!, all);
+    if (fresh) await app.documents.openScene(command.name!, all);
     else if (await app.execute(all)) app.viewer.fit();
   };
   const length = (text: string) => parseLength(text, patch.unit);

@@ -1,7 +1,6 @@
 import { autosave, type Kept } from '../document/autosave';
 import type { App } from './app';
-
-const when = (kept: Kept) => new Date(kept.when).toLocaleString(undefined, { dateStyle: 'medium', timeStyle: 'short' });
+import { extent, when } from './recent_menu';
 
 /** Shows at the lower edge what closed tabs have left behind: the last session first, the older ones on request. */
 export async function offerRecovery(app: App): Promise<void> {
@@ -9,7 +8,7 @@ export async function offerRecovery(app: App): Promise<void> {
   const offer = (kept: Kept, older: Kept[]) =>
     app.notify({
       kind: 'info',
-      text: `“${kept.name}”, ${kept.commands} ${kept.commands === 1 ? 'command' : 'commands'}, from ${when(kept)}, is still here.`,
+      text: `“${kept.name}”, ${extent(kept)}, from ${when(kept)}, is still here.`,
       actions: [
         { label: 'Recover', act: () => void app.documents.recover(kept) },
         { label: 'Forget it', act: () => void autosave.forget(kept.id) },

@@ -1,0 +1,196 @@
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+
+import { commands, distance, downloaded, openFile, openStudio, positions, question, ready, root, scene, settled, stroke, type Studio } from './page';
+
+/** How far undo goes back, what a script is applied to, and what becomes of the session before. */
+
+let studio: Studio;
+let directory: string;
+
+beforeAll(async () => {
+  directory = mkdtempSync(join(tmpdir(), 'knead-opening-'));
+  studio = await openStudio();
+});
+afterAll(async () => {
+  await studio.close();
+  rmSync(directory, { recursive: true });
+});
+afterEach(() => {
+  expect(studio.problems).toEqual([]);
+  expect(studio.foreign).toEqual([]);
+});
+
+const undoButton = () => studio.page.locator('button[aria-label^="Undo"]');
+const undo = async (times: number) => {
+  for (let k = 0; k < times; ++k) {
+    await studio.page.keyboard.press('Control+z');
+    await settled(studio.page);
+  }
+};
+const file = (name: string, content: unknown): string => {
+  const path = join(directory, name);
+  writeFileSync(path, typeof content === 'string' ? content : JSON.stringify(content));
+  return path;
+};
+const kept = async () => {
+  const count = (await commands(studio.page)).length;
+  await studio.page.waitForSelector(`html[data-kept="${count}"]`, { state: 'attached' });
+};
+const preset = () => studio.page.evaluate(() =>
+  (window as never as { studio: { state: { surfaces: { preset: string | null }[] } } }).studio.state.surfaces.map((s) => s.preset));
+
+describe('undo', () => {
+  it('goes no further back than the sheet that the page begins with', async () => {
+    const { page } = studio;
+    const before = await commands(page);
+    const flat = await positions(page);
+    await undo(4);
+    expect(await commands(page)).toEqual(before);
+    expect(distance(await positions(page), flat)).toBe(0);
+    expect(await preset()).toEqual(['clay']);
+    expect(await undoButton().isDisabled()).toBe(true);
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0], [30, 0]);
+    expect(await undoButton().isEnabled()).toBe(true);
+    await undo(4);
+    expect(await commands(page)).toEqual(before);
+    expect(distance(await positions(page), flat)).toBe(0);
+  });
+
+  it('goes no further back than a file as it was opened', async () => {
+    const { page } = studio;
+    await openFile(page, join(root, 'samples/bonnet.step'));
+    const before = await commands(page);
+    const shape = await positions(page);
+    expect(await undoButton().isDisabled()).toBe(true);
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0]); // selects
+    await stroke(page, [0, 0], [30, 0]);
+    await undo(6);
+    expect(await commands(page)).toEqual(before);
+    expect(distance(await positions(page), shape)).toBe(0);
+  });
+
+  it('stops at the same place after a reload', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    const before = await commands(page);
+    await stroke(page, [0, 0], [30, 0]);
+    await stroke(page, [0, 30], [30, 30]);
+    await kept();
+    await page.reload();
+    await ready(page);
+    await page.locator('.notice button', { hasText: 'Recover' }).click();
+    await settled(page);
+    expect((await commands(page)).length).toBeGreaterThan(before.length);
+    await undo(5);
+    expect(await commands(page)).toEqual(before);
+    expect(await undoButton().isDisabled()).toBe(true);
+  });
+
+  it('takes the strokes of a saved document back, but not its sheet', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    await page.keyboard.press('b');
+    const before = await commands(page);
+    await stroke(page, [0, 0], [30, 0]);
+    await page.locator('summary[aria-label=Save]').click();
+    const [download] = await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item', { hasText: 'Knead document' }).click()]);
+    await openFile(page, file('stroke.knead', await downloaded(download)));
+    await undo(8);
+    expect(await commands(page)).toEqual(before);
+  });
+});
+
+describe('a script that is opened', () => {
+  const bump = { knead: 1, commands: [{ do: 'drag', at: [0.5, 0.5], by: [0, 0, 12], radius: 30 }] };
+
+  it('is applied to the document that is open, as one entry of the history', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    const before = await commands(page);
+    const flat = await positions(page);
+    await openFile(page, file('bump.json', bump), 'Apply');
+    expect((await commands(page)).slice(before.length)).toMatchObject(bump.commands);
+    expect(distance(await positions(page), flat)).toBeGreaterThan(5);
+    await expect.poll(() => page.locator('.document-name').textContent()).toBe('sheet');
+    await undo(1);
+    expect(await commands(page)).toEqual(before);
+  });
+
+  it('that does not fit changes nothing', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    const before = await commands(page);
+    const path = file('other.json', { knead: 2, commands: [{ do: 'new', size: [9, 9], name: 'first' }, { do: 'select', surface: '#285' }] });
+    for (const choice of ['Apply', 'New document']) {
+      await openFile(page, path, choice);
+      await expect.poll(() => page.locator('.notice.error').textContent(), { message: choice }).toContain('#285');
+      await page.locator('.notice.error button[aria-label=Dismiss]').click();
+      expect(await commands(page), choice).toEqual(before);
+      expect(await undoButton().isDisabled(), choice).toBe(true);
+      expect(await page.locator('.document-name').textContent()).toBe('sheet');
+    }
+  });
+
+  it('makes a document of its own where that is wanted, and none where it is not', async () => {
+    const { page } = studio;
+    const before = await commands(page);
+    const path = file('made.json', { knead: 2, commands: [{ do: 'new', size: [50, 50], net: [6, 6], name: 'small' }] });
+    await openFile(page, path, 'Cancel');
+    expect(await commands(page)).toEqual(before);
+    await openFile(page, path, 'New document');
+    expect(await commands(page)).toMatchObject([{ do: 'new', name: 'small' }]);
+    await expect.poll(() => page.locator('.document-name').textContent()).toBe('made.json');
+  });
+});
+
+describe('opening something else', () => {
+  it('asks first where work is not saved, and not where nothing was done', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    await page.locator('summary[aria-label^=Gallery]').click();
+    await page.locator('details[open] .menu-item').first().click();
+    expect(await question(page).isVisible()).toBe(false);
+    await settled(page);
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0], [30, 0]);
+    const shape = await positions(page);
+    await page.locator('summary[aria-label^=Gallery]').click();
+    await page.locator('details[open] .menu-item', { hasText: 'Trampoline' }).click();
+    await expect.poll(() => question(page).textContent()).toContain('“sheet” has changes that are not saved');
+    await question(page).locator('button', { hasText: 'Cancel' }).click();
+    await settled(page);
+    expect(distance(await positions(page), shape)).toBe(0);
+    await expect.poll(() => page.locator('.document-name').textContent()).toBe('sheet');
+    // Saved, it may go.
+    await page.locator('summary[aria-label=Save]').click();
+    await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item', { hasText: 'Knead document' }).click()]);
+    await expect.poll(() => page.locator('.notice').last().textContent()).toContain('Saved');
+    await page.locator('summary[aria-label^=Gallery]').click();
+    await page.locator('details[open] .menu-item', { hasText: 'Trampoline' }).click();
+    expect(await question(page).isVisible()).toBe(false);
+    await expect.poll(() => page.locator('.document-name').textContent()).toBe('trampoline');
+  });
+
+  it('leaves the session before in the list of recent ones, from which it is opened again', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    await page.keyboard.press('b');
+    await stroke(page, [10, 0], [50, 10]);
+    const shape = await positions(page);
+    await scene(page, 'Hull'); // at once: what was not kept yet is kept now
+    expect(distance(await positions(page), shape)).toBeGreaterThan(1);
+    await page.locator('summary[aria-label="Recent sessions"]').click();
+    const first = page.locator('details[open] .menu-item').first();
+    await expect.poll(() => first.textContent()).toContain('sheet');
+    await first.click();
+    await expect.poll(() => page.locator('.document-name').textContent()).toBe('sheet');
+    await settled(page);
+    expect(distance(await positions(page), shape)).toBe(0);
+    await undo(1);
+    expect(distance(await positions(page), shape)).toBeGreaterThan(1);
+  });
+});

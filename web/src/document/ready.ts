@@ -1,0 +1,34 @@
+import { type Command, EngineError } from '../engine/session_types';
+import { clay } from './clay';
+import type { Host } from './host';
+
+/**
+ * Selects a surface, and makes one as it came clay that is held at its edges. What faces lie on is held along their edges, so
+ * that they go on meeting their neighbours, and the brush fits between them; a surface alone by its outer rows. `opening`:
+ * it is selected, and what is done belongs to the opened document.
+ */
+export async function makeReady(host: Host, index: number, opening: boolean): Promise<void> {
+  const { client } = host;
+  const surface = host.state!.surfaces[index]!;
+  const run = (commands: Command[]) =>
+    (opening ? client.prepare(commands) : client.execute([{ do: 'select', surface: surface.id }, ...commands]));
+  const room = surface.faces > 0 ? await client.room(index) : null;
+  if (surface.hold > 0 || surface.pins > 0 || surface.constraints.length > 0 || surface.moved > 0) await run([]);
+  else if (surface.faces === 0) await run(alone(surface.net));
+  else {
+    try {
+      await run([{ do: 'hold', mode: 'trim' }, ...clay]);
+    } catch (error) {
+      if (!(error instanceof EngineError)) throw error;
+      await run(alone(surface.net));
+      host.notify({ kind: 'info', text: `Only the outer rows of control points are held: ${error.info.what}. Neighbouring faces may part from this one.` });
+    }
+  }
+  if (room) host.sizeBrush(0.5 * room);
+}
+
+/** Clay that is held by its outer rows. */
+export function alone(net: readonly number[]): Command[] {
+  const rows = Math.min(2, Math.floor((Math.min(...net) - 2) / 2));
+  return [...(rows > 0 ? [{ do: 'hold', rows } as const] : []), ...clay];
+}
