@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import { Documents } from '../document/documents';
 import type { Notice, Question } from '../document/host';
 import { makeReady } from '../document/ready';
+import { adviceOn, inOneLine } from '../document/words';
 import { Saving } from '../document/saving';
 import { Client } from '../engine/client';
 import type { Context, Trim } from '../engine/context';
@@ -104,6 +105,16 @@ export class Studio implements App {
     });
   }
 
+  async offer(commands: Command[]): Promise<string | null> {
+    try {
+      await this.client.execute(commands);
+      this.documents.work(commands);
+      return null;
+    } catch (error) {
+      return error instanceof EngineError ? inOneLine(error.info) : String(error);
+    }
+  }
+
   async attempt(act: () => Promise<void>): Promise<true | null> {
     try {
       await act();
@@ -116,9 +127,8 @@ export class Studio implements App {
   }
 
   private fail(error: EngineErrorInfo): void {
-    const place = error.where ? `${error.where}: ` : '';
-    const text = place + error.what;
-    this.notify({ kind: 'error', text: text[0]!.toUpperCase() + text.slice(1), remedy: error.remedy });
+    const { text, remedy, actions } = adviceOn(error);
+    this.notify({ kind: 'error', text, remedy, actions: actions.map(({ label, commands }) => ({ label, act: () => void this.execute(commands) })) });
   }
 
   // --- documents: document/documents.ts, document/saving.ts ---------------------------------------------------------

@@ -52,6 +52,8 @@ export interface Frame {
   steps: StepInfo[];
   origin: [number, number, number];
   playing: boolean;
+  /** The largest distance of the drawn selected surfaces from where they were opened; while a stroke or steps go on that of the last step. File units. */
+  moved: number;
   /** Milliseconds that the worker took for commands and for pictures. */
   computeTime: number;
   pictureTime: number;

@@ -3,7 +3,7 @@ import { Engine } from './engine';
 import { History } from './history';
 import wasmUrl from './knead_studio.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo, type ToolInfo, type ToolPicture } from './session_types';
+import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
 
@@ -79,6 +79,14 @@ function begin(engine: Engine, next: typeof source, act: () => void): void {
   shownSteps = 0;
 }
 
+/** As `Frame.moved`. */
+function movedBy(engine: Engine, { selection, surfaces, tools, last }: SessionInfo): number {
+  if (playing !== 'no' || tools.some((tool) => tool.name === 'brush')) return last?.displacement ?? 0;
+  const moved = selection.filter((k) => surfaces[k]!.moved > 0);
+  return moved.flatMap((k) => [...engine.picture(k, settings.detail, { display: 'deviation', settings: {} }).values])
+    .reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+}
+
 /** Sends the present state, or notes that it is due if the page has not drawn the one before. */
 function sendFrame(engine: Engine): void {
   if (!frameDrawn) {
@@ -96,7 +104,7 @@ function sendFrame(engine: Engine): void {
   shownSteps = state.steps;
   frameDrawn = false;
   const frame = {
-    state, pictures, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no',
+    state, pictures, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
   };
   post(

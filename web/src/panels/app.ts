@@ -1,7 +1,7 @@
 import type { Documents } from '../document/documents';
 import type { Saving } from '../document/saving';
 import type { Frame } from '../engine/protocol';
-import type { StepInfo, SurfaceNumbers } from '../engine/session_types';
+import type { Command, StepInfo, SurfaceNumbers } from '../engine/session_types';
 import type { Hand } from '../tools/hand';
 import type { ToolHost } from '../tools/host';
 import type { Display, Theme } from '../view/display';
@@ -20,6 +20,8 @@ export interface App extends ToolHost {
   readonly framesPerSecond: number;
   /** Of the selected surfaces, or of all; file units. */
   readonly diagonal: number;
+  /** Executes commands as one entry of the history; answers why not where the engine refuses them, and tells nobody else. */
+  offer(commands: Command[]): Promise<string | null>;
   setDisplay(change: Partial<Display>): void;
   setTheme(theme: Theme): void;
   /** While a key is held: the surfaces as they were opened. */

@@ -98,11 +98,13 @@ export function notices(app: App): HTMLElement {
           a.act();
         } }, a.label))),
       iconButton('close', 'Dismiss', close));
-    const same = [...stack.children].find((other) => other.querySelector('p')?.textContent === notice.text);
-    same?.remove();
+    // Again with other numbers is the same.
+    const gist = (text: string) => text.replace(/[\d.,]+(e[-+]?\d+)?/g, '#');
+    [...stack.children].find((other) => gist(other.querySelector('p')?.textContent ?? '') === gist(notice.text))?.remove();
     stack.append(element);
     while (stack.children.length > 3) stack.firstElementChild!.remove();
-    if (!notice.actions) setTimeout(close, notice.kind === 'error' ? 12_000 : 4_000);
+    const stays = notice.kind === 'info' && (notice.actions ?? []).length > 0; // an offer
+    if (!stays) setTimeout(close, notice.kind === 'error' ? 15_000 : 4_000);
   };
   return stack;
 }

@@ -1,5 +1,3 @@
-import { format, parseNumber } from '../document/units';
-
 /** Small helpers that make elements; no markup is ever parsed, so that nothing in a file can become code. */
 
 type Child = Node | string | null | undefined | false;
@@ -78,28 +76,6 @@ export function iconButton(name: string, label: string, onclick: () => void, tex
 
 export function field(label: string, control: HTMLElement, tip?: string): HTMLLabelElement {
   return h('label', { class: 'field', title: tip ?? '' }, h('span', { class: 'field-label' }, label), control);
-}
-
-/** A number that takes effect when the user leaves it or presses Enter. `parse` may know units. */
-export function numberInput(label: string, value: number | null, change: (value: number) => void,
-                            parse: (text: string) => number | null = parseNumber, absent = 'varies'): HTMLInputElement {
-  const shown = value === null ? '' : format(value);
-  const input = h('input', { class: 'number', type: 'text', inputMode: 'decimal', value: shown, spellcheck: false,
-    autocomplete: 'off', placeholder: value === null ? absent : '', aria: { label } });
-  input.addEventListener('change', () => {
-    const typed = parse(input.value);
-    input.classList.toggle('wrong', typed === null);
-    if (typed !== null) change(typed);
-  });
-  input.addEventListener('keydown', (e) => {
-    if (e.key === 'Enter') input.blur();
-    if (e.key === 'Escape') {
-      input.value = shown;
-      input.blur();
-    }
-    e.stopPropagation();
-  });
-  return input;
 }
 
 export function select<T extends string>(label: string, options: readonly (readonly [T, string])[], value: T,

@@ -17,7 +17,7 @@ export function panel(app: App, title: string, key: (app: App) => unknown, draw:
     if (now === drawn) return;
     const focus = document.activeElement;
     if (body.contains(focus) && (focus instanceof HTMLInputElement || focus instanceof HTMLSelectElement) &&
-        (app.playing() || focus.type === 'range')) return;
+        (app.playing() || focus.type === 'range' || focus.ariaInvalid === 'true')) return;
     drawn = now;
     const name = body.contains(focus) ? focus?.getAttribute('aria-label') : null;
     body.replaceChildren(...draw(app).filter((n): n is Node => n !== null));

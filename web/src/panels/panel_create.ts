@@ -3,7 +3,8 @@ import { parseLength, parseNumber } from '../document/units';
 import type { NewCommand } from '../engine/generated';
 import type { Command, Vector3 } from '../engine/session_types';
 import type { App } from './app';
-import { field, h, numberInput, select, toggle } from './dom';
+import { field, h, select, toggle } from './dom';
+import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 
 const shapes = [['plane', 'Sheet'], ['cylinder', 'Cylinder'], ['sphere', 'Sphere'], ['torus', 'Torus'], ['revolution', 'Revolution'], ['points', 'Control points']] as const;

@@ -3,7 +3,8 @@ import { type DisplayInfo, type DisplaySetting, unitIn } from '../engine/display
 import { conventionNames, conventionText } from '../view/conventions';
 import type { Display } from '../view/display';
 import type { App } from './app';
-import { field, h, numberInput, select, slider, toggle } from './dom';
+import { field, h, select, slider, toggle } from './dom';
+import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 
 export function displayPanel(app: App): HTMLElement {

@@ -1,7 +1,8 @@
 import { parseLength, parseNumber } from '../document/units';
 import type { SurfaceNumbers } from '../engine/session_types';
 import type { App } from './app';
-import { field, h, numberInput } from './dom';
+import { field, h } from './dom';
+import { numberInput, refuse } from './number_input';
 import { note, panel, row } from './panel';
 import { numbers } from './panel_create';
 
@@ -53,8 +54,9 @@ export function surfacePanel(app: App): HTMLElement {
       area.addEventListener('keydown', (e) => e.stopPropagation());
       area.addEventListener('change', () => {
         const typed = readKnots(area.value);
-        area.classList.toggle('wrong', typed === null);
-        if (typed) void app.execute([{ do: 'knots', direction, knots: typed }]);
+        const valid = data ? knotText(direction === 'u' ? data.knots_u : data.knots_v) : '';
+        if (!typed) refuse(area, 'These are not numbers with spaces between them', valid);
+        else void app.offer([{ do: 'knots', direction, knots: typed }]).then((why) => why && refuse(area, why, valid));
       });
       return { direction, area, fill };
     });
@@ -81,7 +83,7 @@ export function surfacePanel(app: App): HTMLElement {
       weights,
       ...knots.map(({ direction, area }) => field(`Knots ${direction}`, area, 'Another vector of the same length: the points stay, the shape changes. 0×4 means four times')),
       field('Insert', row(input, at('u'), at('v')), 'New knots, the same shape'),
-      field('Coarsen', row(numberInput('Tolerance of coarsening', tolerance, (v) => (tolerance = Math.abs(v)),
+      field('Coarsen', row(numberInput('Tolerance of coarsening', tolerance, (v) => void (tolerance = Math.abs(v)),
         (text) => parseLength(text, s.unit)),
         small('Remove', 'Remove knots where the shape moves by no more than this', () => void app.execute([{ do: 'coarsen', tolerance }])))),
       row(

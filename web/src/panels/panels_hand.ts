@@ -4,7 +4,8 @@ import { format, parseLength } from '../document/units';
 import { materials, type PointsCommand } from '../engine/generated';
 import { brushModes, paintModes } from '../tools/modes';
 import type { App } from './app';
-import { field, h, numberInput, select, slider, title, toggle } from './dom';
+import { field, h, select, slider, title, toggle } from './dom';
+import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 import { shapeTitles } from './panels_scene';
 
@@ -46,8 +47,9 @@ function radiusField(app: App): HTMLElement {
       app.changed();
     }),
     numberInput('Brush radius in units', settings.radius, (v) => {
-      if (v > 0) settings.radius = v;
-      app.changed();
+      if (!(v > 0)) return 'A radius is larger than 0';
+      settings.radius = v;
+      return app.changed();
     }, length(app)),
   ), 'Shift-wheel over the surface, or the wheel while pressing; Ctrl-drag to the side; [ and ]');
 }
@@ -128,9 +130,10 @@ export function pointsPanel(app: App): HTMLElement {
     const place = surface ? all.reduce((sum, k) => sum.add(new THREE.Vector3().fromArray(surface.net, 3 * k)), new THREE.Vector3())
       .divideScalar(count).add(new THREE.Vector3(...app.viewer.origin)) : new THREE.Vector3();
     const run = (command: Partial<PointsCommand>) => void app.execute([{ do: 'points', ...points.which(), ...command }]);
-    const along = (axis: number) => (value: number) => run({ by: new THREE.Vector3().setComponent(axis, value - place.getComponent(axis)).toArray() });
+    const along = (axis: number) => (value: number) =>
+      app.offer([{ do: 'points', ...points.which(), by: new THREE.Vector3().setComponent(axis, value - place.getComponent(axis)).toArray() }]);
     const by = [0, 0, 0, 0];
-    const delta = ['x', 'y', 'z', 'normal'].map((name, k) => numberInput(`Move by ${name}`, 0, (v) => (by[k] = v), length(app)));
+    const delta = ['x', 'y', 'z', 'normal'].map((name, k) => numberInput(`Move by ${name}`, 0, (v) => void (by[k] = v), length(app)));
     return [
       note(count === 1 ? `Point ${Math.floor(all[0]! / n)}, ${all[0]! % n} of ${m} × ${n}` : `${count} of ${m} × ${n} points, their middle at`),
       wide('At', row(...['x', 'y', 'z'].map((name, k) => numberInput(`Position ${name}`, place.getComponent(k), along(k), length(app))))),
@@ -149,7 +152,7 @@ export function pointsPanel(app: App): HTMLElement {
 
 function weightFields(app: App, chosen: number[]): (Node | null)[] {
   const { points } = app.hand;
-  const input = numberInput('Weight', null, (weight) => void app.execute([{ do: 'weights', ...points.which(), weight }]), undefined, '1');
+  const input = numberInput('Weight', null, (weight) => app.offer([{ do: 'weights', ...points.which(), weight }]), undefined, '1');
   const surface = points.surface!;
   void app.surfaceData(surface).then(({ weights }) => {
     const values = chosen.map((k) => weights?.[k] ?? 1);

@@ -1,7 +1,8 @@
 import { type EvolveCommand, type LoadCommand, type MaterialCommand, materials } from '../engine/generated';
 import type { Command } from '../engine/session_types';
 import type { App } from './app';
-import { field, h, numberInput, title, toggle } from './dom';
+import { field, h, title, toggle } from './dom';
+import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 import { energyChart } from './plot';
 
@@ -13,7 +14,7 @@ export function materialPanel(app: App): HTMLElement {
   }, () => {
     const s = chosen();
     if (!s) return [note('Select a surface.')];
-    const set = (change: Partial<MaterialCommand>) => void app.execute([{ do: 'material', ...change }]);
+    const set = (change: Partial<MaterialCommand>) => app.offer([{ do: 'material', ...change }]);
     const one = (values: (number | null)[]) => (values[0] === values[2] ? values[0]! : null);
     const chosenMaterial = materials.find((m) => m.name === s.preset);
     const counted = s.lengths === 'radii' ? 'in radii of the tool' : 'in units of the file';
@@ -24,7 +25,7 @@ export function materialPanel(app: App): HTMLElement {
       ]), help))),
       note(chosenMaterial ? `${title(chosenMaterial.name)}: ${chosenMaterial.help}.` : s.alpha.includes(null) || s.beta.includes(null)
         ? 'Varies over the surface: it was painted.' : 'A material of your own.'),
-      field('Stays', numberInput('Plasticity', s.plasticity, (plasticity) => set({ plasticity })), 'Share of a stroke that stays, 0 to 1'),
+      field('Stays', numberInput('Share that stays', s.plasticity, (plasticity) => set({ plasticity })), 'Share of a stroke that stays, 0 to 1'),
       field('Yield', numberInput('Yield', s.yield, (y) => set({ yield: y, lengths: s.lengths })), `Up to this displacement nothing stays, ${counted}`),
       field('Locality', numberInput('Locality', s.locality, (locality) => set({ locality, lengths: s.lengths })), `How far a dent is felt, ${counted}; 0: as far as λ lets it`),
       field('Stretch α', numberInput('Stretch', one(s.alpha), (a) => set({ alpha: [a, 0, a] })), 'Resistance to stretch (Eq. 4.8)'),
@@ -48,14 +49,15 @@ export function evolutionPanel(app: App): HTMLElement {
   return panel(app, 'Evolution', (a) => [a.state?.evolve, a.state?.load, a.state?.refine], () => {
     const { state } = app;
     if (!state) return [];
-    const evolve = (change: Partial<EvolveCommand>) => void app.execute([{ ...state.evolve, ...change }]);
-    const load = (change: Partial<LoadCommand>) => void app.execute([{ ...state.load, ...change }]);
+    const evolve = (change: Partial<EvolveCommand>) => app.offer([{ ...state.evolve, ...change }]);
+    const mode = (name: EvolveCommand['mode']) => void app.execute([{ ...state.evolve, mode: name }]);
+    const load = (change: Partial<LoadCommand>) => app.offer([{ ...state.load, ...change }]);
     const { gravity } = state.load;
     return [
       row(
-        toggle('Sink', state.evolve.mode === 'acm', () => evolve({ mode: 'acm' }), 'Sinks towards the balance (Eq. 4.22)'),
-        toggle('Balance', state.evolve.mode === 'static', () => evolve({ mode: 'static' }), 'The balance at once'),
-        toggle('Swing', state.evolve.mode === 'dynamic', () => evolve({ mode: 'dynamic' }), 'Mass and damping (Eq. 5.39)'),
+        toggle('Sink', state.evolve.mode === 'acm', () => mode('acm'), 'Sinks towards the balance (Eq. 4.22)'),
+        toggle('Balance', state.evolve.mode === 'static', () => mode('static'), 'The balance at once'),
+        toggle('Swing', state.evolve.mode === 'dynamic', () => mode('dynamic'), 'Mass and damping (Eq. 5.39)'),
       ),
       state.evolve.mode === 'acm' ? field('λ', numberInput('Lambda', state.evolve.lambda, (lambda) => evolve({ lambda })), 'Inverse step size: larger is stiffer clay') : null,
       state.evolve.mode === 'dynamic' ? field('Time step', numberInput('Time step', state.evolve.time_step, (time_step) => evolve({ time_step }))) : null,

@@ -2,7 +2,8 @@ import { format, parseLength } from '../document/units';
 import { type EditToolCommand, shapes } from '../engine/generated';
 import type { Command, ToolInfo } from '../engine/session_types';
 import type { App } from './app';
-import { field, h, iconButton, numberInput, select, title, toggle } from './dom';
+import { field, h, iconButton, select, title, toggle } from './dom';
+import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 
 const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? 'mm';
@@ -82,18 +83,19 @@ export function toolsPanel(app: App): HTMLElement {
 
 function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
   const change = (what: Partial<EditToolCommand>) => void app.execute([edited(tool, what)]);
+  const offer = (what: Partial<EditToolCommand>) => app.offer([edited(tool, what)]);
   const setGizmo = (mode: 'translate' | 'rotate' | 'scale') => {
     for (const v of app.viewer.viewports) v.gizmo.setMode(mode);
     app.changed();
   };
   const mode = app.viewer.viewports[0]!.gizmo.mode;
   const number = (label: string, value: number, name: keyof EditToolCommand, isLength = false, tip?: string) =>
-    field(label, numberInput(label, value, (v) => change({ [name]: v }), isLength ? length(app) : undefined), tip);
+    field(label, numberInput(label, value, (v) => offer({ [name]: v }), isLength ? length(app) : undefined), tip);
   return [
     row(...(['translate', 'rotate', 'scale'] as const).map((m) =>
       toggle({ translate: 'Move', rotate: 'Turn', scale: 'Resize' }[m], mode === m, () => setGizmo(m)))),
     field('Shape', select('Shape', shapeTitles, tool.shape, (shape) => change({ shape }))),
-    ...measures(app, tool, change),
+    ...measures(app, tool, offer),
     field('Mode', select('Mode', [['collision', 'Collision'], ['proximity', 'Proximity'], ['imprint', 'Imprint']], tool.mode, (m) => change({ mode: m })),
       'Collision pushes out what has entered; proximity draws from either side; imprint leaves its shape at once'),
     tool.mode === 'proximity'
@@ -107,8 +109,8 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
 }
 
 /** The numbers of its shape, and where the tool is. */
-function measures(app: App, tool: ToolInfo, change: (what: Partial<EditToolCommand>) => void): Node[] {
-  const input = (label: string, value: number, isLength: boolean, set: (v: number) => void) => numberInput(label, value, set, isLength ? length(app) : undefined);
+function measures(app: App, tool: ToolInfo, change: (what: Partial<EditToolCommand>) => Promise<string | null>): Node[] {
+  const input = (label: string, value: number, isLength: boolean, set: (v: number) => Promise<string | null>) => numberInput(label, value, set, isLength ? length(app) : undefined);
   const several = (label: string, name: string, values: readonly number[], isLength: boolean, tip?: string) =>
     field(label, row(...values.map((value, k) => input(`${label} ${k + 1}`, value, isLength,
       (v) => change({ [name]: values.map((x, l) => (l === k ? v : x)) })))), tip);
@@ -137,7 +139,7 @@ export function constraintsPanel(app: App): HTMLElement {
     const edgeSelect = select('Edge', edges, 'all', () => {});
     const holdSelect = select('Continuity', [['position', 'Position'], ['clamped', 'Tangent'], ['curvature', 'Curvature'], ['free', 'Free']], 'position', () => {});
     return [
-      field('Held rows', numberInput('Held rows', chosen.hold, (v) => run({ do: 'hold', rows: Math.round(v) })), 'Outer rows of control points that stay'),
+      field('Held rows', numberInput('Held rows', chosen.hold, (v) => app.offer([{ do: 'hold', rows: Math.round(v) }])), 'Outer rows of control points that stay'),
       row(edgeSelect, holdSelect, h('button', { class: 'button small', type: 'button',
         onclick: () => run({ do: 'edge', which: edgeSelect.value, hold: holdSelect.value }) }, 'Hold')),
       row(
@@ -146,7 +148,7 @@ export function constraintsPanel(app: App): HTMLElement {
         toggle('Seams', state.coupled, (couple) => run({ do: 'seams', couple }), 'Patches selected together stay together at their seams'),
         h('button', { class: 'button small', type: 'button', title: 'Frees all that is held, pinned, frozen or kept', onclick: () => run({ do: 'release' }) }, 'Release all'),
       ),
-      field('Limit', numberInput('Limit', state.limit, (v) => run(v > 0 ? { do: 'limit', distance: v } : { do: 'limit' }), length(app), 'none'),
+      field('Limit', numberInput('Limit', state.limit, (v) => app.offer([v > 0 ? { do: 'limit', distance: v } : { do: 'limit' }]), length(app), 'none'),
         'No point moves further from the surface as opened; 0 for no limit'),
       chosen.pins > 0 || chosen.constraints.length > 0
         ? note([chosen.pins > 0 ? `${chosen.pins} control points pinned` : '', ...chosen.constraints.map((c) =>

@@ -31,8 +31,8 @@ export function statusBar(app: App): HTMLElement {
         cells.push(['step', `${(1000 * last.time).toFixed(1)} ms`, 'Time of the last step alone']);
         cells.push(['energy', format(last.energy), 'Stretch and bend energy']);
         cells.push(['residual', format(last.residual), 'Imbalance of forces: 0 at rest']);
-        cells.push(['moved', `${format(last.displacement)} ${state!.surfaces[0]?.unit ?? ''}`, 'Largest distance from the surface as opened']);
       }
+      if (last || frame.moved > 0) cells.push(['moved', `${format(frame.moved)} ${state!.surfaces[0]?.unit ?? ''}`, 'Largest distance from the surface as opened']);
       cells.push(['frame', `${(frame.computeTime + frame.pictureTime).toFixed(1)} ms`, 'Commands, evaluation and transfer in the worker']);
       if (app.framesPerSecond > 0) cells.push(['fps', app.framesPerSecond.toFixed(0), 'Frames per second']);
     }

@@ -1,0 +1,52 @@
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+
+import { adviceOn, inOneLine } from '@studio/document/words';
+import { Engine } from '@studio/engine/engine';
+import { type Command, EngineError, type EngineErrorInfo } from '@studio/engine/session_types';
+
+const wasm = readFileSync(fileURLToPath(new URL('../../web/src/engine/knead_studio.wasm', import.meta.url)));
+
+async function refused(...commands: Command[]): Promise<{ engine: Engine; info: EngineErrorInfo }> {
+  const engine = await Engine.load(wasm);
+  engine.fresh('sheet');
+  engine.execute({ do: 'new', size: [100, 100], net: [12, 12] });
+  for (const command of commands.slice(0, -1)) engine.execute(command);
+  try {
+    engine.execute(commands.at(-1)!);
+  } catch (error) {
+    if (error instanceof EngineError) return { engine, info: error.info };
+    throw error;
+  }
+  throw new Error('this is not refused');
+}
+
+const ball: Command = { do: 'tool', name: 'brush', shape: 'sphere', radius: 12, position: [50, 50, 6], plasticity: 1 };
+const press: Command = { do: 'stroke', tool: 'brush', path: [[50, 50, 6], [60, 50, 6]], open: true };
+
+describe('what the engine refuses', () => {
+  const cases: [string, Command[], RegExp, string | null][] = [
+    ['a balance of nothing held', [{ do: 'evolve', mode: 'static' }], /^Nothing holds the surface/, 'Hold the edges'],
+    ['a stroke in raw scaling', [{ do: 'material', preset: 'clay' }, { do: 'scaling', mode: 'raw' }, ball, press], /usual scaling/, 'Use the usual scaling'],
+    ['a stroke where all is held', [{ do: 'material', preset: 'clay' }, { do: 'hold', rows: 6 }, ball, press], /6 outer rows/, 'Refine'],
+    ['points beyond the limit', [{ do: 'limit', distance: 1 }, { do: 'points', which: [60], by: [0, 0, 9] }], /limit is 1/, 'End the limit'],
+    ['frozen points', [{ do: 'freeze', region: [[0, 1], [0, 1]] }, { do: 'points', which: [60], by: [0, 0, 9] }], /frozen/, 'Thaw all'],
+    ['a step parameter', [{ do: 'evolve', mode: 'acm', lambda: -1 }], /^-1 is not a step parameter$/, null],
+  ];
+  it.each(cases)('%s is told in words, with what helps', async (_, commands, text, label) => {
+    const { engine, info } = await refused(...commands);
+    const advice = adviceOn(info);
+    expect(advice.text).toMatch(text);
+    expect(`${advice.text} ${advice.remedy ?? ''}`).not.toMatch(/[{}`]|lambda|allow/);
+    if (label === null) expect(advice.actions).toEqual([]);
+    else for (const command of advice.actions.find((a) => a.label === label)!.commands) engine.execute(command); // is a command that can be done
+  });
+
+  it('has no JSON left in words that nobody has written here', () => {
+    const info: EngineErrorInfo = { kind: 'input', what: 'the net is odd', where: 'which', message: '',
+      remedy: 'make one first: {"do":"new","size":[1,1]}, or use `knots` with lambda >= 0; or go on regardless with "allow":"held"' };
+    expect(adviceOn(info)).toEqual({ text: 'The net is odd', remedy: 'Make one first, or use “knots” with λ ≥ 0', actions: [] });
+    expect(inOneLine(info)).toBe('The net is odd: make one first, or use “knots” with λ ≥ 0');
+    expect(adviceOn({ ...info, where: '#12 line 7', remedy: '' })).toEqual({ text: '#12 line 7: the net is odd', actions: [] });
+  });
+});

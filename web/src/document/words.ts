@@ -1,0 +1,68 @@
+import type { Command, EngineErrorInfo } from '../engine/session_types';
+
+/** What an error of the engine means for a user, and what can be done about it at once. */
+export interface Advice {
+  text: string;
+  remedy?: string;
+  actions: { label: string; commands: Command[] }[];
+}
+
+const holdEdges = { label: 'Hold the edges', commands: [{ do: 'hold', rows: 2 }] satisfies Command[] };
+const refine = { label: 'Refine', commands: [{ do: 'refine', region: [[0, 1], [0, 1]] }] satisfies Command[] };
+const refineWhereNeeded = { label: 'Refine where needed', commands: [{ do: 'refine', permission: 'trims' }] satisfies Command[] };
+const release = (label: string, ...what: string[]) => ({ label, commands: [{ do: 'release', ...(what.length > 0 ? { what } : {}) }] satisfies Command[] });
+
+/** By what the engine says: the first that fits. */
+const known: [RegExp, (found: RegExpExecArray) => Advice][] = [
+  [/^nothing holds the model in place/, () => ({
+    text: 'Nothing holds the surface, so there is no position in which it would rest.', actions: [holdEdges] })],
+  [/^nothing is free to move under the tool .*hold of the edges of its faces/, () => ({
+    text: 'The held edges leave nothing free to move under the brush.', remedy: 'Press farther from the edges, or let the net become finer there.',
+    actions: [refineWhereNeeded] })],
+  [/^nothing is free to move under the tool .*hold of (\d+) rows/, ([, rows]) => ({
+    text: `The ${rows} outer rows of control points that are held leave nothing free to move under the brush.`, actions: [refine, release('Hold nothing', 'hold')] })],
+  [/^nothing is free to move under the tool/, () => ({
+    text: 'Everything under the brush is pinned, frozen or held.', actions: [release('Release all')] })],
+  [/^the step folds/, () => ({
+    text: 'The surface would fold over itself there, so nothing was done.', remedy: 'Press less deep, go there in several strokes, or use a stiffer material.', actions: [] })],
+  [/^the step (runs away|gives no finite result)/, () => ({
+    text: 'The surface would run away, so nothing was done.', remedy: 'Hold its edges, or lessen the loads and the stiffness of the tools.', actions: [holdEdges] })],
+  [/^the surface would be (\S+) from where it was opened, and (\S+) is the limit/, ([, far, limit]) => ({
+    text: `That would move the surface by ${far}; the limit is ${limit}.`, actions: [{ label: 'End the limit', commands: [{ do: 'limit' }] }] })],
+  [/a limit is measured on|limit is measured on those/, () => ({
+    text: 'While a limit is set, knots and weights stay as they are.', actions: [{ label: 'End the limit', commands: [{ do: 'limit' }] }] })],
+  [/need a model in normalised units/, () => ({
+    text: 'Strokes need the usual scaling; this document sets the raw one.', actions: [{ label: 'Use the usual scaling', commands: [{ do: 'scaling', mode: 'normalised' }] }] })],
+  [/ is frozen$/, () => ({ text: 'A control point there is frozen.', actions: [release('Thaw all', 'freeze')] })],
+  [/^the constraint contradicts/, () => ({ text: 'That contradicts what is held already.', actions: [release('Release all')] })],
+  [/^control points are pinned by their numbers/, () => ({ text: 'Pinned control points would not be the same on another net.', actions: [release('Free the pins', 'pins')] })],
+  [/surfaces is selected$/, () => ({ text: 'No surface is selected.', remedy: 'Click the one that is meant.', actions: [] })],
+  [/^there is no surface yet/, () => ({ text: 'There is no surface yet.', remedy: 'Make one in the panel “Create”, or open a file.', actions: [] })],
+  [/^a tool of size (\S+) is too small/, ([, size]) => ({
+    text: `A brush or tool of ${size} is too small for this surface.`, remedy: 'Take a larger one, or make the net finer.', actions: [refine] })],
+];
+
+/** Without what only scripts need: fields in JSON, names of commands. */
+function plain(text: string): string {
+  return text.replace(/,? ?(?:or go on regardless with )?"allow": ?"held"/g, '').replace(/[,:]? ?\{.*?\}/g, '').replace(/`([^`]*)`/g, '“$1”').replace(/>=/g, '≥').replace(/<=/g, '≤')
+    .replaceAll('time_step', 'time step').replaceAll('lambda', 'λ').replace(/[;,] *$/, '').trim();
+}
+
+const sentence = (text: string): string => (text ? text[0]!.toUpperCase() + text.slice(1) : text);
+
+export function adviceOn(error: EngineErrorInfo): Advice {
+  for (const [pattern, advice] of known) {
+    const found = pattern.exec(error.what);
+    if (found) return advice(found);
+  }
+  // Places of a file say where; fields of commands do not.
+  const place = /^[a-z_]+\d*(\[\d+\])?$/i.test(error.where) ? '' : error.where;
+  const remedy = plain(error.remedy);
+  return { text: sentence(`${place ? `${place}: ` : ''}${plain(error.what)}`), ...(remedy ? { remedy: sentence(remedy) } : {}), actions: [] };
+}
+
+/** The same as one line, beside a field. */
+export function inOneLine(error: EngineErrorInfo): string {
+  const { text, remedy } = adviceOn(error);
+  return remedy ? `${text.replace(/\.$/, '')}: ${remedy[0]!.toLowerCase()}${remedy.slice(1)}` : text;
+}
