@@ -48,6 +48,7 @@ describe('Rhino files', () => {
     await scene(page, 'Clay sheet');
     await open(page, saved);
     expect(distance(await positions(page), shape)).toBeLessThan(1e-3); // drawn in single precision
+    await stroke(page, [-30, 0]); // selects
     await stroke(page, [-30, 0], [-10, 0]);
     const again = await positions(page);
     expect(distance(again, shape)).toBeGreaterThan(1);

@@ -72,6 +72,10 @@ export class Studio implements App {
   }
 
   changed(): void {
+    if (this.viewer.waiting !== this.documents.waiting) {
+      this.viewer.waiting = this.documents.waiting;
+      this.viewer.restyle();
+    }
     for (const draw of this.onChange) draw();
   }
 
@@ -87,6 +91,7 @@ export class Studio implements App {
     this.steps = frame.firstStep === this.stepsEnd ? [...this.steps, ...frame.steps] : frame.steps;
     this.stepsEnd = frame.state.steps;
     if (this.steps.length > keptSteps) this.steps = this.steps.slice(-keptSteps);
+    this.viewer.waiting = this.documents.waiting;
     this.viewer.show(frame, this.fresh);
     if (this.fresh) {
       this.fresh = false;
@@ -166,6 +171,8 @@ export class Studio implements App {
   async select(surface: number): Promise<void> {
     await this.attempt(async () => {
       await makeReady(this, surface, false);
+      this.documents.pick();
+      this.changed();
       this.documents.keeper.touch();
     });
   }

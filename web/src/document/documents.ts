@@ -22,6 +22,21 @@ export class Documents {
   /** Saves a Knead document; false where nothing was saved. */
   saveDocument: () => Promise<boolean> = () => Promise.resolve(false);
   private worked = false;
+  private picked = false;
+
+  /** What the session has selected of an opened file is not yet what the user has chosen: the next click chooses. */
+  get waiting(): boolean {
+    const { state } = this.host;
+    if (!this.file || !state) return false;
+    // The surfaces of a Rhino file are made one after the other: the last one happens to be selected.
+    const atStart = this.file.kind === 'rhino' && state.surfaces.length > 1 && !state.undo;
+    return !this.picked || atStart;
+  }
+
+  /** The user has chosen a surface. */
+  pick(): void {
+    this.picked = true;
+  }
 
   /** These commands are the user's work, which opening something else must not lose. */
   work(commands: readonly Command[]): void {
@@ -131,7 +146,12 @@ export class Documents {
     return host.attempt(() => this.begin(name, null, () => host.client.fresh(name, commands)));
   }
 
-  private async openDocument({ name, source, commands, snapshot }: KneadDocument): Promise<void> {
+  private async openDocument(document: KneadDocument): Promise<void> {
+    await this.begunDocument(document);
+    if (document.commands.length > 0) this.pick();
+  }
+
+  private async begunDocument({ name, source, commands, snapshot }: KneadDocument): Promise<void> {
     if (snapshot && (await this.restored(name, source, snapshot, preparation(commands)))) {
       // What the snapshot holds must be what the commands say.
       const same = canonical((JSON.parse(await this.host.client.journal()) as { commands: Command[] }).commands) === canonical(commands);
@@ -168,6 +188,7 @@ export class Documents {
         host.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands are done again.' });
         await this.replay(kept.name, source, commands);
       }
+      this.pick();
       this.keeper.begin(kept.id, true);
       // An interrupted stroke ends here: its ball does not stay in the scene.
       if (host.state?.tools.some((t) => t.name === 'brush')) await host.client.execute([{ do: 'remove', tool: 'brush' }], true);
@@ -187,7 +208,7 @@ export class Documents {
     }
     this.name = name;
     this.file = file;
-    this.worked = false;
+    this.worked = this.picked = false;
     this.keeper.begin();
     this.host.showContext(null, []);
     if (file?.kind === 'step') void loadContext(this.host, () => this.file === file);
@@ -198,8 +219,10 @@ export class Documents {
   private async firstLook(): Promise<void> {
     const { host } = this;
     const surfaces = host.state!.surfaces;
-    if (surfaces.length === 1) await makeReady(host, 0, true);
-    else if (host.state!.selection.length === 0 || this.file?.kind === 'rhino') {
+    if (surfaces.length === 1) {
+      await makeReady(host, 0, true);
+      host.notify({ kind: 'info', text: 'Click the surface to sculpt it.' });
+    } else if (host.state!.selection.length === 0 || this.file?.kind === 'rhino') {
       host.notify({ kind: 'info', text: `${surfaces.length} surfaces: click the one to sculpt.` });
     }
   }

@@ -32,7 +32,7 @@ export function topBar(app: App): HTMLElement {
     iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), recentMenu(app), save, picker,
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
     h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
-    iconButton('fit', 'Fit everything (F)', () => app.viewer.fit()), four,
+    iconButton('fit', 'Fit everything (Shift+F; F: what is selected)', () => app.viewer.fitAll()), four,
     iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
     iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
     iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),

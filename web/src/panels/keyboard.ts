@@ -70,7 +70,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
     app.togglePlay();
   } else if (key === '.' && ready && !app.playing()) void app.execute([{ do: 'step' }]);
   else if (key === 'r' && ready) app.togglePlay(true);
-  else if (key === 'f') app.viewer.fit();
+  else if (key === 'f') event.shiftKey ? app.viewer.fitAll() : app.viewer.fitSelected();
   else if (key === 'c') app.compare(true);
   else if (key === 'o') document.querySelector<HTMLInputElement>('input[type=file]')?.click();
   else if (key === 'z') app.setDisplay({ zebra: !app.display.zebra });

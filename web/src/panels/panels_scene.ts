@@ -21,7 +21,8 @@ export function surfacesPanel(app: App): HTMLElement {
           const ids = together
             ? [...state.selection.map((i) => state.surfaces[i]!.id).filter((id) => id !== s.id), ...(on ? [] : [s.id])]
             : [s.id];
-          if (ids.length > 0) void app.execute([ids.length === 1 ? { do: 'select', surface: ids[0]! } : { do: 'select', surfaces: ids }]);
+          if (ids.length === 1) void app.select(state.surfaces.findIndex((other) => other.id === ids[0]));
+          else if (ids.length > 1) void app.execute([{ do: 'select', surfaces: ids }]);
         };
         return h('li', {}, h('button', { class: on ? 'item on' : 'item', type: 'button', onclick: pick, title: 'Ctrl-click selects several, which then move together',
           aria: { pressed: String(on) } },

@@ -7,7 +7,7 @@ export function shortcuts(app: App): [string, string][] {
   return [
     ['Orbit', orbit], ['Pan', pan], ['Zoom', zoom], ['Fingers', 'one: brush, or orbit beside the surface; two: pan, zoom, turn; three: orbit'],
     ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'perspective'], ['5', 'along an axis or in perspective'], ['4', 'four views or one'],
-    ['Double click a label', 'that view alone, or all'], ['F', 'fit everything'],
+    ['Double click a label', 'that view alone, or all'], ['F', 'what is selected; Shift: everything'],
     ['V B U S G', 'look, push, pull, smooth, grab'], ['E', 'control points'], ['T', 'place a tool'], ['P I A D', 'pin, freeze, material, edges'],
     ['Alt, Shift with a brush', 'the other way, smooth'], ['Alt with paint', 'takes it away'],
     ['Shift-, Alt-wheel', 'size, depth of the brush'], ['Ctrl-drag', 'to the side size, upwards depth'], ['[ ]', 'size of the brush'],

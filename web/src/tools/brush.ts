@@ -94,7 +94,7 @@ export class Brush implements PointerTool {
       return true;
     }
     // The first press on a surface selects it and moves nothing.
-    if (!this.viewer.frame!.state.selection.includes(hit.surface)) {
+    if (!this.viewer.isSelected(hit.surface)) {
       void this.actions.select(hit.surface);
       return true;
     }
@@ -173,7 +173,7 @@ export class Brush implements PointerTool {
     this.actions.pickTool(tool);
     if (tool) return;
     const hit = this.viewer.pick(viewport, event);
-    if (hit && !this.viewer.frame!.state.selection.includes(hit.surface)) void this.actions.select(hit.surface);
+    if (hit && !this.viewer.isSelected(hit.surface)) void this.actions.select(hit.surface);
   }
 
   /** Esc: as if the stroke had never been. */

@@ -119,7 +119,7 @@ export class Edges implements PointerTool {
       return;
     }
     const hit = this.viewer.pick(viewport, event);
-    if (hit && !this.viewer.frame!.state.selection.includes(hit.surface)) void this.select(hit.surface);
+    if (hit && !this.viewer.isSelected(hit.surface)) void this.select(hit.surface);
   }
 
   hover(viewport: Viewport | null, event?: PointerEvent): void {

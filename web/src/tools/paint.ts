@@ -71,7 +71,7 @@ export class Paint implements PointerTool {
     const hit = this.viewer.pick(viewport, event);
     const state = this.viewer.frame?.state;
     if (!hit || !state) return false;
-    if (!state.selection.includes(hit.surface)) {
+    if (!this.viewer.isSelected(hit.surface)) {
       void this.actions.select(hit.surface);
       return true;
     }

@@ -234,7 +234,7 @@ export class PointEditor implements PointerTool {
     if (x1 - x0 < 4 && y1 - y0 < 4) {
       // A click on another surface selects that surface.
       const hit = this.viewer.pick(box.viewport, event);
-      if (hit && !this.viewer.frame!.state.selection.includes(hit.surface)) void this.actions.select(hit.surface);
+      if (hit && !this.viewer.isSelected(hit.surface)) void this.actions.select(hit.surface);
       else if (!box.add) this.choose([]);
       return;
     }

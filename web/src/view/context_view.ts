@@ -30,6 +30,13 @@ export class ContextView {
     return (this.mesh.geometry.index?.count ?? 0) / 3;
   }
 
+  /** Round everything that is shown; null where that is nothing. */
+  box(): THREE.Box3 | null {
+    if (!this.mesh.visible) return null;
+    this.mesh.geometry.computeBoundingBox();
+    return this.mesh.geometry.boundingBox;
+  }
+
   /** Whether it stands before what the ray meets at this distance. Faces that touch there do not. */
   hides(ray: THREE.Raycaster, distance: number): boolean {
     if (!this.mesh.visible) return false;

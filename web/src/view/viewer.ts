@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import { format } from '../document/units';
 import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
+import { type Bounds, boundsOf, seenBox } from './bounds';
 import { ContextView } from './context_view';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground } from './ground';
@@ -41,6 +42,9 @@ export class Viewer {
   onMaximise: (name: ViewName) => void = () => {};
 
   readonly context = new ContextView();
+  /** A file was opened, and nothing in it has been chosen yet: what the session has selected is not what the user has. */
+  waiting = false;
+  private trims: Trim[] = [];
   private readonly renderer: THREE.WebGLRenderer;
   private readonly raycaster = new THREE.Raycaster();
   private due = false;
@@ -129,6 +133,7 @@ export class Viewer {
   /** The surroundings of the surfaces of the frame, and the visible part of each. */
   showContext(context: Context | null, trims: Trim[]): void {
     this.context.show(context);
+    this.trims = trims;
     const masks = trimMasks(trims);
     this.surfaces.forEach((s, k) => (s.trim = masks[k] ?? null));
     this.restyle();
@@ -185,23 +190,36 @@ export class Viewer {
     }
   }
 
-  /** Centre and radius of everything that is shown. */
-  bounds(): { centre: THREE.Vector3; radius: number; lowest: number } {
-    const box = new THREE.Box3();
-    for (const { picture } of this.surfaces) {
-      if (picture) box.union(new THREE.Box3().setFromArray(picture.positions));
-    }
-    if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    return { centre: sphere.center, radius: Math.max(sphere.radius, 1e-9), lowest: box.min.z };
+  /** Whether the user has chosen this surface. */
+  isSelected(surface: number): boolean {
+    return !this.waiting && (this.frame?.state.selection.includes(surface) ?? false);
   }
 
-  fit(): void {
-    const { centre, radius, lowest } = this.bounds();
-    for (const v of this.viewports) v.fit(centre, radius);
+  /** Centre and radius of all surfaces. */
+  bounds(): Bounds {
+    return boundsOf(this.surfaces.map(({ picture }) => picture && new THREE.Box3().setFromArray(picture.positions)));
+  }
+
+  /** Shows all surfaces. */
+  fit(bounds = this.bounds()): void {
+    for (const v of this.viewports) v.fit(bounds.centre, bounds.radius);
+    const { radius, lowest } = this.bounds();
     this.groundHeight = lowest - 0.12 * radius;
     this.sceneRadius = radius;
     this.redraw();
+  }
+
+  /** Shows what is seen of the selected surfaces; all if there are none. */
+  fitSelected(): void {
+    const { state } = this.frame ?? {};
+    const boxes = (state?.selection ?? []).map((k) => seenBox(this.surfaces[k]?.picture ?? null, this.trims[k] ?? null));
+    if (boxes.length > 0 && !this.waiting) this.fit(boundsOf(boxes));
+    else this.fitAll();
+  }
+
+  /** Shows the other faces of the file, too. */
+  fitAll(): void {
+    this.fit(boundsOf([...this.surfaces.map((s, k) => seenBox(s.picture, this.trims[k] ?? null)), this.context.box()]));
   }
 
   restyle(): void {
@@ -209,7 +227,7 @@ export class Viewer {
     this.ground.restyle(this.palette);
     const state = this.frame?.state;
     this.surfaces.forEach((s, k) =>
-      s.restyle(this.display, this.palette, !state || state.selection.length === 0 || state.selection.includes(k)));
+      s.restyle(this.display, this.palette, !state || this.waiting || state.selection.length === 0 || state.selection.includes(k)));
     for (const [name, view] of this.tools) {
       view.show(view.tool, this.origin, this.bounds().radius, this.palette, name === this.selectedTool);
     }
