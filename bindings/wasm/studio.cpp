@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
 #include "studio_context.hpp"
@@ -303,4 +304,18 @@ KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
   const auto& all = held().trims->surfaces;
   const bool known = surface >= 0 && surface < static_cast<int>(all.size());
   return answer(known ? trim_json(all[static_cast<std::size_t>(surface)]) : "null");
+}
+
+/// The edges of the faces of the open file on a surface: `face_edges_json`; none if they cannot be followed.
+KNEAD_EXPORT(knead_face_edges) int knead_face_edges(int surface) {
+  auto& session = held().session;
+  if (!session || !session->document().step_file()) return answer("[]");
+  const auto& surfaces = session->state().surfaces;
+  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) return answer("[]");
+  const SceneSurface& s = surfaces[static_cast<std::size_t>(surface)];
+  if (s.visible) return answer(face_edges_json(*s.visible));
+  const step::File& file = *session->document().step_file();
+  if (file.find_surface(s.id) == nullptr) return answer("[]");
+  const auto region = visible_region(file, s.id);
+  return answer(region ? face_edges_json(*region) : "[]");
 }

@@ -34,6 +34,16 @@ std::string context_json(const ContextPicture& context) {
          ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}";
 }
 
+namespace {
+
+/// A millionth of the domain is less than a pixel of any picture.
+void add_fractions(nlohmann::json& numbers, const Eigen::Vector2d& p) {
+  numbers.push_back(std::round(p.x() * 1e6) / 1e6);
+  numbers.push_back(std::round(p.y() * 1e6) / 1e6);
+}
+
+}  // namespace
+
 std::string trim_json(const SurfaceTrim& trim) {
   if (trim.whole) return "null";
   auto faces = nlohmann::json::array();
@@ -41,16 +51,22 @@ std::string trim_json(const SurfaceTrim& trim) {
     auto loops = nlohmann::json::array();
     for (const TrimLoop& loop : face) {
       auto numbers = nlohmann::json::array();
-      for (const auto& p : loop) {
-        // A millionth of the domain is less than a pixel of any picture.
-        numbers.push_back(std::round(p.x() * 1e6) / 1e6);
-        numbers.push_back(std::round(p.y() * 1e6) / 1e6);
-      }
+      for (const auto& p : loop) add_fractions(numbers, {p.x(), p.y()});
       loops.push_back(std::move(numbers));
     }
     faces.push_back(std::move(loops));
   }
   return nlohmann::json{{"faces", std::move(faces)}}.dump();
+}
+
+std::string face_edges_json(const VisibleRegion& region) {
+  auto edges = nlohmann::json::array();
+  for (const TrimEdge& edge : region.edges) {
+    auto course = nlohmann::json::array();
+    for (const Eigen::Vector2d& p : edge.course) add_fractions(course, p);
+    edges.push_back({{"id", edge.id}, {"course", std::move(course)}});
+  }
+  return edges.dump();
 }
 
 }  // namespace knead::studio

@@ -7,6 +7,7 @@
 #include "knead/exchange/context_faces.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/exchange/trim_loops.hpp"
+#include "knead/sculpt/visible_region.hpp"
 
 namespace knead::studio {
 
@@ -24,5 +25,8 @@ struct ContextPicture {
 
 /// {"faces": [[[s, t, s, t, …], …], …]}: the loops of each face, in fractions of the domain; null for a whole surface.
 [[nodiscard]] std::string trim_json(const SurfaceTrim& trim);
+
+/// [{"id": "#456", "course": [s, t, s, t, …]}, …]: the edges of the faces on a surface, in fractions of the domain.
+[[nodiscard]] std::string face_edges_json(const VisibleRegion& region);
 
 }  // namespace knead::studio

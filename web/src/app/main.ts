@@ -6,6 +6,7 @@ import { notices, toolRail, topBar } from '../panels/chrome';
 import { h } from '../panels/dom';
 import { listenToEdges } from '../panels/edge_popover';
 import { openScene, scenes } from '../panels/gallery';
+import { heldBadge } from '../panels/held_badge';
 import { listenToKeys } from '../panels/keyboard';
 import { legendCard } from '../panels/legend';
 import { createPanel } from '../panels/panel_create';
@@ -33,6 +34,7 @@ document.getElementById('studio')!.append(
   statusBar(app),
 );
 listenToKeys(app);
+app.viewer.element.append(heldBadge(app));
 listenToQuestions(app);
 listenToEdges(app);
 

@@ -144,6 +144,7 @@ export class Studio implements App {
     const tool = this.viewer.selectedTool;
     Object.assign(this, { fresh: true, steps: [], stepsEnd: 0, computedTime: 0 });
     this.viewer.selectTool(null);
+    this.hand.edges.forget();
     return () => {
       Object.assign(this, { fresh, steps, stepsEnd, computedTime });
       this.viewer.selectTool(tool);

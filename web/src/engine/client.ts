@@ -1,4 +1,4 @@
-import type { Context, Trim } from './context';
+import type { Context, FaceEdge, Trim } from './context';
 import type { DisplayInfo } from './displays';
 import type { EdgesInfo } from './generated';
 import type { Frame, PictureSettings, Reply, Request } from './protocol';
@@ -90,6 +90,7 @@ export class Client {
   };
   restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array, opened: number) =>
     this.ask({ kind: 'restore', source, name, snapshot, opened });
+  faceEdges = async (surface: number): Promise<FaceEdge[]> => JSON.parse((await this.ask({ kind: 'faceEdges', surface })).text!) as FaceEdge[];
   room = async (surface: number): Promise<number | null> => JSON.parse((await this.ask({ kind: 'room', surface })).text!) as number | null;
   save = async (): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> => {
     const { bytes, text } = await this.ask({ kind: 'save' });

@@ -9,3 +9,9 @@ export interface Context {
 
 /** The loops of each face on a surface, s and t alternating: the parts enclosed by an odd number of loops are visible. Null: all. */
 export type Trim = { faces: number[][][] } | null;
+
+/** An edge of a face: places along it, s and t in turn; on closed surfaces they may lie outside of 0 … 1. */
+export interface FaceEdge {
+  id: `#${string}`;
+  course: number[];
+}

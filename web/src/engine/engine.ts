@@ -1,5 +1,5 @@
 import { type BufferTable, Buffers } from './buffers';
-import type { Context, Trim } from './context';
+import type { Context, FaceEdge, Trim } from './context';
 import { type EdgesInfo, fileFormats } from './generated';
 import { type DisplayChoice, type DisplayInfo, plain } from './displays';
 import {
@@ -35,6 +35,7 @@ interface Exports {
   knead_mesh(format: number, detail: number): number;
   knead_context(): number;
   knead_trims(surface: number): number;
+  knead_face_edges(surface: number): number;
 }
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
@@ -133,6 +134,11 @@ export class Engine {
 
   trims(surface: number): Trim {
     return this.json(this.wasm.knead_trims(surface)) as Trim;
+  }
+
+  /** The edges of the faces of the file on a surface. */
+  faceEdges(surface: number): FaceEdge[] {
+    return this.json(this.wasm.knead_face_edges(surface)) as FaceEdge[];
   }
 
   /** All numbers of a surface as it is now, in full precision. */

@@ -34,6 +34,8 @@ export type Request =
   | { kind: 'mesh'; format: MeshFormat; detail: number }
   /** The other faces of the file, and the trims of the surfaces as text (`Trim[]`). */
   | { kind: 'context' }
+  /** `Engine.faceEdges` as text. */
+  | { kind: 'faceEdges'; surface: number }
   /** `Engine.room` as text. */
   | { kind: 'room'; surface: number }
   | { kind: 'save' }

@@ -197,6 +197,9 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
         context ? [context.positions, context.normals, context.indices].map((a) => a.buffer as ArrayBuffer) : []);
       return;
     }
+    case 'faceEdges':
+      post({ kind: 'done', id, text: JSON.stringify(engine.faceEdges(request.surface)) });
+      return;
     case 'room':
       post({ kind: 'done', id, text: JSON.stringify(engine.room(request.surface)) });
       return;

@@ -1,15 +1,15 @@
 import type { Command } from '../engine/session_types';
-import { type Continuity, continuityOf, type Edge, edgeTitles } from '../tools/edges';
+import { type Continuity, continuityOf, continuityTitles, type Edge, edgeTitle, isSide } from '../tools/held';
 import { released } from '../tools/paint';
 import type { App } from './app';
 import { h, iconButton, toggle } from './dom';
 
-const choices: readonly (readonly [Continuity, string, string])[] = [
-  ['free', 'Free', 'It may move'],
-  ['position', 'Position', 'It stays where it is'],
-  ['clamped', 'Tangent', 'It stays, with its tangent planes'],
-  ['curvature', 'Curvature', 'It stays, with its tangent planes and curvatures'],
-  ['symmetry', 'Symmetry', 'It stays in its plane, and the surface meets that at right angles: half of a symmetric model'],
+const choices: readonly (readonly [Continuity, string])[] = [
+  ['free', 'It may move'],
+  ['position', 'It stays where it is'],
+  ['clamped', 'It stays, with its tangent planes'],
+  ['curvature', 'It stays, with its tangent planes and curvatures'],
+  ['symmetry', 'It stays in its plane, and the surface meets that at right angles: half of a symmetric model'],
 ];
 
 /** A menu beside a clicked edge of the surface: what to hold there. */
@@ -29,12 +29,13 @@ export function listenToEdges(app: App): void {
     close();
     const info = app.state!.surfaces[surface]!;
     const now = continuityOf(info, edge);
-    const rows = choices.map(([continuity, name, about]) => toggle(name, continuity === now, () => {
+    const possible = choices.filter(([continuity]) => isSide(edge) || continuity !== 'symmetry');
+    const rows = possible.map(([continuity, about]) => toggle(continuityTitles[continuity], continuity === now, () => {
       close();
       void app.execute(asking(app, surface, edge, continuity));
     }, about));
-    open = h('section', { class: 'popover', aria: { label: edgeTitles[edge] } },
-      h('header', {}, h('b', {}, edgeTitles[edge]), iconButton('close', 'Close', close)),
+    open = h('section', { class: 'popover', aria: { label: edgeTitle(edge) } },
+      h('header', {}, h('b', {}, edgeTitle(edge)), iconButton('close', 'Close', close)),
       h('div', { class: 'row' }, ...rows),
       info.hold > 0 ? h('p', { class: 'note' }, `The outer ${info.hold} rows of control points are held as well (Constraints, Held rows).`) : null);
     app.viewer.element.append(open);
@@ -48,6 +49,7 @@ export function listenToEdges(app: App): void {
 
 function asking(app: App, surface: number, edge: Edge, continuity: Continuity): Command[] {
   const info = app.state!.surfaces[surface]!;
+  if (!isSide(edge)) return [{ do: 'edge', edge, hold: continuity === 'symmetry' ? 'position' : continuity }];
   const wish: Command[] = continuity === 'symmetry' ? [{ do: 'symmetry', edge, ...app.hand.edges.plane(edge) }]
     : [{ do: 'edge', which: edge, hold: continuity }];
   const symmetric = info.constraints.some((c) => c.do === 'symmetry' && c.edge === edge);

@@ -1,6 +1,7 @@
 import { format, parseLength } from '../document/units';
 import { type EditToolCommand, shapes } from '../engine/generated';
 import type { Command, ToolInfo } from '../engine/session_types';
+import { constraintInWords } from '../tools/held';
 import type { App } from './app';
 import { field, h, iconButton, select, title, toggle } from './dom';
 import { numberInput } from './number_input';
@@ -152,9 +153,7 @@ export function constraintsPanel(app: App): HTMLElement {
       field('Limit', numberInput('Limit', state.limit, (v) => app.offer([v > 0 ? { do: 'limit', distance: v } : { do: 'limit' }]), length(app), 'none'),
         'No point moves further from the surface as opened; 0 for no limit'),
       chosen.pins > 0 || chosen.constraints.length > 0
-        ? note([chosen.pins > 0 ? `${chosen.pins} control points pinned` : '', ...chosen.constraints.map((c) =>
-            Object.entries(c).filter(([k]) => k !== 'tolerance').map(([k, v]) => (k === 'do' ? String(v) : `${k} ${JSON.stringify(v)}`)).join(' '))]
-            .filter(Boolean).join('\n')) : null,
+        ? note([chosen.pins > 0 ? `${chosen.pins} control points pinned` : '', ...chosen.constraints.map(constraintInWords)].filter(Boolean).join('\n')) : null,
       state.seams.length > 0 ? note(state.seams.map((s) => `seam ${s.continuity}, gap ${format(s.gap)}${s.reason ? `: ${s.reason}` : ''}`).join('\n')) : null,
     ];
   }, false);

@@ -3,31 +3,21 @@ import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 
-import type { SurfaceInfo, Vector3 } from '../engine/session_types';
+import type { FaceEdge } from '../engine/context';
+import type { Picture, SurfaceInfo, Vector3 } from '../engine/session_types';
 import type { Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
+import { type Continuity, continuityOf, type Edge, edgeNames, isSide, type Side } from './held';
 import type { PointerTool } from './pointers';
 
-export const edgeNames = ['u0', 'u1', 'v0', 'v1'] as const;
-export type Edge = (typeof edgeNames)[number];
-export type Continuity = 'free' | 'position' | 'clamped' | 'curvature' | 'symmetry';
-
-export const edgeTitles: Record<Edge, string> = { u0: 'Edge u = 0', u1: 'Edge u = 1', v0: 'Edge v = 0', v1: 'Edge v = 1' };
 const colours: Record<Continuity, number> = {
   free: 0x8a97a5, position: 0xe0b13a, clamped: 0xe88433, curvature: 0xd6483d, symmetry: 0x9a6fd0,
 };
 
-/** What is requested of an edge. The rows by which a surface is held are separate. */
-export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
-  let found: Continuity = 'free';
-  for (const c of info.constraints) {
-    if (c.do === 'edge' && (c.which === edge || c.which === 'all')) found = c.hold ?? 'position';
-    if (c.do === 'symmetry' && c.edge === edge) found = 'symmetry';
-  }
-  return found;
-}
-
-/** Shows the edges of the selected surface in the colour of what is requested of them; a click on one changes it. */
+/**
+ * Shows the edges of the selected surface in the colour of what is asked of them; a click on one asks for something else.
+ * Where faces of the file lie on it these are their edges, otherwise its sides.
+ */
 export class Edges implements PointerTool {
   readonly active = false;
   /** A click on an edge, with its position on the page. */
@@ -37,7 +27,49 @@ export class Edges implements PointerTool {
   private hovered: Edge | null = null;
   private shown = false;
 
-  constructor(private readonly viewer: Viewer, private readonly select: (surface: number) => Promise<void>) {}
+  private readonly known = new Map<string, FaceEdge[]>(); // by the ids of surfaces
+  private asked = '';
+
+  constructor(
+    private readonly viewer: Viewer,
+    private readonly select: (surface: number) => Promise<void>,
+    private readonly fetchEdges: (surface: number) => Promise<FaceEdge[]>,
+    private readonly changed: () => void,
+  ) {}
+
+  /** Another file: its edges are others. */
+  forget(): void {
+    this.known.clear();
+    this.asked = '';
+  }
+
+  private get info(): SurfaceInfo | undefined {
+    return this.surface === undefined ? undefined : this.viewer.frame!.state.surfaces[this.surface];
+  }
+
+  /** Of the faces of the file on the selected surface; null as long as they are not known. */
+  get faceEdges(): readonly FaceEdge[] | null {
+    const { info } = this;
+    if (!info || info.faces === 0) return [];
+    return this.known.get(info.id) ?? null;
+  }
+
+  /** What can be clicked. */
+  get edges(): readonly Edge[] {
+    const ids = this.faceEdges?.map((e) => e.id) ?? [];
+    return ids.length > 0 ? ids : edgeNames;
+  }
+
+  private async learn(): Promise<void> {
+    const { info, surface } = this;
+    if (!info || surface === undefined || this.faceEdges || this.asked === info.id) return;
+    this.asked = info.id;
+    const edges = await this.fetchEdges(surface).catch(() => []);
+    if (this.asked !== info.id) return; // another file, or another surface
+    this.known.set(info.id, edges);
+    this.asked = '';
+    this.changed();
+  }
 
   private get surface(): number | undefined {
     return this.viewer.frame?.state.selection[0];
@@ -47,6 +79,7 @@ export class Edges implements PointerTool {
   points(edge: Edge): Float32Array | null {
     const picture = this.surface === undefined ? null : this.viewer.surfaces[this.surface]?.picture;
     if (!picture) return null;
+    if (!isSide(edge)) return alongCourse(picture, this.faceEdges?.find((e) => e.id === edge)?.course ?? []);
     const [m, n] = picture.counts;
     const count = edge[0] === 'u' ? n : m;
     const result = new Float32Array(3 * count);
@@ -59,17 +92,20 @@ export class Edges implements PointerTool {
   }
 
   refresh(shown: boolean): void {
+    void this.learn();
     if (!shown && !this.shown) return;
     this.shown = shown;
-    const info = this.surface === undefined ? undefined : this.viewer.frame!.state.surfaces[this.surface];
-    edgeNames.forEach((edge, k) => {
+    const { info } = this;
+    const edges = shown && info && !this.viewer.waiting ? this.edges : [];
+    for (const line of this.lines.slice(edges.length)) line.visible = false;
+    edges.forEach((edge, k) => {
       const line = (this.lines[k] ??= this.line());
-      const places = shown && info ? this.points(edge) : null;
-      line.visible = places !== null;
-      if (!places) return;
+      const places = this.points(edge);
+      line.visible = places !== null && places.length > 3;
+      if (!line.visible) return;
       line.geometry.dispose();
       line.geometry = new LineGeometry();
-      line.geometry.setPositions(places);
+      line.geometry.setPositions(places!);
       const continuity = continuityOf(info!, edge);
       line.material.color.set(colours[continuity]);
       line.material.linewidth = this.hovered === edge ? 7 : continuity === 'free' ? 2.5 : 4;
@@ -90,7 +126,8 @@ export class Edges implements PointerTool {
     let best: Edge | null = null;
     let nearest = reach;
     const p = new THREE.Vector3(event.clientX, event.clientY, 0);
-    for (const edge of edgeNames) {
+    if (this.viewer.waiting) return null;
+    for (const edge of this.edges) {
       const points = this.points(edge);
       if (!points) continue;
       const places = viewport.projectAll(points);
@@ -130,8 +167,8 @@ export class Edges implements PointerTool {
     this.refresh(this.shown);
   }
 
-  /** For symmetry about an edge: the plane perpendicular to the axis along which the edge's points differ least. */
-  plane(edge: Edge): { point: Vector3; normal: Vector3 } {
+  /** For symmetry about an edge: the plane across the axis along which the edge's places differ least. */
+  plane(edge: Side): { point: Vector3; normal: Vector3 } {
     const points = this.points(edge)!;
     const box = new THREE.Box3().setFromArray(Array.from(points));
     const size = box.getSize(new THREE.Vector3()).toArray();
@@ -139,4 +176,31 @@ export class Edges implements PointerTool {
     const middle = box.getCenter(new THREE.Vector3()).add(new THREE.Vector3(...this.viewer.origin));
     return { point: middle.toArray(), normal: new THREE.Vector3().setComponent(axis, 1).toArray() };
   }
+}
+
+/** Places on the drawn surface along a course of fractions, 3 numbers each: between the points of the picture, where it is flat. */
+function alongCourse({ counts: [m, n], positions, s, t }: Picture, course: readonly number[]): Float32Array {
+  const result = new Float32Array(1.5 * course.length);
+  for (let k = 0; 2 * k < course.length; ++k) {
+    const [i, a] = cell(s, course[2 * k]!);
+    const [j, b] = cell(t, course[2 * k + 1]!);
+    for (let d = 0; d < 3; ++d) {
+      const at = (row: number, column: number) => positions[3 * (Math.min(row, m - 1) * n + Math.min(column, n - 1)) + d]!;
+      result[3 * k + d] = (1 - a) * ((1 - b) * at(i, j) + b * at(i, j + 1)) + a * ((1 - b) * at(i + 1, j) + b * at(i + 1, j + 1));
+    }
+  }
+  return result;
+}
+
+/** The cell of ascending lines that holds a fraction, and how far in; beyond the ends a closed surface goes on at its beginning. */
+function cell(lines: Float32Array, fraction: number): [number, number] {
+  const x = fraction < 0 || fraction > 1 ? fraction - Math.floor(fraction) : fraction;
+  let [low, high] = [0, lines.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (lines[middle]! <= x) low = middle;
+    else high = middle;
+  }
+  const width = lines[high]! - lines[low]!;
+  return [low, width > 0 ? Math.min(1, Math.max(0, (x - lines[low]!) / width)) : 0];
 }

@@ -28,7 +28,7 @@ export class Hand {
       execute: (commands) => host.execute(commands), select: actions.select,
       material: (surface, counts) => host.client.material(surface, counts),
     });
-    this.edges = new Edges(viewer, actions.select);
+    this.edges = new Edges(viewer, actions.select, (surface) => host.client.faceEdges(surface), () => host.changed());
     this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool());
     for (const viewport of viewer.viewports) followGizmo(host, viewport);
     host.onChange.push(() => this.refresh());

@@ -190,6 +190,10 @@ export class Viewer {
     }
   }
 
+  trimOf(surface: number): Trim {
+    return this.trims[surface] ?? null;
+  }
+
   /** Whether the user has chosen this surface. */
   isSelected(surface: number): boolean {
     return !this.waiting && (this.frame?.state.selection.includes(surface) ?? false);

@@ -1,0 +1,42 @@
+import * as THREE from 'three';
+
+import { heldInWords } from '../tools/held';
+import { seenBox } from '../view/bounds';
+import type { App } from './app';
+import { h } from './dom';
+
+/** Beside the selected face: what of it is held. A click shows its edges, to hold others. */
+export function heldBadge(app: App): HTMLElement {
+  const badge = h('button', { class: 'held-badge', type: 'button', hidden: true, title: 'Click to choose what the edges hold (D)', onclick: () => app.hand.choose('edges') });
+  const { viewer } = app;
+  let box: THREE.Box3 | null = null;
+
+  const place = () => {
+    if (badge.hidden || !box) return;
+    const { min, max } = box;
+    const corners = [min, max].flatMap(({ x }) => [min, max].flatMap(({ y }) => [min, max].flatMap(({ z }) => [x, y, z])));
+    const places = viewer.main.projectAll(corners);
+    const xs = places.filter((_, k) => k % 2 === 0), ys = places.filter((_, k) => k % 2 === 1);
+    if (xs.some(Number.isNaN)) return;
+    const stage = viewer.element.getBoundingClientRect(), view = viewer.main.element.getBoundingClientRect();
+    const within = (x: number, least: number, most: number) => Math.max(least, Math.min(x, most));
+    const x = within((Math.min(...xs) + Math.max(...xs)) / 2, view.left + badge.offsetWidth / 2 + 8, view.right - badge.offsetWidth / 2 - 8);
+    const y = within(Math.max(...ys) + 8, view.top + 34, view.bottom - badge.offsetHeight - 26);
+    badge.style.left = `${Math.round(x - stage.left)}px`;
+    badge.style.top = `${Math.round(y - stage.top)}px`;
+  };
+  app.onChange.push(() => {
+    const { state } = app;
+    const k = state?.selection[0];
+    const info = k === undefined ? undefined : state!.surfaces[k];
+    const edges = app.hand.edges.faceEdges;
+    badge.hidden = !info || viewer.waiting || edges === null || app.hand.active;
+    if (badge.hidden || !info) return;
+    badge.textContent = heldInWords(info, edges!.map((e) => e.id));
+    badge.classList.toggle('loose', badge.textContent === 'Nothing held');
+    box = seenBox(viewer.surfaces[k!]?.picture ?? null, viewer.trimOf(k!));
+    place();
+  });
+  viewer.onDrawn = place;
+  return badge;
+}

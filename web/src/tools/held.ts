@@ -1,0 +1,72 @@
+import type { Command, SurfaceInfo } from '../engine/session_types';
+
+export const edgeNames = ['u0', 'u1', 'v0', 'v1'] as const;
+/** A side of a surface, or an edge of a face on it by its id in the file. */
+export type Side = (typeof edgeNames)[number];
+export type Edge = Side | `#${string}`;
+export type Continuity = 'free' | 'position' | 'clamped' | 'curvature' | 'symmetry';
+
+export const continuityTitles: Record<Continuity, string> = { free: 'Free', position: 'Position', clamped: 'Tangent', curvature: 'Curvature', symmetry: 'Symmetry' };
+const sides: Record<Side, string> = { u0: 'Edge u = 0', u1: 'Edge u = 1', v0: 'Edge v = 0', v1: 'Edge v = 1' };
+export const isSide = (edge: Edge): edge is Side => edge in sides;
+export const edgeTitle = (edge: Edge): string => (isSide(edge) ? sides[edge] : `Edge ${edge}`);
+
+const ofMode: Partial<Record<string, Continuity>> = { trim: 'position', 'trim-g1': 'clamped', 'trim-g2': 'curvature' };
+
+/** What is asked of an edge. The rows that a surface is held by are another matter. */
+export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
+  let all: Continuity = 'free';
+  let own: Continuity | null = null;
+  for (const c of info.constraints) {
+    if (isSide(edge)) {
+      if (c.do === 'edge' && c.edge === undefined && (c.which === edge || c.which === 'all')) own = c.hold ?? 'position';
+      if (c.do === 'symmetry' && c.edge === edge) own = 'symmetry';
+    } else {
+      if (c.do === 'hold') all = ofMode[c.mode ?? 'rows'] ?? all;
+      if (c.do === 'edge' && c.edge === edge) own = c.hold ?? 'position';
+    }
+  }
+  return own ?? all;
+}
+
+const counted = (count: number, one: string, many = `${one}s`) => `${count} ${count === 1 ? one : many}`;
+
+function listed(parts: string[]): string {
+  return parts.length < 2 ? parts.join('') : `${parts.slice(0, -1).join(', ')} and ${parts.at(-1)!}`;
+}
+
+/** What of a surface is held, in a few words. `faceEdges`: ids of the edges of the faces on it. */
+export function heldInWords(info: SurfaceInfo, faceEdges: readonly Edge[]): string {
+  const held = (edges: readonly Edge[]) => edges.filter((e) => continuityOf(info, e) !== 'free').length;
+  const parts: string[] = [];
+  if (info.hold > 0) parts.push(counted(info.hold, 'outer row'));
+  const asked = faceEdges.length > 0 && info.constraints.some((c) => c.do === 'hold' || (c.do === 'edge' && c.edge !== undefined));
+  const count = asked ? held(faceEdges) : 0;
+  if (asked) parts.push(count === faceEdges.length ? counted(count, 'edge') : `${count} of ${faceEdges.length} edges`);
+  const sideCount = held(edgeNames);
+  if (sideCount > 0) parts.push(counted(sideCount, asked ? 'side' : 'edge'));
+  if (info.pins > 0) parts.push(counted(info.pins, 'point'));
+  if (info.constraints.some((c) => c.do === 'freeze')) parts.push('frozen spans');
+  if (info.constraints.some((c) => c.do === 'keep')) parts.push('kept lines');
+  return parts.length === 0 ? 'Nothing held' : `${listed(parts)} held`;
+}
+
+/** A command that holds something, as a line of a list. */
+export function constraintInWords(c: Command): string {
+  const percent = (x: number) => `${Math.round(100 * x)} %`;
+  switch (c.do) {
+    case 'edge': {
+      const edge = c.edge ?? c.which ?? 'all';
+      return `${edge === 'all' ? 'All edges' : edgeTitle(edge as Edge)}: ${continuityTitles[c.hold ?? 'position'].toLowerCase()}`;
+    }
+    case 'hold': return `Edges of the faces: ${continuityTitles[ofMode[c.mode ?? ''] ?? 'position'].toLowerCase()}`;
+    case 'freeze': {
+      const [[a, b], [d, e]] = c.region;
+      return `Frozen: u ${percent(a)} to ${percent(b)}, v ${percent(d)} to ${percent(e)}`;
+    }
+    case 'symmetry': return c.mirror ? `Mirrored across the middle of ${c.mirror}` : `${edgeTitle((c.edge ?? 'u0') as Edge)}: symmetry`;
+    case 'pin': return c.at ? 'A point of the surface is pinned' : 'Control points are pinned';
+    case 'keep': return 'A line of the surface is kept';
+    default: return c.do;
+  }
+}
