@@ -16,6 +16,7 @@ import { defaultDisplay, type Display, type Theme } from '../view/display';
 import { Viewer } from '../view/viewer';
 
 const keptSteps = 400; // of the plot
+const mostDeaths = 20; // of engines, before a page gives up
 
 /** What the page knows and can do: the connection to the session, the viewer, and what the user has chosen. */
 export class Studio implements App {
@@ -47,13 +48,14 @@ export class Studio implements App {
     const kept = readKept();
     this.display = { ...defaultDisplay, ...kept.display, colour: null, zebra: false };
     this.theme = kept.theme ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
-    this.client = new Client(new Worker(new URL('../engine/worker.ts', import.meta.url), { type: 'module' }));
+    this.client = new Client(() => new Worker(new URL('../engine/worker.ts', import.meta.url), { type: 'module' }));
     this.viewer = new Viewer(this.display);
     this.hand = new Hand(this);
     this.viewer.navigator.convention = this.display.convention;
     this.viewer.onMaximise = (view) => this.setDisplay({ view, fourViews: !this.display.fourViews });
     this.client.onFrame = (frame) => this.show(frame);
     this.client.onError = (error) => this.fail(error);
+    this.client.onDeath = () => void this.revive();
     this.setTheme(this.theme);
   }
 
@@ -131,18 +133,32 @@ export class Studio implements App {
     }
   }
 
+  /** The engine has stopped: another goes on. */
+  private async revive(): Promise<void> {
+    const { deaths } = this.client;
+    if (deaths > mostDeaths) {
+      this.notify({ kind: 'error', text: 'The engine stops again and again.', remedy: 'Reload the page: what was kept is offered there.' });
+      return;
+    }
+    await this.client.ready;
+    if (deaths !== this.client.deaths) return;
+    this.askForPictures(false);
+    await this.documents.revive();
+  }
+
   private fail(error: EngineErrorInfo): void {
+    if (error.kind === 'died') return; // told once it goes on
     const { text, remedy, actions } = adviceOn(error);
     this.notify({ kind: 'error', text, remedy, actions: actions.map(({ label, commands }) => ({ label, act: () => void this.execute(commands) })) });
   }
 
   // --- documents: document/documents.ts, document/saving.ts ---------------------------------------------------------
 
-  /** The next frame belongs to another session. Returns a function that reverts this. */
-  begin(): () => void {
+  /** The next frame is of another session. Gives back what takes that back. */
+  begin(again = false): () => void {
     const { fresh, steps, stepsEnd, computedTime } = this;
     const tool = this.viewer.selectedTool;
-    Object.assign(this, { fresh: true, steps: [], stepsEnd: 0, computedTime: 0 });
+    Object.assign(this, { fresh: !again, steps: [], stepsEnd: 0, computedTime: 0 });
     this.viewer.selectTool(null);
     this.hand.edges.forget();
     return () => {

@@ -58,6 +58,7 @@ export const autosave = {
       return store('sessions').put(kept, kept.id);
     }),
   source: (id: string) => transact('readonly', (store) => store('sources').get(id) as IDBRequest<Source | undefined>),
+  one: (id: string) => transact('readonly', (store) => store('sessions').get(id) as IDBRequest<Kept | undefined>),
   all: () => transact('readonly', (store) => store('sessions').getAll() as IDBRequest<Kept[]>),
   forget: (id: string) =>
     transact('readwrite', (store) => {

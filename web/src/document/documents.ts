@@ -23,6 +23,8 @@ export class Documents {
   saveDocument: () => Promise<boolean> = () => Promise.resolve(false);
   private worked = false;
   private picked = false;
+  /** What the session began with, once more. */
+  private reopen: (() => Promise<unknown>) | null = null;
 
   /** What the session has selected of an opened file is not yet what the user has chosen: the next click chooses. */
   get waiting(): boolean {
@@ -167,10 +169,10 @@ export class Documents {
       source?.kind === 'step' ? client.open(source.bytes, source.name, commands, preparation(commands)) : client.fresh(name, commands, preparation(commands)));
   }
 
-  private async restored(name: string, source: Source | null, snapshot: Uint8Array, opened: number): Promise<boolean> {
+  private async restored(name: string, source: Source | null, snapshot: Uint8Array, opened: number, again = false): Promise<boolean> {
     const step = source?.kind === 'step' ? source : null;
     try {
-      await this.begin(name, source, () => this.host.client.restore(step?.bytes ?? null, step?.name ?? name, snapshot, opened));
+      await this.begin(name, source, () => this.host.client.restore(step?.bytes ?? null, step?.name ?? name, snapshot, opened), again);
       return true;
     } catch {
       return false; // of another version, or damaged: the commands suffice
@@ -179,27 +181,43 @@ export class Documents {
 
   /** What a tab left behind continues here, as the same session. */
   async recover(kept: Kept): Promise<void> {
+    if (await this.mayLeave()) await this.host.attempt(() => this.goOn(kept));
+  }
+
+  private async goOn(kept: Kept, again = false): Promise<void> {
     const { host } = this;
-    if (!(await this.mayLeave())) return;
+    const { commands } = JSON.parse(kept.journal) as { commands: Command[] };
+    const source = kept.hasSource ? ((await autosave.source(kept.id)) ?? null) : null;
+    if (!(await this.restored(kept.name, source, kept.snapshot, kept.opened ?? preparation(commands), again))) {
+      host.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands are done again.' });
+      await this.replay(kept.name, source, commands);
+    }
+    this.pick();
+    this.keeper.begin(kept.id, true);
+    // A stroke that was cut off ends here: its ball does not stay in the scene.
+    if (host.state?.tools.some((t) => t.name === 'brush')) await host.client.execute([{ do: 'remove', tool: 'brush' }], true);
+    host.changed();
+  }
+
+  /** The engine has stopped, and an empty one is there: the session goes on from its last copy, or as it was opened. */
+  async revive(): Promise<void> {
+    const { host, reopen, worked, picked } = this;
+    if (!reopen) return;
     await host.attempt(async () => {
-      const { commands } = JSON.parse(kept.journal) as { commands: Command[] };
-      const source = kept.hasSource ? ((await autosave.source(kept.id)) ?? null) : null;
-      if (!(await this.restored(kept.name, source, kept.snapshot, kept.opened ?? preparation(commands)))) {
-        host.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands are done again.' });
-        await this.replay(kept.name, source, commands);
-      }
-      this.pick();
-      this.keeper.begin(kept.id, true);
-      // An interrupted stroke ends here: its ball does not stay in the scene.
-      if (host.state?.tools.some((t) => t.name === 'brush')) await host.client.execute([{ do: 'remove', tool: 'brush' }], true);
+      const copy = await this.keeper.lastCopy();
+      if (copy) await this.goOn(copy, true);
+      else await this.begin(this.name, this.file, reopen, true);
+      Object.assign(this, { worked, picked });
+      const from = copy ? `the copy of ${new Date(copy.when).toLocaleTimeString()}` : 'the document as it was opened';
+      host.notify({ kind: 'info', text: `The engine stopped, and was started again with ${from}.` });
       host.changed();
     });
   }
 
-  /** Begins a session; if `act` fails, the previous one continues. */
-  private async begin(name: string, file: Source | null, act: () => Promise<unknown>): Promise<void> {
+  /** Begins a session; where `act` fails the one before goes on. */
+  private async begin(name: string, file: Source | null, act: () => Promise<unknown>, again = false): Promise<void> {
     await this.keeper.finish();
-    const goOn = this.host.begin();
+    const goOn = this.host.begin(again);
     try {
       await act();
     } catch (error) {
@@ -208,6 +226,7 @@ export class Documents {
     }
     this.name = name;
     this.file = file;
+    this.reopen = act;
     this.worked = this.picked = false;
     this.keeper.begin();
     this.host.showContext(null, []);

@@ -34,8 +34,8 @@ export interface Host {
   attempt(act: () => Promise<void>): Promise<true | null>;
   /** Panels and marks are redrawn. */
   changed(): void;
-  /** The next frame belongs to another session. Returns a function that reverts this. */
-  begin(): () => void;
+  /** The next frame is of another session, or, with `again`, of the same one in another engine. Gives back what takes that back. */
+  begin(again?: boolean): () => void;
   /** The brush becomes no larger than this, file units. */
   sizeBrush(radius: number): void;
   /** The surroundings of the surfaces, and the visible part of each. */

@@ -1,4 +1,4 @@
-import type { Command } from '../engine/session_types';
+import { type Command, EngineError } from '../engine/session_types';
 import { autosave, heldIds, hold, type Kept } from './autosave';
 import type { Host } from './host';
 import type { Source } from './knead_file';
@@ -59,6 +59,14 @@ export class Keeper {
     void this.keep();
   }
 
+  /** The copy of this session, if there is one. What is not in it is lost. */
+  async lastCopy(): Promise<Kept | null> {
+    clearTimeout(this.timer);
+    this.dirty = false;
+    await this.writing;
+    return (await autosave.one(this.id)) ?? null;
+  }
+
   /** Nothing of the session is left to keep: another may begin. */
   async finish(): Promise<void> {
     clearTimeout(this.timer);
@@ -90,6 +98,7 @@ export class Keeper {
       this.sourceKept = true;
       if (id === this.id) document.documentElement.dataset.kept = String(commands);
     } catch (error) {
+      if (error instanceof EngineError && error.info.kind === 'died') return; // goes on from the copy before
       this.failed = true;
       host.notify({ kind: 'error', text: `The browser could not keep a copy: ${String(error)}`, remedy: 'save a Knead document from time to time' });
     }

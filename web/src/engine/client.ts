@@ -22,7 +22,12 @@ export class Client {
   onFrame: (frame: Frame) => void = () => {};
   /** Errors that no request waits for. */
   onError: (error: EngineErrorInfo) => void = () => {};
-  readonly ready: Promise<void>;
+  /** The engine has stopped, and another one, which holds nothing, is on its way. */
+  onDeath: () => void = () => {};
+  /** Of the present engine. */
+  ready: Promise<void>;
+  /** How many engines there were before. */
+  deaths = 0;
   /** What can colour surfaces; known once the engine is ready. */
   displays: readonly DisplayInfo[] = [];
 
@@ -30,22 +35,51 @@ export class Client {
   private next = 1;
   private live: { commands: () => Command[]; join: boolean } | null = null;
   private liveUnderWay: Promise<void> | null = null;
+  private worker: Worker;
 
-  constructor(private readonly worker: Worker) {
-    this.ready = new Promise((resolve) => {
+  constructor(private readonly makeWorker: () => Worker) {
+    this.worker = makeWorker();
+    this.ready = this.listen(this.worker);
+  }
+
+  private listen(worker: Worker): Promise<void> {
+    let started = false;
+    const ready = new Promise<void>((resolve) => {
       worker.onmessage = (event: MessageEvent<Reply>) => {
         const reply = event.data;
         if (reply.kind === 'ready') {
+          started = true;
           this.displays = reply.displays;
           resolve();
         } else if (reply.kind === 'frame') this.draw(reply.frame);
+        else if (reply.kind === 'died') this.startAgain();
         else this.settle(reply);
       };
     });
     worker.onerror = (event) => {
+      if (started) {
+        this.startAgain();
+        return;
+      }
       const message = event.message || 'the engine could not be started';
       this.onError({ kind: 'internal', what: message, where: '', remedy: 'reload the page', message });
     };
+    return ready;
+  }
+
+  /** What was asked of the engine before is answered by an error of the kind "died". */
+  private startAgain(): void {
+    this.worker.onmessage = this.worker.onerror = null;
+    this.worker.terminate();
+    ++this.deaths;
+    this.live = null;
+    const lost = [...this.waiting.values()];
+    this.waiting.clear();
+    this.worker = this.makeWorker();
+    this.ready = this.listen(this.worker);
+    const what = 'the engine stopped, and was started again';
+    for (const { reject } of lost) reject(new EngineError({ kind: 'died', what, where: '', remedy: '', message: what }));
+    this.onDeath();
   }
 
   private draw(frame: Frame): void {
@@ -55,7 +89,7 @@ export class Client {
     else requestAnimationFrame(() => this.send({ kind: 'drawn' }));
   }
 
-  private settle(reply: Exclude<Reply, { kind: 'ready' } | { kind: 'frame' }>): void {
+  private settle(reply: Extract<Reply, { id: number }>): void {
     const waiting = this.waiting.get(reply.id);
     this.waiting.delete(reply.id);
     if (reply.kind === 'failed') {

@@ -68,4 +68,6 @@ export type Reply =
   | { kind: 'ready'; displays: DisplayInfo[] }
   | { kind: 'frame'; frame: Frame }
   | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; opened?: number; context?: Context | null; material?: MaterialSamples }
-  | { kind: 'failed'; id: number; error: EngineErrorInfo };
+  | { kind: 'failed'; id: number; error: EngineErrorInfo }
+  /** The module has trapped: nothing that it holds can be relied on. */
+  | { kind: 'died'; message: string };

@@ -31,6 +31,13 @@ function errorInfo(error: unknown): EngineErrorInfo {
   return { kind: 'internal', what: message, where: '', remedy: 'save what you can and reload the page', message };
 }
 
+/** What the engine refuses is an `EngineError`; anything else has stopped it half-way. The page ends this worker then. */
+function died(error: unknown): boolean {
+  if (error instanceof EngineError) return false;
+  post({ kind: 'died', message: String(error) });
+  return true;
+}
+
 /** What a tool does and where it is; the rest of its fields is its shape. */
 const besideShape = new Set(['name', 'mode', 'stiffness', 'range', 'rigid', 'friction', 'plasticity', 'direction', 'position', 'rotation', 'scale', 'size']);
 let shownShapes = new Map<string, string>(); // by the names of the tools of the last frame
@@ -135,6 +142,7 @@ function playOn(engine: Engine): void {
       if (quietSteps >= 2) stopPlaying();
     }
   } catch (error) {
+    if (died(error)) return;
     stopPlaying();
     post({ kind: 'failed', id: 0, error: errorInfo(error) });
   }
@@ -252,6 +260,7 @@ self.onmessage = async (event: MessageEvent<{ id: number; request: Request }>) =
   try {
     await handle(engine, id, request);
   } catch (error) {
+    if (died(error)) return;
     post({ kind: 'failed', id, error: errorInfo(error) });
     if (hasSession(engine)) sendFrame(engine); // part of an act may have taken effect
   }

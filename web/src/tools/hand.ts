@@ -79,24 +79,30 @@ export class Hand {
 
   private actions(): BrushActions {
     const { host } = this;
+    // What has begun with an engine that has stopped since is over.
+    let life = 0;
+    const over = () => life !== host.client.deaths;
     return {
       begin: async (commands) => {
+        life = host.client.deaths;
         const [first, ...rest] = commands;
         if ((await host.execute([first!])) === null) return false;
         if (rest.length === 0 || (await host.execute(rest, true)) !== null) return true;
-        await host.execute([{ do: 'undo' }]); // a refused act leaves nothing behind
+        if (!over()) await host.execute([{ do: 'undo' }]); // what is refused leaves nothing behind
         return false;
       },
-      follow: (commands, join) => host.client.follow(commands, join),
+      follow: (commands, join) => {
+        if (!over()) host.client.follow(commands, join);
+      },
       end: async (commands) => {
         await host.client.followed();
-        if ((await host.execute(commands, commands.length > 0)) !== null || commands.at(-1)?.do !== 'remove') return;
-        // If the end of the stroke is refused, what was done before stays without its brush, or all is reverted.
+        if (over() || (await host.execute(commands, commands.length > 0)) !== null || over() || commands.at(-1)?.do !== 'remove') return;
+        // The end of the stroke is refused: what was done before stays without its brush, or all is taken back.
         if ((await host.execute([commands.at(-1)!], true)) === null) await host.execute([{ do: 'undo' }]);
       },
       cancel: async () => {
         await host.client.followed();
-        await host.execute([{ do: 'undo' }]);
+        if (!over()) await host.execute([{ do: 'undo' }]);
       },
       place: (point, normal) => void this.place(point, normal),
       select: (surface) => host.select(surface),

@@ -60,6 +60,7 @@ export class Viewer {
     this.renderer.autoClear = false;
     this.renderer.domElement.className = 'viewer-canvas';
     this.renderer.domElement.setAttribute('aria-label', 'The scene');
+    this.renderer.domElement.addEventListener('webglcontextrestored', () => this.redraw());
     const names: ViewName[] = ['perspective', 'top', 'front', 'right'];
     this.viewports = names.map((name) => new Viewport(name, this.scene, () => this.redraw()));
     for (const v of this.viewports) {
