@@ -4,6 +4,7 @@ import { closedEdges } from './closed_edges';
 import type { Documents } from './documents';
 import type { Host } from './host';
 import { writeKnead } from './knead_file';
+import { scriptOf } from './script';
 
 const historyBytes = 16 * 2 ** 20; // of shapes, in a document
 const longSession = 2000; // milliseconds of steps from which a document includes its snapshot
@@ -52,7 +53,7 @@ export class Saving {
   });
 
   script = () => this.save(async (stem) => {
-    download(await this.host.client.journal(), `${stem}.json`, 'application/json');
+    download(scriptOf(await this.host.client.journal(), this.host.state!.fresh), `${stem}.json`, 'application/json');
   }, false);
 
   picture = (scale: number) => this.save(async (stem) => {

@@ -1,0 +1,50 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { readKnead } from '@studio/document/knead_file';
+import { scenes } from '@studio/document/scenes';
+import { scriptOf } from '@studio/document/script';
+import { Engine } from '@studio/engine/engine';
+import type { Command } from '@studio/engine/session_types';
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
+const wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
+const bonnet = new Uint8Array(readFileSync(join(root, 'samples/bonnet.step')));
+const defaultHold: Command = { do: 'hold', mode: 'trim', all: true };
+
+/** The control points after a script as the command line runs it. */
+async function run(script: string, file: Uint8Array | null): Promise<Float64Array[]> {
+  const engine = await Engine.load(wasm);
+  if (file) engine.openStep(file, 'bonnet.step');
+  else engine.fresh('again');
+  const { script: version, commands } = readKnead(script);
+  for (const command of version === 2 ? [defaultHold, ...commands] : commands) engine.execute(command);
+  return engine.state().surfaces.map((_, k) => engine.controlPoints(k));
+}
+
+describe('a script that the studio saves', () => {
+  it.each(scenes.filter((s) => s.commands))('of the scene $name is of version 2, and does the same', async ({ commands }) => {
+    const engine = await Engine.load(wasm);
+    engine.fresh('scene');
+    for (const command of [...commands!, { do: 'step', count: 2 } as const]) engine.execute(command);
+    const script = scriptOf(engine.journal(), true);
+    expect(readKnead(script).script).toBe(2);
+    expect(await run(script, null)).toEqual(engine.state().surfaces.map((_, k) => engine.controlPoints(k)));
+  });
+
+  it('of a STEP file is of version 1, unless it begins with the hold that version 2 begins with', async () => {
+    for (const held of [false, true]) {
+      const engine = await Engine.load(wasm);
+      engine.openStep(bonnet, 'bonnet.step');
+      if (held) engine.execute(defaultHold);
+      engine.execute({ do: 'select', surface: engine.state().surfaces[0]!.id });
+      if (!held) engine.execute({ do: 'hold', rows: 2 });
+      engine.execute({ do: 'drag', at: [0.5, 0.5], by: [0, 0, 20], radius: 100, steps: 1 });
+      const script = scriptOf(engine.journal(), false);
+      expect(readKnead(script).script).toBe(held ? 2 : 1);
+      expect(readKnead(script).commands[0]).toMatchObject({ do: 'select' });
+      expect(await run(script, bonnet)).toEqual(engine.state().surfaces.map((_, k) => engine.controlPoints(k)));
+    }
+  });
+});
