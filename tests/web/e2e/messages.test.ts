@@ -186,3 +186,14 @@ describe('the panels', () => {
     await expect.poll(async () => Math.abs((await shown()) - really)).toBeLessThan(1e-3 * Math.max(1, really));
   });
 });
+
+describe('a message about a document', () => {
+  it('goes with it', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    await execute({ do: 'limit', distance: 2 }, { do: 'points', which: [16 * 32 + 16], by: [0, 0, 9] });
+    await expect.poll(() => errors().count()).toBe(1);
+    await scene(page, 'Hull');
+    expect(await errors().count()).toBe(0);
+  });
+});

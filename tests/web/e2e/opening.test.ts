@@ -73,6 +73,19 @@ describe('undo', () => {
     expect(distance(await positions(page), shape)).toBe(0);
   });
 
+  it('leaves the surface chosen that a scene of the gallery begins with', async () => {
+    const { page } = studio;
+    await scene(page, 'Bonnet');
+    await expect.poll(preset).toContain('clay');
+    const before = await commands(page);
+    expect(await page.locator('.notice').count()).toBe(0); // nothing is left to choose
+    expect(await undoButton().isDisabled()).toBe(true);
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0], [30, 0]);
+    await undo(3);
+    expect(await commands(page)).toEqual(before);
+  });
+
   it('stops at the same place after a reload', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');

@@ -12,6 +12,8 @@ export class Documents {
   /** The file that the session began with; null if it began without one. */
   file: Source | null = null;
   name = 'sheet';
+  /** How many sessions there were: what was said about one before is of no use any more. */
+  sessions = 0;
   /** Files that the user gave, opened or refused. */
   handled = 0;
 
@@ -107,19 +109,25 @@ export class Documents {
     this.work(commands);
   }
 
-  /** A ready scene, or a file of the page; `commands` are done on it. False where the work before is to stay. */
+  /** A ready scene: commands on an empty document, or a file of the page with its first surface chosen. False where the work before is to stay. */
   async openScene(name: string, commands: Command[], fetchFile?: () => Promise<Uint8Array | null>): Promise<boolean> {
     if (!(await this.mayLeave())) return false;
     if (!fetchFile) return (await this.startFresh(name, commands)) !== null;
     const bytes = await fetchFile();
-    return bytes !== null && (await this.openStep(bytes, name)) !== null;
+    return bytes !== null && (await this.openStep(bytes, name, true)) !== null;
   }
 
-  private async openStep(bytes: Uint8Array, name: string): Promise<true | null> {
+  private async openStep(bytes: Uint8Array, name: string, chosen = false): Promise<true | null> {
     const { host } = this;
     return host.attempt(async () => {
       await this.begin(name, { kind: 'step', name, bytes }, () => host.client.open(bytes, name));
-      await this.firstLook();
+      if (!chosen) {
+        await this.firstLook();
+        return;
+      }
+      await makeReady(host, 0, true);
+      this.pick();
+      host.changed();
     });
   }
 
@@ -189,8 +197,8 @@ export class Documents {
     const { commands } = JSON.parse(kept.journal) as { commands: Command[] };
     const source = kept.hasSource ? ((await autosave.source(kept.id)) ?? null) : null;
     if (!(await this.restored(kept.name, source, kept.snapshot, kept.opened ?? preparation(commands), again))) {
-      host.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands are done again.' });
       await this.replay(kept.name, source, commands);
+      host.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands were done again.' });
     }
     this.pick();
     this.keeper.begin(kept.id, true);
@@ -227,6 +235,7 @@ export class Documents {
     this.name = name;
     this.file = file;
     this.reopen = act;
+    ++this.sessions;
     this.worked = this.picked = false;
     this.keeper.begin();
     this.host.showContext(null, []);

@@ -5,13 +5,13 @@ import type { Host } from './host';
 /**
  * Selects a surface, and makes one as it came clay that is held at its edges. What faces lie on is held along their edges, so
  * that they go on meeting their neighbours, and the brush fits between them; a surface alone by its outer rows. `opening`:
- * it is selected, and what is done belongs to the opened document.
+ * what is done belongs to the opened document.
  */
 export async function makeReady(host: Host, index: number, opening: boolean): Promise<void> {
   const { client } = host;
   const surface = host.state!.surfaces[index]!;
   const run = (commands: Command[]) =>
-    (opening ? client.prepare(commands) : client.execute([{ do: 'select', surface: surface.id }, ...commands]));
+    client.execute([{ do: 'select', surface: surface.id }, ...commands], false, opening);
   const room = surface.faces > 0 ? await client.room(index) : null;
   if (surface.hold > 0 || surface.pins > 0 || surface.constraints.length > 0 || surface.moved > 0) await run([]);
   else if (surface.faces === 0) await run(alone(surface.net));

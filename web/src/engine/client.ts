@@ -112,9 +112,7 @@ export class Client {
 
   open = (bytes: Uint8Array, name: string, commands: Command[] = [], opened?: number) => this.ask({ kind: 'open', bytes, name, commands, opened });
   fresh = (name: string, commands: Command[], opened?: number) => this.ask({ kind: 'fresh', name, commands, opened });
-  execute = (commands: Command[], join = false) => this.ask({ kind: 'execute', commands, join });
-  /** Commands that belong to the opened document: undo does not go behind them. */
-  prepare = (commands: Command[]) => this.ask({ kind: 'execute', commands, join: false, opening: true });
+  execute = (commands: Command[], join = false, opening = false) => this.ask({ kind: 'execute', commands, join, opening });
   pictures = (settings: PictureSettings) => this.ask({ kind: 'pictures', settings });
   play = (toRest = false) => this.ask({ kind: 'play', toRest });
   stop = () => this.ask({ kind: 'stop' });

@@ -104,11 +104,17 @@ export function notices(app: App): HTMLElement {
     stack.append(element);
     while (stack.children.length > 3) stack.firstElementChild!.remove();
     const stays = notice.kind === 'info' && (notice.actions ?? []).length > 0; // an offer
+    element.classList.toggle('stays', stays);
     if (!stays) setTimeout(close, notice.kind === 'error' ? 15_000 : 4_000);
   };
+  let session = 0;
+  app.onChange.push(() => {
+    if (session === app.documents.sessions) return;
+    session = app.documents.sessions;
+    for (const old of stack.querySelectorAll('.notice:not(.stays)')) old.remove(); // about another document
+  });
   return stack;
 }
-
 
 export function toggleShortcuts(app: App): void {
   const present = document.querySelector('.shortcuts');

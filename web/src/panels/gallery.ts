@@ -17,8 +17,7 @@ export async function openScene(app: App, scene: Scene): Promise<void> {
     app.notify({ kind: 'error', text: `“${scene.name}” could not be loaded`, remedy: 'see whether the network is there, and try again' });
     return null;
   };
-  const opened = await app.documents.openScene(scene.document, scene.commands ?? [], fetchFile);
-  if (opened && app.state && app.state.selection.length === 0) await app.select(0);
+  await app.documents.openScene(scene.document, scene.commands ?? [], fetchFile);
 }
 
 export { scenes };
