@@ -85,7 +85,9 @@ Expected<EdgeCurve> EdgeCurve::read_nested(const Reader& reader, std::uint32_t i
     const auto point = from ? reader.point(*from) : Expected<Point>(reader.error(instance, "it has no point"));
     const auto direction = orientation ? reader.direction(*orientation) : std::nullopt;
     if (!point || !direction || !(direction->norm() > 0)) return reader.error(instance, "it has no point or direction");
-    return EdgeCurve(Line{*point, direction->normalized()});
+    const auto own = reader.attributes(*vector, "VECTOR", 1, 2);
+    const double magnitude = own.empty() ? 1 : reader.real(own[1]).value_or(1);
+    return EdgeCurve(Line{*point, direction->normalized(), magnitude > 0 ? magnitude : 1});
   }
   for (const auto& [entity, form] :
        {std::pair("CIRCLE", ConicForm::ellipse), std::pair("ELLIPSE", ConicForm::ellipse),
@@ -181,6 +183,22 @@ double EdgeCurve::parameter(const Point& p) const {
     }
   }
   return std::get<CurveTable>(form_).closest(p).parameter;
+}
+
+double EdgeCurve::file_parameter(double t) const {
+  const auto* line = std::get_if<Line>(&form_);
+  return line != nullptr ? t / line->magnitude : t;
+}
+
+std::vector<double> EdgeCurve::corners() const {
+  std::vector<double> result;
+  const auto* table = std::get_if<CurveTable>(&form_);
+  if (table == nullptr) return result;
+  const KnotVector& knots = table->curve().knots(0);
+  for (const int s : knots.spans()) {
+    if (knots[s] > knots.domain().lower && knots.multiplicity(knots[s]) >= knots.degree()) result.push_back(knots[s]);
+  }
+  return result;
 }
 
 std::vector<double> EdgeCurve::subdivided(double from, double to, double chord) const {

@@ -43,6 +43,11 @@ class EdgeCurve {
   /// Whether an odd number of TRIMMED_CURVEs runs against the curve.
   [[nodiscard]] bool turned() const { return turned_; }
 
+  /// The parameter in the record of the curve: that of a LINE counts multiples of its VECTOR, here it is a length.
+  [[nodiscard]] double file_parameter(double t) const;
+  /// Knots inside the domain of a multiplicity that is the degree or more, ascending: the curve may have corners there.
+  [[nodiscard]] std::vector<double> corners() const;
+
   /// Parameters from `from` to `to` > from, both included. Circles and ellipses at even steps of at most 2 acos(1 −
   /// chord): chords are then within `chord` · radius. Others so closely that chords are within `chord` · half the
   /// extent of the whole piece, and turn no more than a circle's would, unless that moves less than a fiftieth of the
@@ -52,6 +57,7 @@ class EdgeCurve {
  private:
   struct Line {
     Point origin, direction;
+    double magnitude = 1;  // of its VECTOR
   };
   enum class ConicForm { ellipse, hyperbola, parabola };
   struct Conic {

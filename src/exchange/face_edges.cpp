@@ -6,6 +6,7 @@
 
 #include "face_region.hpp"
 #include "step_data.hpp"
+#include "step_faces.hpp"
 #include "step_surfaces.hpp"
 #include "step_units.hpp"
 
@@ -22,24 +23,6 @@ constexpr int max_halvings = 7;
 
 std::string name_of(const Reader& reader, std::uint32_t instance) {
   return "#" + std::to_string(reader.file().instance(instance).id);
-}
-
-/// The EDGE_CURVEs around a face, once for every time a loop runs along them.
-std::vector<std::uint32_t> edges_of(const Reader& reader, const Face& face) {
-  std::vector<std::uint32_t> result;
-  for (const auto bound : reader.references(face.bounds)) {
-    const auto own = reader.attributes(bound, "FACE_BOUND", 1, 2);
-    const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
-    if (!loop || !reader.is(*loop, "EDGE_LOOP")) continue;
-    const auto path = reader.attributes(*loop, "PATH", 1, 1);
-    if (path.empty()) continue;
-    for (const auto oriented : reader.references(path[0])) {
-      const auto oriented_own = reader.attributes(oriented, "ORIENTED_EDGE", 3, 2);
-      const auto element = oriented_own.empty() ? std::nullopt : reader.reference(oriented_own[0]);
-      if (element) result.push_back(*element);
-    }
-  }
-  return result;
 }
 
 /// Faces that belong to a shell.
@@ -159,8 +142,10 @@ Expected<VisibleRegion> visible_region(const step::File& file, const std::string
   Course course(*feet, size);
   std::map<std::uint32_t, std::size_t> known;                    // edges of the result, by instance
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces_at;  // of every edge
+  std::map<std::uint32_t, std::uint32_t> surface_of;             // of every face
   for (const Face& face : read_faces(reader)) {
-    const auto edges = edges_of(reader, face);
+    const auto edges = edges_around(reader, face);
+    surface_of[face.instance] = face.surface;
     for (const auto edge : edges) faces_at[edge].push_back(face.instance);
     if (face.surface != data.surface_instances[k]) continue;
     result.in_shell = result.in_shell || shells.contains(face.instance);
@@ -186,7 +171,10 @@ Expected<VisibleRegion> visible_region(const step::File& file, const std::string
       made.seam = made.seam || std::ranges::count(around, face) > 1;
       others.insert(face);
     }
-    for (const auto face : others) made.neighbours.push_back(name_of(reader, face));
+    for (const auto face : others) {
+      made.neighbours.push_back(name_of(reader, face));
+      made.supports.push_back(surface_of[face] == no_instance ? "no surface" : reader.label(surface_of[face]));
+    }
   }
   return result;
 }

@@ -14,8 +14,7 @@ Expected<Point> vertex_point(const Reader& reader, std::uint32_t vertex) {
 
 }  // namespace
 
-Expected<Loop> EdgeSampler::sample(std::uint32_t instance) const {
-  const Reader& reader = *reader_;
+Expected<EdgePiece> edge_piece(const Reader& reader, std::uint32_t instance) {
   // EDGE(start, end) and EDGE_CURVE(geometry, same_sense).
   const auto ends = reader.attributes(instance, "EDGE", 1, 2);
   const auto own = reader.attributes(instance, "EDGE_CURVE", 3, 2);
@@ -50,11 +49,17 @@ Expected<Loop> EdgeSampler::sample(std::uint32_t instance) const {
     std::swap(from, to);  // against the stated sense of the edge, yet the same points
     backwards = !backwards;
   }
+  return EdgePiece{*std::move(curve), from, to, backwards, first, last, *start, *end};
+}
+
+Expected<Loop> EdgeSampler::sample(std::uint32_t instance) const {
+  const auto piece = edge_piece(*reader_, instance);
+  if (!piece) return std::unexpected(piece.error());
   Loop points;
-  for (const double t : curve->subdivided(from, to, chord_)) points.push_back(curve->at(t));
-  if (backwards) std::reverse(points.begin(), points.end());
-  points.front() = *start;
-  points.back() = *end;
+  for (const double t : piece->curve.subdivided(piece->from, piece->to, chord_)) points.push_back(piece->curve.at(t));
+  if (piece->backwards) std::reverse(points.begin(), points.end());
+  points.front() = piece->start;
+  points.back() = piece->end;
   return points;
 }
 

@@ -11,6 +11,19 @@ namespace knead::step {
 /// Points around a bound of a face, without repeating the first.
 using Loop = std::vector<Point>;
 
+/// The piece of a curve that an EDGE_CURVE is.
+struct EdgePiece {
+  EdgeCurve curve;
+  double from = 0, to = 0;         ///< parameters, from < to; up to one period past the domain of a closed curve
+  bool backwards = false;          ///< the edge runs from `to` to `from`
+  std::uint32_t start_vertex = 0;  ///< the instances of its VERTEX_POINTs
+  std::uint32_t end_vertex = 0;
+  Point start = Point::Zero(), end = Point::Zero();
+};
+
+/// Errors (input): the curve's type is unknown, or something is missing.
+[[nodiscard]] Expected<EdgePiece> edge_piece(const Reader& reader, std::uint32_t instance);
+
 /// The edges of a file as points, each sampled once: two faces that meet at an edge have the same points there.
 class EdgeSampler {
  public:

@@ -1,6 +1,7 @@
 #include "format_list.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/exchange/step_text.hpp"
+#include "moved_edge.hpp"
 
 namespace knead::detail {
 namespace {
@@ -18,12 +19,15 @@ class StepSource final : public Source {
   const std::vector<UnreadableSurface>& unreadable() const override { return file_.unreadable_surfaces(); }
   const step::File* step_file() const override { return &file_; }
 
-  Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces) const override {
+  Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
+                             std::span<const std::string> followed) const override {
     std::vector<step::Replacement> replacements;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k] != surfaces_[k].surface) replacements.push_back({surfaces_[k].id, *surfaces[k]});
     }
-    return file_.with_surfaces(replacements);
+    const auto moved = step::moved_edges(file_, replacements, followed);
+    if (!moved) return std::unexpected(moved.error());
+    return file_.with_surfaces(replacements, *moved);
   }
 
  private:

@@ -31,4 +31,21 @@ std::vector<Face> read_faces(const Reader& reader) {
   return result;
 }
 
+std::vector<std::uint32_t> edges_around(const Reader& reader, const Face& face) {
+  std::vector<std::uint32_t> result;
+  for (const auto bound : reader.references(face.bounds)) {
+    const auto own = reader.attributes(bound, "FACE_BOUND", 1, 2);
+    const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
+    if (!loop || !reader.is(*loop, "EDGE_LOOP")) continue;
+    const auto path = reader.attributes(*loop, "PATH", 1, 1);
+    if (path.empty()) continue;
+    for (const auto oriented : reader.references(path[0])) {
+      const auto oriented_own = reader.attributes(oriented, "ORIENTED_EDGE", 3, 2);
+      const auto element = oriented_own.empty() ? std::nullopt : reader.reference(oriented_own[0]);
+      if (element) result.push_back(*element);
+    }
+  }
+  return result;
+}
+
 }  // namespace knead::step

@@ -19,4 +19,7 @@ struct Face {
 /// that they trim: the bounds of the face are more precise.
 [[nodiscard]] std::vector<Face> read_faces(const Reader& reader);
 
+/// The EDGE_CURVEs around a face, once for every time a loop runs along them.
+[[nodiscard]] std::vector<std::uint32_t> edges_around(const Reader& reader, const Face& face);
+
 }  // namespace knead::step

@@ -18,7 +18,8 @@ namespace knead::step {
 [[nodiscard]] bool same_bits(const Points& a, const Points& b);
 [[nodiscard]] bool same_bits(std::span<const double> a, std::span<const double> b);
 
-/// Collects the changes in the bytes of a file that replace surfaces and nothing else.
+/// Collects the changes in the bytes of a file that replace surfaces and the edges that moved with them, and nothing
+/// else.
 class Surgeon {
  public:
   explicit Surgeon(const Part21File& file) : file_(file), reader_(file), names_(file) {}
@@ -31,6 +32,12 @@ class Surgeon {
   /// Replaces the net, including degrees, knots and weights (rational if it was).
   [[nodiscard]] Expected<void> replace_surface(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
                                                const Surface& before, const Surface& after);
+
+  /// Gives an EDGE_CURVE another curve in space; its PCURVEs stay.
+  [[nodiscard]] Expected<void> replace_curve(std::uint32_t edge, const Curve& curve);
+
+  /// Moves a VERTEX_POINT.
+  [[nodiscard]] Expected<void> move_vertex(std::uint32_t vertex, const Point& place);
 
   /// The bytes of the file with all changes.
   [[nodiscard]] std::string result();
@@ -56,6 +63,8 @@ class Surgeon {
                                               Eigen::Index old_row, const Points& points, Eigen::Index row) const;
   [[nodiscard]] std::string copy_of(std::uint32_t point, const std::string& name,
                                     const std::vector<Change>& changes) const;
+  // The records of a curve and its control points, each after a line break.
+  [[nodiscard]] std::string curve_records(const Curve& curve, const std::string& name);
   // The text of a number: as in the list (of lists) if it occurs there, otherwise in the fewest digits.
   [[nodiscard]] std::function<std::string(double)> texts(std::uint32_t list) const;
   [[nodiscard]] std::string line_break() const;

@@ -78,7 +78,34 @@ Expected<std::string> File::with_control_points(std::span<const Edit> edits) con
   return with_surfaces(replacements);
 }
 
-Expected<std::string> File::with_surfaces(std::span<const Replacement> replacements) const {
+namespace {
+
+Expected<void> write_edges(const File::Data& data, const MovedEdges& moved, Surgeon& surgeon) {
+  const auto instance_of = [&](const std::string& id) -> Expected<std::uint32_t> {
+    std::uint64_t number = 0;
+    for (const char c : id.substr(std::min<std::size_t>(1, id.size()))) {
+      number = 10 * number + static_cast<std::uint64_t>(c - '0');
+    }
+    const auto found = data.records.find(number);
+    if (found) return *found;
+    return std::unexpected(Error{ErrorKind::input, "nothing in the file has this name", id, {}, data.records.name()});
+  };
+  for (const MovedEdge& edge : moved.edges) {
+    const auto instance = instance_of(edge.id);
+    if (!instance) return std::unexpected(instance.error());
+    if (auto done = surgeon.replace_curve(*instance, edge.curve); !done) return done;
+  }
+  for (const MovedVertex& vertex : moved.vertices) {
+    const auto instance = instance_of(vertex.id);
+    if (!instance) return std::unexpected(instance.error());
+    if (auto done = surgeon.move_vertex(*instance, vertex.place); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<std::string> File::with_surfaces(std::span<const Replacement> replacements, const MovedEdges& moved) const {
   const auto& data = *data_;
   std::unordered_map<std::size_t, const Surface*> wanted;
   Surgeon surgeon(data.records);
@@ -104,7 +131,8 @@ Expected<std::string> File::with_surfaces(std::span<const Replacement> replaceme
                          : surgeon.replace_surface(instance, refs, before, after);
     if (!done) return std::unexpected(std::move(done.error()));
   }
-  if (!changed) return bytes();
+  if (!changed && moved.edges.empty() && moved.vertices.empty()) return bytes();
+  if (auto done = write_edges(data, moved, surgeon); !done) return std::unexpected(std::move(done.error()));
   auto result = surgeon.result();
   if (auto checked = check(result, data, wanted); !checked) return std::unexpected(std::move(checked.error()));
   return result;

@@ -39,8 +39,10 @@ class Source {
   [[nodiscard]] virtual const std::vector<SourceSurface>& surfaces() const = 0;
   [[nodiscard]] virtual const std::vector<UnreadableSurface>& unreadable() const = 0;
   /// The bytes of the file with these surfaces, one for each of `surfaces()` in order, in place of the original ones. A
-  /// surface that is the original (the same object) keeps its bytes.
-  [[nodiscard]] virtual Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces) const = 0;
+  /// surface that is the original (the same object) keeps its bytes. `followed`: edges of faces that are written anew
+  /// where these surfaces have moved them, by id; formats without faces have none.
+  [[nodiscard]] virtual Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
+                                                   std::span<const std::string> followed = {}) const = 0;
   /// The underlying STEP file, for what only STEP has: faces and their trimming. Null for other formats.
   [[nodiscard]] virtual const step::File* step_file() const { return nullptr; }
 

@@ -80,6 +80,24 @@ struct Replacement {
   Surface surface;
 };
 
+/// Another curve in space for an EDGE_CURVE, through the same parameters as the one it replaces, in its direction.
+struct MovedEdge {
+  std::string id;  ///< "#456"
+  Curve curve;
+};
+
+/// Another place for a VERTEX_POINT.
+struct MovedVertex {
+  std::string id;  ///< "#78"
+  Point place = Point::Zero();
+};
+
+/// Edges that have moved with their faces.
+struct MovedEdges {
+  std::vector<MovedEdge> edges;
+  std::vector<MovedVertex> vertices;
+};
+
 /// A STEP file (ISO 10303-21 exchange structure) whose records remember their bytes, and its B-spline surfaces.
 ///
 /// Reading keeps all bytes. Writing is surgical: only what must differ does (docs/step.md).
@@ -131,7 +149,13 @@ class File {
   /// the same, since trimming curves are defined on it; this is not checked.
   /// Errors: unknown or repeated id; no weights where the file has some; a knot inside the domain
   /// repeated more often than the degree (input); the self-check fails (numerical).
-  [[nodiscard]] Expected<std::string> with_surfaces(std::span<const Replacement> replacements) const;
+  ///
+  /// `moved`: the curve of an edge becomes a new B_SPLINE_CURVE_WITH_KNOTS, RATIONAL_B_SPLINE_CURVE if it has weights.
+  /// A SURFACE_CURVE (or subtype) stays, with its PCURVEs, and refers to the new curve: in place if only this edge uses
+  /// it, else as a copy under a new name. The old curve's records stay. The point of a vertex is treated as a control
+  /// point is. Further errors (input): an edge or vertex that is not in the file.
+  [[nodiscard]] Expected<std::string> with_surfaces(std::span<const Replacement> replacements,
+                                                    const MovedEdges& moved = {}) const;
 
   struct Data;  ///< private to the exchange room
   [[nodiscard]] const Data& data() const { return *data_; }

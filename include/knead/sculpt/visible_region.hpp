@@ -16,6 +16,7 @@ namespace knead {
 struct TrimEdge {
   std::string id;                       ///< the edge's id in its file, "#456"
   std::vector<std::string> neighbours;  ///< the adjacent faces, "#12"
+  std::vector<std::string> supports;    ///< of each of them: the surface on which it lies, "#30 PLANE"
   bool seam = false;                    ///< the same face is on both of its sides
   /// Points along the edge in fractions of the parameter domain: (0, 0) and (1, 1) are its corners. Each is the image
   /// nearest to the one before it; on closed surfaces they may lie outside 0 … 1.

@@ -1,0 +1,207 @@
+#include "moved_edge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "knead/spline/evaluate.hpp"
+#include "spline/greville_interpolation.hpp"
+#include "step_surfaces.hpp"
+
+namespace knead::step {
+namespace {
+
+constexpr int first_spans = 8;
+constexpr std::size_t most_spans = 4096;
+constexpr int per_span = 5;
+constexpr double margin = 0.125;            // of the edge, at its ends
+constexpr double share_of_tolerance = 0.1;  // for the fit of a curve
+constexpr double least_tolerance = 1e-7;    // of the size, as for held edges
+constexpr double open_above = 1e-5;  // of the size: surfaces that have parted by more leave the edge where it was
+constexpr double rounding = 1e-11;   // of the size
+
+/// Points of the moved edge.
+class Path {
+ public:
+  Path(const SharedEdge& edge, std::span<const Surface* const> before, std::span<const Surface* const> after)
+      : edge_(edge), before_(before), after_(after) {}
+
+  [[nodiscard]] Expected<Point> displacement(const SharedEdge::Sample& sample) const {
+    Point sum = Point::Zero();
+    for (std::size_t k = 0; k < before_.size(); ++k) {
+      const auto way = displacement_at(*before_[k], *after_[k], sample.feet[k]);
+      if (!way) return way;
+      sum += *way;
+    }
+    return Point(sum / static_cast<double>(before_.size()));
+  }
+  /// The largest distance between the displacements of two surfaces, at the samples.
+  [[nodiscard]] Expected<double> parted() const {
+    double largest = 0;
+    for (const SharedEdge::Sample& sample : edge_.samples()) {
+      Point first = Point::Zero();
+      for (std::size_t k = 0; k < before_.size(); ++k) {
+        const auto way = displacement_at(*before_[k], *after_[k], sample.feet[k]);
+        if (!way) return std::unexpected(way.error());
+        if (k == 0) first = *way;
+        largest = std::max(largest, (*way - first).norm());
+      }
+    }
+    return largest;
+  }
+  [[nodiscard]] Expected<Point> at(double t) const {
+    const SharedEdge::Sample sample = edge_.at(t);
+    const auto way = displacement(sample);
+    if (!way) return way;
+    Point middle = Point::Zero();
+    for (std::size_t k = 0; k < after_.size(); ++k) {
+      const auto p = evaluate_point<2>(*after_[k], parameters_at_foot(*after_[k], sample.feet[k]));
+      if (!p) return p;
+      middle += *p / static_cast<double>(after_.size());
+    }
+    const double share = inner(t);
+    return Point((1 - share) * (sample.point + *way) + share * middle);
+  }
+
+ private:
+  /// 0 at the ends, where the curve must keep its distance from the vertices, and 1 in between; twice differentiable.
+  [[nodiscard]] double inner(double t) const {
+    const double from = edge_.samples().front().parameter, to = edge_.samples().back().parameter;
+    const double x = std::min(1.0, std::min(t - from, to - t) / (margin * (to - from)));
+    return x * x * x * (x * (6 * x - 15) + 10);
+  }
+
+  const SharedEdge& edge_;
+  std::span<const Surface*const> before_, after_;
+};
+
+Expected<Curve> interpolated(const Path& path, const std::vector<double>& breaks, const std::vector<double>& corners) {
+  std::vector<double> knots;
+  for (std::size_t k = 0; k < breaks.size(); ++k) {
+    const bool end = k == 0 || k + 1 == breaks.size();
+    knots.insert(knots.end(), end ? 4 : std::ranges::binary_search(corners, breaks[k]) ? 3 : 1, breaks[k]);
+  }
+  auto vector = KnotVector::create(3, std::move(knots));
+  if (!vector) return std::unexpected(vector.error());
+  const auto interpolation = GrevilleInterpolation::create(*vector);
+  if (!interpolation) return std::unexpected(interpolation.error());
+  Points points(interpolation->size(), 3);
+  for (int k = 0; k < interpolation->size(); ++k) {
+    const auto p = path.at(interpolation->abscissae()[static_cast<std::size_t>(k)]);
+    if (!p) return std::unexpected(p.error());
+    points.row(k) = p->transpose();
+  }
+  interpolation->solve(points.data(), 1, 3);
+  return Curve::create({*std::move(vector)}, std::move(points));
+}
+
+/// The breaks, with those spans halved in which the curve is off the path.
+Expected<std::vector<double>> halved(const Path& path, const Curve& curve, const std::vector<double>& breaks,
+                                     double tolerance) {
+  std::vector<double> result = {breaks.front()};
+  for (std::size_t k = 1; k < breaks.size(); ++k) {
+    bool off = false;
+    for (int j = 1; j < per_span && !off; ++j) {
+      const double t = std::lerp(breaks[k - 1], breaks[k], static_cast<double>(j) / per_span);
+      const auto wanted = path.at(t);
+      if (!wanted) return std::unexpected(wanted.error());
+      const auto is = evaluate_point<1>(curve, {t});
+      if (!is) return std::unexpected(is.error());
+      off = (*is - *wanted).norm() > tolerance;
+    }
+    if (off) result.push_back(0.5 * (breaks[k - 1] + breaks[k]));
+    result.push_back(breaks[k]);
+  }
+  return result;
+}
+
+/// On the parameters of the curve's record, and in its direction.
+Expected<Curve> recorded(const SharedEdge& edge, const Curve& curve) {
+  const auto own = curve.knots(0).knots();
+  std::vector<double> knots;
+  for (const double t : own) knots.push_back(edge.file_parameter(t));
+  const Points& net = curve.control_points();
+  Points points(net.rows(), 3);
+  for (Eigen::Index k = 0; k < net.rows(); ++k) points.row(k) = net.row(edge.turned() ? net.rows() - 1 - k : k);
+  if (edge.turned()) {
+    const double sum = knots.front() + knots.back();
+    std::ranges::reverse(knots);
+    for (double& t : knots) t = sum - t;
+  }
+  auto vector = KnotVector::create(3, std::move(knots));
+  if (!vector) return std::unexpected(vector.error());
+  return Curve::create({*std::move(vector)}, std::move(points));
+}
+
+double size_of(std::span<const Surface* const> surfaces) {
+  double size = 0;
+  for (const Surface* s : surfaces) size = std::max(size, net_diagonal(s->control_points()));
+  return size;
+}
+
+}  // namespace
+
+Expected<Curve> moved_curve(const SharedEdge& edge, std::span<const Surface* const> before,
+                            std::span<const Surface* const> after, double tolerance) {
+  const Path path(edge, before, after);
+  std::vector<double> breaks = edge.corners();
+  const double from = edge.samples().front().parameter, to = edge.samples().back().parameter;
+  for (int k = 0; k <= first_spans; ++k) {
+    const double t = k == first_spans ? to : std::lerp(from, to, static_cast<double>(k) / first_spans);
+    if (!std::ranges::binary_search(edge.corners(), t)) breaks.push_back(t);
+  }
+  std::ranges::sort(breaks);
+  while (true) {
+    const auto curve = interpolated(path, breaks, edge.corners());
+    if (!curve) return curve;
+    auto finer = halved(path, *curve, breaks, tolerance);
+    if (!finer) return std::unexpected(finer.error());
+    if (finer->size() == breaks.size()) return recorded(edge, *curve);
+    if (finer->size() > most_spans) {
+      return numerical_error("the moved edge cannot be followed by a spline", edge.id(),
+                             "undo the step and press less deep, or on a finer net");
+    }
+    breaks = *std::move(finer);
+  }
+}
+
+Expected<MovedEdges> moved_edges(const File& file, std::span<const Replacement> replacements,
+                                 std::span<const std::string> ids) {
+  MovedEdges result;
+  std::map<std::string, Point> vertices;
+  for (const std::string& id : ids) {
+    const auto edge = SharedEdge::create(file, id);
+    if (!edge) return std::unexpected(edge.error());
+    std::vector<const Surface*> before, after;
+    for (const std::string& surface : edge->surfaces()) {
+      before.push_back(&file.find_surface(surface)->surface);
+      const auto found = std::ranges::find(replacements, surface, &Replacement::id);
+      after.push_back(found == replacements.end() ? before.back() : &found->surface);
+    }
+    const double size = size_of(before);
+    const double tolerance = std::max(edge->uncertainty(), least_tolerance * size);
+    const Path path(*edge, before, after);
+    const auto parted = path.parted();
+    if (!parted) return std::unexpected(parted.error());
+    if (*parted > std::max(edge->uncertainty(), open_above * size)) continue;
+    double largest = 0;
+    for (const auto& sample : edge->samples()) {
+      const auto way = path.displacement(sample);
+      if (!way) return std::unexpected(way.error());
+      largest = std::max(largest, way->norm());
+      const bool first = &sample == &edge->samples().front(), last = &sample == &edge->samples().back();
+      for (std::size_t v = 0; v < 2; ++v) {
+        if (!(v == 0 ? first : last) || way->norm() <= rounding * size) continue;
+        vertices.try_emplace(edge->vertices()[v], edge->vertex_points()[v] + *way);
+      }
+    }
+    if (largest <= rounding * size) continue;
+    auto curve = moved_curve(*edge, before, after, share_of_tolerance * tolerance);
+    if (!curve) return std::unexpected(curve.error());
+    result.edges.push_back({id, *std::move(curve)});
+  }
+  for (const auto& [id, place] : vertices) result.vertices.push_back({id, place});
+  return result;
+}
+
+}  // namespace knead::step

@@ -1,0 +1,222 @@
+#include "knead/exchange/shared_edge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "face_loops.hpp"
+#include "face_region.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "step_data.hpp"
+#include "step_faces.hpp"
+#include "step_surfaces.hpp"
+#include "step_units.hpp"
+#include "surface_foot.hpp"
+
+namespace knead {
+
+using namespace step;
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double chord = 2e-3;     // of the edge in space, between samples
+constexpr int least_samples = 64;  // intervals
+
+std::string name_of(const Reader& reader, std::uint32_t instance) {
+  return "#" + std::to_string(reader.file().instance(instance).id);
+}
+
+/// The surfaces of the faces at an edge. Errors: a face that cannot follow it.
+Expected<std::vector<std::size_t>> surfaces_at(const step::File::Data& data, const Reader& reader, std::uint32_t edge) {
+  std::vector<std::size_t> result;
+  const std::string id = name_of(reader, edge);
+  for (const Face& face : read_faces(reader)) {
+    const auto count = std::ranges::count(edges_around(reader, face), edge);
+    if (count == 0) continue;
+    const std::string name = name_of(reader, face.instance);
+    if (count > 1) {
+      return input_error("the face " + name + " is on both sides of the edge", id, "seams of closed faces stay held");
+    }
+    const std::string on = face.surface == no_instance ? "no surface" : reader.label(face.surface);
+    const auto found = data.surface_index.find(on.substr(0, on.find(' ')));
+    if (found == data.surface_index.end()) {
+      return input_error("the face " + name + " would have to follow the edge, but lies on " + on, id,
+                         "hold the edge: only faces on B-spline surfaces can follow");
+    }
+    if (std::ranges::find(result, found->second) == result.end()) result.push_back(found->second);
+  }
+  if (result.empty()) return input_error("no face has this edge", id);
+  return result;
+}
+
+/// The other edges that end in each of two vertices.
+std::array<std::vector<std::string>, 2> edges_ending_at(const Reader& reader, std::uint32_t edge,
+                                                        const std::array<std::string, 2>& vertices) {
+  std::array<std::vector<std::string>, 2> result;
+  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
+    if (k == edge || !reader.is(k, "EDGE_CURVE")) continue;
+    const auto ends = reader.attributes(k, "EDGE", 1, 2);
+    if (ends.empty()) continue;
+    for (std::size_t v = 0; v < 2; ++v) {
+      for (std::size_t e = 0; e < 2; ++e) {
+        const auto end = reader.reference(ends[e]);
+        if (!end || name_of(reader, *end) != vertices[v]) continue;
+        result[v].push_back(name_of(reader, k));
+        break;
+      }
+    }
+  }
+  return result;
+}
+
+void unwrap(Vector2d& at, const Vector2d& before, const ParameterSpace& space) {
+  for (int d = 0; d < 2; ++d) {
+    const double period = space.periods[static_cast<std::size_t>(d)];
+    if (period > 0) at[d] += period * std::round((before[d] - at[d]) / period);
+  }
+}
+
+void settle(LoopPoint& at, const LoopPoint& next) {
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (!at.free[d] || next.free[d]) continue;
+    at.at[static_cast<Eigen::Index>(d)] = next.at[static_cast<Eigen::Index>(d)];
+    at.free[d] = false;
+  }
+}
+
+/// At least `least_samples` intervals, each chord within a small part of the edge's extent.
+std::vector<double> sampled(const EdgePiece& piece) {
+  const std::vector<double> coarse = piece.curve.subdivided(piece.from, piece.to, chord);
+  std::vector<double> result = {coarse.front()};
+  const double longest = (piece.to - piece.from) / least_samples;
+  for (std::size_t k = 1; k < coarse.size(); ++k) {
+    const int parts = std::max(1, static_cast<int>(std::ceil((coarse[k] - coarse[k - 1]) / longest - 1e-9)));
+    for (int j = 1; j <= parts; ++j) {
+      result.push_back(j == parts ? coarse[k] : std::lerp(coarse[k - 1], coarse[k], static_cast<double>(j) / parts));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+struct SharedEdge::Data {
+  std::string id;
+  EdgePiece piece;
+  std::vector<std::string> surfaces;
+  std::vector<SurfaceFoot> feet;
+  std::vector<double> near;  // distances within which a foot is right
+  std::array<std::string, 2> vertices;
+  std::array<std::vector<std::string>, 2> edges_at;
+  std::vector<double> corners;
+  std::vector<Sample> samples;
+  double gap = 0, uncertainty = 0;
+
+  /// The feet of all samples on the surface of this number.
+  void follow(std::size_t surface) {
+    std::vector<LoopPoint> found;
+    for (const Sample& s : samples) {
+      std::optional<Vector2d> hint;
+      if (!found.empty() && !found.back().free[0] && !found.back().free[1]) hint = found.back().at;
+      const auto at = feet[surface].nearest(s.point, hint, near[surface]);
+      gap = std::max(gap, at.distance);
+      found.push_back({at.foot.parameters, at.foot.free});
+    }
+    for (std::size_t k = 1; k < found.size(); ++k) settle(found[k], found[k - 1]);
+    for (std::size_t k = found.size() - 1; k-- > 0;) settle(found[k], found[k + 1]);
+    for (std::size_t k = 1; k < found.size(); ++k) unwrap(found[k].at, found[k - 1].at, feet[surface].space());
+    for (std::size_t k = 0; k < found.size(); ++k) samples[k].feet.push_back(found[k].at);
+  }
+};
+
+Expected<SharedEdge> SharedEdge::create(const step::File& file, const std::string& id) {
+  const step::File::Data& data = file.data();
+  const Reader reader(data.records);
+  std::optional<std::uint32_t> instance;
+  for (std::uint32_t k = 0; k < data.records.instances().size() && !instance; ++k) {
+    if (reader.is(k, "EDGE_CURVE") && name_of(reader, k) == id) instance = k;
+  }
+  if (!instance) return input_error("there is no such edge", id);
+  const auto surfaces = surfaces_at(data, reader, *instance);
+  if (!surfaces) return std::unexpected(surfaces.error());
+  auto piece = edge_piece(reader, *instance);
+  if (!piece) return std::unexpected(piece.error());
+  auto made = std::make_shared<Data>(Data{id, *std::move(piece), {}, {}, {}, {}, {}, {}, {}, 0, 0});
+  const EdgePiece& own = made->piece;
+  made->vertices = {name_of(reader, own.backwards ? own.end_vertex : own.start_vertex),
+                    name_of(reader, own.backwards ? own.start_vertex : own.end_vertex)};
+  made->edges_at = edges_ending_at(reader, *instance, made->vertices);
+  for (const double t : own.curve.corners()) {
+    if (t > own.from && t < own.to) made->corners.push_back(t);
+  }
+  for (const double t : sampled(own)) made->samples.push_back({t, own.curve.at(t), {}});
+  const auto contexts = read_unit_contexts(reader);
+  for (const std::size_t k : *surfaces) {
+    const SurfaceEntity& s = data.surfaces[k];
+    auto feet = SurfaceFoot::create(s.surface);
+    if (!feet) return std::unexpected(feet.error());
+    made->surfaces.push_back(s.id);
+    made->feet.push_back(*std::move(feet));
+    made->near.push_back(on_surface * net_diagonal(s.surface.control_points()));
+    made->follow(made->feet.size() - 1);
+    made->near.back() = std::max(made->near.back(), 2 * made->gap);
+    const auto found = contexts_of(reader, contexts, {data.surface_instances[k]});
+    if (found[0] >= 0) {
+      made->uncertainty = std::max(made->uncertainty, contexts[static_cast<std::size_t>(found[0])].uncertainty);
+    }
+  }
+  return SharedEdge(std::move(made));
+}
+
+SharedEdge::Sample SharedEdge::at(double parameter) const {
+  const Data& d = *data_;
+  const auto after = std::ranges::lower_bound(d.samples, parameter, {}, &Sample::parameter);
+  if (after == d.samples.end()) return d.samples.back();
+  if (after == d.samples.begin() || after->parameter == parameter) return *after;
+  const Sample& a = *(after - 1);
+  const double share = (parameter - a.parameter) / (after->parameter - a.parameter);
+  Sample result{parameter, d.piece.curve.at(parameter), {}};
+  for (std::size_t k = 0; k < d.feet.size(); ++k) {
+    const Vector2d hint = (1 - share) * a.feet[k] + share * after->feet[k];
+    const auto found = d.feet[k].nearest(result.point, hint, d.near[k]).foot;
+    LoopPoint at{found.parameters, found.free};
+    settle(at, LoopPoint{hint});
+    unwrap(at.at, hint, d.feet[k].space());
+    result.feet.push_back(at.at);
+  }
+  return result;
+}
+
+const std::string& SharedEdge::id() const { return data_->id; }
+const std::vector<std::string>& SharedEdge::surfaces() const { return data_->surfaces; }
+const std::array<std::string, 2>& SharedEdge::vertices() const { return data_->vertices; }
+std::array<Point, 2> SharedEdge::vertex_points() const {
+  const EdgePiece& own = data_->piece;
+  return own.backwards ? std::array{own.end, own.start} : std::array{own.start, own.end};
+}
+const std::array<std::vector<std::string>, 2>& SharedEdge::edges_at_vertices() const { return data_->edges_at; }
+const std::vector<SharedEdge::Sample>& SharedEdge::samples() const { return data_->samples; }
+const std::vector<double>& SharedEdge::corners() const { return data_->corners; }
+double SharedEdge::gap() const { return data_->gap; }
+double SharedEdge::uncertainty() const { return data_->uncertainty; }
+double SharedEdge::file_parameter(double parameter) const { return data_->piece.curve.file_parameter(parameter); }
+bool SharedEdge::turned() const { return data_->piece.curve.turned(); }
+
+std::array<double, 2> parameters_at_foot(const Surface& surface, const Vector2d& foot) {
+  Vector2d at = foot;
+  constexpr double touch = 1e-6;  // beyond the domain by rounding, not by a turn
+  for (int d = 0; d < 2; ++d) {
+    if (at[d] < -touch || at[d] > 1 + touch) at[d] -= std::floor(at[d]);
+  }
+  return parameters_of(surface, at);
+}
+
+Expected<Point> displacement_at(const Surface& before, const Surface& after, const Vector2d& foot) {
+  const auto now = evaluate_point<2>(after, parameters_at_foot(after, foot));
+  if (!now) return std::unexpected(now.error());
+  const auto then = evaluate_point<2>(before, parameters_at_foot(before, foot));
+  if (!then) return std::unexpected(then.error());
+  return Point(*now - *then);
+}
+
+}  // namespace knead
