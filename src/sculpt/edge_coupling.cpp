@@ -1,0 +1,109 @@
+#include "knead/sculpt/edge_coupling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "constraint_rows.hpp"
+#include "solve/constraint_space.hpp"
+
+namespace knead {
+namespace {
+
+using detail::Terms;
+
+/// R of one patch at its parameters, in unknowns of all patches, times a sign.
+Expected<void> add_row(std::span<const Surface* const> patches, std::span<const int> rows, int patch,
+                       const std::array<double, 2>& at, double sign, Terms& terms) {
+  const Surface& s = *patches[static_cast<std::size_t>(patch)];
+  for (int d = 0; d < 2; ++d) {
+    auto inside = detail::check_parameter(s.knots(d), at[static_cast<std::size_t>(d)], d == 0 ? "u" : "v");
+    if (!inside) return inside;
+  }
+  const auto row = detail::rational_row(s, at[0], at[1], s.knots(0).find_span(at[0]), s.knots(1).find_span(at[1]));
+  if (!row) return std::unexpected(row.error());
+  for (const auto& [unknown, c] : *row) {
+    if (c != 0) terms.emplace_back(rows[static_cast<std::size_t>(patch)] + unknown, sign * c);
+  }
+  return {};
+}
+
+Expected<std::vector<Terms>> conditions(std::span<const Surface* const> patches, std::span<const int> rows,
+                                        const CoupledEdge& edge) {
+  std::vector<Terms> result;
+  for (const SharedPoint& point : edge.points) {
+    for (std::size_t k = 1; k < point.size(); ++k) {
+      Terms terms;
+      for (const std::size_t side : {std::size_t{0}, k}) {
+        auto added = add_row(patches, rows, point[side].first, point[side].second, side == 0 ? 1 : -1, terms);
+        if (!added) return std::unexpected(added.error().within(edge.name));
+      }
+      result.push_back(std::move(terms));
+    }
+  }
+  return result;
+}
+
+/// The conditions in the unknowns that a space leaves independent. Where a constraint along a normal couples the
+/// coordinates, those of x stand for all.
+std::vector<Terms> reduced(const ConstraintSpace& space, const std::vector<Terms>& conditions) {
+  std::map<int, Terms> known;  // of every unknown
+  std::vector<Terms> result;
+  for (const Terms& condition : conditions) {
+    std::map<int, double> sum;
+    for (const auto& [unknown, c] : condition) {
+      auto found = known.find(unknown);
+      if (found == known.end()) {
+        Terms terms;
+        for (const auto& term : space.terms(std::array{unknown})) {
+          if (term.row == 0) terms.emplace_back(term.unknown, term.coefficient);
+        }
+        found = known.emplace(unknown, std::move(terms)).first;
+      }
+      for (const auto& [y, a] : found->second) sum[y] += c * a;
+    }
+    result.emplace_back(sum.begin(), sum.end());
+  }
+  return result;
+}
+
+LinearConstraint constraint_of(const std::string& name, const Terms& terms) {
+  std::map<int, double> sum;
+  for (const auto& [unknown, c] : terms) sum[unknown] += c;
+  double largest = 0;
+  for (const auto& [unknown, c] : sum) largest = std::max(largest, std::abs(c));
+  LinearConstraint result{name, {}, Point::Zero(), {}};
+  for (const auto& [unknown, c] : sum) {
+    if (c != 0) result.terms.emplace_back(unknown, c / largest);
+  }
+  return result;
+}
+
+}  // namespace
+
+Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches, std::span<const int> rows,
+                                    std::span<const CoupledEdge> edges, std::span<const LinearConstraint> before,
+                                    const std::vector<bool>& held, double tolerance) {
+  if (!(tolerance > 0 && tolerance <= 1)) {
+    return input_error(fmt::format("{} is not a tolerance", tolerance), "tolerance", "use a number above 0, up to 1");
+  }
+  EdgeCoupling result;
+  std::vector<LinearConstraint> all(before.begin(), before.end());
+  for (const CoupledEdge& edge : edges) {
+    const auto given = conditions(patches, rows, edge);
+    if (!given) return std::unexpected(given.error());
+    const auto space = ConstraintSpace::create(rows.back(), all, held);
+    if (!space) return std::unexpected(space.error());
+    const detail::SelectedRows selected = detail::select_rows(reduced(*space, *given), tolerance);
+    result.bound = std::max(result.bound, selected.remainder);
+    for (const int k : selected.chosen) {
+      result.constraints.push_back(constraint_of(edge.name, (*given)[static_cast<std::size_t>(k)]));
+      all.push_back(result.constraints.back());
+    }
+  }
+  return result;
+}
+
+}  // namespace knead

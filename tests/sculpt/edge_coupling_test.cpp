@@ -1,0 +1,129 @@
+// Patches that stay together along curves, whatever their nets.
+
+#include "knead/sculpt/edge_coupling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "knead/sculpt/seam_coupling.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "solve/constraint_space.hpp"
+
+namespace knead {
+namespace {
+
+Surface sheet(int columns, double x0) {
+  const auto u = KnotVector::clamped_uniform(3, 7), v = KnotVector::clamped_uniform(3, columns);
+  Points points(7 * columns, 3);
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < columns; ++j) points.row(i * columns + j) << x0 + u->greville(i), v->greville(j), 0;
+  }
+  return *Surface::create({*u, *v}, points);
+}
+
+struct Pair {
+  Surface a, b;
+  std::vector<const Surface*> patches = {&a, &b};
+  std::vector<int> rows = {0, a.size(), a.size() + b.size()};
+};
+
+/// The curve u = 1 of one patch and u = 0 of the other, or one that runs askew through both.
+CoupledEdge edge(int count, bool inside, double noise = 0) {
+  CoupledEdge result{"edge", {}};
+  for (int k = 0; k <= count; ++k) {
+    const double t = static_cast<double>(k) / count, off = k % 2 == 0 ? noise : -noise;
+    const double v = std::clamp(t + off, 0.0, 1.0);
+    if (inside) {
+      result.points.push_back({{0, {0.7 + 0.1 * t, t}}, {1, {0.2 + 0.15 * t, 0.1 + 0.8 * v}}});
+    } else {
+      result.points.push_back({{0, {1, t}}, {1, {0, v}}});
+    }
+  }
+  return result;
+}
+
+int free_count(const Pair& pair, const EdgeCoupling& coupling) {
+  return ConstraintSpace::create(pair.rows.back(), coupling.constraints)->free_count();
+}
+
+/// The largest distance between both patches along a curve, in displacements of at most 1 that obey the conditions.
+double largest_parting(const Pair& pair, const EdgeCoupling& coupling, const CoupledEdge& along) {
+  const auto space = ConstraintSpace::create(pair.rows.back(), coupling.constraints);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  double largest = 0;
+  for (int k = 0; k < 20; ++k) {
+    const Points y = Points::NullaryExpr(space->free_count(), 3, [&] { return number(random); });
+    const Points feasible = space->expand_points(y);
+    const Points x = feasible / feasible.rowwise().norm().maxCoeff();
+    const auto a = pair.a.with_control_points(x.topRows(pair.a.size()));
+    const auto b = pair.b.with_control_points(x.bottomRows(pair.b.size()));
+    for (const SharedPoint& p : along.points) {
+      const Point apart = *evaluate_point<2>(*a, p[0].second) - *evaluate_point<2>(*b, p[1].second);
+      largest = std::max(largest, apart.cwiseAbs().maxCoeff());
+    }
+  }
+  return largest;
+}
+
+TEST(EdgeCoupling, EqualNetsLoseNothingByRoundingInTheParameters) {
+  const Pair pair{sheet(9, 0), sheet(9, 1)};
+  for (const double noise : {0.0, 1e-10, 1e-8}) {
+    const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false, noise)}, {}, {}, 1e-6);
+    ASSERT_TRUE(coupling) << coupling.error().message();
+    EXPECT_EQ(free_count(pair, *coupling), pair.rows.back() - 9) << noise;
+    EXPECT_LE(largest_parting(pair, *coupling, edge(200, false)), 1e-5);
+  }
+}
+
+TEST(EdgeCoupling, WhatSeamsKeepTogetherGetsNoConditions) {
+  const Pair pair{sheet(9, 0), sheet(9, 1)};
+  const auto found = find_seams(pair.patches, 1e-3);
+  ASSERT_TRUE(found);
+  const auto seams = couple_seams(pair.patches, pair.rows, found->seams);
+  ASSERT_TRUE(seams);
+  ASSERT_FALSE(seams->constraints.empty());
+  const auto coupling =
+      couple_edges(pair.patches, pair.rows, std::array{edge(64, false, 1e-9)}, seams->constraints, {}, 1e-6);
+  ASSERT_TRUE(coupling);
+  EXPECT_TRUE(coupling->constraints.empty());
+}
+
+TEST(EdgeCoupling, OtherNetsPartByNoMoreThanTheToleranceAndKeepSomeFreedom) {
+  const Pair pair{sheet(17, 0), sheet(21, 1)};
+  for (const bool inside : {false, true}) {
+    int before = 0;
+    for (const double tolerance : {1e-6, 1e-3, 1e-2, 0.1}) {
+      const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(160, inside)}, {}, {}, tolerance);
+      ASSERT_TRUE(coupling) << coupling.error().message();
+      EXPECT_LE(coupling->bound, tolerance);
+      EXPECT_LE(largest_parting(pair, *coupling, edge(160, inside)), coupling->bound + 1e-13);
+      EXPECT_GE(free_count(pair, *coupling), before);
+      before = free_count(pair, *coupling);
+    }
+    EXPECT_GE(before, pair.rows.back() - 25);  // with 17 or 21 functions along the curve on either side
+  }
+}
+
+TEST(EdgeCoupling, HeldControlPointsStay) {
+  const Pair pair{sheet(9, 0), sheet(9, 1)};
+  std::vector<bool> held(static_cast<std::size_t>(pair.rows.back()), false);
+  std::fill_n(held.begin(), pair.a.size(), true);
+  const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false)}, {}, held, 1e-6);
+  ASSERT_TRUE(coupling);
+  EXPECT_EQ(ConstraintSpace::create(pair.rows.back(), coupling->constraints, held)->free_count(), pair.b.size() - 9);
+}
+
+TEST(EdgeCoupling, WhatCannotBeIsAnError) {
+  const Pair pair{sheet(9, 0), sheet(9, 1)};
+  EXPECT_FALSE(couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, {}, 0));
+  CoupledEdge outside = edge(8, false);
+  outside.points[3][1].second[1] = 1.5;
+  const auto refused = couple_edges(pair.patches, pair.rows, std::array{outside}, {}, {}, 1e-6);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("edge"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace knead
