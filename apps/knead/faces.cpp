@@ -72,7 +72,7 @@ std::string edges_json(const SessionState& state) {
     nlohmann::ordered_json edges = nlohmann::ordered_json::array();
     for (const TrimReport::Edge& edge : report.edges) {
       edges.push_back({{"id", edge.held.id},
-                       {"hold", hold_name(edge.held.order)},
+                       {"hold", edge.follows ? "follow" : hold_name(edge.held.order)},
                        {"along_lines", edge.held.along_lines},
                        {"control_points", edge.held.points},
                        {"deviation", edge.deviation},

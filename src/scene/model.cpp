@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "constraints.hpp"
+#include "knead/scene/followed.hpp"
 #include "knead/scene/trims.hpp"
+#include "knead/sculpt/edge_coupling.hpp"
 
 namespace knead {
 namespace {
@@ -65,6 +67,17 @@ Expected<std::vector<int>> hold_surfaces(const std::vector<SurfaceInput>& surfac
   return rows;
 }
 
+/// Appends the conditions that keep faces together along the edges that follow them.
+Expected<void> couple_followed(const ModelInput& input, std::span<const Surface* const> patches,
+                               std::span<const int> rows, ActiveSettings<2>& settings) {
+  const auto edges = coupled_edges(input.followed, patches);
+  if (edges.empty()) return {};
+  const auto coupled = couple_edges(patches, rows, edges, settings.constraints, settings.held, input.coupling);
+  if (!coupled) return std::unexpected(coupled.error());
+  settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
+  return {};
+}
+
 }  // namespace
 
 Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches) {
@@ -93,6 +106,8 @@ ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
   input.scaling = scene.scaling;
   input.evolution = evolution;
   input.detail = detail_of(scene.tools);
+  input.followed = followed_inputs(scene);
+  if (!input.followed.empty()) input.coupling = scene.coupling;
   return input;
 }
 
@@ -111,10 +126,19 @@ Expected<SceneModel> make_model(ModelInput input) {
   if (input.seams.couple) {
     const auto found = seams_between(input.seams, pointers);
     if (!found) return std::unexpected(found.error());
-    auto coupled = couple_seams(pointers, *rows, found->seams);
-    if (!coupled) return std::unexpected(coupled.error());
-    settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
-    reports = std::move(coupled->reports);
+    for (const bool followed : {false, true}) {
+      // Along edges that follow, seams that would move stiffly as a whole are left to the coupling of these edges.
+      std::vector<Seam> seams;
+      std::ranges::copy_if(found->seams, std::back_inserter(seams),
+                           [&](const Seam& s) { return is_followed(input.followed, s) == followed; });
+      auto coupled = couple_seams(pointers, *rows, seams, {.rigid = !followed});
+      if (!coupled) return std::unexpected(coupled.error());
+      settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
+      reports.insert(reports.end(), coupled->reports.begin(), coupled->reports.end());
+    }
+  }
+  if (auto coupled = couple_followed(input, pointers, *rows, settings); !coupled) {
+    return std::unexpected(coupled.error());
   }
   set_material(input.surfaces, settings);
   settings.rest = input.surfaces.front().mode;

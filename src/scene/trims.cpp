@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "knead/scene/followed.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -144,6 +145,7 @@ Expected<TrimReport> trim_report(const SceneSurface& s) {
     TrimReport::Edge& made = report.edges.emplace_back();
     made.held = held->edges[e];
     made.neighbours = edge.neighbours;
+    made.follows = follows(s, edge.id);
     for (std::size_t k = 0; k < edge.course.size(); ++k) {
       const auto measure = [&](const Eigen::Vector2d& at) -> Expected<void> {
         const auto deviation = deviation_at(s, at);
@@ -156,7 +158,7 @@ Expected<TrimReport> trim_report(const SceneSurface& s) {
       if (k == 0) continue;
       if (auto done = measure(0.5 * (edge.course[k - 1] + edge.course[k])); !done) return std::unexpected(done.error());
     }
-    report.largest = std::max(report.largest, made.deviation);
+    if (!made.follows) report.largest = std::max(report.largest, made.deviation);
   }
   return report;
 }

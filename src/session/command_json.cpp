@@ -79,6 +79,9 @@ Expected<Command> read_command(const Json& given, int version) {
     if constexpr (requires { read_as_version_1(command); }) {
       if (version == 1) read_as_version_1(command);
     }
+    if constexpr (requires { read_as_version_2(command); }) {
+      if (version == 2) read_as_version_2(command);
+    }
     return leave_out(json, version, command, any);
   };
   if (auto done = std::visit(complete, any.fields); !done) return std::unexpected(done.error());

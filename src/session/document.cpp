@@ -32,11 +32,12 @@ const std::vector<DocumentSurface>& Document::surfaces() const {
   return source_ ? source_->surfaces() : none;
 }
 
-Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces) const {
+Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces,
+                                     std::span<const std::string> followed) const {
   if (source_) {
     std::vector<std::shared_ptr<const Surface>> present;
     for (const DocumentSurface& s : surfaces) present.push_back(s.surface);
-    return source_->save(present);
+    return source_->save(present, followed);
   }
   std::vector<NamedSurface> made;
   for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});

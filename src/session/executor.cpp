@@ -72,6 +72,7 @@ Expected<void> Executor::keep(const Constraint& constraint) {
 
 Expected<void> Executor::check_constraints() {
   if (auto known = know_trims(); !known) return known;
+  if (auto known = know_followed(); !known) return known;
   // What cannot be made is refused now, not at the next step. A large lambda gives a model for anything that can step.
   EvolutionPolicy evolution;
   evolution.lambda = 1e6;

@@ -4,6 +4,7 @@
 
 #include "knead/scene/model.hpp"
 #include "knead/scene/reshape.hpp"
+#include "knead/scene/trims.hpp"
 #include "knead/sculpt/greville_values.hpp"
 #include "knead/session/session.hpp"
 
@@ -71,8 +72,8 @@ struct Executor {
   Expected<void> change_basis(SceneSurface& surface, const SurfaceChange& change);
   /// The same shapes on another net, which is noted.
   Expected<void> change_net(SceneSurface& surface, const SurfaceChange& change);
-  /// Refines what seams between selected surfaces need.
-  Expected<void> refine_seams();
+  /// Refines what seams between selected surfaces need; with `followed` only those between faces at edges that follow.
+  Expected<void> refine_seams(bool followed = false);
   /// Halves the spans of the selected surfaces that a tool reaches. Returns whether there were any.
   Expected<bool> refine_under(const Tool& tool);
 
@@ -83,6 +84,14 @@ struct Executor {
   const Surface* document_surface(const SceneSurface& surface) const;
   /// Makes `visible` known of all selected surfaces of which edges of faces are held.
   Expected<void> know_trims();
+  /// Makes an edge of faces one that may follow them. Errors (input): a face at it that cannot follow, or lies on a
+  /// surface that is not selected, each named with what to do.
+  Expected<void> follow_edge(const std::string& id);
+  /// Makes the courses of edges known that follow selected surfaces. Errors: those of `follow_edge`.
+  Expected<void> know_followed();
+  /// Whether all edges that follow are still closed after surfaces changed from `before`. Errors (numerical): one is
+  /// not, and by how much; a vertex of it moved that another edge holds.
+  Expected<void> check_followed(const Scene& before);
   /// The fractions of a place. Where edges of faces are held, a place that is not visible is an error which names the
   /// nearest one that is; elsewhere it is noted.
   Expected<Fractions> place_on(SceneSurface& surface, const SurfacePlace& place);
@@ -96,6 +105,13 @@ struct Executor {
   Expected<void> prepare_model(const EvolutionPolicy& evolution);
   Expected<ActiveStep> one_step(const std::vector<PointForce>& more, double& seconds);
   Expected<void> take(const ActiveStep& step);
+  /// Takes a step if edges that follow stay closed; otherwise couples them more tightly, and returns false: the step
+  /// must be made again. Errors: they cannot be coupled more tightly; those of `check_followed`.
+  Expected<bool> take_together(const ActiveStep& step);
+  /// Refines a surface around a place that may lie this far from the nearest held edge.
+  Expected<void> refine_round(SceneSurface& s, const TrimContact& contact, double size);
+  /// Refines the faces at edges that follow: what is under a tool on one side, on the others too.
+  Expected<void> refine_followed(const SceneSurface& touched, const TrimContact& contact, double size);
   void record(const ActiveStep& step, double seconds, std::string note);
   void note_model(const SceneModel& model);
   /// Whether the surfaces of which edges of faces are held have not folded: their normals point to the same side as at

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "executor.hpp"
+#include "knead/scene/followed.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
@@ -64,7 +65,7 @@ Expected<bool> Executor::refine_under(const Tool& tool) {
   return any;
 }
 
-Expected<void> Executor::refine_seams() {
+Expected<void> Executor::refine_seams(bool followed) {
   if (!state.seams.couple) return {};
   std::vector<const Surface*> patches;
   const std::vector<int> selection = state.selection();
@@ -72,8 +73,10 @@ Expected<void> Executor::refine_seams() {
   const auto found = seams_between(state.seams, patches);
   if (!found) return std::unexpected(found.error());
   std::vector<Seam> whole;
-  std::ranges::copy_if(found->seams, std::back_inserter(whole),
-                       [](const Seam& s) { return s.kind == SeamKind::whole; });
+  const auto edges = followed_inputs(state);
+  std::ranges::copy_if(found->seams, std::back_inserter(whole), [&](const Seam& s) {
+    return s.kind == SeamKind::whole && (!followed || is_followed(edges, s));
+  });
   for (const SeamRefinement& r : seam_refinements(patches, whole)) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[static_cast<std::size_t>(r.patch)])];
     auto done = change_net(s, [&](const Surface& shape) -> Expected<Surface> {

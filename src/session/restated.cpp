@@ -24,8 +24,11 @@ struct Restate {
     return make_command(hold);
   }
   Command operator()(const TrimEdgeHold& c) const {
-    return make_command(
-        EdgeCommand{EdgeChoice::all, c.order < 0 ? EdgeCondition::free : static_cast<EdgeCondition>(c.order), c.id});
+    return make_command(EdgeCommand{EdgeChoice::all,
+                                    c.follow      ? EdgeCondition::follow
+                                    : c.order < 0 ? EdgeCondition::free
+                                                  : static_cast<EdgeCondition>(c.order),
+                                    c.id});
   }
   Command operator()(const PointPin& c) const {
     PinCommand pin;
@@ -60,9 +63,10 @@ Command restated(const Constraint& constraint) { return std::visit(Restate{}, co
 std::optional<Constraint> constraint_of(const Command& command) {
   if (const auto* c = fields_of<EdgeCommand>(command)) {
     if (c->edge) {
-      return TrimEdgeHold{*c->edge, c->hold == EdgeCondition::free ? -1 : static_cast<int>(c->hold)};
+      const bool follow = c->hold == EdgeCondition::follow;
+      return TrimEdgeHold{*c->edge, follow || c->hold == EdgeCondition::free ? -1 : static_cast<int>(c->hold), follow};
     }
-    if (c->which == EdgeChoice::all || c->hold == EdgeCondition::free) return std::nullopt;
+    if (c->which == EdgeChoice::all || c->hold > EdgeCondition::curvature) return std::nullopt;
     return EdgeHold{edges_of(c->which).front(), static_cast<int>(c->hold)};
   }
   if (const auto* c = fields_of<HoldCommand>(command)) {

@@ -52,6 +52,7 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   }
   const auto execute = [&](const auto& fields) { return executor.execute(fields); };
   if (auto done = std::visit(execute, meant.any().fields); !done) return done;
+  if (auto closed = executor.check_followed(state()); !closed) return closed;
   states_.resize(position_ + 1);
   entries_.resize(position_);
   states_.push_back(std::move(next));
@@ -107,6 +108,7 @@ void Session::join() {
 
 void Session::know_faces() {
   std::map<std::string, std::shared_ptr<const VisibleRegion>> known;
+  std::map<std::string, std::shared_ptr<const SharedEdge>> courses;
   const step::File* const file = document_.step_file();
   if (file == nullptr) return;
   for (auto& state : states_) {
@@ -120,6 +122,15 @@ void Session::know_faces() {
         found = known.emplace(s.id, region ? std::make_shared<const VisibleRegion>(std::move(*region)) : nullptr).first;
       }
       s.visible = found->second;
+    }
+    for (FollowedEdge& edge : next->followed) {
+      auto found = courses.find(edge.id);
+      if (found == courses.end()) {
+        auto course = SharedEdge::create(*file, edge.id);
+        found =
+            courses.emplace(edge.id, course ? std::make_shared<const SharedEdge>(std::move(*course)) : nullptr).first;
+      }
+      edge.course = found->second;
     }
     state = std::move(next);
   }
@@ -171,7 +182,9 @@ int Session::moved_control_points(int surface) const {
 Expected<std::string> Session::save() const {
   std::vector<DocumentSurface> surfaces;
   for (const SceneSurface& s : state().surfaces) surfaces.push_back({s.id, s.name, s.unit, s.current});
-  return document_.save(surfaces);
+  std::vector<std::string> followed;
+  for (const FollowedEdge& edge : state().followed) followed.push_back(edge.id);
+  return document_.save(surfaces, followed);
 }
 
 }  // namespace knead

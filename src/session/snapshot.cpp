@@ -11,9 +11,10 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-constexpr std::string_view magic = "Knead snapshot 2\n";
-constexpr std::string_view magic_before = "Knead snapshot 1\n";  // without probes, open strokes or their results
-static_assert(magic.size() == magic_before.size());
+constexpr std::string_view magic = "Knead snapshot 3\n";
+constexpr std::string_view magic_2 = "Knead snapshot 2\n";  // without edges that follow, and written where none do
+constexpr std::string_view magic_1 = "Knead snapshot 1\n";  // also without probes, open strokes or their results
+static_assert(magic.size() == magic_1.size() && magic.size() == magic_2.size());
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.
 std::uint64_t checksum(std::string_view bytes) {
@@ -55,9 +56,9 @@ struct Neighbour {
   std::vector<std::string> surfaces;  // as bytes
 };
 
-void write_state(Writer& a, const SessionState& state, Neighbour& before) {
+void write_state(Writer& a, const SessionState& state, Neighbour& before, bool with_followed) {
   const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-               stroke] = static_cast<const Scene&>(state);
+               followed, coupling, stroke] = static_cast<const Scene&>(state);
   const auto& [steps, seam_reports, notes, energy_before] = static_cast<const SessionRecord&>(state);
   archive::optional(a, selected);
   list(a, together);
@@ -84,6 +85,11 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   choice(a, permission, RefinePermission::trims);
   list(a, probes);
   archive::optional(a, stroke);
+  if (with_followed) {
+    a.count(followed.size());
+    for (const FollowedEdge& edge : followed) a.text(edge.id);
+    a.number(coupling);
+  }
   std::size_t shared = 0;
   if (before.steps != nullptr) {
     const std::size_t most = std::min(steps.size(), before.steps->size());
@@ -122,7 +128,7 @@ bool fits(const OpenStroke& stroke, const Scene& scene) {
 /// Reads a state into one that starts as a copy of the previous one.
 void read_state(Reader& a, SessionState& state) {
   auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-         stroke] = static_cast<Scene&>(state);
+         followed, coupling, stroke] = static_cast<Scene&>(state);
   auto& [steps, seam_reports, notes, energy_before] = static_cast<SessionRecord&>(state);
   selected.reset();
   archive::optional(a, selected);
@@ -159,6 +165,14 @@ void read_state(Reader& a, SessionState& state) {
   if (a.version() > 1) {
     list(a, probes);
     archive::optional(a, stroke);
+  }
+  followed.clear();
+  coupling = Scene{}.coupling;
+  if (a.version() > 2) {
+    followed.resize(a.length(4));
+    for (FollowedEdge& edge : followed) a.text(edge.id);
+    a.number(coupling);
+    if (!(coupling > 0 && coupling <= 1)) a.fail();
   }
   std::size_t shared = 0;
   a.count(shared);
@@ -213,7 +227,8 @@ std::string Session::snapshot(std::size_t history_bytes) const {
   a.count(entries_.size() - first);
   for (std::size_t k = first; k < entries_.size(); ++k) a.text(script_json(entries_[k]));
   Neighbour before;
-  for (std::size_t k = first; k < states_.size(); ++k) write_state(a, *states_[k], before);
+  const bool followed = std::ranges::any_of(states_, [](const auto& state) { return !state->followed.empty(); });
+  for (std::size_t k = first; k < states_.size(); ++k) write_state(a, *states_[k], before, followed);
   const std::string body = a.take();
   a.count(document_.surfaces().size());
   const std::vector<std::shared_ptr<const Surface>> surfaces = a.surfaces();
@@ -221,7 +236,7 @@ std::string Session::snapshot(std::size_t history_bytes) const {
   for (const auto& s : surfaces) write_surface(a, *s);
   a.bytes(body.data(), body.size());
   const std::string content = a.take();
-  a.bytes(magic.data(), magic.size());
+  a.bytes(followed ? magic.data() : magic_2.data(), magic.size());
   const std::uint64_t sum = checksum(content);
   a.bytes(&sum, sizeof sum);
   a.bytes(content.data(), content.size());
@@ -229,9 +244,8 @@ std::string Session::snapshot(std::size_t history_bytes) const {
 }
 
 Expected<Session> Session::restore(Document document, std::string_view bytes) {
-  const int version = bytes.starts_with(magic) ? 2 : 1;
-  if (version == 1 && !bytes.starts_with(magic_before))
-    return damaged("these bytes are not a snapshot of this version");
+  const int version = bytes.starts_with(magic) ? 3 : bytes.starts_with(magic_2) ? 2 : 1;
+  if (version == 1 && !bytes.starts_with(magic_1)) return damaged("these bytes are not a snapshot of this version");
   bytes.remove_prefix(magic.size());
   std::uint64_t sum = 0;
   std::vector<std::shared_ptr<const Surface>> surfaces;

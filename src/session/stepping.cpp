@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "executor.hpp"
+#include "knead/scene/followed.hpp"
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
@@ -43,6 +44,10 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     if (auto refined = refine_seams(); !refined) return refined;
   }
   if (auto refined = refine_trims(); !refined) return refined;
+  if (auto known = know_followed(); !known) return known;
+  if (state.permission != RefinePermission::never && !followed_inputs(state).empty()) {
+    if (auto refined = refine_seams(true); !refined) return refined;
+  }
   int refinements = 0, stepped = 0;
   while (stepped < count) {
     if (auto made = prepare_model(evolution); !made) return made;
@@ -68,7 +73,9 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
       if (holds_edges()) return std::unexpected(error);
       note = error.what + "; " + error.remedy;  // requested, row by row or point by point: reported, not refused
     }
-    if (auto taken = take(*step); !taken) return taken;
+    const auto taken = take_together(*step);
+    if (!taken) return std::unexpected(taken.error());
+    if (!*taken) continue;
     if (auto sound = check_folds(); !sound) return sound;
     record(*step, seconds, std::move(note));
     ++stepped;
@@ -80,6 +87,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
 
 Expected<void> Executor::prepare_model(const EvolutionPolicy& evolution) {
   if (auto known = know_trims(); !known) return known;
+  if (auto known = know_followed(); !known) return known;
   ModelInput input = model_input(state, evolution);
   if (cache && cache->input == input) return {};
   cache.reset();

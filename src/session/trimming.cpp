@@ -15,23 +15,6 @@ bool any_held(const SceneSurface& s) {
   return s.visible && std::ranges::any_of(trim_orders(s.constraints, *s.visible), [](int order) { return order >= 0; });
 }
 
-/// Refines a surface around a place that may lie this far from the nearest held edge.
-Expected<void> refine_round(Executor& executor, SceneSurface& s, const TrimContact& contact, double size) {
-  if (executor.state.permission == RefinePermission::never || !s.pins.empty()) return {};
-  const auto refinement = trim_refinement(*s.reference, contact.at, contact.distance, std::isfinite(size) ? size : 0,
-                                          trim_refinement_cap(*executor.document_surface(s)));
-  if (!refinement) return std::unexpected(refinement.error());
-  if (refinement->capped) {
-    executor.state.notes.push_back(
-        fmt::format("{}: the net between tool and held edges stays coarser than it should be, as it is limited to {} "
-                    "control points; "
-                    "refine it where it matters with {{\"do\":\"refine\"}}",
-                    s.id, trim_refinement_cap(*executor.document_surface(s))));
-  }
-  if (refinement->empty()) return {};
-  return executor.change_net(s, [&](const Surface& shape) { return refinement->apply(shape); });
-}
-
 }  // namespace
 
 const Surface* Executor::document_surface(const SceneSurface& surface) const {
@@ -99,6 +82,22 @@ Expected<Fractions> Executor::place_on(SceneSurface& surface, const SurfacePlace
   return place.at;
 }
 
+Expected<void> Executor::refine_round(SceneSurface& s, const TrimContact& contact, double size) {
+  if (state.permission == RefinePermission::never || !s.pins.empty()) return {};
+  const auto refinement = trim_refinement(*s.reference, contact.at, contact.distance, std::isfinite(size) ? size : 0,
+                                          trim_refinement_cap(*document_surface(s)));
+  if (!refinement) return std::unexpected(refinement.error());
+  if (refinement->capped) {
+    state.notes.push_back(fmt::format(
+        "{}: the net between tool and held edges stays coarser than it should be, as it is limited to {} "
+        "control points; "
+        "refine it where it matters with {{\"do\":\"refine\"}}",
+        s.id, trim_refinement_cap(*document_surface(s))));
+  }
+  if (refinement->empty()) return {};
+  return change_net(s, [&](const Surface& shape) { return refinement->apply(shape); });
+}
+
 Expected<void> Executor::refine_trims() {
   if (auto known = know_trims(); !known) return known;
   for (int k : state.selection()) {
@@ -108,7 +107,8 @@ Expected<void> Executor::refine_trims() {
       const auto contact = trim_contact(s, tool);
       if (!contact) return std::unexpected(contact.error());
       if (!*contact) continue;
-      if (auto done = refine_round(*this, s, **contact, tool.shape.size()); !done) return done;
+      if (auto done = refine_round(s, **contact, tool.shape.size()); !done) return done;
+      if (auto done = refine_followed(s, **contact, tool.shape.size()); !done) return done;
     }
   }
   return {};
@@ -123,7 +123,7 @@ Expected<void> Executor::refine_at_trims(SceneSurface& surface, const Fractions&
   std::vector<bool> held;
   for (const int order : trim_orders(surface.constraints, *surface.visible)) held.push_back(order >= 0);
   contact.distance = surface.visible->distance(*place, held);
-  return refine_round(*this, surface, contact, size);
+  return refine_round(surface, contact, size);
 }
 
 Expected<void> Executor::check_folds() {

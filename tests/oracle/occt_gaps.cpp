@@ -24,6 +24,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
@@ -235,6 +236,12 @@ std::vector<OcctEdge> OcctFaces::edges(const std::string& surface, const OcctFac
             flat.IsNull() ? ShapeAnalysis_Surface(own).ValueOfUV(p, 1e-7) : flat->Value(f2 + (l2 - f2) * k / samples);
         measured.gap = std::max(measured.gap, distance(moved, p, at, std::max(1e-6, measured.gap)));
         measured.turn = std::max(measured.turn, degrees_between(normal_at(own, at), normal_at(moved, at)));
+      }
+      for (const auto& [vertex, t] :
+           {std::pair(TopExp::FirstVertex(edge), f), std::pair(TopExp::LastVertex(edge), l)}) {
+        if (vertex.IsNull()) continue;
+        const gp_Pnt end = curve->Value(t).Transformed(location.Transformation());
+        measured.ends = std::max(measured.ends, end.Distance(BRep_Tool::Pnt(vertex)));
       }
       if (const int k = data_->around.FindIndex(edge); k > 0) {
         measured.smooth = is_smooth(edge, face, data_->around.FindFromIndex(k));

@@ -14,6 +14,7 @@ struct OcctEdge {
   double gap = 0;        ///< largest distance from the surface, at 41 points
   double turn = 0;       ///< largest angle between the normals of two surfaces along the edge, degrees; 0 with one
   bool smooth = false;   ///< another face meets there with the same tangent planes, to 0.1 degrees
+  double ends = 0;       ///< largest distance of the ends of its curve from its vertices
 };
 
 /// The faces of a file that lie on B-spline surfaces, ready for measuring.

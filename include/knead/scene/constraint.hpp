@@ -78,7 +78,8 @@ struct TrimHolds {
 /// One edge of the faces on the surface, by its id in the file; overrides `TrimHolds`.
 struct TrimEdgeHold {
   std::string id;
-  int order = 0;  ///< −1: free
+  int order = 0;        ///< −1: free
+  bool follow = false;  ///< with −1: its faces move together, and the edge with them
   friend bool operator==(const TrimEdgeHold&, const TrimEdgeHold&) = default;
 };
 

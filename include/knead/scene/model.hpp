@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/scene.hpp"
 #include "knead/sculpt/seam_coupling.hpp"
 
@@ -23,13 +24,23 @@ struct SurfaceInput {
   friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;
 };
 
+/// An edge whose faces move together.
+struct FollowedInput {
+  std::shared_ptr<const SharedEdge> course;
+  std::vector<int> patches;  ///< of each of its surfaces: an index into `ModelInput::surfaces`
+
+  friend bool operator==(const FollowedInput&, const FollowedInput&) = default;
+};
+
 /// Everything a model of the selected surfaces depends on: equal inputs give equal models.
 struct ModelInput {
   std::vector<SurfaceInput> surfaces;  ///< the selected ones, in their order
   SeamPolicy seams;
   ScalingMode scaling = ScalingMode::normalised;
   EvolutionPolicy evolution;
-  double detail = 0;  ///< smallest tool dimension that forces must resolve, file units; 0: no tool
+  std::vector<FollowedInput> followed = {};
+  double coupling = 0;  ///< with followed edges: as `Scene::coupling`
+  double detail = 0;    ///< smallest tool dimension that forces must resolve, file units; 0: no tool
 
   friend bool operator==(const ModelInput&, const ModelInput&) = default;
 };

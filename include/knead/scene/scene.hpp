@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/plastic_history.hpp"
@@ -110,6 +111,12 @@ struct OpenStroke {
   Points last = {}, older = {};  ///< displacements of the last two places; empty: none
 };
 
+/// An edge of faces that has followed them, or does.
+struct FollowedEdge {
+  std::string id;
+  std::shared_ptr<const SharedEdge> course = {};  ///< null until first needed
+};
+
 /// One surface of a scene. `reference`, `rest` and `current` share their knots and weights, as does `opened` unless
 /// they were edited since; the domain is always the same.
 struct SceneSurface {
@@ -144,7 +151,9 @@ struct Scene {
   SeamPolicy seams = {};
   RefinePermission permission = RefinePermission::trims;
   std::vector<Probe> probes = {};
-  std::optional<OpenStroke> stroke = {};  ///< a tool that is down; every other command lifts it first
+  std::vector<FollowedEdge> followed = {};  ///< written anew where their faces have moved them
+  double coupling = 0.2;                    ///< the tolerance at which they are coupled, as in `couple_edges`
+  std::optional<OpenStroke> stroke = {};    ///< a tool that is down; every other command lifts it first
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;

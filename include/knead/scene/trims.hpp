@@ -45,12 +45,13 @@ struct TrimReport {
     HeldEdge held;
     std::vector<std::string> neighbours;
     double deviation = 0;  ///< max |S − S_opened| along the edge
+    bool follows = false;  ///< the edge moves by that with its faces
   };
   std::vector<Edge> edges;
   int free = 0, visible = 0;    ///< control points, as in `TrimHold`
   std::array<int, 2> net = {};  ///< control points by direction
   int samples = 0;              ///< points on all edges at which deviations were measured
-  double largest = 0;           ///< largest deviation of any edge, file units
+  double largest = 0;           ///< largest deviation of any edge that does not follow, file units
 };
 
 /// Measures at every corner of every edge's course and midway between corners.

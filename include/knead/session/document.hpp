@@ -35,8 +35,9 @@ class Document {
   [[nodiscard]] const step::File* step_file() const { return source_ ? source_->step_file() : nullptr; }
 
   /// The bytes of the file with these surfaces in place of the original ones (one each); for a fresh document, a STEP
-  /// file with exactly these, in the unit of the first one.
-  [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces) const;
+  /// file with exactly these, in the unit of the first one. `followed`: as for `Source::save`.
+  [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces,
+                                           std::span<const std::string> followed = {}) const;
 
  private:
   Document() = default;

@@ -7,9 +7,21 @@
 namespace knead {
 namespace {
 
+/// Notes which faces stay behind when an edge is freed on a surface alone.
+void note_opening(SessionState& state, const SceneSurface& s, const TrimEdge& edge) {
+  for (std::size_t k = 0; k < edge.neighbours.size(); ++k) {
+    const std::string& on = edge.supports[k];
+    if (on.substr(0, on.find(' ')) == s.id) continue;
+    state.notes.push_back(fmt::format(
+        "{}: the edge {} opens, as face {} on {} does not follow; use \"hold\":\"follow\" to keep it closed", s.id,
+        edge.id, edge.neighbours[k], on));
+  }
+}
+
 /// Holds or frees one edge of the faces on those selected surfaces that have it.
 Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
-  const int order = c.hold == EdgeCondition::free ? -1 : static_cast<int>(c.hold);
+  const bool follow = c.hold == EdgeCondition::follow;
+  const int order = c.hold > EdgeCondition::curvature ? -1 : static_cast<int>(c.hold);
   std::string known;
   bool found = false;
   for (int k : executor.state.selection()) {
@@ -24,7 +36,8 @@ Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
         const auto* other = std::get_if<TrimEdgeHold>(&kept.constraint);
         return other != nullptr && other->id == edge.id;
       });
-      s.constraints.push_back({TrimEdgeHold{edge.id, order}, s.current});
+      if (c.hold == EdgeCondition::free) note_opening(executor.state, s, edge);
+      s.constraints.push_back({TrimEdgeHold{edge.id, order, follow}, s.current});
     }
   }
   if (found) return executor.check_constraints();
@@ -44,11 +57,17 @@ std::span<const Choice> choices(EdgeChoice) {
 }
 
 std::span<const Choice> choices(EdgeCondition) {
-  static constexpr Choice list[] = {{"position", EdgeCondition::position},
-                                    {"clamped", EdgeCondition::clamped, "with its tangent planes"},
-                                    {"curvature", EdgeCondition::curvature, "with its curvatures too"},
-                                    {"free", EdgeCondition::free, "not held"}};
+  static constexpr Choice list[] = {
+      {"position", EdgeCondition::position},
+      {"clamped", EdgeCondition::clamped, "with its tangent planes"},
+      {"curvature", EdgeCondition::curvature, "with its curvatures too"},
+      {"free", EdgeCondition::free, "not held"},
+      {"follow", EdgeCondition::follow, "an edge of faces that all move together; in version 2 `free` means this"}};
   return list;
+}
+
+void read_as_version_2(EdgeCommand& c) {
+  if (c.edge && c.hold == EdgeCondition::free) c.hold = EdgeCondition::follow;
 }
 
 void describe(EdgeCommand& c, Fields& fields) {
@@ -63,6 +82,10 @@ template <>
 Expected<void> Executor::execute(const EdgeCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   if (c.edge) return hold_face_edge(*this, c);
+  if (c.hold == EdgeCondition::follow) {
+    return input_error("boundary isocurves do not follow", "hold",
+                       R"(name an edge of a face, "which":"#456", or use "free")");
+  }
   // One by one, so that they can be freed one by one.
   const std::vector<SurfaceEdge> edges = edges_of(c.which);
   const int order = c.hold == EdgeCondition::position ? 0 : c.hold == EdgeCondition::clamped ? 1 : 2;

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-enum class EdgeCondition { position, clamped, curvature, free };
+enum class EdgeCondition { position, clamped, curvature, free, follow };
 /// Holds edges, with the first or the first two derivatives across them.
 struct EdgeCommand {
   EdgeChoice which = EdgeChoice::all;
@@ -13,6 +13,9 @@ struct EdgeCommand {
 };
 
 std::span<const Choice> choices(EdgeCondition);
+
+/// In version 2 an edge of a face that is freed follows its faces.
+void read_as_version_2(EdgeCommand& c);
 
 template <>
 Expected<void> Executor::execute(const EdgeCommand& c);

@@ -1,0 +1,166 @@
+#include "knead/scene/followed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+namespace {
+
+using Sample = SharedEdge::Sample;
+
+constexpr double least_tolerance = 1e-6;  // of the size
+constexpr double share_of_uncertainty = 0.1;
+constexpr double most_parts = 256;  // of an interval between samples
+constexpr int coupled_per_span = 4, measured_per_span = 7;
+
+/// The number of the span at a fraction of the domain, and how far into it: continuous.
+double phase(const KnotVector& knots, double fraction) {
+  const Interval domain = knots.domain();
+  const double u = std::clamp(domain.lower + fraction * domain.length(), domain.lower, domain.upper);
+  const std::vector<int> spans = knots.spans();
+  const int span = knots.find_span(u);
+  const auto at = std::ranges::find(spans, span) - spans.begin();
+  return static_cast<double>(at) + (u - knots[span]) / (knots[span + 1] - knots[span]);
+}
+
+/// The samples of a course, with more between them wherever spans of these surfaces are short.
+std::vector<Sample> fine_samples(const SharedEdge& edge, std::span<const Surface* const> surfaces, int per_span) {
+  const std::vector<Sample>& given = edge.samples();
+  std::vector<Sample> result = {given.front()};
+  for (std::size_t k = 1; k < given.size(); ++k) {
+    double parts = 1;
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+      for (int d = 0; d < 2; ++d) {
+        const KnotVector& knots = surfaces[s]->knots(d);
+        const double a = phase(knots, given[k - 1].feet[s][d]), b = phase(knots, given[k].feet[s][d]);
+        parts = std::max(parts, std::ceil(std::abs(b - a) * per_span));
+      }
+    }
+    const int count = static_cast<int>(std::min(parts, most_parts));
+    for (int j = 1; j < count; ++j) {
+      result.push_back(edge.at(
+          std::lerp(given[k - 1].parameter, given[k].parameter, static_cast<double>(j) / static_cast<double>(count))));
+    }
+    result.push_back(given[k]);
+  }
+  return result;
+}
+
+const SceneSurface* find_surface(const Scene& scene, const std::string& id) {
+  const auto found = std::ranges::find(scene.surfaces, id, &SceneSurface::id);
+  return found == scene.surfaces.end() ? nullptr : &*found;
+}
+
+double tolerance_of(const Scene& scene, const SharedEdge& edge) {
+  double size = 0;
+  for (const std::string& id : edge.surfaces()) {
+    const Points& net = find_surface(scene, id)->opened->control_points();
+    size = std::max(size, (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm());
+  }
+  return std::max(share_of_uncertainty * edge.uncertainty(), least_tolerance * size);
+}
+
+}  // namespace
+
+bool follows(const SceneSurface& surface, const std::string& edge) {
+  bool result = false;
+  for (const KeptConstraint& kept : surface.constraints) {
+    const auto* hold = std::get_if<TrimEdgeHold>(&kept.constraint);
+    if (hold != nullptr && hold->id == edge) result = hold->follow;
+  }
+  return result;
+}
+
+std::vector<FollowedInput> followed_inputs(const Scene& scene) {
+  std::vector<FollowedInput> result;
+  const std::vector<int> selection = scene.selection();
+  for (const FollowedEdge& edge : scene.followed) {
+    if (!edge.course) continue;
+    FollowedInput made{edge.course, {}};
+    for (const std::string& id : edge.course->surfaces()) {
+      const auto found = std::ranges::find_if(selection, [&](int k) {
+        const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+        return s.id == id && follows(s, edge.id);
+      });
+      if (found != selection.end()) made.patches.push_back(static_cast<int>(found - selection.begin()));
+    }
+    if (made.patches.size() == edge.course->surfaces().size()) result.push_back(std::move(made));
+  }
+  return result;
+}
+
+bool is_followed(const std::vector<FollowedInput>& followed, const Seam& seam) {
+  return std::ranges::any_of(followed, [&](const FollowedInput& edge) {
+    const auto has = [&](int patch) { return std::ranges::find(edge.patches, patch) != edge.patches.end(); };
+    return seam.a.patch != seam.b.patch && has(seam.a.patch) && has(seam.b.patch);
+  });
+}
+
+std::vector<CoupledEdge> coupled_edges(const std::vector<FollowedInput>& followed,
+                                       std::span<const Surface* const> patches) {
+  std::vector<CoupledEdge> result;
+  for (const FollowedInput& edge : followed) {
+    if (edge.patches.size() < 2) continue;
+    CoupledEdge made{"edge " + edge.course->id(), {}};
+    std::vector<const Surface*> surfaces;
+    for (const int patch : edge.patches) surfaces.push_back(patches[static_cast<std::size_t>(patch)]);
+    for (const Sample& sample : fine_samples(*edge.course, surfaces, coupled_per_span)) {
+      SharedPoint point;
+      for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        point.emplace_back(edge.patches[k], parameters_at_foot(*surfaces[k], sample.feet[k]));
+      }
+      made.points.push_back(std::move(point));
+    }
+    result.push_back(std::move(made));
+  }
+  return result;
+}
+
+Expected<Parting> parting(const Scene& scene, const SharedEdge& edge) {
+  Parting result;
+  std::vector<const Surface*> now, then;
+  for (const std::string& id : edge.surfaces()) {
+    const SceneSurface* s = find_surface(scene, id);
+    now.push_back(s->current.get());
+    then.push_back(s->opened.get());
+  }
+  result.tolerance = tolerance_of(scene, edge);
+  for (const Sample& sample : fine_samples(edge, now, measured_per_span)) {
+    Point first = Point::Zero();
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      const auto way = displacement_at(*then[k], *now[k], sample.feet[k]);
+      if (!way) return std::unexpected(way.error());
+      if (k == 0) first = *way;
+      const double distance = (*way - first).norm();
+      if (distance > result.distance) result = {distance, result.tolerance, sample.point};
+    }
+  }
+  return result;
+}
+
+Expected<std::optional<StuckVertex>> stuck_vertex(const Scene& scene, const SharedEdge& edge) {
+  const SceneSurface& s = *find_surface(scene, edge.surfaces().front());
+  const auto is_followed = [&](const std::string& id) {
+    return std::ranges::any_of(scene.followed, [&](const FollowedEdge& other) {
+      return other.id == id && other.course &&
+             std::ranges::all_of(other.course->surfaces(), [&](const std::string& surface) {
+               const SceneSurface* at = find_surface(scene, surface);
+               return at != nullptr && follows(*at, id);
+             });
+    });
+  };
+  for (std::size_t v = 0; v < 2; ++v) {
+    const Sample& end = v == 0 ? edge.samples().front() : edge.samples().back();
+    const auto way = displacement_at(*s.opened, *s.current, end.feet.front());
+    if (!way) return std::unexpected(way.error());
+    if (way->norm() <= tolerance_of(scene, edge)) continue;
+    for (const std::string& other : edge.edges_at_vertices()[v]) {
+      if (!is_followed(other)) return StuckVertex{edge.vertices()[v], other, way->norm()};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace knead

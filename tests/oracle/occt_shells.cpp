@@ -1,0 +1,133 @@
+#include "oracle/occt_shells.hpp"
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepLib.hxx>
+#include <GCE2d_MakeSegment.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_PrinterOStream.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <cmath>
+#include <functional>
+
+namespace knead::oracle {
+namespace {
+
+constexpr double side = 100;
+using Height = std::function<double(double x, double y)>;
+/// Where a fraction of the domain lies along a side, 0 … 1: the identity for an even parametrisation.
+using Speed = std::function<double(double)>;
+
+/// A bicubic surface with `spans` even spans per direction over [x0, x1] × [y0, y1]; its control points lie at their
+/// Greville abscissae, seen through `speed` in y.
+opencascade::handle<Geom_BSplineSurface> sheet(double x0, double x1, double y0, double y1, int spans_x, int spans_y,
+                                               const Height& height, const Speed& speed) {
+  const auto knots = [](int spans) {
+    std::vector<double> all(4, 0);
+    for (int k = 1; k < spans; ++k) all.push_back(static_cast<double>(k) / spans);
+    all.insert(all.end(), 4, 1);
+    return all;
+  };
+  const auto u = knots(spans_x), v = knots(spans_y);
+  const auto greville = [](const std::vector<double>& x, int i) {
+    const auto k = static_cast<std::size_t>(i);
+    return (x[k + 1] + x[k + 2] + x[k + 3]) / 3;
+  };
+  TColgp_Array2OfPnt poles(1, spans_x + 3, 1, spans_y + 3);
+  for (int i = 0; i < spans_x + 3; ++i) {
+    for (int j = 0; j < spans_y + 3; ++j) {
+      const double x = x0 + (x1 - x0) * greville(u, i), y = y0 + (y1 - y0) * speed(greville(v, j));
+      poles.SetValue(i + 1, j + 1, gp_Pnt(x, y, height(x, y)));
+    }
+  }
+  const auto distinct = [](int spans) {
+    TColStd_Array1OfReal all(1, spans + 1);
+    for (int k = 0; k <= spans; ++k) all.SetValue(k + 1, static_cast<double>(k) / spans);
+    return all;
+  };
+  const auto multiplicities = [](int spans) {
+    TColStd_Array1OfInteger all(1, spans + 1);
+    all.Init(1);
+    all.SetValue(1, 4);
+    all.SetValue(spans + 1, 4);
+    return all;
+  };
+  return new Geom_BSplineSurface(poles, distinct(spans_x), distinct(spans_y), multiplicities(spans_x),
+                                 multiplicities(spans_y), 3, 3);
+}
+
+double wavy(double x, double y) { return 4 * std::sin(x / 30) * std::cos(y / 40); }
+double flat(double, double) { return 0; }
+double even(double t) { return t; }
+double uneven(double t) { return t + 0.25 * t * (1 - t); }
+
+TopoDS_Face whole(const opencascade::handle<Geom_BSplineSurface>& surface) {
+  return BRepBuilderAPI_MakeFace(surface, 1e-7);
+}
+
+/// The part of a flat surface inside a polygon.
+TopoDS_Face part(const opencascade::handle<Geom_BSplineSurface>& surface, const std::vector<gp_Pnt>& corners) {
+  const gp_Pnt lower = surface->Pole(1, 1), upper = surface->Pole(surface->NbUPoles(), surface->NbVPoles());
+  const auto at = [&](const gp_Pnt& p) {
+    return gp_Pnt2d((p.X() - lower.X()) / (upper.X() - lower.X()), (p.Y() - lower.Y()) / (upper.Y() - lower.Y()));
+  };
+  BRepBuilderAPI_MakeWire wire;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const opencascade::handle<Geom2d_TrimmedCurve> segment =
+        GCE2d_MakeSegment(at(corners[k]), at(corners[(k + 1) % corners.size()])).Value();
+    TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(segment, surface);
+    BRepLib::BuildCurve3d(edge);
+    wire.Add(edge);
+  }
+  BRepBuilderAPI_MakeFace face(surface, wire.Wire());
+  TopoDS_Face made = face.Face();
+  BRepLib::BuildCurves3d(made);
+  return made;
+}
+
+std::vector<TopoDS_Face> faces_of(const std::string& name) {
+  if (name == "matching") {
+    return {whole(sheet(0, 50, 0, side, 5, 8, wavy, even)), whole(sheet(50, side, 0, side, 5, 8, wavy, even))};
+  }
+  if (name == "other_parameters") {
+    return {whole(sheet(0, 50, 0, side, 5, 8, flat, even)), whole(sheet(50, side, 0, side, 6, 11, flat, uneven))};
+  }
+  if (name == "inside") {
+    const gp_Pnt a(40, 0, 0), b(60, side, 0);
+    return {part(sheet(-20, 90, -10, 110, 8, 9, flat, even), {gp_Pnt(0, 0, 0), a, b, gp_Pnt(0, side, 0)}),
+            part(sheet(20, 130, -15, 120, 7, 10, flat, even), {a, gp_Pnt(side, 0, 0), gp_Pnt(side, side, 0), b})};
+  }
+  return {whole(sheet(0, 50, 0, 50, 5, 5, wavy, even)), whole(sheet(50, side, 0, 50, 5, 5, wavy, even)),
+          whole(sheet(0, 50, 50, side, 5, 5, wavy, even)), whole(sheet(50, side, 50, side, 5, 5, wavy, even))};
+}
+
+}  // namespace
+
+std::vector<std::string> occt_shell_names() { return {"matching", "other_parameters", "inside", "corner"}; }
+
+bool occt_write_shell(const std::string& name, const std::filesystem::path& path) {
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
+  BRepBuilderAPI_Sewing sewing(1e-5);
+  for (const TopoDS_Face& face : faces_of(name)) sewing.Add(face);
+  sewing.Perform();
+  STEPControl_Writer writer;
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  return writer.Transfer(sewing.SewedShape(), STEPControl_AsIs) == IFSelect_RetDone &&
+         writer.Write(path.c_str()) == IFSelect_RetDone;
+}
+
+}  // namespace knead::oracle

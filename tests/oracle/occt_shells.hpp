@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace knead::oracle {
+
+/// Open shells of B-spline faces that meet in edges, over the square 0 … 100 mm.
+///
+/// "matching": two faces with equal knots along their edge. "other_parameters": the edge is a straight line, through
+/// which the two surfaces run at different speeds and with other knots. "inside": the edge crosses the inside of both
+/// surfaces askew. "corner": four faces around a vertex.
+[[nodiscard]] std::vector<std::string> occt_shell_names();
+
+/// Writes one of them as a STEP file in millimetres.
+[[nodiscard]] bool occt_write_shell(const std::string& name, const std::filesystem::path& path);
+
+}  // namespace knead::oracle

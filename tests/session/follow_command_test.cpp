@@ -1,0 +1,150 @@
+// Edges that follow their faces: what moves, what is written, what is refused, and what is said.
+
+#include "exchange/two_sheets.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/exchange/shared_edge.hpp"
+#include "knead/scene/followed.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+
+namespace knead {
+namespace {
+
+using testing::two_sheets;
+using testing::TwoSheets;
+
+Session opened(const TwoSheets& sheets) { return Session(Document::from(*open_source(sheets.text, "sheets.step"))); }
+
+Expected<void> run(Session& session, const std::string& commands, int version = 2) {
+  const auto script =
+      parse_script("{\"knead\":" + std::to_string(version) + ",\"commands\":[" + commands + "]}", "script");
+  if (!script) return std::unexpected(script.error());
+  for (const Command& command : *script) {
+    if (auto done = session.execute(command); !done) return done;
+  }
+  return {};
+}
+
+const std::string both = R"({"do":"select","surfaces":["#10","#20"]})";
+const std::string press = R"({"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]},
+  {"do":"tool","name":"ball","radius":0.2,"rigid":true,"position":[1,0.5,0.16]},{"do":"evolve","mode":"static"})";
+
+std::string edge_command(const TwoSheets& sheets, const std::string& hold) {
+  return R"({"do":"edge","which":")" + TwoSheets::name(sheets.edge) + R"(","hold":")" + hold + R"("})";
+}
+
+TEST(FollowCommands, AnEdgeFreedInVersion2MovesWithItsFacesAndStaysClosed) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  const auto done = run(session, both + "," + edge_command(sheets, "free") + "," + press);
+  ASSERT_TRUE(done) << done.error().message();
+  const SessionState& state = session.state();
+  ASSERT_EQ(state.followed.size(), 1U);
+  const auto apart = parting(state, *state.followed[0].course);
+  ASSERT_TRUE(apart);
+  EXPECT_LE(apart->distance, apart->tolerance);
+  const auto sample = state.followed[0].course->at(0.5);
+  for (const auto& s : state.surfaces) {
+    const auto way = displacement_at(*s.opened, *s.current, sample.feet[s.id == "#10" ? 0 : 1]);
+    ASSERT_TRUE(way);
+    EXPECT_NEAR(way->z(), -0.04, 0.004);
+  }
+  const auto bytes = session.save();
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  const auto edge = SharedEdge::create(testing::parse_or_die(*bytes), TwoSheets::name(sheets.edge));
+  ASSERT_TRUE(edge) << edge.error().message();
+  EXPECT_LE(edge->gap(), 2 * apart->tolerance);
+  EXPECT_NEAR(edge->at(0.5).point.z(), -0.04, 0.004);
+}
+
+TEST(FollowCommands, AnEdgeHeldAgainIsStillWrittenWhereItWent) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + press));
+  const auto before = session.save();
+  ASSERT_TRUE(run(session, R"({"do":"hold","mode":"trim"})", 1));
+  EXPECT_EQ(*session.save(), *before);
+}
+
+TEST(FollowCommands, TheFaceThatWouldHaveToFollowIsNamed) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  const auto alone = run(session, R"({"do":"select","surface":"#10"},)" + edge_command(sheets, "free"));
+  ASSERT_FALSE(alone);
+  EXPECT_EQ(alone.error().kind, ErrorKind::input);
+  EXPECT_NE(alone.error().what.find("#20"), std::string::npos);
+  EXPECT_NE(alone.error().remedy.find(R"(["#10","#20"])"), std::string::npos) << alone.error().remedy;
+
+  const TwoSheets flat = two_sheets(false, true);
+  Session other = opened(flat);
+  const auto plane = run(other, R"({"do":"select","surface":"#10"},)" + edge_command(flat, "free"));
+  ASSERT_FALSE(plane);
+  EXPECT_NE(plane.error().what.find("#20 PLANE"), std::string::npos) << plane.error().message();
+}
+
+TEST(FollowCommands, WithOneOfItsFacesNoLongerSelectedTheStepIsRefused) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  const auto done =
+      run(session, both + "," + edge_command(sheets, "free") + R"(,{"do":"select","surface":"#10"},)" + press);
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message().find("#20"), std::string::npos) << done.error().message();
+}
+
+TEST(FollowCommands, WhatPartsTheFacesIsRefused) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + R"(,{"do":"select","surface":"#10"})"));
+  const auto done = run(session, R"({"do":"points","which":[2],"by":[0,0,0.1]})", 1);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().kind, ErrorKind::numerical);
+  EXPECT_NE(done.error().what.find("part by 0.1"), std::string::npos) << done.error().message();
+  EXPECT_EQ(session.largest_displacement(0), 0);
+}
+
+TEST(FollowCommands, InVersion1AFreedEdgeOpensWhichIsNoted) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  ASSERT_TRUE(run(session,
+                  R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" + edge_command(sheets, "free"), 1));
+  EXPECT_TRUE(session.state().followed.empty());
+  ASSERT_EQ(session.state().notes.size(), 1U);
+  EXPECT_NE(session.state().notes[0].find("#20"), std::string::npos);
+}
+
+TEST(FollowCommands, TheJournalOfVersion1SaysThatItFollows) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free")));
+  EXPECT_NE(script_json(session.journal()).find(R"("hold":"follow")"), std::string::npos)
+      << script_json(session.journal());
+}
+
+TEST(FollowCommands, ASnapshotKeepsWhatFollows) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + press));
+  auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")), session.snapshot());
+  ASSERT_TRUE(restored) << restored.error().message();
+  EXPECT_EQ(restored->state().coupling, session.state().coupling);
+  ASSERT_EQ(restored->state().followed.size(), 1U);
+  EXPECT_TRUE(restored->state().followed[0].course);
+  EXPECT_EQ(*restored->save(), *session.save());
+  for (Session* s : {&session, &*restored}) ASSERT_TRUE(run(*s, R"({"do":"step"})", 1));
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(restored->state().surfaces[k].current->control_points(),
+              session.state().surfaces[k].current->control_points());
+  }
+}
+
+TEST(FollowCommands, BoundaryIsocurvesDoNotFollow) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  ASSERT_TRUE(run(session, both));
+  const auto done = run(session, R"({"do":"edge","which":"u0","hold":"follow"})");
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().where, "hold");
+}
+
+}  // namespace
+}  // namespace knead
