@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "knead/scene/held_points.hpp"
+#include "knead/scene/mask.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/spline/extremum.hpp"
@@ -95,6 +96,12 @@ void hold_numbered(const std::array<int, 2>& net, int rows, const std::set<std::
   for (const auto& [i, j] : pins) list.hold(i * n + j, fmt::format("pin ({}, {})", i, j));
 }
 
+void hold_masked(const std::vector<bool>& masked, ConstraintList& list) {
+  for (std::size_t k = 0; k < masked.size(); ++k) {
+    if (masked[k]) list.hold(static_cast<int>(k), "mask");
+  }
+}
+
 }  // namespace
 
 Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry& symmetry, ConstraintList& list) {
@@ -118,6 +125,7 @@ Expected<void> symmetry_constraints(const Surface& reference, const MirrorSymmet
 Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::string>& notes) {
   ConstraintList list(s.reference->size());
   hold_numbered(s.reference->net(), s.hold_rows, s.pins, list);
+  hold_masked(s.masked, list);
   if (s.visible) {
     const auto held = hold_face_edges(*s.reference, s.constraints, *s.visible, list);
     if (!held) return std::unexpected(held.error());
@@ -147,12 +155,14 @@ Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::
 }
 
 HeldInput held_input(const SceneSurface& s) {
-  return {s.current->net(), s.hold_rows, s.pins, s.constraints, holds_trims(s.constraints) ? s.visible : nullptr};
+  return {s.current->net(), s.hold_rows, s.pins, s.constraints, holds_trims(s.constraints) ? s.visible : nullptr,
+          masked_points(s)};
 }
 
 Expected<std::vector<std::uint8_t>> held_points(const HeldInput& input) {
   ConstraintList list(input.net[0] * input.net[1]);
   hold_numbered(input.net, input.hold_rows, input.pins, list);
+  hold_masked(input.masked, list);
   if (input.visible) {
     const auto held = hold_face_edges(*input.constraints.front().where, input.constraints, *input.visible, list);
     if (!held) return std::unexpected(held.error());

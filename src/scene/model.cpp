@@ -5,6 +5,7 @@
 
 #include "constraints.hpp"
 #include "knead/scene/followed.hpp"
+#include "knead/scene/mask.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/sculpt/edge_coupling.hpp"
 
@@ -100,7 +101,8 @@ ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
                               .constraints = s.constraints,
                               .smooth_knot_lines = s.smooth_knot_lines,
                               .smooth_poles = s.smooth_poles,
-                              .visible = holds_trims(s.constraints) ? s.visible : nullptr});
+                              .visible = holds_trims(s.constraints) ? s.visible : nullptr,
+                              .masked = masked_points(s)});
   }
   input.seams = scene.seams;
   input.scaling = scene.scaling;

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "knead/scene/mask.hpp"
 #include "knead/spline/knot_removal.hpp"
 
 namespace knead {
@@ -36,10 +37,32 @@ Expected<void> check_pins(const SceneSurface& surface) {
                      "release them first, or pin surface points (at) instead");
 }
 
+/// The mask follows a change of the basis.
+class MaskKept {
+ public:
+  explicit MaskKept(const SceneSurface& surface) {
+    if (!surface.mask.empty()) field_ = mask_field(surface);
+  }
+  Expected<void> put_on(SceneSurface& surface) const {
+    if (!field_) return {};
+    if (!*field_) return std::unexpected(field_->error());
+    auto mask = mask_on(**field_, *surface.current);
+    if (!mask) return std::unexpected(mask.error());
+    surface.mask = std::move(*mask);
+    return {};
+  }
+
+ private:
+  std::optional<Expected<Surface>> field_;
+};
+
 }  // namespace
 
 Expected<void> change_basis(SceneSurface& surface, const SurfaceChange& change) {
-  return replace(shapes_of(surface), change);
+  const MaskKept mask(surface);
+  const auto net = surface.current->net();
+  if (auto done = replace(shapes_of(surface), change); !done) return done;
+  return surface.current->net() == net ? Expected<void>() : mask.put_on(surface);
 }
 
 Expected<void> change_net(SceneSurface& surface, const SurfaceChange& change) {
@@ -52,16 +75,18 @@ Expected<void> change_net(SceneSurface& surface, const SurfaceChange& change) {
     if (!field) return std::unexpected(field.error());
     velocity = field->control_points();
   }
+  const MaskKept mask(surface);
   auto shapes = shapes_of(surface);
   if (same_basis(*surface.opened, *surface.current)) shapes.push_back(&surface.opened);
   if (auto done = replace(shapes, change); !done) return done;
   surface.velocity = std::move(velocity);
-  return {};
+  return mask.put_on(surface);
 }
 
 Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
   if (auto free = check_pins(s); !free) return std::unexpected(free.error());
   Coarsening done;
+  const MaskKept mask(s);
   for (int d = 0; d < 2; ++d) {
     // Each direction may use half of the tolerance.
     std::vector<Shape2*> shapes = {&s.reference, &s.rest};
@@ -89,6 +114,7 @@ Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
     done.stopped = done.stopped || s.velocity.rows() > 0;
     s.velocity.resize(0, 3);
   }
+  if (auto put = mask.put_on(s); !put) return std::unexpected(put.error());
   return done;
 }
 

@@ -287,6 +287,20 @@ Points ActiveSpline<D>::allowed(const Points& displacement) const {
 }
 
 template <int D>
+Points ActiveSpline<D>::nearest_allowed(const Points& displacement) const {
+  const Points start = allowed(displacement), off = displacement - start;
+  if ((off.array() == 0).all()) return start;
+  return start + model_->inverse.solve(model_->a * off);
+}
+
+template <int D>
+Points ActiveSpline<D>::fairing(const Points& control_points) const {
+  // K annihilates constants.
+  const Points centred = control_points.rowwise() - control_points.colwise().mean();
+  return model_->inverse.solve(-(model_->stiffness * centred));
+}
+
+template <int D>
 const DomainScaling<D>& ActiveSpline<D>::scaling(int patch) const {
   return model_->scalings[static_cast<std::size_t>(patch)];
 }

@@ -34,6 +34,10 @@ void pass(A& a, Of<A, std::string>& x) {
   a.text(x);
 }
 template <class A>
+void pass(A& a, Of<A, std::vector<double>>& x) {
+  a.numbers(x);
+}
+template <class A>
 void pass(A& a, Of<A, Points>& x) {
   a.points(x);
 }
@@ -205,7 +209,7 @@ void pass(A& a, Of<A, Probe>& p) {
 template <class A>
 void pass(A& a, Of<A, SceneSurface>& s) {
   auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, hold_rows, pins, constraints,
-         smooth_knot_lines, smooth_poles, plastic, visible] = s;
+         smooth_knot_lines, smooth_poles, plastic, mask, visible] = s;
   if constexpr (!A::writing) visible.reset();  // the document provides it
   for (auto* x : {&id, &name, &unit}) pass(a, *x);
   for (auto* x : {&opened, &reference, &rest, &current}) pass(a, *x);
@@ -231,12 +235,17 @@ void pass(A& a, Of<A, SceneSurface>& s) {
   pass(a, smooth_poles);
   if constexpr (!A::writing) {
     plastic = {};
+    mask.clear();
     if (a.version() == 1) return;  // which had none
   }
   auto& [along, share, yield, locality, in_radii] = plastic;
   pass(a, along);
   for (auto* x : {&share, &yield, &locality}) pass(a, *x);
   pass(a, in_radii);
+  if constexpr (!A::writing) {
+    if (a.version() == 2) return;  // which had no masks
+  }
+  pass(a, mask);
 }
 
 template <class A>
@@ -262,6 +271,32 @@ void pass(A& a, Of<A, OpenStroke>& s) {
   for (auto* x : {&lambda, &stiffness, &tension, &plasticity.share, &plasticity.yield}) pass(a, *x);
   list(a, before, 16);
   for (auto* x : {&history, &last, &older}) pass(a, *x);
+}
+
+template <class A>
+void pass(A& a, Of<A, BrushImage>& i) {
+  auto& [linear, offset] = i;
+  for (Eigen::Index k = 0; k < 9; ++k) pass(a, linear.data()[k]);
+  pass(a, offset);
+}
+
+template <class A>
+void pass(A& a, Of<A, Fractions>& f) {
+  for (auto& x : f) pass(a, x);
+}
+
+template <class A>
+void pass(A& a, Of<A, OpenBrush>& b) {
+  auto& [brush, images, surface, rope, path, before, masks] = b;
+  auto& [kind, radius, height, strength, core, by, angle, factor] = brush;
+  choice(a, kind, BrushKind::unmask);
+  for (auto* x : {&radius, &height, &strength, &core, &angle, &factor, &rope}) pass(a, *x);
+  pass(a, by);
+  list(a, images, 96);
+  pass(a, surface);
+  list(a, path, 16);
+  list(a, before, 16);
+  list(a, masks, 8);
 }
 
 template <class A>

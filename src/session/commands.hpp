@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "commands/brush.hpp"
 #include "commands/coarsen.hpp"
 #include "commands/drag.hpp"
 #include "commands/edge.hpp"
@@ -17,6 +18,7 @@
 #include "commands/lattice.hpp"
 #include "commands/limit.hpp"
 #include "commands/load.hpp"
+#include "commands/mask.hpp"
 #include "commands/material.hpp"
 #include "commands/measure.hpp"
 #include "commands/move.hpp"
@@ -49,9 +51,9 @@ using CommandVariant =
     std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand, PinCommand,
                  EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand,
                  ToolCommand, EditToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand,
-                 LoadCommand, LimitCommand, EvolveCommand, StepCommand, StrokeCommand, DragCommand, RelaxCommand,
-                 LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand, RefineCommand, ElevateCommand,
-                 CoarsenCommand, MeasureCommand, UndoCommand, RedoCommand>;
+                 LoadCommand, LimitCommand, EvolveCommand, StepCommand, StrokeCommand, BrushCommand, MaskCommand,
+                 DragCommand, RelaxCommand, LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand, RefineCommand,
+                 ElevateCommand, CoarsenCommand, MeasureCommand, UndoCommand, RedoCommand>;
 
 template <>
 const Type& type_of<CommandVariant>();

@@ -20,9 +20,24 @@ struct StrokeModel {
   [[nodiscard]] Points control_points(const Points& values) const;
 };
 
+/// What an open brush has asked for so far: it follows from the scene.
+struct BrushRun {
+  ModelInput input;   ///< for which it was made
+  OpenBrush open;     ///< the path is as far as it was led
+  Fractions at = {};  ///< where the brush is, which may trail behind the end of the path
+  BrushSamples samples;
+  Points fair;                          ///< displacement to the fair shape, at the samples
+  std::vector<BrushHistory> histories;  ///< of the stroke and its images
+  bool stuck = false;                   ///< all that it asks for is held
+
+  /// Whether any control point is within the radius of the path.
+  [[nodiscard]] bool reaches(Brush brush) const;
+};
+
 struct Session::ModelCache {
   std::optional<SceneModel> model;
   std::optional<StrokeModel> stroke;
+  std::optional<BrushRun> brush;
 };
 
 /// Applies one command to a copy of the state, and has what commands share. Each command's file defines `execute` for
@@ -33,6 +48,7 @@ struct Executor {
   const Document& document;
   std::optional<SceneModel>& cache;
   std::optional<StrokeModel>& stroke_cache;
+  std::optional<BrushRun>& brush_cache;
   SessionState& state;
   const Session::Progress& progress;
   bool allow_held = false;  ///< a tool may touch what is held alone
@@ -66,6 +82,11 @@ struct Executor {
   Expected<void> stroke_to(const std::vector<Point>& points);
   /// Ends the open stroke, where there is one: the tool goes home, and what stays is the shape and the rest shape.
   Expected<void> lift();
+
+  /// Opens a stroke of a brush with the selected surfaces as they are; its path is empty.
+  void begin_brush(const Brush& brush, std::vector<BrushImage> images, int surface, double rope);
+  /// Leads the open brush on, and makes what it asks for the shapes and rest shapes.
+  Expected<void> brush_to(const std::vector<Fractions>& path);
 
   /// The same control points on other knots or with other weights. Errors: a limit is set (input), and those of
   /// `change`.
@@ -127,6 +148,14 @@ struct Executor {
   Expected<bool> refine_stroke(const ActiveStep* step);
   Expected<void> press_along(const std::vector<Point>& places);
   Expected<void> show_stroke(bool down);
+  Expected<void> refine_for_brush(const std::vector<Fractions>& places);
+  Expected<void> prepare_brush_model();
+  Expected<void> start_brush_run();
+  Expected<Points> brushed();
+  Expected<void> show_mask();
+  /// The displacement of control points as the masks of the selected surfaces lessen it.
+  [[nodiscard]] Points unmasked(Points displacement) const;
+  Expected<void> show_brush(const Points& displacement);
 };
 
 inline constexpr double coarse = 0.5;      // spans longer than this share of a tool follow it less accurately

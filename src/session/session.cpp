@@ -46,10 +46,11 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   const Command meant = any.without ? make_command(*any.without) : command;
   auto next = std::make_shared<SessionState>(state());
   next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
-  Executor executor{document_, cache_->model, cache_->stroke, *next, progress};
+  Executor executor{document_, cache_->model, cache_->stroke, cache_->brush, *next, progress};
   if (!fields_of<StrokeCommand>(command)) {
     if (auto lifted = executor.lift(); !lifted) return lifted;
   }
+  if (!fields_of<BrushCommand>(command)) next->brush.reset();
   const auto execute = [&](const auto& fields) { return executor.execute(fields); };
   if (auto done = std::visit(execute, meant.any().fields); !done) return done;
   if (auto closed = executor.check_followed(state()); !closed) return closed;
@@ -75,6 +76,28 @@ bool goes_on(const StrokeCommand& first, const StrokeCommand& second) {
          first.plasticity == second.plasticity && first.steps == second.steps && first.plastic == second.plastic;
 }
 
+/// The same for a brush: all but the path and what a hand changes as it goes is the same.
+bool goes_on(const BrushCommand& first, const BrushCommand& second) {
+  BrushCommand like = second;
+  like.path = first.path;
+  like.open = first.open;
+  like.by = first.by;
+  like.angle = first.angle;
+  like.factor = first.factor;
+  return first.open.value_or(false) && like == first;
+}
+
+/// One command for two where the second goes on with the first.
+template <class C>
+std::optional<C> one_of(const Command& first, const Command& second) {
+  const C* const down = fields_of<C>(first);
+  const C* const on = fields_of<C>(second);
+  if (down == nullptr || on == nullptr || !goes_on(*down, *on)) return std::nullopt;
+  C both = *on;
+  both.path.insert(both.path.begin(), down->path.begin(), down->path.end());
+  return both;
+}
+
 }  // namespace
 
 void Session::join() {
@@ -92,14 +115,14 @@ void Session::join() {
     entry.back() = make_command(both);
     ++first;
   }
-  const auto* down = fields_of<StrokeCommand>(entry.back());
-  const auto* on = first != last.end() ? fields_of<StrokeCommand>(*first) : nullptr;
-  if (down && on && goes_on(*down, *on)) {
-    StrokeCommand both = *down;
-    both.path.insert(both.path.end(), on->path.begin(), on->path.end());
-    both.open = on->open;
-    entry.back() = make_command(both);
-    ++first;
+  if (first != last.end()) {
+    if (const auto stroke = one_of<StrokeCommand>(entry.back(), *first)) {
+      entry.back() = make_command(*stroke);
+      ++first;
+    } else if (const auto brush = one_of<BrushCommand>(entry.back(), *first)) {
+      entry.back() = make_command(*brush);
+      ++first;
+    }
   }
   entry.insert(entry.end(), first, last.end());
   states_.erase(states_.end() - 2);

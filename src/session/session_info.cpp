@@ -26,6 +26,7 @@ struct SurfaceInfo {
   LengthUnit lengths = LengthUnit::radii;
   RestMode rest = RestMode::shape;
   int faces = 0, hold = 0, pins = 0;
+  bool masked = false;
   std::vector<std::array<int, 2>> pinned;
   std::vector<CommandVariant> constraints;
   int moved = 0;
@@ -55,6 +56,7 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("hold", s.hold, {.help = "outer rows of control points that do not move"});
   fields.add("pins", s.pins, {.help = "number of pinned control points"});
   fields.add("pinned", s.pinned, {.help = "the pinned control points [i, j]"});
+  fields.add("masked", s.masked, {.help = "whether any of it is masked"});
   fields.add("constraints", s.constraints, {.help = "the commands that restate what holds it"});
   fields.add("moved", s.moved, {.help = "number of control points that are not as opened"});
 }
@@ -252,6 +254,7 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
     info.faces = in_file != nullptr ? in_file->faces : 0;
   }
   info.hold = s.hold_rows;
+  info.masked = !s.mask.empty();
   info.pins = static_cast<int>(s.pins.size());
   info.pinned.assign(s.pins.begin(), s.pins.end());
   for (const KeptConstraint& kept : s.constraints) info.constraints.push_back(restated(kept.constraint).any().fields);

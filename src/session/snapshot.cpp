@@ -11,10 +11,10 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-constexpr std::string_view magic = "Knead snapshot 3\n";
-constexpr std::string_view magic_2 = "Knead snapshot 2\n";  // without edges that follow, and written where none do
-constexpr std::string_view magic_1 = "Knead snapshot 1\n";  // also without probes, open strokes or their results
-static_assert(magic.size() == magic_1.size() && magic.size() == magic_2.size());
+/// Of version 1, 2 and 3: without probes, open strokes and their results; without brushes, masks and edges that follow;
+/// the present one.
+constexpr std::array<std::string_view, 3> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n"};
+constexpr std::string_view magic = magics.back();
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.
 std::uint64_t checksum(std::string_view bytes) {
@@ -56,9 +56,9 @@ struct Neighbour {
   std::vector<std::string> surfaces;  // as bytes
 };
 
-void write_state(Writer& a, const SessionState& state, Neighbour& before, bool with_followed) {
+void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-               followed, coupling, stroke] = static_cast<const Scene&>(state);
+               followed, coupling, stroke, brush] = static_cast<const Scene&>(state);
   const auto& [steps, seam_reports, notes, energy_before] = static_cast<const SessionRecord&>(state);
   archive::optional(a, selected);
   list(a, together);
@@ -85,11 +85,10 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before, bool w
   choice(a, permission, RefinePermission::trims);
   list(a, probes);
   archive::optional(a, stroke);
-  if (with_followed) {
-    a.count(followed.size());
-    for (const FollowedEdge& edge : followed) a.text(edge.id);
-    a.number(coupling);
-  }
+  a.count(followed.size());
+  for (const FollowedEdge& edge : followed) a.text(edge.id);
+  a.number(coupling);
+  archive::optional(a, brush);
   std::size_t shared = 0;
   if (before.steps != nullptr) {
     const std::size_t most = std::min(steps.size(), before.steps->size());
@@ -104,31 +103,45 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before, bool w
   archive::optional(a, energy_before);
 }
 
-/// Whether an open stroke fits the selected surfaces and an existing tool.
-bool fits(const OpenStroke& stroke, const Scene& scene) {
+/// Whether the shapes from before a stroke are on the nets of the selected surfaces; all of their control points.
+std::optional<Eigen::Index> rows_of(const std::vector<OpenStroke::Before>& shapes, const Scene& scene) {
   const std::vector<int> selection = scene.selection();
-  if (stroke.before.size() != selection.size() || !(stroke.path.spacing > 0)) return false;
+  if (shapes.size() != selection.size()) return std::nullopt;
   Eigen::Index rows = 0;
   for (std::size_t k = 0; k < selection.size(); ++k) {
     const auto index = static_cast<std::size_t>(selection[k]);
-    if (selection[k] < 0 || index >= scene.surfaces.size()) return false;
+    if (selection[k] < 0 || index >= scene.surfaces.size()) return std::nullopt;
     const Surface& shape = *scene.surfaces[index].current;
-    for (const auto& before : {stroke.before[k].rest, stroke.before[k].current}) {
-      if (before->net() != shape.net()) return false;
+    for (const auto& before : {shapes[k].rest, shapes[k].current}) {
+      if (before->net() != shape.net()) return std::nullopt;
     }
     rows += shape.size();
   }
+  return rows;
+}
+
+/// Whether an open stroke fits the selected surfaces and an existing tool.
+bool fits(const OpenStroke& stroke, const Scene& scene) {
+  const auto rows = rows_of(stroke.before, scene);
+  if (!rows || !(stroke.path.spacing > 0)) return false;
   for (const Points* x : {&stroke.last, &stroke.older}) {
-    if (x->rows() != 0 && x->rows() != rows) return false;
+    if (x->rows() != 0 && x->rows() != *rows) return false;
   }
-  return stroke.history.rows() == rows &&
+  return stroke.history.rows() == *rows &&
          std::ranges::any_of(scene.tools, [&](const Tool& t) { return t.name == stroke.tool; });
+}
+
+bool fits(const OpenBrush& brush, const Scene& scene) {
+  const std::vector<int> selection = scene.selection();
+  if (brush.masks.size() != selection.size()) return false;
+  return rows_of(brush.before, scene) && brush.brush.radius > 0 &&
+         std::ranges::find(selection, brush.surface) != selection.end();
 }
 
 /// Reads a state into one that starts as a copy of the previous one.
 void read_state(Reader& a, SessionState& state) {
   auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-         followed, coupling, stroke] = static_cast<Scene&>(state);
+         followed, coupling, stroke, brush] = static_cast<Scene&>(state);
   auto& [steps, seam_reports, notes, energy_before] = static_cast<SessionRecord&>(state);
   selected.reset();
   archive::optional(a, selected);
@@ -144,6 +157,7 @@ void read_state(Reader& a, SessionState& state) {
     pass(a, surfaces[k]);
     if (a.bad()) return;
     const SceneSurface& s = surfaces[k];
+    if (!s.mask.empty() && s.mask.size() != static_cast<std::size_t>(s.current->size())) return a.fail();
     for (const auto& other : {s.reference, s.rest}) {  // `opened` may differ once the basis was edited
       if (other->net() != s.current->net()) return a.fail();
     }
@@ -162,6 +176,7 @@ void read_state(Reader& a, SessionState& state) {
   choice(a, permission, RefinePermission::trims);
   probes.clear();
   stroke.reset();
+  brush.reset();
   if (a.version() > 1) {
     list(a, probes);
     archive::optional(a, stroke);
@@ -173,6 +188,7 @@ void read_state(Reader& a, SessionState& state) {
     for (FollowedEdge& edge : followed) a.text(edge.id);
     a.number(coupling);
     if (!(coupling > 0 && coupling <= 1)) a.fail();
+    archive::optional(a, brush);
   }
   std::size_t shared = 0;
   a.count(shared);
@@ -190,6 +206,7 @@ void read_state(Reader& a, SessionState& state) {
     if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
   }
   if (stroke && !a.bad() && !fits(*stroke, state)) a.fail();
+  if (brush && !a.bad() && !fits(*brush, state)) a.fail();
   const auto known_surface = [&surfaces](int k) { return k >= 0 && k < static_cast<int>(surfaces.size()); };
   for (const SceneForce& f : forces) {
     if (!known_surface(f.surface)) a.fail();
@@ -227,8 +244,7 @@ std::string Session::snapshot(std::size_t history_bytes) const {
   a.count(entries_.size() - first);
   for (std::size_t k = first; k < entries_.size(); ++k) a.text(script_json(entries_[k]));
   Neighbour before;
-  const bool followed = std::ranges::any_of(states_, [](const auto& state) { return !state->followed.empty(); });
-  for (std::size_t k = first; k < states_.size(); ++k) write_state(a, *states_[k], before, followed);
+  for (std::size_t k = first; k < states_.size(); ++k) write_state(a, *states_[k], before);
   const std::string body = a.take();
   a.count(document_.surfaces().size());
   const std::vector<std::shared_ptr<const Surface>> surfaces = a.surfaces();
@@ -236,7 +252,7 @@ std::string Session::snapshot(std::size_t history_bytes) const {
   for (const auto& s : surfaces) write_surface(a, *s);
   a.bytes(body.data(), body.size());
   const std::string content = a.take();
-  a.bytes(followed ? magic.data() : magic_2.data(), magic.size());
+  a.bytes(magic.data(), magic.size());
   const std::uint64_t sum = checksum(content);
   a.bytes(&sum, sizeof sum);
   a.bytes(content.data(), content.size());
@@ -244,8 +260,9 @@ std::string Session::snapshot(std::size_t history_bytes) const {
 }
 
 Expected<Session> Session::restore(Document document, std::string_view bytes) {
-  const int version = bytes.starts_with(magic) ? 3 : bytes.starts_with(magic_2) ? 2 : 1;
-  if (version == 1 && !bytes.starts_with(magic_1)) return damaged("these bytes are not a snapshot of this version");
+  const auto known = std::ranges::find_if(magics, [&](std::string_view m) { return bytes.starts_with(m); });
+  if (known == magics.end()) return damaged("these bytes are not a snapshot of this version");
+  const int version = static_cast<int>(known - magics.begin()) + 1;
   bytes.remove_prefix(magic.size());
   std::uint64_t sum = 0;
   std::vector<std::shared_ptr<const Surface>> surfaces;

@@ -326,9 +326,9 @@ Expected<void> Executor::show_stroke(bool down) {
   if (auto made = prepare_stroke_model(); !made) return made;
   const OpenStroke& stroke = *state.stroke;
   const StrokeModel& model = *stroke_cache;
-  const Points stays = staying(stroke.history, stroke.plasticity);
+  const Points stays = unmasked(staying(stroke.history, stroke.plasticity));
   Points shown = stays;
-  if (down && stroke.last.rows() > 0) remember(shown, model.at_abscissae(stroke.last));
+  if (down && stroke.last.rows() > 0) remember(shown, unmasked(model.at_abscissae(stroke.last)));
   const bool same = shown == stays;
   const Points resting = model.scene.model.allowed(model.control_points(stays));
   const Points showing = same ? resting : model.scene.model.allowed(model.control_points(shown));

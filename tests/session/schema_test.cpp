@@ -55,7 +55,7 @@ std::string against(const Json& value, const Json& schema, const std::string& pl
         if (auto wrong = against(member, wanted.at(name), place + "." + name); !wrong.empty()) return wrong;
       }
     } else if (word == "items") {
-      for (std::size_t k = 0; k < value.size(); ++k) {
+      for (std::size_t k = 0; value.is_array() && k < value.size(); ++k) {
         if (auto wrong = against(value[k], wanted, place + "[" + std::to_string(k) + "]"); !wrong.empty()) return wrong;
       }
     } else if (word == "oneOf" || word == "anyOf") {

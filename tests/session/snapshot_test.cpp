@@ -110,11 +110,12 @@ TEST(Snapshot, SharesWhatTheHistoryShares) {
 std::string in_version_1(std::string snapshot) {
   const std::size_t head = std::string_view("Knead snapshot 1\n").size();
   const double one = 1;
-  std::string plastic(26, '\0');  // of the surface: along, share, yield, locality, in radii
+  std::string plastic(34, '\0');  // of the surface: along, share, yield, locality, in radii; the length of its mask
   std::memcpy(&plastic[1], &one, sizeof one);
-  plastic.back() = '\1';
-  // The count of probes and no open stroke; counts of steps, seams and notes and a flag follow.
-  snapshot.erase(snapshot.size() - 42, 9);
+  plastic[25] = '\1';
+  // The count of probes, no open stroke, the count of edges that follow, the coupling and no brush; counts of steps, seams
+  // and notes and a flag follow.
+  snapshot.erase(snapshot.size() - 59, 26);
   snapshot.erase(snapshot.rfind(plastic), plastic.size());
   snapshot[head - 2] = '1';
   std::uint64_t hash = 0xcbf29ce484222325U;

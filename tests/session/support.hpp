@@ -71,6 +71,7 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
     if (s.mode != t.mode || !(s.material == t.material) || !(s.plastic == t.plastic))
       return differs("material " + s.id);
     if (s.hold_rows != t.hold_rows || s.pins != t.pins) return differs("hold " + s.id);
+    if (s.mask != t.mask) return differs("mask of " + s.id);
     if (s.smooth_knot_lines != t.smooth_knot_lines || s.smooth_poles != t.smooth_poles) return differs("smooth");
     if (s.constraints.size() != t.constraints.size()) return differs("constraints of " + s.id);
     for (std::size_t c = 0; c < s.constraints.size(); ++c) {

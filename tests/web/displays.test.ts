@@ -21,7 +21,7 @@ describe('displays', () => {
   it('are described: a name of their own, a title, a unit and a help each', async () => {
     const all = (await session()).displays();
     expect(new Set(all.map((d) => d.name)).size).toBe(all.length);
-    expect(all.map((d) => d.name)).toEqual(['deviation', 'mean', 'gaussian', 'draft', 'gap', 'energy']);
+    expect(all.map((d) => d.name)).toEqual(['deviation', 'mean', 'gaussian', 'draft', 'gap', 'energy', 'mask']);
     for (const d of all) {
       for (const text of [d.title, d.unit, d.help]) expect(text, d.name).not.toBe('');
       expect(d.palette, d.name).toBe(d.signed ? 'diverging' : 'rising');
@@ -32,7 +32,8 @@ describe('displays', () => {
 
   it('give a number at each point of the grid, of the sign that they say', async () => {
     const engine = await session({ do: 'new', size: [100, 100], net: [8, 8] }, { do: 'hold', rows: 2 },
-      { do: 'tool', name: 'ball', radius: 20, position: [50, 50, 10] }, { do: 'step', count: 2 });
+      { do: 'tool', name: 'ball', radius: 20, position: [50, 50, 10] }, { do: 'step', count: 2 },
+      { do: 'brush', kind: 'mask', radius: 40, path: [[0.5, 0.5]] });
     for (const { name, signed } of engine.displays()) {
       const { counts, values: found } = engine.picture(0, 20, { display: name });
       expect(found.length, name).toBe(counts[0] * counts[1]);

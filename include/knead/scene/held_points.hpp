@@ -14,6 +14,7 @@ struct HeldInput {
   std::set<std::array<int, 2>> pins;
   std::vector<KeptConstraint> constraints;
   std::shared_ptr<const VisibleRegion> visible;  ///< if edges of faces are held, else null
+  std::vector<bool> masked;                      ///< control points that a mask holds; empty: none
 
   friend bool operator==(const HeldInput&, const HeldInput&) = default;
 };

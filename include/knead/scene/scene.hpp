@@ -9,6 +9,7 @@
 #include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/sculpt/active_spline.hpp"
+#include "knead/sculpt/brush.hpp"
 #include "knead/sculpt/plastic_history.hpp"
 #include "knead/sculpt/tool_path.hpp"
 #include "knead/sculpt/visible_region.hpp"
@@ -111,6 +112,17 @@ struct OpenStroke {
   Points last = {}, older = {};  ///< displacements of the last two places; empty: none
 };
 
+/// A stroke of a brush that may go on.
+struct OpenBrush {
+  Brush brush;
+  std::vector<BrushImage> images;  ///< copies of the stroke, besides itself
+  int surface = 0;                 ///< on which the path lies, an index into the scene's surfaces
+  double rope = 0;                 ///< length of the rope by which the pointer draws the brush, file units; 0: none
+  std::vector<Fractions> path;     ///< all that it was given by
+  std::vector<OpenStroke::Before> before;  ///< per selected surface
+  std::vector<std::vector<double>> masks;  ///< likewise, from before the stroke
+};
+
 /// An edge of faces that has followed them, or does.
 struct FollowedEdge {
   std::string id;
@@ -133,6 +145,9 @@ struct SceneSurface {
   std::vector<KeptConstraint> constraints = {};
   bool smooth_knot_lines = true, smooth_poles = true;
   PlasticPolicy plastic = {};
+  /// Of each control point the share by which strokes and brushes move it less, 0 to 1; what has 1 is held. Empty:
+  /// none.
+  std::vector<double> mask = {};
   /// The part of it that faces show, in fractions of its domain; null until first needed.
   std::shared_ptr<const VisibleRegion> visible = {};
 };
@@ -154,6 +169,7 @@ struct Scene {
   std::vector<FollowedEdge> followed = {};  ///< written anew where their faces have moved them
   double coupling = 0.2;                    ///< the tolerance at which they are coupled, as in `couple_edges`
   std::optional<OpenStroke> stroke = {};    ///< a tool that is down; every other command lifts it first
+  std::optional<OpenBrush> brush = {};      ///< a stroke of a brush; every other command ends it
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;

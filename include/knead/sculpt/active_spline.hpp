@@ -166,6 +166,12 @@ class ActiveSpline {
 
   /// The displacement that the constraints allow with the same independent unknowns as this one: held points stay.
   [[nodiscard]] Points allowed(const Points& displacement) const;
+  /// argmin ½ (x − d)ᵀ A (x − d) over the displacements x that the constraints allow: near what is held d gives way
+  /// smoothly, as far as a dent is felt. Cost: a back substitution.
+  [[nodiscard]] Points nearest_allowed(const Points& displacement) const;
+  /// The displacement of one step of these control points as they relax without a rest shape, by A x = −K S: S + x
+  /// minimises ½ S'ᵀ K S' + λ/2 |S' − S|² over all that the constraints allow. Cost: a back substitution.
+  [[nodiscard]] Points fairing(const Points& control_points) const;
 
   [[nodiscard]] const DomainScaling<D>& scaling(int patch = 0) const;
   [[nodiscard]] const ActiveSettings<D>& settings() const;

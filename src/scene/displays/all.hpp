@@ -11,10 +11,15 @@ Display gaussian_curvature_display();
 Display draft_angle_display();
 Display gap_display();
 Display energy_display();
+Display mask_display();
 
 /// In the order of menus.
-inline constexpr std::array all_displays = {
-    deviation_display, mean_curvature_display, gaussian_curvature_display, draft_angle_display,
-    gap_display,       energy_display};
+inline constexpr std::array all_displays = {deviation_display,
+                                            mean_curvature_display,
+                                            gaussian_curvature_display,
+                                            draft_angle_display,
+                                            gap_display,
+                                            energy_display,
+                                            mask_display};
 
 }  // namespace knead

@@ -118,7 +118,8 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   plate.lambda = resistance / (unit_radius * unit_radius) * (1 - share) / share;
   std::optional<SceneModel> model;  // the one used by steps is unchanged
   std::optional<StrokeModel> unused;
-  Executor own{document, model, unused, trial, progress};
+  std::optional<BrushRun> unused_run;
+  Executor own{document, model, unused, unused_run, trial, progress};
   if (auto done = own.run(1, plate); !done) return done;
 
   for (int index : state.selection()) {

@@ -7,7 +7,7 @@
 namespace knead {
 namespace {
 
-constexpr std::string_view kinds[] = {"hold", "pins", "edges", "freeze", "keep", "symmetry"};
+constexpr std::string_view kinds[] = {"hold", "pins", "edges", "freeze", "keep", "symmetry", "mask"};
 
 /// The name of a constraint in `release`.
 struct KindOf {
@@ -24,9 +24,10 @@ struct KindOf {
 }  // namespace
 
 void describe(ReleaseCommand& c, Fields& fields) {
-  fields.name("release", "free what is held, pinned, frozen or kept");
-  fields.add("what", c.what,
-             {.help = "some of `hold`, `pins`, `edges`, `freeze`, `keep`, `symmetry`", .fallback = "all of them"});
+  fields.name("release", "free what is held, pinned, frozen, kept or masked");
+  fields.add(
+      "what", c.what,
+      {.help = "some of `hold`, `pins`, `edges`, `freeze`, `keep`, `symmetry`, `mask`", .fallback = "all of them"});
 }
 
 template <>
@@ -36,13 +37,14 @@ Expected<void> Executor::execute(const ReleaseCommand& c) {
   for (std::size_t k = 0; k < what.size(); ++k) {
     if (std::ranges::find(kinds, what[k]) != std::end(kinds)) continue;
     return input_error(fmt::format("\"{}\" cannot be released", what[k]), fmt::format("what[{}]", k),
-                       "use hold, pins, edges, freeze, keep or symmetry");
+                       "use hold, pins, edges, freeze, keep, symmetry or mask");
   }
   const auto meant = [&](std::string_view kind) { return !c.what || std::ranges::find(what, kind) != what.end(); };
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
     if (meant("hold")) s.hold_rows = 0;
     if (meant("pins")) s.pins.clear();
+    if (meant("mask")) s.mask.clear();
     std::erase_if(s.constraints,
                   [&](const KeptConstraint& kept) { return meant(std::visit(KindOf{}, kept.constraint)); });
   }

@@ -1,0 +1,235 @@
+#include "knead/sculpt/brush.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double first_length = 1. / 16;  // of a path at its first place, in radii
+constexpr int fewest_of_plane = 6;        // samples
+constexpr double opposed = 0.1;           // mean of normals below which they say nothing of a direction
+
+/// Half the way to the neighbours on both sides.
+std::vector<double> cells_of(const std::vector<double>& at) {
+  std::vector<double> cells(at.size());
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    cells[k] = 0.5 * (at[std::min(k + 1, at.size() - 1)] - at[k > 0 ? k - 1 : 0]);
+  }
+  return cells;
+}
+
+Point turned(const Point& x, const Point& axis, double angle) {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix() * x;
+}
+
+/// The profile across a crease, a cusp.
+double cusp(double distance, double radius) {
+  const double s = 1 - distance / radius;
+  return s > 0 ? s * s : 0;
+}
+
+bool is_sharp(BrushKind kind) { return kind == BrushKind::crease || kind == BrushKind::ridge; }
+
+bool has_strength(BrushKind kind) {
+  return kind == BrushKind::flatten || kind == BrushKind::smooth || kind == BrushKind::pinch;
+}
+
+}  // namespace
+
+bool acts_about_one_place(BrushKind kind) {
+  return kind == BrushKind::grab || kind == BrushKind::twist || kind == BrushKind::scale;
+}
+
+double brush_falloff(double distance, double radius, double core) {
+  const double s = (distance / radius - core) / (1 - core);
+  if (s <= 0) return 1;
+  if (s >= 1) return 0;
+  return 1 - s * s * s * (10 - s * (15 - 6 * s));
+}
+
+Expected<void> BrushSamples::append(const Surface& shape, const GrevilleValues<2>& values) {
+  const std::array<const std::vector<double>*, 2> at = {&values.abscissae(0), &values.abscissae(1)};
+  const auto jet = evaluate_grid<2>(shape, {std::span<const double>(*at[0]), std::span<const double>(*at[1])}, 1);
+  if (!jet) return std::unexpected(jet.error());
+  const std::vector<double> us = cells_of(*at[0]), vs = cells_of(*at[1]);
+  const Eigen::Index first = points.rows(), count = shape.size();
+  points.conservativeResize(first + count, 3);
+  normals.conservativeResize(first + count, 3);
+  areas.conservativeResize(first + count);
+  points.middleRows(first, count) = values.values(shape.control_points());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Point u = jet->at({1, 0}).row(k), v = jet->at({0, 1}).row(k), across = u.cross(v);
+    const double area = across.norm();
+    const bool regular = area > 1e-9 * (u.squaredNorm() + v.squaredNorm());
+    normals.row(first + k) = regular ? Point(across / area) : Point(Point::Zero());
+    areas[first + k] = area * us[static_cast<std::size_t>(k) / vs.size()] * vs[static_cast<std::size_t>(k) % vs.size()];
+  }
+  return {};
+}
+
+BrushImage BrushImage::mirror(const Point& point, const Point& normal) {
+  return {Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose(), 2 * normal.dot(point) * normal};
+}
+
+BrushImage BrushImage::turn(const Point& point, const Point& direction, double angle) {
+  const Eigen::Matrix3d linear = Eigen::AngleAxisd(angle, direction).toRotationMatrix();
+  return {linear, point - linear * point};
+}
+
+BrushImage BrushImage::after(const BrushImage& other) const {
+  return {linear * other.linear, linear * other.offset + offset};
+}
+
+BrushPlace BrushImage::of(const BrushPlace& place) const { return {linear * place.at + offset, linear * place.normal}; }
+
+Brush BrushImage::of(Brush brush) const {
+  brush.by = Point(linear * brush.by);
+  if (linear.determinant() < 0) brush.angle = -brush.angle;
+  return brush;
+}
+
+BrushHistory::BrushHistory(Eigen::Index samples)
+    : weight_(Eigen::VectorXd::Zero(samples)), total_(Eigen::VectorXd::Zero(samples)), sum_(Points::Zero(samples, 3)) {}
+
+BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSamples& samples, const BrushPlace& place) {
+  Frame frame{place, place.at, place.normal};
+  const double reach = brush.radius * brush.radius;
+  Point normal = Point::Zero(), middle = Point::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  double total = 0, known = 0;
+  int count = 0;
+  for (Eigen::Index g = 0; g < samples.points.rows(); ++g) {
+    const Point off = samples.points.row(g).transpose() - place.at;
+    const double square = off.squaredNorm();
+    if (square >= reach) continue;
+    const double w = brush_falloff(std::sqrt(square), brush.radius, brush.core) * samples.areas[g];
+    const Point n = samples.normals.row(g);
+    normal += w * n;
+    middle += w * off;
+    spread += w * off * off.transpose();
+    total += w;
+    known += w * n.squaredNorm();
+    count += w > 0 ? 1 : 0;
+  }
+  if (normal.norm() > opposed * known) frame.normal = normal.normalized();
+  if (brush.kind != BrushKind::flatten || count < fewest_of_plane) return frame;
+  middle /= total;
+  spread = spread / total - middle * middle.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  if (!(axes.eigenvalues()[1] > 1e-6 * axes.eigenvalues()[2])) return frame;  // on a line
+  frame.middle = place.at + middle;
+  const Point across = axes.eigenvectors().col(0);
+  frame.normal = across.dot(frame.normal) < 0 ? Point(-across) : across;
+  return frame;
+}
+
+/// d at full weight, of the kinds that have a mean along the path.
+Point BrushHistory::asked_at(const Frame& frame, const Brush& brush, const BrushSamples& samples, Eigen::Index g,
+                             const Points& fair) {
+  const Point n = samples.normals.row(g);
+  switch (brush.kind) {
+    case BrushKind::push:
+    case BrushKind::crease:
+      return -brush.height * frame.normal;
+    case BrushKind::pull:
+    case BrushKind::ridge:
+      return brush.height * frame.normal;
+    case BrushKind::inflate:
+      return brush.height * (n.squaredNorm() > 0 ? n : frame.normal);
+    case BrushKind::flatten:
+      return (frame.middle - samples.points.row(g).transpose()).dot(frame.normal) * frame.normal;
+    case BrushKind::smooth:
+      return fair.row(g);
+    default:
+      return Point::Zero();
+  }
+}
+
+void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Frame& from, const Frame& to,
+                       double length, const Points& fair) {
+  const Point piece = to.place.at - from.place.at;
+  const double square = piece.squaredNorm();
+  for (Eigen::Index g = 0; g < samples.points.rows(); ++g) {
+    const Point x = samples.points.row(g);
+    const double share = square > 0 ? std::clamp((x - from.place.at).dot(piece) / square, 0., 1.) : 1;
+    const Point nearest = from.place.at + share * piece;
+    const double distance = (x - nearest).norm();
+    if (distance >= brush.radius) continue;
+    const double profile =
+        is_sharp(brush.kind) ? cusp(distance, brush.radius) : brush_falloff(distance, brush.radius, brush.core);
+    const bool nearer = profile > weight_[g];
+    if (nearer) weight_[g] = profile;
+    if (brush.kind == BrushKind::pinch) {
+      if (!nearer) continue;
+      const Point normal = ((1 - share) * from.normal + share * to.normal).stableNormalized();
+      sum_.row(g) = (nearest - x) - (nearest - x).dot(normal) * normal;
+      total_[g] = 1;
+      continue;
+    }
+    for (const Frame* end : {&from, &to}) {  // the trapezoidal rule
+      const double w = brush_falloff((x - end->place.at).norm(), brush.radius, brush.core) * 0.5 * length;
+      if (w == 0) continue;
+      sum_.row(g) += w * asked_at(*end, brush, samples, g, fair);
+      total_[g] += w;
+    }
+  }
+}
+
+void BrushHistory::go_to(const Brush& brush, const BrushSamples& samples, const BrushPlace& place, const Points& fair) {
+  assert(samples.points.rows() == weight_.size());
+  if (!begun_) {
+    begun_ = true;
+    first_ = last_ = frame_at(brush, samples, place);
+    add(brush, samples, first_, first_, first_length * brush.radius, fair);
+    return;
+  }
+  const double length = (place.at - last_.place.at).norm();
+  if (length == 0 || acts_about_one_place(brush.kind)) return;
+  const Frame next = frame_at(brush, samples, place);
+  add(brush, samples, last_, next, length, fair);
+  last_ = next;
+}
+
+Point BrushHistory::about_first(const Brush& brush, const Point& x) const {
+  const Point off = x - first_.place.at;
+  const double w = brush_falloff(off.norm(), brush.radius, brush.core);
+  if (brush.kind == BrushKind::grab) return w * brush.by;
+  if (brush.kind == BrushKind::twist) return turned(off, first_.normal, w * brush.angle) - off;
+  return w * (brush.factor - 1) * off;
+}
+
+Points BrushHistory::displacement(const Brush& brush, const BrushSamples& samples) const {
+  Points result = Points::Zero(weight_.size(), 3);
+  const double strength = has_strength(brush.kind) ? brush.strength : 1;
+  for (Eigen::Index g = 0; g < result.rows(); ++g) {
+    if (weight_[g] == 0) continue;
+    if (acts_about_one_place(brush.kind)) {
+      result.row(g) = about_first(brush, samples.points.row(g));
+    } else if (total_[g] > 0) {
+      result.row(g) = strength * weight_[g] / total_[g] * sum_.row(g);
+    }
+  }
+  return result;
+}
+
+Points blended(std::span<const Points> copies) {
+  if (copies.size() == 1) return copies.front();
+  Points result = Points::Zero(copies.front().rows(), 3);
+  for (Eigen::Index g = 0; g < result.rows(); ++g) {
+    double total = 0;
+    for (const Points& u : copies) {
+      result.row(g) += u.row(g).squaredNorm() * u.row(g);
+      total += u.row(g).squaredNorm();
+    }
+    if (total > 0) result.row(g) /= total;
+  }
+  return result;
+}
+
+}  // namespace knead

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "executor.hpp"
+#include "knead/scene/places.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "knead/spline/spline_refinement.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double felt_radii = 0.25;    // how far held points are felt, and what smoothing evens out, in radii
+constexpr double spans_wanted = 0.25;  // longest spans under a brush where nets may be refined, in radii
+constexpr double sharp_wanted = 1. / 16;
+constexpr int most_halvings = 6;
+constexpr int most_control_points = 25000;  // of a surface that is refined under a brush
+
+/// Midpoints of the spans within the radius of a place that are longer than wanted, both in space as they are there.
+Expected<std::array<std::vector<double>, 2>> halving(const Surface& s, const Fractions& at, double radius,
+                                                     double wanted, double& longest) {
+  const auto u = parameters_at(s, at, "path");
+  if (!u) return std::unexpected(u.error());
+  Parameters<2> here(1, 2);
+  here << (*u)[0], (*u)[1];
+  const auto jet = evaluate<2>(s, here, 1);
+  if (!jet) return std::unexpected(jet.error());
+  std::array<std::vector<double>, 2> middles;
+  longest = 0;
+  for (std::size_t d = 0; d < 2; ++d) {
+    const KnotVector& knots = s.knots()[d];
+    const double speed = (d == 0 ? jet->at({1, 0}) : jet->at({0, 1})).row(0).norm();
+    for (int span : knots.spans()) {
+      const double lower = knots[span], upper = knots[span + 1];
+      if (speed * (lower - (*u)[d]) > radius || speed * ((*u)[d] - upper) > radius) continue;
+      longest = std::max(longest, speed * (upper - lower));
+      if (speed * (upper - lower) > wanted) middles[d].push_back(0.5 * (lower + upper));
+    }
+  }
+  return middles;
+}
+
+}  // namespace
+
+/// Finer nets under a brush, where the edges of faces are held or refining is permitted; the shapes from before the
+/// stroke follow.
+Expected<void> Executor::refine_for_brush(const std::vector<Fractions>& places) {
+  OpenBrush& open = *state.brush;
+  const double radius = open.brush.radius;
+  const bool sharp = open.brush.kind == BrushKind::crease || open.brush.kind == BrushKind::ridge;
+  const double wanted = radius * (sharp ? sharp_wanted : spans_wanted);
+  SceneSurface& s = state.surfaces[static_cast<std::size_t>(open.surface)];
+  double coarsest = 0;
+  for (const Fractions& at : places) {
+    if (auto refined = refine_at_trims(s, at, radius); !refined) return refined;
+    for (int k = 0; k < most_halvings; ++k) {
+      double longest = 0;
+      const auto middles = halving(*s.current, at, radius, wanted, longest);
+      if (!middles) return std::unexpected(middles.error());
+      coarsest = std::max(coarsest, longest);
+      if (state.permission != RefinePermission::automatic || !s.pins.empty()) break;
+      if ((*middles)[0].empty() && (*middles)[1].empty()) break;
+      const auto [m, n] = s.current->net();
+      if ((m + static_cast<int>((*middles)[0].size())) * (n + static_cast<int>((*middles)[1].size())) >
+          most_control_points) {
+        break;
+      }
+      auto done = change_net(s, [&](const Surface& shape) { return insert_knots<2>(shape, *middles); });
+      if (!done) return done;
+      coarsest = 0;
+    }
+  }
+  const std::vector<int> selection = state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    const SceneSurface& now = state.surfaces[static_cast<std::size_t>(selection[k])];
+    open.before[k] = {now.rest, now.current};
+    open.masks[k] = now.mask;
+  }
+  if (coarsest > radius) {
+    std::string note = fmt::format(
+        R"({}: the net is coarse for the brush: its spans are up to {:.2g} times the radius; let it be refined with {{"do":"refine","permission":"auto"}})",
+        s.id, coarsest / radius);
+    if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(std::move(note));
+  }
+  return {};
+}
+
+/// The constraints, and a plate on a bed that tells how far they are felt.
+Expected<void> Executor::prepare_brush_model() {
+  if (auto known = know_trims(); !known) return known;
+  const OpenBrush& open = *state.brush;
+  const auto scaling = normalised_scaling<2>(*state.surfaces[static_cast<std::size_t>(*state.selected)].reference);
+  if (!scaling) return std::unexpected(scaling.error());
+  EvolutionPolicy evolution;
+  evolution.lambda = locality_of(1, felt_radii * open.brush.radius / scaling->length).lambda;
+  ModelInput input = model_input(state, evolution);
+  input.scaling = ScalingMode::normalised;
+  input.detail = 0;
+  for (std::size_t k = 0; k < input.surfaces.size(); ++k) {
+    SurfaceInput& s = input.surfaces[k];
+    s.mode = RestMode::shape;
+    s.material = MaterialFieldOf<2>(MaterialOf<2>{{0, 0, 0}, {1, 1, 1}});
+    if (s.rest) s.rest = open.before[k].rest;
+  }
+  if (stroke_cache && stroke_cache->scene.input == input) return {};
+  stroke_cache.reset();
+  std::vector<GrevilleValues<2>> values;
+  for (const OpenStroke::Before& b : open.before) {
+    auto made = GrevilleValues<2>::create(*b.current);
+    if (!made) return std::unexpected(made.error());
+    values.push_back(std::move(*made));
+  }
+  auto made = make_model(std::move(input));
+  if (!made) return std::unexpected(made.error());
+  stroke_cache = StrokeModel{std::move(*made), std::move(values)};
+  return {};
+}
+
+}  // namespace knead

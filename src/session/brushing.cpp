@@ -1,0 +1,267 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "brush_path.hpp"
+#include "executor.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double places_per_radius = 16;
+constexpr double feasible_share = 1e-9;  // of the largest displacement: what misses the constraints by less is allowed
+constexpr double dropped_share = 1e-3;   // corrections outside of the brush that are less are left out
+constexpr double limit_share = 1e-6;     // by which a limit may be exceeded, as for steps
+
+BrushPath path_of(const OpenBrush& open, const Scene& scene) {
+  return {*scene.surfaces[static_cast<std::size_t>(open.surface)].current, open.brush.radius / places_per_radius,
+          open.rope};
+}
+
+/// The brush without what a hand changes as it goes.
+Brush without_hand(Brush brush) {
+  brush.by = Point::Zero();
+  brush.angle = 0;
+  brush.factor = 1;
+  return brush;
+}
+
+/// Whether what was remembered for one stroke serves another, which went on with it.
+bool goes_on(const OpenBrush& from, const OpenBrush& to) {
+  const auto same = [](const OpenStroke::Before& a, const OpenStroke::Before& b) {
+    return a.rest == b.rest && a.current == b.current;
+  };
+  return without_hand(from.brush) == without_hand(to.brush) && from.images == to.images && from.surface == to.surface &&
+         from.rope == to.rope && from.path.size() <= to.path.size() &&
+         std::equal(from.path.begin(), from.path.end(), to.path.begin()) &&
+         std::ranges::equal(from.before, to.before, same);
+}
+
+/// Coefficients of what is zero at an abscissa are zero: what lies outside of a brush keeps its bits.
+Points local_coefficients(const StrokeModel& model, const Points& values) {
+  Points result = model.control_points(values);
+  for (Eigen::Index i = 0; i < result.rows(); ++i) {
+    if ((values.row(i).array() == 0).all()) result.row(i).setZero();
+  }
+  return result;
+}
+
+/// Whether the first place has its image so far away that the brush does not overlap with it.
+bool stands_alone(const BrushPlace& place, const OpenBrush& open) {
+  return std::ranges::all_of(open.images, [&](const BrushImage& image) {
+    return (image.of(place).at - place.at).norm() >= 2 * open.brush.radius;
+  });
+}
+
+}  // namespace
+
+bool BrushRun::reaches(Brush brush) const {
+  brush.strength = 1;
+  return std::ranges::any_of(histories, [&](const BrushHistory& h) { return (h.weights(brush).array() > 0).any(); });
+}
+
+void Executor::begin_brush(const Brush& brush, std::vector<BrushImage> images, int surface, double rope) {
+  OpenBrush open{brush, std::move(images), surface, rope, {}, {}, {}};
+  for (int k : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    open.before.push_back({s.rest, s.current});
+    open.masks.push_back(s.mask);
+  }
+  state.brush = std::move(open);
+}
+
+/// What the brush has asked for along the path, as far as it is not known.
+Expected<void> Executor::start_brush_run() {
+  const OpenBrush& open = *state.brush;
+  const ModelInput& input = stroke_cache->scene.input;
+  if (brush_cache && brush_cache->input == input && goes_on(brush_cache->open, open)) return {};
+  BrushRun run{input, open, {}, {}, {}, {}, false};
+  run.open.path.clear();
+  Eigen::Index rows = 0;
+  for (std::size_t k = 0; k < open.before.size(); ++k) {
+    const Surface& shape = *open.before[k].current;
+    if (auto done = run.samples.append(shape, stroke_cache->values[k]); !done) return done;
+    rows += shape.size();
+  }
+  if (open.brush.kind == BrushKind::smooth) {
+    Points shape(rows, 3);
+    rows = 0;
+    for (const OpenStroke::Before& b : open.before) {
+      shape.middleRows(rows, b.current->size()) = b.current->control_points();
+      rows += b.current->size();
+    }
+    run.fair = stroke_cache->at_abscissae(stroke_cache->scene.model.fairing(shape));
+    // Along the surface nothing would change but its parameters.
+    const Points& n = run.samples.normals;
+    for (Eigen::Index g = 0; g < rows; ++g) run.fair.row(g) = run.fair.row(g).dot(n.row(g)) * n.row(g);
+  }
+  run.histories.assign(open.images.size() + 1, BrushHistory(rows));
+  brush_cache = std::move(run);
+  return {};
+}
+
+Expected<void> Executor::brush_to(const std::vector<Fractions>& path) {
+  OpenBrush& open = *state.brush;
+  const std::vector<int> selection = state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {  // places and nets are those of the shapes from before
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
+    s.rest = open.before[k].rest;
+    s.current = open.before[k].current;
+    s.mask = open.masks[k];
+  }
+  const std::size_t known = open.path.size();
+  open.path.insert(open.path.end(), path.begin(), path.end());
+  std::vector<Fractions> places;
+  for (std::size_t k = known; k < open.path.size(); ++k) {
+    const auto more = k == 0 ? std::vector<Fractions>{open.path[0]}
+                             : path_of(open, state).places(open.path[k - 1], open.path[k], open.path[k - 1]);
+    if (!more) return std::unexpected(more.error());
+    places.insert(places.end(), more->begin(), more->end());
+  }
+  if (auto refined = refine_for_brush(places); !refined) return refined;
+  if (auto made = prepare_brush_model(); !made) return made;
+  if (auto started = start_brush_run(); !started) return started;
+  BrushRun& run = *brush_cache;
+  const BrushPath way = path_of(open, state);
+  for (std::size_t k = run.open.path.size(); k < open.path.size(); ++k) {
+    if (k == 0) run.at = open.path[0];
+    auto next = k == 0 ? std::vector<Fractions>{run.at} : way.places(open.path[k - 1], open.path[k], run.at);
+    if (!next) return std::unexpected(next.error());
+    for (const Fractions& at : *next) {
+      const auto place = way.place(at);
+      if (!place) return std::unexpected(place.error());
+      run.histories[0].go_to(open.brush, run.samples, *place, run.fair);
+      for (std::size_t i = 0; i < open.images.size(); ++i) {
+        run.histories[i + 1].go_to(open.images[i].of(open.brush), run.samples, open.images[i].of(*place), run.fair);
+      }
+      run.at = at;
+    }
+    run.open.path.push_back(open.path[k]);
+  }
+  if (!run.reaches(open.brush)) {
+    return input_error("the brush reaches no control point: the spans of the net are longer than its radius", "radius",
+                       R"(use a larger one, or let the net be refined: {"do":"refine","permission":"auto"})");
+  }
+  if (open.brush.kind == BrushKind::mask || open.brush.kind == BrushKind::unmask) return show_mask();
+  const auto displacement = brushed();
+  if (!displacement) return std::unexpected(displacement.error());
+  return show_brush(*displacement);
+}
+
+/// The displacement of the control points that the open brush asks for and the constraints allow.
+Expected<Points> Executor::brushed() {
+  const OpenBrush& open = *state.brush;
+  BrushRun& run = *brush_cache;
+  std::vector<Points> copies;
+  for (std::size_t i = 0; i < run.histories.size(); ++i) {
+    const Brush brush = i == 0 ? open.brush : open.images[i - 1].of(open.brush);
+    copies.push_back(run.histories[i].displacement(brush, run.samples));
+  }
+  Points asked = blended(copies);
+  const ActiveSurface& model = stroke_cache->scene.model;
+  Points c = local_coefficients(*stroke_cache, asked);
+  if (open.brush.kind == BrushKind::grab && open.brush.by.squaredNorm() > 0) {
+    // The point that is grabbed goes where it was asked to, whatever interpolation makes of the falloff.
+    const BrushPath way = path_of(open, state);
+    const auto place = way.place(open.path.front());
+    if (!place) return std::unexpected(place.error());
+    const std::vector<int> selection = state.selection();
+    const auto k = static_cast<std::size_t>(std::ranges::find(selection, open.surface) - selection.begin());
+    const Surface& shape = *open.before[k].current;
+    const auto field = shape.with_control_points(c.middleRows(model.rows()[k], shape.size()));
+    if (!field) return std::unexpected(field.error());
+    const auto moved = BrushPath(*field, open.brush.radius, 0).place(open.path.front());
+    if (!moved) return std::unexpected(moved.error());
+    const double share = moved->at.dot(open.brush.by) / open.brush.by.squaredNorm();
+    if (share > 0.5 && stands_alone(*place, open)) asked /= share;
+  }
+  const bool some = (asked.array() != 0).any();
+  asked = unmasked(std::move(asked));
+  c = local_coefficients(*stroke_cache, asked);
+  const double largest = c.rowwise().norm().maxCoeff();
+  run.stuck = some && largest == 0;
+  Points allowed = model.allowed(c);
+  if ((allowed - c).cwiseAbs().maxCoeff() <= feasible_share * largest) return allowed;
+  Points nearest = model.nearest_allowed(c);
+  for (Eigen::Index i = 0; i < nearest.rows(); ++i) {
+    if ((c.row(i).array() == 0).all() && nearest.row(i).norm() < dropped_share * largest) nearest.row(i).setZero();
+  }
+  allowed = model.allowed(nearest);
+  run.stuck = (allowed.array() == 0).all();
+  return allowed;
+}
+
+/// The masks from before the stroke with what was painted.
+Expected<void> Executor::show_mask() {
+  const OpenBrush& open = *state.brush;
+  Eigen::VectorXd weight = brush_cache->histories.front().weights(open.brush);
+  for (const BrushHistory& image : brush_cache->histories) weight = weight.cwiseMax(image.weights(open.brush));
+  const std::vector<int> selection = state.selection();
+  Eigen::Index first = 0;
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
+    if (s.mask.empty()) s.mask.assign(static_cast<std::size_t>(s.current->size()), 0);
+    for (double& m : s.mask) {
+      const double w = weight[first++];
+      m = open.brush.kind == BrushKind::mask ? std::max(m, w) : std::min(m, 1 - w);
+    }
+    if (std::ranges::all_of(s.mask, [](double m) { return m == 0; })) s.mask.clear();
+  }
+  return {};
+}
+
+Points Executor::unmasked(Points displacement) const {
+  Eigen::Index first = 0;
+  for (int k : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    for (std::size_t i = 0; i < s.mask.size(); ++i) {
+      displacement.row(first + static_cast<Eigen::Index>(i)) *= 1 - s.mask[i];
+    }
+    first += s.current->size();
+  }
+  return displacement;
+}
+
+/// Makes the shapes and rest shapes those from before the stroke with this displacement; rows of zero keep their bits.
+Expected<void> Executor::show_brush(const Points& displacement) {
+  const std::vector<int> selection = state.selection();
+  Eigen::Index first = 0;
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
+    const OpenStroke::Before& before = state.brush->before[k];
+    const Points d = displacement.middleRows(first, before.current->size());
+    first += d.rows();
+    if ((d.array() == 0).all()) continue;
+    const auto with = [&d](const Surface& shape) -> Expected<std::shared_ptr<const Surface>> {
+      Points points = shape.control_points();
+      for (Eigen::Index i = 0; i < d.rows(); ++i) {
+        if ((d.row(i).array() != 0).any()) points.row(i) += d.row(i);
+      }
+      auto made = shape.with_control_points(std::move(points));
+      if (!made) return std::unexpected(made.error().within("brush"));
+      return std::make_shared<const Surface>(std::move(*made));
+    };
+    auto current = with(*before.current);
+    if (!current) return std::unexpected(current.error());
+    auto rest = before.rest == before.current ? current : with(*before.rest);
+    if (!rest) return std::unexpected(rest.error());
+    s.current = std::move(*current);
+    s.rest = std::move(*rest);
+    s.velocity.resize(0, 3);
+    if (!state.limit) continue;
+    const double was = largest_distance(*before.current, *s.opened), is = largest_distance(*s.current, *s.opened);
+    if (is > *state.limit * (1 + limit_share) && is > was) {
+      return input_error(fmt::format("the surface would be {:.6g} from where it was opened, and {:.6g} is the limit",
+                                     is, *state.limit),
+                         "brush", R"(move it less, or end the limit: {"do":"limit"})");
+    }
+  }
+  if (auto sound = check_folds(); !sound) return sound;
+  note_model(stroke_cache->scene);
+  return {};
+}
+
+}  // namespace knead

@@ -1,0 +1,207 @@
+#include "brush.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace knead {
+namespace {
+
+constexpr double default_height = 0.25;  // of the radius
+constexpr double default_pinch = 0.5;
+constexpr double default_flat_core = 0.5;
+constexpr double largest_core = 0.95;
+constexpr int most_copies = 64;
+
+Point in_space(const Vector3& v) { return {v[0], v[1], v[2]}; }
+
+/// A point with a direction of length 1.
+Expected<BrushPlace> line_of(const PointAndDirection& given, const char* field) {
+  const BrushPlace line{in_space(given[0]), in_space(given[1])};
+  const double length = line.normal.norm();
+  if (!(line.at.allFinite() && std::isfinite(length) && length > 0)) {
+    return input_error("a direction has no length, or a number is not finite", field, "give [[x, y, z], [dx, dy, dz]]");
+  }
+  return BrushPlace{line.at, line.normal / length};
+}
+
+/// Copies by mirror planes, those that are kept among them, and around an axis.
+Expected<std::vector<BrushImage>> images_of(const BrushCommand& c, const SceneSurface& surface) {
+  std::vector<BrushImage> mirrors;
+  if (c.mirror) {
+    const auto plane = line_of(*c.mirror, "mirror");
+    if (!plane) return std::unexpected(plane.error());
+    mirrors.push_back(BrushImage::mirror(plane->at, plane->normal));
+  }
+  for (const KeptConstraint& kept : surface.constraints) {
+    const auto* symmetry = std::get_if<MirrorSymmetry>(&kept.constraint);
+    if (symmetry == nullptr) continue;
+    const auto plane = plane_of(*symmetry, *surface.reference);
+    if (!plane) return std::unexpected(plane.error());
+    const BrushImage image = BrushImage::mirror(plane->point, plane->normal.normalized());
+    const bool known = std::ranges::any_of(mirrors, [&](const BrushImage& m) {
+      return (m.linear - image.linear).norm() < 1e-9 && (m.offset - image.offset).norm() < 1e-9 * m.offset.norm();
+    });
+    if (!known) mirrors.push_back(image);
+  }
+  std::vector<BrushImage> images = {{}};
+  const auto add = [&images](const BrushImage& by, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) images.push_back(by.after(images[k]));
+  };
+  if (c.radial > 1) {
+    if (!c.axis) return input_error("the axis is missing", "axis", "give [[x, y, z], [dx, dy, dz]]");
+    const auto axis = line_of(*c.axis, "axis");
+    if (!axis) return std::unexpected(axis.error());
+    for (int k = 1; k < c.radial; ++k) {
+      add(BrushImage::turn(axis->at, axis->normal, 2 * std::numbers::pi * k / c.radial), 1);
+    }
+  }
+  for (const BrushImage& mirror : mirrors) add(mirror, images.size());
+  images.erase(images.begin());
+  return images;
+}
+
+Expected<void> check(double x, const Range& range, const char* field) {
+  if (std::isfinite(x) && range.holds(x)) return {};
+  return input_error(fmt::format("{} is not possible", x), field,
+                     "use a number " + (range == Range{} ? std::string("that is finite") : in_words(range)));
+}
+
+/// The brush in file units.
+Expected<Brush> brush_of(const BrushCommand& c, double diagonal) {
+  const double unit = c.relative ? diagonal : 1;
+  Brush b;
+  b.kind = c.kind;
+  b.radius = c.radius ? *c.radius * unit : 0.1 * diagonal;
+  b.height = c.height ? *c.height * unit : default_height * b.radius;
+  b.strength = c.strength.value_or(c.kind == BrushKind::pinch ? default_pinch : 1);
+  const bool flat = c.kind == BrushKind::flatten || c.kind == BrushKind::mask || c.kind == BrushKind::unmask;
+  b.core = c.core.value_or(flat ? default_flat_core : 0);
+  b.by = unit * in_space(c.by.value_or(Vector3{}));
+  b.angle = c.angle.value_or(0) * std::numbers::pi / 180;
+  b.factor = c.factor.value_or(1);
+  for (const auto& [x, range, field] :
+       {std::tuple{b.radius, above(0), "radius"}, std::tuple{b.height, Range{}, "height"},
+        std::tuple{b.strength, between(0, 1), "strength"}, std::tuple{b.core, between(0, largest_core), "core"},
+        std::tuple{b.by.sum(), Range{}, "by"}, std::tuple{b.angle, Range{}, "angle"},
+        std::tuple{b.factor, above(0), "factor"}, std::tuple{c.steady, at_least(0), "steady"},
+        std::tuple{static_cast<double>(c.radial), between(1, most_copies), "radial"}}) {
+    if (auto fits = check(x, range, field); !fits) return std::unexpected(fits.error());
+  }
+  return b;
+}
+
+}  // namespace
+
+std::span<const Choice> choices(BrushKind) {
+  static constexpr Choice list[] = {{"push", BrushKind::push, "into the surface"},
+                                    {"pull", BrushKind::pull, "out of it"},
+                                    {"inflate", BrushKind::inflate, "along the normal of each point"},
+                                    {"flatten", BrushKind::flatten, "towards the plane fitted under it"},
+                                    {"smooth", BrushKind::smooth, "towards the fair shape"},
+                                    {"pinch", BrushKind::pinch, "towards the path, within the surface"},
+                                    {"crease", BrushKind::crease, "a sharp valley along the path"},
+                                    {"ridge", BrushKind::ridge, "a sharp crest along it"},
+                                    {"grab", BrushKind::grab, "drags the first place of the path"},
+                                    {"twist", BrushKind::twist, "turns about the normal there"},
+                                    {"scale", BrushKind::scale, "larger or smaller about it"},
+                                    {"mask", BrushKind::mask, "paints what brushes and strokes leave alone"},
+                                    {"unmask", BrushKind::unmask, "frees it again"}};
+  return list;
+}
+
+void describe(BrushCommand& c, Fields& fields) {
+  fields.name("brush", "lead a brush over the surface");
+  fields.add("kind", c.kind, {.help = "what it does", .presence = Presence::required});
+  fields.add("path", c.path,
+             {.help = "`[[s, t], …]`, points of the surface; empty to go on with an open stroke where it is",
+              .unit = Unit::fraction});
+  fields.add("surface", c.surface, {.help = "id of the surface of the path", .fallback = "the first selected one"});
+  fields.add("radius", c.radius,
+             {.help = "beyond which nothing moves, measured in space",
+              .unit = Unit::length,
+              .range = above(0),
+              .fallback = "a tenth of the diagonal"});
+  fields.add("height", c.height,
+             {.help = "of push, pull, inflate, crease and ridge, at full weight; either sign",
+              .unit = Unit::length,
+              .fallback = "a quarter of the radius"});
+  fields.add(
+      "strength", c.strength,
+      {.help =
+           "of flatten, smooth and pinch: the share of the way that points go at full weight; of mask and unmask: how "
+           "much",
+       .unit = Unit::fraction,
+       .range = between(0, 1),
+       .fallback = "`1`; of pinch `0.5`"});
+  fields.add("core", c.core,
+             {.help = "share of the radius with full weight; from there it falls off smoothly",
+              .unit = Unit::fraction,
+              .range = between(0, largest_core),
+              .fallback = "`0`; of flatten, mask and unmask `0.5`"});
+  fields.add("by", c.by, {.help = "of grab: `[dx, dy, dz]`", .unit = Unit::length, .fallback = "`[0, 0, 0]`"});
+  fields.add("angle", c.angle,
+             {.help = "of twist: counterclockwise about the normal", .unit = Unit::angle, .fallback = "`0`"});
+  fields.add("factor", c.factor, {.help = "of scale", .range = above(0), .fallback = "`1`"});
+  fields.add("steady", c.steady,
+             {.help = "the brush is drawn along the path by a rope of so many radii, which takes out what trembles",
+              .range = at_least(0)});
+  fields.add("mirror", c.mirror,
+             {.help = "`[[x, y, z], [nx, ny, nz]]`: point and normal of a plane in which the stroke is repeated"});
+  fields.add("axis", c.axis, {.help = "`[[x, y, z], [dx, dy, dz]]`: point and direction of the axis of `radial`"});
+  fields.add("radial", c.radial,
+             {.help = "strokes around the axis, this one among them", .range = between(1, most_copies)});
+  fields.add("open", c.open,
+             {.help = "the next `brush` with the same settings goes on with this stroke; any other command ends it"});
+  fields.add("relative", c.relative, {.help = "`radius`, `height` and `by` are fractions of the diagonal"});
+}
+
+template <>
+Expected<void> Executor::execute(const BrushCommand& c) {
+  auto first = selected();
+  if (!first) return std::unexpected(first.error());
+  const auto length = diagonal();
+  if (!length) return std::unexpected(length.error());
+  const auto brush = brush_of(c, *length);
+  if (!brush) return std::unexpected(brush.error());
+  auto images = images_of(c, **first);
+  if (!images) return std::unexpected(images.error());
+  int surface = *state.selected;
+  if (c.surface) {
+    const auto found = find_surface(*c.surface);
+    if (!found) return std::unexpected(found.error());
+    surface = *found;
+    if (std::ranges::none_of(state.selection(), [&](int k) { return k == surface; })) {
+      return input_error(fmt::format("{} is not selected", *c.surface), "surface", "select it first");
+    }
+  }
+  const double rope = c.steady * brush->radius;
+  const auto goes_on = [&](const OpenBrush& open) {
+    Brush like = *brush;  // a hand changes these as it goes
+    like.by = open.brush.by;
+    like.angle = open.brush.angle;
+    like.factor = open.brush.factor;
+    return open.brush == like && open.images == *images && open.surface == surface && open.rope == rope;
+  };
+  if (state.brush && !goes_on(*state.brush)) state.brush.reset();
+  if (c.path.empty() && !state.brush) {
+    return input_error("the path has no places", "path", "give one or more: [[s, t], ...]");
+  }
+  if (!state.brush) begin_brush(*brush, std::move(*images), surface, rope);
+  if (acts_about_one_place(c.kind) && state.brush->path.size() + c.path.size() > 1) {
+    return input_error("this kind of brush acts about one place", "path", "give one: [[s, t]]");
+  }
+  state.brush->brush = *brush;
+  if (auto done = brush_to(c.path); !done) return done;
+  if (c.open.value_or(false)) return {};
+  state.brush.reset();
+  if (brush_cache->stuck) {  // not of a stroke that may still come to where something is free
+    return numerical_error("nothing is free to move under the brush", "brush",
+                           R"(brush elsewhere, or release what is held or masked: {"do":"release"})");
+  }
+  return {};
+}
+
+}  // namespace knead

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "../command_fields.hpp"
+
+namespace knead {
+
+std::span<const Choice> choices(BrushKind);
+
+/// A point and a direction: of a plane its normal, of an axis its way.
+using PointAndDirection = std::array<Vector3, 2>;
+
+/// Leads a brush over the surface.
+struct BrushCommand {
+  BrushKind kind = BrushKind::push;
+  std::vector<Fractions> path;
+  std::optional<std::string> surface;  ///< on which the path lies; default: the first selected one
+  std::optional<double> radius;        ///< default: a tenth of the diagonal
+  std::optional<double> height;        ///< default: a quarter of the radius
+  std::optional<double> strength;      ///< default: 1, of pinch 0.5
+  std::optional<double> core;          ///< default: 0, of flatten 0.5
+  std::optional<Vector3> by;           ///< of grab
+  std::optional<double> angle;         ///< of twist, degrees
+  std::optional<double> factor;        ///< of scale
+  double steady = 0;                   ///< length of a rope by which the pointer draws the brush, in radii
+  std::optional<PointAndDirection> mirror, axis;
+  int radial = 1;  ///< copies of the stroke around the axis
+  std::optional<bool> open;
+  bool relative = false;
+
+  friend bool operator==(const BrushCommand&, const BrushCommand&) = default;
+};
+
+template <>
+Expected<void> Executor::execute(const BrushCommand& c);
+void describe(BrushCommand& c, Fields& fields);
+
+}  // namespace knead
