@@ -7,6 +7,7 @@ import type { App } from './app';
 import { field, h, select, slider, title, toggle } from './dom';
 import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
+import { surfaceBrushFields } from './panel_brushes';
 import { shapeTitles } from './panels_scene';
 
 /** What the pointer does: a panel for brushes and paint, one for control points. */
@@ -23,7 +24,7 @@ function wide(label: string, control: HTMLElement, tip?: string): HTMLElement {
 }
 
 export function brushPanel(app: App): HTMLElement {
-  const key = (a: App) => [a.hand.mode, a.hand.brush.settings, a.hand.paint.settings, a.hand.placing, unitOf(a), a.state?.surfaces.map((s) => s.id)];
+  const key = (a: App) => [a.hand.mode, a.hand.brush.settings, a.hand.surfaceBrush.settings, a.state?.surfaces.map((s) => s.masked), a.hand.paint.settings, a.hand.placing, unitOf(a), a.state?.surfaces.map((s) => s.id)];
   return panel(app, 'Brush', key, () => {
     const { mode } = app.hand;
     const brush = brushModes.includes(mode);
@@ -31,12 +32,13 @@ export function brushPanel(app: App): HTMLElement {
       radiusField(app),
       brush && mode !== 'grab' ? depthField(app) : null,
       ...(brush ? brushFields(app) : []),
+      ...(mode === 'brush' ? surfaceBrushFields(app) : []),
       ...(mode === 'place' ? placeFields(app) : []),
       ...(mode === 'material' ? materialFields(app) : []),
       mode === 'freeze' ? note('Drag over what may not move: whole knot spans, hatched. Alt thaws.') : null,
       mode === 'pin' ? note('Drag over control points to pin them, or click the surface to pin that point. Alt frees.') : null,
     ];
-  }, true, (a) => brushModes.includes(a.hand.mode) || paintModes.includes(a.hand.mode) || a.hand.mode === 'place');
+  }, true, (a) => brushModes.includes(a.hand.mode) || a.hand.mode === 'brush' || paintModes.includes(a.hand.mode) || a.hand.mode === 'place');
 }
 
 function radiusField(app: App): HTMLElement {

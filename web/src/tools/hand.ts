@@ -9,10 +9,12 @@ import { newTool } from './new_tool';
 import { Paint, type PaintKind } from './paint';
 import { PointEditor } from './point_edit';
 import { Pointers, type PointerTool } from './pointers';
+import { SurfaceBrush } from './surface_brush';
 
 /** Everything that the pointer can do, and which of these a press now means. */
 export class Hand {
   readonly brush: Brush;
+  readonly surfaceBrush: SurfaceBrush;
   readonly points: PointEditor;
   readonly paint: Paint;
   readonly edges: Edges;
@@ -23,6 +25,8 @@ export class Hand {
     const { viewer } = host;
     const actions = this.actions();
     this.brush = new Brush(viewer, actions);
+    const { settings } = this.brush;
+    this.surfaceBrush = new SurfaceBrush(viewer, actions, () => settings.radius, (factor) => (settings.radius *= factor));
     this.points = new PointEditor(viewer, { ...actions, changed: () => host.changed() });
     this.paint = new Paint(viewer, () => this.brush.settings.radius, {
       execute: (commands) => host.execute(commands), select: actions.select,
@@ -50,12 +54,13 @@ export class Hand {
 
   /** Something that Esc would revert is under way. */
   get active(): boolean {
-    return [this.brush, this.points, this.paint].some((tool) => tool.active);
+    return [this.brush, this.surfaceBrush, this.points, this.paint].some((tool) => tool.active);
   }
 
   tool(): PointerTool {
     if (this.mode === 'points') return this.points;
     if (this.mode === 'edges') return this.edges;
+    if (this.mode === 'brush') return this.surfaceBrush;
     return paintModes.includes(this.mode) ? this.paint : this.brush;
   }
 

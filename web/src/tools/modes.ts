@@ -1,6 +1,6 @@
 /** What the pointer does. */
 export type Mode =
-  | 'look' | 'push' | 'pull' | 'smooth' | 'grab' | 'points' | 'place' | 'pin' | 'freeze' | 'material' | 'edges';
+  | 'look' | 'push' | 'pull' | 'smooth' | 'grab' | 'brush' | 'points' | 'place' | 'pin' | 'freeze' | 'material' | 'edges';
 
 /** Mode, what it does, key. */
 export const modes: readonly (readonly [Mode, string, string])[] = [
@@ -9,6 +9,7 @@ export const modes: readonly (readonly [Mode, string, string])[] = [
   ['pull', 'Pull: a ball from behind (U). Alt pushes, Shift smooths', 'u'],
   ['smooth', 'Smooth what is under the brush (S)', 's'],
   ['grab', 'Grab a point of the surface and drag it (G)', 'g'],
+  ['brush', 'Brushes: inflate, flatten, pinch, crease, twist, mask and more (W)', 'w'],
   ['points', 'Control points: pick, drag, type (E)', 'e'],
   ['place', 'Place a tool (T)', 't'],
   ['pin', 'Pin: paint over control points, click points of the surface (P). Alt frees', 'p'],

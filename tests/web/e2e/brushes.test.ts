@@ -1,0 +1,194 @@
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+
+import { Engine } from '@studio/engine/engine';
+import type { Command, Vector3 } from '@studio/engine/session_types';
+
+import { commands, openStudio, positions, root, settled, spot, type Studio } from './page';
+
+/** Brushes, from the pointer's events to the saved file. */
+
+let studio: Studio;
+let wasm: Buffer;
+const directory = mkdtempSync(join(tmpdir(), 'knead-brushes-'));
+beforeAll(async () => {
+  studio = await openStudio();
+  wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
+});
+afterAll(async () => {
+  await studio.close();
+  rmSync(directory, { recursive: true });
+});
+afterEach(() => {
+  expect(studio.problems).toEqual([]);
+  expect(studio.foreign).toEqual([]);
+});
+
+interface Page {
+  hand: { brush: { settings: { radius: number } }; surfaceBrush: { settings: Record<string, unknown> } };
+  documents: { startFresh(name: string, commands: Command[]): Promise<unknown> };
+}
+
+const radius = 25, side = 200;
+const sheet: Command[] = [{ do: 'new', size: [side, side], net: [48, 48] }, { do: 'edge' }];
+const bumps: Command[] = [
+  { do: 'brush', kind: 'pull', radius: 40, height: 6, path: [[0.45, 0.5]] }, { do: 'brush', kind: 'push', radius: 14, height: 2, path: [[0.55, 0.5]] },
+];
+
+async function begin(kind: string, more: Command[] = [], settings: Record<string, unknown> = {}): Promise<void> {
+  const { page } = studio;
+  await page.evaluate(async ({ list, size, brush }) => {
+    const app = (window as never as { studio: Page }).studio;
+    await app.documents.startFresh('sheet', list);
+    app.hand.brush.settings.radius = size;
+    Object.assign(app.hand.surfaceBrush.settings, brush);
+  }, { list: [...sheet, ...more], size: radius, brush: { strength: 0.5, mirror: null, radial: 1, steady: 0, ...settings } });
+  await settled(page);
+  await page.keyboard.press('w');
+  await choose(kind);
+}
+
+const choose = (kind: string) => studio.page.locator('[data-panel=Brush] .chip', { hasText: new RegExp(`^${kind}$`) }).click();
+
+async function led(from: [number, number], to: [number, number], moves: number): Promise<void> {
+  const { page } = studio;
+  await page.mouse.move(...(await spot(page, ...from)));
+  await page.mouse.down();
+  await page.mouse.move(...(await spot(page, ...to)), { steps: moves });
+  await page.mouse.up();
+  await settled(page);
+}
+
+/** The surface in the file that the page saves, as the engine reads it: a grid of points. */
+async function saved(): Promise<Vector3[]> {
+  const { page } = studio;
+  await page.locator('summary[aria-label=Save]').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item', { hasText: 'STEP file' }).click()]);
+  const path = join(directory, 'saved.step');
+  await download.saveAs(path);
+  const engine = await Engine.load(wasm);
+  engine.openStep(new Uint8Array(readFileSync(path)), 'saved.step');
+  const { positions: drawn } = engine.picture(0, 200);
+  const points: Vector3[] = [];
+  for (let k = 0; k < drawn.length; k += 3) points.push([drawn[k]! + engine.origin[0]!, drawn[k + 1]! + engine.origin[1]!, drawn[k + 2]! + engine.origin[2]!]);
+  return points;
+}
+
+/** The last brush that stands, and the points of its path. */
+async function last(): Promise<Extract<Command, { do: 'brush' }> & { places: [number, number][] }> {
+  const all = await commands(studio.page);
+  const brush = all.at(-1) as Extract<Command, { do: 'brush' }>;
+  expect(brush.do).toBe('brush');
+  expect(brush.open ?? false).toBe(false);
+  return { ...brush, places: (brush.path ?? []).map(([s, t]) => [side * s, side * t]) };
+}
+
+async function undone(count: number): Promise<void> {
+  await studio.page.keyboard.press('Control+z');
+  await settled(studio.page);
+  expect((await commands(studio.page)).length).toBe(count); // one undo takes the stroke back
+}
+
+describe('brushes', () => {
+  it('inflate as high as they say along the path, and as much by eight events as by many', async () => {
+    await begin('Inflate');
+    await led([-80, 0], [80, 20], 8);
+    const few = await positions(studio.page);
+    const { height, places } = await last();
+    expect(height).toBeCloseTo(0.25 * radius, 9);
+    const points = await saved();
+    const top = Math.max(...points.map((p) => p[2]));
+    expect(Math.abs(top - height!)).toBeLessThan(0.02 * height!);
+    const reach = (p: Vector3) => Math.min(...places.map(([x, y]) => Math.hypot(p[0] - x, p[1] - y)));
+    for (const p of points) if (reach(p) > 1.8 * radius) expect(Math.abs(p[2])).toBeLessThan(1e-9);
+    await undone(sheet.length);
+    await led([-80, 0], [80, 20], 160);
+    const many = await positions(studio.page);
+    const apart = few.reduce((most, x, k) => Math.max(most, Math.abs(x - many[k]!)), 0);
+    console.log(`inflated by ${top.toFixed(3)} of ${height}; 8 and 160 events ${apart.toFixed(4)} apart`);
+    expect(apart).toBeLessThan(0.03 * height!);
+  });
+
+  it('flatten what is under them', async () => {
+    await begin('Flatten', bumps, { strength: 1 });
+    const rough = (points: Vector3[], [x, y]: [number, number]) => {
+      const near = points.filter((p) => Math.hypot(p[0] - x, p[1] - y) < 0.35 * radius);
+      // Distances from the plane that fits best, by its normal equations.
+      const mean = [0, 1, 2].map((k) => near.reduce((sum, p) => sum + p[k]!, 0) / near.length);
+      const m = (i: number, j: number) => near.reduce((sum, p) => sum + (p[i]! - mean[i]!) * (p[j]! - mean[j]!), 0);
+      const det = m(0, 0) * m(1, 1) - m(0, 1) ** 2;
+      const a = (m(0, 2) * m(1, 1) - m(1, 2) * m(0, 1)) / det, b = (m(1, 2) * m(0, 0) - m(0, 2) * m(0, 1)) / det;
+      return Math.sqrt(near.reduce((sum, p) => sum + (p[2] - mean[2]! - a * (p[0] - mean[0]!) - b * (p[1] - mean[1]!)) ** 2, 0) / near.length);
+    };
+    const before = await saved();
+    await led([0, 0], [1, 0], 1);
+    const { places } = await last();
+    const after = await saved();
+    console.log(`rms from the plane ${rough(before, places[0]!).toFixed(4)} before, ${rough(after, places[0]!).toFixed(5)} after`);
+    expect(rough(before, places[0]!)).toBeGreaterThan(0.05);
+    expect(rough(after, places[0]!)).toBeLessThan(0.05 * rough(before, places[0]!));
+  });
+
+  it('smooth, and leave edges alone', async () => {
+    await begin('Smooth', bumps, { strength: 1 });
+    const before = await saved();
+    await led([-60, 0], [60, 0], 30);
+    const after = await saved();
+    const largest = (points: Vector3[]) => Math.max(...points.map((p) => p[2]));
+    expect(largest(after)).toBeLessThan(largest(before));
+    after.forEach((p, k) => {
+      if (p[0] < 1e-9 || p[1] < 1e-9 || p[0] > side - 1e-9 || p[1] > side - 1e-9) expect(p).toEqual(before[k]);
+    });
+    await undone(sheet.length + bumps.length);
+  });
+
+  it('grab a point, which stays under the pointer', async () => {
+    await begin('Grab');
+    await led([0, 0], [20, -60], 20);
+    const { by, places } = await last();
+    expect(Math.hypot(...by!)).toBeGreaterThan(5);
+    expect(places.length).toBe(1);
+    const [x, y] = places[0]!;
+    const goal = [x + by![0], y + by![1], by![2]];
+    const off = Math.min(...(await saved()).map((p) => Math.hypot(p[0] - goal[0]!, p[1] - goal[1]!, p[2] - goal[2]!)));
+    expect(off).toBeLessThan(1); // of a grid of points a unit apart
+    await undone(sheet.length);
+  });
+
+  it('leave what is masked as it is', async () => {
+    await begin('Mask');
+    await led([0, 0], [1, 0], 1);
+    const { places: [middle] } = await last();
+    expect(await studio.page.locator('select[aria-label="Colour by"]').inputValue()).toBe('mask');
+    await choose('Inflate');
+    await led([-60, 0], [60, 0], 30);
+    const points = await saved();
+    const kept = points.filter((p) => Math.hypot(p[0] - middle![0], p[1] - middle![1]) < 0.15 * radius);
+    expect(kept.length).toBeGreaterThan(3);
+    for (const p of kept) expect(p[2]).toBe(0);
+    expect(Math.max(...points.map((p) => p[2]))).toBeGreaterThan(0.2 * radius);
+    await studio.page.locator('button', { hasText: /^Clear$/ }).click();
+    await settled(studio.page);
+    expect((await commands(studio.page)).at(-1)).toMatchObject({ do: 'mask', change: 'clear' });
+  });
+
+  it('repeat strokes in a mirror', async () => {
+    await begin('Inflate');
+    await studio.page.locator('select[aria-label="Mirror across"]').selectOption('x');
+    await led([-90, 30], [-40, 10], 20);
+    const { mirror } = await last();
+    expect(mirror![0][0]).toBeCloseTo(side / 2, 9);
+    const points = await saved();
+    const heights = new Map(points.map((p) => [`${p[0].toFixed(3)} ${p[1].toFixed(3)}`, p[2]]));
+    let compared = 0;
+    for (const p of points) {
+      const other = heights.get(`${(side - p[0]).toFixed(3)} ${p[1].toFixed(3)}`);
+      if (other === undefined) continue;
+      expect(Math.abs(other - p[2])).toBeLessThan(1e-5); // pictures are single precision
+      ++compared;
+    }
+    expect(compared).toBeGreaterThan(1000);
+    expect(Math.max(...points.map((p) => p[2]))).toBeGreaterThan(0.2 * radius);
+  });
+});

@@ -1,0 +1,70 @@
+import { parseLength } from '../document/units';
+import type { MaskCommand } from '../engine/generated';
+import { brushKinds } from '../tools/surface_brush';
+import type { App } from './app';
+import { field, h, numberInput, select, slider, title, toggle } from './dom';
+import { note, row } from './panel';
+
+/** The panel of the mode `brush`: the picker of kinds, how strong it is, where it is repeated, and the mask. */
+export function surfaceBrushFields(app: App): (Node | null)[] {
+  const { settings } = app.hand.surfaceBrush;
+  const set = (change: Partial<typeof settings>) => {
+    Object.assign(settings, change);
+    app.changed();
+  };
+  const about = brushKinds.find(([kind]) => kind === settings.kind)![1];
+  const masking = settings.kind === 'mask' || settings.kind === 'unmask';
+  const moving = settings.kind === 'grab' || settings.kind === 'twist' || settings.kind === 'scale';
+  return [
+    row(...brushKinds.map(([kind, help]) => toggle(title(kind), settings.kind === kind, () => {
+      set({ kind });
+      if (kind === 'mask' || kind === 'unmask') showMask(app);
+    }, help))),
+    masking || moving ? null : field('Strength', row(
+      slider('Brush strength', settings.strength, [0.02, 1], (strength) => set({ strength })),
+      h('output', { class: 'number' }, `${Math.round(100 * settings.strength)} %`),
+    ), 'How high it goes, 100 % half its radius; of flatten, smooth and pinch how far. Alt-wheel'),
+    moving ? null : field('Steady', slider('Steady stroke', settings.steady, [0, 2], (steady) => set({ steady: steady < 0.05 ? 0 : steady })),
+      'The brush is drawn behind the pointer by a rope of so many radii'),
+    ...repeatFields(app),
+    ...maskFields(app),
+    note(`${about}. ${settings.kind === 'smooth' ? '' : 'Shift smooths, '}Esc takes the stroke back.`),
+  ];
+}
+
+/** The colours show the mask where they show nothing else. */
+function showMask(app: App): void {
+  if (!app.display.colour) app.setDisplay({ colour: app.client.displays.find((d) => d.name === 'mask') ?? null, zebra: false, autoLimits: true });
+}
+
+function repeatFields(app: App): (Node | null)[] {
+  const { surfaceBrush } = app.hand;
+  const { settings } = surfaceBrush;
+  const unit = app.state?.surfaces[0]?.unit ?? 'mm';
+  const set = (change: Partial<typeof settings>) => {
+    Object.assign(settings, change);
+    app.changed();
+  };
+  return [
+    field('Mirror', row(
+      select('Mirror across', [['off', 'Off'], ['x', 'across x'], ['y', 'across y'], ['z', 'across z']] as const, settings.mirror?.axis ?? 'off',
+        (axis) => set({ mirror: axis === 'off' ? null : { axis, at: surfaceBrush.middle()['xyz'.indexOf(axis)]! } })),
+      settings.mirror ? numberInput('Place of the mirror', settings.mirror.at, (at) => set({ mirror: { axis: settings.mirror!.axis, at } }),
+        (text) => parseLength(text, unit)) : null,
+    ), 'Every stroke is repeated on the other side of a plane'),
+    field('Around', numberInput('Strokes around', settings.radial, (radial) => set({ radial: Math.min(64, Math.max(1, Math.round(radial))) })),
+      'Strokes around the axis z through the middle of what is selected'),
+  ];
+}
+
+function maskFields(app: App): (Node | null)[] {
+  const { settings } = app.hand.surfaceBrush;
+  const masked = app.state?.surfaces.some((s, k) => s.masked && app.state!.selection.includes(k)) ?? false;
+  if (!masked && settings.kind !== 'mask' && settings.kind !== 'unmask') return [];
+  const act = (change: MaskCommand['change'], tip: string) => h('button', {
+    class: 'button small', type: 'button', title: tip,
+    onclick: () => void app.execute([{ do: 'mask', change, ...(change === 'clear' || change === 'invert' ? {} : { radius: app.hand.brush.settings.radius / 4 }) }]),
+  }, title(change));
+  return [field('Mask', row(act('invert', 'What is masked is free, and the other way around'), act('blur', 'A softer border'), act('grow', 'A quarter of the radius more'),
+    act('shrink', 'A quarter of the radius less'), act('clear', 'Nothing is masked')), 'What brushes and strokes leave alone')];
+}

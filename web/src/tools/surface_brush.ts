@@ -1,0 +1,190 @@
+import * as THREE from 'three';
+
+import type { BrushCommand } from '../engine/generated';
+import type { Command, Vector3 } from '../engine/session_types';
+import type { GridPicker } from '../view/picking';
+import type { Viewer } from '../view/viewer';
+import type { Viewport } from '../view/viewport';
+import type { BrushActions } from './brush';
+import type { PointerTool } from './pointers';
+import { Ring } from './ring';
+
+export type BrushKind = BrushCommand['kind'];
+
+/** In the order of the picker: what is done along a path, about a place, and to the mask. */
+export const brushKinds: readonly (readonly [BrushKind, string])[] = [
+  ['inflate', 'Along the normal of each point. Alt: inwards'], ['pull', 'Out of the surface. Alt pushes'], ['push', 'Into the surface. Alt pulls'],
+  ['flatten', 'Towards the plane that fits what is under it'], ['smooth', 'Towards the fair shape'], ['pinch', 'Towards the path, within the surface'],
+  ['crease', 'A sharp valley along the path. Alt: a crest'], ['ridge', 'A sharp crest along the path. Alt: a valley'],
+  ['grab', 'Takes a point and what is round it along'], ['twist', 'Turns about a point: drag sideways'], ['scale', 'Larger or smaller about a point: drag sideways'],
+  ['mask', 'Paints what is to stay as it is. Alt frees'], ['unmask', 'Frees what is masked. Alt masks'],
+];
+
+export interface SurfaceBrushSettings {
+  kind: BrushKind;
+  /** Of what has a height in radii, of the others the share of the way that points go. */
+  strength: number;
+  /** Length of the rope by which the pointer draws the brush, in radii. */
+  steady: number;
+  /** The plane in which a stroke is repeated; `at` in file units. */
+  mirror: { axis: 'x' | 'y' | 'z'; at: number } | null;
+  /** Strokes around the axis z through the middle of what is selected. */
+  radial: number;
+}
+
+const opposite: Partial<Record<BrushKind, BrushKind>> = {
+  push: 'pull', pull: 'push', crease: 'ridge', ridge: 'crease', mask: 'unmask', unmask: 'mask',
+};
+const heights: readonly BrushKind[] = ['push', 'pull', 'inflate', 'crease', 'ridge'];
+const shares: readonly BrushKind[] = ['flatten', 'smooth', 'pinch', 'mask', 'unmask'];
+const aboutPlaces: readonly BrushKind[] = ['grab', 'twist', 'scale'];
+/** Of the radius, at full strength. */
+const fullHeight = 0.5;
+/** Pixels by which a twist turns one degree and a scale grows by e. */
+const perDegree = 2, perFactor = 160;
+
+interface Stroke {
+  viewport: Viewport;
+  surface: number;
+  frozen: (GridPicker | null)[];
+  /** All but the path and what the hand changes. */
+  fields: Omit<BrushCommand, 'path'>;
+  start: THREE.Vector3;
+  pressed: number;
+  ahead: [number, number][];
+  begun: Promise<boolean>;
+  cancelled: boolean;
+}
+
+/** Leads the brushes of the session over the surface, from the shape that stood when the button went down. */
+export class SurfaceBrush implements PointerTool {
+  settings: SurfaceBrushSettings = { kind: 'inflate', strength: 0.5, steady: 0, mirror: null, radial: 1 };
+
+  private stroke: Stroke | null = null;
+  private readonly ring: Ring;
+
+  /** `size` is the radius that all brushes have; `resize` multiplies it. */
+  constructor(private readonly viewer: Viewer, private readonly actions: BrushActions, private readonly size: () => number,
+              private readonly resize: (factor: number) => void) {
+    this.ring = new Ring(viewer);
+  }
+
+  get active(): boolean {
+    return this.stroke !== null;
+  }
+
+  /** The middle of what is selected, file units. */
+  middle(): Vector3 {
+    const state = this.viewer.frame?.state;
+    const info = state?.surfaces[state.selection[0] ?? 0];
+    if (!info) return [0, 0, 0];
+    return [0, 1, 2].map((k) => (info.lower[k]! + info.upper[k]!) / 2) as Vector3;
+  }
+
+  wheel(event: WheelEvent): boolean {
+    if (!this.stroke && !event.shiftKey && !event.altKey) return false;
+    const factor = Math.exp(-Math.sign(event.deltaY !== 0 ? event.deltaY : event.deltaX) * 0.12);
+    if (event.altKey) this.settings.strength = Math.min(1, Math.max(0.02, this.settings.strength * factor));
+    else if (!this.stroke) this.resize(factor); // a stroke keeps its size
+    this.actions.settingsChanged();
+    return true;
+  }
+
+  press(viewport: Viewport, event: PointerEvent): boolean {
+    const hit = this.viewer.pick(viewport, event);
+    if (!hit) return false;
+    const { state } = this.viewer.frame!;
+    if (!state.selection.includes(hit.surface)) {
+      void this.actions.select(hit.surface);
+      return true;
+    }
+    const fields = this.fields(event, state.surfaces[hit.surface]!.id);
+    const stroke: Stroke = {
+      viewport, surface: hit.surface, frozen: this.viewer.pickers, fields, start: hit.point.clone(), pressed: event.clientX,
+      ahead: [], begun: Promise.resolve(true), cancelled: false,
+    };
+    this.stroke = stroke;
+    stroke.begun = this.actions.begin([{ ...fields, path: [hit.fractions], open: true } as Command]);
+    return true;
+  }
+
+  private fields(event: PointerEvent, surface: string): Omit<BrushCommand, 'path'> {
+    const { settings } = this;
+    const kind = event.shiftKey ? 'smooth' : event.altKey ? (opposite[settings.kind] ?? settings.kind) : settings.kind;
+    const radius = this.size();
+    const inward = event.altKey && settings.kind === 'inflate';
+    const [x, y, z] = this.middle();
+    const fields: Omit<BrushCommand, 'path'> = { do: 'brush', kind, surface, radius };
+    if (heights.includes(kind)) fields.height = (inward ? -1 : 1) * fullHeight * settings.strength * radius;
+    if (shares.includes(kind)) fields.strength = kind === 'mask' || kind === 'unmask' ? 1 : settings.strength;
+    if (settings.steady > 0 && !aboutPlaces.includes(kind)) fields.steady = settings.steady;
+    if (settings.mirror) {
+      const k = 'xyz'.indexOf(settings.mirror.axis);
+      const on = (value: number) => [0, 1, 2].map((i) => (i === k ? value : 0)) as Vector3;
+      fields.mirror = [on(settings.mirror.at), on(1)];
+    }
+    if (settings.radial > 1) Object.assign(fields, { radial: settings.radial, axis: [[x, y, z], [0, 0, 1]] });
+    return fields;
+  }
+
+  /** What the hand changes as it goes, of the kinds that act about a place. */
+  private carried(stroke: Stroke, event: PointerEvent): Partial<BrushCommand> {
+    const aside = event.clientX - stroke.pressed;
+    if (stroke.fields.kind === 'twist') return { angle: aside / perDegree };
+    if (stroke.fields.kind === 'scale') return { factor: Math.exp(aside / perFactor) };
+    return { by: stroke.viewport.unproject(event.clientX, event.clientY, stroke.start).sub(stroke.start).toArray() };
+  }
+
+  drag(event: PointerEvent): void {
+    const { stroke } = this;
+    if (!stroke) return;
+    if (aboutPlaces.includes(stroke.fields.kind)) {
+      Object.assign(stroke.fields, this.carried(stroke, event));
+      void this.followOn(stroke);
+      return;
+    }
+    const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
+    if (!hit || hit.surface !== stroke.surface) return;
+    this.ring.show(hit.point, hit.normal, this.size());
+    stroke.ahead.push(hit.fractions);
+    void this.followOn(stroke);
+  }
+
+  private on(stroke: Stroke, open: boolean): Command {
+    return { ...stroke.fields, path: stroke.ahead.splice(0), ...(open ? { open } : {}) } as Command;
+  }
+
+  private async followOn(stroke: Stroke): Promise<void> {
+    const begun = await stroke.begun;
+    if (begun && !stroke.cancelled && this.stroke === stroke) this.actions.follow(() => [this.on(stroke, true)], true);
+  }
+
+  release(): void {
+    const { stroke } = this;
+    if (!stroke) return;
+    this.stroke = null;
+    void (async () => {
+      if ((await stroke.begun) && !stroke.cancelled) await this.actions.end([this.on(stroke, false)]);
+    })();
+  }
+
+  click(viewport: Viewport, event: PointerEvent): void {
+    const tool = this.viewer.pickTool(viewport, event);
+    this.actions.pickTool(tool);
+  }
+
+  /** Esc: as if the stroke had never been. */
+  async cancel(): Promise<void> {
+    const { stroke } = this;
+    if (!stroke) return;
+    stroke.cancelled = true;
+    this.stroke = null;
+    if (await stroke.begun) await this.actions.cancel();
+  }
+
+  hover(viewport: Viewport | null, event?: PointerEvent): void {
+    const hit = viewport && event ? this.viewer.pick(viewport, event) : null;
+    if (hit) this.ring.show(hit.point, hit.normal, this.size());
+    else this.ring.hide();
+  }
+}
