@@ -10,7 +10,7 @@ namespace {
 
 using Sample = SharedEdge::Sample;
 
-constexpr double least_tolerance = 1e-6;  // of the size
+constexpr double least_distance = 1e-6;  // of the size
 constexpr double share_of_uncertainty = 0.1;
 constexpr double most_parts = 256;  // of an interval between samples
 constexpr int coupled_per_span = 4, measured_per_span = 7;
@@ -59,7 +59,7 @@ double tolerance_of(const Scene& scene, const SharedEdge& edge) {
     const Points& net = find_surface(scene, id)->opened->control_points();
     size = std::max(size, (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm());
   }
-  return std::max(share_of_uncertainty * edge.uncertainty(), least_tolerance * size);
+  return std::max(share_of_uncertainty * edge.uncertainty(), least_distance * size);
 }
 
 }  // namespace

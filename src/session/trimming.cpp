@@ -88,11 +88,11 @@ Expected<void> Executor::refine_round(SceneSurface& s, const TrimContact& contac
                                           trim_refinement_cap(*document_surface(s)));
   if (!refinement) return std::unexpected(refinement.error());
   if (refinement->capped) {
-    state.notes.push_back(fmt::format(
-        "{}: the net between tool and held edges stays coarser than it should be, as it is limited to {} "
-        "control points; "
-        "refine it where it matters with {{\"do\":\"refine\"}}",
-        s.id, trim_refinement_cap(*document_surface(s))));
+    state.notes.push_back(
+        fmt::format("{}: the net between tool and held edges stays coarser than it should be, as it is limited to {} "
+                    "control points; "
+                    "refine it where it matters with {{\"do\":\"refine\"}}",
+                    s.id, trim_refinement_cap(*document_surface(s))));
   }
   if (refinement->empty()) return {};
   return change_net(s, [&](const Surface& shape) { return refinement->apply(shape); });
