@@ -10,7 +10,7 @@
 namespace knead::step {
 namespace {
 
-constexpr int max_nesting = 8;         // nested curves; more is a loop
+constexpr int max_curve_nesting = 8;   // nested curves; more is a loop
 constexpr int max_halvings = 7;        // of one piece of a curve
 constexpr double close_enough = 1e-6;  // of the extent: ends of a closed spline
 
@@ -21,7 +21,7 @@ std::optional<std::uint32_t> reference_at(const Reader& reader, std::uint32_t in
 }
 
 // POLYLINE(points) as a spline of degree 1.
-Expected<Curve> polyline(const Reader& reader, std::uint32_t instance) {
+Expected<Curve> polyline_curve(const Reader& reader, std::uint32_t instance) {
   const auto own = reader.attributes(instance, "POLYLINE", 1, 1);
   const auto targets = own.empty() ? std::vector<std::uint32_t>() : reader.references(own[0]);
   if (targets.size() < 2) return reader.error(instance, "it has fewer than two points");
@@ -76,7 +76,7 @@ Expected<EdgeCurve> EdgeCurve::read(const Reader& reader, std::uint32_t instance
 }
 
 Expected<EdgeCurve> EdgeCurve::read_nested(const Reader& reader, std::uint32_t instance, int depth) {
-  if (depth > max_nesting) return reader.error(instance, "it is made of itself");
+  if (depth > max_curve_nesting) return reader.error(instance, "it is made of itself");
   if (reader.is(instance, "LINE")) {
     // LINE(pnt, dir) with VECTOR(orientation, magnitude).
     const auto from = reference_at(reader, instance, "LINE", 1, 0);
@@ -116,7 +116,8 @@ Expected<EdgeCurve> EdgeCurve::read_nested(const Reader& reader, std::uint32_t i
     if (curve && reader.enumeration(own[3]) == "F") curve->turned_ = !curve->turned_;
     return curve;
   }
-  auto spline = reader.is(instance, "POLYLINE") ? polyline(reader, instance) : read_b_spline_curve(reader, instance);
+  auto spline =
+      reader.is(instance, "POLYLINE") ? polyline_curve(reader, instance) : read_b_spline_curve(reader, instance);
   if (!spline) return std::unexpected(std::move(spline.error()));
   auto table = CurveTable::create(*std::move(spline));
   if (!table) return std::unexpected(std::move(table.error()));

@@ -17,13 +17,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double chord = 2e-4;     // of edges in space
-constexpr double straight = 2e-4;  // of an edge's extent: how far a chord may be from its course
+constexpr double edge_chord = 2e-4;  // of edges in space
+constexpr double straight = 2e-4;    // of an edge's extent: how far a chord may be from its course
 constexpr int max_halvings = 7;
-
-std::string name_of(const Reader& reader, std::uint32_t instance) {
-  return "#" + std::to_string(reader.file().instance(instance).id);
-}
 
 /// Faces that belong to a shell.
 std::set<std::uint32_t> faces_in_shells(const Reader& reader) {
@@ -58,7 +54,7 @@ class Course {
       upper = upper.cwiseMax(f.at);
     }
     extent_ = std::max((upper - lower).maxCoeff(), 1e-6);
-    edge.deviation = chord * extent_;
+    edge.deviation = edge_chord * extent_;
     append(edge, points.front(), feet.front().at);
     for (std::size_t k = 1; k < points.size(); ++k) {
       halve(edge, points[k - 1], feet[k - 1].at, points[k], feet[k].at, 0);
@@ -101,7 +97,7 @@ class Course {
     unwrap(m.at, a);
     const double off = (m.at - 0.5 * (a + b)).cwiseAbs().maxCoeff();
     if (off <= straight * extent_ || depth == max_halvings) {
-      edge.deviation = std::max(edge.deviation, off + chord * extent_);
+      edge.deviation = std::max(edge.deviation, off + edge_chord * extent_);
       return;
     }
     halve(edge, p, a, middle, m.at, depth + 1);
@@ -138,7 +134,7 @@ Expected<VisibleRegion> visible_region(const step::File& file, const std::string
     for (std::size_t end = 0; end < 2; ++end) result.poles[d][end] = feet->space().poles[d][end].has_value();
   }
   const auto shells = faces_in_shells(reader);
-  EdgeSampler sampler(reader, chord);
+  EdgeSampler sampler(reader, edge_chord);
   Course course(*feet, size);
   std::map<std::uint32_t, std::size_t> known;                    // edges of the result, by instance
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces_at;  // of every edge

@@ -5,7 +5,7 @@
 namespace knead::step {
 namespace {
 
-Expected<Point> vertex_point(const Reader& reader, std::uint32_t vertex) {
+Expected<Point> vertex_place(const Reader& reader, std::uint32_t vertex) {
   const auto own = reader.attributes(vertex, "VERTEX_POINT", 1, 1);
   const auto geometry = own.empty() ? std::nullopt : reader.reference(own[0]);
   if (!geometry) return reader.error(vertex, "a VERTEX_POINT is needed here");
@@ -25,8 +25,8 @@ Expected<EdgePiece> edge_piece(const Reader& reader, std::uint32_t instance) {
     return reader.error(instance, "an EDGE_CURVE with two vertices is needed here");
   }
   const bool same_vertex = first == last;
-  const auto start = vertex_point(reader, first);
-  const auto end = vertex_point(reader, last);
+  const auto start = vertex_place(reader, first);
+  const auto end = vertex_place(reader, last);
   auto curve = EdgeCurve::read(reader, *geometry);
   if (!start) return std::unexpected(start.error());
   if (!end) return std::unexpected(end.error());

@@ -59,13 +59,13 @@ struct FaceSurface::Elementary {
 
 Expected<FaceSurface> FaceSurface::read(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it,
                                         std::span<const double> angle_units) {
-  constexpr std::array<Elementary, 6> forms = {{{"PLANE", Kind::plane, 0},
-                                                {"CYLINDRICAL_SURFACE", Kind::cylinder, 1},
-                                                {"CONICAL_SURFACE", Kind::cone, 2},
-                                                {"SPHERICAL_SURFACE", Kind::sphere, 1},
-                                                {"TOROIDAL_SURFACE", Kind::torus, 2},
-                                                {"DEGENERATE_TOROIDAL_SURFACE", Kind::torus, 3}}};
-  for (const auto& form : forms) {
+  constexpr std::array<Elementary, 6> elementary_forms = {{{"PLANE", Kind::plane, 0},
+                                                           {"CYLINDRICAL_SURFACE", Kind::cylinder, 1},
+                                                           {"CONICAL_SURFACE", Kind::cone, 2},
+                                                           {"SPHERICAL_SURFACE", Kind::sphere, 1},
+                                                           {"TOROIDAL_SURFACE", Kind::torus, 2},
+                                                           {"DEGENERATE_TOROIDAL_SURFACE", Kind::torus, 3}}};
+  for (const auto& form : elementary_forms) {
     if (reader.is(instance, form.entity)) return read_elementary(reader, instance, form, on_it, angle_units);
   }
   if (reader.is(instance, "SURFACE_OF_REVOLUTION")) return read_swept(reader, instance, Kind::revolution, on_it);

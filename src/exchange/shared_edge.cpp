@@ -19,12 +19,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double chord = 2e-3;     // of the edge in space, between samples
-constexpr int least_samples = 64;  // intervals
-
-std::string name_of(const Reader& reader, std::uint32_t instance) {
-  return "#" + std::to_string(reader.file().instance(instance).id);
-}
+constexpr double sampling_chord = 2e-3;  // of the edge in space, between samples
+constexpr int least_samples = 64;        // intervals
 
 /// The surfaces of the faces at an edge. Errors: a face that cannot follow it.
 Expected<std::vector<std::size_t>> surfaces_at(const step::File::Data& data, const Reader& reader, std::uint32_t edge) {
@@ -86,7 +82,7 @@ void settle(LoopPoint& at, const LoopPoint& next) {
 
 /// At least `least_samples` intervals, each chord within a small part of the edge's extent.
 std::vector<double> sampled(const EdgePiece& piece) {
-  const std::vector<double> coarse = piece.curve.subdivided(piece.from, piece.to, chord);
+  const std::vector<double> coarse = piece.curve.subdivided(piece.from, piece.to, sampling_chord);
   std::vector<double> result = {coarse.front()};
   const double longest = (piece.to - piece.from) / least_samples;
   for (std::size_t k = 1; k < coarse.size(); ++k) {

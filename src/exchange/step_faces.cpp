@@ -3,7 +3,7 @@
 namespace knead::step {
 
 std::vector<Face> read_faces(const Reader& reader) {
-  constexpr int max_nesting = 4;
+  constexpr int max_shell_nesting = 4;
   std::vector<Face> result;
   for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
     const bool on_surface = reader.is(k, "ADVANCED_FACE") || reader.is(k, "FACE_SURFACE");
@@ -14,7 +14,7 @@ std::vector<Face> read_faces(const Reader& reader) {
     if (on_surface) {
       const auto own = reader.attributes(k, "FACE_SURFACE", 2, 2);
       auto target = own.empty() ? std::nullopt : reader.reference(own[0]);
-      for (int depth = 0; depth < max_nesting && target; ++depth) {
+      for (int depth = 0; depth < max_shell_nesting && target; ++depth) {
         const char* cut = reader.is(*target, "RECTANGULAR_TRIMMED_SURFACE") ? "RECTANGULAR_TRIMMED_SURFACE"
                           : reader.is(*target, "CURVE_BOUNDED_SURFACE")     ? "CURVE_BOUNDED_SURFACE"
                                                                             : nullptr;
@@ -46,6 +46,10 @@ std::vector<std::uint32_t> edges_around(const Reader& reader, const Face& face) 
     }
   }
   return result;
+}
+
+std::string name_of(const Reader& reader, std::uint32_t instance) {
+  return "#" + std::to_string(reader.file().instance(instance).id);
 }
 
 }  // namespace knead::step

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "step_entity.hpp"
@@ -21,5 +22,8 @@ struct Face {
 
 /// The EDGE_CURVEs around a face, once for every time a loop runs along them.
 [[nodiscard]] std::vector<std::uint32_t> edges_around(const Reader& reader, const Face& face);
+
+/// "#12", as the file calls an instance.
+[[nodiscard]] std::string name_of(const Reader& reader, std::uint32_t instance);
 
 }  // namespace knead::step

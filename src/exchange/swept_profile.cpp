@@ -98,8 +98,8 @@ Expected<void> FaceSurface::end_at_axis(const Reader& reader, std::uint32_t inst
   } else if (waist <= 1e-9 * range_.length()) {
     double middle = 0;
     for (const Point& p : on_it) middle += section(p).y() / static_cast<double>(on_it.size());
-    const double at_pole = section(profile_->at(t)).y();
-    const bool upper = (middle > at_pole) == (direction.dot(frame_.z) > 0);
+    const double height_at_pole = section(profile_->at(t)).y();
+    const bool upper = (middle > height_at_pole) == (direction.dot(frame_.z) > 0);
     (upper ? range_.lower : range_.upper) = t;
     if (!(range_.length() > 0)) return reader.error(instance, "the face lies beyond where its curve meets the axis");
   }

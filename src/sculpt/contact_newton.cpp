@@ -19,7 +19,7 @@ constexpr double followed_tolerance = 1e-8;  // for a tool followed along a path
 constexpr double rounded_tolerance = 1e-9;   // where the rounding of recomputed forces does not allow more
 constexpr double cancellation = 1e-12;
 constexpr double sufficient_decrease = 1e-4;
-constexpr double rounding = 1e-14;
+constexpr double rounding_of_potential = 1e-14;
 constexpr int max_rounded_steps = 4;
 // Stages of increasing stiffness towards a stiff tool.
 constexpr double soft_stiffness = 1e4;
@@ -265,8 +265,8 @@ class Minimisation {
 
   /// Whether the gain left is below the rounding of Φ, whose parts include rᵀA⁻¹r (see `View::quadratic_at`).
   [[nodiscard]] bool is_rounded(const View& view, const Direction& to) const {
-    return -to.slope <=
-           rounding * (problem_.energy + std::abs(view.quadratic) + std::abs(state_.potential) + view.from.rs);
+    return -to.slope <= rounding_of_potential *
+                            (problem_.energy + std::abs(view.quadratic) + std::abs(state_.potential) + view.from.rs);
   }
 
   /// Steps along the direction, halved until Φ decreases enough; a full step if values are not decisive.

@@ -58,7 +58,7 @@ struct Direction {
 };
 
 /// A held piece of a knot line.
-struct Line {
+struct KnotLine {
   int direction;
   double at;
   Interval along;
@@ -80,8 +80,8 @@ class Cells {
   [[nodiscard]] const Direction& direction(int d) const { return d == 0 ? u_ : v_; }
 
   /// Marks the spans that an edge crosses, and returns the lines it runs along. `number` < 0: not held.
-  std::vector<Line> mark(const TrimEdge& edge, int number) {
-    std::vector<Line> lines;
+  std::vector<KnotLine> mark(const TrimEdge& edge, int number) {
+    std::vector<KnotLine> lines;
     const Vector2d slack = Vector2d(u_.domain.length(), v_.domain.length()) * edge.deviation;
     for (std::size_t k = 0; k + 1 < edge.course.size(); ++k) {
       for (const Vector2d& turn : turns(edge.course[k], edge.course[k + 1])) {
@@ -163,7 +163,7 @@ class Cells {
     return {u_.domain.lower + fractions.x() * u_.domain.length(), v_.domain.lower + fractions.y() * v_.domain.length()};
   }
 
-  void chord(const Vector2d& a, const Vector2d& b, const Vector2d& slack, int number, std::vector<Line>& lines) {
+  void chord(const Vector2d& a, const Vector2d& b, const Vector2d& slack, int number, std::vector<KnotLine>& lines) {
     for (int d = 0; d < 2; ++d) {
       const auto& all = direction(d).lines;
       const auto near = std::ranges::min_element(all, {}, [&](double c) { return std::abs(c - a[d]); });
@@ -214,7 +214,7 @@ class Cells {
 int beside_line(int order) { return order > 0 ? order + 1 : order; }
 
 /// Control points that affect a line.
-void hold_line(const Cells& cells, const Line& line, int order, int columns, std::vector<int>& by, int number) {
+void hold_line(const Cells& cells, const KnotLine& line, int order, int columns, std::vector<int>& by, int number) {
   const Direction &across = cells.direction(line.direction), &along = cells.direction(1 - line.direction);
   const auto [first, last] = along.meeting(line.along.lower, line.along.upper);
   for (int i = 0; i < across.knots.count(); ++i) {
@@ -245,7 +245,7 @@ Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region, 
     const int number = static_cast<int>(e), order = orders[e];
     highest = std::max(highest, order);
     const auto lines = cells.mark(region.edges[e], order < 0 ? -1 : number);
-    for (const Line& line : lines) {
+    for (const KnotLine& line : lines) {
       hold_line(cells, line, line.exact ? order : beside_line(order), columns, by, number);
     }
     result.edges.push_back(
@@ -257,7 +257,7 @@ Expected<TrimHold> hold_trims(const Surface& rest, const VisibleRegion& region, 
     for (std::size_t end = 0; end < 2; ++end) {
       if (!region.poles[static_cast<std::size_t>(d)][end]) continue;
       const Interval domain = cells.direction(d).domain;
-      const Line line{d, end == 0 ? domain.lower : domain.upper, cells.direction(1 - d).domain};
+      const KnotLine line{d, end == 0 ? domain.lower : domain.upper, cells.direction(1 - d).domain};
       hold_line(cells, line, beside_line(highest), columns, by, outside + 1);
     }
   }

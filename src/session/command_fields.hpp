@@ -5,6 +5,9 @@
 
 namespace knead {
 
+[[nodiscard]] inline Vector3 array_of(const Point& p) { return {p[0], p[1], p[2]}; }
+[[nodiscard]] inline Point point_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
+
 // Fields shared by several commands. Each command's header declares, next to its struct C,
 //   Expected<void> Executor::execute(const C&)   what it does
 //   void describe(C&, Fields&)                   its fields

@@ -165,9 +165,9 @@ bool all_the_same(const Type& array, const void* value) {
   return true;
 }
 
-class Writer {
+class JsonWriter {
  public:
-  explicit Writer(Absent absent) : absent_(absent) {}
+  explicit JsonWriter(Absent absent) : absent_(absent) {}
 
   void value(const Type& type, const void* v, double factor = 1) {
     switch (type.kind) {
@@ -300,7 +300,7 @@ Expected<void> read_variant(const Json& json, const Type& type, void* variant, s
 }
 
 std::string to_json(const Type& type, const void* value, Absent absent) {
-  Writer writer(absent);
+  JsonWriter writer(absent);
   writer.value(type, value);
   return std::move(writer.text);
 }

@@ -4,8 +4,6 @@ namespace knead {
 namespace {
 
 Vector3 array_of(const Point& p) { return {p[0], p[1], p[2]}; }
-Point point_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
-
 /// All edges in the order of `SurfaceEdge`, after `EdgeChoice::all`.
 EdgeChoice choice_of(SurfaceEdge edge) { return static_cast<EdgeChoice>(static_cast<int>(edge) + 1); }
 

@@ -4,8 +4,6 @@
 
 namespace knead {
 
-[[nodiscard]] inline Vector3 array_of(const Point& p) { return {p[0], p[1], p[2]}; }
-
 /// The command that puts a constraint on the selected surface.
 [[nodiscard]] Command restated(const Constraint& constraint);
 

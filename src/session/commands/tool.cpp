@@ -11,8 +11,6 @@
 namespace knead {
 namespace {
 
-Point point_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
-
 /// The tool's position, rotation and scale.
 Expected<Placement> placement_of(const ToolCommand& c, double unit, SceneSurface& surface, Executor& executor) {
   Placement placement;
