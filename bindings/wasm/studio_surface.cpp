@@ -3,9 +3,13 @@
 #include <nlohmann/json.hpp>
 
 namespace knead::studio {
+namespace {
+
+using Json = nlohmann::json;
+
+}  // namespace
 
 std::string surface_json(const Surface& surface) {
-  using Json = nlohmann::json;
   Json points = Json::array();
   for (Eigen::Index k = 0; k < surface.size(); ++k) {
     const auto row = surface.control_points().row(k);
