@@ -71,7 +71,7 @@ describe('a snapshot', () => {
     const other = await load();
     expect(() => other.restore(null, 'x', snapshot.slice(0, -1))).toThrow(/damaged/);
     expect(() => other.restore(null, 'x', snapshot.map((b, k) => (k === 500 ? b ^ 1 : b)))).toThrow(/damaged/);
-    expect(() => other.restore(null, 'x', new Uint8Array(3))).toThrow(/no snapshot/);
+    expect(() => other.restore(null, 'x', new Uint8Array(3))).toThrow(/not a snapshot/);
     expect(() => other.state()).toThrow(/nothing is open/);
   });
 });

@@ -6,6 +6,7 @@ import { h, iconButton, toggle } from './dom';
 
 const choices: readonly (readonly [Continuity, string])[] = [
   ['free', 'It may move'],
+  ['follow', 'It moves with the faces that meet here, which must all be selected, and these stay together'],
   ['position', 'It stays where it is'],
   ['clamped', 'It stays, with its tangent planes'],
   ['curvature', 'It stays, with its tangent planes and curvatures'],
@@ -29,7 +30,7 @@ export function listenToEdges(app: App): void {
     close();
     const info = app.state!.surfaces[surface]!;
     const now = continuityOf(info, edge);
-    const possible = choices.filter(([continuity]) => isSide(edge) || continuity !== 'symmetry');
+    const possible = choices.filter(([continuity]) => continuity !== (isSide(edge) ? 'follow' : 'symmetry'));
     const rows = possible.map(([continuity, about]) => toggle(continuityTitles[continuity], continuity === now, () => {
       close();
       void app.execute(asking(app, surface, edge, continuity));

@@ -2,7 +2,8 @@ import { parseLength } from '../document/units';
 import type { MaskCommand } from '../engine/generated';
 import { brushKinds } from '../tools/surface_brush';
 import type { App } from './app';
-import { field, h, numberInput, select, slider, title, toggle } from './dom';
+import { field, h, select, slider, title, toggle } from './dom';
+import { numberInput } from './number_input';
 import { note, row } from './panel';
 
 /** The panel of the mode `brush`: the picker of kinds, how strong it is, where it is repeated, and the mask. */

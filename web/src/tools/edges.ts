@@ -11,7 +11,7 @@ import { type Continuity, continuityOf, type Edge, edgeNames, isSide, type Side 
 import type { PointerTool } from './pointers';
 
 const colours: Record<Continuity, number> = {
-  free: 0x8a97a5, position: 0xe0b13a, clamped: 0xe88433, curvature: 0xd6483d, symmetry: 0x9a6fd0,
+  free: 0x8a97a5, follow: 0x4aa08c, position: 0xe0b13a, clamped: 0xe88433, curvature: 0xd6483d, symmetry: 0x9a6fd0,
 };
 
 /**

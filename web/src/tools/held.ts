@@ -4,9 +4,9 @@ export const edgeNames = ['u0', 'u1', 'v0', 'v1'] as const;
 /** A side of a surface, or an edge of a face on it by its id in the file. */
 export type Side = (typeof edgeNames)[number];
 export type Edge = Side | `#${string}`;
-export type Continuity = 'free' | 'position' | 'clamped' | 'curvature' | 'symmetry';
+export type Continuity = 'free' | 'follow' | 'position' | 'clamped' | 'curvature' | 'symmetry';
 
-export const continuityTitles: Record<Continuity, string> = { free: 'Free', position: 'Position', clamped: 'Tangent', curvature: 'Curvature', symmetry: 'Symmetry' };
+export const continuityTitles: Record<Continuity, string> = { free: 'Free', follow: 'Follow', position: 'Position', clamped: 'Tangent', curvature: 'Curvature', symmetry: 'Symmetry' };
 const sides: Record<Side, string> = { u0: 'Edge u = 0', u1: 'Edge u = 1', v0: 'Edge v = 0', v1: 'Edge v = 1' };
 export const isSide = (edge: Edge): edge is Side => edge in sides;
 export const edgeTitle = (edge: Edge): string => (isSide(edge) ? sides[edge] : `Edge ${edge}`);
@@ -37,7 +37,7 @@ function listed(parts: string[]): string {
 
 /** What of a surface is held, in a few words. `faceEdges`: ids of the edges of the faces on it. */
 export function heldInWords(info: SurfaceInfo, faceEdges: readonly Edge[]): string {
-  const held = (edges: readonly Edge[]) => edges.filter((e) => continuityOf(info, e) !== 'free').length;
+  const held = (edges: readonly Edge[]) => edges.filter((e) => !['free', 'follow'].includes(continuityOf(info, e))).length;
   const parts: string[] = [];
   if (info.hold > 0) parts.push(counted(info.hold, 'outer row'));
   const asked = faceEdges.length > 0 && info.constraints.some((c) => c.do === 'hold' || (c.do === 'edge' && c.edge !== undefined));
