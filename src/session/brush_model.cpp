@@ -103,18 +103,7 @@ Expected<void> Executor::prepare_brush_model() {
     s.material = MaterialFieldOf<2>(MaterialOf<2>{{0, 0, 0}, {1, 1, 1}});
     if (s.rest) s.rest = open.before[k].rest;
   }
-  if (stroke_cache && stroke_cache->scene.input == input) return {};
-  stroke_cache.reset();
-  std::vector<GrevilleValues<2>> values;
-  for (const OpenStroke::Before& b : open.before) {
-    auto made = GrevilleValues<2>::create(*b.current);
-    if (!made) return std::unexpected(made.error());
-    values.push_back(std::move(*made));
-  }
-  auto made = make_model(std::move(input));
-  if (!made) return std::unexpected(made.error());
-  stroke_cache = StrokeModel{std::move(*made), std::move(values)};
-  return {};
+  return keep_stroke_model(std::move(input), open.before);
 }
 
 }  // namespace knead

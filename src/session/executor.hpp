@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "knead/scene/model.hpp"
 #include "knead/scene/reshape.hpp"
@@ -143,6 +144,8 @@ struct Executor {
   /// Some selected surface is held by the edges of its faces.
   bool holds_edges() const;
   Expected<void> prepare_stroke_model();
+  /// Makes the model of this input, with the abscissae of the shapes from before the stroke, unless it is there.
+  Expected<void> keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before);
   Expected<void> put_tool(const Point& place);
   Expected<ActiveStep> press();
   Expected<bool> refine_stroke(const ActiveStep* step);

@@ -181,10 +181,14 @@ Expected<void> Executor::prepare_stroke_model() {
       s.material.alpha[i] = std::move(*alpha);
     }
   }
+  return keep_stroke_model(std::move(input), stroke.before);
+}
+
+Expected<void> Executor::keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before) {
   if (stroke_cache && stroke_cache->scene.input == input) return {};
   stroke_cache.reset();
   std::vector<GrevilleValues<2>> values;
-  for (const OpenStroke::Before& b : stroke.before) {
+  for (const OpenStroke::Before& b : before) {
     auto made = GrevilleValues<2>::create(*b.current);
     if (!made) return std::unexpected(made.error());
     values.push_back(std::move(*made));
