@@ -174,6 +174,8 @@ describe('the lab', () => {
     await plotted.selectOption('0');
     await page.locator('select[aria-label=Degree]').selectOption('15');
     await drawn();
+    expect(await plotted.inputValue()).toBe('0');
+    expect(await degree()).toBe('15');
     await expect.poll(async () => (await paths()).length).toBe(36);
     expect(await apply().isDisabled()).toBe(true);
     expect(await message()).toMatch(/for looking only.*degree 3/);

@@ -1,6 +1,6 @@
 import { format } from '../../document/units';
 import { h, iconButton, select } from '../dom';
-import { knotText, moved, parseKnots } from './knots';
+import { type Direction, knotText, moved, parseKnots } from './knots';
 import type { LabModel, What } from './model';
 import { functionName, orderName, sup } from './names';
 
@@ -8,38 +8,46 @@ const mostIntegrals = 8;
 
 /** Which functions are shown: direction, degree, derivative or integral. */
 export class LabControls {
-  readonly element = h('div', { class: 'lab-line tight' });
-  private drawn = '';
+  readonly element: HTMLElement;
+  private readonly directions: Record<Direction, HTMLButtonElement>;
+  private readonly degree: HTMLSelectElement;
+  private readonly order: HTMLSelectElement;
+  private readonly integrate = this.step(-1, 'Integrate', '∫');
+  private readonly differentiate = this.step(1, 'Differentiate', 'd/du');
+  private listed = 0; // the degree that the list of orders was made for
 
   constructor(private readonly model: LabModel) {
-    this.draw();
+    const chip = (d: Direction) => h('button', { class: 'chip', type: 'button', onclick: () => model.turn(d), aria: { label: `Direction ${d}` } }, d);
+    this.directions = { u: chip('u'), v: chip('v') };
+    const degrees = Array.from({ length: 15 }, (_, k) => [String(k + 1), `degree ${k + 1}`] as const);
+    this.degree = select('Degree', degrees, '', (k) => model.setDegree(Number(k)));
+    this.order = select('What is plotted', [], '', (k) => model.setOrder(Number(k)));
+    this.element = h('div', { class: 'lab-line tight' }, this.directions.u, this.directions.v, this.degree, this.integrate, this.order, this.differentiate);
+    this.update();
   }
 
   update(): void {
-    this.draw();
-  }
-
-  private draw(): void {
     const { model } = this;
     const { degree } = model.now;
-    const key = `${model.direction} ${degree} ${model.order} ${model.surface?.name}`;
-    if (key === this.drawn) return;
-    this.drawn = key;
-    const name = this.element.contains(document.activeElement) ? document.activeElement?.getAttribute('aria-label') : null;
-    const chips = (['u', 'v'] as const).map((d) => h('button', { class: d === model.direction ? 'chip on' : 'chip', type: 'button', disabled: !model.surface,
-      onclick: () => model.turn(d), aria: { pressed: String(d === model.direction), label: `Direction ${d}` } }, d));
-    const degrees = Array.from({ length: 15 }, (_, k) => [String(k + 1), `degree ${k + 1}`] as const);
+    for (const [d, chip] of Object.entries(this.directions)) {
+      chip.classList.toggle('on', d === model.direction);
+      chip.setAttribute('aria-pressed', String(d === model.direction));
+      chip.disabled = !model.surface;
+    }
+    this.degree.value = String(degree);
     const last = Math.min(31, 2 * degree + 1);
-    const orders = Array.from({ length: mostIntegrals + last + 1 }, (_, k) => k - mostIntegrals).map((k) => [String(k), orderName(k, degree)] as const);
-    const step = (by: number, label: string, text: string) => h('button', { class: 'button small', type: 'button', aria: { label }, title: label,
-      disabled: by < 0 ? model.order <= -mostIntegrals : model.order >= last, onclick: () => model.setOrder(model.order + by) }, text);
-    this.element.replaceChildren(
-      ...chips,
-      select('Degree', degrees, String(degree), (k) => model.setDegree(Number(k))),
-      step(-1, 'Integrate', '∫'),
-      select('What is plotted', orders, String(model.order), (k) => model.setOrder(Number(k))),
-      step(1, 'Differentiate', 'd/du'));
-    if (name) this.element.querySelector<HTMLElement>(`[aria-label="${CSS.escape(name)}"]`)?.focus();
+    if (this.listed !== degree) {
+      this.listed = degree;
+      this.order.replaceChildren(...Array.from({ length: mostIntegrals + last + 1 }, (_, k) => k - mostIntegrals)
+        .map((k) => h('option', { value: String(k) }, orderName(k, degree))));
+    }
+    this.order.value = String(model.order);
+    this.integrate.disabled = model.order <= -mostIntegrals;
+    this.differentiate.disabled = model.order >= last;
+  }
+
+  private step(by: number, label: string, text: string): HTMLButtonElement {
+    return h('button', { class: 'button small', type: 'button', aria: { label }, title: label, onclick: () => this.model.setOrder(this.model.order + by) }, text);
   }
 }
 
