@@ -20,7 +20,7 @@ struct InfoArguments {
 
 Json to_json(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
-Json to_json(const step::Placement& p) {
+Json to_json(const step::AxisPlacement& p) {
   return {{"origin", to_json(p.origin)}, {"axis", to_json(p.axis)}, {"ref_direction", to_json(p.ref_direction)}};
 }
 

@@ -41,7 +41,7 @@ Expected<Curve> polyline_curve(const Reader& reader, std::uint32_t instance) {
 
 }  // namespace
 
-std::optional<Frame> frame_of(const Placement& placement) {
+std::optional<Frame> frame_of(const AxisPlacement& placement) {
   Frame frame{placement.origin};
   frame.z = placement.axis.normalized();
   const Point across = placement.ref_direction - placement.ref_direction.dot(frame.z) * frame.z;

@@ -20,7 +20,7 @@ struct Frame {
 };
 
 /// None if the axis has zero length, or the reference direction is along it.
-[[nodiscard]] std::optional<Frame> frame_of(const Placement& placement);
+[[nodiscard]] std::optional<Frame> frame_of(const AxisPlacement& placement);
 
 /// A curve of a STEP file in its own parametrisation (ISO 10303-42): LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA,
 /// POLYLINE and B-spline curves; TRIMMED_CURVE, and SURFACE_CURVE with its subtypes, by their underlying curve.

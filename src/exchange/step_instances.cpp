@@ -159,14 +159,14 @@ std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector
 
 }  // namespace
 
-std::optional<Placement> read_placement(const Reader& reader, std::uint32_t instance) {
+std::optional<AxisPlacement> read_placement(const Reader& reader, std::uint32_t instance) {
   if (!reader.is(instance, "AXIS2_PLACEMENT_3D")) return std::nullopt;
   const auto record_is_complex = reader.file().instance(instance).complex;
   const auto location = record_is_complex ? attribute(reader, instance, "PLACEMENT", 0, 0)
                                           : attribute(reader, instance, "AXIS2_PLACEMENT_3D", 1, 0);
   const auto origin = location ? reader.point(*location) : Expected<Point>(input_error("no location"));
   if (!origin) return std::nullopt;
-  Placement result{*origin};
+  AxisPlacement result{*origin};
   const std::size_t inherited = record_is_complex ? 0 : 2;
   if (const auto axis = attribute(reader, instance, "AXIS2_PLACEMENT_3D", inherited, 0)) {
     result.axis = reader.direction(*axis).value_or(result.axis);

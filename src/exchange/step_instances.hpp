@@ -12,6 +12,6 @@ namespace knead::step {
 [[nodiscard]] std::vector<Instance> read_instances(const Reader& reader);
 
 /// AXIS2_PLACEMENT_3D; none if the instance is not one or lacks its location.
-[[nodiscard]] std::optional<Placement> read_placement(const Reader& reader, std::uint32_t instance);
+[[nodiscard]] std::optional<AxisPlacement> read_placement(const Reader& reader, std::uint32_t instance);
 
 }  // namespace knead::step

@@ -61,7 +61,7 @@ class Analytic {
   /// the functions of the left span, or of the right one where there is no left.
   void jump(int left, int right) {
     SpanValues<Real> side[order_limit];
-    int orders[order_limit];
+    int orders[order_limit] = {};
     for (int r = 0; r <= p_; ++r) {
       orders[r] = r;
       std::fill_n(jump_[r], p_ + 1, Real(0));

@@ -5,12 +5,12 @@
 namespace knead {
 namespace {
 
-constexpr std::size_t line = 8;  // doubles in a cache line
+constexpr std::size_t cache_line = 8;  // doubles in a cache line
 
 /// Whole lines, one of them to spare, and an odd number of them, so that it is never a power of two above a line.
 std::size_t padded(int size) {
-  const std::size_t lines = (static_cast<std::size_t>(size) + line - 1) / line + 1;
-  return (lines | 1) * line;
+  const std::size_t lines = (static_cast<std::size_t>(size) + cache_line - 1) / cache_line + 1;
+  return (lines | 1) * cache_line;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace knead {
 namespace {
 
-constexpr double rounding = 1e-12;  // of weights that knots were inserted into
+constexpr double insertion_error = 1e-12;  // of weights that knots were inserted into
 
 std::vector<double> greville_of(const KnotVector& knots) {
   const Interval domain = knots.domain();
@@ -64,7 +64,7 @@ Expected<std::vector<double>> mask_on(const Surface& field, const Surface& shape
   std::vector<double> mask;
   for (Eigen::Index i = 0; i < values->points().rows(); ++i) {
     const double m = std::clamp(values->points()(i, 0), 0., 1.);
-    mask.push_back(m > 1 - rounding ? 1 : m < rounding ? 0 : m);
+    mask.push_back(m > 1 - insertion_error ? 1 : m < insertion_error ? 0 : m);
   }
   return mask;
 }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "constraint_rows.hpp"
 #include "dense_decompositions.hpp"
 
@@ -16,16 +18,13 @@ struct RingRelation {
 RingRelation relation(const Eigen::Matrix3Xd& ring, double flatness) {
   RingRelation result;
   const auto [vectors, singular] = detail::left_singular(ring);
-  while (result.rank < singular.size() && singular[result.rank] > flatness * singular[0]) ++result.rank;
+  while (result.rank < std::min<Eigen::Index>(3, ring.cols()) && singular[result.rank] > flatness * singular[0])
+    ++result.rank;
   if (result.rank == 0) return result;
   const Eigen::MatrixXd flat = vectors.leftCols(result.rank).transpose() * ring;
   const detail::PivotedQr qr(flat);
-  Eigen::MatrixXd chosen(result.rank, result.rank);
-  for (int k = 0; k < result.rank; ++k) {
-    result.basis.push_back(qr.order()[k]);
-    chosen.col(k) = flat.col(result.basis.back());
-  }
-  result.coefficients = detail::solved(chosen, flat);
+  for (int k = 0; k < result.rank; ++k) result.basis.push_back(qr.order()[k]);
+  result.coefficients = qr.coefficients(result.rank);
   return result;
 }
 

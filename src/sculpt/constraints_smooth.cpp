@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "constraint_rows.hpp"
+#include "dense_decompositions.hpp"
 
 namespace knead {
 namespace {
@@ -191,9 +191,9 @@ Expected<void> couple_samples(const Line& line, bool derivatives, const std::str
     Terms row = (*right)[derivatives ? 1 : 0];
     if (derivatives) {
       const auto at = static_cast<Eigen::Index>(k);
-      Eigen::Matrix<double, 3, 2> frame;
+      Eigen::MatrixXd frame(3, 2);
       frame << line.across_left.row(at).transpose(), line.tangent.row(at).transpose();
-      const Eigen::Vector2d factors = frame.colPivHouseholderQr().solve(line.across_right.row(at).transpose());
+      const Eigen::VectorXd factors = detail::least_squares(frame, line.across_right.row(at).transpose());
       add(row, (*left)[1], -factors[0]);
       add(row, (*left)[2], -factors[1]);
     } else {

@@ -1,27 +1,29 @@
 #include "dense_decompositions.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
-#include "knead/sculpt/shape.hpp"
+namespace knead::detail {
 
-namespace knead {
-
-Eigen::Quaterniond turn_between(const Point& from, const Point& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to);
-}
-
-namespace detail {
-
-LeftSingular left_singular(const Eigen::MatrixXd& a) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU);
+LeftSingular left_singular(const Eigen::Matrix3Xd& a) {
+  // With the QR decomposition Aᵀ P = Q R, the left singular vectors of A = (P Rᵀ) Qᵀ are those of the small P Rᵀ.
+  const Eigen::MatrixXd transposed = a.transpose();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
+  const Eigen::Index rank = std::min<Eigen::Index>(3, a.cols());
+  Eigen::Matrix3d small = Eigen::Matrix3d::Zero();
+  for (Eigen::Index j = 0; j < 3; ++j) {
+    for (Eigen::Index i = 0; i <= std::min(j, rank - 1); ++i)
+      small(qr.colsPermutation().indices()[j], i) = qr.matrixR()(i, j);
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> svd(small, Eigen::ComputeFullU);
   return {svd.matrixU(), svd.singularValues()};
 }
 
-Eigen::MatrixXd solved(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a.partialPivLu().solve(b); }
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(a).solve(b);
+}
 
 struct PivotedQr::Factors {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
@@ -44,5 +46,18 @@ Eigen::MatrixXd PivotedQr::remainder(Eigen::Index rank) const {
   return rest;
 }
 
-}  // namespace detail
-}  // namespace knead
+Eigen::MatrixXd PivotedQr::coefficients(Eigen::Index rank) const {
+  const auto& r = factors_->qr.matrixR();
+  Eigen::MatrixXd others = r.topRightCorner(rank, r.cols() - rank);
+  r.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(others);
+  Eigen::MatrixXd result(rank, r.cols());
+  for (Eigen::Index k = 0; k < r.cols(); ++k) {
+    if (k < rank)
+      result.col(order()[k]).setUnit(k);
+    else
+      result.col(order()[k]) = others.col(k - rank);
+  }
+  return result;
+}
+
+}  // namespace knead::detail

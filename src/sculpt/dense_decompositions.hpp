@@ -5,18 +5,19 @@
 
 namespace knead::detail {
 
-// Eigen's dense decompositions of matrices of any size, compiled once: their templates take seconds in each file that
-// names them.
+// Eigen's dense decompositions, compiled once: their templates take seconds in each file that names them.
 
-/// A = U diag(values) Vᵀ without V, by Jacobi's method. Values decrease; U is rows × min(rows, columns).
+/// The left singular vectors of A and its singular values, which decrease. Errors are a few units of rounding times the
+/// largest singular value.
 struct LeftSingular {
-  Eigen::MatrixXd vectors;
-  Eigen::VectorXd values;
+  Eigen::Matrix3d vectors;
+  Eigen::Vector3d values;
 };
-[[nodiscard]] LeftSingular left_singular(const Eigen::MatrixXd& a);
+[[nodiscard]] LeftSingular left_singular(const Eigen::Matrix3Xd& a);
 
-/// The solution of A X = B for regular square A, by LU with partial pivoting.
-[[nodiscard]] Eigen::MatrixXd solved(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+/// The x that makes |A x − b| least, by a QR decomposition with pivoting. Where the columns of A are dependent, the
+/// last pivots get zero.
+[[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 /// A P = Q R with the columns pivoted, so that the diagonal of R decreases in absolute value.
 class PivotedQr {
@@ -33,6 +34,9 @@ class PivotedQr {
   /// The remainders of the other columns after the first `rank` pivots, in pivot order. \param rank less than the
   /// numbers of rows and columns
   [[nodiscard]] Eigen::MatrixXd remainder(Eigen::Index rank) const;
+  /// All columns of A as combinations of the first `rank` pivots, those of least squares: coefficients(k, j) is that of
+  /// pivot k in column j of A. \param rank at most the numbers of rows and columns; its pivots are not zero
+  [[nodiscard]] Eigen::MatrixXd coefficients(Eigen::Index rank) const;
 
  private:
   struct Factors;

@@ -223,4 +223,16 @@ BoundingBox PlacedShape::bounding_box() const {
   return {centre - reach, centre + reach};
 }
 
+Eigen::Quaterniond turn_between(const Point& from, const Point& to) {
+  const Point a = from.normalized(), b = to.normalized();
+  const double cosine = a.dot(b);
+  if (cosine > -1 + 1e-12) {
+    const double twice = std::sqrt((1 + cosine) * 2);  // twice the cosine of half the angle
+    const Point axis = a.cross(b) * (1 / twice);
+    return {0.5 * twice, axis.x(), axis.y(), axis.z()};
+  }
+  const Point aside = a.unitOrthogonal();  // half a turn as two quarters
+  return turn_between(aside, b) * turn_between(a, aside);
+}
+
 }  // namespace knead

@@ -8,13 +8,12 @@ namespace knead::detail {
 namespace {
 
 using Vector2 = Eigen::Vector2d;
-using Kind = MeridianPiece::Kind;
 
 MeridianPiece segment(double ra, double za, double rb, double zb) {
-  return {Kind::segment, Vector2(ra, za), Vector2(rb, zb), true};
+  return {MeridianPiece::Kind::segment, Vector2(ra, za), Vector2(rb, zb), true};
 }
 MeridianPiece arc(double rc, double zc, double along, double up, bool outward = true) {
-  return {Kind::arc, Vector2(rc, zc), Vector2(along, up), outward};
+  return {MeridianPiece::Kind::arc, Vector2(rc, zc), Vector2(along, up), outward};
 }
 
 /// Nearest point of one piece in the meridian plane.
@@ -33,7 +32,7 @@ struct Foot2 {
 
 Foot2 foot_of(const MeridianPiece& piece, const Vector2& q) {
   Foot2 f;
-  if (piece.kind == Kind::segment) {
+  if (piece.kind == MeridianPiece::Kind::segment) {
     const Vector2 d = piece.b - piece.a;
     const double length = d.norm(), t = d.dot(q - piece.a) / length;
     if (t >= 0 && t <= length) {
@@ -72,8 +71,8 @@ class Revolution final : public ShapeKernel {
   Revolution(const Shape& shape, Meridian pieces) : shape_(shape), pieces_(std::move(pieces)) {
     double radius = 0, low = std::numeric_limits<double>::infinity(), high = -low;
     for (const MeridianPiece& p : pieces_) {
-      const Vector2 a = p.kind == Kind::arc ? Vector2(p.a + Vector2(p.b.x(), 0)) : p.a;
-      const Vector2 b = p.kind == Kind::arc ? Vector2(p.a + Vector2(0, p.b.y())) : p.b;
+      const Vector2 a = p.kind == MeridianPiece::Kind::arc ? Vector2(p.a + Vector2(p.b.x(), 0)) : p.a;
+      const Vector2 b = p.kind == MeridianPiece::Kind::arc ? Vector2(p.a + Vector2(0, p.b.y())) : p.b;
       radius = std::max({radius, a.x(), b.x()});
       low = std::min({low, a.y(), b.y()});
       high = std::max({high, a.y(), b.y()});

@@ -43,7 +43,7 @@ struct SurfaceEntity {
 
 /// AXIS2_PLACEMENT_3D as the file gives it: directions are not normalised; an omitted axis is (0, 0, 1) and an omitted
 /// reference direction (1, 0, 0), or (0, 1, 0) where the axis is along x (ISO 10303-42, first_proj_axis).
-struct Placement {
+struct AxisPlacement {
   Point origin = Point::Zero();
   Point axis = Point::UnitZ();
   Point ref_direction = Point::UnitX();
@@ -53,12 +53,12 @@ struct Placement {
 /// CONTEXT_DEPENDENT_SHAPE_REPRESENTATION, or a MAPPED_ITEM. The component is moved so that `frame` (in the child's
 /// coordinates) lands on `placement` (in the parent's). Nothing is applied to the surfaces.
 struct Instance {
-  std::string id;                      ///< "#123", of the NEXT_ASSEMBLY_USAGE_OCCURRENCE or MAPPED_ITEM
-  std::string name;                    ///< its label
-  std::string parent;                  ///< product name of the assembly; empty if the file gives none
-  std::string child;                   ///< product name of the component; empty likewise
-  std::optional<Placement> placement;  ///< where the component's frame lies in the parent; none if not given
-  std::optional<Placement> frame;      ///< the component's own frame
+  std::string id;                          ///< "#123", of the NEXT_ASSEMBLY_USAGE_OCCURRENCE or MAPPED_ITEM
+  std::string name;                        ///< its label
+  std::string parent;                      ///< product name of the assembly; empty if the file gives none
+  std::string child;                       ///< product name of the component; empty likewise
+  std::optional<AxisPlacement> placement;  ///< where the component's frame lies in the parent; none if not given
+  std::optional<AxisPlacement> frame;      ///< the component's own frame
 };
 
 /// The length unit of one representation context.
