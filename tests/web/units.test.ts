@@ -4,6 +4,7 @@ import { fileURLToPath } from 'node:url';
 
 import { fromBase64, toBase64 } from '@studio/document/base64';
 import { readKnead, type Source, writeKnead } from '@studio/document/knead_file';
+import type { SavedView } from '@studio/document/saved_views';
 import { format, parseLength } from '@studio/document/units';
 import { roundStep } from '@studio/view/ground';
 
@@ -37,13 +38,25 @@ describe('Knead documents', () => {
     'come back as they were written', (source) => {
       for (const snapshot of [null, bytes.slice(7)]) {
         const read = readKnead(writeKnead({ name: 'a "name"', source, journal, snapshot }));
-        expect(read).toEqual({ name: 'a "name"', source, commands, script: null, snapshot });
+        expect(read).toEqual({ name: 'a "name"', source, commands, script: null, snapshot, views: [] });
       }
     });
 
+  it('keep views', () => {
+    const views: SavedView[] = [
+      { name: 'the "nose"', position: [1, 2.5, 3e-7], target: [0, 0, 1 / 3], up: [0, 0, 1], height: 12, parallel: true },
+      { name: 'b', position: [1, 2, 3], target: [0, 0, 0], up: [0, 0, 1], height: 0.1, parallel: false },
+    ];
+    expect(readKnead(writeKnead({ name: 'n', source: null, journal, views })).views).toEqual(views);
+    for (const [field, wrong] of [['name', ''], ['position', [1, 2]], ['target', [1, 2, '3']], ['height', 0], ['parallel', 1], ['position', [0, 0, 0]]] as const) {
+      const text = writeKnead({ name: 'n', source: null, journal, views: [views[0]!, { ...views[1]!, [field]: wrong }] });
+      expect(() => readKnead(text)).toThrow(`views[1].${field}: write`);
+    }
+  });
+
   it('of version 1 are read: the source is a STEP file', () => {
     const old = `{"knead": 1, "name": "old.step", "source": "${toBase64(bytes)}", "commands": [{"do": "hold", "rows": 2}, {"do": "step", "count": 3}]}`;
-    expect(readKnead(old)).toEqual({ name: 'old.step', source: { kind: 'step', name: 'old.step', bytes }, commands, script: null, snapshot: null });
+    expect(readKnead(old)).toEqual({ name: 'old.step', source: { kind: 'step', name: 'old.step', bytes }, commands, script: null, snapshot: null, views: [] });
   });
 
   it('are scripts of the command line as well', () => expect(readKnead(journal)).toMatchObject({ commands, script: 1 }));
@@ -60,14 +73,15 @@ describe('Knead documents', () => {
     ['{"knead": 1, "commands": [], "source": "%"}', /"source": this is not base64/], [two({ source: 'abc' }), /"source": write/],
     [two({ source: { kind: 'iges', name: 'a', bytes: '' } }), /source\.kind: "iges"/], [two({ source: { kind: 'step', bytes: '' } }), /source\.name/],
     [two({ source: { kind: 'step', name: 'a', bytes: '*' } }), /source\.bytes/], [two({ snapshot: 1 }), /"snapshot"/], [two({ name: 1 }), /"name"/],
-    [two({ undo: [] }), /"undo": a Knead document has no such field/],
+    [two({ views: {} }), /"views"/], [two({ undo: [] }), /"undo": a Knead document has no such field/],
   ])('%s is refused', (text, message) => expect(() => readKnead(text)).toThrow(message));
 
   it('have the fields of their schema', () => {
     const schema = JSON.parse(readFileSync(join(root, 'docs/knead-document.schema.json'), 'utf8')) as {
       properties: Record<string, { properties?: object; enum?: unknown[] }>; required: string[];
     };
-    const written = JSON.parse(writeKnead({ name: 'n', source: { kind: 'step', name: 'a', bytes }, journal, snapshot: bytes })) as Record<string, object>;
+    const written = JSON.parse(writeKnead({ name: 'n', source: { kind: 'step', name: 'a', bytes }, journal, snapshot: bytes,
+      views: [{ name: 'a', position: [0, 0, 1], target: [0, 0, 0], up: [0, 1, 0], height: 1, parallel: true }] })) as Record<string, object>;
     expect(Object.keys(schema.properties).sort()).toEqual(Object.keys(written).sort());
     expect(Object.keys(schema.properties.source!.properties!).sort()).toEqual(Object.keys(written.source!).sort());
     for (const field of schema.required) {

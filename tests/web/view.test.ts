@@ -2,7 +2,9 @@ import * as THREE from 'three';
 
 import { knotText, readKnots } from '@studio/panels/panel_surface';
 import { newCommand, tuples } from '@studio/panels/panel_create';
+import { zoneOf } from '@studio/panels/view_cube';
 import { orbit, pan, pixelSize, type View, zoom } from '@studio/view/camera';
+import { directionOf, namedViews, sideFrom, sideNames, sides } from '@studio/view/directions';
 import { conventions, motionOf } from '@studio/view/conventions';
 import { roundStep, roundStepAbove } from '@studio/view/ground';
 import { blocks, mark, region, wholeRows } from '@studio/view/net';
@@ -88,6 +90,57 @@ describe('motions of the camera', () => {
     const after = seen(view, point);
     expect(Math.hypot(after.x - before.x, after.y - before.y)).toBeLessThan(1e-6);
     expect(pixelSize(view, point, 600)).toBeCloseTo(size / 2, 9);
+  });
+});
+
+describe('the view cube', () => {
+  const zones = sideNames.flatMap((face) => [-1, 0, 1].flatMap((row) => [-1, 0, 1].map((column) => zoneOf(face, column, row))));
+
+  it('has 26 zones, each with a name and a direction of its own, alike on every face that meets there', () => {
+    const key = (v: THREE.Vector3) => v.toArray().map((x) => Math.round(1e6 * x)).join();
+    const byName = new Map<string, Set<string>>();
+    for (const { name, direction } of zones) byName.set(name, (byName.get(name) ?? new Set()).add(key(direction)));
+    expect(byName.size).toBe(26);
+    for (const [name, directions] of byName) expect(directions.size, name).toBe(1);
+    expect(new Set([...byName.values()].flatMap((s) => [...s])).size).toBe(26);
+    // How often a zone is met says what it is: 6 faces once, 12 edges twice, 8 corners three times.
+    const counts = [...byName.keys()].map((name) => zones.filter((z) => z.name === name).length);
+    expect([1, 2, 3].map((n) => counts.filter((c) => c === n).length)).toEqual([6, 12, 8]);
+    expect(zones.every(({ direction }) => Math.abs(direction.length() - 1) < 1e-12)).toBe(true);
+  });
+
+  it('shows each face as it is seen from outside', () => {
+    expect(zoneOf('front', 1, 0).name).toBe('Front right');
+    expect(zoneOf('back', 1, 1).name).toBe('Top back left');
+    expect(zoneOf('top', -1, 1).name).toBe('Top back left');
+    expect(zoneOf('bottom', 1, 1).name).toBe('Bottom front right');
+  });
+});
+
+describe('named views', () => {
+  it('look along the axes, and isometric alike at all three', () => {
+    expect(namedViews.length).toBe(7);
+    for (const side of sideNames) {
+      expect(sideFrom(directionOf(side))).toBe(side);
+      expect(sides[side].up.dot(sides[side].from)).toBe(0);
+    }
+    const { x, y, z } = directionOf('isometric');
+    expect([x, -y, z]).toEqual([x, x, x]);
+    expect(sideFrom(directionOf('isometric'))).toBeNull();
+  });
+
+  it('are left again by the mouse from straight above and below', () => {
+    for (const side of ['top', 'bottom'] as const) {
+      const view = perspective();
+      view.camera.up.copy(sides[side].up);
+      view.camera.position.copy(view.target).addScaledVector(sides[side].from, 60);
+      view.camera.lookAt(view.target);
+      view.camera.updateMatrixWorld();
+      const right = new THREE.Vector3(1, 0, 0).applyQuaternion(view.camera.quaternion);
+      orbit(view, 0, side === 'top' ? 0.5 : -0.5, view.target);
+      expect(view.camera.getWorldDirection(new THREE.Vector3()).angleTo(sides[side].from.clone().negate())).toBeCloseTo(0.5, 6);
+      expect(new THREE.Vector3(1, 0, 0).applyQuaternion(view.camera.quaternion).distanceTo(right)).toBeLessThan(1e-6);
+    }
   });
 });
 

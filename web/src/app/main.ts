@@ -1,6 +1,7 @@
 import './style.css';
 import '../document/document.css';
 import '../view/view.css';
+import '../view/view_cube.css';
 
 import { notices, toolRail, topBar } from '../panels/chrome';
 import { h } from '../panels/dom';
@@ -19,6 +20,8 @@ import { statusBar } from '../panels/plot';
 import { listenToQuestions } from '../panels/question';
 import { offerRecovery } from '../panels/recovery';
 import { offerTour } from '../panels/tour';
+import { viewsPanel } from '../panels/panel_views';
+import { viewCube } from '../panels/view_cube';
 import { workOffline } from './offline/register';
 import { Studio } from './studio';
 
@@ -30,11 +33,11 @@ document.getElementById('studio')!.append(
   h('main', { class: 'stage' }, app.viewer.element, legendCard(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
     brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app),
-    displayPanel(app), historyPanel(app)),
+    viewsPanel(app), displayPanel(app), historyPanel(app)),
   statusBar(app),
 );
 listenToKeys(app);
-app.viewer.element.append(heldBadge(app));
+app.viewer.element.append(heldBadge(app), viewCube(app));
 listenToQuestions(app);
 listenToEdges(app);
 

@@ -1,4 +1,5 @@
 import type { Source } from './knead_file';
+import type { SavedView } from './saved_views';
 
 /** A session as it is kept in the browser: what a closed tab or a crash leaves behind. */
 export interface Kept {
@@ -12,6 +13,8 @@ export interface Kept {
   journal: string;
   snapshot: Uint8Array;
   hasSource: boolean;
+  /** Sessions of older versions have none. */
+  views?: SavedView[];
 }
 
 const stores = ['sessions', 'sources'] as const;

@@ -5,6 +5,7 @@ import type { Host } from './host';
 import { Keeper } from './keeper';
 import { type KneadDocument, readKnead, type Source } from './knead_file';
 import { makeReady } from './ready';
+import type { SavedView } from './saved_views';
 
 /** Opening: a file, a scene, or what a tab left behind. Saving is in `saving.ts`. */
 export class Documents {
@@ -12,6 +13,8 @@ export class Documents {
   /** The file that the session began with; null if it began without one. */
   file: Source | null = null;
   name = 'sheet';
+  /** What the user wants to see again. */
+  views: readonly SavedView[] = [];
   /** How many sessions there were: what was said about one before is of no use any more. */
   sessions = 0;
   /** Files that the user gave, opened or refused. */
@@ -46,6 +49,15 @@ export class Documents {
   work(commands: readonly Command[]): void {
     this.worked ||= commands.some((c) => !['undo', 'redo', 'select'].includes(c.do));
     this.keeper.touch();
+  }
+
+  /** Keeps a view, in the place of one of the same name; null forgets it. */
+  keepView(name: string, view: SavedView | null): void {
+    const known = this.views.some((v) => v.name === name);
+    if (!view) this.views = this.views.filter((v) => v.name !== name);
+    else this.views = known ? this.views.map((v) => (v.name === name ? view : v)) : [...this.views, view];
+    this.keeper.touch();
+    this.host.changed();
   }
 
   /** All work is in a file. */
@@ -158,6 +170,7 @@ export class Documents {
 
   private async openDocument(document: KneadDocument): Promise<void> {
     await this.begunDocument(document);
+    this.views = document.views;
     if (document.commands.length > 0) this.pick();
   }
 
@@ -201,6 +214,7 @@ export class Documents {
       host.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands were done again.' });
     }
     this.pick();
+    this.views = kept.views ?? [];
     this.keeper.begin(kept.id, true);
     // A stroke that was cut off ends here: its ball does not stay in the scene.
     if (host.state?.tools.some((t) => t.name === 'brush')) await host.client.execute([{ do: 'remove', tool: 'brush' }], true);
@@ -234,6 +248,7 @@ export class Documents {
     }
     this.name = name;
     this.file = file;
+    if (!again) this.views = [];
     this.reopen = act;
     ++this.sessions;
     this.worked = this.picked = false;

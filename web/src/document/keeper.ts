@@ -2,6 +2,7 @@ import { type Command, EngineError } from '../engine/session_types';
 import { autosave, heldIds, hold, type Kept } from './autosave';
 import type { Host } from './host';
 import type { Source } from './knead_file';
+import type { SavedView } from './saved_views';
 
 const pause = 800; // milliseconds without a change after which the session is kept
 const mostUnkept = 1200; // milliseconds of computing after which it is kept in any case
@@ -24,7 +25,7 @@ export class Keeper {
   private writing: Promise<void> | null = null;
   private failed = false;
 
-  constructor(private readonly host: Host, private readonly documents: { readonly file: Source | null; readonly name: string }) {
+  constructor(private readonly host: Host, private readonly documents: { readonly file: Source | null; readonly name: string; readonly views: readonly SavedView[] }) {
     // Whatever is not saved yet when the page goes away: the browser completes a transaction that has begun.
     document.addEventListener('visibilitychange', () => {
       if (document.visibilityState === 'hidden') void this.keep();
@@ -92,8 +93,8 @@ export class Keeper {
       const { snapshot, journal, opened } = await host.client.snapshot(historyBytes, true);
       if (id !== this.id) return; // another document since
       const commands = (JSON.parse(journal) as { commands: Command[] }).commands.length;
-      const { file, name } = this.documents;
-      const kept: Kept = { id, name, when: Date.now(), commands, opened, journal, snapshot, hasSource: file !== null };
+      const { file, name, views } = this.documents;
+      const kept: Kept = { id, name, when: Date.now(), commands, opened, journal, snapshot, hasSource: file !== null, views: [...views] };
       await autosave.write(kept, this.sourceKept ? null : file);
       this.sourceKept = true;
       if (id === this.id) document.documentElement.dataset.kept = String(commands);

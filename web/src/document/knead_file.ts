@@ -1,5 +1,6 @@
 import type { Command } from '../engine/session_types';
 import { fromBase64, toBase64 } from './base64';
+import { readViews, type SavedView } from './saved_views';
 
 /** A file that a session began with. */
 export interface Source {
@@ -17,23 +18,26 @@ export interface KneadDocument {
   script: 1 | 2 | null;
   /** The session as bytes; what it holds follows from source and commands, but takes no computing. */
   snapshot: Uint8Array | null;
+  /** What the user wants to see again. */
+  views: SavedView[];
 }
 
-export function writeKnead(document: { name: string; source: Source | null; journal: string; snapshot?: Uint8Array | null }): string {
+export function writeKnead(document: { name: string; source: Source | null; journal: string; snapshot?: Uint8Array | null; views?: readonly SavedView[] }): string {
   const { commands } = JSON.parse(document.journal) as { commands: Command[] };
   const lines = commands.map((c) => `  ${JSON.stringify(c)}`).join(',\n');
-  const { source, snapshot } = document;
+  const { source, snapshot, views = [] } = document;
   return [
     '{"knead": 2',
     `"name": ${JSON.stringify(document.name)}`,
     ...(source ? [`"source": {"kind": "${source.kind}", "name": ${JSON.stringify(source.name)}, "bytes": "${toBase64(source.bytes)}"}`] : []),
     `"commands": [${lines && `\n${lines}\n`}]`,
+    ...(views.length > 0 ? [`"views": [\n${views.map((v) => `  ${JSON.stringify(v)}`).join(',\n')}\n]`] : []),
     ...(snapshot ? [`"snapshot": "${toBase64(snapshot)}"`] : []),
   ].join(',\n') + '}\n';
 }
 
 const isObject = (x: unknown): x is Record<string, unknown> => typeof x === 'object' && x !== null && !Array.isArray(x);
-const fields = ['knead', 'name', 'source', 'commands', 'snapshot'];
+const fields = ['knead', 'name', 'source', 'commands', 'views', 'snapshot'];
 
 /** Throws an Error whose message says where the document is wrong, and what would be right. */
 export function readKnead(text: string): KneadDocument {
@@ -59,8 +63,9 @@ export function readKnead(text: string): KneadDocument {
   const name = json.name ?? 'document';
   const source = json.source === undefined ? null : json.knead === 1 ? oldSource(json.source, name) : readSource(json.source);
   const snapshot = json.snapshot === undefined ? null : bytesOf(json.snapshot, '"snapshot"');
+  const views = json.views === undefined ? [] : readViews(json.views);
   const script = json.name === undefined && json.source === undefined ? json.knead : null;
-  return { name, source, commands, script, snapshot };
+  return { name, source, commands, script, snapshot, views };
 }
 
 /** Of version 1: the bytes of a STEP file. */

@@ -24,9 +24,9 @@ export class Saving {
   knead = () => this.work(async (stem) => {
     const { host } = this;
     const { snapshot, journal } = await host.client.snapshot(historyBytes, false);
-    const { name, file } = this.documents;
+    const { name, file, views } = this.documents;
     const long = host.computedTime > longSession;
-    download(writeKnead({ name, source: file, journal, snapshot: long ? snapshot : null }), `${stem}.knead`, 'application/json');
+    download(writeKnead({ name, source: file, journal, snapshot: long ? snapshot : null, views }), `${stem}.knead`, 'application/json');
   }, false);
 
   /** Into the Rhino file that was opened, or a new one. */

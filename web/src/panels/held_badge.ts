@@ -37,6 +37,6 @@ export function heldBadge(app: App): HTMLElement {
     box = seenBox(viewer.surfaces[k!]?.picture ?? null, viewer.trimOf(k!));
     place();
   });
-  viewer.onDrawn = place;
+  viewer.onDrawn.push(place);
   return badge;
 }

@@ -1,8 +1,9 @@
 import { modes } from '../tools/modes';
-import type { Side } from '../view/viewport';
+import type { Side } from '../view/directions';
 import type { App } from './app';
 import { toggleShortcuts } from './chrome';
 import { openLab } from './lab/door';
+import { look, toggleParallel, toggleTurntable } from './views';
 
 export function listenToKeys(app: App): void {
   document.addEventListener('keyup', (event) => {
@@ -30,6 +31,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
     return key === 's';
   }
   if (key === 'escape') {
+    app.viewer.turntable.on = false;
     if (app.hand.active) void app.hand.pointers.cancel();
     else if (document.querySelector('.shortcuts')) toggleShortcuts(app);
     else if (app.viewer.selectedTool) {
@@ -59,11 +61,12 @@ function handle(app: App, event: KeyboardEvent): boolean {
   };
   // Digits by their position on the keyboard, so that Shift does not change them.
   const view = { Digit1: ['front', 'back'], Digit2: ['right', 'left'], Digit3: ['top', 'bottom'] }[event.code];
-  if (view) viewport.turn(view[event.shiftKey ? 1 : 0] as Side);
-  else if (event.code === 'Digit0') {
-    if (viewport.axial) app.setDisplay({ view: 'perspective' });
-    app.viewer.viewports[0]!.turn('perspective');
-  } else if (event.code === 'Digit5') app.setDisplay({ view: viewport.axial ? 'perspective' : 'top', fourViews: false });
+  if (view) look(app, view[event.shiftKey ? 1 : 0] as Side);
+  else if (event.code === 'Digit0') look(app, 'perspective');
+  else if (event.code === 'Digit6') look(app, 'isometric');
+  else if (event.code === 'Digit7') toggleParallel(app);
+  else if (event.code === 'Digit8') toggleTurntable(app);
+  else if (event.code === 'Digit5') app.setDisplay({ view: viewport.axial ? 'perspective' : 'top', fourViews: false });
   else if (event.code === 'Digit4') app.setDisplay({ fourViews: !app.display.fourViews });
   else if (key === ' ' && ready) {
     if (event.target instanceof HTMLButtonElement) return false;

@@ -17,7 +17,8 @@ export function orbit({ camera, target }: View, turn: number, tip: number, pivot
   const right = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion);
   const rotation = new THREE.Quaternion().setFromAxisAngle(vertical, turn)
     .multiply(new THREE.Quaternion().setFromAxisAngle(right, allowed));
-  for (const point of [camera.position, target]) point.sub(pivot).applyQuaternion(rotation).add(pivot);
+  const about = pivot.clone(); // it may be the target itself
+  for (const point of [camera.position, target]) point.sub(about).applyQuaternion(rotation).add(about);
   camera.up.set(0, 0, 1);
   camera.lookAt(target);
   camera.updateMatrixWorld();
@@ -51,7 +52,8 @@ export function zoom({ camera, target }: View, factor: number, at: THREE.Vector3
     target.add(shift);
     camera.updateProjectionMatrix();
   } else {
-    for (const point of [camera.position, target]) point.sub(at).divideScalar(factor).add(at);
+    const about = at.clone();
+    for (const point of [camera.position, target]) point.sub(about).divideScalar(factor).add(about);
   }
   camera.updateMatrixWorld();
 }

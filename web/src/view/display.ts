@@ -28,6 +28,8 @@ export interface Display {
   fourViews: boolean;
   /** Which view is shown if there are not four. */
   view: ViewName;
+  /** The free view is a parallel projection. */
+  parallel: boolean;
   /** What the mouse does to a view. */
   convention: Convention;
   detail: number;
@@ -51,6 +53,7 @@ export const defaultDisplay: Display = {
   pointSize: 4,
   fourViews: false,
   view: 'perspective',
+  parallel: false,
   convention: 'knead',
   detail: 96,
 };

@@ -13,6 +13,7 @@ import type { GridPicker } from './picking';
 import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
 import { trimMasks } from './trim_mask';
+import { Turntable } from './turntable';
 import { type ViewName, Viewport } from './viewport';
 
 export interface Hit {
@@ -35,12 +36,14 @@ export class Viewer {
   origin: [number, number, number] = [0, 0, 0];
   frame: Frame | null = null;
   selectedTool: string | null = null;
-  onDrawn: (milliseconds: number) => void = () => {};
+  /** Called after each picture. */
+  readonly onDrawn: (() => void)[] = [];
 
   readonly navigator = new Navigator((viewport, at) => this.pick(viewport, at)?.point ?? viewport.unproject(at.clientX, at.clientY, viewport.target));
   /** A double click on the label of a view. */
   onMaximise: (name: ViewName) => void = () => {};
 
+  readonly turntable: Turntable;
   readonly context = new ContextView();
   /** A file was opened, and nothing in it has been chosen yet: what the session has selected is not what the user has. */
   waiting = false;
@@ -71,6 +74,7 @@ export class Viewer {
     }
     const windows = document.createElement('div');
     windows.className = 'viewports';
+    this.turntable = new Turntable(this.viewports[0]!, windows);
     windows.append(...this.viewports.map((v) => v.element));
     this.element.append(this.renderer.domElement, windows);
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
@@ -237,6 +241,7 @@ export class Viewer {
       view.show(view.tool, this.origin, this.bounds().radius, this.palette, name === this.selectedTool);
     }
     this.element.classList.toggle('four', this.display.fourViews);
+    this.viewports[0]!.parallel = this.display.parallel;
     for (const v of this.viewports) v.element.hidden = !this.display.fourViews && v.name !== this.display.view;
     this.resize();
   }
@@ -292,7 +297,6 @@ export class Viewer {
   }
 
   private draw(): void {
-    const start = performance.now();
     const whole = this.element.getBoundingClientRect();
     this.renderer.setClearColor(this.palette.background);
     this.renderer.setScissorTest(false);
@@ -311,7 +315,7 @@ export class Viewer {
       view.showScale(this.display.grid ? `${format(this.ground.step)} ${this.unit}` : '', this.ground.step / view.pixel());
       this.renderer.render(this.scene, view.camera);
     }
-    this.onDrawn(performance.now() - start);
+    for (const follow of this.onDrawn) follow();
   }
 
   /** The picture on the screen as a PNG file, with `scale` pixels for each of the page's. */

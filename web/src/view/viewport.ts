@@ -2,27 +2,27 @@ import * as THREE from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
 
 import { pixelSize } from './camera';
+import { directionOf, isSide, type NamedView, type Side, sideFrom, sides } from './directions';
 
 export type ViewName = 'perspective' | 'top' | 'front' | 'right';
-/** Where a view along an axis looks from. */
-export type Side = 'top' | 'bottom' | 'front' | 'back' | 'right' | 'left';
+/** Where a camera stands, scene coordinates; `height` is what it sees of the plane through the target. */
+export interface Placement {
+  position: THREE.Vector3Tuple;
+  target: THREE.Vector3Tuple;
+  /** What is upwards on the screen. */
+  up: THREE.Vector3Tuple;
+  height: number;
+  parallel: boolean;
+}
 
-const sides: Record<Side, { from: THREE.Vector3; up: THREE.Vector3 }> = {
-  top: { from: new THREE.Vector3(0, 0, 1), up: new THREE.Vector3(0, 1, 0) },
-  bottom: { from: new THREE.Vector3(0, 0, -1), up: new THREE.Vector3(0, -1, 0) },
-  front: { from: new THREE.Vector3(0, -1, 0), up: new THREE.Vector3(0, 0, 1) },
-  back: { from: new THREE.Vector3(0, 1, 0), up: new THREE.Vector3(0, 0, 1) },
-  right: { from: new THREE.Vector3(1, 0, 0), up: new THREE.Vector3(0, 0, 1) },
-  left: { from: new THREE.Vector3(-1, 0, 0), up: new THREE.Vector3(0, 0, 1) },
-};
-const oblique = new THREE.Vector3(0.55, -0.85, 0.62).normalize();
+const upright = new THREE.Vector3(0, 0, 1);
 
 /** One of the windows onto the scene: a part of the page, a camera, the means to move tools in it. */
 export class Viewport {
   readonly element: HTMLElement;
   readonly label = document.createElement('button');
   readonly gizmo: TransformControls;
-  readonly camera: THREE.PerspectiveCamera | THREE.OrthographicCamera;
+  camera: THREE.PerspectiveCamera | THREE.OrthographicCamera;
   /** What the camera looks at, scene coordinates. */
   readonly target = new THREE.Vector3();
   /** Looks along an axis of the file, and never turns away from it. */
@@ -49,7 +49,7 @@ export class Viewport {
     this.gizmo.addEventListener('change', changed);
     this.gizmo.getHelper().visible = false;
     scene.add(this.gizmo.getHelper());
-    this.aim(oblique);
+    this.aim(directionOf('perspective'));
   }
 
   size(): { width: number; height: number } {
@@ -63,7 +63,7 @@ export class Viewport {
     const { width, height } = this.size();
     const aspect = Math.max(0.1, width / height);
     const direction = camera.position.clone().sub(this.target);
-    if (!(direction.lengthSq() > 0)) direction.copy(oblique);
+    if (!(direction.lengthSq() > 0)) direction.copy(directionOf('perspective'));
     this.reach = 4 * r;
     if (camera instanceof THREE.PerspectiveCamera) {
       const half = THREE.MathUtils.degToRad(camera.fov / 2);
@@ -79,27 +79,60 @@ export class Viewport {
     this.resize();
   }
 
-  /** Turns to a side or to the oblique view, about the present target. A view along an axis keeps to the six sides. */
-  turn(to: Side | 'perspective'): void {
-    if (to !== 'perspective') this.side = to;
-    const from = to === 'perspective' ? oblique : sides[to].from.clone();
-    // A camera that stays upright cannot look straight from above or below.
-    if (!this.axial && (to === 'top' || to === 'bottom')) from.y = -0.004;
-    this.aim(from.normalize());
+  /** Turns to a view with a name, or so that it looks from a direction, about the present target. A view along an axis keeps to the six sides. */
+  turn(to: NamedView | THREE.Vector3): void {
+    const side = typeof to === 'string' ? (isSide(to) ? to : null) : sideFrom(to);
+    if (side) this.side = side;
+    this.aim(typeof to === 'string' ? directionOf(to) : to.clone().normalize(), side ? sides[side].up : upright);
     this.moved();
   }
 
-  private aim(direction: THREE.Vector3): void {
+  /** `up`: what is upwards where the direction is vertical; as it is if it is not given. */
+  private aim(direction: THREE.Vector3, up = new THREE.Vector3(0, 1, 0).applyQuaternion(this.camera.quaternion)): void {
     const distance = this.camera.position.distanceTo(this.target) || 1;
     const from = this.axial ? sides[this.side].from : direction;
-    this.camera.up.copy(this.axial ? sides[this.side].up : new THREE.Vector3(0, 0, 1));
+    this.camera.up.copy(this.axial ? sides[this.side].up : Math.abs(from.z) > 1 - 1e-9 ? up : upright);
     this.camera.position.copy(this.target).addScaledVector(from, distance);
     this.camera.lookAt(this.target);
     this.camera.updateMatrixWorld();
-    const title = this.axial ? this.side : 'perspective';
+    this.showTitle();
+  }
+
+  private showTitle(): void {
+    const title = this.axial ? this.side : this.parallel ? 'parallel' : 'perspective';
     this.label.textContent = title[0]!.toUpperCase() + title.slice(1);
     this.label.title = 'Double click: this view alone, or all four';
     this.label.setAttribute('aria-label', `${this.label.textContent} view: double click or Enter for it alone, or all four`);
+  }
+
+  get parallel(): boolean {
+    return this.camera instanceof THREE.OrthographicCamera;
+  }
+
+  /** Parallel projection or perspective; what lies at the depth of the target keeps its size. A view along an axis is always parallel. */
+  set parallel(on: boolean) {
+    if (!this.axial && on !== this.parallel) this.restore({ ...this.placement(), parallel: on });
+  }
+
+  placement(): Placement {
+    const { camera, target, parallel } = this;
+    const height = this.pixel() * this.size().height;
+    const up = new THREE.Vector3(0, 1, 0).applyQuaternion(camera.quaternion);
+    return { position: camera.position.toArray(), target: target.toArray(), up: up.toArray(), height, parallel };
+  }
+
+  /** Stands where `placement` was taken. Not for a view along an axis. */
+  restore({ position, target, up, height, parallel }: Placement): void {
+    if (parallel !== this.parallel) this.camera = this.gizmo.camera = parallel ? new THREE.OrthographicCamera() : new THREE.PerspectiveCamera(35, 1);
+    const { camera } = this;
+    const from = new THREE.Vector3(...position).sub(new THREE.Vector3(...target)).normalize();
+    this.target.set(...target);
+    let distance = this.reach; // a parallel camera stands before everything
+    if (camera instanceof THREE.PerspectiveCamera) distance = height / 2 / Math.tan(THREE.MathUtils.degToRad(camera.fov / 2));
+    else [this.extent, camera.zoom] = [height / 2, 1];
+    camera.position.copy(this.target).addScaledVector(from, distance);
+    this.aim(from, new THREE.Vector3(...up));
+    this.moved();
   }
 
   /** The camera was moved by hand. */
