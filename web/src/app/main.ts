@@ -20,6 +20,7 @@ import { statusBar } from '../panels/plot';
 import { listenToQuestions } from '../panels/question';
 import { offerRecovery } from '../panels/recovery';
 import { offerTour } from '../panels/tour';
+import { sectionHandle } from '../panels/section';
 import { viewsPanel } from '../panels/panel_views';
 import { viewCube } from '../panels/view_cube';
 import { workOffline } from './offline/register';
@@ -37,7 +38,7 @@ document.getElementById('studio')!.append(
   statusBar(app),
 );
 listenToKeys(app);
-app.viewer.element.append(heldBadge(app), viewCube(app));
+app.viewer.element.append(heldBadge(app), viewCube(app), sectionHandle(app));
 listenToQuestions(app);
 listenToEdges(app);
 

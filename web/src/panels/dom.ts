@@ -35,6 +35,7 @@ const paths: Record<string, string> = {
   fit: 'M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5M9 9h6v6H9z',
   four: 'M4 4h16v16H4zM12 4v16M4 12h16',
   parallel: 'M4 8h11v11H4zM9 5h11v11M4 8l5-3M15 8l5-3M15 19l5-3',
+  section: 'M12 3v18M9 5L4 7.500v9L9 19M12 5h3l5 2.500v9L15 19h-3M15 8v8',
   turntable: 'M20 15c0 2.200-3.600 4-8 4s-8-1.800-8-4 3.600-4 8-4M12 3v12M10 8.500l2.500 2.500-2.500 2.500',
   theme: 'M12 4a8 8 0 100 16zM12 4a8 8 0 010 16',
   tour: 'M5 21V4M5 5c4-3 7 3 13 0v9c-6 3-9-3-13 0',

@@ -3,6 +3,7 @@ import type { Side } from '../view/directions';
 import type { App } from './app';
 import { toggleShortcuts } from './chrome';
 import { openLab } from './lab/door';
+import { toggleSection } from './section';
 import { look, toggleParallel, toggleTurntable } from './views';
 
 export function listenToKeys(app: App): void {
@@ -37,7 +38,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
     else if (app.viewer.selectedTool) {
       app.viewer.selectTool(null);
       app.changed();
-    }
+    } else if (app.viewer.section.on) toggleSection(app);
     return true;
   }
   if (event.key === '?') {
@@ -76,6 +77,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
   else if (key === 'f') event.shiftKey ? app.viewer.fitAll() : app.viewer.fitSelected();
   else if (key === 'c') app.compare(true);
   else if (key === 'o') document.querySelector<HTMLInputElement>('input[type=file]')?.click();
+  else if (key === 'x') toggleSection(app);
   else if (key === 'z') app.setDisplay({ zebra: !app.display.zebra });
   else if (key === 'l') void openLab(app);
   else if (key === 'm') gizmo('translate');

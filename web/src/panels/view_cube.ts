@@ -4,6 +4,7 @@ import { orbit } from '../view/camera';
 import { sideNames, sides, type Side } from '../view/directions';
 import type { App } from './app';
 import { h, iconButton, title } from './dom';
+import { toggleSection } from './section';
 import { look, toggleParallel, toggleTurntable } from './views';
 
 /** One of the 26 directions of the cube: a face, an edge or a corner, by the sides that meet there. */
@@ -53,7 +54,8 @@ export function viewCube(app: App): HTMLElement {
   const space = h('div', { class: 'cube-space' }, solid);
   const projection = iconButton('parallel', 'Parallel projection or perspective (7)', () => toggleParallel(app));
   const turntable = iconButton('turntable', 'Turntable: turns slowly until a view is touched (8)', () => toggleTurntable(app));
-  const element = h('nav', { class: 'view-cube', aria: { label: 'View cube' } }, space, h('div', { class: 'cube-bar' }, projection, turntable));
+  const section = iconButton('section', 'Section: hides what is before a plane (X)', () => toggleSection(app));
+  const element = h('nav', { class: 'view-cube', aria: { label: 'View cube' } }, space, h('div', { class: 'cube-bar' }, projection, turntable, section));
   dragged(app, space);
   viewer.onDrawn.push(() => {
     const { camera } = viewer.main;
@@ -61,7 +63,7 @@ export function viewCube(app: App): HTMLElement {
     space.classList.toggle('parallel', viewer.main.parallel);
   });
   app.onChange.push(() => {
-    for (const [button, on] of [[projection, viewer.main.parallel], [turntable, viewer.turntable.on]] as const) {
+    for (const [button, on] of [[projection, viewer.main.parallel], [turntable, viewer.turntable.on], [section, viewer.section.on]] as const) {
       button.classList.toggle('on', on);
       button.setAttribute('aria-pressed', String(on));
     }

@@ -130,7 +130,7 @@ export class Edges implements PointerTool {
     for (const edge of this.edges) {
       const points = this.points(edge);
       if (!points) continue;
-      const places = viewport.projectAll(points);
+      const places = this.viewer.places(viewport, points);
       for (let k = 0; 2 * k + 3 < places.length; ++k) {
         const segment = new THREE.Line3(new THREE.Vector3(places[2 * k], places[2 * k + 1], 0), new THREE.Vector3(places[2 * k + 2], places[2 * k + 3], 0));
         const distance = segment.closestPointToPoint(p, true, new THREE.Vector3()).distanceTo(p);

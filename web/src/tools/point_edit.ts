@@ -228,7 +228,7 @@ export class PointEditor implements PointerTool {
   private chooseBox(box: NonNullable<PointEditor['box']>, event: PointerEvent): void {
     const { surface } = this;
     if (surface === undefined) return;
-    const places = box.viewport.projectAll(this.viewer.surfaces[surface]!.picture!.net);
+    const places = this.viewer.places(box.viewport, this.viewer.surfaces[surface]!.picture!.net);
     const [x0, x1] = [Math.min(box.x, event.clientX), Math.max(box.x, event.clientX)];
     const [y0, y1] = [Math.min(box.y, event.clientY), Math.max(box.y, event.clientY)];
     if (x1 - x0 < 4 && y1 - y0 < 4) {

@@ -10,6 +10,7 @@ import { Ground } from './ground';
 import { limitsOf } from './limits';
 import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
+import { clippable, Section, type SectionAxis } from './section';
 import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
 import { trimMasks } from './trim_mask';
@@ -44,7 +45,9 @@ export class Viewer {
   onMaximise: (name: ViewName) => void = () => {};
 
   readonly turntable: Turntable;
+  readonly section = new Section();
   readonly context = new ContextView();
+  private surroundings: Context | null = null;
   /** A file was opened, and nothing in it has been chosen yet: what the session has selected is not what the user has. */
   waiting = false;
   private trims: Trim[] = [];
@@ -61,6 +64,7 @@ export class Viewer {
     this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.autoClear = false;
+    this.renderer.localClippingEnabled = true;
     this.renderer.domElement.className = 'viewer-canvas';
     this.renderer.domElement.setAttribute('aria-label', 'The scene');
     this.renderer.domElement.addEventListener('webglcontextrestored', () => this.redraw());
@@ -79,7 +83,8 @@ export class Viewer {
     this.element.append(this.renderer.domElement, windows);
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(0.4, -0.6, 1);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay, this.context.mesh);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay, this.context.mesh, this.section.group);
+    this.section.onChange = () => this.redraw();
     new ResizeObserver(() => this.resize()).observe(this.element);
   }
 
@@ -121,6 +126,7 @@ export class Viewer {
     }
     while (this.surfaces.length < pictures.length) {
       const view = new SurfaceView();
+      clippable(view.mesh.material);
       view.editing = this.editsPoints;
       this.surfaces.push(view);
       this.scene.add(view.group);
@@ -130,14 +136,19 @@ export class Viewer {
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
     this.showTools();
-    if (fresh) this.fit();
-    else this.lowerGround();
+    this.section.forget();
+    if (fresh) {
+      this.section.end();
+      this.fit();
+    } else this.lowerGround();
     this.redraw();
   }
 
   /** The surroundings of the surfaces of the frame, and the visible part of each. */
   showContext(context: Context | null, trims: Trim[]): void {
     this.context.show(context);
+    this.surroundings = context;
+    this.section.forget();
     this.trims = trims;
     const masks = trimMasks(trims);
     this.surfaces.forEach((s, k) => (s.trim = masks[k] ?? null));
@@ -228,11 +239,22 @@ export class Viewer {
 
   /** Shows the other faces of the file, too. */
   fitAll(): void {
-    this.fit(boundsOf([...this.surfaces.map((s, k) => seenBox(s.picture, this.trims[k] ?? null)), this.context.box()]));
+    this.fit(boundsOf(this.boxes()));
+  }
+
+  private boxes(): (THREE.Box3 | null)[] {
+    return [...this.surfaces.map((s, k) => seenBox(s.picture, this.trims[k] ?? null)), this.context.box()];
+  }
+
+  /** Cuts through the middle of everything, and hides what is before that. */
+  beginSection(axis: SectionAxis): void {
+    const box = this.boxes().reduce<THREE.Box3>((all, other) => (other ? all.union(other) : all), new THREE.Box3());
+    if (!box.isEmpty()) this.section.begin(axis, box, this.main.camera.getWorldDirection(new THREE.Vector3()).negate());
   }
 
   restyle(): void {
     this.context.restyle(this.display, this.palette);
+    this.section.forget();
     this.ground.restyle(this.palette);
     const state = this.frame?.state;
     this.surfaces.forEach((s, k) =>
@@ -249,10 +271,11 @@ export class Viewer {
   /** What is under the pointer: the nearest surface, as last drawn or as it was when `frozen` was taken. */
   pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: readonly (GridPicker | null)[]): Hit | null {
     const { ray } = viewport.ray(event, this.raycaster);
+    const far = this.section.clip(ray);
     let best: (Hit & { distance: number }) | null = null;
     for (const [surface, picker] of (frozen ?? this.pickers).entries()) {
       const hit = picker?.hit(ray);
-      if (hit && (!best || hit.distance < best.distance)) best = { surface, ...hit };
+      if (hit && hit.distance <= far && (!best || hit.distance < best.distance)) best = { surface, ...hit };
     }
     return best && !frozen && this.context.hides(this.raycaster, best.distance) ? null : best;
   }
@@ -267,11 +290,20 @@ export class Viewer {
     return (hit?.object.userData.tool as string | undefined) ?? null;
   }
 
+  /** Where points of the scene lie on the page, as by `projectAll`; NaN also where a section hides them. */
+  places(viewport: Viewport, points: ArrayLike<number>): Float32Array {
+    const places = viewport.projectAll(points);
+    for (let k = 0; 3 * k < points.length && this.section.on; ++k) {
+      if (this.section.hides(points[3 * k]!, points[3 * k + 1]!, points[3 * k + 2]!)) places[2 * k] = NaN;
+    }
+    return places;
+  }
+
   /** Index of the control point of a surface under the pointer, within `reach` pixels. */
   pickControlPoint(viewport: Viewport, event: { clientX: number; clientY: number }, surface: number, reach = 9): number | null {
     const net = this.surfaces[surface]?.picture?.net;
     if (!net) return null;
-    const places = viewport.projectAll(net);
+    const places = this.places(viewport, net);
     let best: number | null = null;
     let nearest = reach;
     for (let k = 0; 2 * k < places.length; ++k) {
@@ -298,6 +330,11 @@ export class Viewer {
 
   private draw(): void {
     const whole = this.element.getBoundingClientRect();
+    this.section.prepare([...this.surfaces.map((s) => s.group), this.context.mesh, this.overlay], () => ({
+      pictures: this.display.surface ? this.surfaces.flatMap((s) => s.picture ?? []) : [],
+      trims: this.display.trimmed ? this.trims : [],
+      context: this.context.mesh.visible ? this.surroundings : null,
+    }));
     this.renderer.setClearColor(this.palette.background);
     this.renderer.setScissorTest(false);
     this.renderer.clear();
