@@ -145,11 +145,14 @@ Expected<std::string> probes_json(const SessionState& state) {
     const auto reading = read_probe(state, probe);
     if (!reading) return std::unexpected(reading.error());
     std::string& list = lists[probe.list];
-    list += fmt::format(R"({}{{"name":{},"surface":{},"at":[{},{}],"point":{},"displacement":{},"normal":{}}})",
-                        list.empty() ? "\n " : ",\n ", json_string(probe.name),
-                        json_string(state.surfaces[static_cast<std::size_t>(probe.surface)].id),
-                        json_number(probe.at[0]), json_number(probe.at[1]), vector(reading->point),
-                        vector(reading->displacement), vector(reading->normal));
+    list += fmt::format(
+        R"({}{{"name":{},"surface":{},"at":[{},{}],"point":{},"displacement":{},"normal":{},"curvature":{}}})",
+        list.empty() ? "\n " : ",\n ", json_string(probe.name),
+        json_string(state.surfaces[static_cast<std::size_t>(probe.surface)].id), json_number(probe.at[0]),
+        json_number(probe.at[1]), vector(reading->point), vector(reading->displacement), vector(reading->normal),
+        reading->curvature
+            ? fmt::format("[{},{}]", json_number((*reading->curvature)[0]), json_number((*reading->curvature)[1]))
+            : "null");
   }
   std::string text;
   for (const auto& [name, entries] : lists) text += fmt::format(",\n{}:[{}]", json_string(name), entries);

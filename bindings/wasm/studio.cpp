@@ -187,6 +187,26 @@ KNEAD_EXPORT(knead_room) int knead_room(int surface) {
   return answer(room_json(*session, static_cast<std::size_t>(surface)));
 }
 
+/// The text is `checked_edges_json`.
+KNEAD_EXPORT(knead_checked_edges) int knead_checked_edges(int surface) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  if (surface < 0 || surface >= static_cast<int>(session->state().surfaces.size())) return answer("[]");
+  auto text = checked_edges_json(*session, static_cast<std::size_t>(surface));
+  return text ? answer(*std::move(text)) : fail(text.error());
+}
+
+/// The text is `reading_json`, at the fractions (s, t) of the domain.
+KNEAD_EXPORT(knead_reading) int knead_reading(int surface, double s, double t) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  if (surface < 0 || surface >= static_cast<int>(session->state().surfaces.size())) {
+    return fail({ErrorKind::usage, "there is no such surface"});
+  }
+  auto text = reading_json(*session, surface, {s, t});
+  return text ? answer(*std::move(text)) : fail(text.error());
+}
+
 /// The text is the saved file.
 KNEAD_EXPORT(knead_save) int knead_save() {
   if (!held().session) return without_session();

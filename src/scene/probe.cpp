@@ -1,5 +1,6 @@
 #include "knead/scene/places.hpp"
 #include "knead/scene/scene.hpp"
+#include "knead/spline/curvature.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -20,6 +21,8 @@ Expected<ProbeReading> read_probe(const Scene& scene, const Probe& probe) {
   const Point along_u = jet->at({1, 0}).row(0).transpose(), along_v = jet->at({0, 1}).row(0).transpose();
   const Point normal = along_u.cross(along_v);
   if (normal.norm() > 1e-9 * (along_u.squaredNorm() + along_v.squaredNorm())) reading.normal = normal.normalized();
+  if (const auto bent = curvature(*s.current, *u); bent && !reading.normal.isZero())
+    reading.curvature = bent->principal;
   return reading;
 }
 

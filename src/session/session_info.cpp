@@ -5,8 +5,7 @@
 
 #include "commands.hpp"
 #include "described_text.hpp"
-#include "knead/exchange/face_edges.hpp"
-#include "knead/scene/trims.hpp"
+#include "info_values.hpp"
 #include "knead/sculpt/describe_shape.hpp"
 #include "restated.hpp"
 
@@ -149,6 +148,7 @@ struct SessionInfo {
   bool raw = false, coupled = true;
   RefinePermission refine = RefinePermission::never;
   std::vector<SeamInfo> seams;
+  std::vector<ReadingInfo> readings;
   std::vector<std::string> notes;
   int steps = 0;
   std::optional<StepRecord> last;
@@ -170,41 +170,12 @@ static void describe(SessionInfo& s, Fields& fields) {
   fields.add("coupled", s.coupled, {.help = "along seams"});
   fields.add("refine", s.refine);
   fields.add("seams", s.seams);
+  fields.add("readings", s.readings, {.help = "of the points that `measure` names"});
   fields.add("notes", s.notes);
   fields.add("steps", s.steps, {.help = "their number"});
   fields.add("last", s.last, {.help = "the last step"});
   fields.add("undo", s.undo);
   fields.add("redo", s.redo);
-}
-
-struct EdgeInfo {
-  std::string id;
-  std::vector<std::string> faces;
-  double deviation = 0;
-};
-
-static void describe(EdgeInfo& e, Fields& fields) {
-  fields.name("edge info", "An edge of a face.");
-  fields.add("id", e.id);
-  fields.add("faces", e.faces, {.help = "that meet there"});
-  fields.add("deviation", e.deviation,
-             {.help = "of the surface from its original position, the largest along the edge", .unit = Unit::length});
-}
-
-struct EdgesInfo {
-  std::string surface;
-  double tolerance = 0;
-  std::vector<EdgeInfo> edges;
-  std::string unknown;
-};
-
-static void describe(EdgesInfo& e, Fields& fields) {
-  fields.name("edges info", "The edges of the faces on a surface that has moved.");
-  fields.add("surface", e.surface, {.help = "its id"});
-  fields.add("tolerance", e.tolerance,
-             {.help = "within which faces meet, according to the file", .unit = Unit::length});
-  fields.add("edges", e.edges);
-  fields.add("unknown", e.unknown, {.help = "why they cannot be followed"});
 }
 
 struct ErrorInfo {
@@ -281,11 +252,6 @@ ToolInfo info_of(const Tool& tool) {
   return info;
 }
 
-template <class T>
-std::string json_of(const T& value) {
-  return to_json(type_of<T>(), &value, Absent::null);
-}
-
 }  // namespace
 
 std::string session_json(const Session& session) {
@@ -304,53 +270,13 @@ std::string session_json(const Session& session) {
   info.coupled = state.seams.couple;
   info.refine = state.permission;
   for (const SeamReport& seam : state.seam_reports) info.seams.push_back({seam.continuity, seam.seam.gap, seam.reason});
+  info.readings = readings_of(state);
   info.notes = state.notes;
   info.steps = static_cast<int>(state.steps.size());
   if (!state.steps.empty()) info.last = state.steps.back();
   info.undo = session.can_undo();
   info.redo = session.can_redo();
   return json_of(info);
-}
-
-std::string edges_json(const Session& session) {
-  std::vector<EdgesInfo> infos;
-  const step::File* file = session.document().step_file();
-  for (std::size_t k = 0; file != nullptr && k < session.state().surfaces.size(); ++k) {
-    SceneSurface s = session.state().surfaces[k];
-    if (file->find_surface(s.id) == nullptr || session.moved_control_points(static_cast<int>(k)) == 0) continue;
-    EdgesInfo& info = infos.emplace_back();
-    info.surface = s.id;
-    Expected<void> known;
-    if (!s.visible) {
-      if (auto region = visible_region(*file, s.id)) {
-        s.visible = std::make_shared<const VisibleRegion>(std::move(*region));
-      } else {
-        known = std::unexpected(region.error());
-      }
-    }
-    const auto report = known ? trim_report(s) : Expected<TrimReport>(std::unexpected(known.error()));
-    if (!report) {
-      info.unknown = report.error().message();
-      continue;
-    }
-    info.tolerance = trim_tolerance(*s.opened, *s.visible);
-    for (const TrimReport::Edge& edge : report->edges) {
-      info.edges.push_back({edge.held.id, edge.neighbours, edge.deviation});
-    }
-  }
-  return json_of(infos);
-}
-
-std::string room_json(const Session& session, std::size_t surface) {
-  const SceneSurface& s = session.state().surfaces[surface];
-  std::shared_ptr<const VisibleRegion> region = s.visible;
-  const step::File* file = session.document().step_file();
-  if (!region && file != nullptr && file->find_surface(s.id) != nullptr) {
-    if (auto found = visible_region(*file, s.id)) region = std::make_shared<const VisibleRegion>(std::move(*found));
-  }
-  if (!region || region->edges.empty()) return "null";
-  const auto middle = visible_middle(*s.current, *region);
-  return middle ? json_of(middle->distance) : "null";
 }
 
 std::string steps_json(const SessionState& state, std::size_t first) {
@@ -370,6 +296,7 @@ std::string session_typescript() {
   types.declare(type_of<CommandVariant>(), "AnyCommand", "Command");
   types.declare(type_of<SessionInfo>(), "SessionInfo", "Info", Absent::null);
   types.declare(type_of<EdgesInfo>(), "EdgesInfo", "Info", Absent::null);
+  types.declare(type_of<CheckedEdgeInfo>(), "CheckedEdgeInfo", "Info", Absent::null);
   types.declare(type_of<ErrorInfo>(), "EngineErrorInfo", "Info", Absent::null);
   types.list(type_of<Shape>(), "shapes");
   types.text += "\nexport const materials = " + json_of(named_materials()) + " as const;\n";

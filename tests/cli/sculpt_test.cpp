@@ -309,6 +309,7 @@ TEST(Sculpt, TheReportHasMeasurementsAndWhatWasLeftOut) {
     return std::hypot(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
   };
   EXPECT_NEAR(length(tip.at("normal")), 1, 1e-12);
+  EXPECT_GE(tip.at("curvature")[0], tip.at("curvature")[1]);
   EXPECT_GT(length(tip.at("displacement")), 0.5 * report.at("largest_displacement").get<double>());
   EXPECT_NE(report.at("notes").dump().find("the shape sphere has no minor"), std::string::npos);
   const Outcome refused = knead({"sculpt", bonnet(), "-o", workshop / "2.step", "--script",

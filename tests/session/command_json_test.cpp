@@ -111,7 +111,8 @@ const std::vector<std::string> all_commands = {
     R"({"do":"refine","region":[[0,0.5],[0,1]],"under":"a","knots_u":[0.5,0.5],"knots_v":[0.25],"permission":"auto"})",
     R"({"do":"elevate","by":[0,2]})",
     R"({"do":"coarsen","tolerance":0.001})",
-    R"({"do":"measure","name":"tip","at":[0.25,1]})",
+    R"({"do":"measure","name":"tip","surface":"#1","at":[0.25,1]})",
+    R"({"do":"remove","measurement":"tip"})",
     R"({"do":"undo"})",
     R"({"do":"redo"})"};
 

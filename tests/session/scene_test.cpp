@@ -1,5 +1,6 @@
 // What a scene keeps is told once, and follows the net and the patches it belongs to.
 #include "knead/scene/scene.hpp"
+#include "knead/session/session_info.hpp"
 
 #include <gtest/gtest.h>
 
@@ -127,6 +128,34 @@ TEST(Measure, TellsWhereASurfacePointIs) {
   const auto restored = Session::restore(session.document(), session.snapshot());
   ASSERT_TRUE(restored);
   EXPECT_EQ(restored->state().probes, session.state().probes);
+  run(session, {R"({"do":"remove","measurement":"tip"})"});
+  ASSERT_EQ(session.state().probes.size(), 1U);
+  EXPECT_EQ(session.state().probes.front().name, "other");
+  EXPECT_EQ(refusal(session, R"({"do":"remove","measurement":"tip"})").where, "measurement");
+  EXPECT_EQ(refusal(session, R"({"do":"remove","measurement":"other","tool":"ball"})").where, "measurement");
+}
+
+TEST(Measure, TellsHowTheSurfaceBends) {
+  Session session = Session(Document::fresh("round"));
+  run(session,
+      {R"({"do":"new","shape":"cylinder","radius":3,"height":5})", R"({"do":"new","shape":"sphere","radius":2})",
+       R"({"do":"measure","name":"wall","surface":"#1","at":[0.3,0.4]})",
+       R"({"do":"measure","name":"ball","surface":"#2","at":[0.3,0.4]})",
+       R"({"do":"measure","name":"pole","surface":"#2","at":[0.3,0]})"});
+  const auto& probes = session.state().probes;
+  ASSERT_EQ(probes.size(), 3U);
+  const auto curvature = [&](std::size_t k) { return read_probe(session.state(), probes[k])->curvature; };
+  ASSERT_TRUE(curvature(0) && curvature(1));
+  EXPECT_NEAR((*curvature(0))[0], 0, 1e-13);
+  EXPECT_NEAR((*curvature(0))[1], -1.0 / 3, 1e-13);
+  EXPECT_NEAR((*curvature(1))[0], -0.5, 1e-13);
+  EXPECT_NEAR((*curvature(1))[1], -0.5, 1e-13);
+  EXPECT_FALSE(curvature(2));
+  EXPECT_EQ(refusal(session, R"({"do":"measure","surface":"#7"})").where, "surface");
+  const auto reading = reading_json(session, 1, {0.3, 0.4});
+  ASSERT_TRUE(reading);
+  EXPECT_NE(reading->find("\"curvature\":[-0."), std::string::npos) << *reading;
+  EXPECT_NE(session_json(session).find("\"name\":\"wall\""), std::string::npos);
 }
 
 }  // namespace

@@ -184,6 +184,9 @@ struct ProbeReading {
   Point point = Point::Zero();         ///< S(u, v)
   Point displacement = Point::Zero();  ///< from the surface as opened
   Point normal = Point::Zero();        ///< unit normal S_u × S_v; zero where undefined
+  /// Principal curvatures κ₁ >= κ₂, 1/length, positive where the surface bends towards the normal; none where the
+  /// normal is undefined.
+  std::optional<std::array<double, 2>> curvature = {};
 };
 
 /// Errors: a place outside the domain (input), a rational denominator that is not positive (numerical).

@@ -5,9 +5,10 @@
 namespace knead {
 
 /// Makes the report give the final position of a surface point: `"measurements": [{"name", "surface", "at", "point",
-/// "displacement", "normal"}]`. Replaces the measurement of that name.
+/// "displacement", "normal", "curvature"}]`. Replaces the measurement of that name.
 struct MeasureCommand {
   std::string name = "point";
+  std::optional<std::string> surface = {};  ///< id; left out: the first selected one
   Fractions at = {0.5, 0.5};
   std::optional<bool> middle = {};  ///< of the visible part, instead of `at`
 };

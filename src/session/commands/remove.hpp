@@ -4,9 +4,10 @@
 
 namespace knead {
 
-/// Removes a tool from the scene; its plastic deformation remains.
+/// Removes a tool from the scene; its plastic deformation remains. Or a measurement.
 struct RemoveCommand {
-  std::optional<std::string> tool;  ///< default: the only tool
+  std::optional<std::string> tool;         ///< default: the only tool
+  std::optional<std::string> measurement;  ///< its name, instead of a tool
 };
 
 template <>

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "knead/exchange/step_file.hpp"
+
+namespace knead {
+
+/// A face at points along one of its edges. Of a face on a B-spline surface of the file the feet of the points are
+/// known, so that it can be evaluated as it is now; the others are as the file has them.
+struct EdgeContactFace {
+  std::string id;                     ///< of the face, "#12"
+  std::string surface;                ///< id of the B-spline surface on which it lies; empty: another surface
+  bool same_sense = true;             ///< its normal is that of its surface
+  std::vector<Eigen::Vector2d> feet;  ///< on the B-spline surface, fractions of its domain
+  std::vector<Point> points;          ///< on another surface: the nearest points of it
+  std::vector<Point> normals;         ///< there: unit normals of the face
+};
+
+/// An edge and the faces that meet there.
+struct EdgeContact {
+  std::string id;
+  std::vector<Point> points;           ///< evenly along the parameter of its curve, ends included
+  std::vector<EdgeContactFace> faces;  ///< by ascending id of their records; a face on both sides of a seam once
+  bool seam = false;                   ///< a face is on both of its sides
+  std::string unknown;                 ///< why one of its faces cannot be followed there; empty: all are
+};
+
+/// The edges of the faces on a B-spline surface of a STEP file, with everything that meets there, in the order of
+/// `visible_region`. Feet are sought on the surfaces as they are in the file, each from the one before, on closed
+/// surfaces a turn outside of 0 … 1 where the edge goes on there.
+/// Errors (input): no such surface; an edge whose curve cannot be followed. What fails for one face is said in
+/// `unknown`. Cost: a pass over the file, and `samples` searches for the nearest point per face and edge.
+[[nodiscard]] Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file, const std::string& surface,
+                                                               int samples = 33);
+
+}  // namespace knead

@@ -1,0 +1,165 @@
+#include "knead/exchange/edge_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "face_loops.hpp"
+#include "face_region.hpp"
+#include "face_surface.hpp"
+#include "step_data.hpp"
+#include "step_faces.hpp"
+#include "step_surfaces.hpp"
+
+namespace knead {
+
+using namespace step;
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double loop_chord = 1e-2;  // of the edges that tell which part of a swept surface a face needs
+
+/// Follows edges over the surfaces of the faces around them.
+class Follower {
+ public:
+  explicit Follower(const step::File::Data& data)
+      : data_(data), reader_(data.records), loops_(reader_, loop_chord), angle_units_(plane_angle_units(reader_)) {}
+
+  const Reader& reader() const { return reader_; }
+
+  Expected<EdgeContactFace> follow(const Face& face, const std::vector<Point>& points) {
+    EdgeContactFace result;
+    result.id = name_of(reader_, face.instance);
+    result.same_sense = face.same_sense;
+    const auto& drawn = data_.surface_instances;
+    const auto on = std::ranges::find(drawn, face.surface);
+    if (on == drawn.end()) {
+      if (auto done = along_other(face, points, result); !done) return std::unexpected(done.error());
+      return result;
+    }
+    const auto k = static_cast<std::size_t>(on - drawn.begin());
+    result.surface = data_.surfaces[k].id;
+    if (auto done = along_spline(k, points, result.feet); !done) return std::unexpected(done.error());
+    return result;
+  }
+
+ private:
+  Expected<void> along_spline(std::size_t k, const std::vector<Point>& points, std::vector<Vector2d>& feet) {
+    auto known = feet_.find(k);
+    if (known == feet_.end()) {
+      auto made = SurfaceFoot::create(data_.surfaces[k].surface);
+      if (!made) return std::unexpected(made.error());
+      known = feet_.emplace(k, *std::move(made)).first;
+    }
+    const SurfaceFoot& surface = known->second;
+    const double near = on_surface * net_diagonal(data_.surfaces[k].surface.control_points());
+    std::vector<std::array<bool, 2>> free;
+    for (const Point& p : points) {
+      std::optional<Vector2d> hint;
+      if (!feet.empty() && !free.back()[0] && !free.back()[1]) hint = feet.back();
+      const Foot foot = surface.nearest(p, hint, near).foot;
+      Vector2d at = foot.parameters;
+      for (int d = 0; d < 2 && !feet.empty(); ++d) {
+        const double period = surface.space().periods[static_cast<std::size_t>(d)];
+        if (period > 0) at[d] += period * std::round((feet.back()[d] - at[d]) / period);
+        // At a pole the parameter around it is that of the point before.
+        if (foot.free[static_cast<std::size_t>(d)]) at[d] = feet.back()[d];
+      }
+      feet.push_back(at);
+      free.push_back(foot.free);
+    }
+    // A pole at the beginning takes that of the point after.
+    for (std::size_t j = feet.size() - 1; j-- > 0;) {
+      for (std::size_t d = 0; d < 2; ++d) {
+        if (!free[j][d] || free[j + 1][d]) continue;
+        feet[j][static_cast<Eigen::Index>(d)] = feet[j + 1][static_cast<Eigen::Index>(d)];
+        free[j][d] = false;
+      }
+    }
+    return {};
+  }
+
+  Expected<void> along_other(const Face& face, const std::vector<Point>& points, EdgeContactFace& result) {
+    auto loops = loops_.loops(face.bounds);
+    if (!loops) return std::unexpected(loops.error());
+    std::vector<Point> on_it;
+    for (const Loop& loop : *loops) on_it.insert(on_it.end(), loop.begin(), loop.end());
+    std::optional<FaceSurface> surface;
+    if (face.surface == no_instance) {
+      surface = FaceSurface::plane_of(on_it);
+      if (!surface) return reader_.error(face.instance, "it has no surface, and its bounds span no plane");
+    } else {
+      auto read = FaceSurface::read(reader_, face.surface, on_it, angle_units_);
+      if (!read) return std::unexpected(read.error());
+      surface = *std::move(read);
+    }
+    for (const Point& p : points) {
+      const Vector2d at = surface->foot(p).parameters;
+      result.points.push_back(surface->at(at));
+      result.normals.push_back((face.same_sense ? 1 : -1) * surface->normal(at));
+    }
+    return {};
+  }
+
+  const step::File::Data& data_;
+  const Reader reader_;
+  EdgeSampler loops_;
+  std::vector<double> angle_units_;
+  std::map<std::size_t, SurfaceFoot> feet_;  // by the number of the surface
+};
+
+Expected<std::vector<Point>> points_along(const Reader& reader, std::uint32_t edge, int samples) {
+  const auto piece = edge_piece(reader, edge);
+  if (!piece) return std::unexpected(piece.error());
+  std::vector<Point> result;
+  for (int k = 0; k < samples; ++k) {
+    result.push_back(piece->curve.at(std::lerp(piece->from, piece->to, static_cast<double>(k) / (samples - 1))));
+  }
+  return result;
+}
+
+}  // namespace
+
+Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file, const std::string& surface, int samples) {
+  const step::File::Data& data = file.data();
+  const auto index = data.surface_index.find(surface);
+  if (index == data.surface_index.end()) return input_error("there is no such surface", surface);
+  Follower follower(data);
+  const Reader& reader = follower.reader();
+  const auto faces = read_faces(reader);
+  std::vector<std::uint32_t> edges;                            // of the faces on the surface, each once
+  std::map<std::uint32_t, std::vector<std::size_t>> faces_at;  // of every edge, by their numbers
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const auto edge : edges_around(reader, faces[f])) {
+      faces_at[edge].push_back(f);
+      if (faces[f].surface != data.surface_instances[index->second]) continue;
+      if (std::ranges::find(edges, edge) == edges.end()) edges.push_back(edge);
+    }
+  }
+  std::vector<EdgeContact> result;
+  for (const auto edge : edges) {
+    auto points = points_along(reader, edge, std::max(2, samples));
+    if (!points) return std::unexpected(points.error());
+    EdgeContact& made = result.emplace_back();
+    made.id = name_of(reader, edge);
+    made.points = *std::move(points);
+    auto& around = faces_at[edge];
+    std::ranges::sort(around);
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      if (k > 0 && around[k] == around[k - 1]) {
+        made.seam = true;
+        continue;
+      }
+      auto face = follower.follow(faces[around[k]], made.points);
+      if (face)
+        made.faces.push_back(*std::move(face));
+      else
+        made.unknown = face.error().message();
+    }
+  }
+  return result;
+}
+
+}  // namespace knead

@@ -1,0 +1,95 @@
+#include "knead/scene/edge_check.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "knead/exchange/shared_edge.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+namespace {
+
+/// A face along an edge: its points, and its unit normals, zero where there is no tangent plane.
+struct FaceSide {
+  std::vector<Point> points, normals;
+};
+
+Expected<FaceSide> side_of(const EdgeContactFace& face, const Surface& surface) {
+  Parameters<2> places(static_cast<Eigen::Index>(face.feet.size()), 2);
+  for (std::size_t k = 0; k < face.feet.size(); ++k) {
+    const auto at = parameters_at_foot(surface, face.feet[k]);
+    places.row(static_cast<Eigen::Index>(k)) << at[0], at[1];
+  }
+  const auto jet = evaluate<2>(surface, places, 1);
+  if (!jet) return std::unexpected(jet.error());
+  FaceSide side;
+  for (Eigen::Index k = 0; k < places.rows(); ++k) {
+    const Point u = jet->at({1, 0}).row(k).transpose(), v = jet->at({0, 1}).row(k).transpose();
+    const Point normal = u.cross(v);
+    side.points.emplace_back(jet->points().row(k).transpose());
+    const bool regular = normal.norm() > 1e-9 * (u.squaredNorm() + v.squaredNorm());
+    side.normals.emplace_back(regular ? Point((face.same_sense ? 1 : -1) * normal.normalized()) : Point(Point::Zero()));
+  }
+  return side;
+}
+
+struct Meeting {
+  double gap = 0;
+  std::optional<double> angle;
+};
+
+void meet(const FaceSide& a, const FaceSide& b, Meeting& meeting) {
+  for (std::size_t k = 0; k < a.points.size(); ++k) {
+    meeting.gap = std::max(meeting.gap, (a.points[k] - b.points[k]).norm());
+    if (a.normals[k].isZero() || b.normals[k].isZero()) continue;
+    const double angle = std::atan2(a.normals[k].cross(b.normals[k]).norm(), a.normals[k].dot(b.normals[k]));
+    meeting.angle = std::max(meeting.angle.value_or(0), angle);
+  }
+}
+
+/// Either as it is or as it was opened.
+Expected<Meeting> meeting_of(const Scene& scene, const EdgeContact& contact, bool opened) {
+  std::vector<FaceSide> sides;
+  for (const EdgeContactFace& face : contact.faces) {
+    if (face.surface.empty()) {
+      sides.push_back({face.points, face.normals});
+      continue;
+    }
+    const auto s = std::ranges::find(scene.surfaces, face.surface, &SceneSurface::id);
+    if (s == scene.surfaces.end()) return input_error("the surface is not in the scene", face.surface);
+    auto side = side_of(face, opened ? *s->opened : *s->current);
+    if (!side) return std::unexpected(side.error());
+    sides.push_back(*std::move(side));
+  }
+  Meeting meeting;
+  if (sides.size() == 1)
+    meet(sides[0], {contact.points, std::vector<Point>(contact.points.size(), Point::Zero())}, meeting);
+  for (std::size_t a = 0; a < sides.size(); ++a) {
+    for (std::size_t b = a + 1; b < sides.size(); ++b) meet(sides[a], sides[b], meeting);
+  }
+  return meeting;
+}
+
+}  // namespace
+
+Expected<std::vector<EdgeCheck>> check_edges(const Scene& scene, const std::vector<EdgeContact>& contacts) {
+  std::vector<EdgeCheck> result;
+  for (const EdgeContact& contact : contacts) {
+    EdgeCheck& check = result.emplace_back();
+    check.id = contact.id;
+    check.unknown = contact.unknown;
+    for (const EdgeContactFace& face : contact.faces) check.faces.push_back(face.id);
+    if (!check.unknown.empty()) continue;
+    const auto now = meeting_of(scene, contact, false), then = meeting_of(scene, contact, true);
+    if (!now) return std::unexpected(now.error());
+    if (!then) return std::unexpected(then.error());
+    check.gap = now->gap;
+    check.opened_gap = then->gap;
+    check.angle = now->angle;
+    check.opened_angle = then->angle;
+  }
+  return result;
+}
+
+}  // namespace knead

@@ -1,0 +1,99 @@
+#include <numbers>
+
+#include "info_values.hpp"
+#include "knead/exchange/face_edges.hpp"
+#include "knead/scene/edge_check.hpp"
+#include "knead/scene/trims.hpp"
+#include "knead/session/session_info.hpp"
+
+namespace knead {
+
+void describe(EdgeInfo& e, Fields& fields) {
+  fields.name("edge info", "An edge of a face.");
+  fields.add("id", e.id);
+  fields.add("faces", e.faces, {.help = "that meet there"});
+  fields.add("deviation", e.deviation,
+             {.help = "of the surface from its original position, the largest along the edge", .unit = Unit::length});
+}
+
+void describe(EdgesInfo& e, Fields& fields) {
+  fields.name("edges info", "The edges of the faces on a surface that has moved.");
+  fields.add("surface", e.surface, {.help = "its id"});
+  fields.add("tolerance", e.tolerance,
+             {.help = "within which faces meet, according to the file", .unit = Unit::length});
+  fields.add("edges", e.edges);
+  fields.add("unknown", e.unknown, {.help = "why they cannot be followed"});
+}
+
+void describe(CheckedEdgeInfo& e, Fields& fields) {
+  fields.name("checked edge info", "How the faces at an edge meet; the largest values along it.");
+  fields.add("id", e.id);
+  fields.add("faces", e.faces, {.help = "that meet there"});
+  fields.add("gap", e.gap, {.help = "between them; of one face alone from the edge's curve", .unit = Unit::length});
+  fields.add("opened_gap", e.opened_gap, {.help = "as it was opened", .unit = Unit::length});
+  fields.add("angle", e.angle, {.help = "between their normals, degrees; null where there is one face"});
+  fields.add("opened_angle", e.opened_angle, {.help = "as it was opened"});
+  fields.add("unknown", e.unknown, {.help = "why nothing is known of it"});
+}
+
+std::string edges_json(const Session& session) {
+  std::vector<EdgesInfo> infos;
+  const step::File* file = session.document().step_file();
+  for (std::size_t k = 0; file != nullptr && k < session.state().surfaces.size(); ++k) {
+    SceneSurface s = session.state().surfaces[k];
+    if (file->find_surface(s.id) == nullptr || session.moved_control_points(static_cast<int>(k)) == 0) continue;
+    EdgesInfo& info = infos.emplace_back();
+    info.surface = s.id;
+    Expected<void> known;
+    if (!s.visible) {
+      if (auto region = visible_region(*file, s.id)) {
+        s.visible = std::make_shared<const VisibleRegion>(std::move(*region));
+      } else {
+        known = std::unexpected(region.error());
+      }
+    }
+    const auto report = known ? trim_report(s) : Expected<TrimReport>(std::unexpected(known.error()));
+    if (!report) {
+      info.unknown = report.error().message();
+      continue;
+    }
+    info.tolerance = trim_tolerance(*s.opened, *s.visible);
+    for (const TrimReport::Edge& edge : report->edges) {
+      info.edges.push_back({edge.held.id, edge.neighbours, edge.deviation});
+    }
+  }
+  return json_of(infos);
+}
+
+std::string room_json(const Session& session, std::size_t surface) {
+  const SceneSurface& s = session.state().surfaces[surface];
+  std::shared_ptr<const VisibleRegion> region = s.visible;
+  const step::File* file = session.document().step_file();
+  if (!region && file != nullptr && file->find_surface(s.id) != nullptr) {
+    if (auto found = visible_region(*file, s.id)) region = std::make_shared<const VisibleRegion>(std::move(*found));
+  }
+  if (!region || region->edges.empty()) return "null";
+  const auto middle = visible_middle(*s.current, *region);
+  return middle ? json_of(middle->distance) : "null";
+}
+
+Expected<std::string> checked_edges_json(const Session& session, std::size_t surface) {
+  std::vector<CheckedEdgeInfo> infos;
+  const SessionState& state = session.state();
+  const step::File* file = session.document().step_file();
+  const std::string& id = state.surfaces[surface].id;
+  if (file == nullptr || file->find_surface(id) == nullptr) return json_of(infos);
+  const auto contacts = edge_contacts(*file, id);
+  if (!contacts) return std::unexpected(contacts.error());
+  const auto checks = check_edges(state, *contacts);
+  if (!checks) return std::unexpected(checks.error());
+  const auto degrees = [](std::optional<double> angle) {
+    return angle ? std::optional(*angle * 180 / std::numbers::pi) : std::nullopt;
+  };
+  for (const EdgeCheck& e : *checks) {
+    infos.push_back({e.id, e.faces, e.gap, e.opened_gap, degrees(e.angle), degrees(e.opened_angle), e.unknown});
+  }
+  return json_of(infos);
+}
+
+}  // namespace knead

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "described_json.hpp"
+#include "knead/session/session.hpp"
+
+namespace knead {
+
+// Parts of what is reported about a session that are asked for by themselves as well.
+
+template <class T>
+std::string json_of(const T& value) {
+  return to_json(type_of<T>(), &value, Absent::null);
+}
+
+struct EdgeInfo {
+  std::string id;
+  std::vector<std::string> faces;
+  double deviation = 0;
+};
+void describe(EdgeInfo& e, Fields& fields);
+
+struct EdgesInfo {
+  std::string surface;
+  double tolerance = 0;
+  std::vector<EdgeInfo> edges;
+  std::string unknown;
+};
+void describe(EdgesInfo& e, Fields& fields);
+
+struct CheckedEdgeInfo {
+  std::string id;
+  std::vector<std::string> faces;
+  double gap = 0, opened_gap = 0;
+  std::optional<double> angle, opened_angle;
+  std::string unknown;
+};
+void describe(CheckedEdgeInfo& e, Fields& fields);
+
+struct ReadingInfo {
+  std::string name;
+  int surface = 0;
+  Fractions at = {0, 0};
+  Vector3 point = {0, 0, 0}, displacement = {0, 0, 0}, normal = {0, 0, 0};
+  std::optional<std::array<double, 2>> curvature;
+};
+void describe(ReadingInfo& r, Fields& fields);
+
+/// Of the scene's measurements; those that cannot be read are left out.
+[[nodiscard]] std::vector<ReadingInfo> readings_of(const Scene& scene);
+
+}  // namespace knead

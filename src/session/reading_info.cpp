@@ -1,0 +1,50 @@
+#include "command_fields.hpp"
+#include "info_values.hpp"
+#include "knead/scene/places.hpp"
+#include "knead/session/session_info.hpp"
+
+namespace knead {
+
+void describe(ReadingInfo& r, Fields& fields) {
+  fields.name("reading info", "What is measured at a point of a surface.");
+  fields.add("name", r.name);
+  fields.add("surface", r.surface, {.help = "its number"});
+  fields.add("at", r.at, {.unit = Unit::fraction});
+  fields.add("point", r.point, {.unit = Unit::length});
+  fields.add("displacement", r.displacement, {.help = "from the surface as opened", .unit = Unit::length});
+  fields.add("normal", r.normal, {.help = "of length 1; zero where there is none"});
+  fields.add("curvature", r.curvature, {.help = "the principal ones, the larger first; null where there is no normal"});
+}
+
+namespace {
+
+Expected<ReadingInfo> reading_of(const Scene& scene, const Probe& probe) {
+  const auto reading = read_probe(scene, probe);
+  if (!reading) return std::unexpected(reading.error());
+  return ReadingInfo{probe.name,
+                     probe.surface,
+                     probe.at,
+                     array_of(reading->point),
+                     array_of(reading->displacement),
+                     array_of(reading->normal),
+                     reading->curvature};
+}
+
+}  // namespace
+
+std::vector<ReadingInfo> readings_of(const Scene& scene) {
+  std::vector<ReadingInfo> result;
+  for (const Probe& probe : scene.probes) {
+    if (probe.list != "measurements") continue;
+    if (auto reading = reading_of(scene, probe)) result.push_back(*std::move(reading));
+  }
+  return result;
+}
+
+Expected<std::string> reading_json(const Session& session, int surface, const std::array<double, 2>& at) {
+  const auto reading = reading_of(session.state(), Probe{"measurements", "", surface, at});
+  if (!reading) return std::unexpected(reading.error());
+  return json_of(*reading);
+}
+
+}  // namespace knead
