@@ -2,6 +2,7 @@ import './style.css';
 import '../document/document.css';
 import '../view/view.css';
 import '../view/view_cube.css';
+import '../view/measure.css';
 
 import { notices, toolRail, topBar } from '../panels/chrome';
 import { h } from '../panels/dom';
@@ -14,6 +15,7 @@ import { createPanel } from '../panels/panel_create';
 import { displayPanel } from '../panels/panel_display';
 import { surfacePanel } from '../panels/panel_surface';
 import { brushPanel, pointsPanel } from '../panels/panels_hand';
+import { measurePanel, readingLabels } from '../panels/panel_measure';
 import { evolutionPanel, historyPanel, materialPanel } from '../panels/panels_model';
 import { constraintsPanel, surfacesPanel, toolsPanel } from '../panels/panels_scene';
 import { statusBar } from '../panels/plot';
@@ -33,12 +35,12 @@ document.getElementById('studio')!.append(
   toolRail(app),
   h('main', { class: 'stage' }, app.viewer.element, legendCard(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
-    brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app),
+    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app),
     viewsPanel(app), displayPanel(app), historyPanel(app)),
   statusBar(app),
 );
 listenToKeys(app);
-app.viewer.element.append(heldBadge(app), viewCube(app), sectionHandle(app));
+app.viewer.element.append(readingLabels(app), heldBadge(app), viewCube(app), sectionHandle(app));
 listenToQuestions(app);
 listenToEdges(app);
 

@@ -161,6 +161,7 @@ export class Studio implements App {
     Object.assign(this, { fresh: !again, steps: [], stepsEnd: 0, computedTime: 0 });
     this.viewer.selectTool(null);
     this.hand.edges.forget();
+    this.hand.measure.clear();
     return () => {
       Object.assign(this, { fresh, steps, stepsEnd, computedTime });
       this.viewer.selectTool(tool);

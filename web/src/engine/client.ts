@@ -1,6 +1,6 @@
 import type { Context, FaceEdge, Trim } from './context';
 import type { DisplayInfo } from './displays';
-import type { EdgesInfo } from './generated';
+import type { CheckedEdgeInfo, EdgesInfo, ReadingInfo } from './generated';
 import type { Frame, PictureSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo, type MaterialSamples, type MeshFormat, type SurfaceNumbers } from './session_types';
 
@@ -123,6 +123,10 @@ export class Client {
   restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array, opened: number) =>
     this.ask({ kind: 'restore', source, name, snapshot, opened });
   faceEdges = async (surface: number): Promise<FaceEdge[]> => JSON.parse((await this.ask({ kind: 'faceEdges', surface })).text!) as FaceEdge[];
+  checkedEdges = async (surface: number): Promise<CheckedEdgeInfo[]> =>
+    JSON.parse((await this.ask({ kind: 'checkedEdges', surface })).text!) as CheckedEdgeInfo[];
+  reading = async (surface: number, at: [number, number]): Promise<ReadingInfo> =>
+    JSON.parse((await this.ask({ kind: 'reading', surface, at })).text!) as ReadingInfo;
   room = async (surface: number): Promise<number | null> => JSON.parse((await this.ask({ kind: 'room', surface })).text!) as number | null;
   save = async (): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> => {
     const { bytes, text } = await this.ask({ kind: 'save' });

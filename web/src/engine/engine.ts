@@ -1,6 +1,6 @@
 import { type BufferTable, Buffers } from './buffers';
 import type { Context, FaceEdge, Trim } from './context';
-import { type EdgesInfo, fileFormats } from './generated';
+import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } from './generated';
 import { type DisplayChoice, type DisplayInfo, plain } from './displays';
 import {
   coefficients, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture,
@@ -36,6 +36,8 @@ interface Exports {
   knead_context(): number;
   knead_trims(surface: number): number;
   knead_face_edges(surface: number): number;
+  knead_checked_edges(surface: number): number;
+  knead_reading(surface: number, s: number, t: number): number;
 }
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
@@ -139,6 +141,16 @@ export class Engine {
   /** The edges of the faces of the file on a surface. */
   faceEdges(surface: number): FaceEdge[] {
     return this.json(this.wasm.knead_face_edges(surface)) as FaceEdge[];
+  }
+
+  /** How the faces on a surface meet their neighbours. */
+  checkedEdges(surface: number): CheckedEdgeInfo[] {
+    return this.json(this.wasm.knead_checked_edges(surface)) as CheckedEdgeInfo[];
+  }
+
+  /** What is measured at a point of a surface, in fractions of its domain. */
+  reading(surface: number, [s, t]: [number, number]): ReadingInfo {
+    return this.json(this.wasm.knead_reading(surface, s, t)) as ReadingInfo;
   }
 
   /** All numbers of a surface as it is now, in full precision. */

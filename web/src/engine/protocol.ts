@@ -36,6 +36,9 @@ export type Request =
   | { kind: 'context' }
   /** `Engine.faceEdges` as text. */
   | { kind: 'faceEdges'; surface: number }
+  /** `Engine.checkedEdges`, `Engine.reading` as text. */
+  | { kind: 'checkedEdges'; surface: number }
+  | { kind: 'reading'; surface: number; at: [number, number] }
   /** `Engine.room` as text. */
   | { kind: 'room'; surface: number }
   | { kind: 'save' }

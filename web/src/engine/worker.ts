@@ -208,6 +208,12 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     case 'faceEdges':
       post({ kind: 'done', id, text: JSON.stringify(engine.faceEdges(request.surface)) });
       return;
+    case 'checkedEdges':
+      post({ kind: 'done', id, text: JSON.stringify(engine.checkedEdges(request.surface)) });
+      return;
+    case 'reading':
+      post({ kind: 'done', id, text: JSON.stringify(engine.reading(request.surface, request.at)) });
+      return;
     case 'room':
       post({ kind: 'done', id, text: JSON.stringify(engine.room(request.surface)) });
       return;

@@ -38,7 +38,8 @@ function handle(app: App, event: KeyboardEvent): boolean {
     else if (app.viewer.selectedTool) {
       app.viewer.selectTool(null);
       app.changed();
-    } else if (app.viewer.section.on) toggleSection(app);
+    } else if (app.hand.measure.forget()) app.changed();
+    else if (app.viewer.section.on) toggleSection(app);
     return true;
   }
   if (event.key === '?') {

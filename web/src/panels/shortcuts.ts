@@ -8,7 +8,7 @@ export function shortcuts(app: App): [string, string][] {
     ['Orbit', orbit], ['Pan', pan], ['Zoom', zoom], ['Fingers', 'one: brush, or orbit beside the surface; two: pan, zoom, turn; three: orbit'],
     ['1 2 3', 'front, right, top; Shift: the other side'], ['0', 'as at the start'], ['6', 'isometric'], ['7', 'parallel projection or perspective'], ['8', 'turntable'], ['X', 'section: hide what is before a plane'], ['5', 'along an axis or free'], ['4', 'four views or one'],
     ['Double click a label', 'that view alone, or all'], ['F', 'what is selected; Shift: everything'],
-    ['V B U S G', 'look, push, pull, smooth, grab'], ['W', 'brushes: inflate, flatten, crease, mask and more'], ['E', 'control points'], ['T', 'place a tool'], ['P I A D', 'pin, freeze, material, edges'],
+    ['V B U S G', 'look, push, pull, smooth, grab'], ['W', 'brushes: inflate, flatten, crease, mask and more'], ['E', 'control points'], ['T', 'place a tool'], ['P I A D', 'pin, freeze, material, edges'], ['Q', 'measure distances, angles, radii'],
     ['Alt, Shift with a brush', 'the other way, smooth'], ['Alt with paint', 'takes it away'],
     ['Shift-, Alt-wheel', 'size, depth of the brush'], ['Ctrl-drag', 'to the side size, upwards depth'], ['[ ]', 'size of the brush'],
     ['X Y Z N while dragging points', 'along an axis or the normal'], ['Ctrl-, Alt-click a point', 'its row along u, v'],

@@ -4,6 +4,7 @@ import { Brush, type BrushActions } from './brush';
 import { Edges } from './edges';
 import { followGizmo } from './gizmo';
 import type { Placing, ToolHost } from './host';
+import { Measure } from './measure';
 import { type Mode, paintModes } from './modes';
 import { newTool } from './new_tool';
 import { Paint, type PaintKind } from './paint';
@@ -18,6 +19,7 @@ export class Hand {
   readonly points: PointEditor;
   readonly paint: Paint;
   readonly edges: Edges;
+  readonly measure: Measure;
   readonly pointers: Pointers;
   readonly placing: Placing = { shape: 'sphere' };
 
@@ -33,6 +35,7 @@ export class Hand {
       material: (surface, counts) => host.client.material(surface, counts),
     });
     this.edges = new Edges(viewer, actions.select, (surface) => host.client.faceEdges(surface), () => host.changed());
+    this.measure = new Measure(viewer, (surface, at) => host.client.reading(surface, at), () => host.changed());
     this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool());
     for (const viewport of viewer.viewports) followGizmo(host, viewport);
     host.onChange.push(() => this.refresh());
@@ -60,6 +63,7 @@ export class Hand {
   tool(): PointerTool {
     if (this.mode === 'points') return this.points;
     if (this.mode === 'edges') return this.edges;
+    if (this.mode === 'measure') return this.measure;
     if (this.mode === 'brush') return this.surfaceBrush;
     return paintModes.includes(this.mode) ? this.paint : this.brush;
   }

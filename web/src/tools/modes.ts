@@ -1,6 +1,6 @@
 /** What the pointer does. */
 export type Mode =
-  | 'look' | 'push' | 'pull' | 'smooth' | 'grab' | 'brush' | 'points' | 'place' | 'pin' | 'freeze' | 'material' | 'edges';
+  | 'look' | 'push' | 'pull' | 'smooth' | 'grab' | 'brush' | 'points' | 'place' | 'pin' | 'freeze' | 'material' | 'edges' | 'measure';
 
 /** Mode, what it does, key. */
 export const modes: readonly (readonly [Mode, string, string])[] = [
@@ -16,6 +16,7 @@ export const modes: readonly (readonly [Mode, string, string])[] = [
   ['freeze', 'Freeze: paint what may not move (I). Alt thaws', 'i'],
   ['material', 'Paint another material (A)', 'a'],
   ['edges', 'Edges: click one to hold it (D)', 'd'],
+  ['measure', 'Measure distances, angles and radii (Q)', 'q'],
 ];
 
 export const brushModes: readonly Mode[] = ['push', 'pull', 'smooth', 'grab'];

@@ -46,10 +46,10 @@ export class GridPicker {
     return boxes;
   }
 
-  /** The nearest hit, or null. */
-  hit(ray: THREE.Ray): GridHit | null {
+  /** The nearest hit, or null. `shown`: fractions (s, t) at which there is something to hit; left out, everywhere. */
+  hit(ray: THREE.Ray, shown?: (s: number, t: number) => boolean): GridHit | null {
     this.boxes ??= this.build();
-    const { counts: [m, n], positions, s, t } = this.picture;
+    const { counts: [m, n], positions } = this.picture;
     const box = new THREE.Box3();
     const [a, b, c, d] = Array.from({ length: 4 }, () => new THREE.Vector3()) as [THREE.Vector3, THREE.Vector3, THREE.Vector3, THREE.Vector3];
     const point = new THREE.Vector3();
@@ -57,7 +57,8 @@ export class GridPicker {
     const test = (corners: [number, number, number], p: THREE.Vector3, q: THREE.Vector3, r: THREE.Vector3) => {
       if (!ray.intersectTriangle(p, q, r, false, point)) return;
       const distance = point.distanceTo(ray.origin);
-      if (!best || distance < best.distance) best = { point: point.clone(), distance, corners };
+      if (best && distance >= best.distance) return;
+      if (!shown || shown(...this.fractions(point, corners))) best = { point: point.clone(), distance, corners };
     };
     for (let row = 0; row < this.rows; ++row) {
       for (let column = 0; column < this.columns; ++column) {
@@ -83,12 +84,19 @@ export class GridPicker {
     [a, b, c].forEach((v, k) => v.fromArray(positions, 3 * found.corners[k]!));
     const normal = new THREE.Triangle(a, b, c).getNormal(new THREE.Vector3());
     if (normal.dot(ray.direction) > 0) normal.negate();
-    const weights = THREE.Triangle.getBarycoord(found.point, a, b, c, new THREE.Vector3())?.toArray() ?? [1, 0, 0];
-    const mix = (of: (corner: number) => number) =>
-      Math.min(1, Math.max(0, found.corners.reduce((sum, corner, k) => sum + weights[k]! * of(corner), 0)));
     return {
       point: found.point, normal, distance: found.distance,
-      fractions: [mix((corner) => s[Math.floor(corner / n)]!), mix((corner) => t[corner % n]!)],
+      fractions: this.fractions(found.point, found.corners),
     };
+  }
+
+  /** Of a point of a triangle. */
+  private fractions(point: THREE.Vector3, corners: [number, number, number]): [number, number] {
+    const { counts: [, n], positions, s, t } = this.picture;
+    const [a, b, c] = corners.map((corner) => new THREE.Vector3().fromArray(positions, 3 * corner)) as [THREE.Vector3, THREE.Vector3, THREE.Vector3];
+    const weights = THREE.Triangle.getBarycoord(point, a, b, c, new THREE.Vector3())?.toArray() ?? [1, 0, 0];
+    const mix = (of: (corner: number) => number) =>
+      Math.min(1, Math.max(0, corners.reduce((sum, corner, k) => sum + weights[k]! * of(corner), 0)));
+    return [mix((corner) => s[Math.floor(corner / n)]!), mix((corner) => t[corner % n]!)];
   }
 }

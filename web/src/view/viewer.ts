@@ -11,6 +11,7 @@ import { limitsOf } from './limits';
 import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
 import { clippable, Section, type SectionAxis } from './section';
+import { shown } from './section_lines';
 import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
 import { trimMasks } from './trim_mask';
@@ -268,13 +269,17 @@ export class Viewer {
     this.resize();
   }
 
-  /** What is under the pointer: the nearest surface, as last drawn or as it was when `frozen` was taken. */
-  pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: readonly (GridPicker | null)[]): Hit | null {
+  /**
+   * What is under the pointer: the nearest surface, as last drawn or as it was when `frozen` was taken. With `drawn` only what
+   * its trims leave of it, as far as it is drawn trimmed.
+   */
+  pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: readonly (GridPicker | null)[], drawn = false): Hit | null {
     const { ray } = viewport.ray(event, this.raycaster);
     const far = this.section.clip(ray);
     let best: (Hit & { distance: number }) | null = null;
     for (const [surface, picker] of (frozen ?? this.pickers).entries()) {
-      const hit = picker?.hit(ray);
+      const trim = drawn && this.display.trimmed ? this.trimOf(surface) : null;
+      const hit = picker?.hit(ray, trim ? (s, t) => shown(trim, s, t) : undefined);
       if (hit && hit.distance <= far && (!best || hit.distance < best.distance)) best = { surface, ...hit };
     }
     return best && !frozen && this.context.hides(this.raycaster, best.distance) ? null : best;
