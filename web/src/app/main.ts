@@ -3,6 +3,7 @@ import '../document/document.css';
 import '../view/view.css';
 import '../view/view_cube.css';
 import '../view/measure.css';
+import '../view/edges.css';
 
 import { notices, toolRail, topBar } from '../panels/chrome';
 import { h } from '../panels/dom';
@@ -15,6 +16,7 @@ import { createPanel } from '../panels/panel_create';
 import { displayPanel } from '../panels/panel_display';
 import { surfacePanel } from '../panels/panel_surface';
 import { brushPanel, pointsPanel } from '../panels/panels_hand';
+import { checkPanel } from '../panels/panel_check';
 import { measurePanel, readingLabels } from '../panels/panel_measure';
 import { evolutionPanel, historyPanel, materialPanel } from '../panels/panels_model';
 import { constraintsPanel, surfacesPanel, toolsPanel } from '../panels/panels_scene';
@@ -35,7 +37,7 @@ document.getElementById('studio')!.append(
   toolRail(app),
   h('main', { class: 'stage' }, app.viewer.element, legendCard(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
-    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app),
+    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), checkPanel(app),
     viewsPanel(app), displayPanel(app), historyPanel(app)),
   statusBar(app),
 );

@@ -179,7 +179,7 @@ export class Edges implements PointerTool {
 }
 
 /** Places on the drawn surface along a course of fractions, 3 numbers each: between the points of the picture, where it is flat. */
-function alongCourse({ counts: [m, n], positions, s, t }: Picture, course: readonly number[]): Float32Array {
+export function alongCourse({ counts: [m, n], positions, s, t }: Picture, course: readonly number[]): Float32Array {
   const result = new Float32Array(1.5 * course.length);
   for (let k = 0; 2 * k < course.length; ++k) {
     const [i, a] = cell(s, course[2 * k]!);
