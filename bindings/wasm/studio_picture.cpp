@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "buffers.hpp"
-#include "knead/spline/grid_lines.hpp"
 
 namespace knead::studio {
 namespace {
+
+/// Of the size of the scene: how far chords may be from a surface as opened. A quarter of a pixel where the scene fills
+/// a view of 1800 pixels.
+constexpr double chord = 1.25e-4;
 
 void append(std::vector<float>& to, const Point& p) {
   for (int d = 0; d < 3; ++d) to.push_back(static_cast<float>(p[d]));
@@ -29,13 +33,42 @@ std::string picture_json(const Picture& p) {
          "}";
 }
 
-Expected<void> PictureMaker::tabulate(const Surface& surface, int detail) {
-  if (knots_ && *knots_ == surface.knots() && detail_ == detail) return {};
+Expected<std::array<GridLines, 2>> PictureMaker::lines(const Scene& scene, int index, const Surface& drawn,
+                                                       int detail) {
+  const auto& opened = scene.surfaces[static_cast<std::size_t>(index)].opened;
+  const auto known =
+      std::ranges::find_if(lines_, [&](const KeptLines& l) { return l.of == opened && l.detail == detail; });
+  // Another net than that of the surface as opened has another grid.
+  if (known != lines_.end() && opened->knots() == drawn.knots()) return known->lines;
+  Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  for (const SceneSurface& s : scene.surfaces) {
+    lower = lower.cwiseMin(s.opened->control_points().colwise().minCoeff().transpose());
+    upper = upper.cwiseMax(s.opened->control_points().colwise().maxCoeff().transpose());
+  }
+  const double size = (upper - lower).norm();
+  ChordOptions options;
+  options.detail = std::max(1, detail);
+  options.tolerance = size > 0 ? chord * size * 96 / options.detail : 1;
+  auto made = grid_lines(opened->knots() == drawn.knots() ? *opened : drawn, options);
+  if (made && opened->knots() == drawn.knots()) {
+    constexpr std::size_t most_kept = 512;
+    if (lines_.size() == most_kept) lines_.clear();
+    lines_.push_back({opened, detail, *made});
+  }
+  return made;
+}
+
+Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surface& surface, int detail) {
+  const auto& opened = scene.surfaces[static_cast<std::size_t>(index)].opened;
+  if (knots_ && *knots_ == surface.knots() && detail_ == detail && of_ == opened) return {};
   knots_.reset();
+  auto grids = lines(scene, index, surface, detail);
+  if (!grids) return std::unexpected(grids.error());
+  of_ = opened;
   for (int d = 0; d < 2; ++d) {
     const KnotVector& knots = surface.knots(d);
     const Interval domain = knots.domain();
-    GridLines grid = grid_lines(knots, std::max(1, detail));
+    GridLines& grid = (*grids)[static_cast<std::size_t>(d)];
     std::vector<double>& parameters = grid.parameters;
     auto& fractions = d == 0 ? picture_.fractions_s : picture_.fractions_t;
     fractions.clear();
@@ -55,7 +88,7 @@ Expected<void> PictureMaker::tabulate(const Surface& surface, int detail) {
 Expected<void> PictureMaker::make(const Scene& scene, int index, const PictureOptions& options) {
   const SceneSurface& surface = scene.surfaces[static_cast<std::size_t>(index)];
   const Surface& drawn = options.opened ? *surface.opened : *surface.current;
-  if (auto done = tabulate(drawn, options.detail); !done) return done;
+  if (auto done = tabulate(scene, index, drawn, options.detail); !done) return done;
   const int order = options.display.display ? options.display.display->order : 1;
   if (auto done = evaluate_grid<2>(drawn, {&tables_[0], &tables_[1]}, std::max(1, order), evaluation_); !done) {
     return done;

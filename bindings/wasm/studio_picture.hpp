@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "knead/scene/held_points.hpp"
+#include "knead/spline/grid_lines.hpp"
 #include "studio_displays.hpp"
 
 namespace knead::studio {
 
-/// A surface as a grid of points to draw: `pieces` per span, so that every knot line is a line of the grid. Grid point
-/// (k, l) is row k · counts[1] + l. Positions are relative to the requested origin, so that single precision suffices.
+/// A surface as a grid of points to draw, as fine as its curvature needs; every knot line is a line of the grid. Grid
+/// point (k, l) is row k · counts[1] + l. Positions are relative to the requested origin, so that single precision
+/// suffices.
 struct Picture {
   std::array<std::uint32_t, 2> counts = {0, 0};
   std::vector<float> positions, normals;        ///< 3 per grid point; normals of length 1
@@ -41,13 +43,22 @@ class PictureMaker {
   [[nodiscard]] const Picture& picture() const { return picture_; }
 
  private:
-  Expected<void> tabulate(const Surface& surface, int detail);
+  /// Of the surface as opened, so that the grid stays while it is sculpted.
+  struct KeptLines {
+    std::shared_ptr<const Surface> of;
+    int detail = 0;
+    std::array<GridLines, 2> lines;
+  };
+  Expected<std::array<GridLines, 2>> lines(const Scene& scene, int index, const Surface& drawn, int detail);
+  Expected<void> tabulate(const Scene& scene, int index, const Surface& surface, int detail);
   void find_normals();
   Expected<void> find_held(const SceneSurface& surface);
   Expected<void> find_values(const Scene& scene, int index, const PictureOptions& options);
 
   std::optional<std::array<KnotVector, 2>> knots_;
   int detail_ = 0;
+  std::shared_ptr<const Surface> of_;  // the surface as opened
+  std::vector<KeptLines> lines_;
   std::array<std::vector<double>, 2> parameters_;
   std::array<BasisTable, 2> tables_;
   Evaluation<2> evaluation_;

@@ -2,23 +2,116 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+
+#include "knead/spline/basis.hpp"
+#include "knead/spline/evaluate.hpp"
 
 namespace knead {
+namespace {
 
-GridLines grid_lines(const KnotVector& knots, int detail, int most) {
-  assert(detail >= 1);
-  const std::vector<int> spans = knots.spans();
-  const int count = static_cast<int>(spans.size()), least = knots.degree() == 1 ? 1 : 2;
-  const int wanted = knots.degree() == 1 ? 1 : (detail - 1) / count + 1;
-  const int pieces = std::clamp(wanted, least, std::max(least, most / count));
+/// Every span in so many pieces.
+GridLines divided(const KnotVector& knots, const std::vector<int>& pieces) {
   GridLines lines;
-  for (int s : spans) {
+  std::size_t at = 0;
+  for (int s : knots.spans()) {
+    const int count = pieces[at++];
     lines.knot_lines.push_back(static_cast<std::uint32_t>(lines.parameters.size()));
-    for (int k = 0; k < pieces; ++k) lines.parameters.push_back(knots[s] + (knots[s + 1] - knots[s]) * k / pieces);
+    for (int k = 0; k < count; ++k) lines.parameters.push_back(knots[s] + (knots[s + 1] - knots[s]) * k / count);
   }
   lines.knot_lines.push_back(static_cast<std::uint32_t>(lines.parameters.size()));
   lines.parameters.push_back(knots.domain().upper);
   return lines;
+}
+
+/// The same number in every span.
+int pieces_per_span(const KnotVector& knots, int detail, int most) {
+  const int count = static_cast<int>(knots.spans().size()), least = knots.degree() == 1 ? 1 : 2;
+  const int wanted = knots.degree() == 1 ? 1 : (detail - 1) / count + 1;
+  return std::clamp(wanted, least, std::max(least, most / count));
+}
+
+/// Parameters at the ends and in the middle of spans, thinned out evenly.
+std::vector<double> lines_across(const KnotVector& knots) {
+  constexpr std::size_t most = 64;
+  std::vector<double> all;
+  for (int s : knots.spans()) {
+    all.push_back(knots[s]);
+    all.push_back((knots[s] + knots[s + 1]) / 2);
+  }
+  all.push_back(knots.domain().upper);
+  if (all.size() <= most) return all;
+  std::vector<double> result;
+  for (std::size_t k = 0; k < most; ++k) result.push_back(all[k * (all.size() - 1) / (most - 1)]);
+  return result;
+}
+
+/// Of each span of a direction: how far the chord over the whole of it may be from the surface.
+Expected<std::vector<double>> chord_errors(const Surface& surface, int d) {
+  const KnotVector& knots = surface.knots(d);
+  const std::vector<int> spans = knots.spans();
+  const int samples = std::max(3, knots.degree());
+  std::array<std::vector<double>, 2> places;
+  for (int s : spans) {
+    for (int k = 0; k < samples; ++k) {
+      places[static_cast<std::size_t>(d)].push_back(knots[s] + (knots[s + 1] - knots[s]) * (k + 0.5) / samples);
+    }
+  }
+  places[static_cast<std::size_t>(1 - d)] = lines_across(surface.knots(1 - d));
+  const auto values =
+      evaluate_grid<2>(surface, {std::span<const double>(places[0]), std::span<const double>(places[1])}, 2);
+  if (!values) return std::unexpected(values.error());
+  const Points& first = d == 0 ? values->at({1, 0}) : values->at({0, 1});
+  const Points& second = d == 0 ? values->at({2, 0}) : values->at({0, 2});
+  std::vector<double> errors(spans.size(), 0);
+  const auto columns = static_cast<Eigen::Index>(places[1].size());
+  for (Eigen::Index row = 0; row < first.rows(); ++row) {
+    const auto span = static_cast<std::size_t>((d == 0 ? row / columns : row % columns) / samples);
+    const Point t = first.row(row).transpose(), along = second.row(row).transpose();
+    const double square = t.squaredNorm();
+    const Point across = square > 0 ? Point(along - along.dot(t) / square * t) : along;
+    errors[span] = std::max(errors[span], across.norm());
+  }
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    const double length = knots[spans[k] + 1] - knots[spans[k]];
+    errors[k] *= length * length / 8;
+  }
+  return errors;
+}
+
+}  // namespace
+
+GridLines grid_lines(const KnotVector& knots, int detail, int most) {
+  assert(detail >= 1);
+  return divided(knots, std::vector<int>(knots.spans().size(), pieces_per_span(knots, detail, most)));
+}
+
+Expected<std::array<GridLines, 2>> grid_lines(const Surface& surface, const ChordOptions& options) {
+  assert(options.detail >= 1 && options.tolerance > 0);
+  std::array<std::vector<double>, 2> errors;
+  std::array<int, 2> base;
+  for (int d = 0; d < 2; ++d) {
+    auto found = chord_errors(surface, d);
+    if (!found) return std::unexpected(found.error());
+    errors[static_cast<std::size_t>(d)] = *std::move(found);
+    base[static_cast<std::size_t>(d)] = pieces_per_span(surface.knots(d), options.detail, 400);
+  }
+  for (double tolerance = options.tolerance;; tolerance *= 2) {
+    std::array<std::vector<int>, 2> pieces;
+    std::array<double, 2> counts = {1, 1};
+    bool finer = false;
+    for (std::size_t d = 0; d < 2; ++d) {
+      for (const double error : errors[d]) {
+        const double wanted = std::min(std::ceil(std::sqrt(error / tolerance)), 1e6);
+        pieces[d].push_back(std::max(base[d], static_cast<int>(wanted)));
+        counts[d] += pieces[d].back();
+        finer = finer || pieces[d].back() > base[d];
+      }
+    }
+    const bool few =
+        counts[0] <= options.most && counts[1] <= options.most && counts[0] * counts[1] <= options.most_points;
+    if (few || !finer) return std::array{divided(surface.knots(0), pieces[0]), divided(surface.knots(1), pieces[1])};
+  }
 }
 
 }  // namespace knead

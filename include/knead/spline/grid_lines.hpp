@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "knead/spline/knot_vector.hpp"
+#include "knead/spline/spline.hpp"
 
 namespace knead {
 
@@ -18,5 +20,21 @@ struct GridLines {
 /// 1 and one where it is 1, but no more than `most` in all where there are fewer spans than that.
 /// Requires: detail >= 1 (asserted).
 [[nodiscard]] GridLines grid_lines(const KnotVector& knots, int detail, int most = 400);
+
+/// How closely the lines of a grid follow a surface.
+struct ChordOptions {
+  int detail = 96;            ///< as for `grid_lines` of the knots: the coarsest grid
+  double tolerance = 0;       ///< distance of chords from the surface, a length > 0
+  int most = 1500;            ///< lines per direction
+  int most_points = 100'000;  ///< of the grid; both limits yield to `detail`
+};
+
+/// The grid lines of both directions, with more pieces in every span whose chords would be farther from the surface
+/// than the tolerance: a chord over h is off by h²/8 · max |S_uu − (S_uu · t) t| with the unit tangent t, that is by κ
+/// L²/8 for the length L of the piece. The maximum is estimated at max(3, p) points inside each span, along lines at
+/// and between the knots of the other direction (at most 64 of them), so that chords are within about the tolerance.
+/// Where that would take more points than the options allow, the tolerance is doubled until it does not. Cost: one
+/// evaluation of order 2 at these points. Errors: a rational denominator that is not positive (numerical).
+[[nodiscard]] Expected<std::array<GridLines, 2>> grid_lines(const Surface& surface, const ChordOptions& options);
 
 }  // namespace knead

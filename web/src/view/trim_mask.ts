@@ -5,6 +5,12 @@ import type { Trim } from '../engine/context';
 /** Pixels per direction of the domain: many masks together use no more memory than a few. */
 const sizeFor = (masks: number) => (masks <= 8 ? 1024 : masks <= 32 ? 512 : 256);
 
+/**
+ * Faces reach half of this over their edges, pixels of the mask. Drawn to the edge exactly they would leave a hole wherever
+ * the masks of two neighbours are rounded away from each other, or where a face is narrower than a pixel.
+ */
+const overlap = 0.6;
+
 /** Of all surfaces; only trimmed ones have one. */
 export function trimMasks(trims: Trim[]): (THREE.Texture | null)[] {
   const size = sizeFor(trims.filter(Boolean).length);
@@ -19,6 +25,7 @@ function trimMask(trim: Trim, size: number): THREE.Texture | null {
   const context = canvas.getContext('2d')!;
   context.fillStyle = '#fff';
   context.strokeStyle = '#fff';
+  context.lineWidth = overlap;
   for (const face of trim.faces) {
     context.beginPath();
     for (const loop of face) {
@@ -26,6 +33,7 @@ function trimMask(trim: Trim, size: number): THREE.Texture | null {
       context.closePath();
     }
     context.fill('evenodd');
+    context.stroke();
   }
   const texture = new THREE.CanvasTexture(canvas);
   texture.flipY = false;
