@@ -5,12 +5,12 @@ cd "$(dirname "$0")/.."
 
 scripts/setup.sh studio
 scripts/configure.sh wasm
-cmake --build build/wasm --target knead_studio knead_lab
+cmake --build build/wasm --target knead_studio knead_lab knead_types
 for module in engine/knead_studio panels/lab/knead_lab; do
   built=build/wasm/bindings/wasm/${module##*/}.wasm
   cmp -s "$built" "web/src/$module.wasm" || cp "$built" "web/src/$module.wasm"
 done
-node web/scripts/types.mjs web/src/engine/knead_studio.wasm web/src/engine/generated.ts
+node web/scripts/types.mjs build/wasm/bindings/wasm/knead_types.wasm web/src/engine/generated.ts
 
 cd web
 # What the lock file names, and again only when it changes.

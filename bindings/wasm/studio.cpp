@@ -165,11 +165,6 @@ KNEAD_EXPORT(knead_snapshot) int knead_snapshot(std::size_t history_bytes) {
   return held().session ? answer(held().session->snapshot(history_bytes)) : without_session();
 }
 
-/// The text is a TypeScript module with the types of the session's answers and the file formats. Needs no session.
-KNEAD_EXPORT(knead_types) int knead_types() {
-  return answer(session_typescript() + "\nexport const fileFormats = " + format_json() + " as const;\n");
-}
-
 KNEAD_EXPORT(knead_journal) int knead_journal() {
   return held().session ? answer(journal_json(*held().session)) : without_session();
 }

@@ -1,4 +1,4 @@
-// Writes the TypeScript types of what the session says and of its commands: the module itself knows them.
+// Writes the TypeScript types of what the session says and of its commands, as the engine describes them (bindings/wasm/types.cpp).
 // node types.mjs MODULE TARGET; the target is left alone where it says so already.
 import { readFile, writeFile } from 'node:fs/promises';
 
