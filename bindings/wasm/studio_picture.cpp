@@ -9,8 +9,8 @@
 namespace knead::studio {
 namespace {
 
-/// Of the size of the scene: how far chords may be from a surface as opened. A quarter of a pixel where the scene fills
-/// a view of 1800 pixels.
+/// Of the size of the scene: how far chords may be from a surface as opened. A quarter of a pixel where the scene takes
+/// 2000 pixels.
 constexpr double chord = 1.25e-4;
 
 void append(std::vector<float>& to, const Point& p) {

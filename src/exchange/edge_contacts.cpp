@@ -25,7 +25,11 @@ constexpr double loop_chord = 1e-2;  // of the edges that tell which part of a s
 class Follower {
  public:
   explicit Follower(const step::File::Data& data)
-      : data_(data), reader_(data.records), loops_(reader_, loop_chord), angle_units_(plane_angle_units(reader_)) {}
+      : data_(data),
+        reader_(data.records),
+        loops_(reader_, loop_chord),
+        angle_units_(plane_angle_units(reader_)),
+        feet_(data.surfaces.size()) {}
 
   const Reader& reader() const { return reader_; }
 
@@ -47,13 +51,12 @@ class Follower {
 
  private:
   Expected<void> along_spline(std::size_t k, const std::vector<Point>& points, std::vector<Vector2d>& feet) {
-    auto known = feet_.find(k);
-    if (known == feet_.end()) {
+    if (!feet_[k]) {
       auto made = SurfaceFoot::create(data_.surfaces[k].surface);
       if (!made) return std::unexpected(made.error());
-      known = feet_.emplace(k, *std::move(made)).first;
+      feet_[k] = *std::move(made);
     }
-    const SurfaceFoot& surface = known->second;
+    const SurfaceFoot& surface = *feet_[k];
     const double near = on_surface * net_diagonal(data_.surfaces[k].surface.control_points());
     std::vector<std::array<bool, 2>> free;
     for (const Point& p : points) {
@@ -107,7 +110,7 @@ class Follower {
   const Reader reader_;
   EdgeSampler loops_;
   std::vector<double> angle_units_;
-  std::map<std::size_t, SurfaceFoot> feet_;  // by the number of the surface
+  std::vector<std::optional<SurfaceFoot>> feet_;  // by the number of the surface
 };
 
 Expected<std::vector<Point>> points_along(const Reader& reader, std::uint32_t edge, int samples) {
@@ -129,9 +132,9 @@ Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file, const s
   Follower follower(data);
   const Reader& reader = follower.reader();
   const auto faces = read_faces(reader);
-  std::vector<std::uint32_t> edges;                            // of the faces on the surface, each once
-  std::map<std::uint32_t, std::vector<std::size_t>> faces_at;  // of every edge, by their numbers
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  std::vector<std::uint32_t> edges;                              // of the faces on the surface, each once
+  std::map<std::uint32_t, std::vector<std::uint32_t>> faces_at;  // of every edge, by their numbers
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
     for (const auto edge : edges_around(reader, faces[f])) {
       faces_at[edge].push_back(f);
       if (faces[f].surface != data.surface_instances[index->second]) continue;

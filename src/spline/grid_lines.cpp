@@ -58,11 +58,13 @@ Expected<std::vector<double>> chord_errors(const Surface& surface, int d) {
     }
   }
   places[static_cast<std::size_t>(1 - d)] = lines_across(surface.knots(1 - d));
-  const auto values =
-      evaluate_grid<2>(surface, {std::span<const double>(places[0]), std::span<const double>(places[1])}, 2);
-  if (!values) return std::unexpected(values.error());
-  const Points& first = d == 0 ? values->at({1, 0}) : values->at({0, 1});
-  const Points& second = d == 0 ? values->at({2, 0}) : values->at({0, 2});
+  const auto u = tabulate_basis(surface.knots(0), places[0], 2), v = tabulate_basis(surface.knots(1), places[1], 2);
+  if (!u) return std::unexpected(u.error());
+  if (!v) return std::unexpected(v.error());
+  Evaluation<2> values;
+  if (auto done = evaluate_grid<2>(surface, {&*u, &*v}, 2, values); !done) return std::unexpected(done.error());
+  const Points& first = d == 0 ? values.at({1, 0}) : values.at({0, 1});
+  const Points& second = d == 0 ? values.at({2, 0}) : values.at({0, 2});
   std::vector<double> errors(spans.size(), 0);
   const auto columns = static_cast<Eigen::Index>(places[1].size());
   for (Eigen::Index row = 0; row < first.rows(); ++row) {
