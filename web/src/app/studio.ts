@@ -46,7 +46,7 @@ export class Studio implements App {
 
   constructor() {
     const kept = readKept();
-    this.display = { ...defaultDisplay, ...kept.display, colour: null, zebra: false };
+    this.display = { ...defaultDisplay, ...kept.display, colour: null };
     this.theme = kept.theme ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
     this.client = new Client(() => new Worker(new URL('../engine/worker.ts', import.meta.url), { type: 'module' }));
     this.viewer = new Viewer(this.display);

@@ -79,7 +79,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
   else if (key === 'c') app.compare(true);
   else if (key === 'o') document.querySelector<HTMLInputElement>('input[type=file]')?.click();
   else if (key === 'x') toggleSection(app);
-  else if (key === 'z') app.setDisplay({ zebra: !app.display.zebra });
+  else if (key === 'z') app.setDisplay({ stripes: app.display.stripes === 'zebra' ? 'none' : 'zebra' });
   else if (key === 'l') void openLab(app);
   else if (key === 'm') gizmo('translate');
   else if (key === 'n') gizmo('rotate');

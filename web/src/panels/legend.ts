@@ -17,9 +17,9 @@ export function legendCard(app: App): HTMLElement {
   compare.addEventListener('keyup', () => app.compare(false));
   const element = h('section', { class: 'legend-card', hidden: true, aria: { label: 'Meaning of the colours' } }, title, bar, ticks, compare);
   app.onChange.push(() => {
-    const { colour, limits: [lower, upper], zebra } = app.display;
-    element.hidden = colour === null || zebra;
-    if (!colour || zebra) return;
+    const { colour, limits: [lower, upper], stripes } = app.display;
+    element.hidden = colour === null || stripes !== 'none';
+    if (!colour || stripes !== 'none') return;
     title.textContent = `${colour.title}, ${unitIn(colour.unit, app.viewer.unit)}`;
     bar.classList.toggle('rising', colour.palette === 'rising');
     const shares = colour.palette === 'rising' ? [0, 0.25, 0.5, 0.75, 1] : [-1, -0.5, 0, 0.5, 1];

@@ -35,7 +35,7 @@ export function surfaceBrushFields(app: App): (Node | null)[] {
 
 /** The colours show the mask where they show nothing else. */
 function showMask(app: App): void {
-  if (!app.display.colour) app.setDisplay({ colour: app.client.displays.find((d) => d.name === 'mask') ?? null, zebra: false, autoLimits: true });
+  if (!app.display.colour) app.setDisplay({ colour: app.client.displays.find((d) => d.name === 'mask') ?? null, stripes: 'none', autoLimits: true });
 }
 
 function repeatFields(app: App): (Node | null)[] {

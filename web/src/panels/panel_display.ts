@@ -2,6 +2,7 @@ import { format, parseLength, parseNumber } from '../document/units';
 import { type DisplayInfo, type DisplaySetting, unitIn } from '../engine/displays';
 import { conventionNames, conventionText } from '../view/conventions';
 import type { Display } from '../view/display';
+import { lookNames } from '../view/looks';
 import type { App } from './app';
 import { field, h, select, slider, toggle } from './dom';
 import { numberInput } from './number_input';
@@ -15,9 +16,13 @@ export function displayPanel(app: App): HTMLElement {
     return [
       row(chip('surface', 'Surface'), chip('isocurves', 'Isocurves'), chip('knotLines', 'Knot lines'),
         chip('points', 'Points', 'Control points; held ones in orange'), chip('net', 'Net', 'Control net'), chip('normals', 'Normals'),
-        chip('zebra', 'Zebra', 'Reflection stripes: kinks show curvature that jumps (Z)'), chip('grid', 'Grid'),
+        chip('grid', 'Grid'),
         chip('context', 'Context', 'The other faces of the file, in grey'),
-        chip('trimmed', 'Trimmed', 'Only what the faces of the file show of their surfaces; all of each can be sculpted')),
+        chip('trimmed', 'Trimmed', 'Only what the faces of the file show of their surfaces; all of each can be sculpted'),
+        chip('relief', 'Relief', 'What stands out is brightened, what lies in a hollow darkened'),
+        chip('sides', 'Sides', 'The back of surfaces is tinted, where their normals point away'),
+        chip('flipped', 'Flip normals', 'To the eye alone: of the tint of the back and of drawn normals; surfaces keep theirs')),
+      lookField(app),
       ...colourFields(app),
       field('Point size', slider('Point size', d.pointSize, [2, 14], (pointSize) => app.setDisplay({ pointSize }))),
       field('Detail', select('Detail', [['48', 'Coarse'], ['96', 'Normal'], ['192', 'Fine']], String(d.detail) as '96',
@@ -29,6 +34,15 @@ export function displayPanel(app: App): HTMLElement {
   });
 }
 
+/** A look for plain surfaces, or stripes. */
+function lookField(app: App): HTMLElement {
+  const { look, stripes } = app.display;
+  const options = [...lookNames, ['zebra', 'Zebra']] as const;
+  return field('Look', select('Look of surfaces', options, stripes === 'none' ? look : stripes, (chosen) =>
+    app.setDisplay(chosen === 'zebra' ? { stripes: chosen } : { look: chosen, stripes: 'none' })),
+    'Zebra: reflection stripes; kinks show curvature that jumps (Z)');
+}
+
 const unitOf = (app: App): string => app.state?.surfaces[0]?.unit ?? 'mm';
 
 /** What colours the surfaces: the displays that the engine describes, the colour limits, the settings of the display. */
@@ -37,7 +51,7 @@ function colourFields(app: App): (Node | null)[] {
   const { displays } = app.client;
   const options = [['none', 'Plain'], ...displays.map((d) => [d.name, d.title])] as [string, string][];
   const choose = field('Colour', select('Colour by', options, colour?.name ?? 'none', (name) =>
-    app.setDisplay({ colour: displays.find((d) => d.name === name) ?? null, zebra: false, autoLimits: true })));
+    app.setDisplay({ colour: displays.find((d) => d.name === name) ?? null, stripes: 'none', autoLimits: true })));
   if (!colour) return [choose];
   return [choose, note(colour.help), limitFields(app, colour), ...colour.settings.map((s) => settingField(app, colour, s))];
 }

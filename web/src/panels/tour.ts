@@ -19,7 +19,7 @@ interface Mark {
   redo: boolean;
   tools: number;
   alpha: string;
-  zebra: boolean;
+  stripes: string;
   camera: string;
 }
 
@@ -64,7 +64,7 @@ const steps: Step[] = [
     title: 'Judge the surface',
     text: 'Zebra stripes (Z) break where tangents jump and kink where curvature does. Colours show curvature or how far the surface has moved; hold C to see it as it was.',
     target: '[data-panel="Display"]',
-    done: (app, before) => app.display.zebra !== before.zebra,
+    done: (app, before) => app.display.stripes !== before.stripes,
   },
   {
     title: 'Your own files',
@@ -81,7 +81,7 @@ const material = (app: App) => JSON.stringify(app.state?.surfaces.map((s) => [s.
 function mark(app: App): Mark {
   return {
     steps: app.state?.steps ?? 0, redo: app.state?.redo === true, tools: app.state?.tools.length ?? 0, alpha: material(app),
-    zebra: app.display.zebra, camera: camera(app),
+    stripes: app.display.stripes, camera: camera(app),
   };
 }
 

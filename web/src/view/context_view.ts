@@ -2,6 +2,7 @@ import * as THREE from 'three';
 
 import type { Context } from '../engine/context';
 import type { Display, Palette } from './display';
+import { reliefLayer } from './relief';
 
 /** The other faces of the opened file, in grey, to show what is sculpted in its surroundings. They hide what is behind them and cannot be picked. */
 export class ContextView {
@@ -12,6 +13,7 @@ export class ContextView {
 
   constructor() {
     this.mesh.visible = false;
+    this.mesh.layers.enable(reliefLayer);
   }
 
   /** Null: nothing. */

@@ -1,5 +1,6 @@
 import type { DisplayInfo, SettingValue } from '../engine/displays';
 import type { Convention } from './conventions';
+import type { Look } from './looks';
 import type { ViewName } from './viewport';
 
 /** What is shown and how; kept in the browser between visits. */
@@ -15,7 +16,16 @@ export interface Display {
   context: boolean;
   /** Only the parts of surfaces that the faces of the file show. */
   trimmed: boolean;
-  zebra: boolean;
+  /** What a surface without colours is made of. */
+  look: Look;
+  /** In place of look and colours. */
+  stripes: 'none' | 'zebra';
+  /** What stands out is brightened, what lies in a hollow darkened. */
+  relief: boolean;
+  /** The back of surfaces is tinted. */
+  sides: boolean;
+  /** Normals point the other way, to the eye. */
+  flipped: boolean;
   /** What colours the surfaces; null: nothing. */
   colour: DisplayInfo | null;
   /** The user's settings of displays, by their names. */
@@ -45,7 +55,11 @@ export const defaultDisplay: Display = {
   grid: true,
   context: true,
   trimmed: true,
-  zebra: false,
+  look: 'studio',
+  stripes: 'none',
+  relief: true,
+  sides: false,
+  flipped: false,
   colour: null,
   colourSettings: {},
   limits: [-1, 1],

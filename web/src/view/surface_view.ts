@@ -4,7 +4,8 @@ import type { Picture, SurfaceInfo } from '../engine/session_types';
 import { type Display, type Palette, palettes } from './display';
 import { mark } from './net';
 import { GridPicker } from './picking';
-import { surfaceMaterial } from './surface_material';
+import { reliefLayer } from './relief';
+import { depthMaterial, restyleMaterial, surfaceMaterial } from './surface_material';
 
 const isocurveSpacing = 6; // grid lines between isocurves that are not knot lines
 
@@ -19,6 +20,9 @@ export class SurfaceView {
   editing = false;
 
   private mask: THREE.Texture | null = null;
+  private readonly depth: THREE.Mesh;
+  /** All of them where the surface itself is not drawn; else its sides alone, and the surface draws the others. */
+  private allIsocurves = false;
   private readonly isocurves = lines();
   private readonly knotLines = lines();
   private readonly normals = lines();
@@ -36,13 +40,14 @@ export class SurfaceView {
 
   constructor() {
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), surfaceMaterial());
-    this.mesh.frustumCulled = false;
-    for (const part of [this.isocurves, this.knotLines, this.normals, this.net, this.points]) part.frustumCulled = false;
+    this.depth = new THREE.Mesh(new THREE.BufferGeometry(), depthMaterial(this.mesh.material));
+    this.depth.layers.set(reliefLayer);
+    for (const part of [this.mesh, this.depth, this.isocurves, this.knotLines, this.normals, this.net, this.points]) part.frustumCulled = false;
     this.net.material.depthTest = false; // points and net lie on, and behind, what they control
     this.knotLines.renderOrder = 1;
     this.net.renderOrder = 2;
     this.points.renderOrder = 3;
-    this.group.add(this.mesh, this.isocurves, this.knotLines, this.normals, this.net, this.points);
+    this.group.add(this.mesh, this.depth, this.isocurves, this.knotLines, this.normals, this.net, this.points);
   }
 
   show(picture: Picture, info: SurfaceInfo, display: Display, palette: Palette, selected: boolean): void {
@@ -61,6 +66,7 @@ export class SurfaceView {
     if (topology !== this.topology) {
       this.topology = topology;
       geometry.setIndex(new THREE.BufferAttribute(triangles(m, n), 1));
+      this.depth.geometry.setIndex(new THREE.BufferAttribute(triangles(m, n, 2), 1));
       geometry.setAttribute('span', new THREE.BufferAttribute(spanCoordinates(picture), 2));
       this.frozen = '';
       this.painted = null;
@@ -68,9 +74,10 @@ export class SurfaceView {
       const knotsU = [...picture.linesU];
       const knotsV = [...picture.linesV];
       this.knotLines.geometry.setIndex(new THREE.BufferAttribute(gridLines(m, n, knotsU, knotsV), 1));
-      this.isocurves.geometry.setIndex(new THREE.BufferAttribute(gridLines(m, n, every(m), every(n)), 1));
+      geometry.setAttribute('isocurve', new THREE.BufferAttribute(gridCoordinates(between(m, every(m)), between(n, every(n))), 2));
+      this.isocurves.geometry.setIndex(null);
     }
-    for (const part of [this.knotLines, this.isocurves]) {
+    for (const part of [this.depth, this.knotLines, this.isocurves]) {
       part.geometry.setAttribute('position', geometry.getAttribute('position'));
     }
     setAttribute(this.net.geometry, 'position', picture.net, 3);
@@ -105,7 +112,7 @@ export class SurfaceView {
       }
     }
     setAttribute(this.mesh.geometry, 'uv', places, 2);
-    for (const part of [this.knotLines, this.isocurves]) part.geometry.setAttribute('uv', this.mesh.geometry.getAttribute('uv'));
+    for (const part of [this.depth, this.knotLines, this.isocurves]) part.geometry.setAttribute('uv', this.mesh.geometry.getAttribute('uv'));
   }
 
   /** Hatches what the session prevents from moving: the whole spans that frozen regions touch. */
@@ -160,14 +167,12 @@ export class SurfaceView {
       material.alphaTest = mask ? 0.05 : 0;
       material.needsUpdate = true;
     }
-    const coloured = display.colour !== null;
-    uniforms.mode!.value = display.zebra ? 1 : !display.colour ? 0 : display.colour.palette === 'rising' ? 3 : 2;
-    uniforms.limits!.value.set(...display.limits);
-    uniforms.front!.value.set(palette.front);
-    uniforms.back!.value.set(palette.back);
+    const pale = display.colour !== null || display.stripes !== 'none';
+    restyleMaterial(this.mesh.material, display, palette);
     uniforms.selected!.value = selected ? 1 : 0;
-    this.mesh.visible = display.surface;
+    this.mesh.visible = this.depth.visible = display.surface;
     this.isocurves.visible = display.isocurves;
+    this.indexIsocurves(!display.surface);
     this.knotLines.visible = display.knotLines;
     this.net.visible = (display.net || this.editing) && selected;
     this.points.visible = (display.points || this.editing) && selected;
@@ -175,7 +180,7 @@ export class SurfaceView {
     this.isocurves.material.color.set(palette.isocurve);
     this.isocurves.material.opacity = palette.isocurveOpacity;
     // Lines on a pale surface are dark in either theme.
-    const over = coloured || display.zebra ? palettes.light : palette;
+    const over = pale ? palettes.light : palette;
     this.knotLines.material.color.set(over.knotLine);
     this.knotLines.material.opacity = 0.9;
     this.net.material.color.set(over.net);
@@ -187,14 +192,22 @@ export class SurfaceView {
       const held = new THREE.Color(over.held);
       this.picture.held.forEach((h, k) => (h ? held : free).toArray(colours, 3 * k));
       setAttribute(this.points.geometry, 'color', colours, 3);
-      if (display.normals) this.showNormals(this.picture, over);
+      if (display.normals) this.showNormals(this.picture, over, display.flipped);
     }
   }
 
-  private showNormals(picture: Picture, palette: Palette): void {
+  private indexIsocurves(all: boolean): void {
+    const { geometry } = this.isocurves;
+    if (!this.picture || (geometry.index && all === this.allIsocurves)) return;
+    this.allIsocurves = all;
+    const [m, n] = this.picture.counts;
+    geometry.setIndex(new THREE.BufferAttribute(all ? gridLines(m, n, every(m), every(n)) : gridLines(m, n, [0, m - 1], [0, n - 1]), 1));
+  }
+
+  private showNormals(picture: Picture, palette: Palette, flipped: boolean): void {
     const [m, n] = picture.counts;
     this.mesh.geometry.computeBoundingSphere();
-    const length = 0.04 * (this.mesh.geometry.boundingSphere?.radius ?? 1);
+    const length = (flipped ? -0.04 : 0.04) * (this.mesh.geometry.boundingSphere?.radius ?? 1);
     const ends: number[] = [];
     for (const k of every(m)) {
       for (const l of every(n)) {
@@ -211,7 +224,7 @@ export class SurfaceView {
   dispose(): void {
     this.mask?.dispose();
     (this.mesh.material.uniforms.marks!.value as THREE.DataTexture | null)?.dispose();
-    for (const part of [this.mesh, this.isocurves, this.knotLines, this.normals, this.net, this.points]) {
+    for (const part of [this.mesh, this.depth, this.isocurves, this.knotLines, this.normals, this.net, this.points]) {
       part.geometry.dispose();
       (part.material as THREE.Material).dispose();
     }
@@ -225,22 +238,29 @@ export function lineFractions({ s, t, linesU, linesV }: Picture): [number[], num
 
 /** The position of each grid point among the spans, as texture coordinates: v, then u. */
 function spanCoordinates({ counts, linesU, linesV }: Picture): Float32Array {
-  const along = (count: number, lines: Uint32Array) => {
-    const result = new Float32Array(count);
-    for (let a = 0; a + 1 < lines.length; ++a) {
-      const [from, to] = [lines[a]!, lines[a + 1]!];
-      for (let k = from; k <= to; ++k) result[k] = (a + (k - from) / (to - from)) / (lines.length - 1);
-    }
-    return result;
-  };
-  const u = along(counts[0], linesU);
-  const v = along(counts[1], linesV);
-  const result = new Float32Array(2 * counts[0] * counts[1]);
+  const along = (count: number, lines: Uint32Array) => between(count, [...lines]).map((x) => x / (lines.length - 1));
+  return gridCoordinates(along(counts[1], linesV), along(counts[0], linesU), true);
+}
+
+/** For each of `count` grid lines its place among some of them: k at the k-th, linear between. */
+function between(count: number, lines: number[]): Float32Array {
+  const result = new Float32Array(count);
+  for (let a = 0; a + 1 < lines.length; ++a) {
+    const [from, to] = [lines[a]!, lines[a + 1]!];
+    for (let k = from; k <= to; ++k) result[k] = a + (k - from) / (to - from);
+  }
+  return result;
+}
+
+/** Two numbers for each grid point, from those of its lines; the second direction runs fastest, or with `swapped` the first. */
+function gridCoordinates(first: Float32Array, second: Float32Array, swapped = false): Float32Array {
+  const result = new Float32Array(2 * first.length * second.length);
+  const [outer, inner] = swapped ? [second, first] : [first, second];
   let at = 0;
-  for (let k = 0; k < counts[0]; ++k) {
-    for (let l = 0; l < counts[1]; ++l) {
-      result[at++] = v[l]!;
-      result[at++] = u[k]!;
+  for (const a of outer) {
+    for (const b of inner) {
+      result[at++] = swapped ? b : a;
+      result[at++] = swapped ? a : b;
     }
   }
   return result;
@@ -284,17 +304,17 @@ function every(count: number): number[] {
   return Array.from({ length: pieces + 1 }, (_, k) => Math.round((k * (count - 1)) / pieces));
 }
 
-function triangles(m: number, n: number): Uint32Array {
-  const index = new Uint32Array(6 * (m - 1) * (n - 1));
-  let at = 0;
-  for (let k = 0; k + 1 < m; ++k) {
-    for (let l = 0; l + 1 < n; ++l) {
-      const a = k * n + l;
-      index.set([a, a + n, a + n + 1, a, a + n + 1, a + 1], at);
-      at += 6;
+/** Two for each cell between every `step`-th lines of a grid of m × n points. */
+function triangles(m: number, n: number, step = 1): Uint32Array {
+  const index: number[] = [];
+  for (let k = 0; k + 1 < m; k += step) {
+    for (let l = 0; l + 1 < n; l += step) {
+      const [a, b] = [k * n, Math.min(k + step, m - 1) * n];
+      const r = Math.min(l + step, n - 1);
+      index.push(a + l, b + l, b + r, a + l, b + r, a + r);
     }
   }
-  return index;
+  return new Uint32Array(index);
 }
 
 function gridLines(m: number, n: number, rows: number[], columns: number[]): Uint32Array {

@@ -12,6 +12,7 @@ import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
 import { clippable, Section, type SectionAxis } from './section';
 import { shown } from './section_lines';
+import { Relief } from './relief';
 import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
 import { trimMasks } from './trim_mask';
@@ -53,6 +54,7 @@ export class Viewer {
   waiting = false;
   private trims: Trim[] = [];
   private readonly renderer: THREE.WebGLRenderer;
+  private readonly relief = new Relief();
   private readonly raycaster = new THREE.Raycaster();
   private due = false;
   private editsPoints = false;
@@ -340,6 +342,8 @@ export class Viewer {
       trims: this.display.trimmed ? this.trims : [],
       context: this.context.mesh.visible ? this.surroundings : null,
     }));
+    const relief = Relief.wanted(this.display);
+    this.relief.begin(this.renderer, relief);
     this.renderer.setClearColor(this.palette.background);
     this.renderer.setScissorTest(false);
     this.renderer.clear();
@@ -349,6 +353,7 @@ export class Viewer {
       if (box.width === 0 || box.height === 0) continue;
       const x = box.left - whole.left;
       const y = whole.bottom - box.bottom;
+      if (relief) this.relief.draw(this.renderer, this.scene, view.camera, [x, y, box.width, box.height]);
       this.renderer.setViewport(x, y, box.width, box.height);
       this.renderer.setScissor(x, y, box.width, box.height);
       for (const other of this.viewports) other.gizmo.getHelper().visible = other === view && other.gizmo.object !== undefined;

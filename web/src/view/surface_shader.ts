@@ -1,0 +1,109 @@
+/** The shaders of surfaces: a look, stripes or colours; lines over it; marks of spans. */
+
+export const vertexShader = /* glsl */ `
+  attribute float value;
+  attribute vec2 span, isocurve;
+  varying vec2 vSpan, vPlace, vIsocurve;
+  varying vec3 vNormal, vView;
+  varying float vValue;
+  void main() {
+    vec4 place = modelViewMatrix * vec4(position, 1.0);
+    vNormal = normalMatrix * normal;
+    vView = isOrthographic ? vec3(0.0, 0.0, 1.0) : -place.xyz;
+    vValue = value;
+    vSpan = span;
+    vIsocurve = isocurve;
+    vPlace = uv;
+    gl_Position = projectionMatrix * place;
+  }`;
+
+export const fragmentShader = /* glsl */ `
+  uniform int mode; // 0 plain, 1 zebra, 2 diverging, 3 rising
+  uniform vec3 front, back, accent;
+  uniform float selected, reliefStrength;
+  uniform vec2 limits, reliefSize;
+  uniform sampler2D marks, trim, look, relief;
+  uniform bool trimmed, mirrors, flipped;
+  uniform vec4 isocurveColour;
+  varying vec2 vSpan, vPlace, vIsocurve;
+  varying vec3 vNormal, vView;
+  varying float vValue;
+
+  // Blue below, grey at zero, red above; the brightness changes evenly on both sides.
+  vec3 diverging(float x) {
+    x = clamp(x, -1.0, 1.0);
+    vec3 middle = vec3(0.87);
+    vec3 end = x < 0.0 ? vec3(0.17, 0.38, 0.74) : vec3(0.78, 0.23, 0.19);
+    return mix(middle, end, abs(x));
+  }
+
+  // From pale to dark, for values that are never negative.
+  vec3 rising(float x) {
+    x = clamp(x, 0.0, 1.0);
+    vec3 low = vec3(0.95, 0.94, 0.86), middle = vec3(0.93, 0.6, 0.25), high = vec3(0.55, 0.1, 0.25);
+    return x < 0.5 ? mix(low, middle, 2.0 * x) : mix(middle, high, 2.0 * x - 1.0);
+  }
+
+  // How much of a pixel lines at whole numbers of x cover; they fade where they lie closer than 14 pixels, and are gone at 3.
+  float lines(vec2 x) {
+    vec2 width = max(fwidth(x), vec2(1e-6));
+    vec2 near = abs(fract(x - 0.5) - 0.5) / width;
+    vec2 shown = (1.0 - smoothstep(0.3, 1.1, near)) * (1.0 - smoothstep(0.07, 0.33, width));
+    return max(shown.x, shown.y);
+  }
+
+  void main() {
+    if (trimmed && texture2D(trim, vPlace).a < 0.5) discard;
+    vec3 n = normalize(vNormal);
+    if (!gl_FrontFacing) n = -n;
+    vec3 v = normalize(vView);
+    vec3 base = gl_FrontFacing != flipped ? front : back;
+    // The legend shows the output of this, after the conversion to the screen's colours.
+    if (mode == 2) base = pow(diverging(vValue < 0.0 ? -vValue / limits.x : vValue / limits.y), vec3(2.2));
+    if (mode == 3) base = pow(rising(vValue / limits.y), vec3(2.2));
+    if (mode == 1) {
+      // Stripes of a striped environment: lines where the reflected ray meets bands of equal height.
+      vec3 r = reflect(-v, n);
+      float stripe = sin(24.0 * asin(clamp(r.y, -1.0, 1.0)));
+      float width = max(fwidth(stripe), 1e-4);
+      float s = smoothstep(-width, width, stripe);
+      base = mix(vec3(0.02), vec3(0.9), s);
+      gl_FragColor = vec4(base * (0.75 + 0.25 * n.z), 1.0);
+    } else {
+      vec3 seen = mirrors ? normalize(reflect(-v, n) + vec3(0.0, 0.0, 1.0001)) : n;
+      vec4 light = texture2D(look, 0.5 + 0.496 * seen.xy);
+      vec3 colour = base * light.rgb;
+      if (mode == 0) colour += light.a;
+      else colour = mix(colour, base, 0.6);
+      float stands = texture2D(relief, gl_FragCoord.xy / reliefSize).r - 0.502;
+      colour *= 1.0 + reliefStrength * stands;
+      gl_FragColor = vec4(mix(vec3(dot(colour, vec3(0.3, 0.5, 0.2))) * 0.85, colour, selected), 1.0);
+    }
+    if (isocurveColour.a > 0.0) gl_FragColor.rgb = mix(gl_FragColor.rgb, isocurveColour.rgb, isocurveColour.a * lines(vIsocurve));
+    // Frozen spans are hatched, painted ones tinted.
+    vec3 marked = texture2D(marks, vSpan).rgb;
+    gl_FragColor.rgb = mix(gl_FragColor.rgb, vec3(0.75, 0.4, 0.08), 0.6 * marked.b);
+    float hatch = smoothstep(0.5, 0.75, abs(fract((gl_FragCoord.x + gl_FragCoord.y) / 10.0) * 2.0 - 1.0));
+    vec3 ice = vec3(0.05, 0.2, 0.55);
+    gl_FragColor.rgb = mix(gl_FragColor.rgb, ice, marked.r > 0.5 ? 0.25 + 0.55 * hatch : 0.0);
+    if (marked.g > 0.1) gl_FragColor.rgb = mix(gl_FragColor.rgb, marked.g > 0.8 ? accent : vec3(0.9), 0.55);
+    #include <colorspace_fragment>
+  }`;
+
+/** Only how far away it is: for `Relief`. */
+export const depthShaders = {
+  vertexShader: /* glsl */ `
+    varying vec2 vPlace;
+    void main() {
+      vPlace = uv;
+      gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    }`,
+  fragmentShader: /* glsl */ `
+    uniform sampler2D trim;
+    uniform bool trimmed;
+    varying vec2 vPlace;
+    void main() {
+      if (trimmed && texture2D(trim, vPlace).a < 0.5) discard;
+      gl_FragColor = vec4(1.0);
+    }`,
+};
