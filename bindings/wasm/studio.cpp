@@ -28,7 +28,8 @@ struct Studio {
   ContextPicture context;
   ToolPicture tool;
   MaterialSamples material;
-  std::optional<TrimLoops> trims;  // of the open file, once asked for
+  std::optional<TrimLoops> trims;                             // of the open file, once asked for
+  std::vector<std::shared_ptr<const VisibleRegion>> visible;  // by them, of each surface; null: all of it
 };
 
 Studio& held() {
@@ -56,9 +57,16 @@ Point middle(const Document& document) {
   return document.surfaces().empty() ? Point(Point::Zero()) : Point((lower + upper) / 2);
 }
 
+/// What the faces of the open file show of a surface, once its trims have been asked for.
+std::shared_ptr<const VisibleRegion> visible_part(int surface) {
+  const auto k = static_cast<std::size_t>(surface);
+  return k < held().visible.size() ? held().visible[k] : nullptr;
+}
+
 int start(Document document) {
   held().origin = middle(document);
   held().trims.reset();
+  held().visible.clear();
   held().session.emplace(std::move(document));
   return answer(state_json(*held().session));
 }
@@ -226,10 +234,13 @@ KNEAD_EXPORT(knead_picture) int knead_picture(int surface, int detail, int opene
   }
   auto display = read_display(held().input);
   if (!display) return fail(display.error());
-  const PictureOptions options{held().origin, detail, *std::move(display), opened != 0};
+  const PictureOptions options{held().origin, detail, *std::move(display), opened != 0, visible_part(surface)};
   if (auto done = held().pictures.make(state, surface, options); !done) return fail(done.error());
   return answer(picture_json(held().pictures.picture()));
 }
+
+/// Where the colours of the pictures end that were made since that of the first surface: the text is `range_json`.
+KNEAD_EXPORT(knead_range) int knead_range() { return answer(range_json(held().pictures.range())); }
 
 /// The shape of a tool in its own frame: the text is `tool_picture_json`, its buffers stay until the next call.
 KNEAD_EXPORT(knead_tool_picture) int knead_tool_picture(int tool) {
@@ -315,6 +326,13 @@ KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
   if (!held().trims) {
     auto trims = trim_loops(*session->document().step_file());
     held().trims = trims ? *std::move(trims) : TrimLoops();
+    for (const SurfaceTrim& trim : held().trims->surfaces) {
+      auto& part = held().visible.emplace_back();
+      if (trim.whole) continue;
+      VisibleRegion region;
+      region.faces = trim.faces;
+      part = std::make_shared<const VisibleRegion>(std::move(region));
+    }
   }
   const auto& all = held().trims->surfaces;
   const bool known = surface >= 0 && surface < static_cast<int>(all.size());

@@ -25,7 +25,7 @@ Json of(const Display& d) {
           {"palette", d.palette == DisplayPalette::rising ? "rising" : "diverging"},
           {"help", d.help},
           {"limits", d.limits ? Json(*d.limits) : Json()},
-          {"share", d.share},
+          {"tolerance", d.tolerance},
           {"compares", d.compares},
           {"settings", std::move(settings)}};
 }
@@ -48,6 +48,12 @@ std::string displays_json() {
   Json json = Json::array();
   for (const Display& d : displays()) json.push_back(of(d));
   return json.dump();
+}
+
+std::string range_json(const std::optional<DisplayRange>& range) {
+  if (!range) return "null";
+  return Json{{"lower", range->lower}, {"upper", range->upper}, {"least", range->least}, {"greatest", range->greatest}}
+      .dump();
 }
 
 Expected<AskedDisplay> read_display(std::string_view text) {

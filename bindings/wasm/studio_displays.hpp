@@ -4,13 +4,16 @@
 #include <string_view>
 #include <vector>
 
-#include "knead/scene/display.hpp"
+#include "knead/scene/display_range.hpp"
 
 namespace knead::studio {
 
 /// [{"name", "title", "unit", "signed", "palette", "help", "limits" (null without), "share", "compares", "settings":
 /// [{"name", "title", "unit", "value", "help"}, …]}, …]: the data of menus and legends.
 [[nodiscard]] std::string displays_json();
+
+/// {"lower": …, "upper": …, "least": …, "greatest": …}, or null.
+[[nodiscard]] std::string range_json(const std::optional<DisplayRange>& range);
 
 /// A display and its settings as requested by the page.
 struct AskedDisplay {

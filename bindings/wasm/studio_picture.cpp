@@ -157,18 +157,23 @@ void PictureMaker::find_normals() {
 Expected<void> PictureMaker::find_values(const Scene& scene, int index, const PictureOptions& options) {
   picture_.values.clear();
   const auto& [display, settings] = options.display;
+  if (index == 0 || display != display_) range_.clear();
+  display_ = display;
   if (!display) return {};
-  const auto values = display->values({.scene = scene,
-                                       .surface = index,
-                                       .opened = options.opened,
-                                       .parameters = parameters_,
-                                       .tables = {&tables_[0], &tables_[1]},
-                                       .evaluation = evaluation_,
-                                       .normals = normals_,
-                                       .settings = settings,
-                                       .memory = memory_});
+  const DisplayInput input{.scene = scene,
+                           .surface = index,
+                           .opened = options.opened,
+                           .parameters = parameters_,
+                           .tables = {&tables_[0], &tables_[1]},
+                           .evaluation = evaluation_,
+                           .normals = normals_,
+                           .settings = settings,
+                           .memory = memory_,
+                           .visible = options.visible};
+  const auto values = display->values(input);
   if (!values) return std::unexpected(values.error());
   picture_.values.assign(values->begin(), values->end());
+  range_.add(input, *values);
   return {};
 }
 

@@ -32,7 +32,8 @@ struct PictureOptions {
   Point origin = Point::Zero();  ///< positions are relative to it
   int detail = 96;               ///< desired grid lines per direction
   AskedDisplay display = {};
-  bool opened = false;  ///< the shape as opened, not the present one
+  bool opened = false;                                ///< the shape as opened, not the present one
+  std::shared_ptr<const VisibleRegion> visible = {};  ///< what faces show of it; null: all
 };
 
 /// Makes pictures of one surface after the other; tables and memory are kept while the knots stay the same.
@@ -41,6 +42,8 @@ class PictureMaker {
   /// Errors (numerical): a rational denominator that is not positive.
   Expected<void> make(const Scene& scene, int index, const PictureOptions& options);
   [[nodiscard]] const Picture& picture() const { return picture_; }
+  /// Of the display that the last picture shows, over all pictures from that of the first surface on; none without one.
+  [[nodiscard]] std::optional<DisplayRange> range() const { return display_ ? range_.range(*display_) : std::nullopt; }
 
  private:
   /// Of the surface as opened, so that the grid stays while it is sculpted.
@@ -66,6 +69,8 @@ class PictureMaker {
   Picture picture_;
   std::vector<std::pair<HeldInput, std::vector<std::uint8_t>>> held_;
   DisplayMemory memory_;
+  const Display* display_ = nullptr;
+  DisplayRangeFinder range_;
 };
 
 }  // namespace knead::studio

@@ -103,6 +103,72 @@ TEST(Deviation, IsTheDistanceFromTheShapeAsOpenedWithTheSideOfTheNormal) {
   expect_all(values(scene_of(flat, above), R"({"display":"deviation"})", true), 0);
 }
 
+/// The plane in 30 spans along x, so that it is drawn by as many lines.
+Surface plane_in_spans(double slope) {
+  const KnotVector along = *KnotVector::clamped_uniform(1, 31), across = *KnotVector::create(1, {0, 0, 1, 1});
+  Points points(62, 3);
+  for (int i = 0; i < 62; ++i) {
+    const double x = (i / 2) / 30.0;
+    points.row(i) << x, i % 2, slope * x;
+  }
+  return *Surface::create({along, across}, points);
+}
+
+/// The range of deviations of a plane that was inclined by `slope`, as far as it is visible.
+DisplayRange range_of_inclined(double slope, std::shared_ptr<const VisibleRegion> visible) {
+  const Scene scene = scene_of(plane_in_spans(0), plane_in_spans(slope));
+  PictureMaker pictures;
+  PictureOptions options;
+  options.detail = 30;
+  options.display = *read_display(R"({"display":"deviation"})");
+  options.visible = std::move(visible);
+  EXPECT_TRUE(pictures.make(scene, 0, options).has_value());
+  return pictures.range().value_or(DisplayRange{});
+}
+
+TEST(DisplayRange, HoldsTheValuesOfWhatIsVisible) {
+  const DisplayRange whole = range_of_inclined(4, nullptr);
+  EXPECT_NEAR(whole.greatest, 4, 1e-12);
+  EXPECT_NEAR(whole.upper, 4, 1e-12);
+  EXPECT_NEAR(whole.lower, -4, 1e-12);
+  EXPECT_NEAR(whole.least, 0, 1e-12);
+  VisibleRegion region;  // its strip below x = 0.6
+  region.faces = {{{{0, 0}, {0.6, 0}, {0.6, 1}, {0, 1}}}};
+  const DisplayRange strip = range_of_inclined(4, std::make_shared<const VisibleRegion>(region));
+  // Every third line is asked: exact to two of the 30.
+  EXPECT_NEAR(strip.greatest, 0.6 * 4, 2 * 4 / 30.0 + 1e-12);
+  region.faces = {{{{0.61, 0.4}, {0.62, 0.4}, {0.62, 0.6}, {0.61, 0.6}}}};  // between all lines
+  EXPECT_NEAR(range_of_inclined(4, std::make_shared<const VisibleRegion>(region)).greatest, 4, 1e-12);
+}
+
+TEST(DisplayRange, IsOneRangeForAllSurfacesAndBeginsAnewWithTheFirst) {
+  Scene scene = scene_of(plane(0), plane(1));
+  scene.surfaces.push_back(scene_of(plane(0), plane(-3)).surfaces[0]);
+  PictureMaker pictures;
+  PictureOptions options;
+  EXPECT_TRUE(pictures.make(scene, 0, options).has_value());
+  EXPECT_FALSE(pictures.range().has_value());  // without a display
+  options.display = *read_display(R"({"display":"deviation"})");
+  for (int surface : {0, 1}) EXPECT_TRUE(pictures.make(scene, surface, options).has_value());
+  EXPECT_NEAR(pictures.range()->least, -3, 1e-12);
+  EXPECT_NEAR(pictures.range()->upper, 3, 1e-12);
+  EXPECT_TRUE(pictures.make(scene, 0, options).has_value());
+  EXPECT_NEAR(pictures.range()->upper, 1, 1e-12);
+}
+
+TEST(DisplayRange, OfADisplayWithLimitsIsThatOfTheDisplay) {
+  const DisplayRange range = [] {
+    PictureMaker pictures;
+    PictureOptions options;
+    options.display = *read_display(R"({"display":"draft"})");
+    EXPECT_TRUE(pictures.make(scene_of(plane(1), plane(1)), 0, options).has_value());
+    return *pictures.range();
+  }();
+  EXPECT_EQ(range.lower, -3);
+  EXPECT_EQ(range.upper, 3);
+  EXPECT_NEAR(range.greatest, 45, 1e-10);
+}
+
 TEST(Gap, IsTheDistanceToTheNearestToolAndZeroWithoutOne) {
   Scene scene = scene_of(plane(0), plane(0));
   expect_all(values(scene, R"({"display":"gap"})"), 0);

@@ -21,7 +21,7 @@ describe('displays', () => {
   it('are described: a name of their own, a title, a unit and a help each', async () => {
     const all = (await session()).displays();
     expect(new Set(all.map((d) => d.name)).size).toBe(all.length);
-    expect(all.map((d) => d.name)).toEqual(['deviation', 'mean', 'gaussian', 'draft', 'gap', 'energy', 'mask']);
+    expect(all.map((d) => d.name)).toEqual(['deviation', 'mean', 'gaussian', 'largest', 'draft', 'gap', 'energy', 'mask']);
     for (const d of all) {
       for (const text of [d.title, d.unit, d.help]) expect(text, d.name).not.toBe('');
       expect(d.palette, d.name).toBe(d.signed ? 'diverging' : 'rising');
@@ -80,16 +80,50 @@ describe('the draft angle', () => {
   });
 });
 
+describe('the largest curvature', () => {
+  it('of a cylinder is 1/radius, and that of a torus 1/minor radius', async () => {
+    const cylinder = await session({ do: 'new', shape: 'cylinder', radius: 8, height: 30 });
+    for (const x of values(cylinder, 'largest')) expect(x).toBeCloseTo(1 / 8, 5);
+    const torus = await session({ do: 'new', shape: 'torus', radius: 70, minor: 30 });
+    for (const x of values(torus, 'largest')) expect(x).toBeCloseTo(1 / 30, 5);
+  });
+});
+
 describe('limits of the colours', () => {
   const display = (more: Partial<DisplayInfo>): DisplayInfo =>
-    ({ name: 'x', title: 'X', unit: 'length', signed: true, palette: 'diverging', help: '', limits: null, share: 1, compares: false, settings: [], ...more });
-  const field = [new Float32Array(300).fill(-9.9)];
+    ({ name: 'x', title: 'X', unit: 'length', signed: true, palette: 'diverging', help: '', limits: null, tolerance: '', compares: false, settings: [], ...more });
+  const range = { lower: -9.9, upper: 9.9, least: -40, greatest: 3 };
 
-  it('are those of the display, or round ones of the values', () => {
-    expect(limitsOf(display({ limits: [-3, 5] }), field)).toEqual([-3, 5]);
-    expect(limitsOf(display({}), field)).toEqual([-10, 10]);
-    expect(limitsOf(display({ share: 0.1 }), field)).toEqual([-1, 1]);
-    expect(limitsOf(display({ signed: false, palette: 'rising' }), field)).toEqual([0, 10]);
+  it('are those of the display, or round ones of the range', () => {
+    expect(limitsOf(display({ limits: [-3, 5] }), range)).toEqual([-3, 5]);
+    expect(limitsOf(display({}), range)).toEqual([-10, 10]);
+    expect(limitsOf(display({ signed: false, palette: 'rising' }), range)).toEqual([0, 10]);
+  });
+
+  it('cover what is seen: the share of the area decides, not that of the grid points', async () => {
+    // A cone with its apex: κ grows without bound, on ever less area.
+    const cone = await session({ do: 'new', shape: 'revolution', degree: [2, 3], profile: [[0.01, 0], [3.34, 40 / 3], [6.67, 80 / 3], [10, 40]] });
+    const found = [...cone.picture(0, 60, { display: 'mean' }).values].map(Math.abs);
+    const { upper, lower, least, greatest } = cone.range()!;
+    expect(lower).toBe(-upper);
+    expect(Math.max(-least, greatest)).toBeCloseTo(Math.max(...found), 4);
+    // |H| = cos α / 2r, and 98 % of the area lie where r > √0.02 · 10.
+    const expected = (40 / Math.hypot(10, 40)) / (2 * Math.sqrt(0.02) * 10);
+    expect(upper).toBeGreaterThan(0.8 * expected);
+    expect(upper).toBeLessThan(1.25 * expected);
+    expect(Math.max(...found)).toBeGreaterThan(100 * upper);
+  });
+
+  it('of deviations hold the largest', async () => {
+    const engine = await session({ do: 'new', size: [100, 100], net: [12, 12] }, { do: 'points', which: [70], by: [0, 0, 9] });
+    const found = [...engine.picture(0, 60, { display: 'deviation' }).values];
+    expect(engine.range()!.upper).toBeCloseTo(Math.max(...found), 5);
+  });
+
+  it('are none without a display', async () => {
+    const engine = await session({ do: 'new' });
+    engine.picture(0, 20);
+    expect(engine.range()).toBeNull();
   });
 
   it('have the unit of the file', () => expect(unitIn('1/length²', 'mm')).toBe('1/mm²'));

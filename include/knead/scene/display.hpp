@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,8 +25,14 @@ struct DisplaySetting {
 /// How values become colours. Diverging: two colours that meet at 0; rising: from pale at 0 to dark.
 enum class DisplayPalette { diverging, rising };
 
-/// What displays keep from one picture to the next: energy units already computed.
+/// What displays keep from one picture to the next: energy units already computed, and what of a grid is visible.
 struct DisplayMemory {
+  struct Visible {
+    std::shared_ptr<const VisibleRegion> region;
+    std::array<std::vector<double>, 2> parameters;
+    std::vector<bool> samples;
+  };
+  std::vector<Visible> visible;
   std::vector<std::pair<EnergyScalingInput, Expected<DomainScaling<2>>>> scalings;
 };
 
@@ -40,6 +47,7 @@ struct DisplayInput {
   const Points& normals;                          ///< unit normals S_u × S_v; at poles those of a neighbour
   std::span<const std::vector<double>> settings;  ///< in the order of `Display::settings`
   DisplayMemory& memory;
+  std::shared_ptr<const VisibleRegion> visible = {};  ///< what faces show of the surface; null: all
 };
 
 /// A field that colours surfaces. Menus, legends and settings follow from it.
@@ -49,10 +57,12 @@ struct Display {
   bool is_signed = false;  ///< values may be negative
   DisplayPalette palette = DisplayPalette::diverging;
   std::string_view help;
-  /// The values at the ends of the palette, lower and upper; without them, the largest value times `share`, and its
-  /// negative where values are signed.
+  /// The values at the ends of the palette, lower and upper; without them, those of `DisplayRangeFinder`.
   std::optional<std::array<double, 2>> limits = {};
-  double share = 1;
+  std::array<double, 2> percentiles = {0.02, 0.98};  ///< shares of the area below the ends; 0 and 1: the extremes
+  double share = 1;                                  ///< of the automatic range that the palette spans
+  /// The setting up to whose magnitude values have the neutral colour; "" for none.
+  std::string_view tolerance = {};
   bool compares = false;  ///< with the shape as it was opened
   int order = 1;          ///< highest order of the derivatives it uses
   std::vector<DisplaySetting> settings = {};

@@ -8,6 +8,7 @@ namespace knead {
 Display deviation_display();
 Display mean_curvature_display();
 Display gaussian_curvature_display();
+Display largest_curvature_display();
 Display draft_angle_display();
 Display gap_display();
 Display energy_display();
@@ -17,6 +18,7 @@ Display mask_display();
 inline constexpr std::array all_displays = {deviation_display,
                                             mean_curvature_display,
                                             gaussian_curvature_display,
+                                            largest_curvature_display,
                                             draft_angle_display,
                                             gap_display,
                                             energy_display,

@@ -1,5 +1,8 @@
 #include "knead/spline/curvature.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "all.hpp"
 
 namespace knead {
@@ -26,6 +29,14 @@ Expected<std::vector<double>> gaussian(const DisplayInput& input) {
   return of_each_point(input, [](const FundamentalForms& forms) { return forms.gaussian(); });
 }
 
+/// max(|κ₁|, |κ₂|) = |H| + √(H² − K).
+Expected<std::vector<double>> largest(const DisplayInput& input) {
+  return of_each_point(input, [](const FundamentalForms& forms) {
+    const double h = forms.mean();
+    return std::abs(h) + std::sqrt(std::max(0.0, h * h - forms.gaussian()));
+  });
+}
+
 }  // namespace
 
 Display mean_curvature_display() {
@@ -46,6 +57,16 @@ Display gaussian_curvature_display() {
           .help = "Product of the principal curvatures: red is domed, blue a saddle.",
           .order = 2,
           .values = gaussian};
+}
+
+Display largest_curvature_display() {
+  return {.name = "largest",
+          .title = "Largest curvature",
+          .unit = "1/length",
+          .palette = DisplayPalette::rising,
+          .help = "Magnitude of the stronger principal curvature; its inverse is the smallest radius.",
+          .order = 2,
+          .values = largest};
 }
 
 }  // namespace knead

@@ -33,7 +33,14 @@ Display deviation_display() {
           .help =
               "How far each point is from where it was when opened: red along the normal, blue against it. Hold C to "
               "see it as opened.",
+          .percentiles = {0, 1},  // what moved may be a small part
+          .tolerance = "tolerance",
           .compares = true,
+          .settings = {{.name = "tolerance",
+                        .title = "Tolerance",
+                        .unit = "length",
+                        .value = {0},
+                        .help = "Deviations up to this have the neutral colour"}},
           .values = deviations};
 }
 

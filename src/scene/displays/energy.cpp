@@ -35,6 +35,7 @@ Display energy_display() {
           .unit = "normalised",
           .palette = DisplayPalette::rising,
           .help = "Where stretch and bend store the energy of the displacement from the rest shape.",
+          .percentiles = {0, 1},
           .values = energy_densities};
 }
 

@@ -27,6 +27,7 @@ Display gap_display() {
           .unit = "length",
           .is_signed = true,
           .help = "Distance to the nearest tool; blue is inside it.",
+          .percentiles = {0, 1},
           .share = 0.1,  // the relevant values are near the tools
           .values = gaps};
 }

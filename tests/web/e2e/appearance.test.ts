@@ -1,4 +1,5 @@
 import { openStudio, ready, scene, settled, type Studio } from './page';
+import { pixels, quantile, raise, setDisplay, setTheme, spread } from './pixels';
 
 let studio: Studio;
 beforeAll(async () => {
@@ -10,69 +11,17 @@ afterEach(() => {
   expect(studio.foreign).toEqual([]);
 });
 
-interface App {
-  frame: { origin: number[]; pictures: { positions: Float32Array; net: Float32Array }[] };
-  viewer: { picture(): Promise<Blob>; main: { projectAll(points: ArrayLike<number>): Float32Array }; element: HTMLElement };
-  display: Record<string, unknown>;
-  theme: 'light' | 'dark';
-  execute(commands: unknown[]): Promise<unknown>;
-  setDisplay(change: Record<string, unknown>): void;
-  setTheme(theme: 'light' | 'dark'): void;
-}
-
-const setDisplay = (change: Record<string, unknown>) =>
-  studio.page.evaluate((c) => (window as never as { studio: App }).studio.setDisplay(c), change);
-const setTheme = (theme: 'light' | 'dark') => studio.page.evaluate((t) => (window as never as { studio: App }).studio.setTheme(t), theme);
-
-/** Raises the middle of the sheet by h exp(−r²/2σ²), millimetres. */
-const raise = (height: number, sigma: number) => studio.page.evaluate(async ([h, s]) => {
-  const { studio: app } = window as never as { studio: App };
-  const { net } = app.frame.pictures[0]!;
-  const which: number[] = [];
-  const to: number[][] = [];
-  for (let k = 0; 3 * k < net.length; ++k) {
-    const p = [0, 1, 2].map((d) => net[3 * k + d]! + app.frame.origin[d]!);
-    const r = Math.hypot(p[0]! - 100, p[1]! - 100);
-    if (r > 80) continue;
-    which.push(k);
-    to.push([p[0]!, p[1]!, h! * Math.exp((-r * r) / (2 * s! * s!))]);
-  }
-  await app.execute([{ do: 'points', which, to }]);
-}, [height, sigma]);
-
-/** The lightness L* (CIE 1976) of the picture at each point of the surface's grid, and the point's distance from the middle. */
-const lightness = () => studio.page.evaluate(async () => {
-  const { studio: app } = window as never as { studio: App };
-  const { origin, pictures: [{ positions }] } = app.frame as never as { origin: number[]; pictures: [{ positions: Float32Array }] };
-  const image = await createImageBitmap(await app.viewer.picture());
-  const canvas = new OffscreenCanvas(image.width, image.height);
-  const context = canvas.getContext('2d')!;
-  context.drawImage(image, 0, 0);
-  const { data } = context.getImageData(0, 0, image.width, image.height);
-  const box = app.viewer.element.getBoundingClientRect();
-  const places = app.viewer.main.projectAll(positions);
-  const linear = (x: number) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
-  return Array.from({ length: positions.length / 3 }, (_, k) => {
-    const at = 4 * (Math.round(places[2 * k + 1]! - box.top) * image.width + Math.round(places[2 * k]! - box.left));
-    const y = [0.2126, 0.7152, 0.0722].reduce((sum, w, c) => sum + w * linear(data[at + c]! / 255), 0);
-    return { rgb: [data[at]!, data[at + 1]!, data[at + 2]!], r: Math.hypot(positions[3 * k]! + origin[0]! - 100, positions[3 * k + 1]! + origin[1]! - 100), l: y > 0.008856 ? 116 * Math.cbrt(y) - 16 : 903.3 * y };
-  });
-});
-
-const quantile = (list: number[], share: number): number => [...list].sort((a, b) => a - b)[Math.round(share * (list.length - 1))]!;
-const spread = (list: number[]) => quantile(list, 0.95) - quantile(list, 0.05);
-
 describe('light', () => {
   it('makes a bump of 11 mm on a sheet of 200 mm plain to see from the first view', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
-    await raise(11, 25);
+    await raise(page, 11, 25);
     await settled(page);
-    await setDisplay({ isocurves: false, grid: false });
+    await setDisplay(page, { isocurves: false, grid: false });
     for (const theme of ['dark', 'light'] as const) {
-      await setTheme(theme);
+      await setTheme(page, theme);
       await settled(page);
-      const found = await lightness();
+      const found = await pixels(page);
       const bump = found.filter(({ r }) => r < 50).map(({ l }) => l);
       const flat = found.filter(({ r }) => r > 85 && r < 96).map(({ l }) => l);
       console.log(`${theme}: L* over the bump ${quantile(bump, 0.05).toFixed(1)} to ${quantile(bump, 0.95).toFixed(1)}, flat ${quantile(flat, 0.05).toFixed(1)} to ${quantile(flat, 0.95).toFixed(1)}`);
@@ -84,7 +33,8 @@ describe('light', () => {
 
 /** The mean colour of the middle of the sheet, shares of the sum. */
 const hue = async () => {
-  const near = (await lightness()).filter(({ r }) => r < 30);
+  const { page } = studio;
+  const near = (await pixels(page)).filter(({ r }) => r < 30);
   const sums = [0, 1, 2].map((c) => near.reduce((sum, { rgb }) => sum + rgb[c]!, 0));
   const all = sums[0]! + sums[1]! + sums[2]!;
   return sums.map((x) => x / all);
@@ -95,7 +45,7 @@ describe('looks', () => {
 
   it('are clay, red wax and chrome beside the studio\'s light, and zebra; the chosen one is remembered', async () => {
     const { page } = studio;
-    await setDisplay({ isocurves: false });
+    await setDisplay(page, { isocurves: false });
     const hues: Record<string, number[]> = {};
     for (const look of ['studio', 'clay', 'wax', 'chrome']) {
       await choose(look);
@@ -107,7 +57,7 @@ describe('looks', () => {
     expect(hues.chrome![2]! - hues.studio![2]!).toBeGreaterThan(0.02);
     await choose('zebra');
     await settled(page);
-    const striped = (await lightness()).filter(({ r }) => r < 50).map(({ l }) => l);
+    const striped = (await pixels(page)).filter(({ r }) => r < 50).map(({ l }) => l);
     expect(spread(striped)).toBeGreaterThan(60);
     await page.keyboard.press('z');
     expect(await page.locator('select[aria-label="Look of surfaces"]').inputValue()).toBe('chrome');
@@ -142,14 +92,14 @@ describe('looks', () => {
 it('isocurves fade where they are dense on the screen', async () => {
   const { page } = studio;
   const mean = async (isocurves: boolean, times: number) => {
-    await setDisplay({ isocurves });
+    await setDisplay(page, { isocurves });
     await page.evaluate((k) => {
       const { viewer } = (window as never as { studio: { viewer: { bounds(): { radius: number }; fit(b: unknown): void } } }).studio;
       const bounds = viewer.bounds();
       viewer.fit({ ...bounds, radius: k * bounds.radius });
     }, times);
     await settled(page);
-    const inner = (await lightness()).filter(({ r }) => r < 60);
+    const inner = (await pixels(page)).filter(({ r }) => r < 60);
     return inner.reduce((sum, { l }) => sum + l, 0) / inner.length;
   };
   const cost = async (times: number) => (await mean(false, times)) - (await mean(true, times));

@@ -65,7 +65,7 @@ describe('colours', () => {
     expect(await legend().locator('b').textContent()).toBe('Deviation, mm');
     expect((await ticks())[2]).toBe('0');
     expect((await ticks())[0]).toBe(`−${(await ticks())[4]}`);
-    expect(await legend().locator('button').isVisible()).toBe(true);
+    expect(await legend().locator('button', { hasText: 'Hold' }).isVisible()).toBe(true);
   });
 
   it('of the draft angle follow its direction and its limits', async () => {

@@ -19,12 +19,21 @@ export interface DisplayInfo {
   signed: boolean;
   palette: 'diverging' | 'rising';
   help: string;
-  /** The values at the ends of the palette; null: the largest value present, times `share`. */
+  /** The values at the ends of the palette; null: those of `DisplayRange`. */
   limits: [number, number] | null;
-  share: number;
+  /** The setting up to whose magnitude values have the neutral colour; "" for none. */
+  tolerance: string;
   /** Compared with the shape as it was opened. */
   compares: boolean;
   settings: DisplaySetting[];
+}
+
+/** Where colours end by themselves, and the least and greatest of all visible values (knead/scene/display_range.hpp). */
+export interface DisplayRange {
+  lower: number;
+  upper: number;
+  least: number;
+  greatest: number;
 }
 
 /** A display and its settings, as a request for pictures names them. */

@@ -1,7 +1,7 @@
 import { type BufferTable, Buffers } from './buffers';
 import type { Context, FaceEdge, Trim } from './context';
 import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } from './generated';
-import { type DisplayChoice, type DisplayInfo, plain } from './displays';
+import { type DisplayChoice, type DisplayInfo, type DisplayRange, plain } from './displays';
 import {
   coefficients, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture,
   type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture,
@@ -27,6 +27,7 @@ interface Exports {
   knead_save(): number;
   knead_origin(axis: number): number;
   knead_displays(): number;
+  knead_range(): number;
   knead_picture(surface: number, detail: number, opened: number): number;
   knead_tool_picture(tool: number): number;
   knead_material(surface: number, rows: number, columns: number): number;
@@ -186,6 +187,11 @@ export class Engine {
       net: floats('net'),
       held: flags('held'),
     };
+  }
+
+  /** Of the display of the pictures that were made since that of the first surface; null without one. */
+  range(): DisplayRange | null {
+    return this.json(this.wasm.knead_range()) as DisplayRange | null;
   }
 
   /** The shape of a tool, by its place in the list of the state. */

@@ -1,5 +1,5 @@
 import type { Context } from './context';
-import type { DisplayChoice, DisplayInfo } from './displays';
+import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
 import type { Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, SessionInfo, StepInfo, ToolPicture } from './session_types';
 
 /** How surfaces are drawn. */
@@ -50,6 +50,8 @@ export type Request =
 export interface Frame {
   state: SessionInfo;
   pictures: Picture[];
+  /** Of the colours of the pictures; null without any. */
+  range: DisplayRange | null;
   /** Of tools that are new or have changed shape since the previous frame, by name. */
   toolPictures: Record<string, ToolPicture>;
   /** Steps from number `firstStep` on, for the plot. */

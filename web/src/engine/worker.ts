@@ -104,6 +104,7 @@ function sendFrame(engine: Engine): void {
   const start = performance.now();
   const state = history.state();
   const pictures = state.surfaces.map((_, k) => engine.picture(k, settings.detail, settings.display, settings.opened));
+  const range = engine.range();
   const toolPictures = newToolPictures(engine, state.tools);
   if (state.steps < shownSteps) shownSteps = 0;
   const firstStep = Math.max(shownSteps, state.steps - 400);
@@ -111,7 +112,7 @@ function sendFrame(engine: Engine): void {
   shownSteps = state.steps;
   frameDrawn = false;
   const frame = {
-    state, pictures, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
+    state, pictures, range, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
   };
   post(

@@ -5,6 +5,7 @@ import type { Display } from '../view/display';
 import { lookNames } from '../view/looks';
 import type { App } from './app';
 import { field, h, select, slider, toggle } from './dom';
+import { autoLimitsAgain } from './legend';
 import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 
@@ -66,8 +67,8 @@ function limitFields(app: App, colour: DisplayInfo): HTMLElement {
     ? [number('Lower limit of the colours', lower, (x) => [-x, upper]), number('Upper limit of the colours', upper, (x) => [lower, x])]
     : [number('Limit of the colours', upper, (x) => [colour.signed ? -x : 0, x])];
   return field(colour.limits ? 'Limits' : '± limit', row(...inputs,
-    toggle('Auto', autoLimits, (on) => app.setDisplay(on && colour.limits ? { autoLimits: on, limits: colour.limits } : { autoLimits: on }),
-      colour.limits ? 'Those of the display' : 'The largest value that there is')));
+    toggle('Auto', autoLimits, (on) => (on ? autoLimitsAgain(app) : app.setDisplay({ autoLimits: on })),
+      colour.limits ? 'Those of the display' : 'By the values that are seen, each as far as its share of the area goes')));
 }
 
 /** A number or a vector that a display needs. */

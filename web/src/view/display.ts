@@ -72,6 +72,13 @@ export const defaultDisplay: Display = {
   detail: 96,
 };
 
+/** Up to which magnitude the values of the colours are neutral; 0: only zero is. */
+export function toleranceOf({ colour, colourSettings }: Display): number {
+  if (!colour?.tolerance) return 0;
+  const value = colourSettings[colour.name]?.[colour.tolerance];
+  return typeof value === 'number' ? Math.abs(value) : 0;
+}
+
 export interface Palette {
   background: number;
   front: number;

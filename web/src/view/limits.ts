@@ -1,4 +1,4 @@
-import type { DisplayInfo } from '../engine/displays';
+import type { DisplayInfo, DisplayRange } from '../engine/displays';
 
 /** A number above x that is short to write, and so is a quarter of it. */
 export function roundLimit(x: number): number {
@@ -7,19 +7,9 @@ export function roundLimit(x: number): number {
   return Number((digits * power).toPrecision(2));
 }
 
-/** Ignores the outermost hundredth, which poles and corners would dominate. */
-function largestValue(fields: Float32Array[]): number {
-  const sizes: number[] = [];
-  for (const field of fields) {
-    for (let k = 0; k < field.length; k += 3) if (Number.isFinite(field[k])) sizes.push(Math.abs(field[k]!));
-  }
-  sizes.sort((a, b) => a - b);
-  return Math.max(sizes[Math.floor(0.99 * (sizes.length - 1))] ?? 0, 1e-9);
-}
-
-/** Where the colours of a display end: the limits that it gives, or those of the values. */
-export function limitsOf(display: DisplayInfo, fields: Float32Array[]): [number, number] {
+/** Where the colours of a display end by themselves: the limits that it gives, or round numbers that hold the range of the values. */
+export function limitsOf(display: DisplayInfo, range: DisplayRange | null): [number, number] {
   if (display.limits) return display.limits;
-  const upper = roundLimit(display.share * largestValue(fields));
+  const upper = roundLimit(Math.max(range?.upper ?? 0, 1e-9));
   return [display.signed ? -upper : 0, upper];
 }

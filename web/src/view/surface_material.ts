@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import type { Display, Palette } from './display';
+import { type Display, type Palette, toleranceOf } from './display';
 import { lookTexture } from './looks';
 import { reliefUniforms } from './relief';
 import { depthShaders, fragmentShader, vertexShader } from './surface_shader';
@@ -27,6 +27,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       mirrors: { value: false },
       isocurveColour: { value: new THREE.Vector4() },
       reliefStrength: { value: 0 },
+      tolerance: { value: 0 },
       ...reliefUniforms,
     },
     vertexShader,
@@ -45,6 +46,7 @@ export function restyleMaterial({ uniforms }: THREE.ShaderMaterial, display: Dis
   const plain = colour === null && stripes === 'none';
   uniforms.mode!.value = stripes !== 'none' ? 1 : !colour ? 0 : colour.palette === 'rising' ? 3 : 2;
   uniforms.limits!.value.set(...display.limits);
+  uniforms.tolerance!.value = toleranceOf(display);
   const shown = plain ? look : 'studio';
   uniforms.look!.value = lookTexture(shown);
   uniforms.mirrors!.value = shown === 'chrome';

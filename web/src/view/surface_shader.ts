@@ -1,3 +1,6 @@
+/** How far the colours just outside a tolerance are from grey. */
+export const justOutside = 0.3;
+
 /** The shaders of surfaces: a look, stripes or colours; lines over it; marks of spans. */
 
 export const vertexShader = /* glsl */ `
@@ -20,7 +23,7 @@ export const vertexShader = /* glsl */ `
 export const fragmentShader = /* glsl */ `
   uniform int mode; // 0 plain, 1 zebra, 2 diverging, 3 rising
   uniform vec3 front, back, accent;
-  uniform float selected, reliefStrength;
+  uniform float selected, reliefStrength, tolerance;
   uniform vec2 limits, reliefSize;
   uniform sampler2D marks, trim, look, relief;
   uniform bool trimmed, mirrors, flipped;
@@ -29,15 +32,20 @@ export const fragmentShader = /* glsl */ `
   varying vec3 vNormal, vView;
   varying float vValue;
 
-  // Blue below, grey at zero, red above; the brightness changes evenly on both sides.
-  vec3 diverging(float x) {
-    x = clamp(x, -1.0, 1.0);
-    vec3 middle = vec3(0.87);
-    vec3 end = x < 0.0 ? vec3(0.17, 0.38, 0.74) : vec3(0.78, 0.23, 0.19);
-    return mix(middle, end, abs(x));
+  // Blue below, grey at zero, red above; the brightness changes evenly on both sides. Within the tolerance all is grey, and
+  // just outside it no longer.
+  vec3 diverging(float value) {
+    float size = abs(value), limit = value < 0.0 ? -limits.x : limits.y;
+    float x = clamp(size / limit, 0.0, 1.0);
+    if (tolerance > 0.0) {
+      float edge = max(fwidth(value), 1e-12);
+      x = smoothstep(-0.5 * edge, 0.5 * edge, size - tolerance) *
+          mix(${justOutside}, 1.0, clamp((size - tolerance) / max(limit - tolerance, 1e-12), 0.0, 1.0));
+    }
+    return mix(vec3(0.87), value < 0.0 ? vec3(0.17, 0.38, 0.74) : vec3(0.78, 0.23, 0.19), x);
   }
 
-  // From pale to dark, for values that are never negative.
+  // From pale to dark.
   vec3 rising(float x) {
     x = clamp(x, 0.0, 1.0);
     vec3 low = vec3(0.95, 0.94, 0.86), middle = vec3(0.93, 0.6, 0.25), high = vec3(0.55, 0.1, 0.25);
@@ -59,8 +67,8 @@ export const fragmentShader = /* glsl */ `
     vec3 v = normalize(vView);
     vec3 base = gl_FrontFacing != flipped ? front : back;
     // The legend shows the output of this, after the conversion to the screen's colours.
-    if (mode == 2) base = pow(diverging(vValue < 0.0 ? -vValue / limits.x : vValue / limits.y), vec3(2.2));
-    if (mode == 3) base = pow(rising(vValue / limits.y), vec3(2.2));
+    if (mode == 2) base = pow(diverging(vValue), vec3(2.2));
+    if (mode == 3) base = pow(rising((vValue - limits.x) / (limits.y - limits.x)), vec3(2.2));
     if (mode == 1) {
       // Stripes of a striped environment: lines where the reflected ray meets bands of equal height.
       vec3 r = reflect(-v, n);

@@ -135,7 +135,7 @@ export class Viewer {
       this.scene.add(view.group);
     }
     const { colour, autoLimits } = this.display;
-    if (colour && autoLimits) this.display.limits = limitsOf(colour, pictures.map((p) => p.values));
+    if (colour && autoLimits) this.display.limits = limitsOf(colour, frame.range);
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
     this.showTools();
