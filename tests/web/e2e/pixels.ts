@@ -37,14 +37,16 @@ export interface Seen {
   l: number;
   /** Distance from the middle of the sheet of 200 mm. */
   r: number;
-  /** Height above it. */
+  /** The point in the file, and the normal there. */
+  x: number;
   z: number;
+  normal: [number, number, number];
 }
 
 /** What is seen at each point of the surface's grid. */
 export const pixels = (page: Page): Promise<Seen[]> => page.evaluate(async () => {
   const { studio: app } = window as never as { studio: App };
-  const { origin, pictures: [{ positions }] } = app.frame as never as { origin: number[]; pictures: [{ positions: Float32Array }] };
+  const { origin, pictures: [{ positions, normals }] } = app.frame as never as { origin: number[]; pictures: [{ positions: Float32Array; normals: Float32Array }] };
   const image = await createImageBitmap(await app.viewer.picture());
   const canvas = new OffscreenCanvas(image.width, image.height);
   const context = canvas.getContext('2d')!;
@@ -56,7 +58,7 @@ export const pixels = (page: Page): Promise<Seen[]> => page.evaluate(async () =>
   return Array.from({ length: positions.length / 3 }, (_, k) => {
     const at = 4 * (Math.round(places[2 * k + 1]! - box.top) * image.width + Math.round(places[2 * k]! - box.left));
     const y = [0.2126, 0.7152, 0.0722].reduce((sum, w, c) => sum + w * linear(data[at + c]! / 255), 0);
-    return { rgb: [data[at]!, data[at + 1]!, data[at + 2]!] as [number, number, number], z: positions[3 * k + 2]! + origin[2]!, r: Math.hypot(positions[3 * k]! + origin[0]! - 100, positions[3 * k + 1]! + origin[1]! - 100), l: y > 0.008856 ? 116 * Math.cbrt(y) - 16 : 903.3 * y };
+    return { rgb: [data[at]!, data[at + 1]!, data[at + 2]!] as [number, number, number], x: positions[3 * k]! + origin[0]!, z: positions[3 * k + 2]! + origin[2]!, normal: [...normals.subarray(3 * k, 3 * k + 3)] as [number, number, number], r: Math.hypot(positions[3 * k]! + origin[0]! - 100, positions[3 * k + 1]! + origin[1]! - 100), l: y > 0.008856 ? 116 * Math.cbrt(y) - 16 : 903.3 * y };
   });
 });
 

@@ -12,6 +12,7 @@ import { openScene, scenes } from '../panels/gallery';
 import { heldBadge } from '../panels/held_badge';
 import { listenToKeys } from '../panels/keyboard';
 import { legendCard } from '../panels/legend';
+import { analysisPanel } from '../panels/panel_analysis';
 import { createPanel } from '../panels/panel_create';
 import { displayPanel } from '../panels/panel_display';
 import { surfacePanel } from '../panels/panel_surface';
@@ -38,7 +39,7 @@ document.getElementById('studio')!.append(
   h('main', { class: 'stage' }, app.viewer.element, legendCard(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
     measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), checkPanel(app),
-    viewsPanel(app), displayPanel(app), historyPanel(app)),
+    viewsPanel(app), displayPanel(app), analysisPanel(app), historyPanel(app)),
   statusBar(app),
 );
 listenToKeys(app);

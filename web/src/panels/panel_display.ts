@@ -24,6 +24,7 @@ export function displayPanel(app: App): HTMLElement {
         chip('sides', 'Sides', 'The back of surfaces is tinted, where their normals point away'),
         chip('flipped', 'Flip normals', 'To the eye alone: of the tint of the back and of drawn normals; surfaces keep theirs')),
       lookField(app),
+      ...stripeFields(app),
       ...colourFields(app),
       field('Point size', slider('Point size', d.pointSize, [2, 14], (pointSize) => app.setDisplay({ pointSize }))),
       field('Detail', select('Detail', [['48', 'Coarse'], ['96', 'Normal'], ['192', 'Fine']], String(d.detail) as '96',
@@ -38,13 +39,25 @@ export function displayPanel(app: App): HTMLElement {
 /** A look for plain surfaces, or stripes. */
 function lookField(app: App): HTMLElement {
   const { look, stripes } = app.display;
-  const options = [...lookNames, ['zebra', 'Zebra']] as const;
+  const options = [...lookNames, ['zebra', 'Zebra'], ['highlight', 'Highlight lines']] as const;
   return field('Look', select('Look of surfaces', options, stripes === 'none' ? look : stripes, (chosen) =>
-    app.setDisplay(chosen === 'zebra' ? { stripes: chosen } : { look: chosen, stripes: 'none' })),
-    'Zebra: reflection stripes; kinks show curvature that jumps (Z)');
+    app.setDisplay(chosen === 'zebra' || chosen === 'highlight' ? { stripes: chosen } : { look: chosen, stripes: 'none' })),
+    'Zebra: reflection stripes; kinks show curvature that jumps (Z). Highlight lines: where normals point at straight lamps, whatever the view');
 }
 
 const unitOf = (app: App): string => app.state?.surfaces[0]?.unit ?? 'mm';
+
+/** How stripes are turned, and how far they are apart. */
+function stripeFields(app: App): (Node | null)[] {
+  const { stripes, stripeAngle, stripeSpacing } = app.display;
+  if (stripes === 'none') return [];
+  return [
+    field('Direction', slider('Direction of the stripes', stripeAngle, [0, 180], (angle) => app.setDisplay({ stripeAngle: angle })),
+      stripes === 'zebra' ? 'Turns the stripes about the line of sight' : 'Turns the lamps about the vertical'),
+    field('Spacing', slider('Spacing of the stripes', stripeSpacing, [1, 40], (spacing) => app.setDisplay({ stripeSpacing: spacing })),
+      'Angle between two stripes of the surroundings, or between two lamps'),
+  ];
+}
 
 /** What colours the surfaces: the displays that the engine describes, the colour limits, the settings of the display. */
 function colourFields(app: App): (Node | null)[] {

@@ -28,6 +28,11 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       isocurveColour: { value: new THREE.Vector4() },
       reliefStrength: { value: 0 },
       tolerance: { value: 0 },
+      stripeAxis: { value: new THREE.Vector3(0, 1, 0) },
+      stripePeriod: { value: 1 },
+      sections: { value: new THREE.Vector4() },
+      sectionOffset: { value: 0 },
+      sectionColour: { value: new THREE.Color() },
       ...reliefUniforms,
     },
     vertexShader,
@@ -44,7 +49,7 @@ export function depthMaterial({ uniforms }: THREE.ShaderMaterial): THREE.ShaderM
 export function restyleMaterial({ uniforms }: THREE.ShaderMaterial, display: Display, palette: Palette): void {
   const { colour, stripes, look } = display;
   const plain = colour === null && stripes === 'none';
-  uniforms.mode!.value = stripes !== 'none' ? 1 : !colour ? 0 : colour.palette === 'rising' ? 3 : 2;
+  uniforms.mode!.value = stripes === 'zebra' ? 1 : stripes === 'highlight' ? 4 : !colour ? 0 : colour.palette === 'rising' ? 3 : 2;
   uniforms.limits!.value.set(...display.limits);
   uniforms.tolerance!.value = toleranceOf(display);
   const shown = plain ? look : 'studio';
@@ -58,4 +63,19 @@ export function restyleMaterial({ uniforms }: THREE.ShaderMaterial, display: Dis
   uniforms.reliefStrength!.value = plain ? 1 : 0.4;
   const line = new THREE.Color(palette.isocurve);
   uniforms.isocurveColour!.value.set(line.r, line.g, line.b, display.isocurves ? palette.isocurveOpacity : 0);
+  const angle = THREE.MathUtils.degToRad(display.stripeAngle);
+  // Across the stripes: upwards on the screen, or along x of the scene.
+  if (stripes === 'highlight') uniforms.stripeAxis!.value.set(Math.cos(angle), Math.sin(angle), 0);
+  else uniforms.stripeAxis!.value.set(-Math.sin(angle), Math.cos(angle), 0);
+  uniforms.stripePeriod!.value = THREE.MathUtils.degToRad(display.stripeSpacing);
+  uniforms.sectionColour!.value.set(palette.section);
+}
+
+/** Lines where the surface is cut at multiples of a length along an axis of the file. */
+export function placeSections({ uniforms }: THREE.ShaderMaterial, { sections }: Display, spacing: number, origin: readonly number[]): void {
+  const k = 'xyz'.indexOf(sections);
+  const across = new THREE.Vector3();
+  if (k >= 0) across.setComponent(k, 1);
+  uniforms.sections!.value.set(across.x, across.y, across.z, k < 0 ? 0 : 1 / spacing);
+  uniforms.sectionOffset!.value = k < 0 ? 0 : (origin[k]! / spacing) % 1;
 }

@@ -7,13 +7,15 @@ export const vertexShader = /* glsl */ `
   attribute float value;
   attribute vec2 span, isocurve;
   varying vec2 vSpan, vPlace, vIsocurve;
-  varying vec3 vNormal, vView;
+  varying vec3 vNormal, vView, vSceneNormal, vScene;
   varying float vValue;
   void main() {
     vec4 place = modelViewMatrix * vec4(position, 1.0);
     vNormal = normalMatrix * normal;
     vView = isOrthographic ? vec3(0.0, 0.0, 1.0) : -place.xyz;
     vValue = value;
+    vScene = position;
+    vSceneNormal = normal;
     vSpan = span;
     vIsocurve = isocurve;
     vPlace = uv;
@@ -21,15 +23,17 @@ export const vertexShader = /* glsl */ `
   }`;
 
 export const fragmentShader = /* glsl */ `
-  uniform int mode; // 0 plain, 1 zebra, 2 diverging, 3 rising
+  uniform int mode; // 0 plain, 1 zebra, 2 diverging, 3 rising, 4 highlight lines
   uniform vec3 front, back, accent;
   uniform float selected, reliefStrength, tolerance;
   uniform vec2 limits, reliefSize;
   uniform sampler2D marks, trim, look, relief;
   uniform bool trimmed, mirrors, flipped;
-  uniform vec4 isocurveColour;
+  uniform vec4 isocurveColour, sections; // of the latter: unit vector across them, then how many per length
+  uniform float sectionOffset, stripePeriod;
+  uniform vec3 sectionColour, stripeAxis;
   varying vec2 vSpan, vPlace, vIsocurve;
-  varying vec3 vNormal, vView;
+  varying vec3 vNormal, vView, vSceneNormal, vScene;
   varying float vValue;
 
   // Blue below, grey at zero, red above; the brightness changes evenly on both sides. Within the tolerance all is grey, and
@@ -53,11 +57,24 @@ export const fragmentShader = /* glsl */ `
   }
 
   // How much of a pixel lines at whole numbers of x cover; they fade where they lie closer than 14 pixels, and are gone at 3.
-  float lines(vec2 x) {
-    vec2 width = max(fwidth(x), vec2(1e-6));
-    vec2 near = abs(fract(x - 0.5) - 0.5) / width;
-    vec2 shown = (1.0 - smoothstep(0.3, 1.1, near)) * (1.0 - smoothstep(0.07, 0.33, width));
-    return max(shown.x, shown.y);
+  float lines(float x, float thickness) {
+    float width = max(fwidth(x), 1e-6);
+    float near = abs(fract(x - 0.5) - 0.5) / width;
+    return (1.0 - smoothstep(0.3 * thickness, 0.3 * thickness + 0.8, near)) * (1.0 - smoothstep(0.07, 0.33, width));
+  }
+
+  // Stripes of a striped environment: lines where the reflected ray meets bands of equal angles.
+  vec3 zebra(vec3 n, vec3 v) {
+    float stripe = sin(6.2831853 * asin(clamp(dot(reflect(-v, n), stripeAxis), -1.0, 1.0)) / stripePeriod);
+    float width = max(fwidth(stripe), 1e-4);
+    return mix(vec3(0.02), vec3(0.9), smoothstep(-width, width, stripe)) * (0.75 + 0.25 * n.z);
+  }
+
+  // Where the normal points at one of the straight lamps that lie in parallel, far away, at equal angles.
+  vec3 highlights(vec3 shade) {
+    vec3 n = gl_FrontFacing ? vSceneNormal : -vSceneNormal;
+    float angle = atan(dot(n, stripeAxis), n.z);
+    return mix(0.3 * shade, vec3(1.0, 0.93, 0.7), lines(angle / stripePeriod, 3.0));
   }
 
   void main() {
@@ -70,13 +87,9 @@ export const fragmentShader = /* glsl */ `
     if (mode == 2) base = pow(diverging(vValue), vec3(2.2));
     if (mode == 3) base = pow(rising((vValue - limits.x) / (limits.y - limits.x)), vec3(2.2));
     if (mode == 1) {
-      // Stripes of a striped environment: lines where the reflected ray meets bands of equal height.
-      vec3 r = reflect(-v, n);
-      float stripe = sin(24.0 * asin(clamp(r.y, -1.0, 1.0)));
-      float width = max(fwidth(stripe), 1e-4);
-      float s = smoothstep(-width, width, stripe);
-      base = mix(vec3(0.02), vec3(0.9), s);
-      gl_FragColor = vec4(base * (0.75 + 0.25 * n.z), 1.0);
+      gl_FragColor = vec4(zebra(n, v), 1.0);
+    } else if (mode == 4) {
+      gl_FragColor = vec4(highlights(base * texture2D(look, 0.5 + 0.496 * n.xy).rgb), 1.0);
     } else {
       vec3 seen = mirrors ? normalize(reflect(-v, n) + vec3(0.0, 0.0, 1.0001)) : n;
       vec4 light = texture2D(look, 0.5 + 0.496 * seen.xy);
@@ -87,7 +100,11 @@ export const fragmentShader = /* glsl */ `
       colour *= 1.0 + reliefStrength * stands;
       gl_FragColor = vec4(mix(vec3(dot(colour, vec3(0.3, 0.5, 0.2))) * 0.85, colour, selected), 1.0);
     }
-    if (isocurveColour.a > 0.0) gl_FragColor.rgb = mix(gl_FragColor.rgb, isocurveColour.rgb, isocurveColour.a * lines(vIsocurve));
+    if (isocurveColour.a > 0.0) gl_FragColor.rgb = mix(gl_FragColor.rgb, isocurveColour.rgb, isocurveColour.a * max(lines(vIsocurve.x, 1.0), lines(vIsocurve.y, 1.0)));
+    if (sections.w > 0.0) {
+      float x = dot(vScene, sections.xyz) * sections.w + sectionOffset;
+      gl_FragColor.rgb = mix(gl_FragColor.rgb, sectionColour, lines(x, 2.5));
+    }
     // Frozen spans are hatched, painted ones tinted.
     vec3 marked = texture2D(marks, vSpan).rgb;
     gl_FragColor.rgb = mix(gl_FragColor.rgb, vec3(0.75, 0.4, 0.08), 0.6 * marked.b);

@@ -6,13 +6,14 @@ import type { Frame } from '../engine/protocol';
 import { type Bounds, boundsOf, seenBox } from './bounds';
 import { ContextView } from './context_view';
 import { type Display, type Palette, palettes, type Theme } from './display';
-import { Ground } from './ground';
+import { Ground, roundStepAbove } from './ground';
 import { limitsOf } from './limits';
 import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
 import { clippable, Section, type SectionAxis } from './section';
 import { shown } from './section_lines';
 import { Relief } from './relief';
+import { placeSections } from './surface_material';
 import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
 import { trimMasks } from './trim_mask';
@@ -329,6 +330,11 @@ export class Viewer {
     });
   }
 
+  /** Length between section curves: the user's, or a round one that gives about twenty. */
+  get sectionSpacing(): number {
+    return this.display.sectionSpacing || roundStepAbove(this.bounds().radius / 10);
+  }
+
   private resize(): void {
     this.renderer.setSize(Math.max(1, this.element.clientWidth), Math.max(1, this.element.clientHeight), false);
     for (const v of this.viewports) v.resize();
@@ -343,6 +349,8 @@ export class Viewer {
       context: this.context.mesh.visible ? this.surroundings : null,
     }));
     const relief = Relief.wanted(this.display);
+    const spacing = this.display.sections === 'none' ? 1 : this.sectionSpacing;
+    for (const s of this.surfaces) placeSections(s.mesh.material, this.display, spacing, this.origin);
     this.relief.begin(this.renderer, relief);
     this.renderer.setClearColor(this.palette.background);
     this.renderer.setScissorTest(false);
