@@ -8,6 +8,7 @@
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
+#include "studio_combs.hpp"
 #include "studio_context.hpp"
 #include "studio_material.hpp"
 #include "studio_picture.hpp"
@@ -25,6 +26,7 @@ struct Studio {
   std::optional<Session> session;
   Point origin = Point::Zero();
   PictureMaker pictures;
+  CombPicture combs;
   ContextPicture context;
   ToolPicture tool;
   MaterialSamples material;
@@ -241,6 +243,22 @@ KNEAD_EXPORT(knead_picture) int knead_picture(int surface, int detail, int opene
 
 /// Where the colours of the pictures end that were made since that of the first surface: the text is `range_json`.
 KNEAD_EXPORT(knead_range) int knead_range() { return answer(range_json(held().pictures.range())); }
+
+/// Curvature combs of a surface along `along_u` curves on which u runs and `along_v` on which v does, with `teeth`
+/// pieces of every knot span: the text is `comb_json`, its buffers stay until the next call.
+KNEAD_EXPORT(knead_combs) int knead_combs(int surface, int along_u, int along_v, int teeth) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  const SessionState& state = session->state();
+  if (surface < 0 || surface >= static_cast<int>(state.surfaces.size())) {
+    return fail({ErrorKind::usage, "there is no such surface"});
+  }
+  auto combs = comb_picture(*state.surfaces[static_cast<std::size_t>(surface)].current, {{along_u, along_v}, teeth},
+                            held().origin, visible_part(surface).get());
+  if (!combs) return fail(combs.error());
+  held().combs = *std::move(combs);
+  return answer(comb_json(held().combs));
+}
 
 /// The shape of a tool in its own frame: the text is `tool_picture_json`, its buffers stay until the next call.
 KNEAD_EXPORT(knead_tool_picture) int knead_tool_picture(int tool) {

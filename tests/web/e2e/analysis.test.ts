@@ -80,3 +80,29 @@ it('section curves lie at multiples of their step along an axis of the file', as
   expect(quantile(off.map(red), 0.99)).toBeLessThan(10); // but where the far side of the bump is seen at a flat angle
   await page.locator('select[aria-label="Section curves"]').selectOption('none');
 });
+
+it('curvature combs name the largest curvature, and stand on the selected surface', async () => {
+  const { page } = studio;
+  await scene(page, 'Torus'); // radii 70 and 30
+  await page.locator('select[aria-label="Curvature combs"]').selectOption('both');
+  await settled(page);
+  const note = page.locator('.panel[data-panel=Analysis] .note');
+  await expect.poll(() => note.textContent()).toMatch(/^Largest curvature 0\.0333\d* 1\/mm, radius 30 mm$/);
+  const ends = () => page.evaluate(() => {
+    const { teeth } = (window as never as { studio: { viewer: { combs: { teeth: { visible: boolean; geometry: { getAttribute(n: string): { array: Float32Array } } } } } } }).studio.viewer.combs;
+    const at = teeth.geometry.getAttribute('position').array;
+    let longest = 0;
+    for (let k = 0; k < at.length; k += 6) longest = Math.max(longest, Math.hypot(at[k]! - at[k + 3]!, at[k + 1]! - at[k + 4]!, at[k + 2]! - at[k + 5]!));
+    return { visible: teeth.visible, count: at.length / 6, longest };
+  });
+  const usual = await ends();
+  expect(usual.visible).toBe(true);
+  await page.locator('input[aria-label="Length of the combs"]').fill('0.3');
+  await page.locator('input[aria-label="Curves with combs"]').fill('14');
+  await settled(page);
+  await expect.poll(async () => (await ends()).count).toBe(2 * usual.count);
+  expect((await ends()).longest / usual.longest).toBeCloseTo(2, 2);
+  await page.locator('select[aria-label="Curvature combs"]').selectOption('none');
+  await settled(page);
+  expect((await ends()).visible).toBe(false);
+});

@@ -8,7 +8,7 @@ import { Saving } from '../document/saving';
 import { Client } from '../engine/client';
 import type { Context, Trim } from '../engine/context';
 import { plain } from '../engine/displays';
-import type { Frame } from '../engine/protocol';
+import type { Frame, PictureSettings } from '../engine/protocol';
 import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
 import type { App } from '../panels/app';
 import { Hand } from '../tools/hand';
@@ -198,7 +198,8 @@ export class Studio implements App {
   // --- what is seen ------------------------------------------------------------------------------------------------
 
   setDisplay(change: Partial<Display>): void {
-    const redraw = (change.colour !== undefined && change.colour !== this.display.colour) || change.colourSettings !== undefined || change.detail !== undefined;
+    const redraw = (change.colour !== undefined && change.colour !== this.display.colour) || change.colourSettings !== undefined || change.detail !== undefined ||
+      change.combs !== undefined || change.combCurves !== undefined || change.combTeeth !== undefined;
     Object.assign(this.display, change);
     this.viewer.navigator.convention = this.display.convention;
     this.viewer.restyle();
@@ -209,9 +210,11 @@ export class Studio implements App {
 
   /** From now on pictures follow the display, of the present shapes or of those that were opened. */
   askForPictures(opened: boolean): void {
-    const { detail, colour, colourSettings } = this.display;
+    const { detail, colour, colourSettings, combs, combCurves, combTeeth } = this.display;
+    const on = (direction: 'u' | 'v') => (combs === direction || combs === 'both' ? combCurves : 0);
+    const asked: PictureSettings['combs'] = combs === 'none' ? undefined : { curves: [on('u'), on('v')], teeth: combTeeth };
     const display = colour ? { display: colour.name, settings: colourSettings[colour.name] ?? {} } : plain;
-    void this.attempt(async () => void (await this.client.pictures({ detail, display, opened })));
+    void this.attempt(async () => void (await this.client.pictures({ detail, display, opened, combs: asked })));
   }
 
   private comparing = false;

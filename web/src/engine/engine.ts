@@ -3,7 +3,7 @@ import type { Context, FaceEdge, Trim } from './context';
 import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } from './generated';
 import { type DisplayChoice, type DisplayInfo, type DisplayRange, plain } from './displays';
 import {
-  coefficients, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture,
+  coefficients, type Combs, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture,
   type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture,
 } from './session_types';
 import { start } from './wasi';
@@ -28,6 +28,7 @@ interface Exports {
   knead_origin(axis: number): number;
   knead_displays(): number;
   knead_range(): number;
+  knead_combs(surface: number, alongU: number, alongV: number, teeth: number): number;
   knead_picture(surface: number, detail: number, opened: number): number;
   knead_tool_picture(tool: number): number;
   knead_material(surface: number, rows: number, columns: number): number;
@@ -192,6 +193,13 @@ export class Engine {
   /** Of the display of the pictures that were made since that of the first surface; null without one. */
   range(): DisplayRange | null {
     return this.json(this.wasm.knead_range()) as DisplayRange | null;
+  }
+
+  /** Curvature combs on as many curves each way, with so many pieces of every knot span. */
+  combs(surface: number, [alongU, alongV]: [number, number], teeth: number): Combs {
+    const { buffers, largest, at } = this.json(this.wasm.knead_combs(surface, alongU, alongV, teeth)) as { buffers: BufferTable; largest: number; at: Combs['at'] };
+    const { floats, flags } = this.buffers(buffers);
+    return { places: floats('places'), vectors: floats('vectors'), joined: flags('joined'), largest, at };
   }
 
   /** The shape of a tool, by its place in the list of the state. */

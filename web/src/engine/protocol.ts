@@ -1,6 +1,6 @@
 import type { Context } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
-import type { Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, SessionInfo, StepInfo, ToolPicture } from './session_types';
+import type { Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, SessionInfo, StepInfo, ToolPicture } from './session_types';
 
 /** How surfaces are drawn. */
 export interface PictureSettings {
@@ -8,6 +8,8 @@ export interface PictureSettings {
   display: DisplayChoice;
   /** The shapes as they were opened, for comparison. */
   opened?: boolean;
+  /** On how many curves each way, and in how many pieces of every span, the selected surfaces have curvature combs. */
+  combs?: { curves: [number, number]; teeth: number };
 }
 
 /** Requests of the page to the worker. Every request is answered by one `Reply` with its number. */
@@ -52,6 +54,7 @@ export interface Frame {
   pictures: Picture[];
   /** Of the colours of the pictures; null without any. */
   range: DisplayRange | null;
+  combs: Combs[];
   /** Of tools that are new or have changed shape since the previous frame, by name. */
   toolPictures: Record<string, ToolPicture>;
   /** Steps from number `firstStep` on, for the plot. */

@@ -42,6 +42,17 @@ export interface Picture {
   held: Uint8Array;
 }
 
+/** Curvature combs of a surface (bindings/wasm/studio_combs.hpp); places relative to the session's origin. */
+export interface Combs {
+  places: Float32Array;
+  /** Towards the centre of curvature, 1/length. */
+  vectors: Float32Array;
+  /** Per tooth: 1 if it continues the comb of the tooth before it. */
+  joined: Uint8Array;
+  largest: number;
+  at: Vector3;
+}
+
 /** Coefficients of a material, as commands name them, in the order of the session. */
 export const coefficients = ['alpha11', 'alpha12', 'alpha22', 'beta11', 'beta12', 'beta22'] as const;
 export type Coefficient = (typeof coefficients)[number];

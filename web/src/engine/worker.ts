@@ -105,6 +105,8 @@ function sendFrame(engine: Engine): void {
   const state = history.state();
   const pictures = state.surfaces.map((_, k) => engine.picture(k, settings.detail, settings.display, settings.opened));
   const range = engine.range();
+  const { combs: asked } = settings;
+  const combs = asked ? state.selection.map((k) => engine.combs(k, asked.curves, asked.teeth)) : [];
   const toolPictures = newToolPictures(engine, state.tools);
   if (state.steps < shownSteps) shownSteps = 0;
   const firstStep = Math.max(shownSteps, state.steps - 400);
@@ -112,13 +114,14 @@ function sendFrame(engine: Engine): void {
   shownSteps = state.steps;
   frameDrawn = false;
   const frame = {
-    state, pictures, range, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
+    state, pictures, range, combs, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
   };
   post(
     { kind: 'frame', frame },
     [
       ...pictures.flatMap((p) => [p.positions, p.normals, p.values, p.s, p.t, p.linesU, p.linesV, p.net, p.held]),
+      ...combs.flatMap((c) => [c.places, c.vectors, c.joined]),
       ...Object.values(toolPictures).flatMap((p) => [p.positions, p.normals, p.indices]),
     ].map((a) => a.buffer as ArrayBuffer),
   );

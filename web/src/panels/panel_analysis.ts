@@ -1,9 +1,9 @@
-import { parseLength } from '../document/units';
+import { format, parseLength } from '../document/units';
 import type { Display } from '../view/display';
 import type { App } from './app';
-import { field, select } from './dom';
+import { field, select, slider } from './dom';
 import { numberInput } from './number_input';
-import { panel } from './panel';
+import { note, panel } from './panel';
 
 const axes = [['none', 'None'], ['x', 'Across x'], ['y', 'Across y'], ['z', 'Across z']] as const;
 
@@ -11,7 +11,7 @@ const axes = [['none', 'None'], ['x', 'Across x'], ['y', 'Across y'], ['z', 'Acr
 export function analysisPanel(app: App): HTMLElement {
   const unit = () => app.state?.surfaces[0]?.unit ?? 'mm';
   const spacing = () => (app.display.sections === 'none' ? 0 : app.viewer.sectionSpacing);
-  return panel(app, 'Analysis', (a) => [a.display.sections, spacing(), unit()], () => {
+  return panel(app, 'Analysis', (a) => [a.display.sections, spacing(), unit(), a.display.combs, a.viewer.combs.largest], () => {
     const { sections, sectionSpacing } = app.display;
     return [
       field('Sections', select<Display['sections']>('Section curves', axes, sections, (to) => app.setDisplay({ sections: to })),
@@ -19,6 +19,23 @@ export function analysisPanel(app: App): HTMLElement {
       sections === 'none' ? null : field(`Step, ${unit()}`, numberInput('Step of the section curves', spacing(),
         (x) => (x < 0 ? 'The step is a length, or 0 for a round one that follows from the size' : app.setDisplay({ sectionSpacing: x })),
         (text) => parseLength(text, unit())), `0: a round length that follows from the size${sectionSpacing === 0 ? ', as now' : ''}`),
+      ...combFields(app, unit()),
     ];
   }, false);
+}
+
+/** Curvature combs of the selected surfaces. */
+function combFields(app: App, unit: string): (Node | null)[] {
+  const { combs, combCurves, combTeeth, combScale } = app.display;
+  const choose = field('Combs', select<Display['combs']>('Curvature combs', [['none', 'None'], ['u', 'Along u'], ['v', 'Along v'], ['both', 'Both ways']], combs,
+    (to) => app.setDisplay({ combs: to })), 'Curvature along isocurves of the selected surfaces, away from the centre of curvature');
+  if (combs === 'none') return [choose];
+  const { largest } = app.viewer.combs;
+  return [
+    choose,
+    field('Curves', slider('Curves with combs', combCurves, [1, 25], (x) => app.setDisplay({ combCurves: Math.round(x) })), 'In each direction'),
+    field('Teeth', slider('Teeth of the combs', combTeeth, [1, 20], (x) => app.setDisplay({ combTeeth: Math.round(x) })), 'Pieces of every knot span'),
+    field('Length', slider('Length of the combs', combScale, [0.02, 1], (x) => app.setDisplay({ combScale: x })), 'Of the largest curvature'),
+    note(largest > 0 ? `Largest curvature ${format(largest)} 1/${unit}, radius ${format(1 / largest)} ${unit}` : 'Straight, or nothing is selected'),
+  ];
 }

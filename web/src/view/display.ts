@@ -27,6 +27,13 @@ export interface Display {
   sections: 'none' | 'x' | 'y' | 'z';
   /** File units, from the file's origin; 0: a round length that follows from the size. */
   sectionSpacing: number;
+  /** Curvature combs of the selected surfaces, on curves along which u runs, v, or both. */
+  combs: 'none' | 'u' | 'v' | 'both';
+  combCurves: number;
+  /** Pieces of every knot span. */
+  combTeeth: number;
+  /** Length of a tooth of the largest curvature, of the size of what is shown. */
+  combScale: number;
   /** What stands out is brightened, what lies in a hollow darkened. */
   relief: boolean;
   /** The back of surfaces is tinted. */
@@ -68,6 +75,10 @@ export const defaultDisplay: Display = {
   stripeSpacing: 15,
   sections: 'none',
   sectionSpacing: 0,
+  combs: 'none',
+  combCurves: 7,
+  combTeeth: 6,
+  combScale: 0.15,
   relief: true,
   sides: false,
   flipped: false,
@@ -97,6 +108,7 @@ export interface Palette {
   isocurve: number;
   isocurveOpacity: number;
   section: number;
+  comb: number;
   knotLine: number;
   net: number;
   point: number;
@@ -112,12 +124,12 @@ export type Theme = 'light' | 'dark';
 
 export const palettes: Record<Theme, Palette> = {
   dark: {
-    background: 0x15181c, front: 0xa9bccd, back: 0xb8a08a, isocurve: 0x0d1116, isocurveOpacity: 0.38, section: 0xb3261e, knotLine: 0xe8eef4,
+    background: 0x15181c, front: 0xa9bccd, back: 0xb8a08a, isocurve: 0x0d1116, isocurveOpacity: 0.38, section: 0xb3261e, comb: 0xf0a35a, knotLine: 0xe8eef4,
     net: 0x8fa3b5, point: 0xe6edf3, held: 0xf0a35a, grid: 0x252a31, gridStrong: 0x363d47, tool: 0x8b97a5,
     toolSelected: 0x3fb6a8, context: 0x596069,
   },
   light: {
-    background: 0xf1f3f5, front: 0xb4c4d3, back: 0xc9b29d, isocurve: 0x1a2733, isocurveOpacity: 0.3, section: 0xb3261e, knotLine: 0x14202b,
+    background: 0xf1f3f5, front: 0xb4c4d3, back: 0xc9b29d, isocurve: 0x1a2733, isocurveOpacity: 0.3, section: 0xb3261e, comb: 0x9a3412, knotLine: 0x14202b,
     net: 0x5b6b7a, point: 0x1d2a36, held: 0xc8641a, grid: 0xdfe3e7, gridStrong: 0xc6ccd3, tool: 0x7b8794,
     toolSelected: 0x0f8f82, context: 0xb9bec4,
   },

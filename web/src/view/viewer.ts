@@ -4,6 +4,7 @@ import { format } from '../document/units';
 import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
 import { type Bounds, boundsOf, seenBox } from './bounds';
+import { CombView } from './comb_view';
 import { ContextView } from './context_view';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground, roundStepAbove } from './ground';
@@ -51,6 +52,7 @@ export class Viewer {
   readonly section = new Section();
   readonly context = new ContextView();
   private surroundings: Context | null = null;
+  readonly combs = new CombView();
   /** A file was opened, and nothing in it has been chosen yet: what the session has selected is not what the user has. */
   waiting = false;
   private trims: Trim[] = [];
@@ -87,7 +89,7 @@ export class Viewer {
     this.element.append(this.renderer.domElement, windows);
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(0.4, -0.6, 1);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay, this.context.mesh, this.section.group);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay, this.context.mesh, this.section.group, this.combs.group);
     this.section.onChange = () => this.redraw();
     new ResizeObserver(() => this.resize()).observe(this.element);
   }
@@ -137,6 +139,8 @@ export class Viewer {
     }
     const { colour, autoLimits } = this.display;
     if (colour && autoLimits) this.display.limits = limitsOf(colour, frame.range);
+    this.combs.show(frame.combs);
+    this.combs.restyle(this.display.combScale * this.bounds().radius, this.palette.comb);
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
     this.showTools();
@@ -260,6 +264,7 @@ export class Viewer {
     this.context.restyle(this.display, this.palette);
     this.section.forget();
     this.ground.restyle(this.palette);
+    this.combs.restyle(this.display.combScale * this.bounds().radius, this.palette.comb);
     const state = this.frame?.state;
     this.surfaces.forEach((s, k) =>
       s.restyle(this.display, this.palette, !state || this.waiting || state.selection.length === 0 || state.selection.includes(k)));

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "knead/sculpt/visible_region.hpp"
+#include "knead/spline/curvature_comb.hpp"
+
+namespace knead::studio {
+
+/// Curvature combs to draw, those teeth that are visible.
+struct CombPicture {
+  std::vector<float> places, vectors;  ///< 3 per tooth; places relative to the requested origin
+  std::vector<std::uint8_t> joined;    ///< per tooth: 1 if it continues the comb of the tooth before it
+  double largest = 0;                  ///< curvature of any visible tooth, 1/length
+  Point at = Point::Zero();            ///< where that is, relative to the origin
+};
+
+/// Errors: those of `curvature_combs`. \param visible null: all of the surface
+[[nodiscard]] Expected<CombPicture> comb_picture(const Surface& surface, const CurvatureCombOptions& options,
+                                                 const Point& origin, const VisibleRegion* visible);
+
+/// {"largest", "at": [x, y, z], "buffers": …}
+[[nodiscard]] std::string comb_json(const CombPicture& picture);
+
+}  // namespace knead::studio
