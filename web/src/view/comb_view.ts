@@ -3,13 +3,14 @@ import * as THREE from 'three';
 import type { Combs } from '../engine/session_types';
 
 const line = () => {
-  const lines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true }));
+  const lines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, depthTest: false }));
   lines.frustumCulled = false;
   lines.visible = false;
+  lines.renderOrder = 2;
   return lines;
 };
 
-/** Curvature combs of all surfaces: teeth away from the centre of curvature, and the curve through their tips. */
+/** Curvature combs of all surfaces, over everything, as half of them stand below: teeth away from the centre of curvature, and the curve through their tips. */
 export class CombView {
   readonly group = new THREE.Group();
   /** Of all that is shown; 0: nothing is. */

@@ -70,11 +70,12 @@ export const fragmentShader = /* glsl */ `
     return mix(vec3(0.02), vec3(0.9), smoothstep(-width, width, stripe)) * (0.75 + 0.25 * n.z);
   }
 
-  // Where the normal points at one of the straight lamps that lie in parallel, far away, at equal angles.
+  // Where the normal points at one of the straight lamps that lie in parallel, far away, at equal angles; none is straight
+  // above, as all of a level face would be lit.
   vec3 highlights(vec3 shade) {
     vec3 n = gl_FrontFacing ? vSceneNormal : -vSceneNormal;
     float angle = atan(dot(n, stripeAxis), n.z);
-    return mix(0.3 * shade, vec3(1.0, 0.93, 0.7), lines(angle / stripePeriod, 3.0));
+    return mix(0.3 * shade, vec3(1.0, 0.93, 0.7), lines(angle / stripePeriod + 0.5, 3.0));
   }
 
   void main() {
