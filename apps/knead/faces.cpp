@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "cli.hpp"
 #include "knead/exchange/face_edges.hpp"
+#include "knead/scene/followed.hpp"
 #include "knead/scene/trims.hpp"
 
 namespace knead::cli {
@@ -25,6 +28,16 @@ void for_each_report(const SessionState& state, const F& f) {
     const auto report = trim_report(s);
     if (report) f(s, *report);
   }
+}
+
+double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+/// The angles at an edge that follows and was smooth as opened; none for other edges.
+std::optional<Parting> angles_at(const SessionState& state, const std::string& id) {
+  const auto found = std::ranges::find(state.followed, id, &FollowedEdge::id);
+  if (found == state.followed.end() || !found->course || !is_smooth(*found->course)) return std::nullopt;
+  const auto measured = parting(state, *found->course);
+  return measured ? std::optional(*measured) : std::nullopt;
 }
 
 void print_region(const step::SurfaceEntity& s, const VisibleRegion& region) {
@@ -64,6 +77,12 @@ void print_edges(const SessionState& state) {
                s.id, held, report.edges.size(), report.free, s.current->size(), largest, s.unit);
     fmt::print("; largest edge gap {:.2g} {} (at {} points)\n", report.largest, s.unit, report.samples);
   });
+  for (const FollowedEdge& edge : state.followed) {
+    const auto angles = angles_at(state, edge.id);
+    if (!angles) continue;
+    fmt::print("  edge {} follows smoothly, with at most {:.2g} degrees between its tangent planes, {:.2g} as opened\n",
+               edge.id, in_degrees(angles->angle), in_degrees(angles->angle_before));
+  }
 }
 
 std::string edges_json(const SessionState& state) {
@@ -77,6 +96,10 @@ std::string edges_json(const SessionState& state) {
                        {"control_points", edge.held.points},
                        {"deviation", edge.deviation},
                        {"faces", edge.neighbours}});
+      const auto angles = edge.follows ? angles_at(state, edge.held.id) : std::nullopt;
+      if (!angles) continue;
+      edges.back()["angle"] = in_degrees(angles->angle);
+      edges.back()["angle_before"] = in_degrees(angles->angle_before);
     }
     list.push_back({{"surface", s.id},
                     {"net", report.net},

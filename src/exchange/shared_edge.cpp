@@ -21,6 +21,8 @@ using Eigen::Vector2d;
 
 constexpr double sampling_chord = 2e-3;  // of the edge in space, between samples
 constexpr int least_samples = 64;        // intervals
+constexpr double least_speed = 1e-5;     // of a derivative, as a share of the other one
+constexpr double least_sine = 1e-9;
 
 /// The surfaces of the faces at an edge. Errors: a face that cannot follow it.
 Expected<std::vector<std::size_t>> surfaces_at(const step::File::Data& data, const Reader& reader, std::uint32_t edge) {
@@ -72,6 +74,49 @@ void unwrap(Vector2d& at, const Vector2d& before, const ParameterSpace& space) {
   }
 }
 
+/// ∂S by the fractions of both directions.
+using Tangents = Eigen::Matrix<double, 3, 2>;
+
+Expected<Tangents> tangents_at(const Surface& surface, const Vector2d& foot) {
+  const auto u = parameters_at_foot(surface, foot);
+  Parameters<2> here(1, 2);
+  here << u[0], u[1];
+  const auto jet = evaluate<2>(surface, here, 1);
+  if (!jet) return std::unexpected(jet.error());
+  Tangents result;
+  result.col(0) = surface.knots(0).domain().length() * jet->at({1, 0}).row(0);
+  result.col(1) = surface.knots(1).domain().length() * jet->at({0, 1}).row(0);
+  return result;
+}
+
+Point normal_of(const Tangents& tangents) {
+  const double u = tangents.col(0).norm(), v = tangents.col(1).norm();
+  const Point n = tangents.col(0).cross(tangents.col(1));
+  if (!(std::min(u, v) > least_speed * std::max(u, v) && n.norm() > least_sine * u * v)) return Point::Zero();
+  return n.normalized();
+}
+
+/// What `Sample` says of the tangent planes, for a curve in the direction `along`.
+void look_across(std::span<const Surface> surfaces, const Point& along, SharedEdge::Sample& sample) {
+  std::vector<Tangents> tangents;
+  Point first = Point::Zero(), mean = Point::Zero();
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    const auto at = tangents_at(surfaces[k], sample.feet[k]);
+    const Point n = at ? normal_of(*at) : Point(Point::Zero());
+    if (n.isZero()) return;
+    if (k == 0) first = n;
+    sample.angle = std::max(sample.angle, angle_between_planes(first, n));
+    mean += first.dot(n) < 0 ? Point(-n) : n;
+    tangents.push_back(*at);
+  }
+  const Point across = mean.cross(along);
+  if (!(across.norm() > least_sine * mean.norm() * along.norm())) return;
+  for (const Tangents& t : tangents) {
+    const Eigen::Matrix2d gramian = t.transpose() * t;
+    sample.across.push_back(gramian.inverse() * (t.transpose() * across.normalized()));
+  }
+}
+
 void settle(LoopPoint& at, const LoopPoint& next) {
   for (std::size_t d = 0; d < 2; ++d) {
     if (!at.free[d] || next.free[d]) continue;
@@ -99,14 +144,15 @@ std::vector<double> sampled(const EdgePiece& piece) {
 struct SharedEdge::Data {
   std::string id;
   EdgePiece piece;
-  std::vector<std::string> surfaces;
-  std::vector<SurfaceFoot> feet;
-  std::vector<double> near;  // distances within which a foot is right
-  std::array<std::string, 2> vertices;
-  std::array<std::vector<std::string>, 2> edges_at;
-  std::vector<double> corners;
-  std::vector<Sample> samples;
-  double gap = 0, uncertainty = 0;
+  std::vector<std::string> surfaces = {};
+  std::vector<Surface> shapes = {};
+  std::vector<SurfaceFoot> feet = {};
+  std::vector<double> near = {};  // distances within which a foot is right
+  std::array<std::string, 2> vertices = {};
+  std::array<std::vector<std::string>, 2> edges_at = {};
+  std::vector<double> corners = {};
+  std::vector<Sample> samples = {};
+  double gap = 0, angle = 0, uncertainty = 0;
 
   /// The feet of all samples on the surface of this number.
   void follow(std::size_t surface) {
@@ -137,7 +183,7 @@ Expected<SharedEdge> SharedEdge::create(const step::File& file, const std::strin
   if (!surfaces) return std::unexpected(surfaces.error());
   auto piece = edge_piece(reader, *instance);
   if (!piece) return std::unexpected(piece.error());
-  auto made = std::make_shared<Data>(Data{id, *std::move(piece), {}, {}, {}, {}, {}, {}, {}, 0, 0});
+  auto made = std::make_shared<Data>(Data{.id = id, .piece = *std::move(piece)});
   const EdgePiece& own = made->piece;
   made->vertices = {name_of(reader, own.backwards ? own.end_vertex : own.start_vertex),
                     name_of(reader, own.backwards ? own.start_vertex : own.end_vertex)};
@@ -152,6 +198,7 @@ Expected<SharedEdge> SharedEdge::create(const step::File& file, const std::strin
     auto feet = SurfaceFoot::create(s.surface);
     if (!feet) return std::unexpected(feet.error());
     made->surfaces.push_back(s.id);
+    made->shapes.push_back(s.surface);
     made->feet.push_back(*std::move(feet));
     made->near.push_back(on_surface * net_diagonal(s.surface.control_points()));
     made->follow(made->feet.size() - 1);
@@ -160,6 +207,10 @@ Expected<SharedEdge> SharedEdge::create(const step::File& file, const std::strin
     if (found[0] >= 0) {
       made->uncertainty = std::max(made->uncertainty, contexts[static_cast<std::size_t>(found[0])].uncertainty);
     }
+  }
+  for (Sample& s : made->samples) {
+    look_across(made->shapes, own.curve.derivative(s.parameter), s);
+    made->angle = std::max(made->angle, s.angle);
   }
   return SharedEdge(std::move(made));
 }
@@ -180,6 +231,7 @@ SharedEdge::Sample SharedEdge::at(double parameter) const {
     unwrap(at.at, hint, d.feet[k].space());
     result.feet.push_back(at.at);
   }
+  look_across(d.shapes, d.piece.curve.derivative(parameter), result);
   return result;
 }
 
@@ -194,6 +246,7 @@ const std::array<std::vector<std::string>, 2>& SharedEdge::edges_at_vertices() c
 const std::vector<SharedEdge::Sample>& SharedEdge::samples() const { return data_->samples; }
 const std::vector<double>& SharedEdge::corners() const { return data_->corners; }
 double SharedEdge::gap() const { return data_->gap; }
+double SharedEdge::angle() const { return data_->angle; }
 double SharedEdge::uncertainty() const { return data_->uncertainty; }
 double SharedEdge::file_parameter(double parameter) const { return data_->piece.curve.file_parameter(parameter); }
 bool SharedEdge::turned() const { return data_->piece.curve.turned(); }
@@ -205,6 +258,16 @@ std::array<double, 2> parameters_at_foot(const Surface& surface, const Vector2d&
     if (at[d] < -touch || at[d] > 1 + touch) at[d] -= std::floor(at[d]);
   }
   return parameters_of(surface, at);
+}
+
+Expected<Point> normal_at_foot(const Surface& surface, const Vector2d& foot) {
+  const auto tangents = tangents_at(surface, foot);
+  if (!tangents) return std::unexpected(tangents.error());
+  return normal_of(*tangents);
+}
+
+double angle_between_planes(const Point& normal, const Point& other) {
+  return std::atan2(normal.cross(other).norm(), std::abs(normal.dot(other)));
 }
 
 Expected<Point> displacement_at(const Surface& before, const Surface& after, const Vector2d& foot) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "knead/spline/evaluate.hpp"
 
@@ -91,18 +92,24 @@ std::vector<FollowedInput> followed_inputs(const Scene& scene) {
   return result;
 }
 
-bool is_followed(const std::vector<FollowedInput>& followed, const Seam& seam) {
-  return std::ranges::any_of(followed, [&](const FollowedInput& edge) {
+const SharedEdge* followed_at(const std::vector<FollowedInput>& followed, const Seam& seam) {
+  const SharedEdge* result = nullptr;
+  for (const FollowedInput& edge : followed) {
     const auto has = [&](int patch) { return std::ranges::find(edge.patches, patch) != edge.patches.end(); };
-    return seam.a.patch != seam.b.patch && has(seam.a.patch) && has(seam.b.patch);
-  });
+    if (seam.a.patch == seam.b.patch || !has(seam.a.patch) || !has(seam.b.patch)) continue;
+    if (result == nullptr || is_smooth(*edge.course)) result = edge.course.get();
+  }
+  return result;
 }
+
+bool is_smooth(const SharedEdge& edge) { return edge.surfaces().size() > 1 && edge.angle() <= smooth_angle; }
 
 std::vector<CoupledEdge> coupled_edges(const std::vector<FollowedInput>& followed,
                                        std::span<const Surface* const> patches) {
   std::vector<CoupledEdge> result;
   for (const FollowedInput& edge : followed) {
     if (edge.patches.size() < 2) continue;
+    const bool smooth = is_smooth(*edge.course);
     CoupledEdge made{"edge " + edge.course->id(), {}};
     std::vector<const Surface*> surfaces;
     for (const int patch : edge.patches) surfaces.push_back(patches[static_cast<std::size_t>(patch)]);
@@ -112,11 +119,50 @@ std::vector<CoupledEdge> coupled_edges(const std::vector<FollowedInput>& followe
         point.emplace_back(edge.patches[k], parameters_at_foot(*surfaces[k], sample.feet[k]));
       }
       made.points.push_back(std::move(point));
+      if (!smooth) continue;
+      made.across.emplace_back();
+      for (std::size_t k = 0; k < sample.across.size(); ++k) {
+        const Interval u = surfaces[k]->knots(0).domain(), v = surfaces[k]->knots(1).domain();
+        made.across.back().emplace_back(u.length() * sample.across[k].x(), v.length() * sample.across[k].y());
+      }
     }
     result.push_back(std::move(made));
   }
   return result;
 }
+
+namespace {
+
+/// Notes the angles between the tangent planes of shapes at a sample, of which the neighbour gives the edge's
+/// direction.
+Expected<void> look_for_kink(std::span<const Surface* const> now, const Sample& sample, const Sample& next,
+                             double may_bend, Parting& parting) {
+  const auto first = normal_at_foot(*now[0], sample.feet[0]);
+  if (!first) return std::unexpected(first.error());
+  if (first->isZero() || sample.across.empty()) return {};
+  const auto here = evaluate_point<2>(*now[0], parameters_at_foot(*now[0], sample.feet[0]));
+  if (!here) return std::unexpected(here.error());
+  const auto there = evaluate_point<2>(*now[0], parameters_at_foot(*now[0], next.feet[0]));
+  if (!there) return std::unexpected(there.error());
+  const Point along = (*there - *here).normalized();
+  const double asked = may_bend + 2 * sample.angle;
+  for (std::size_t k = 1; k < now.size(); ++k) {
+    const auto n = normal_at_foot(*now[k], sample.feet[k]);
+    if (!n) return std::unexpected(n.error());
+    if (n->isZero()) continue;
+    const double angle = angle_between_planes(*first, *n);
+    // Derivatives across that differ turn a plane about the edge; those along it, about what is perpendicular to it.
+    const double share = std::min(1.0, std::abs(first->cross(*n).normalized().dot(along)));
+    parting.kink_across = std::max(parting.kink_across, share * angle / asked);
+    parting.kink_along = std::max(parting.kink_along, std::sqrt(1 - share * share) * angle / asked);
+    if (angle <= parting.angle) continue;
+    parting.angle = angle;
+    parting.kink_place = sample.point;
+  }
+  return {};
+}
+
+}  // namespace
 
 Expected<Parting> parting(const Scene& scene, const SharedEdge& edge) {
   Parting result;
@@ -127,15 +173,24 @@ Expected<Parting> parting(const Scene& scene, const SharedEdge& edge) {
     then.push_back(s->opened.get());
   }
   result.tolerance = tolerance_of(scene, edge);
-  for (const Sample& sample : fine_samples(edge, now, measured_per_span)) {
+  result.angle_before = edge.angle();
+  const std::vector<Sample> samples = fine_samples(edge, now, measured_per_span);
+  for (std::size_t at = 0; at < samples.size(); ++at) {
+    const Sample& sample = samples[at];
     Point first = Point::Zero();
     for (std::size_t k = 0; k < now.size(); ++k) {
       const auto way = displacement_at(*then[k], *now[k], sample.feet[k]);
       if (!way) return std::unexpected(way.error());
       if (k == 0) first = *way;
       const double distance = (*way - first).norm();
-      if (distance > result.distance) result = {distance, result.tolerance, sample.point};
+      if (distance <= result.distance) continue;
+      result.distance = distance;
+      result.place = sample.point;
     }
+    if (!is_smooth(edge)) continue;
+    const Sample& next = samples[at + 1 < samples.size() ? at + 1 : at - 1];
+    if (auto looked = look_for_kink(now, sample, next, scene.bend, result); !looked)
+      return std::unexpected(looked.error());
   }
   return result;
 }

@@ -12,6 +12,9 @@
 namespace knead {
 namespace {
 
+constexpr double exact_ratio = 1e-7;  // radians that derivatives at a seam may be off a fixed ratio
+constexpr SeamOptions along_edges{.rigid = false}, along_smooth_edges{.angle = exact_ratio, .rigid = false};
+
 double detail_of(const std::vector<Tool>& tools) {
   double detail = 0;
   for (const Tool& t : tools) {
@@ -128,12 +131,15 @@ Expected<SceneModel> make_model(ModelInput input) {
   if (input.seams.couple) {
     const auto found = seams_between(input.seams, pointers);
     if (!found) return std::unexpected(found.error());
-    for (const bool followed : {false, true}) {
-      // Along edges that follow, seams that would move stiffly as a whole are left to the coupling of these edges.
+    for (const SeamOptions& options : {SeamOptions{}, along_edges, along_smooth_edges}) {
+      // Along edges that follow, seams that would move stiffly as a whole are left to the coupling of these edges, and
+      // where these are smooth, tangent planes at a ratio that is not the same everywhere.
       std::vector<Seam> seams;
-      std::ranges::copy_if(found->seams, std::back_inserter(seams),
-                           [&](const Seam& s) { return is_followed(input.followed, s) == followed; });
-      auto coupled = couple_seams(pointers, *rows, seams, {.rigid = !followed});
+      std::ranges::copy_if(found->seams, std::back_inserter(seams), [&](const Seam& s) {
+        const auto edge = followed_at(input.followed, s);
+        return options.rigid ? edge == nullptr : edge != nullptr && is_smooth(*edge) == (options.angle == exact_ratio);
+      });
+      auto coupled = couple_seams(pointers, *rows, seams, options);
       if (!coupled) return std::unexpected(coupled.error());
       settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
       reports.insert(reports.end(), coupled->reports.begin(), coupled->reports.end());

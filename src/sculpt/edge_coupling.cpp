@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "constraint_rows.hpp"
 #include "solve/constraint_space.hpp"
@@ -14,34 +15,56 @@ namespace {
 
 using detail::Terms;
 
-/// R of one patch at its parameters, in unknowns of all patches, times a sign.
-Expected<void> add_row(std::span<const Surface* const> patches, std::span<const int> rows, int patch,
-                       const std::array<double, 2>& at, double sign, Terms& terms) {
-  const Surface& s = *patches[static_cast<std::size_t>(patch)];
+struct Patches {
+  std::span<const Surface* const> all;
+  std::span<const int> rows;
+};
+
+/// R of one patch at its parameters, or its derivative in a direction, in unknowns of all patches, times a sign.
+Expected<void> add_row(const Patches& patches, const SharedPoint::value_type& place,
+                       const std::optional<Eigen::Vector2d>& across, double sign, Terms& terms) {
+  const auto& [patch, at] = place;
+  const Surface& s = *patches.all[static_cast<std::size_t>(patch)];
   for (int d = 0; d < 2; ++d) {
     auto inside = detail::check_parameter(s.knots(d), at[static_cast<std::size_t>(d)], d == 0 ? "u" : "v");
     if (!inside) return inside;
   }
-  const auto row = detail::rational_row(s, at[0], at[1], s.knots(0).find_span(at[0]), s.knots(1).find_span(at[1]));
-  if (!row) return std::unexpected(row.error());
-  for (const auto& [unknown, c] : *row) {
-    if (c != 0) terms.emplace_back(rows[static_cast<std::size_t>(patch)] + unknown, sign * c);
+  const int first = patches.rows[static_cast<std::size_t>(patch)];
+  for (int along = across ? 0 : -1; along < (across ? 2 : 0); ++along) {
+    const double share = across ? sign * (*across)[along] : sign;
+    const auto row =
+        detail::rational_row(s, at[0], at[1], s.knots(0).find_span(at[0]), s.knots(1).find_span(at[1]), along);
+    if (!row) return std::unexpected(row.error());
+    for (const auto& [unknown, c] : *row) {
+      if (share * c != 0) terms.emplace_back(first + unknown, share * c);
+    }
   }
   return {};
 }
 
-Expected<std::vector<Terms>> conditions(std::span<const Surface* const> patches, std::span<const int> rows,
-                                        const CoupledEdge& edge) {
+/// The conditions on positions at the points of an edge, or those on derivatives.
+Expected<std::vector<Terms>> conditions(const Patches& patches, const CoupledEdge& edge, bool derivatives) {
   std::vector<Terms> result;
-  for (const SharedPoint& point : edge.points) {
+  for (std::size_t p = 0; p < edge.points.size(); ++p) {
+    const SharedPoint& point = edge.points[p];
+    if (derivatives && edge.across[p].empty()) continue;
     for (std::size_t k = 1; k < point.size(); ++k) {
       Terms terms;
       for (const std::size_t side : {std::size_t{0}, k}) {
-        auto added = add_row(patches, rows, point[side].first, point[side].second, side == 0 ? 1 : -1, terms);
+        const auto across = derivatives ? std::optional(edge.across[p][side]) : std::nullopt;
+        auto added = add_row(patches, point[side], across, side == 0 ? 1 : -1, terms);
         if (!added) return std::unexpected(added.error().within(edge.name));
       }
       result.push_back(std::move(terms));
     }
+  }
+  if (!derivatives) return result;
+  double largest = 0;
+  for (const Terms& terms : result) {
+    for (const auto& [unknown, c] : terms) largest = std::max(largest, std::abs(c));
+  }
+  for (Terms& terms : result) {
+    for (auto& [unknown, c] : terms) c /= largest;
   }
   return result;
 }
@@ -85,23 +108,30 @@ LinearConstraint constraint_of(const std::string& name, const Terms& terms) {
 
 Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches, std::span<const int> rows,
                                     std::span<const CoupledEdge> edges, std::span<const LinearConstraint> before,
-                                    const std::vector<bool>& held, double tolerance) {
-  if (!(tolerance > 0 && tolerance <= 1)) {
-    return input_error(fmt::format("{} is not a tolerance", tolerance), "tolerance", "use a number above 0, up to 1");
+                                    const std::vector<bool>& held, const CouplingTolerance& tolerance) {
+  for (const double t : {tolerance.position, tolerance.tangent}) {
+    if (t > 0 && t <= 1) continue;
+    return input_error(fmt::format("{} is not a tolerance", t), "tolerance", "use a number above 0, up to 1");
   }
   EdgeCoupling result;
   std::vector<LinearConstraint> all(before.begin(), before.end());
-  for (const CoupledEdge& edge : edges) {
-    const auto given = conditions(patches, rows, edge);
+  const auto couple = [&](const CoupledEdge& edge, bool derivatives, double to) -> Expected<void> {
+    const auto given = conditions({patches, rows}, edge, derivatives);
     if (!given) return std::unexpected(given.error());
     const auto space = ConstraintSpace::create(rows.back(), all, held);
     if (!space) return std::unexpected(space.error());
-    const detail::SelectedRows selected = detail::select_rows(reduced(*space, *given), tolerance);
-    result.bound = std::max(result.bound, selected.remainder);
+    const detail::SelectedRows selected = detail::select_rows(reduced(*space, *given), to);
+    if (!derivatives) result.bound = std::max(result.bound, selected.remainder);
     for (const int k : selected.chosen) {
       result.constraints.push_back(constraint_of(edge.name, (*given)[static_cast<std::size_t>(k)]));
       all.push_back(result.constraints.back());
     }
+    return {};
+  };
+  for (const CoupledEdge& edge : edges) {
+    if (auto done = couple(edge, false, tolerance.position); !done) return std::unexpected(done.error());
+    if (edge.across.empty()) continue;
+    if (auto done = couple(edge, true, tolerance.tangent); !done) return std::unexpected(done.error());
   }
   return result;
 }

@@ -106,6 +106,8 @@ struct Executor {
   const Surface* document_surface(const SceneSurface& surface) const;
   /// Makes `visible` known of all selected surfaces of which edges of faces are held.
   Expected<void> know_trims();
+  /// Unites the knots of faces at edges that follow, where refining is permitted.
+  Expected<void> unite_followed();
   /// Makes an edge of faces one that may follow them. Errors (input): a face at it that cannot follow, or lies on a
   /// surface that is not selected, each named with what to do.
   Expected<void> follow_edge(const std::string& id);
@@ -127,9 +129,26 @@ struct Executor {
   Expected<void> prepare_model(const EvolutionPolicy& evolution);
   Expected<ActiveStep> one_step(const std::vector<PointForce>& more, double& seconds);
   Expected<void> take(const ActiveStep& step);
-  /// Takes a step if edges that follow stay closed; otherwise couples them more tightly, and returns false: the step
-  /// must be made again. Errors: they cannot be coupled more tightly; those of `check_followed`.
-  Expected<bool> take_together(const ActiveStep& step);
+  /// The same motion, made again and again with edges coupled more tightly.
+  struct Attempts {
+    struct Best {
+      std::vector<SceneSurface> surfaces;
+      CouplingTolerance coupling;
+      std::vector<Point> motion;  ///< of points of the edges, in the first one that could be accepted
+    };
+    std::vector<std::shared_ptr<const Surface>> before;  ///< of each surface of the scene
+    std::optional<Best> best = {};                       ///< the tightest that could be accepted
+  };
+  [[nodiscard]] Attempts attempts() const;
+  /// Whether the surfaces may stay as they are: edges that follow are closed, and as smooth as asked. If not, couples
+  /// them more tightly and returns false: what moved the surfaces must be made again. Where that would keep the edges
+  /// from moving, the tightest attempt that could be accepted is taken. What cannot be is left to `check_followed`.
+  Expected<bool> together(Attempts& attempts);
+  Expected<void> append_motion(const SharedEdge& edge, std::span<const std::shared_ptr<const Surface>> before,
+                               std::vector<Point>& to) const;
+  /// Takes a step unless `together` says that it must be made again; returns whether it was taken. Errors: those of
+  /// `check_followed`.
+  Expected<bool> take_together(const ActiveStep& step, Attempts& attempts);
   /// Refines a surface around a place that may lie this far from the nearest held edge.
   Expected<void> refine_round(SceneSurface& s, const TrimContact& contact, double size);
   /// Refines the faces at edges that follow: what is under a tool on one side, on the others too.
@@ -151,9 +170,11 @@ struct Executor {
   Expected<bool> refine_stroke(const ActiveStep* step);
   Expected<void> press_along(const std::vector<Point>& places);
   Expected<void> show_stroke(bool down);
+  Expected<void> show_remembered(bool down);
   Expected<void> refine_for_brush(const std::vector<Fractions>& places);
   Expected<void> prepare_brush_model();
   Expected<void> start_brush_run();
+  Expected<void> lead_brush();
   Expected<Points> brushed();
   Expected<void> show_mask();
   /// The displacement of control points as the masks of the selected surfaces lessen it.

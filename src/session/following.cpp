@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "command_fields.hpp"
 #include "knead/exchange/shared_edge.hpp"
@@ -12,8 +13,9 @@ namespace knead {
 namespace {
 
 constexpr double least_coupling = 1e-9;
-constexpr double fine_coupling = 1e-3;
-constexpr double tighter = 0.25, much_tighter = 0.03;  // above and below that
+constexpr double tighter = 0.4, much_tighter = 0.03, half = 0.5;
+constexpr double least_share =
+    0.9;  // of their motion that edges keep when they are coupled more tightly than they must
 
 Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, const std::string& id) {
   if (document.step_file() == nullptr) return input_error("only edges of faces in a STEP file can follow", id);
@@ -21,6 +23,26 @@ Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, 
   if (!edge) return std::unexpected(edge.error());
   return std::make_shared<const SharedEdge>(std::move(*edge));
 }
+
+/// What exceeds its tolerance so many times is about proportional to the coupling.
+void tighten(double& coupling, double excess) {
+  coupling = std::max(least_coupling, coupling * std::clamp(half / excess, much_tighter, tighter));
+}
+
+/// How much of a motion another one still is: the factor of the first that comes nearest to it.
+double share_of(const std::vector<Point>& first, const std::vector<Point>& other) {
+  double product = 0, square = 0;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    product += first[k].dot(other[k]);
+    square += first[k].squaredNorm();
+  }
+  return square > 0 ? product / square : 1;
+}
+
+/// The angle up to which faces may meet at a smooth edge.
+double accepted_bend(const Parting& parting) { return std::max(accepted_angle, 2 * parting.angle_before); }
+
+double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 std::string list_of(const std::vector<std::string>& ids) {
   std::string text;
@@ -64,6 +86,12 @@ Expected<void> Executor::know_followed() {
   return {};
 }
 
+Expected<void> Executor::unite_followed() {
+  if (auto known = know_followed(); !known) return known;
+  if (state.permission == RefinePermission::never || followed_inputs(state).empty()) return {};
+  return refine_seams(true);
+}
+
 Expected<void> Executor::check_followed(const Scene& before) {
   for (const FollowedEdge& edge : state.followed) {
     if (!edge.course) continue;
@@ -85,6 +113,14 @@ Expected<void> Executor::check_followed(const Scene& before) {
                       edge.id, apart->distance, p.x(), p.y(), p.z(), apart->tolerance),
           "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it)");
     }
+    if (apart->angle > accepted_bend(*apart)) {
+      const Point& p = apart->kink_place;
+      return numerical_error(
+          fmt::format("the faces at the smooth edge {} would meet at {:.2g} degrees at ({:.6g}, {:.6g}, {:.6g}), more "
+                      "than the {:.2g} that are accepted; this was refused",
+                      edge.id, in_degrees(apart->angle), p.x(), p.y(), p.z(), in_degrees(accepted_bend(*apart))),
+          "edge", R"(refine the surfaces near the edge with {"do":"refine"}, move it less, or hold it "clamped")");
+    }
     const auto stuck = stuck_vertex(state, *edge.course);
     if (!stuck) return std::unexpected(stuck.error());
     if (*stuck) {
@@ -96,27 +132,73 @@ Expected<void> Executor::check_followed(const Scene& before) {
   return {};
 }
 
-Expected<bool> Executor::take_together(const ActiveStep& step) {
-  const std::vector<FollowedInput> followed = followed_inputs(state);
-  if (followed.empty()) {
-    if (auto taken = take(step); !taken) return std::unexpected(taken.error());
-    return true;
-  }
-  const Scene before = state;
-  if (auto taken = take(step); !taken) return std::unexpected(taken.error());
-  double excess = 0;
-  for (const FollowedInput& edge : followed) {
+Executor::Attempts Executor::attempts() const {
+  Attempts result;
+  for (const SceneSurface& s : state.surfaces) result.before.push_back(s.current);
+  return result;
+}
+
+Expected<bool> Executor::together(Attempts& attempts) {
+  double excess = 0, across = 0, along = 0, angle = 0;
+  std::vector<Point> motion;
+  for (const FollowedInput& edge : followed_inputs(state)) {
     const auto apart = parting(state, *edge.course);
     if (!apart) return std::unexpected(apart.error());
     excess = std::max(excess, apart->distance / apart->tolerance);
+    angle = std::max(angle, apart->angle / accepted_bend(*apart));
+    across = std::max(across, apart->kink_across);
+    along = std::max(along, apart->kink_along);
+    if (auto moved = append_motion(*edge.course, attempts.before, motion); !moved) {
+      return std::unexpected(moved.error());
+    }
   }
-  if (excess <= 1 || state.coupling <= least_coupling) {
-    if (auto closed = check_followed(before); !closed) return std::unexpected(closed.error());
+  auto& [before, best] = attempts;
+  if (best &&
+      share_of(best->motion, motion) < least_share) {  // what is asked for would take the freedom that the edges have
+    state.surfaces = std::move(best->surfaces);
+    state.coupling = best->coupling;
+    state.bend = accepted_angle;
+    state.notes.push_back(fmt::format(
+        "smooth edges that follow may open by up to {:.2g} degrees from here on: within the {:.2g} that are "
+        "asked for they could hardly move; finer nets beside them would help, {{\"do\":\"refine\"}}",
+        in_degrees(accepted_angle), in_degrees(asked_angle)));
     return true;
   }
-  state.surfaces = before.surfaces;
-  state.coupling = std::max(least_coupling, state.coupling * (state.coupling > fine_coupling ? tighter : much_tighter));
-  return false;
+  const CouplingTolerance was = state.coupling;
+  if (excess <= 1 && angle <= 1) {
+    if (state.bend > asked_angle) return true;
+    best = {state.surfaces, was, best ? std::move(best->motion) : std::move(motion)};
+  }
+  if (std::max(excess, along) > 1) tighten(state.coupling.position, std::max(excess, along));
+  if (across > 1) tighten(state.coupling.tangent, across);
+  return state.coupling == was;
+}
+
+/// By how much points of an edge moved, on its first surface.
+Expected<void> Executor::append_motion(const SharedEdge& edge, std::span<const std::shared_ptr<const Surface>> before,
+                                       std::vector<Point>& to) const {
+  const auto index = find_surface(edge.surfaces().front());
+  if (!index) return std::unexpected(index.error());
+  const auto k = static_cast<std::size_t>(*index);
+  for (const SharedEdge::Sample& sample : edge.samples()) {
+    const auto way = displacement_at(*before[k], *state.surfaces[k].current, sample.feet.front());
+    if (!way) return std::unexpected(way.error());
+    to.push_back(*way);
+  }
+  return {};
+}
+
+Expected<bool> Executor::take_together(const ActiveStep& step, Attempts& attempts) {
+  const Scene before = state;
+  if (auto taken = take(step); !taken) return std::unexpected(taken.error());
+  const auto closed = together(attempts);
+  if (!closed) return closed;
+  if (!*closed) {
+    state.surfaces = before.surfaces;
+    return false;
+  }
+  if (auto checked = check_followed(before); !checked) return std::unexpected(checked.error());
+  return true;
 }
 
 Expected<void> Executor::refine_followed(const SceneSurface& touched, const TrimContact& contact, double size) {

@@ -75,7 +75,7 @@ Expected<void> Executor::refine_seams(bool followed) {
   std::vector<Seam> whole;
   const auto edges = followed_inputs(state);
   std::ranges::copy_if(found->seams, std::back_inserter(whole), [&](const Seam& s) {
-    return s.kind == SeamKind::whole && (!followed || is_followed(edges, s));
+    return s.kind == SeamKind::whole && (!followed || followed_at(edges, s) != nullptr);
   });
   for (const SeamRefinement& r : seam_refinements(patches, whole)) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[static_cast<std::size_t>(r.patch)])];

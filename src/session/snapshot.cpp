@@ -11,9 +11,10 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-/// Of version 1, 2 and 3: without probes, open strokes and their results; without brushes, masks and edges that follow;
-/// the present one.
-constexpr std::array<std::string_view, 3> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n"};
+/// Of versions 1 to 4: without probes, open strokes and their results; without brushes, masks and edges that follow;
+/// without their tangent planes; the present one.
+constexpr std::array<std::string_view, 4> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
+                                                    "Knead snapshot 4\n"};
 constexpr std::string_view magic = magics.back();
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.
@@ -58,7 +59,7 @@ struct Neighbour {
 
 void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-               followed, coupling, stroke, brush] = static_cast<const Scene&>(state);
+               followed, coupling, bend, stroke, brush] = static_cast<const Scene&>(state);
   const auto& [steps, seam_reports, notes, energy_before] = static_cast<const SessionRecord&>(state);
   archive::optional(a, selected);
   list(a, together);
@@ -87,8 +88,10 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   archive::optional(a, stroke);
   a.count(followed.size());
   for (const FollowedEdge& edge : followed) a.text(edge.id);
-  a.number(coupling);
+  a.number(coupling.position);
   archive::optional(a, brush);
+  a.number(coupling.tangent);
+  a.number(bend);
   std::size_t shared = 0;
   if (before.steps != nullptr) {
     const std::size_t most = std::min(steps.size(), before.steps->size());
@@ -141,7 +144,7 @@ bool fits(const OpenBrush& brush, const Scene& scene) {
 /// Reads a state into one that starts as a copy of the previous one.
 void read_state(Reader& a, SessionState& state) {
   auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-         followed, coupling, stroke, brush] = static_cast<Scene&>(state);
+         followed, coupling, bend, stroke, brush] = static_cast<Scene&>(state);
   auto& [steps, seam_reports, notes, energy_before] = static_cast<SessionRecord&>(state);
   selected.reset();
   archive::optional(a, selected);
@@ -186,9 +189,17 @@ void read_state(Reader& a, SessionState& state) {
   if (a.version() > 2) {
     followed.resize(a.length(4));
     for (FollowedEdge& edge : followed) a.text(edge.id);
-    a.number(coupling);
-    if (!(coupling > 0 && coupling <= 1)) a.fail();
+    a.number(coupling.position);
     archive::optional(a, brush);
+  }
+  bend = asked_angle;
+  if (a.version() > 3) {
+    a.number(coupling.tangent);
+    a.number(bend);
+    if (!(bend >= asked_angle && bend <= accepted_angle)) a.fail();
+  }
+  for (const double t : {coupling.position, coupling.tangent}) {
+    if (!(t > 0 && t <= 1)) a.fail();
   }
   std::size_t shared = 0;
   a.count(shared);

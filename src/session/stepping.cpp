@@ -44,11 +44,9 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     if (auto refined = refine_seams(); !refined) return refined;
   }
   if (auto refined = refine_trims(); !refined) return refined;
-  if (auto known = know_followed(); !known) return known;
-  if (state.permission != RefinePermission::never && !followed_inputs(state).empty()) {
-    if (auto refined = refine_seams(true); !refined) return refined;
-  }
+  if (auto united = unite_followed(); !united) return united;
   int refinements = 0, stepped = 0;
+  std::optional<Attempts> tried;
   while (stepped < count) {
     if (auto made = prepare_model(evolution); !made) return made;
     double seconds = 0;
@@ -73,9 +71,11 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
       if (holds_edges()) return std::unexpected(error);
       note = error.what + "; " + error.remedy;  // requested, row by row or point by point: reported, not refused
     }
-    const auto taken = take_together(*step);
+    if (!tried) tried = attempts();
+    const auto taken = take_together(*step, *tried);
     if (!taken) return std::unexpected(taken.error());
     if (!*taken) continue;
+    tried.reset();
     if (auto sound = check_folds(); !sound) return sound;
     record(*step, seconds, std::move(note));
     ++stepped;

@@ -30,6 +30,30 @@ TEST(RealFiles, KeepEveryByteUnderAnEmptyScript) {
   }
 }
 
+TEST(RealFiles, TheReportHasTheAnglesAtASmoothEdgeThatFollows) {
+  const std::string file = std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad/NIST_MBE_PMI_5.stp";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no collection of CAD files beside the project";
+  const Workshop workshop;
+  const std::string out = workshop / "out.step", report = workshop / "report.json";
+  const Json commands = {command("select", {{"surfaces", {"#2649", "#2692"}}}), command("hold", {{"mode", "trim"}}),
+                         command("edge", {{"which", "#1831"}, {"hold", "follow"}}), command("step")};
+  const Outcome run = knead({"sculpt", file, "-o", out, "--script", workshop.script(commands), "--report", report});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("edge #1831 follows smoothly"), std::string::npos) << run.out;
+  int found = 0;
+  const Json result = Json::parse(content_of(report));
+  for (const Json& surface : result.at("edges")) {
+    for (const Json& edge : surface.at("edges")) {
+      EXPECT_EQ(edge.contains("angle"), edge.at("id") == "#1831");
+      if (!edge.contains("angle")) continue;
+      ++found;
+      EXPECT_LT(edge.at("angle_before").get<double>(), 1e-9);
+      EXPECT_LT(edge.at("angle").get<double>(), 1e-3);
+    }
+  }
+  EXPECT_EQ(found, 2) << "once for each surface";
+}
+
 TEST(RealFiles, TakeADentInTheirFirstSurface) {
   const std::vector<std::string> files = step_files();
   if (files.empty()) GTEST_SKIP() << "no collection of CAD files beside the project";

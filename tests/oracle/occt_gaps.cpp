@@ -31,6 +31,7 @@
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -47,9 +48,9 @@ SurfaceHandle surface_of(const TopoDS_Face& face) {
   return surface;
 }
 
-/// Distance of a point from a surface: by Levenberg and Marquardt's iteration from (u, v), or by Open CASCADE's own
-/// search where that ends farther than `wanted`.
-double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, double wanted) {
+/// Distance of a point from a surface: by Levenberg and Marquardt's iteration from (u, v), which ends at the foot, or
+/// by Open CASCADE's own search where that ends farther than `wanted`.
+double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, double wanted, gp_Pnt2d* foot = nullptr) {
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   surface->Bounds(u0, u1, v0, v1);
   const auto clamped = [&](double& u, double& v) {
@@ -90,11 +91,14 @@ double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, doub
     damping = std::max(0.2 * damping, 1e-12);
     if (done) break;
   }
+  if (foot != nullptr) *foot = gp_Pnt2d(u, v);
   if (best <= wanted) return best;
   try {
     ShapeAnalysis_Surface analysis(surface);
     const gp_Pnt2d found = analysis.ValueOfUV(p, 1e-9);
-    best = std::min(best, p.Distance(surface->Value(found.X(), found.Y())));
+    const double other = p.Distance(surface->Value(found.X(), found.Y()));
+    if (foot != nullptr && other < best) *foot = found;
+    best = std::min(best, other);
   } catch (Standard_Failure&) {
   }
   return best;
@@ -247,6 +251,40 @@ std::vector<OcctEdge> OcctFaces::edges(const std::string& surface, const OcctFac
         measured.smooth = is_smooth(edge, face, data_->around.FindFromIndex(k));
       }
       result.push_back(measured);
+    });
+  }
+  return result;
+}
+
+std::vector<OcctCrease> OcctFaces::creases(const std::string& surface, const std::string& other) const {
+  constexpr int samples = 200;
+  std::vector<OcctCrease> result;
+  const auto faces = data_->on.find(surface), others = data_->on.find(other);
+  if (faces == data_->on.end() || others == data_->on.end()) return result;
+  for (const TopoDS_Face& face : faces->second) {
+    for_each_of(face, TopAbs_EDGE, [&](const TopoDS_Shape& shape) {
+      const TopoDS_Edge& edge = TopoDS::Edge(shape);
+      double f = 0, l = 0, f2 = 0, l2 = 0, f3 = 0, l3 = 0;
+      TopLoc_Location location;
+      const auto curve = BRep_Tool::Curve(edge, location, f, l);
+      const auto flat = BRep_Tool::CurveOnSurface(edge, face, f2, l2);
+      if (BRep_Tool::Degenerated(edge) || curve.IsNull() || flat.IsNull()) return;
+      for (const TopoDS_Face& next : others->second) {
+        const auto theirs = BRep_Tool::CurveOnSurface(edge, next, f3, l3);
+        if (theirs.IsNull()) continue;
+        OcctCrease& made = result.emplace_back();
+        for (int k = 0; k <= samples; ++k) {
+          const double share = static_cast<double>(k) / samples;
+          const gp_Pnt p = curve->Value(f + (l - f) * share).Transformed(location.Transformation());
+          gp_Pnt2d a = flat->Value(f2 + (l2 - f2) * share), b = theirs->Value(f3 + (l3 - f3) * share);
+          constexpr double any = std::numeric_limits<double>::infinity();
+          distance(surface_of(face), p, a, any, &a);
+          distance(surface_of(next), p, b, any, &b);
+          const double angle = degrees_between(normal_at(surface_of(face), a), normal_at(surface_of(next), b));
+          made.points.emplace_back(p.X(), p.Y(), p.Z());
+          made.angle = std::max(made.angle, std::min(angle, 180 - angle));
+        }
+      }
     });
   }
   return result;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "knead/spline/spline.hpp"
+
 namespace knead::oracle {
 
 /// One edge of a face: how far its curve in space is from a surface, lengths in mm.
@@ -15,6 +17,12 @@ struct OcctEdge {
   double turn = 0;       ///< largest angle between the normals of two surfaces along the edge, degrees; 0 with one
   bool smooth = false;   ///< another face meets there with the same tangent planes, to 0.1 degrees
   double ends = 0;       ///< largest distance of the ends of its curve from its vertices
+};
+
+/// An edge at which the faces on two surfaces meet.
+struct OcctCrease {
+  std::vector<Point> points;  ///< 201 of them along it, mm
+  double angle = 0;           ///< the largest between the tangent planes of both at the feet of these, degrees
 };
 
 /// The faces of a file that lie on B-spline surfaces, ready for measuring.
@@ -31,6 +39,8 @@ class OcctFaces {
   /// The edges of all faces on a surface of this file, in order, against that surface as it is in `after`: their
   /// distance from it, and the angle by which its normals turned. Empty: there is no such face in one of the two.
   [[nodiscard]] std::vector<OcctEdge> edges(const std::string& surface, const OcctFaces& after) const;
+  /// The edges that the faces on two surfaces have in common, in order.
+  [[nodiscard]] std::vector<OcctCrease> creases(const std::string& surface, const std::string& other) const;
   /// max |S_after − S| at a grid of 41 × 41 points of the surface that its faces show, and at those they do not.
   struct Moved {
     double visible = 0, hidden = 0;

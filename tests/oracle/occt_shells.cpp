@@ -79,7 +79,7 @@ TopoDS_Face whole(const opencascade::handle<Geom_BSplineSurface>& surface) {
   return BRepBuilderAPI_MakeFace(surface, 1e-7);
 }
 
-/// The part of a flat surface inside a polygon.
+/// The part of a surface inside a polygon, whose corners are given by their x and y.
 TopoDS_Face part(const opencascade::handle<Geom_BSplineSurface>& surface, const std::vector<gp_Pnt>& corners) {
   const gp_Pnt lower = surface->Pole(1, 1), upper = surface->Pole(surface->NbUPoles(), surface->NbVPoles());
   const auto at = [&](const gp_Pnt& p) {
@@ -111,13 +111,36 @@ std::vector<TopoDS_Face> faces_of(const std::string& name) {
     return {part(sheet(-20, 90, -10, 110, 8, 9, flat, even), {gp_Pnt(0, 0, 0), a, b, gp_Pnt(0, side, 0)}),
             part(sheet(20, 130, -15, 120, 7, 10, flat, even), {a, gp_Pnt(side, 0, 0), gp_Pnt(side, side, 0), b})};
   }
+  if (name == "curved") {  // one wavy surface, on another net for the second face
+    const gp_Pnt a(40, 0, 0), b(60, side, 0);
+    const auto shape = sheet(-20, 120, -10, 110, 10, 9, wavy, even),
+               finer = sheet(-20, 120, -10, 110, 10, 9, wavy, even);
+    TColStd_Array1OfReal more(1, 4);
+    for (int k = 1; k <= 4; ++k) more.SetValue(k, 0.23 * k);
+    TColStd_Array1OfInteger once(1, 4);
+    once.Init(1);
+    finer->InsertUKnots(more, once);
+    finer->InsertVKnots(more, once);
+    return {part(shape, {gp_Pnt(0, 0, 0), a, b, gp_Pnt(0, side, 0)}),
+            part(finer, {a, gp_Pnt(side, 0, 0), gp_Pnt(side, side, 0), b})};
+  }
+  if (name == "strips") {  // a chain of three
+    return {whole(sheet(0, 35, 0, side, 5, 8, flat, even)), whole(sheet(35, 65, 0, side, 4, 10, flat, uneven)),
+            whole(sheet(65, side, 0, side, 6, 7, flat, even))};
+  }
+  if (name == "smooth_corner") {
+    return {whole(sheet(0, 50, 0, 50, 5, 5, flat, even)), whole(sheet(50, side, 0, 50, 6, 7, flat, uneven)),
+            whole(sheet(0, 50, 50, side, 5, 6, flat, even)), whole(sheet(50, side, 50, side, 6, 8, flat, uneven))};
+  }
   return {whole(sheet(0, 50, 0, 50, 5, 5, wavy, even)), whole(sheet(50, side, 0, 50, 5, 5, wavy, even)),
           whole(sheet(0, 50, 50, side, 5, 5, wavy, even)), whole(sheet(50, side, 50, side, 5, 5, wavy, even))};
 }
 
 }  // namespace
 
-std::vector<std::string> occt_shell_names() { return {"matching", "other_parameters", "inside", "corner"}; }
+std::vector<std::string> occt_shell_names() {
+  return {"matching", "other_parameters", "inside", "curved", "strips", "corner", "smooth_corner"};
+}
 
 bool occt_write_shell(const std::string& name, const std::filesystem::path& path) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));

@@ -10,7 +10,9 @@ namespace knead::oracle {
 ///
 /// "matching": two faces with equal knots along their edge. "other_parameters": the edge is a straight line, through
 /// which the two surfaces run at different speeds and with other knots. "inside": the edge crosses the inside of both
-/// surfaces askew. "corner": four faces around a vertex.
+/// surfaces askew. "curved": so does one of two faces on the same wavy shape, with other knots. "strips": three faces
+/// in a row, with other knots and parametrisations. "corner": four faces around a vertex. "smooth_corner": four with
+/// other knots and parametrisations, in one plane.
 [[nodiscard]] std::vector<std::string> occt_shell_names();
 
 /// Writes one of them as a STEP file in millimetres.

@@ -67,10 +67,69 @@ double largest_parting(const Pair& pair, const EdgeCoupling& coupling, const Cou
   return largest;
 }
 
+/// A curve that is the same in space for both sheets, the second from x = 1 on, or from 0.5 on if it runs inside; with
+/// directions that are one vector there, that of x.
+CoupledEdge smooth_edge(int count, bool inside) {
+  CoupledEdge result = edge(count, inside);
+  for (SharedPoint& point : result.points) {
+    const auto [u, v] = point[0].second;
+    point[1].second = {inside ? u - 0.5 : 0, v};
+  }
+  result.across.assign(result.points.size(), {{1, 0}, {1, 0}});
+  return result;
+}
+
+/// The largest angle between normals at the points of the curve, and the largest turn of a normal, in feasible
+/// displacements by up to 0.3, along all axes, of sheets that lie in one plane.
+std::array<double, 2> largest_kink(const Pair& pair, const EdgeCoupling& coupling, const CoupledEdge& along) {
+  const auto space = ConstraintSpace::create(pair.rows.back(), coupling.constraints);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::array<double, 2> largest = {0, 0};
+  for (int k = 0; k < 20; ++k) {
+    const Points y = Points::NullaryExpr(space->free_count(), 3, [&] { return number(random); });
+    const Points feasible = space->expand_points(y);
+    const Points x = 0.3 * feasible / feasible.rowwise().norm().maxCoeff();
+    const auto normal = [&](const Surface& s, Eigen::Index first, const std::array<double, 2>& at) {
+      const auto moved = s.with_control_points(s.control_points() + x.middleRows(first, s.size()));
+      Parameters<2> u(1, 2);
+      u << at[0], at[1];
+      const auto jet = evaluate<2>(*moved, u, 1);
+      return Point(Point(jet->at({1, 0}).row(0)).cross(Point(jet->at({0, 1}).row(0))).normalized());
+    };
+    for (const SharedPoint& p : along.points) {
+      const Point a = normal(pair.a, 0, p[0].second), b = normal(pair.b, pair.a.size(), p[1].second);
+      largest[0] = std::max(largest[0], std::atan2(a.cross(b).norm(), a.dot(b)));
+      largest[1] = std::max(largest[1], std::acos(std::clamp(a.z(), -1.0, 1.0)));
+    }
+  }
+  return largest;
+}
+
+TEST(EdgeCoupling, DerivativesThatAgreeKeepTangentPlanesCommonInLargeDisplacements) {
+  const Pair equal{sheet(9, 0), sheet(9, 1)}, other{sheet(17, 0), sheet(21, 1)}, over{sheet(17, 0), sheet(21, 0.5)};
+  for (const auto& [pair, inside] : {std::pair{&equal, false}, {&other, false}, {&over, true}}) {
+    const CoupledEdge along = smooth_edge(inside ? 320 : 160, inside);
+    const auto coupling = couple_edges(pair->patches, pair->rows, std::array{along}, {}, {}, {1e-8, 1e-8});
+    ASSERT_TRUE(coupling) << coupling.error().message();
+    const auto [kink, turn] = largest_kink(*pair, *coupling, along);
+    EXPECT_LE(kink, 1e-5);
+    EXPECT_GE(turn, 0.1);
+    // Without them they do not agree.
+    CoupledEdge sharp = along;
+    sharp.across.clear();
+    const auto position = couple_edges(pair->patches, pair->rows, std::array{sharp}, {}, {}, {1e-8, 1e-8});
+    EXPECT_GE(largest_kink(*pair, *position, along)[0], 0.1);
+    if (pair == &equal) {
+      EXPECT_EQ(free_count(*pair, *coupling), pair->rows.back() - 18);
+    }
+  }
+}
+
 TEST(EdgeCoupling, EqualNetsLoseNothingByRoundingInTheParameters) {
   const Pair pair{sheet(9, 0), sheet(9, 1)};
   for (const double noise : {0.0, 1e-10, 1e-8}) {
-    const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false, noise)}, {}, {}, 1e-6);
+    const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false, noise)}, {}, {}, {1e-6});
     ASSERT_TRUE(coupling) << coupling.error().message();
     EXPECT_EQ(free_count(pair, *coupling), pair.rows.back() - 9) << noise;
     EXPECT_LE(largest_parting(pair, *coupling, edge(200, false)), 1e-5);
@@ -85,7 +144,7 @@ TEST(EdgeCoupling, WhatSeamsKeepTogetherGetsNoConditions) {
   ASSERT_TRUE(seams);
   ASSERT_FALSE(seams->constraints.empty());
   const auto coupling =
-      couple_edges(pair.patches, pair.rows, std::array{edge(64, false, 1e-9)}, seams->constraints, {}, 1e-6);
+      couple_edges(pair.patches, pair.rows, std::array{edge(64, false, 1e-9)}, seams->constraints, {}, {1e-6});
   ASSERT_TRUE(coupling);
   EXPECT_TRUE(coupling->constraints.empty());
 }
@@ -95,7 +154,7 @@ TEST(EdgeCoupling, OtherNetsPartByNoMoreThanTheToleranceAndKeepSomeFreedom) {
   for (const bool inside : {false, true}) {
     int before = 0;
     for (const double tolerance : {1e-6, 1e-3, 1e-2, 0.1}) {
-      const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(160, inside)}, {}, {}, tolerance);
+      const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(160, inside)}, {}, {}, {tolerance});
       ASSERT_TRUE(coupling) << coupling.error().message();
       EXPECT_LE(coupling->bound, tolerance);
       EXPECT_LE(largest_parting(pair, *coupling, edge(160, inside)), coupling->bound + 1e-13);
@@ -110,17 +169,18 @@ TEST(EdgeCoupling, HeldControlPointsStay) {
   const Pair pair{sheet(9, 0), sheet(9, 1)};
   std::vector<bool> held(static_cast<std::size_t>(pair.rows.back()), false);
   std::fill_n(held.begin(), pair.a.size(), true);
-  const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false)}, {}, held, 1e-6);
+  const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false)}, {}, held, {1e-6});
   ASSERT_TRUE(coupling);
   EXPECT_EQ(ConstraintSpace::create(pair.rows.back(), coupling->constraints, held)->free_count(), pair.b.size() - 9);
 }
 
 TEST(EdgeCoupling, WhatCannotBeIsAnError) {
   const Pair pair{sheet(9, 0), sheet(9, 1)};
-  EXPECT_FALSE(couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, {}, 0));
+  EXPECT_FALSE(couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, {}, {0}));
+  EXPECT_FALSE(couple_edges(pair.patches, pair.rows, std::array{smooth_edge(8, false)}, {}, {}, {1e-6, 2}));
   CoupledEdge outside = edge(8, false);
   outside.points[3][1].second[1] = 1.5;
-  const auto refused = couple_edges(pair.patches, pair.rows, std::array{outside}, {}, {}, 1e-6);
+  const auto refused = couple_edges(pair.patches, pair.rows, std::array{outside}, {}, {}, {1e-6});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message().find("edge"), std::string::npos);
 }

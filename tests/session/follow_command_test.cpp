@@ -57,6 +57,41 @@ TEST(FollowCommands, AnEdgeFreedInVersion2MovesWithItsFacesAndStaysClosed) {
   EXPECT_NEAR(edge->at(0.5).point.z(), -0.04, 0.004);
 }
 
+/// Without seams, which would keep tangent planes common by themselves where both nets are alike.
+const std::string no_seams = R"({"do":"seams","couple":false})";
+
+Parting parted(const Session& session) {
+  const auto apart = parting(session.state(), *session.state().followed.at(0).course);
+  EXPECT_TRUE(apart);
+  return apart.value_or(Parting{});
+}
+
+TEST(FollowCommands, ASmoothEdgeStaysSmooth) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  const auto done = run(session, both + "," + edge_command(sheets, "free") + "," + no_seams + "," + press);
+  ASSERT_TRUE(done) << done.error().message();
+  EXPECT_TRUE(is_smooth(*session.state().followed[0].course));
+  const Parting apart = parted(session);
+  EXPECT_LE(apart.angle, asked_angle);
+  EXPECT_LE(apart.distance, apart.tolerance);
+  const auto sample = session.state().followed[0].course->at(0.5);
+  const SceneSurface& s = session.state().surfaces[0];
+  EXPECT_NEAR(displacement_at(*s.opened, *s.current, sample.feet[0])->z(), -0.04, 0.004);
+  EXPECT_GT(angle_between_planes(*normal_at_foot(*s.current, {0.85, 0.5}), Point::UnitZ()), 0.05);
+}
+
+TEST(FollowCommands, WhatWouldCreaseASmoothEdgeIsRefused) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets);
+  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free")));
+  const auto done = run(session, R"({"do":"select","surface":"#10"},{"do":"points","which":[0,1],"by":[0,0,0.1]})", 1);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().kind, ErrorKind::numerical);
+  EXPECT_NE(done.error().what.find("degrees"), std::string::npos) << done.error().message();
+  EXPECT_EQ(session.largest_displacement(0), 0);
+}
+
 TEST(FollowCommands, AnEdgeHeldAgainIsStillWrittenWhereItWent) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
@@ -127,6 +162,7 @@ TEST(FollowCommands, ASnapshotKeepsWhatFollows) {
   auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")), session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
   EXPECT_EQ(restored->state().coupling, session.state().coupling);
+  EXPECT_EQ(restored->state().bend, session.state().bend);
   ASSERT_EQ(restored->state().followed.size(), 1U);
   EXPECT_TRUE(restored->state().followed[0].course);
   EXPECT_EQ(*restored->save(), *session.save());

@@ -113,9 +113,9 @@ std::string in_version_1(std::string snapshot) {
   std::string plastic(34, '\0');  // of the surface: along, share, yield, locality, in radii; the length of its mask
   std::memcpy(&plastic[1], &one, sizeof one);
   plastic[25] = '\1';
-  // The count of probes, no open stroke, the count of edges that follow, the coupling and no brush; counts of steps,
-  // seams and notes and a flag follow.
-  snapshot.erase(snapshot.size() - 59, 26);
+  // The count of probes, no open stroke, the count of edges that follow, the coupling of positions, no brush, the
+  // coupling of tangent planes and how far these may open; counts of steps, seams and notes and a flag follow.
+  snapshot.erase(snapshot.size() - 75, 42);
   snapshot.erase(snapshot.rfind(plastic), plastic.size());
   snapshot[head - 2] = '1';
   std::uint64_t hash = 0xcbf29ce484222325U;

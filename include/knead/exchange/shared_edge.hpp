@@ -24,6 +24,11 @@ class SharedEdge {
     double parameter = 0;  ///< of the curve of the edge
     Point point = Point::Zero();
     std::vector<Eigen::Vector2d> feet;
+    /// On each of `surfaces()` the direction from the foot, in fractions of the domain, that goes across the edge by a
+    /// unit vector which all share: in the mean of their tangent planes, perpendicular to the curve. Empty beside a
+    /// pole, where one has no tangent plane.
+    std::vector<Eigen::Vector2d> across = {};
+    double angle = 0;  ///< largest angle between the tangent planes of the first surface and another, 0 … π/2
   };
 
   /// Errors (input): no such edge; a face at it that lies on another surface than a B-spline, named with its surface; a
@@ -47,6 +52,8 @@ class SharedEdge {
   [[nodiscard]] const std::vector<double>& corners() const;
   /// Largest distance of the samples from any of the surfaces, file units.
   [[nodiscard]] double gap() const;
+  /// Largest angle between tangent planes at the samples, radians; 0 with one surface.
+  [[nodiscard]] double angle() const;
   /// As stated by the file, in its own unit; 0 if none.
   [[nodiscard]] double uncertainty() const;
   /// The parameter that the record of the curve has where this one is `parameter`: lines count multiples of their
@@ -60,6 +67,13 @@ class SharedEdge {
   explicit SharedEdge(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
 };
+
+/// The unit normal S_u × S_v of a surface at a foot. Zero where it has none: beside a pole, where one derivative by
+/// fractions of the domain is less than 1e-5 of the other, or both are parallel. Errors: those of evaluation.
+[[nodiscard]] Expected<Point> normal_at_foot(const Surface& surface, const Eigen::Vector2d& foot);
+
+/// The angle between two planes with these normals, of which the sense does not count: 0 … π/2.
+[[nodiscard]] double angle_between_planes(const Point& normal, const Point& other);
 
 /// The parameters of a surface at a foot, which may lie a turn outside of its domain.
 [[nodiscard]] std::array<double, 2> parameters_at_foot(const Surface& surface, const Eigen::Vector2d& foot);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <optional>
 
 #include "knead/scene/model.hpp"
@@ -15,19 +16,32 @@ namespace knead {
 /// The edges whose course is known and which follow all of their surfaces, these being selected.
 [[nodiscard]] std::vector<FollowedInput> followed_inputs(const Scene& scene);
 
-/// Whether a seam joins two different surfaces at one of these edges.
-[[nodiscard]] bool is_followed(const std::vector<FollowedInput>& followed, const Seam& seam);
+/// The one of these edges at which a seam joins two different surfaces, a smooth one if there are several; none: null.
+[[nodiscard]] const SharedEdge* followed_at(const std::vector<FollowedInput>& followed, const Seam& seam);
+
+/// The angle in radians up to which an edge counts as smooth, and the tangent planes along it are kept common.
+inline constexpr double smooth_angle = 0.02 * std::numbers::pi / 180;
+
+/// Whether the surfaces at an edge have the same tangent planes all along it, as the file was opened.
+[[nodiscard]] bool is_smooth(const SharedEdge& edge);
 
 /// Edges with two surfaces or more, as points on all of them: the samples of their courses, and four more for every
 /// span that they cross of any surface.
 [[nodiscard]] std::vector<CoupledEdge> coupled_edges(const std::vector<FollowedInput>& followed,
                                                      std::span<const Surface* const> patches);
 
-/// By how much the surfaces at an edge have parted: |(S_a − S_a,opened) − (S_b − S_b,opened)| at its worst point.
+/// By how much the surfaces at an edge have parted: |(S_a − S_a,opened) − (S_b − S_b,opened)| at its worst point. At a
+/// smooth edge also the angle between their tangent planes, from the normals of the shapes as they are.
 struct Parting {
   double distance = 0;   ///< file units
   double tolerance = 0;  ///< the larger of a tenth of the file's uncertainty and 1e-6 of the largest surface's size
   Point place = Point::Zero();
+  double angle = 0;         ///< the largest, radians
+  double angle_before = 0;  ///< the same as opened
+  /// The largest angle as a multiple of what is asked there, `Scene::bend` and twice what it was: its part about the
+  /// edge, by which derivatives across it differ, and the rest, which the slope of the distances makes.
+  double kink_across = 0, kink_along = 0;
+  Point kink_place = Point::Zero();  ///< of the largest angle
 };
 /// Measured at the samples of the course and at seven points in every span crossed. Requires: a known course of
 /// surfaces of the scene. Errors: those of evaluation.

@@ -40,8 +40,8 @@ struct ModelInput {
   ScalingMode scaling = ScalingMode::normalised;
   EvolutionPolicy evolution;
   std::vector<FollowedInput> followed = {};
-  double coupling = 0;  ///< with followed edges: as `Scene::coupling`
-  double detail = 0;    ///< smallest tool dimension that forces must resolve, file units; 0: no tool
+  CouplingTolerance coupling = {};  ///< with followed edges: as `Scene::coupling`
+  double detail = 0;                ///< smallest tool dimension that forces must resolve, file units; 0: no tool
 
   friend bool operator==(const ModelInput&, const ModelInput&) = default;
 };

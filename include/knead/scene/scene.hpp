@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include "knead/scene/constraint.hpp"
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/brush.hpp"
+#include "knead/sculpt/edge_coupling.hpp"
 #include "knead/sculpt/plastic_history.hpp"
 #include "knead/sculpt/tool_path.hpp"
 #include "knead/sculpt/visible_region.hpp"
@@ -123,6 +125,10 @@ struct OpenBrush {
   std::vector<std::vector<double>> masks;  ///< likewise, from before the stroke
 };
 
+/// The angle, in radians, that tangent planes at a smooth edge that follows may come to differ by; and the one that is
+/// accepted where less would leave the edge too little freedom.
+inline constexpr double asked_angle = 1e-3 * std::numbers::pi / 180, accepted_angle = 0.05 * std::numbers::pi / 180;
+
 /// An edge of faces that has followed them, or does.
 struct FollowedEdge {
   std::string id;
@@ -167,9 +173,10 @@ struct Scene {
   RefinePermission permission = RefinePermission::trims;
   std::vector<Probe> probes = {};
   std::vector<FollowedEdge> followed = {};  ///< written anew where their faces have moved them
-  double coupling = 0.2;                    ///< the tolerance at which they are coupled, as in `couple_edges`
-  std::optional<OpenStroke> stroke = {};    ///< a tool that is down; every other command lifts it first
-  std::optional<OpenBrush> brush = {};      ///< a stroke of a brush; every other command ends it
+  CouplingTolerance coupling = {};          ///< at which they are coupled, as in `couple_edges`
+  double bend = asked_angle;              ///< radians by which smooth ones among them may open, up to `accepted_angle`
+  std::optional<OpenStroke> stroke = {};  ///< a tool that is down; every other command lifts it first
+  std::optional<OpenBrush> brush = {};    ///< a stroke of a brush; every other command ends it
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;
