@@ -71,6 +71,7 @@ Expected<void> Executor::refine_for_brush(const std::vector<Fractions>& places) 
       coarsest = 0;
     }
   }
+  if (auto united = unite_followed(); !united) return united;
   const std::vector<int> selection = state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {
     const SceneSurface& now = state.surfaces[static_cast<std::size_t>(selection[k])];
@@ -86,9 +87,25 @@ Expected<void> Executor::refine_for_brush(const std::vector<Fractions>& places) 
   return {};
 }
 
+Expected<void> Executor::keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before) {
+  if (stroke_cache && stroke_cache->scene.input == input) return {};
+  stroke_cache.reset();
+  std::vector<GrevilleValues<2>> values;
+  for (const OpenStroke::Before& b : before) {
+    auto made = GrevilleValues<2>::create(*b.current);
+    if (!made) return std::unexpected(made.error());
+    values.push_back(std::move(*made));
+  }
+  auto made = make_model(std::move(input));
+  if (!made) return std::unexpected(made.error());
+  stroke_cache = StrokeModel{std::move(*made), std::move(values)};
+  return {};
+}
+
 /// The constraints, and a plate on a bed that tells how far they are felt.
 Expected<void> Executor::prepare_brush_model() {
   if (auto known = know_trims(); !known) return known;
+  if (auto known = know_followed(); !known) return known;
   const OpenBrush& open = *state.brush;
   const auto scaling = normalised_scaling<2>(*state.surfaces[static_cast<std::size_t>(*state.selected)].reference);
   if (!scaling) return std::unexpected(scaling.error());

@@ -14,6 +14,7 @@ namespace {
 constexpr double places_per_radius = 16;
 constexpr double feasible_share = 1e-9;  // of the largest displacement: what misses the constraints by less is allowed
 constexpr double dropped_share = 1e-3;   // corrections outside of the brush that are less are left out
+constexpr double least_share = 0.5;      // of its way that a point goes by itself if it is to be brought to the goal
 constexpr double limit_share = 1e-6;     // by which a limit may be exceeded, as for steps
 
 BrushPath path_of(const OpenBrush& open, const Scene& scene) {
@@ -122,8 +123,27 @@ Expected<void> Executor::brush_to(const std::vector<Fractions>& path) {
     places.insert(places.end(), more->begin(), more->end());
   }
   if (auto refined = refine_for_brush(places); !refined) return refined;
-  if (auto made = prepare_brush_model(); !made) return made;
-  if (auto started = start_brush_run(); !started) return started;
+  const bool paints = open.brush.kind == BrushKind::mask || open.brush.kind == BrushKind::unmask;
+  Attempts tried = attempts();
+  while (true) {
+    if (auto made = prepare_brush_model(); !made) return made;
+    if (auto started = start_brush_run(); !started) return started;
+    if (auto led = lead_brush(); !led) return led;
+    if (paints) return show_mask();
+    const auto displacement = brushed();
+    if (!displacement) return std::unexpected(displacement.error());
+    const Scene before = state;
+    if (auto shown = show_brush(*displacement); !shown) return shown;
+    const auto closed = together(tried);
+    if (!closed) return std::unexpected(closed.error());
+    if (*closed) return {};
+    state.surfaces = before.surfaces;
+  }
+}
+
+/// Leads the brush to the end of its path, from where it is known.
+Expected<void> Executor::lead_brush() {
+  const OpenBrush& open = *state.brush;
   BrushRun& run = *brush_cache;
   const BrushPath way = path_of(open, state);
   for (std::size_t k = run.open.path.size(); k < open.path.size(); ++k) {
@@ -141,14 +161,27 @@ Expected<void> Executor::brush_to(const std::vector<Fractions>& path) {
     }
     run.open.path.push_back(open.path[k]);
   }
-  if (!run.reaches(open.brush)) {
-    return input_error("the brush reaches no control point: the spans of the net are longer than its radius", "radius",
-                       R"(use a larger one, or let the net be refined: {"do":"refine","permission":"auto"})");
-  }
-  if (open.brush.kind == BrushKind::mask || open.brush.kind == BrushKind::unmask) return show_mask();
-  const auto displacement = brushed();
-  if (!displacement) return std::unexpected(displacement.error());
-  return show_brush(*displacement);
+  if (run.reaches(open.brush)) return {};
+  return input_error("the brush reaches no control point: the spans of the net are longer than its radius", "radius",
+                     R"(use a larger one, or let the net be refined: {"do":"refine","permission":"auto"})");
+}
+
+/// How far the point that is grabbed would go with this displacement of the control points, of the way that it should.
+/// 0 where it has an image that the brush overlaps with.
+Expected<double> Executor::share_of_grab(const Points& displacement) const {
+  const OpenBrush& open = *state.brush;
+  const auto place = path_of(open, state).place(open.path.front());
+  if (!place) return std::unexpected(place.error());
+  if (!stands_alone(*place, open)) return 0;
+  const std::vector<int> selection = state.selection();
+  const auto k = static_cast<std::size_t>(std::ranges::find(selection, open.surface) - selection.begin());
+  const Surface& shape = *open.before[k].current;
+  const Eigen::Index first = stroke_cache->scene.model.rows()[k];
+  const auto field = shape.with_control_points(displacement.middleRows(first, shape.size()));
+  if (!field) return std::unexpected(field.error());
+  const auto moved = BrushPath(*field, open.brush.radius, 0).place(open.path.front());
+  if (!moved) return std::unexpected(moved.error());
+  return moved->at.dot(open.brush.by) / open.brush.by.squaredNorm();
 }
 
 /// The displacement of the control points that the open brush asks for and the constraints allow.
@@ -164,19 +197,10 @@ Expected<Points> Executor::brushed() {
   const ActiveSurface& model = stroke_cache->scene.model;
   Points c = local_coefficients(*stroke_cache, asked);
   if (open.brush.kind == BrushKind::grab && open.brush.by.squaredNorm() > 0) {
-    // The point that is grabbed goes where it was asked to, whatever interpolation makes of the falloff.
-    const BrushPath way = path_of(open, state);
-    const auto place = way.place(open.path.front());
-    if (!place) return std::unexpected(place.error());
-    const std::vector<int> selection = state.selection();
-    const auto k = static_cast<std::size_t>(std::ranges::find(selection, open.surface) - selection.begin());
-    const Surface& shape = *open.before[k].current;
-    const auto field = shape.with_control_points(c.middleRows(model.rows()[k], shape.size()));
-    if (!field) return std::unexpected(field.error());
-    const auto moved = BrushPath(*field, open.brush.radius, 0).place(open.path.front());
-    if (!moved) return std::unexpected(moved.error());
-    const double share = moved->at.dot(open.brush.by) / open.brush.by.squaredNorm();
-    if (share > 0.5 && stands_alone(*place, open)) asked /= share;
+    // The point that is grabbed goes where it was asked to, whatever interpolation makes of the falloff
+    const auto share = share_of_grab(c);
+    if (!share) return std::unexpected(share.error());
+    if (*share > least_share) asked /= *share;
   }
   const bool some = (asked.array() != 0).any();
   asked = unmasked(std::move(asked));

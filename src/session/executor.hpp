@@ -176,6 +176,7 @@ struct Executor {
   Expected<void> start_brush_run();
   Expected<void> lead_brush();
   Expected<Points> brushed();
+  [[nodiscard]] Expected<double> share_of_grab(const Points& displacement) const;
   Expected<void> show_mask();
   /// The displacement of control points as the masks of the selected surfaces lessen it.
   [[nodiscard]] Points unmasked(Points displacement) const;

@@ -201,6 +201,22 @@ Expected<bool> Executor::take_together(const ActiveStep& step, Attempts& attempt
   return true;
 }
 
+/// Shows the open stroke with edges that follow closed, and as smooth as asked.
+Expected<void> Executor::show_stroke(bool down) {
+  Attempts tried = attempts();
+  const std::vector<int> selection = state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    tried.before[static_cast<std::size_t>(selection[k])] = state.stroke->before[k].current;
+  }
+  while (true) {
+    if (auto made = prepare_stroke_model(); !made) return made;
+    if (auto shown = show_remembered(down); !shown) return shown;
+    const auto closed = together(tried);  // what is remembered is kept; only its image in the constraints is made again
+    if (!closed) return std::unexpected(closed.error());
+    if (*closed) return {};
+  }
+}
+
 Expected<void> Executor::refine_followed(const SceneSurface& touched, const TrimContact& contact, double size) {
   const auto place = evaluate_point<2>(*touched.opened, contact.at);
   if (!place) return std::unexpected(place.error());

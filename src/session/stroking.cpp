@@ -168,6 +168,7 @@ Expected<void> Executor::begin_stroke(const std::string& name, double share) {
 
 Expected<void> Executor::prepare_stroke_model() {
   if (auto known = know_trims(); !known) return known;
+  if (auto known = know_followed(); !known) return known;
   const OpenStroke& stroke = *state.stroke;
   EvolutionPolicy evolution;
   evolution.lambda = stroke.lambda;
@@ -182,21 +183,6 @@ Expected<void> Executor::prepare_stroke_model() {
     }
   }
   return keep_stroke_model(std::move(input), stroke.before);
-}
-
-Expected<void> Executor::keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before) {
-  if (stroke_cache && stroke_cache->scene.input == input) return {};
-  stroke_cache.reset();
-  std::vector<GrevilleValues<2>> values;
-  for (const OpenStroke::Before& b : before) {
-    auto made = GrevilleValues<2>::create(*b.current);
-    if (!made) return std::unexpected(made.error());
-    values.push_back(std::move(*made));
-  }
-  auto made = make_model(std::move(input));
-  if (!made) return std::unexpected(made.error());
-  stroke_cache = StrokeModel{std::move(*made), std::move(values)};
-  return {};
 }
 
 /// Moves the tool of the open stroke.
@@ -237,10 +223,12 @@ Expected<bool> Executor::refine_stroke(const ActiveStep* step) {
   OpenStroke& stroke = *state.stroke;
   if (step == nullptr) {
     if (auto refined = refine_trims(); !refined) return std::unexpected(refined.error());
+    if (auto united = unite_followed(); !united) return std::unexpected(united.error());
   } else if (step->coarseness > coarse && state.permission == RefinePermission::automatic) {
     const auto tool = find_tool(stroke.tool);
     if (!tool) return std::unexpected(tool.error());
     if (auto refined = refine_under(Tool(**tool)); !refined) return refined;
+    if (auto united = unite_followed(); !united) return std::unexpected(united.error());
   }
   std::array<Points*, 3> fields = {&stroke.history, &stroke.last, &stroke.older};
   std::array<std::vector<Points>, 3> finer;
@@ -326,16 +314,21 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
 }
 
 /// The rest shapes with what stays so far, and the shapes with the dent that the tool is in where it is down.
-Expected<void> Executor::show_stroke(bool down) {
-  if (auto made = prepare_stroke_model(); !made) return made;
+Expected<void> Executor::show_remembered(bool down) {
   const OpenStroke& stroke = *state.stroke;
   const StrokeModel& model = *stroke_cache;
   const Points stays = unmasked(staying(stroke.history, stroke.plasticity));
   Points shown = stays;
   if (down && stroke.last.rows() > 0) remember(shown, unmasked(model.at_abscissae(stroke.last)));
   const bool same = shown == stays;
-  const Points resting = model.scene.model.allowed(model.control_points(stays));
-  const Points showing = same ? resting : model.scene.model.allowed(model.control_points(shown));
+  // The largest of many displacements is none that edges which follow allow on both sides; then the nearest one stays.
+  const bool follows = !model.scene.input.followed.empty();
+  const auto allowed = [&](const Points& values) {
+    const Points x = model.control_points(values);
+    return follows ? model.scene.model.nearest_allowed(x) : model.scene.model.allowed(x);
+  };
+  const Points resting = allowed(stays);
+  const Points showing = same ? resting : allowed(shown);
   Eigen::Index first = 0;
   const std::vector<int> selection = state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {

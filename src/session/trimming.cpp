@@ -123,7 +123,8 @@ Expected<void> Executor::refine_at_trims(SceneSurface& surface, const Fractions&
   std::vector<bool> held;
   for (const int order : trim_orders(surface.constraints, *surface.visible)) held.push_back(order >= 0);
   contact.distance = surface.visible->distance(*place, held);
-  return refine_round(surface, contact, size);
+  if (auto done = refine_round(surface, contact, size); !done) return done;
+  return refine_followed(surface, contact, size);
 }
 
 Expected<void> Executor::check_folds() {

@@ -182,6 +182,16 @@ Pair chain_of(const step::File& file, const Point& place) {
   return result;
 }
 
+/// Files with smooth edges between B-spline faces, and with sharp ones that are not right angles.
+std::vector<fs::path> few_files() {
+  std::vector<fs::path> result;
+  for (const fs::path& file : all_files()) {
+    const auto name = file.filename();
+    if (name == "NIST_MBE_PMI_5.stp" || name == "as1-oc-214.stp") result.push_back(file);
+  }
+  return result;
+}
+
 /// A row of the table in docs/trims.md, where its file is named.
 void write_row(const std::string& row) {
   std::cout << row << "\n";
@@ -322,6 +332,18 @@ TEST_P(PressedPair, StaysClosedAlongTheEdgeThatFollows) {
   for (const Pair& pair : pairs_of(*file_)) move(GetParam(), *file_, pair, Motion::press, directory_, 0);
 }
 
+class StrokedPair : public StepOracle {};
+
+TEST_P(StrokedPair, StaysClosedUnderStrokes) {
+  for (const Pair& pair : pairs_of(*file_)) {
+    for (const Motion motion : {Motion::groove, Motion::grab}) {
+      move(GetParam(), *file_, pair, motion, directory_, 0);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, StrokedPair, ::testing::ValuesIn(few_files()), test_name);
+
 INSTANTIATE_TEST_SUITE_P(Files, PressedPair, ::testing::ValuesIn(all_files()), test_name);
 
 class PressedShell : public ::testing::TestWithParam<std::string> {};
@@ -339,6 +361,22 @@ TEST_P(PressedShell, StaysClosedAlongTheEdgesThatFollow) {
   if (corner || GetParam() == "strips") pairs.push_back(chain_of(*file, Point(50, 50, height)));
   ASSERT_FALSE(pairs.empty());
   for (const Pair& pair : pairs) move(path, *file, pair, Motion::press, directory / "after", 0.5);
+  fs::remove_all(directory);
+}
+
+TEST_P(PressedShell, StaysClosedUnderStrokes) {
+  if (GetParam().ends_with("corner")) GTEST_SKIP() << "pairs only";
+  const auto directory = fs::temp_directory_path() / ("knead-shells-" + std::to_string(getpid()));
+  fs::create_directories(directory / "after");
+  const auto path = directory / (GetParam() + ".step");
+  ASSERT_TRUE(occt_write_shell(GetParam(), path));
+  const auto file = step::File::read(path);
+  ASSERT_TRUE(file) << file.error().message();
+  for (const Pair& pair : pairs_of(*file)) {
+    for (const Motion motion : {Motion::groove, Motion::grab}) {
+      move(path, *file, pair, motion, directory / "after", motion == Motion::grab ? 0.3 : 0.5);
+    }
+  }
   fs::remove_all(directory);
 }
 

@@ -182,5 +182,75 @@ TEST(FollowCommands, BoundaryIsocurvesDoNotFollow) {
   EXPECT_EQ(done.error().where, "hold");
 }
 
+const std::string clay = R"({"do":"material","preset":"clay"},
+  {"do":"tool","name":"ball","radius":0.2,"position":[1,0.5,1],"plasticity":1})";
+
+TEST(FollowStrokes, AGrooveAcrossAnEdgeIsLeftOnBothSidesOfIt) {
+  for (const std::string& seams : {std::string(R"({"do":"seams","couple":true})"), no_seams}) {
+    const TwoSheets sheets = two_sheets();
+    Session session = opened(sheets);
+    ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + seams + "," + clay));
+    const std::size_t ready = session.journal().size();
+    const auto done = run(session, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})", 1);
+    ASSERT_TRUE(done) << done.error().message();
+    const Parting apart = parted(session);
+    EXPECT_LE(apart.distance, apart.tolerance);
+    EXPECT_LE(apart.angle, asked_angle);
+    for (const auto& s : session.state().surfaces) {
+      EXPECT_EQ(s.rest, s.current) << "it stays";
+      const auto sample = session.state().followed[0].course->at(0.5);
+      EXPECT_NEAR(displacement_at(*s.opened, *s.current, sample.feet[s.id == "#10" ? 0 : 1])->z(), -0.05, 0.006);
+      EXPECT_NEAR(displacement_at(*s.opened, *s.current, {s.id == "#10" ? 0.75 : 0.25, 0.5})->z(), -0.05, 0.006);
+    }
+    EXPECT_EQ(session.journal().size(), ready + 1);
+    ASSERT_TRUE(run(session, R"({"do":"undo"})", 1));
+    EXPECT_EQ(session.largest_displacement(0), 0);
+  }
+}
+
+TEST(FollowStrokes, AnOpenStrokeGoesOverAnEdgeInParts) {
+  const TwoSheets sheets = two_sheets();
+  Session whole = opened(sheets), parts = opened(sheets);
+  for (Session* s : {&whole, &parts}) {
+    ASSERT_TRUE(run(*s, both + "," + edge_command(sheets, "free") + "," + no_seams + "," + clay));
+  }
+  ASSERT_TRUE(run(whole, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})", 1));
+  ASSERT_TRUE(run(parts, R"({"do":"stroke","path":[[0.6,0.5,0.15],[0.9,0.5,0.15]],"open":true},
+    {"do":"stroke","path":[[1.1,0.5,0.15],[1.4,0.5,0.15]],"open":true})",
+                  1));
+  EXPECT_LE(parted(parts).distance, parted(parts).tolerance);
+  EXPECT_LE(parted(parts).angle, asked_angle);
+  ASSERT_TRUE(run(parts, R"({"do":"stroke","path":[]})", 1));
+  EXPECT_LE(parted(parts).distance, parted(parts).tolerance);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Eigen::Vector2d at(0.6, 0.5);
+    const auto &a = whole.state().surfaces[k], &b = parts.state().surfaces[k];
+    EXPECT_LE((*displacement_at(*a.opened, *a.current, at) - *displacement_at(*b.opened, *b.current, at)).norm(), 5e-3);
+  }
+}
+
+TEST(FollowStrokes, ABrushOverAnEdgeMovesBothFaces) {
+  for (const std::string& kind : {std::string(R"("kind":"grab","path":[[0.95,0.5]],"by":[0,0,0.1])"),
+                                  std::string(R"("kind":"push","path":[[0.7,0.5],[1,0.5]],"height":0.05)"),
+                                  std::string(R"("kind":"inflate","path":[[0.75,0.3],[0.75,0.7]],"height":0.05)")}) {
+    for (const std::string& seams : {std::string(R"({"do":"seams","couple":true})"), no_seams}) {
+      const TwoSheets sheets = two_sheets();
+      Session session = opened(sheets);
+      const auto done = run(session, both + "," + edge_command(sheets, "free") + "," + seams +
+                                         R"(,{"do":"brush","radius":0.35,)" + kind + "}");
+      ASSERT_TRUE(done) << done.error().message();
+      const Parting apart = parted(session);
+      EXPECT_LE(apart.distance, apart.tolerance) << kind;
+      EXPECT_LE(apart.angle, asked_angle) << kind;
+      const auto sample = session.state().followed[0].course->at(0.5);
+      for (const auto& s : session.state().surfaces) {
+        EXPECT_GT(displacement_at(*s.opened, *s.current, sample.feet[s.id == "#10" ? 0 : 1])->norm(), 0.005) << kind;
+      }
+      ASSERT_TRUE(run(session, R"({"do":"undo"})", 1));
+      for (const std::size_t k : {0U, 1U}) EXPECT_EQ(session.largest_displacement(static_cast<int>(k)), 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace knead

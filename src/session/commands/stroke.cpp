@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "knead/scene/followed.hpp"
-
 namespace knead {
 namespace {
 
@@ -69,11 +67,6 @@ Expected<void> Executor::execute(const StrokeCommand& c) {
   }
   if (state.stroke || leaves_along(c, state)) {
     if (!state.stroke) {
-      if (auto known = know_followed(); !known) return known;
-      if (!followed_inputs(state).empty()) {
-        return input_error("strokes that leave their groove as they go cannot lead edges along", "plastic",
-                           R"(hold these edges, or give "plastic":"release")");
-      }
       if (auto begun = begin_stroke((*tool)->name, c.plasticity); !begun) return begun;
     }
     if (auto done = stroke_to(points); !done) return done;
