@@ -14,7 +14,7 @@ namespace {
 
 constexpr double least_coupling = 1e-9;
 constexpr double tighter = 0.4, much_tighter = 0.03, half = 0.5;
-constexpr double least_share =
+constexpr double kept_motion =
     0.9;  // of their motion that edges keep when they are coupled more tightly than they must
 
 Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, const std::string& id) {
@@ -154,7 +154,7 @@ Expected<bool> Executor::together(Attempts& attempts) {
   }
   auto& [before, best] = attempts;
   if (best &&
-      share_of(best->motion, motion) < least_share) {  // what is asked for would take the freedom that the edges have
+      share_of(best->motion, motion) < kept_motion) {  // what is asked for would take the freedom that the edges have
     state.surfaces = std::move(best->surfaces);
     state.coupling = best->coupling;
     state.bend = accepted_angle;

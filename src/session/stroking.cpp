@@ -10,10 +10,10 @@
 namespace knead {
 namespace {
 
-constexpr double places_per_size = 8;    // of a stroke, along its path
-constexpr int max_places = 20000;        // of one command
-constexpr double hard = 300;             // stiffness of a tool, in λ: it gives way by about 1 % of its depth
-constexpr std::size_t along[] = {0, 2};  // α11 and α22, β11 and β22
+constexpr double places_per_size = 8;         // of a stroke, along its path
+constexpr int max_places = 20000;             // of one command
+constexpr double hard = 300;                  // stiffness of a tool, in λ: it gives way by about 1 % of its depth
+constexpr std::size_t pure_terms[] = {0, 2};  // α11 and α22, β11 and β22
 
 double mean(const Coefficient<2>& c) {
   if (const double* constant = std::get_if<double>(&c)) return *constant;
@@ -47,7 +47,7 @@ Expected<Locality> bed_of(const Scene& scene, double reach) {
       const double side = scaling->length * scaling->factors[static_cast<std::size_t>(d)] * knots.domain().length();
       reach = std::max(reach, side / static_cast<double>(knots.spans().size()));
     }
-    for (std::size_t i : along) {
+    for (std::size_t i : pure_terms) {
       beta = std::max(beta, mean(s.material.beta[i]));
       alpha = std::max(alpha, mean(s.material.alpha[i]));
     }
@@ -63,7 +63,7 @@ Expected<double> felt_area(const Scene& scene, const OpenStroke& stroke) {
   const auto scaling = normalised_scaling<2>(*s.reference);
   if (!scaling) return std::unexpected(scaling.error());
   double area = 0;
-  for (std::size_t i : along) {
+  for (std::size_t i : pure_terms) {
     area = std::max(
         {area, std::sqrt(mean(s.material.beta[i]) / stroke.lambda), mean(s.material.alpha[i]) / stroke.lambda});
   }
@@ -176,7 +176,7 @@ Expected<void> Executor::prepare_stroke_model() {
   for (std::size_t k = 0; k < input.surfaces.size(); ++k) {
     SurfaceInput& s = input.surfaces[k];
     if (s.rest) s.rest = stroke.before[k].rest;
-    for (std::size_t i : along) {
+    for (std::size_t i : pure_terms) {
       auto alpha = raised(s.material.alpha[i], stroke.tension);
       if (!alpha) return std::unexpected(alpha.error());
       s.material.alpha[i] = std::move(*alpha);
