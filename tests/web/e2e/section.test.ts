@@ -117,7 +117,7 @@ describe('a section across x', () => {
     await handle().focus();
     const before = await value();
     await page.keyboard.press('ArrowDown');
-    expect(await value()).toBeCloseTo(before - 2, 6);
+    await expect.poll(value).toBeCloseTo(before - 2, 6);
     const panel = page.locator('.panel[data-panel=Views]');
     await panel.locator('summary').click();
     await panel.locator('input[aria-label="Position of the section in numbers"]').fill('3 cm');

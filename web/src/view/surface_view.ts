@@ -5,6 +5,7 @@ import { type Display, type Palette, palettes } from './display';
 import { mark } from './net';
 import { GridPicker } from './picking';
 import { reliefLayer } from './relief';
+import { clippable } from './section';
 import { depthMaterial, restyleMaterial, surfaceMaterial } from './surface_material';
 
 const isocurveSpacing = 6; // grid lines between isocurves that are not knot lines
@@ -39,8 +40,8 @@ export class SurfaceView {
   private netTopology = '';
 
   constructor() {
-    this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), surfaceMaterial());
-    this.depth = new THREE.Mesh(new THREE.BufferGeometry(), depthMaterial(this.mesh.material));
+    this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), clippable(surfaceMaterial()));
+    this.depth = new THREE.Mesh(new THREE.BufferGeometry(), clippable(depthMaterial(this.mesh.material)));
     this.depth.layers.set(reliefLayer);
     for (const part of [this.mesh, this.depth, this.isocurves, this.knotLines, this.normals, this.net, this.points]) part.frustumCulled = false;
     this.net.material.depthTest = false; // points and net lie on, and behind, what they control

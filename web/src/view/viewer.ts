@@ -11,7 +11,7 @@ import { Ground, roundStepAbove } from './ground';
 import { limitsOf } from './limits';
 import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
-import { clippable, Section, type SectionAxis } from './section';
+import { Section, type SectionAxis } from './section';
 import { shown } from './section_lines';
 import { Relief } from './relief';
 import { placeSections } from './surface_material';
@@ -132,7 +132,6 @@ export class Viewer {
     }
     while (this.surfaces.length < pictures.length) {
       const view = new SurfaceView();
-      clippable(view.mesh.material);
       view.editing = this.editsPoints;
       this.surfaces.push(view);
       this.scene.add(view.group);
@@ -348,7 +347,7 @@ export class Viewer {
 
   private draw(): void {
     const whole = this.element.getBoundingClientRect();
-    this.section.prepare([...this.surfaces.map((s) => s.group), this.context.mesh, this.overlay], () => ({
+    this.section.prepare([...this.surfaces.map((s) => s.group), this.context.mesh, this.combs.group, this.overlay], () => ({
       pictures: this.display.surface ? this.surfaces.flatMap((s) => s.picture ?? []) : [],
       trims: this.display.trimmed ? this.trims : [],
       context: this.context.mesh.visible ? this.surroundings : null,
