@@ -15,6 +15,16 @@ const strokes = {
   'Two patches': [['b', [0.4, 0.5], [0.5, 0.5], [0.6, 0.5]]],
 };
 
+/** Opens a scene of the gallery in place of what is there. */
+export async function openScene(page, name) {
+  await page.locator('summary[aria-label^=Gallery]').click();
+  await page.locator('details[open] .menu-item.scene').filter({ has: page.locator(`b:text-is("${name}")`) }).click();
+  await page.waitForTimeout(300);
+  const leave = page.locator('dialog.question button', { hasText: 'Open without saving' });
+  if (await leave.isVisible()) await leave.click();
+  await page.waitForTimeout(1200);
+}
+
 export async function drawGallery(page, directory) {
   mkdirSync(directory, { recursive: true });
   await page.setViewportSize({ width: 1000, height: 560 });
@@ -23,9 +33,7 @@ export async function drawGallery(page, directory) {
   const names = await page.locator('.menu-item.scene b').allTextContents();
   await page.keyboard.press('Escape');
   for (const name of names) {
-    await page.locator('summary[aria-label^=Gallery]').click();
-    await page.locator('.menu-item.scene').filter({ has: page.locator(`b:text-is("${name}")`) }).click();
-    await page.waitForTimeout(1500);
+    await openScene(page, name);
     if (steps[name]) await page.evaluate((count) => window.studio.client.execute([{ do: 'step', count }]), steps[name]);
     const box = await page.locator('.view-perspective').boundingBox();
     for (const [key, ...places] of strokes[name] ?? []) {

@@ -3,7 +3,7 @@ import { fileURLToPath } from 'node:url';
 
 import { chromium } from 'playwright-core';
 
-import { drawGallery } from './gallery_pictures.mjs';
+import { drawGallery, openScene } from './gallery_pictures.mjs';
 import { serve } from './serve.mjs';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
@@ -21,13 +21,7 @@ await page.waitForSelector('html[data-ready]', { state: 'attached' });
 const box = await page.locator('.view-perspective').boundingBox();
 const at = ([x, y]) => [box.x + box.width * x, box.y + box.height * y];
 const pause = (milliseconds = 700) => page.waitForTimeout(milliseconds);
-const scene = async (name) => {
-  await page.locator('summary[aria-label^=Gallery]').click();
-  await page.locator('details[open] .menu-item', { hasText: name }).click();
-  const leave = page.locator('dialog.question button', { hasText: 'Open without saving' });
-  if (await leave.isVisible()) await leave.click();
-  await pause(1200);
-};
+const scene = (name) => openScene(page, name);
 const stroke = async (...places) => {
   await page.mouse.move(...at(places[0]));
   await page.mouse.down();
@@ -50,9 +44,11 @@ const theme = async (wanted) => {
 await theme('dark');
 await scene('Bonnet');
 await page.keyboard.press('b');
-await stroke([0.42, 0.5], [0.5, 0.47], [0.58, 0.45]);
+await page.locator('input[aria-label="Brush radius in units"]').fill('90');
+await page.keyboard.press('Enter');
+await stroke([0.42, 0.56], [0.5, 0.51], [0.58, 0.48]);
 await page.keyboard.press('u');
-await stroke([0.5, 0.62], [0.6, 0.6]);
+await stroke([0.57, 0.57], [0.64, 0.53]);
 await picture('studio');
 
 await page.locator('select[aria-label="Colour by"]').selectOption('deviation');
