@@ -2,6 +2,7 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import type { Page } from 'playwright-core';
 
 import { commands, distance, native, openFile as open, openStudio, positions, ready, root, scene, settled, spot, stroke, type Studio } from './page';
 
@@ -38,6 +39,17 @@ async function save(entry: string): Promise<string> {
 
 /** Share of the pixels of the scene that differ. */
 const picture = async () => studio.page.locator('.stage').screenshot();
+
+/** Where a tool is on the page; its handle along z is above. */
+const toolOnPage = (page: Page, name: string): Promise<number[]> => page.evaluate((tool) => {
+  const { viewer } = (window as never as { studio: { viewer: {
+    viewports: { gizmo: { getHelper(): { updateMatrixWorld(force: boolean): void } }; camera: unknown; element: HTMLElement }[];
+    tools: Map<string, { object: { position: { clone(): { project(camera: unknown): { x: number; y: number } } } } }> } } }).studio;
+  const viewport = viewer.viewports[0]!;
+  const place = viewer.tools.get(tool)!.object.position.clone().project(viewport.camera);
+  const box = viewport.element.getBoundingClientRect();
+  return [box.left + ((place.x + 1) / 2) * box.width, box.top + ((1 - place.y) / 2) * box.height];
+}, name);
 
 describe('the studio', () => {
   it('begins with a sheet of clay, ready to press', async () => {
@@ -155,16 +167,7 @@ describe('the studio', () => {
     await page.keyboard.press('v');
     await page.locator('.panel[data-panel=Tools] .item').click();
     const before = await positions(page);
-    // The handle along z, where the camera sees it.
-    const handle = await page.evaluate(() => {
-      const { viewer } = (window as never as { studio: { viewer: {
-        viewports: { gizmo: { getHelper(): { updateMatrixWorld(force: boolean): void } }; camera: unknown; element: HTMLElement }[];
-        tools: Map<string, { object: { position: { clone(): { project(camera: unknown): { x: number; y: number } } } } }> } } }).studio;
-      const viewport = viewer.viewports[0]!;
-      const place = viewer.tools.get('ball')!.object.position.clone().project(viewport.camera);
-      const box = viewport.element.getBoundingClientRect();
-      return [box.left + ((place.x + 1) / 2) * box.width, box.top + ((1 - place.y) / 2) * box.height];
-    });
+    const handle = await toolOnPage(page, 'ball');
     await page.mouse.move(handle[0]!, handle[1]! - 40);
     await page.waitForTimeout(100);
     await page.mouse.down();
@@ -177,6 +180,27 @@ describe('the studio', () => {
     await page.keyboard.press('Control+z');
     await settled(page);
     expect(distance(before, await positions(page))).toBe(0);
+  });
+
+  it('takes the surface along when a tool jumps', async () => {
+    const { page } = studio;
+    await scene(page, 'Ball on a membrane');
+    await page.keyboard.press('v');
+    await page.locator('.panel[data-panel=Tools] .item').click();
+    const handle = await toolOnPage(page, 'ball');
+    await page.mouse.move(handle[0]!, handle[1]! - 40);
+    await page.waitForTimeout(100);
+    await page.mouse.down();
+    await page.mouse.move(handle[0]!, handle[1]! + 40); // one event
+    await page.mouse.up();
+    await settled(page);
+    const ball = await page.evaluate(() => {
+      const { state } = (window as never as { studio: { state: { tools: { position: number[]; size: number }[] } } }).studio;
+      return state.tools[0]!.position[2]! - state.tools[0]!.size;
+    });
+    const heights = (await positions(page)).filter((_, k) => k % 3 === 2);
+    expect(ball).toBeLessThan(-40);
+    expect(Math.min(...heights)).toBeLessThan(0.9 * ball);
   });
 
   it('plays, pauses and shows four views', async () => {

@@ -4,6 +4,8 @@ import type { Command } from '../engine/session_types';
 import type { Viewport } from '../view/viewport';
 import type { ToolHost } from './host';
 
+const finest = 64; // pieces of one motion
+
 /** Sends changes made to a tool by hand: how far it was moved, turned and resized since the last command. */
 export function followGizmo(host: ToolHost, viewport: Viewport): void {
   const { gizmo } = viewport;
@@ -17,14 +19,23 @@ export function followGizmo(host: ToolHost, viewport: Viewport): void {
     sent.scale.copy(object.scale);
   };
 
+  /** Pieces short enough for a tool not to pass through what it touches, if the surface takes a step after each. */
+  const pieces = (way: number, size: number | null): number => (size ? Math.min(finest, Math.max(1, Math.ceil((8 * way) / size))) : 1);
+
   /** From the state sent last to the present one, and a step of the surface unless it is playing anyway. */
   const commands = (): Command[] => {
     const { object } = gizmo;
     const tool = host.viewer.selectedTool;
     if (!object || !tool) return [];
     const list: Command[] = [];
+    const steps = !host.playing() && host.state!.surfaces.length > 0 && host.state!.selection.length > 0;
     const by = object.position.clone().sub(sent.position);
-    if (by.lengthSq() > 0) list.push({ do: 'move', tool, by: by.toArray() });
+    if (by.lengthSq() > 0) {
+      const count = steps ? pieces(by.length(), host.state!.tools.find((t) => t.name === tool)?.size ?? null) : 1;
+      const move: Command = { do: 'move', tool, by: by.divideScalar(count).toArray() };
+      for (let k = 1; k < count; ++k) list.push(move, { do: 'step' });
+      list.push(move);
+    }
     const turn = object.quaternion.clone().multiply(sent.turn.clone().invert());
     const sine = Math.hypot(turn.x, turn.y, turn.z);
     if (sine > 1e-9) {
@@ -36,7 +47,7 @@ export function followGizmo(host: ToolHost, viewport: Viewport): void {
       list.push({ do: 'scale', tool, by: ratio.toArray() });
     }
     take(object);
-    if (list.length > 0 && !host.playing() && host.state!.surfaces.length > 0 && host.state!.selection.length > 0) list.push({ do: 'step' });
+    if (list.length > 0 && steps) list.push({ do: 'step' });
     return list;
   };
 
