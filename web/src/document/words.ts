@@ -24,7 +24,7 @@ const known: [RegExp, (found: RegExpExecArray) => Advice][] = [
   [/^nothing is free to move under the tool/, () => ({
     text: 'Everything under the brush is pinned, frozen or held.', actions: [release('Release all')] })],
   [/^the step folds/, () => ({
-    text: 'The surface would fold over itself there, so nothing was done.', remedy: 'Press less deep, go there in several strokes, or use a stiffer material.', actions: [] })],
+    text: 'The surface would fold over itself there, so nothing was done.', remedy: 'Press less deep or farther from held edges, go there in several strokes, or use a stiffer material.', actions: [] })],
   [/^the step (runs away|gives no finite result)/, () => ({
     text: 'The surface would run away, so nothing was done.', remedy: 'Hold its edges, or lessen the loads and the stiffness of the tools.', actions: [holdEdges] })],
   [/^the surface would be (\S+) from where it was opened, and (\S+) is the limit/, ([, far, limit]) => ({
