@@ -49,7 +49,7 @@ Eigen::MatrixXd PivotedQr::remainder(Eigen::Index rank) const {
 Eigen::MatrixXd PivotedQr::coefficients(Eigen::Index rank) const {
   const auto& r = factors_->qr.matrixR();
   Eigen::MatrixXd others = r.topRightCorner(rank, r.cols() - rank);
-  r.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(others);
+  if (others.size() > 0) r.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(others);
   Eigen::MatrixXd result(rank, r.cols());
   for (Eigen::Index k = 0; k < r.cols(); ++k) {
     if (k < rank)
