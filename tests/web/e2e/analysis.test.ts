@@ -1,17 +1,11 @@
-import { openStudio, scene, settled, type Studio } from './page';
+import { scene, settled, studioOfFile } from './page';
 import { pixels, quantile, raise, type Seen, setDisplay } from './pixels';
 
-let studio: Studio;
+const studio = studioOfFile({ width: 1100, height: 720 });
 beforeAll(async () => {
-  studio = await openStudio({ width: 1100, height: 720 });
   await scene(studio.page, 'Clay sheet');
   await raise(studio.page, 11, 25);
   await setDisplay(studio.page, { isocurves: false, grid: false, relief: false });
-});
-afterAll(() => studio.close());
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
 });
 
 const look = (name: string) => studio.page.locator('select[aria-label="Look of surfaces"]').selectOption(name);

@@ -1,15 +1,7 @@
-import { openStudio, ready, scene, settled, type Studio } from './page';
+import { ready, scene, settled, studioOfFile } from './page';
 import { pixels, quantile, raise, setDisplay, setTheme, spread } from './pixels';
 
-let studio: Studio;
-beforeAll(async () => {
-  studio = await openStudio({ width: 1100, height: 720 });
-});
-afterAll(() => studio.close());
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile({ width: 1100, height: 720 });
 
 describe('light', () => {
   it('makes a bump of 11 mm on a sheet of 200 mm plain to see from the first view', async () => {

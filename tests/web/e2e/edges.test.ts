@@ -1,19 +1,10 @@
 import { join } from 'node:path';
 
-import { openFile, openStudio, root, settled, type Studio } from './page';
+import { openFile, root, settled, studioOfFile } from './page';
 
 /** The table of edges: how the faces meet, the worst first, and the way to each edge. */
 
-let studio: Studio;
-
-beforeAll(async () => {
-  studio = await openStudio({ width: 1100, height: 700 });
-});
-afterAll(() => studio.close());
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile({ width: 1100, height: 700 });
 
 const panel = () => studio.page.locator('.panel[data-panel=Edges]');
 const rows = () => panel().locator('tbody tr').evaluateAll((all) => all.map((tr) => ({

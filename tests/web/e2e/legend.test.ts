@@ -1,15 +1,7 @@
-import { openStudio, scene, settled, type Studio } from './page';
+import { scene, settled, studioOfFile } from './page';
 import { pixels, quantile, raise, setDisplay } from './pixels';
 
-let studio: Studio;
-beforeAll(async () => {
-  studio = await openStudio({ width: 1100, height: 720 });
-});
-afterAll(() => studio.close());
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile({ width: 1100, height: 720 });
 
 const legend = () => studio.page.locator('.legend-card');
 const ticks = () => legend().locator('.legend-ticks span').allTextContents();

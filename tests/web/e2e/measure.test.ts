@@ -1,27 +1,15 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { facesStep } from '../faces_step';
-import { commands, openFile, openStudio, scene, settled, stroke, type Studio } from './page';
+import { commands, directoryOfFile, openFile, scene, settled, stroke, studioOfFile } from './page';
 
 /** Measuring: numbers of the engine at picked points, in all their digits; pinned ones follow the surface. */
 
-let studio: Studio;
-let directory: string;
-
+const studio = studioOfFile({ width: 1100, height: 700 });
+const directory = directoryOfFile();
 beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-measure-'));
-  studio = await openStudio({ width: 1100, height: 700 });
   await studio.page.context().grantPermissions(['clipboard-read', 'clipboard-write'], { origin: new URL(studio.url).origin });
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
 });
 
 type Point = { surface: number; at: number[]; point: number[]; normal: number[]; curvature: number[] | null };

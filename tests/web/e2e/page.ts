@@ -1,3 +1,5 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -66,6 +68,30 @@ export async function openStudio({ width = 900, height = 560, first = false, ser
   await page.goto(url);
   await ready(page);
   return studio;
+}
+
+/**
+ * The page of all tests in a file: open before the first (and not usable earlier), closed after the last. A message on the
+ * console or a request to another origin fails the test.
+ */
+export function studioOfFile(visit: Visit = {}): Studio {
+  const studio = {} as Studio;
+  beforeAll(async () => {
+    Object.assign(studio, await openStudio(visit));
+  });
+  afterAll(() => studio.close());
+  afterEach(() => {
+    expect(studio.problems).toEqual([]);
+    expect(studio.foreign).toEqual([]);
+  });
+  return studio;
+}
+
+/** A directory for the files that tests write, removed after the last of the file. */
+export function directoryOfFile(): string {
+  const directory = mkdtempSync(join(tmpdir(), 'knead-studio-'));
+  afterAll(() => rmSync(directory, { recursive: true }));
+  return directory;
 }
 
 export const ready = (page: Page) => page.waitForSelector('html[data-ready]', { state: 'attached', timeout: 60_000 });

@@ -1,22 +1,12 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { openFile, openStudio, settled, type Studio } from './page';
+import { directoryOfFile, openFile, settled, studioOfFile } from './page';
 
 /** Faces that meet along a slanted trim leave no hole between them in the picture. */
 
-let studio: Studio;
-let directory: string;
-beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-pinholes-'));
-  studio = await openStudio({ width: 1100, height: 700 });
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => expect(studio.problems).toEqual([]));
+const studio = studioOfFile({ width: 1100, height: 700 });
+const directory = directoryOfFile();
 
 /** Two flat patches of different size over each other; a triangle of each is shown, and both meet along a slanted edge. */
 function triangles(): string {

@@ -1,27 +1,13 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { facesStep } from '../faces_step';
-import { openFile, openStudio, scene, settled, type Studio } from './page';
+import { directoryOfFile, openFile, scene, settled, studioOfFile } from './page';
 
 /** A section: what lies before its plane is neither seen nor touched, and a line shows where it cuts. */
 
-let studio: Studio;
-let directory: string;
-
-beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-section-'));
-  studio = await openStudio({ width: 1100, height: 700 });
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile({ width: 1100, height: 700 });
+const directory = directoryOfFile();
 
 interface App {
   viewer: {

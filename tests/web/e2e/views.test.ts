@@ -1,26 +1,12 @@
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { downloaded, openFile, openStudio, scene, settled, spot, type Studio } from './page';
+import { directoryOfFile, downloaded, openFile, scene, settled, spot, studioOfFile } from './page';
 
 /** Views by name, the cube, projections, the turntable, and the views that a document keeps. */
 
-let studio: Studio;
-let directory: string;
-
-beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-views-'));
-  studio = await openStudio({ width: 1100, height: 700 });
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile({ width: 1100, height: 700 });
+const directory = directoryOfFile();
 
 interface App {
   viewer: {
