@@ -56,31 +56,7 @@ class Follower {
       if (!made) return std::unexpected(made.error());
       feet_[k] = *std::move(made);
     }
-    const SurfaceFoot& surface = *feet_[k];
-    const double near = on_surface * net_diagonal(data_.surfaces[k].surface.control_points());
-    std::vector<std::array<bool, 2>> free;
-    for (const Point& p : points) {
-      std::optional<Vector2d> hint;
-      if (!feet.empty() && !free.back()[0] && !free.back()[1]) hint = feet.back();
-      const Foot foot = surface.nearest(p, hint, near).foot;
-      Vector2d at = foot.parameters;
-      for (int d = 0; d < 2 && !feet.empty(); ++d) {
-        const double period = surface.space().periods[static_cast<std::size_t>(d)];
-        if (period > 0) at[d] += period * std::round((feet.back()[d] - at[d]) / period);
-        // At a pole the parameter around it is that of the point before.
-        if (foot.free[static_cast<std::size_t>(d)]) at[d] = feet.back()[d];
-      }
-      feet.push_back(at);
-      free.push_back(foot.free);
-    }
-    // A pole at the beginning takes that of the point after.
-    for (std::size_t j = feet.size() - 1; j-- > 0;) {
-      for (std::size_t d = 0; d < 2; ++d) {
-        if (!free[j][d] || free[j + 1][d]) continue;
-        feet[j][static_cast<Eigen::Index>(d)] = feet[j + 1][static_cast<Eigen::Index>(d)];
-        free[j][d] = false;
-      }
-    }
+    feet = feet_[k]->along(points, on_surface * net_diagonal(data_.surfaces[k].surface.control_points())).feet;
     return {};
   }
 

@@ -67,13 +67,6 @@ std::array<std::vector<std::string>, 2> edges_ending_at(const Reader& reader, st
   return result;
 }
 
-void unwrap(Vector2d& at, const Vector2d& before, const ParameterSpace& space) {
-  for (int d = 0; d < 2; ++d) {
-    const double period = space.periods[static_cast<std::size_t>(d)];
-    if (period > 0) at[d] += period * std::round((before[d] - at[d]) / period);
-  }
-}
-
 /// ∂S by the fractions of both directions.
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
@@ -117,14 +110,6 @@ void look_across(std::span<const Surface> surfaces, const Point& along, SharedEd
   }
 }
 
-void settle(LoopPoint& at, const LoopPoint& next) {
-  for (std::size_t d = 0; d < 2; ++d) {
-    if (!at.free[d] || next.free[d]) continue;
-    at.at[static_cast<Eigen::Index>(d)] = next.at[static_cast<Eigen::Index>(d)];
-    at.free[d] = false;
-  }
-}
-
 /// At least `least_samples` intervals, each chord within a small part of the edge's extent.
 std::vector<double> sampled(const EdgePiece& piece) {
   const std::vector<double> coarse = piece.curve.subdivided(piece.from, piece.to, sampling_chord);
@@ -156,18 +141,11 @@ struct SharedEdge::Data {
 
   /// The feet of all samples on the surface of this number.
   void follow(std::size_t surface) {
-    std::vector<LoopPoint> found;
-    for (const Sample& s : samples) {
-      std::optional<Vector2d> hint;
-      if (!found.empty() && !found.back().free[0] && !found.back().free[1]) hint = found.back().at;
-      const auto at = feet[surface].nearest(s.point, hint, near[surface]);
-      gap = std::max(gap, at.distance);
-      found.push_back({at.foot.parameters, at.foot.free});
-    }
-    for (std::size_t k = 1; k < found.size(); ++k) settle(found[k], found[k - 1]);
-    for (std::size_t k = found.size() - 1; k-- > 0;) settle(found[k], found[k + 1]);
-    for (std::size_t k = 1; k < found.size(); ++k) unwrap(found[k].at, found[k - 1].at, feet[surface].space());
-    for (std::size_t k = 0; k < found.size(); ++k) samples[k].feet.push_back(found[k].at);
+    std::vector<Point> points;
+    for (const Sample& s : samples) points.push_back(s.point);
+    const SurfaceFoot::Path path = feet[surface].along(points, near[surface]);
+    gap = std::max(gap, path.distance);
+    for (std::size_t k = 0; k < samples.size(); ++k) samples[k].feet.push_back(path.feet[k]);
   }
 };
 
@@ -225,11 +203,7 @@ SharedEdge::Sample SharedEdge::at(double parameter) const {
   Sample result{parameter, d.piece.curve.at(parameter), {}};
   for (std::size_t k = 0; k < d.feet.size(); ++k) {
     const Vector2d hint = (1 - share) * a.feet[k] + share * after->feet[k];
-    const auto found = d.feet[k].nearest(result.point, hint, d.near[k]).foot;
-    LoopPoint at{found.parameters, found.free};
-    settle(at, LoopPoint{hint});
-    unwrap(at.at, hint, d.feet[k].space());
-    result.feet.push_back(at.at);
+    result.feet.push_back(d.feet[k].beside(result.point, hint, d.near[k]));
   }
   look_across(d.shapes, d.piece.curve.derivative(parameter), result);
   return result;

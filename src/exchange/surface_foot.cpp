@@ -1,5 +1,6 @@
 #include "surface_foot.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "step_surfaces.hpp"
@@ -9,6 +10,21 @@ namespace {
 
 constexpr double single_point = 1e-6;  // of the net's diagonal: an edge of the domain no longer than this is a pole
 constexpr double at_pole = 1e-5;       // fractions
+
+void unwrap(Eigen::Vector2d& at, const Eigen::Vector2d& before, const ParameterSpace& space) {
+  for (int d = 0; d < 2; ++d) {
+    const double period = space.periods[static_cast<std::size_t>(d)];
+    if (period > 0) at[d] += period * std::round((before[d] - at[d]) / period);
+  }
+}
+
+void settle(Foot& foot, const Foot& next) {
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (!foot.free[d] || next.free[d]) continue;
+    foot.parameters[static_cast<Eigen::Index>(d)] = next.parameters[static_cast<Eigen::Index>(d)];
+    foot.free[d] = false;
+  }
+}
 
 }  // namespace
 
@@ -58,6 +74,30 @@ SurfaceFoot::Result SurfaceFoot::nearest(const Point& p, const std::optional<Eig
     if (found.distance <= tolerance) return found;
   }
   return result_of(search_.nearest(p));
+}
+
+SurfaceFoot::Path SurfaceFoot::along(std::span<const Point> points, double tolerance) const {
+  Path result;
+  std::vector<Foot> found;
+  for (const Point& p : points) {
+    std::optional<Eigen::Vector2d> hint;
+    if (!found.empty() && !found.back().free[0] && !found.back().free[1]) hint = found.back().parameters;
+    const Result at = nearest(p, hint, tolerance);
+    result.distance = std::max(result.distance, at.distance);
+    found.push_back(at.foot);
+  }
+  for (std::size_t k = 1; k < found.size(); ++k) settle(found[k], found[k - 1]);
+  for (std::size_t k = found.size(); k-- > 1;) settle(found[k - 1], found[k]);
+  for (std::size_t k = 1; k < found.size(); ++k) unwrap(found[k].parameters, found[k - 1].parameters, space_);
+  for (const Foot& foot : found) result.feet.push_back(foot.parameters);
+  return result;
+}
+
+Eigen::Vector2d SurfaceFoot::beside(const Point& p, const Eigen::Vector2d& before, double tolerance) const {
+  Foot foot = nearest(p, before, tolerance).foot;
+  settle(foot, {before});
+  unwrap(foot.parameters, before, space_);
+  return foot.parameters;
 }
 
 }  // namespace knead::step

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "face_surface.hpp"
@@ -22,6 +23,16 @@ class SurfaceFoot {
     double distance = 0;
   };
   [[nodiscard]] Result nearest(const Point& p, const std::optional<Eigen::Vector2d>& hint, double tolerance) const;
+
+  /// The fractions of the nearest points to those of a curve on the surface, one after the other: without jumps over a
+  /// seam, and beside poles with what is undetermined there taken from the neighbours. `tolerance`: as for `nearest`.
+  struct Path {
+    std::vector<Eigen::Vector2d> feet;
+    double distance = 0;  ///< the largest
+  };
+  [[nodiscard]] Path along(std::span<const Point> points, double tolerance) const;
+  /// The same for one more point, next to fractions on the path.
+  [[nodiscard]] Eigen::Vector2d beside(const Point& p, const Eigen::Vector2d& before, double tolerance) const;
 
   /// Closed directions have period 1; edges of the domain that collapse to one point are poles.
   [[nodiscard]] const ParameterSpace& space() const { return space_; }
