@@ -5,6 +5,8 @@
 #include "cli.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
+#include "knead/exchange/model_mesh.hpp"
+#include "knead/exchange/step_file.hpp"
 #include "outputs.hpp"
 
 namespace knead::cli {
@@ -12,8 +14,60 @@ namespace {
 
 struct MeshArguments {
   std::string file, output;
+  double tolerance = 0;
+  bool untrimmed = false;
   int detail = SaveOptions{}.detail;
 };
+
+/// An error of an option in the words of the command line; others are the file's.
+std::unexpected<Error> in_options(Error error, const MeshArguments& options) {
+  if (error.where == "detail" || error.where == "tolerance") {
+    error.where = "--" + error.where;
+    error.kind = ErrorKind::usage;
+  } else {
+    error.file = options.file;
+  }
+  return std::unexpected(std::move(error));
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+/// The trimmed faces of a STEP file; says what was left out.
+Expected<void> write_model(const step::File& file, const Format& format, const MeshArguments& options) {
+  SaveOptions mesh;
+  mesh.unit = file.length_units().empty() ? "" : file.length_unit();
+  const auto model = save_model(file, format, options.tolerance, mesh);
+  if (!model) return in_options(model.error(), options);
+  if (auto done = write_file_atomically(options.output, model->bytes); !done) return done;
+  for (const SkippedFace& face : model->skipped) {
+    fmt::print(stderr, "knead: warning: the face {} is left out: {}\n", face.id, face.reason.what);
+  }
+  fmt::print(
+      "wrote {} ({}, {}, {}, {} bytes)\n", options.output, counted(model->faces, "face", "faces"),
+      counted(model->triangles, "triangle", "triangles"),
+      model->open_sides == 0 ? "closed" : "open along " + counted(model->open_sides, "side", "sides") + " of triangles",
+      model->bytes.size());
+  return {};
+}
+
+/// The surfaces of any file, whole.
+Expected<void> write_surfaces(const Source& source, const Format& format, const MeshArguments& options) {
+  std::vector<NamedSurface> surfaces;
+  SaveOptions mesh;
+  mesh.detail = options.detail;
+  for (const SourceSurface& s : source.surfaces()) {
+    surfaces.push_back({s.name.empty() ? s.id : s.name, *s.surface});
+    mesh.unit = s.unit;
+  }
+  const auto bytes = save_surfaces(surfaces, format, mesh);
+  if (!bytes) return in_options(bytes.error(), options);
+  if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
+  fmt::print("wrote {} ({}, {} bytes)\n", options.output, counted(surfaces.size(), "surface", "surfaces"),
+             bytes->size());
+  return {};
+}
 
 Expected<void> run(const MeshArguments& options) {
   const auto format = format_of_name(options.output, FormatContent::triangles);
@@ -27,35 +81,15 @@ Expected<void> run(const MeshArguments& options) {
   if (!input) return std::unexpected(input.error());
   const auto source = open_source(std::move(*input), options.file);
   if (!source) return std::unexpected(source.error());
-  std::vector<NamedSurface> surfaces;
-  SaveOptions mesh;
-  mesh.detail = options.detail;
-  for (const SourceSurface& s : (*source)->surfaces()) {
-    surfaces.push_back({s.name.empty() ? s.id : s.name, *s.surface});
-    mesh.unit = s.unit;
-  }
-  const auto bytes = save_surfaces(surfaces, **format, mesh);
-  if (!bytes) {
-    Error error = bytes.error();
-    if (error.where == "detail") {
-      error.where = "--detail";
-      error.kind = ErrorKind::usage;
-    } else {
-      error.file = options.file;
-    }
-    return std::unexpected(std::move(error));
-  }
-  if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
-  fmt::print("wrote {} ({} surface{}, {} bytes)\n", options.output, surfaces.size(), surfaces.size() == 1 ? "" : "s",
-             bytes->size());
-  return {};
+  const step::File* step = options.untrimmed ? nullptr : (*source)->step_file();
+  return step != nullptr ? write_model(*step, **format, options) : write_surfaces(**source, **format, options);
 }
 
 }  // namespace
 
 Action add_mesh(CLI::App& app) {
   auto options = std::make_shared<MeshArguments>();
-  CLI::App* command = app.add_subcommand("mesh", "write the B-spline surfaces of a CAD file as triangles");
+  CLI::App* command = app.add_subcommand("mesh", "write the faces of a CAD file as triangles");
   command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
       ->required()
       ->type_name("");
@@ -63,15 +97,25 @@ Action add_mesh(CLI::App& app) {
       ->add_option("-o,--out", options->output,
                    "mesh to write; the ending selects the format: " + list_of_endings(FormatContent::triangles))
       ->required();
-  command->add_option("--detail", options->detail, "grid lines per direction of each surface, 1 to 2000")
-      ->capture_default_str();
+  CLI::Option* tolerance =
+      command
+          ->add_option("--tolerance", options->tolerance,
+                       "distance of the triangles from the faces, in the file's units; a two-thousandth of the model's "
+                       "diagonal unless given")
+          ->check(CLI::PositiveNumber);
+  CLI::Option* untrimmed =
+      command->add_flag("--untrimmed", options->untrimmed, "write whole B-spline surfaces, not the faces on them");
+  tolerance->excludes(untrimmed);
+  command
+      ->add_option("--detail", options->detail, "with --untrimmed: grid lines per direction of each surface, 1 to 2000")
+      ->capture_default_str()
+      ->needs(untrimmed);
   command->footer(
-      "The mesh approximates the exact surfaces, each whole and untrimmed, in the file's units: a grid whose "
-      "points\n"
-      "lie on the surface, every knot line among its lines, counterclockwise seen from where S_u x S_v points. It "
-      "need\n"
-      "not be watertight. STL, PLY and glTF are binary; glTF is turned to y up and scaled to metres by its root "
-      "node.\n" +
+      "Every face of the model, cut along its edges, within the tolerance and in the file's units. Faces meet in\n"
+      "the same points along their edges, so that a closed solid gives a closed mesh. Triangles run\n"
+      "counterclockwise as seen from outside. STL, PLY and glTF are binary; glTF is turned to y up and scaled to\n"
+      "metres by its root node. With --untrimmed each surface is a grid with every knot line among its lines, and\n"
+      "need not meet its neighbours.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };
 }

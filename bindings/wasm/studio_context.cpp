@@ -8,7 +8,7 @@
 namespace knead::studio {
 ContextPicture context_picture(const step::File& file, const Point& origin) {
   ContextPicture picture;
-  ContextFaces context;
+  FaceMeshes context;
   if (auto faces = context_faces(file)) context = *std::move(faces);
   for (const FaceMesh& mesh : context.faces) {
     const auto first = static_cast<std::uint32_t>(picture.positions.size() / 3);

@@ -27,7 +27,7 @@ class Follower {
   explicit Follower(const step::File::Data& data)
       : data_(data),
         reader_(data.records),
-        loops_(reader_, loop_chord),
+        loops_(reader_, {loop_chord}),
         angle_units_(plane_angle_units(reader_)),
         feet_(data.surfaces.size()) {}
 

@@ -11,7 +11,7 @@ namespace knead::step {
 namespace {
 
 constexpr int max_curve_nesting = 8;   // nested curves; more is a loop
-constexpr int max_halvings = 7;        // of one piece of a curve
+constexpr int max_halvings = 12;       // of one piece of a curve
 constexpr double close_enough = 1e-6;  // of the extent: ends of a closed spline
 
 std::optional<std::uint32_t> reference_at(const Reader& reader, std::uint32_t instance, const char* entity,
@@ -202,9 +202,11 @@ std::vector<double> EdgeCurve::corners() const {
   return result;
 }
 
-std::vector<double> EdgeCurve::subdivided(double from, double to, double chord) const {
+std::vector<double> EdgeCurve::subdivided(double from, double to, ChordLimit chord) const {
   if (straight()) return {from, to};
-  const double angle = chord_angle(chord);
+  const auto* conic = std::get_if<Conic>(&form_);
+  const double angle =
+      chord_angle(conic != nullptr && domain_ ? chord.of(std::max(conic->a.norm(), conic->b.norm())) : chord.share);
   std::vector<double> coarse = {from, to};
   if (const auto* table = std::get_if<CurveTable>(&form_)) {
     const auto& knots = table->curve().knots(0);
@@ -229,7 +231,7 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, double chord) 
     box.extend(at(coarse[k]));
     if (k > 0) box.extend(at((coarse[k - 1] + coarse[k]) / 2));
   }
-  const double tolerance = chord * box.diagonal().norm() / 2;
+  const double tolerance = std::min(chord.share * box.diagonal().norm() / 2, chord.length);
   // Halved from the left, with the far ends on a stack.
   std::vector<double> result = {from};
   std::vector<std::pair<double, int>> waiting;
@@ -240,7 +242,15 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, double chord) 
     const Point a = at(result.back()), m = at(middle), b = at(end);
     const Point chord_ab = b - a;
     const double length = chord_ab.norm();
-    const double off = length > 0 ? (m - a).cross(chord_ab).norm() / length : (m - a).norm();
+    const auto distance = [&](const Point& p) {
+      return length > 0 ? (p - a).cross(chord_ab).norm() / length : (p - a).norm();
+    };
+    double off = distance(m);
+    // A piece that turns both ways may meet its chord in the middle.
+    if (off <= tolerance && std::isfinite(chord.length)) {
+      const double start = result.back();
+      off = std::max({off, distance(at(start + (end - start) / 4)), distance(at(start + (end - start) * 3 / 4))});
+    }
     const double turn = std::atan2((m - a).cross(b - m).norm(), (m - a).dot(b - m));
     // Halves of a circular arc turn by half its angle.
     const bool fine = off <= tolerance && (turn <= 0.51 * angle || off <= 0.02 * tolerance);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -21,6 +23,15 @@ struct Frame {
 
 /// None if the axis has zero length, or the reference direction is along it.
 [[nodiscard]] std::optional<Frame> frame_of(const AxisPlacement& placement);
+
+/// How far chords may be from what they stand for. Both limits hold.
+struct ChordLimit {
+  double share;  ///< of the radius; of curves other than conics, of half their extent
+  double length = std::numeric_limits<double>::infinity();
+
+  /// Both, as a share of this radius.
+  [[nodiscard]] double of(double radius) const { return radius > 0 ? std::min(share, length / radius) : share; }
+};
 
 /// A curve of a STEP file in its own parametrisation (ISO 10303-42): LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA,
 /// POLYLINE and B-spline curves; TRIMMED_CURVE, and SURFACE_CURVE with its subtypes, by their underlying curve.
@@ -49,10 +60,10 @@ class EdgeCurve {
   [[nodiscard]] std::vector<double> corners() const;
 
   /// Parameters from `from` to `to` > from, both included. Circles and ellipses at even steps of at most 2 acos(1 −
-  /// chord): chords are then within `chord` · radius. Others so closely that chords are within `chord` · half the
+  /// share): chords are then within `share` · radius. Others so closely that chords are within `share` · half the
   /// extent of the whole piece, and turn no more than a circle's would, unless that moves less than a fiftieth of the
   /// tolerance. `to` may lie up to one period past the domain of a closed curve.
-  [[nodiscard]] std::vector<double> subdivided(double from, double to, double chord) const;
+  [[nodiscard]] std::vector<double> subdivided(double from, double to, ChordLimit chord) const;
 
  private:
   struct Line {

@@ -134,7 +134,7 @@ Expected<VisibleRegion> visible_region(const step::File& file, const std::string
     for (std::size_t end = 0; end < 2; ++end) result.poles[d][end] = feet->space().poles[d][end].has_value();
   }
   const auto shells = faces_in_shells(reader);
-  EdgeSampler sampler(reader, edge_chord);
+  EdgeSampler sampler(reader, {edge_chord});
   Course course(*feet, size);
   std::map<std::uint32_t, std::size_t> known;                    // edges of the result, by instance
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces_at;  // of every edge

@@ -1,6 +1,7 @@
 #include "face_loops.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace knead::step {
 namespace {
@@ -52,22 +53,46 @@ Expected<EdgePiece> edge_piece(const Reader& reader, std::uint32_t instance) {
   return EdgePiece{*std::move(curve), from, to, backwards, first, last, *start, *end};
 }
 
-Expected<Loop> EdgeSampler::sample(std::uint32_t instance) const {
-  const auto piece = edge_piece(*reader_, instance);
+Expected<EdgeSampler::Sampled> EdgeSampler::sample(std::uint32_t instance) const {
+  auto piece = edge_piece(*reader_, instance);
   if (!piece) return std::unexpected(piece.error());
-  Loop points;
-  for (const double t : piece->curve.subdivided(piece->from, piece->to, chord_)) points.push_back(piece->curve.at(t));
-  if (piece->backwards) std::reverse(points.begin(), points.end());
-  points.front() = piece->start;
-  points.back() = piece->end;
-  return points;
+  Sampled result{std::move(piece->curve), {}, {}};
+  result.parameters = result.curve.subdivided(piece->from, piece->to, chord_);
+  if (piece->backwards) std::reverse(result.parameters.begin(), result.parameters.end());
+  for (const double t : result.parameters) result.points.push_back(result.curve.at(t));
+  result.points.front() = piece->start;
+  result.points.back() = piece->end;
+  return result;
+}
+
+Expected<EdgeSampler::Sampled>& EdgeSampler::sampled(std::uint32_t instance) {
+  auto found = edges_.find(instance);
+  if (found == edges_.end()) found = edges_.emplace(instance, sample(instance)).first;
+  return found->second;
 }
 
 Expected<const Loop*> EdgeSampler::edge(std::uint32_t instance) {
-  auto found = edges_.find(instance);
-  if (found == edges_.end()) found = edges_.emplace(instance, sample(instance)).first;
-  if (!found->second) return std::unexpected(found->second.error());
-  return &*found->second;
+  const auto& found = sampled(instance);
+  if (!found) return std::unexpected(found.error());
+  return &found->points;
+}
+
+Expected<void> EdgeSampler::divide(std::uint32_t instance, std::span<const int> pieces) {
+  auto& found = sampled(instance);
+  if (!found) return std::unexpected(found.error());
+  assert(pieces.size() + 1 == found->points.size());
+  Sampled finer{std::move(found->curve), {found->parameters.front()}, {found->points.front()}};
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const double from = found->parameters[k], to = found->parameters[k + 1];
+    for (int i = 1; i < pieces[k]; ++i) {
+      finer.parameters.push_back(from + (to - from) * i / pieces[k]);
+      finer.points.push_back(finer.curve.at(finer.parameters.back()));
+    }
+    finer.parameters.push_back(to);
+    finer.points.push_back(found->points[k + 1]);
+  }
+  *found = std::move(finer);
+  return {};
 }
 
 Expected<Loop> EdgeSampler::loop(std::uint32_t instance) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -28,11 +29,14 @@ struct EdgePiece {
 class EdgeSampler {
  public:
   /// \param chord as in `EdgeCurve::subdivided`
-  EdgeSampler(const Reader& reader, double chord) : reader_(&reader), chord_(chord) {}
+  EdgeSampler(const Reader& reader, ChordLimit chord) : reader_(&reader), chord_(chord) {}
 
   /// From the start vertex of an EDGE_CURVE to its end vertex. Errors (input): the curve's type is unknown, or
   /// something is missing.
   [[nodiscard]] Expected<const Loop*> edge(std::uint32_t instance);
+  /// Adds points to an edge: each of its chords becomes so many, even in the parameter of the curve. Loops given out
+  /// before keep theirs.
+  [[nodiscard]] Expected<void> divide(std::uint32_t instance, std::span<const int> pieces);
 
   /// The loops of a list of FACE_BOUNDs, each in the direction given by the bound: with the face on its left as seen
   /// from the tip of the face's normal. Loops that bound nothing are omitted: a VERTEX_LOOP, and a loop that runs along
@@ -41,12 +45,18 @@ class EdgeSampler {
   [[nodiscard]] Expected<std::vector<Loop>> loops(std::uint32_t bounds);
 
  private:
-  [[nodiscard]] Expected<Loop> sample(std::uint32_t instance) const;
+  struct Sampled {
+    EdgeCurve curve;
+    std::vector<double> parameters;  // from the start vertex to the end vertex
+    Loop points;
+  };
+  [[nodiscard]] Expected<Sampled> sample(std::uint32_t instance) const;
+  [[nodiscard]] Expected<Sampled>& sampled(std::uint32_t instance);
   [[nodiscard]] Expected<Loop> loop(std::uint32_t instance);
 
   const Reader* reader_;
-  double chord_;
-  std::unordered_map<std::uint32_t, Expected<Loop>> edges_;
+  ChordLimit chord_;
+  std::unordered_map<std::uint32_t, Expected<Sampled>> edges_;
 };
 
 }  // namespace knead::step

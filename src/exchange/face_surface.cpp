@@ -97,6 +97,7 @@ Expected<FaceSurface> FaceSurface::read_elementary(const Reader& reader, std::ui
     return reader.error(instance, "its half angle is not below a right angle");
   }
   surface.set_poles();
+  surface.set_reach(on_it);
   return surface;
 }
 
@@ -137,7 +138,18 @@ Expected<FaceSurface> FaceSurface::read_swept(const Reader& reader, std::uint32_
   if (revolution) surface.periods_[0] = turn;
   if (auto done = surface.tabulate(reader, curve, on_it); !done) return std::unexpected(std::move(done.error()));
   surface.set_poles();
+  surface.set_reach(on_it);
   return surface;
+}
+
+void FaceSurface::set_reach(std::span<const Point> on_it) {
+  reach_ = kind_ == Kind::torus ? radius_ + std::abs(minor_) : radius_;
+  for (const auto& q : samples_) reach_ = std::max(reach_, std::abs(q.x()));
+  if (kind_ != Kind::cone && kind_ != Kind::revolution) return;
+  for (const Point& p : on_it) {
+    const Point d = p - frame_.origin;
+    reach_ = std::max(reach_, (d - d.dot(frame_.z) * frame_.z).norm());
+  }
 }
 
 std::optional<FaceSurface> FaceSurface::plane_of(std::span<const Point> loop) {
@@ -236,7 +248,14 @@ Point FaceSurface::normal(const Eigen::Vector2d& uv) const {
   return z;
 }
 
-Foot FaceSurface::foot(const Point& p) const {
+ParameterSpace FaceSurface::space() const {
+  ParameterSpace space;
+  space.periods = periods_;
+  space.poles[1] = poles_;
+  return space;
+}
+
+Foot FaceSurface::foot(const Point& p, const std::optional<Eigen::Vector2d>& /*near*/) const {
   const Point d = p - frame_.origin;
   const double x = d.dot(frame_.x), y = d.dot(frame_.y), z = d.dot(frame_.z);
   if (kind_ == Kind::plane) return {{x, y}};
@@ -289,12 +308,13 @@ std::array<bool, 2> FaceSurface::straight() const {
   return {false, false};
 }
 
-void FaceSurface::set_steps(double chord) {
-  angle_step_ = turn / std::ceil(turn / chord_angle(chord));
+void FaceSurface::set_steps(ChordLimit chord) {
+  const auto step = [chord](double radius) { return turn / std::ceil(turn / chord_angle(chord.of(radius))); };
+  angle_steps_ = {step(reach_), step(kind_ == Kind::torus ? std::abs(minor_) : reach_)};
   if (profile_) steps_ = profile_->subdivided(range_.lower, range_.upper, chord);
   if (waist_ > 0) {
     // Rulings that are not parallel: a cell of a by b deviates from its surface by up to a b / 4 at the waist.
-    const double pieces = std::clamp(std::ceil(2 * range_.length() / (waist_ * angle_step_)), 1.0, 1000.0);
+    const double pieces = std::clamp(std::ceil(2 * range_.length() / (waist_ * angle_steps_[0])), 1.0, 1000.0);
     steps_.clear();
     for (double k = 0; k <= pieces; ++k) steps_.push_back(range_.lower + range_.length() * k / pieces);
   }
@@ -323,12 +343,12 @@ Eigen::Vector2d FaceSurface::chart(const Eigen::Vector2d& uv) const {
       return uv;
     case Kind::cylinder:
     case Kind::cone:
-      return {uv.x() / angle_step_, uv.y()};
+      return {uv.x() / angle_steps_[0], uv.y()};
     case Kind::sphere:
     case Kind::torus:
-      return uv / angle_step_;
+      return {uv.x() / angle_steps_[0], uv.y() / angle_steps_[1]};
     case Kind::revolution:
-      return {uv.x() / angle_step_, steps_at(steps_, uv.y())};
+      return {uv.x() / angle_steps_[0], steps_at(steps_, uv.y())};
     case Kind::extrusion:
       return {steps_at(steps_, uv.x()), uv.y()};
   }
@@ -341,12 +361,12 @@ Eigen::Vector2d FaceSurface::from_chart(const Eigen::Vector2d& steps) const {
       return steps;
     case Kind::cylinder:
     case Kind::cone:
-      return {steps.x() * angle_step_, steps.y()};
+      return {steps.x() * angle_steps_[0], steps.y()};
     case Kind::sphere:
     case Kind::torus:
-      return steps * angle_step_;
+      return {steps.x() * angle_steps_[0], steps.y() * angle_steps_[1]};
     case Kind::revolution:
-      return {steps.x() * angle_step_, parameter_at(steps_, steps.y())};
+      return {steps.x() * angle_steps_[0], parameter_at(steps_, steps.y())};
     case Kind::extrusion:
       return {parameter_at(steps_, steps.x()), steps.y()};
   }

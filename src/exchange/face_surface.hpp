@@ -6,21 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "edge_curve.hpp"
+#include "charted_surface.hpp"
 
 namespace knead::step {
-
-/// The parameters of a point on a surface.
-struct Foot {
-  Eigen::Vector2d parameters = Eigen::Vector2d::Zero();
-  /// At a pole: any u is valid. (On a B-spline surface: in either direction.)
-  std::array<bool, 2> free = {false, false};
-};
 
 /// A surface of a STEP file that is not a B-spline: PLANE, CYLINDRICAL_, CONICAL_, SPHERICAL_ and TOROIDAL_SURFACE,
 /// SURFACE_OF_REVOLUTION, SURFACE_OF_LINEAR_EXTRUSION, parametrised as in ISO 10303-42, except that the u of an
 /// extrusion and the v of a revolution are those of the swept curve.
-class FaceSurface {
+class FaceSurface final : public ChartedSurface {
  public:
   /// \param on_it points of the edges of the face: they determine how much of an unbounded swept curve is needed, and
   ///   the unit of a cone's angle (the one of `angle_units`, radians each, that brings the cone closest to these
@@ -31,26 +24,23 @@ class FaceSurface {
   /// For a face without surface (FACE with a POLY_LOOP): the plane of the loop by Newell's normal.
   [[nodiscard]] static std::optional<FaceSurface> plane_of(std::span<const Point> loop);
 
-  [[nodiscard]] bool plane() const { return kind_ == Kind::plane; }
-  [[nodiscard]] Point at(const Eigen::Vector2d& uv) const;
-  /// Unit normal ∂u × ∂v; at a pole that of the neighbourhood.
-  [[nodiscard]] Point normal(const Eigen::Vector2d& uv) const;
-  /// Parameters of the point of the surface nearest to p (closed form; on swept curves a search and Newton's
-  /// iteration).
-  [[nodiscard]] Foot foot(const Point& p) const;
+  [[nodiscard]] Point at(const Eigen::Vector2d& uv) const override;
+  [[nodiscard]] Point normal(const Eigen::Vector2d& uv) const override;
+  /// In closed form; on swept curves by a search and Newton's iteration. A point beside it is not needed.
+  [[nodiscard]] Foot foot(const Point& p, const std::optional<Eigen::Vector2d>& near = {}) const override;
+  [[nodiscard]] ParameterSpace space() const override;
 
   /// Length of one turn in u, in v; 0 where it is not closed.
   [[nodiscard]] const std::array<double, 2>& periods() const { return periods_; }
   /// The lower and upper limits of v, at which the surface is a single point for all u.
   [[nodiscard]] const std::array<std::optional<double>, 2>& poles() const { return poles_; }
 
-  /// Steps such that chords of one step are within `chord` times the radius (for swept curves: half their extent).
-  /// Chart coordinates count steps; 0 stands for straight directions, which need none.
-  void set_steps(double chord);
-  [[nodiscard]] Eigen::Vector2d chart(const Eigen::Vector2d& uv) const;
-  [[nodiscard]] Eigen::Vector2d from_chart(const Eigen::Vector2d& steps) const;
-  /// True for directions along which the surface is straight and its normal constant.
-  [[nodiscard]] std::array<bool, 2> straight() const;
+  /// The limit's share is that of the radius (for swept curves: of half their extent). In straight directions the
+  /// chart is the parameter.
+  void set_steps(ChordLimit chord) override;
+  [[nodiscard]] Eigen::Vector2d chart(const Eigen::Vector2d& uv) const override;
+  [[nodiscard]] Eigen::Vector2d from_chart(const Eigen::Vector2d& steps) const override;
+  [[nodiscard]] std::array<bool, 2> straight() const override;
 
  private:
   enum class Kind { plane, cylinder, cone, sphere, torus, revolution, extrusion };
@@ -65,6 +55,7 @@ class FaceSurface {
                                                         std::span<const Point> on_it);
   [[nodiscard]] bool find_half_angle(std::span<const Point> on_it, std::span<const double> angle_units);
   void set_poles();
+  void set_reach(std::span<const Point> on_it);
   [[nodiscard]] Expected<void> tabulate(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it);
   [[nodiscard]] Expected<void> find_range(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it);
   [[nodiscard]] Expected<void> end_at_axis(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it);
@@ -87,7 +78,8 @@ class FaceSurface {
   std::vector<double> sample_parameters_;  // fine samples of the profile: for `nearest`
   std::vector<Eigen::Vector2d> samples_;
   std::vector<double> steps_;  // parameters of whole steps along the profile
-  double angle_step_ = 1;
+  double reach_ = 0;           // the largest distance from the axis
+  std::array<double, 2> angle_steps_ = {1, 1};
   std::array<double, 2> periods_ = {0, 0};
   std::array<std::optional<double>, 2> poles_ = {};
 };

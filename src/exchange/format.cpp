@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "format_list.hpp"
+#include "surface_mesh.hpp"
 
 namespace knead {
 namespace {
@@ -93,7 +95,7 @@ std::string format_table() {
     for (const std::string_view ending : format.endings)
       endings += (endings.empty() ? "`" : ", `") + std::string(ending) + "`";
     text += fmt::format("| {} | {} | {} | {} | {} |\n", format.name, endings, format.open != nullptr ? "yes" : "no",
-                        format.save != nullptr ? "yes" : "no", format.holds);
+                        format.save != nullptr || format.save_meshes != nullptr ? "yes" : "no", format.holds);
   }
   return text;
 }
@@ -114,7 +116,25 @@ std::string format_json() {
 
 Expected<std::string> save_surfaces(std::span<const NamedSurface> surfaces, const Format& format,
                                     const SaveOptions& options) {
-  return format.save(surfaces, options);
+  if (format.save != nullptr) return format.save(surfaces, options);
+  const auto meshes = detail::meshes_of(surfaces, options);
+  if (!meshes) return std::unexpected(meshes.error());
+  return save_meshes(*meshes, format, options);
+}
+
+Expected<std::string> save_meshes(std::span<const NamedMesh> meshes, const Format& format, const SaveOptions& options) {
+  if (format.save_meshes == nullptr) {
+    return input_error(fmt::format("{} does not hold triangles", format.name), {},
+                       "use " + list_of_endings(FormatContent::triangles));
+  }
+  std::size_t count = 0;
+  for (const NamedMesh& mesh : meshes) {
+    count += std::max(mesh.triangles.size(), static_cast<std::size_t>(mesh.points.rows()));
+  }
+  if (count > std::numeric_limits<std::int32_t>::max()) {
+    return input_error("the mesh has more than 2^31 triangles", "detail", "use a smaller one");
+  }
+  return format.save_meshes(meshes, options);
 }
 
 }  // namespace knead

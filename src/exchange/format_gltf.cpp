@@ -73,12 +73,10 @@ void append_chunk(std::string& to, std::uint32_t type, std::string content, char
   to += content;
 }
 
-Expected<std::string> save_gltf(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
-  const auto all = meshes_of(surfaces, options);
-  if (!all) return std::unexpected(all.error());
+Expected<std::string> save_gltf(std::span<const NamedMesh> all, const SaveOptions& options) {
   Buffer buffer;
   Json meshes = Json::array(), nodes = Json::array(), children = Json::array();
-  for (const SurfaceMesh& mesh : all->meshes) {
+  for (const NamedMesh& mesh : all) {
     if (mesh.triangles.empty()) continue;  // accessors must not be empty
     if (auto fits = fits_single_precision(mesh, "glTF"); !fits) return std::unexpected(fits.error());
     Points unit = mesh.normals;  // glTF requires unit vectors even at points of no triangle, as beside a pole
@@ -137,7 +135,7 @@ Format gltf_format() {
       .media_type = "model/gltf-binary",
       .content = FormatContent::triangles,
       .holds = "triangles with normals at the points, binary, single precision, a mesh per surface; shown in metres",
-      .save = save_gltf};
+      .save_meshes = save_gltf};
 }
 
 }  // namespace knead::detail

@@ -9,13 +9,11 @@
 namespace knead::detail {
 namespace {
 
-Expected<std::string> save_obj(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
-  const auto all = meshes_of(surfaces, options);
-  if (!all) return std::unexpected(all.error());
+Expected<std::string> save_obj(std::span<const NamedMesh> all, const SaveOptions& options) {
   std::string text = "# Knead" + lengths_in(options.unit) + "\n";
   auto out = std::back_inserter(text);
   std::size_t first = 1;
-  for (const SurfaceMesh& mesh : all->meshes) {
+  for (const NamedMesh& mesh : all) {
     std::string name = mesh.name;
     std::ranges::replace_if(
         name, [](char c) { return static_cast<unsigned char>(c) <= ' '; }, '_');
@@ -45,7 +43,7 @@ Format obj_format() {
           .media_type = "model/obj",
           .content = FormatContent::triangles,
           .holds = "triangles with normals at the points, text, an object per surface",
-          .save = save_obj};
+          .save_meshes = save_obj};
 }
 
 }  // namespace knead::detail

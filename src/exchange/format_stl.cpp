@@ -6,14 +6,12 @@
 namespace knead::detail {
 namespace {
 
-Expected<std::string> save_stl(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
-  const auto all = meshes_of(surfaces, options);
-  if (!all) return std::unexpected(all.error());
+Expected<std::string> save_stl(std::span<const NamedMesh> all, const SaveOptions& options) {
   constexpr std::size_t header = 80;
   std::string text = "Knead" + lengths_in(options.unit);
   text.resize(header, ' ');
-  append(text, static_cast<std::uint32_t>(all->triangles));
-  for (const SurfaceMesh& mesh : all->meshes) {
+  append(text, static_cast<std::uint32_t>(number_of_triangles(all)));
+  for (const NamedMesh& mesh : all) {
     if (auto fits = fits_single_precision(mesh, "STL"); !fits) return std::unexpected(fits.error());
     for (const auto& t : mesh.triangles) {
       append_point<float>(text, facet(mesh.points, t).normalized());
@@ -35,7 +33,7 @@ Format stl_format() {
           .media_type = "model/stl",
           .content = FormatContent::triangles,
           .holds = "triangles with the normal of each, binary, single precision",
-          .save = save_stl};
+          .save_meshes = save_stl};
 }
 
 }  // namespace knead::detail

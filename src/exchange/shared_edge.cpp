@@ -112,7 +112,7 @@ void look_across(std::span<const Surface> surfaces, const Point& along, SharedEd
 
 /// At least `least_samples` intervals, each chord within a small part of the edge's extent.
 std::vector<double> sampled(const EdgePiece& piece) {
-  const std::vector<double> coarse = piece.curve.subdivided(piece.from, piece.to, sampling_chord);
+  const std::vector<double> coarse = piece.curve.subdivided(piece.from, piece.to, {sampling_chord});
   std::vector<double> result = {coarse.front()};
   const double longest = (piece.to - piece.from) / least_samples;
   for (std::size_t k = 1; k < coarse.size(); ++k) {

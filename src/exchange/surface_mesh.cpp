@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "knead/spline/evaluate.hpp"
-#include "knead/spline/grid_lines.hpp"
 
 namespace knead::detail {
 namespace {
@@ -23,12 +22,14 @@ bool is_triangle(const Points& points, const std::array<std::uint32_t, 3>& t) {
   return facet(points, t).norm() > sliver * longest;
 }
 
-Expected<SurfaceMesh> mesh_of(const NamedSurface& item, int detail) {
-  const GridLines u = grid_lines(item.surface.knots(0), detail), v = grid_lines(item.surface.knots(1), detail);
+}  // namespace
+
+Expected<NamedMesh> mesh_of(const NamedSurface& item, const std::array<GridLines, 2>& lines) {
+  const auto& [u, v] = lines;
   const std::array<std::span<const double>, 2> grid = {u.parameters, v.parameters};
   auto jet = evaluate_grid<2>(item.surface, grid, 1);
   if (!jet) return std::unexpected(jet.error().within(item.name));
-  SurfaceMesh mesh{item.name, jet->points(), Points::Zero(jet->points().rows(), 3), {}};
+  NamedMesh mesh{item.name, jet->points(), Points::Zero(jet->points().rows(), 3), {}};
   const auto rows = static_cast<std::uint32_t>(u.parameters.size()),
              columns = static_cast<std::uint32_t>(v.parameters.size());
   for (std::uint32_t k = 0; k + 1 < rows; ++k) {
@@ -60,36 +61,29 @@ Expected<SurfaceMesh> mesh_of(const NamedSurface& item, int detail) {
   return mesh;
 }
 
-}  // namespace
-
 Point facet(const Points& points, const std::array<std::uint32_t, 3>& t) {
   const Point a = points.row(t[0]), b = points.row(t[1]), c = points.row(t[2]);
   return (b - a).cross(c - a);
 }
 
-Expected<void> fits_single_precision(const SurfaceMesh& mesh, std::string_view format) {
+Expected<void> fits_single_precision(const NamedMesh& mesh, std::string_view format) {
   if (mesh.points.size() == 0 || mesh.points.cwiseAbs().maxCoeff() <= std::numeric_limits<float>::max()) return {};
   return numerical_error(fmt::format("a coordinate is too large for {}", format), mesh.name, "write OBJ or PLY");
 }
 
-Expected<SurfaceMeshes> meshes_of(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+Expected<std::vector<NamedMesh>> meshes_of(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   constexpr int most_detail = 2000;
   if (surfaces.empty()) return input_error("there is no surface to write", {}, "open a file, or make a surface");
   if (options.detail < 1 || options.detail > most_detail) {
     return input_error(fmt::format("{} is not a detail", options.detail), "detail",
                        fmt::format("use a number from 1 to {}", most_detail));
   }
-  SurfaceMeshes result;
-  std::size_t vertices = 0;
-  for (const NamedSurface& surface : surfaces) {
-    auto mesh = mesh_of(surface, options.detail);
+  std::vector<NamedMesh> result;
+  for (const NamedSurface& item : surfaces) {
+    auto mesh = mesh_of(
+        item, {grid_lines(item.surface.knots(0), options.detail), grid_lines(item.surface.knots(1), options.detail)});
     if (!mesh) return std::unexpected(mesh.error());
-    result.triangles += mesh->triangles.size();
-    vertices += static_cast<std::size_t>(mesh->points.rows());
-    result.meshes.push_back(std::move(*mesh));
-  }
-  if (std::max(result.triangles, vertices) > std::numeric_limits<std::int32_t>::max()) {
-    return input_error("the mesh has more than 2^31 triangles", "detail", "use a smaller one");
+    result.push_back(std::move(*mesh));
   }
   return result;
 }

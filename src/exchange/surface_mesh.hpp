@@ -9,28 +9,27 @@
 #include <vector>
 
 #include "knead/exchange/format.hpp"
+#include "knead/spline/grid_lines.hpp"
 
 namespace knead::detail {
 
-/// Triangles of one surface.
-struct SurfaceMesh {
-  std::string name;
-  Points points, normals;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
-/// The triangles of all surfaces, as described at `save_surfaces`, and their number.
-struct SurfaceMeshes {
-  std::vector<SurfaceMesh> meshes;
-  std::size_t triangles = 0;
-};
-[[nodiscard]] Expected<SurfaceMeshes> meshes_of(std::span<const NamedSurface> surfaces, const SaveOptions& options);
+/// The triangles of all surfaces, as described at `save_surfaces`.
+[[nodiscard]] Expected<std::vector<NamedMesh>> meshes_of(std::span<const NamedSurface> surfaces,
+                                                         const SaveOptions& options);
+/// Those of one, between these lines.
+[[nodiscard]] Expected<NamedMesh> mesh_of(const NamedSurface& item, const std::array<GridLines, 2>& lines);
 
 /// (b − a) × (c − a), of a triangle's corners.
 [[nodiscard]] Point facet(const Points& points, const std::array<std::uint32_t, 3>& triangle);
 
+[[nodiscard]] inline std::size_t number_of_triangles(std::span<const NamedMesh> meshes) {
+  std::size_t count = 0;
+  for (const NamedMesh& mesh : meshes) count += mesh.triangles.size();
+  return count;
+}
+
 /// Whether all coordinates can be written in single precision; if not, an error that names the surface and the format.
-[[nodiscard]] Expected<void> fits_single_precision(const SurfaceMesh& mesh, std::string_view format);
+[[nodiscard]] Expected<void> fits_single_precision(const NamedMesh& mesh, std::string_view format);
 
 /// ", lengths in mm", or nothing if the unit is unknown.
 [[nodiscard]] inline std::string lengths_in(const std::string& unit) {

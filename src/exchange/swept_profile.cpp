@@ -109,7 +109,7 @@ Expected<void> FaceSurface::end_at_axis(const Reader& reader, std::uint32_t inst
 void FaceSurface::sample_profile() {
   const std::vector<double> parameters = profile_->straight()
                                              ? std::vector<double>{range_.lower, range_.upper}
-                                             : profile_->subdivided(range_.lower, range_.upper, sample_chord);
+                                             : profile_->subdivided(range_.lower, range_.upper, {sample_chord});
   const auto pieces = static_cast<std::size_t>(profile_->straight() ? 64 : samples_per_piece);
   for (std::size_t k = 0; k + 1 < parameters.size(); ++k) {
     for (std::size_t i = 0; i < pieces; ++i) {

@@ -94,8 +94,8 @@ class Mesh {
 
   // Flips sides of the waiting triangles, and of those this changes, until all circles are empty.
   void settle(std::vector<std::uint32_t> waiting) {
-    // Rounding might make two sides flip in turn; Delaunay needs fewer than this.
-    std::size_t budget = 64 + 64 * waiting.size() + (waiting.size() > 3 ? waiting.size() * 64 : 0);
+    // Rounding might make two sides flip in turn; Delaunay needs fewer than this (Lawson: half the square).
+    std::size_t budget = 64 + 128 * waiting.size() + waiting.size() * waiting.size();
     while (!waiting.empty() && budget-- > 0) {
       const auto t = waiting.back();
       bool flipped = false;

@@ -22,7 +22,7 @@ Expected<TrimLoops> trim_loops(const step::File& file, double chord) {
   for (std::size_t k = 0; k < data.surfaces.size(); ++k) {
     if (data.surfaces[k].trimmed) index.emplace(data.surface_instances[k], k);
   }
-  EdgeSampler edges(reader, chord);
+  EdgeSampler edges(reader, {chord});
   std::unordered_map<std::size_t, Expected<SurfaceFoot>> feet;
   std::vector<bool> failed(data.surfaces.size(), false);
   for (const Face& face : read_faces(reader)) {

@@ -10,6 +10,8 @@
 namespace knead {
 namespace {
 
+constexpr double least_speed = 1e-6;  // of the largest: less is a pole, where directions are not determined
+
 /// Every span in so many pieces.
 GridLines divided(const KnotVector& knots, const std::vector<int>& pieces) {
   GridLines lines;
@@ -46,8 +48,9 @@ std::vector<double> lines_across(const KnotVector& knots) {
   return result;
 }
 
-/// Of each span of a direction: how far the chord over the whole of it may be from the surface.
-Expected<std::vector<double>> chord_errors(const Surface& surface, int d) {
+}  // namespace
+
+Expected<std::vector<SpanChord>> span_chords(const Surface& surface, int d) {
   const KnotVector& knots = surface.knots(d);
   const std::vector<int> spans = knots.spans();
   const int samples = std::max(3, knots.degree());
@@ -65,23 +68,24 @@ Expected<std::vector<double>> chord_errors(const Surface& surface, int d) {
   if (auto done = evaluate_grid<2>(surface, {&*u, &*v}, 2, values); !done) return std::unexpected(done.error());
   const Points& first = d == 0 ? values.at({1, 0}) : values.at({0, 1});
   const Points& second = d == 0 ? values.at({2, 0}) : values.at({0, 2});
-  std::vector<double> errors(spans.size(), 0);
+  const double slow = least_speed * first.rowwise().norm().maxCoeff();
+  std::vector<SpanChord> chords(spans.size());
   const auto columns = static_cast<Eigen::Index>(places[1].size());
   for (Eigen::Index row = 0; row < first.rows(); ++row) {
-    const auto span = static_cast<std::size_t>((d == 0 ? row / columns : row % columns) / samples);
+    SpanChord& chord = chords[static_cast<std::size_t>((d == 0 ? row / columns : row % columns) / samples)];
     const Point t = first.row(row).transpose(), along = second.row(row).transpose();
-    const double square = t.squaredNorm();
-    const Point across = square > 0 ? Point(along - along.dot(t) / square * t) : along;
-    errors[span] = std::max(errors[span], across.norm());
+    const double square = t.squaredNorm(), speed = std::sqrt(square);
+    const double across = (square > 0 ? Point(along - along.dot(t) / square * t) : along).norm();
+    chord.distance = std::max(chord.distance, across);
+    if (speed > slow) chord.turn = std::max(chord.turn, across / speed);
   }
   for (std::size_t k = 0; k < spans.size(); ++k) {
     const double length = knots[spans[k] + 1] - knots[spans[k]];
-    errors[k] *= length * length / 8;
+    chords[k].distance *= length * length / 8;
+    chords[k].turn *= length;
   }
-  return errors;
+  return chords;
 }
-
-}  // namespace
 
 GridLines grid_lines(const KnotVector& knots, int detail, int most) {
   assert(detail >= 1);
@@ -90,10 +94,10 @@ GridLines grid_lines(const KnotVector& knots, int detail, int most) {
 
 Expected<std::array<GridLines, 2>> grid_lines(const Surface& surface, const ChordOptions& options) {
   assert(options.detail >= 1 && options.tolerance > 0);
-  std::array<std::vector<double>, 2> errors;
+  std::array<std::vector<SpanChord>, 2> errors;
   std::array<int, 2> base;
   for (int d = 0; d < 2; ++d) {
-    auto found = chord_errors(surface, d);
+    auto found = span_chords(surface, d);
     if (!found) return std::unexpected(found.error());
     errors[static_cast<std::size_t>(d)] = *std::move(found);
     base[static_cast<std::size_t>(d)] = pieces_per_span(surface.knots(d), options.detail, 400);
@@ -103,8 +107,8 @@ Expected<std::array<GridLines, 2>> grid_lines(const Surface& surface, const Chor
     std::array<double, 2> counts = {1, 1};
     bool finer = false;
     for (std::size_t d = 0; d < 2; ++d) {
-      for (const double error : errors[d]) {
-        const double wanted = std::min(std::ceil(std::sqrt(error / tolerance)), 1e6);
+      for (const SpanChord& chord : errors[d]) {
+        const double wanted = std::min(std::ceil(std::sqrt(chord.distance / tolerance)), 1e6);
         pieces[d].push_back(std::max(base[d], static_cast<int>(wanted)));
         counts[d] += pieces[d].back();
         finer = finer || pieces[d].back() > base[d];

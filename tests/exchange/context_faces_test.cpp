@@ -5,21 +5,15 @@
 #include <numbers>
 
 #include "exchange/face_builder.hpp"
+#include "exchange/mesh_measures.hpp"
 
 namespace knead {
 namespace {
 
+using testing::area_of;
 using testing::FaceBuilder;
 constexpr double pi = std::numbers::pi;
 constexpr double chord = 1e-4;
-
-double area_of(const FaceMesh& mesh) {
-  double area = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    area += (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm() / 2;
-  }
-  return area;
-}
 
 // All of a file's faces could be made triangles, and each triangle looks where its normals look.
 std::vector<FaceMesh> meshes(const FaceBuilder& builder, double tolerance = chord) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "exchange/mesh_measures.hpp"
 #include "knead/exchange/context_faces.hpp"
 #include "knead/exchange/trim_loops.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -12,13 +13,7 @@
 namespace knead::oracle {
 namespace {
 
-double area_of(const FaceMesh& mesh) {
-  double area = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    area += (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm() / 2;
-  }
-  return area;
-}
+using testing::area_of;
 
 // Where triangles lie on the wrong side of their own normals: folded.
 double folded_area(const FaceMesh& mesh) {
@@ -30,7 +25,7 @@ double folded_area(const FaceMesh& mesh) {
   return area;
 }
 
-void expect_areas(const ContextFaces& context, const std::map<std::string, double>& areas, double chord) {
+void expect_areas(const FaceMeshes& context, const std::map<std::string, double>& areas, double chord) {
   for (const auto& [id, reason] : context.skipped) ADD_FAILURE() << id << " is skipped: " << reason.message();
   EXPECT_EQ(context.faces.size(), areas.size());
   for (const auto& mesh : context.faces) {

@@ -29,6 +29,7 @@
 #include <StepData_StepModel.hxx>
 #include <StepGeom_BSplineSurface.hxx>
 #include <StepShape_FaceSurface.hxx>
+#include <StepShape_ManifoldSolidBrep.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -204,30 +205,54 @@ bool occt_write_shape(const std::string& name, const std::filesystem::path& path
   return false;
 }
 
-std::map<std::string, double> occt_face_areas(const std::filesystem::path& path, const std::string& unit,
-                                              bool splines) {
+namespace {
+
+/// Reads a file in this unit, and calls `visit` with each of its entities and what it became.
+template <class Visit>
+void for_each_entity(const std::filesystem::path& path, const std::string& unit, const Visit& visit) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   STEPControl_Reader reader;
   const std::map<std::string, const char*> names = {{"m", "M"}, {"cm", "CM"}, {"inch", "INCH"}, {"foot", "FT"}};
   const auto known = names.find(unit);
   Interface_Static::SetCVal("xstep.cascade.unit", known == names.end() ? "MM" : known->second);
-  std::map<std::string, double> areas;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return areas;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return;
   reader.TransferRoots();
   const auto step = opencascade::handle<StepData_StepModel>::DownCast(reader.WS()->Model());
   const auto process = reader.WS()->TransferReader()->TransientProcess();
   for (int k = 1; k <= step->NbEntities(); ++k) {
-    const auto face = opencascade::handle<StepShape_FaceSurface>::DownCast(step->Value(k));
-    if (face.IsNull() || face->FaceGeometry()->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface)) != splines) continue;
+    const auto entity = step->Value(k);
+    visit(entity, TransferBRep::ShapeResult(process, entity), "#" + std::to_string(step->IdentLabel(entity)));
+  }
+}
+
+}  // namespace
+
+std::map<std::string, double> occt_face_areas(const std::filesystem::path& path, const std::string& unit,
+                                              bool splines) {
+  std::map<std::string, double> areas;
+  for_each_entity(path, unit, [&](const auto& entity, const TopoDS_Shape& shape, const std::string& id) {
+    const auto face = opencascade::handle<StepShape_FaceSurface>::DownCast(entity);
+    if (face.IsNull() || face->FaceGeometry()->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface)) != splines) return;
     double sum = 0;
-    for (TopExp_Explorer at(TransferBRep::ShapeResult(process, face), TopAbs_FACE); at.More(); at.Next()) {
+    for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
       GProp_GProps properties;
       BRepGProp::SurfaceProperties(at.Current(), properties);
       sum += std::abs(properties.Mass());
     }
-    areas["#" + std::to_string(step->IdentLabel(face))] = sum;
-  }
+    areas[id] = sum;
+  });
   return areas;
+}
+
+std::map<std::string, double> occt_solid_volumes(const std::filesystem::path& path, const std::string& unit) {
+  std::map<std::string, double> volumes;
+  for_each_entity(path, unit, [&](const auto& entity, const TopoDS_Shape& shape, const std::string& id) {
+    if (!entity->IsKind(STANDARD_TYPE(StepShape_ManifoldSolidBrep)) || shape.IsNull()) return;
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(shape, properties);
+    volumes[id] = properties.Mass();
+  });
+  return volumes;
 }
 
 }  // namespace knead::oracle

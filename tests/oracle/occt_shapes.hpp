@@ -18,4 +18,8 @@ namespace knead::oracle {
 [[nodiscard]] std::map<std::string, double> occt_face_areas(const std::filesystem::path& path, const std::string& unit,
                                                             bool splines = false);
 
+/// The volume of every solid of a STEP file, by the name of its MANIFOLD_SOLID_BREP; lengths in `unit`.
+[[nodiscard]] std::map<std::string, double> occt_solid_volumes(const std::filesystem::path& path,
+                                                               const std::string& unit);
+
 }  // namespace knead::oracle

@@ -188,6 +188,28 @@ describe('the session in WebAssembly', () => {
     expect(() => engine.mesh('stl', 0)).toThrow(/detail/);
   });
 
+  it('writes the trimmed faces of a STEP file, sculpted, as the native program does', async () => {
+    const directory = mkdtempSync(join(tmpdir(), 'knead-'));
+    try {
+      const engine = await load();
+      engine.openStep(bonnet, 'bonnet.step');
+      const opened = engine.mesh('stl', 96);
+      for (const command of script.commands) engine.execute(command);
+      const [stl, saved, out] = [engine.mesh('stl', 96), join(directory, 'saved.step'), join(directory, 'native.stl')];
+      expect(stl).not.toEqual(opened);
+      writeFileSync(saved, engine.save());
+      execFileSync(native, ['mesh', saved, '-o', out]);
+      const other = readFileSync(out);
+      expect(other.length).toBe(stl.length);
+      const [here, there] = [new DataView(stl.buffer, stl.byteOffset), new DataView(other.buffer, other.byteOffset)];
+      for (let at = 84; at + 50 <= stl.length; at += 50) {
+        for (let k = 12; k < 48; k += 4) expect(Math.abs(here.getFloat32(at + k, true) - there.getFloat32(at + k, true))).toBeLessThan(1e-3);
+      }
+    } finally {
+      rmSync(directory, { recursive: true });
+    }
+  });
+
   it('measures pictures from the middle of a first surface that is far away', async () => {
     const engine = await load();
     engine.fresh('far');

@@ -1,4 +1,5 @@
-// The same stroke in the built page (dist/), in headless Chromium:  node bench/browser.mjs [directory ...]
+// The built page (dist/) in headless Chromium:  node bench/browser.mjs [directory ...]
+// How soon it shows something and is ready, in windows with nothing kept; then the same stroke as in steps.mjs.
 // Worker: commands and pictures of a frame, as the page shows them. Round trip: from the request until the page has drawn.
 import { fileURLToPath } from 'node:url';
 
@@ -13,14 +14,37 @@ const browser = await chromium.launch({
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking',
     '--disable-component-update', '--disable-sync', '--no-first-run'],
 });
+/** Milliseconds from the request of the page until something is drawn, and until it can be sculpted. */
+async function start(url, page) {
+  const begin = performance.now();
+  await page.goto(url, { waitUntil: 'commit' });
+  await page.waitForSelector('html[data-ready]', { state: 'attached', timeout: 60_000 });
+  const ready = performance.now() - begin;
+  const paint = await page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0].startTime);
+  return { paint, ready };
+}
+
 const pages = [];
 for (const directory of directories) {
   const server = await serve(directory);
   const page = await browser.newPage({ viewport: { width: 640, height: 420 } });
-  const begin = performance.now();
-  await page.goto(server.url);
-  await page.waitForSelector('html[data-ready]', { state: 'attached', timeout: 60_000 });
-  pages.push({ directory, server, page, ready: performance.now() - begin });
+  const { ready } = await start(server.url, page);
+  pages.push({ directory, server, page, ready });
+}
+
+console.log('start with an empty cache, milliseconds, 9 times in turn');
+console.log('first paint: median    worst   ready: median    worst  directory');
+const starts = pages.map(() => []);
+for (let k = 0; k < 9; ++k) {
+  for (const [at, { server }] of pages.entries()) {
+    const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
+    starts[at].push(await start(server.url, await context.newPage()));
+    await context.close();
+  }
+}
+for (const [at, { directory }] of pages.entries()) {
+  const of = (name) => starts[at].map((s) => s[name]);
+  console.log(`          ${ms(median(of('paint')))}${ms(worst(of('paint')))}        ${ms(median(of('ready')))}${ms(worst(of('ready')))}  ${directory}`);
 }
 
 for (const net of nets) {

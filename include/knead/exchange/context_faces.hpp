@@ -13,7 +13,8 @@ namespace knead {
 
 /// Triangles of one face.
 struct FaceMesh {
-  std::string id;  ///< "#123", of the ADVANCED_FACE
+  std::string id;       ///< "#123", of the ADVANCED_FACE
+  std::string surface;  ///< "#123", of the B-spline surface that it lies on; empty if it lies on another
   std::vector<Point> points;
   std::vector<Point> normals;  ///< unit, one per point, of the face: the surface's, reversed where same_sense is false
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the tip of the normal
@@ -25,7 +26,7 @@ struct SkippedFace {
   Error reason;
 };
 
-struct ContextFaces {
+struct FaceMeshes {
   std::vector<FaceMesh> faces;
   std::vector<SkippedFace> skipped;
 };
@@ -43,6 +44,6 @@ struct ContextFaces {
 ///   so that no gaps show. Between 1e-6 and 0.2.
 /// Errors (usage): chord out of range. Faces that fail are listed in `skipped`, each with its reason.
 /// Cost: linear in the file and in the triangles, quadratic in the number of points around one face.
-[[nodiscard]] Expected<ContextFaces> context_faces(const step::File& file, double chord = 1e-3);
+[[nodiscard]] Expected<FaceMeshes> context_faces(const step::File& file, double chord = 1e-3);
 
 }  // namespace knead

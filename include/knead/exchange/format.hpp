@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +16,13 @@ namespace knead {
 struct NamedSurface {
   std::string name;  ///< UTF-8; may be empty
   Surface surface;
+};
+
+/// Triangles to write, one mesh.
+struct NamedMesh {
+  std::string name;                                     ///< UTF-8; may be empty
+  Points points, normals;                               ///< one normal per point, unit, or zero where there is none
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the tip of the normal
 };
 
 /// How to write surfaces.
@@ -41,8 +50,10 @@ struct Format {
   bool (*recognises)(std::string_view bytes) = nullptr;
   /// Opens bytes; `name` stands for the file in errors. Null where `recognises` is.
   Expected<std::shared_ptr<const Source>> (*open)(std::string bytes, std::string name) = nullptr;
-  /// The bytes of a new file of these surfaces.
+  /// The bytes of a new file of these surfaces. Null for formats of triangles.
   Expected<std::string> (*save)(std::span<const NamedSurface> surfaces, const SaveOptions& options) = nullptr;
+  /// The bytes of a new file of these meshes. Null for formats of surfaces.
+  Expected<std::string> (*save_meshes)(std::span<const NamedMesh> meshes, const SaveOptions& options) = nullptr;
 };
 
 /// All formats, those that store surfaces first.
@@ -78,7 +89,14 @@ struct Format {
 /// promises a watertight mesh. Normals are S_u × S_v / |S_u × S_v|, or, where that vanishes, the mean over adjacent
 /// triangles. Errors: no surface, a detail out of range, more than 2³¹ triangles (input); a denominator that is
 /// not positive, a coordinate too large for the format (numerical).
+///
+/// The trimmed model of a STEP file is written by `save_model` (model_mesh.hpp).
 [[nodiscard]] Expected<std::string> save_surfaces(std::span<const NamedSurface> surfaces, const Format& format,
                                                   const SaveOptions& options = {});
+
+/// The bytes of a file of these meshes; the format must be one of triangles. Errors: another format, more than 2³¹
+/// triangles (input); a coordinate too large for the format (numerical).
+[[nodiscard]] Expected<std::string> save_meshes(std::span<const NamedMesh> meshes, const Format& format,
+                                                const SaveOptions& options = {});
 
 }  // namespace knead

@@ -21,6 +21,17 @@ struct GridLines {
 /// Requires: detail >= 1 (asserted).
 [[nodiscard]] GridLines grid_lines(const KnotVector& knots, int detail, int most = 400);
 
+/// The chord over the whole of a span, in one direction of a surface.
+struct SpanChord {
+  double distance = 0;  ///< from the surface: h²/8 · max |S_uu − (S_uu · t) t|
+  double turn = 0;      ///< of the tangent, radians: h · max |S_uu − (S_uu · t) t| / |S_u|
+};
+
+/// Of every span of a direction, about the largest: maxima are estimated at max(3, p) points inside each span, along
+/// lines at and between the knots of the other direction (at most 64 of them). Cost: one evaluation of order 2 there.
+/// Errors: a rational denominator that is not positive (numerical).
+[[nodiscard]] Expected<std::vector<SpanChord>> span_chords(const Surface& surface, int direction);
+
 /// How closely the lines of a grid follow a surface.
 struct ChordOptions {
   int detail = 96;            ///< as for `grid_lines` of the knots: the coarsest grid
@@ -31,10 +42,9 @@ struct ChordOptions {
 
 /// The grid lines of both directions, with more pieces in every span whose chords would be farther from the surface
 /// than the tolerance: a chord over h is off by h²/8 · max |S_uu − (S_uu · t) t| with the unit tangent t, that is by κ
-/// L²/8 for the length L of the piece. The maximum is estimated at max(3, p) points inside each span, along lines at
-/// and between the knots of the other direction (at most 64 of them), so that chords are within about the tolerance.
-/// Where that would take more points than the options allow, the tolerance is doubled until it does not. Cost: one
-/// evaluation of order 2 at these points. Errors: a rational denominator that is not positive (numerical).
+/// L²/8 for the length L of the piece. The maximum is estimated as for `span_chords`, so that chords are within about
+/// the tolerance. Where that would take more points than the options allow, the tolerance is doubled until it does not.
+/// Cost: one evaluation of order 2 at these points. Errors: a rational denominator that is not positive (numerical).
 [[nodiscard]] Expected<std::array<GridLines, 2>> grid_lines(const Surface& surface, const ChordOptions& options);
 
 }  // namespace knead

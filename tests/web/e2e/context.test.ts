@@ -1,29 +1,16 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { facesStep } from '../faces_step';
-import { openStudio, settled, type Studio } from './page';
+import { directoryOfFile, settled, studioOfFile } from './page';
 
-let studio: Studio;
-let directory: string;
+const studio = studioOfFile();
+const directory = directoryOfFile();
 
 beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-context-'));
-  studio = await openStudio();
   const path = join(directory, 'faces.step');
   writeFileSync(path, facesStep());
   await studio.page.locator('input[type=file]').first().setInputFiles(path);
-});
-
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
 });
 
 const triangles = () =>
@@ -96,6 +83,22 @@ describe('faces round the surfaces', () => {
     await show({ trimmed: false });
     expect(same(await colourAt(4.5, 4.5, 0), cut)).toBe(false);
     expect(same(await colourAt(0.3, 0.4, 0), kept)).toBe(true);
+  });
+
+  it('are met by the pointer where they are shown', async () => {
+    const met = (x: number, y: number) => studio.page.evaluate(([px, py]) => {
+      const { viewer } = (window as never as { studio: { viewer: {
+        origin: number[]; main: { projectAll(points: number[]): Float32Array };
+        pick(viewport: object, place: { clientX: number; clientY: number }): { surface: number } | null;
+      } } }).studio;
+      const [clientX, clientY] = viewer.main.projectAll([px!, py!, 0].map((c, d) => c - viewer.origin[d]!));
+      return viewer.pick(viewer.main, { clientX: clientX!, clientY: clientY! })?.surface;
+    }, [x, y]);
+    await show({ context: false, trimmed: true });
+    expect(await met(4.5, 4.5)).toBeUndefined();
+    expect(await met(0.3, 0.4)).toBe(0);
+    await show({ trimmed: false });
+    expect(await met(4.5, 4.5)).toBe(0);
   });
 
   it('go with the file they came from', async () => {

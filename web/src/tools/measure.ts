@@ -75,7 +75,7 @@ export class Measure implements PointerTool {
   }
 
   click(viewport: Viewport, event: PointerEvent): void {
-    const hit = this.viewer.pick(viewport, event, undefined, true);
+    const hit = this.viewer.pick(viewport, event);
     if (hit) void this.pick(hit.surface, hit.fractions);
   }
 

@@ -277,15 +277,15 @@ export class Viewer {
   }
 
   /**
-   * What is under the pointer: the nearest surface, as last drawn or as it was when `frozen` was taken. With `drawn` only what
-   * its trims leave of it, as far as it is drawn trimmed.
+   * What is under the pointer: the nearest surface, as last drawn or as it was when `frozen` was taken; where it is drawn
+   * trimmed, only what its faces show.
    */
-  pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: readonly (GridPicker | null)[], drawn = false): Hit | null {
+  pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: readonly (GridPicker | null)[]): Hit | null {
     const { ray } = viewport.ray(event, this.raycaster);
     const far = this.section.clip(ray);
     let best: (Hit & { distance: number }) | null = null;
     for (const [surface, picker] of (frozen ?? this.pickers).entries()) {
-      const trim = drawn && this.display.trimmed ? this.trimOf(surface) : null;
+      const trim = this.display.trimmed ? this.trimOf(surface) : null;
       const hit = picker?.hit(ray, trim ? (s, t) => shown(trim, s, t) : undefined);
       if (hit && hit.distance <= far && (!best || hit.distance < best.distance)) best = { surface, ...hit };
     }

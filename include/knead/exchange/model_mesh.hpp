@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "knead/exchange/context_faces.hpp"
+#include "knead/exchange/format.hpp"
+
+namespace knead {
+
+/// The model of a STEP file as triangles: every face, cut along its edges, so that faces that share an edge meet in
+/// the same points there. A closed shell gives a closed mesh (docs/context-faces.md).
+///
+/// Corners lie on the face or, at its edges, on the curve of the edge. Triangles are measured along the normal at their
+/// centres and those of their sides, and divided where that is more than 0.65 of `tolerance`, at most six times: what
+/// lies between was within `tolerance` in every measured file. Chords turn by no more than 0.5 radians. A B-spline surface without faces is taken whole. Coordinates are as for `context_faces`: placements of
+/// assemblies are not applied.
+///
+/// \param tolerance a length in the file's units; 0: a two-thousandth of the diagonal of the model's box
+/// Errors (usage): a tolerance below 0, or below 1e-7 of the diagonal, or not finite; (input) a file without a face.
+/// Faces that fail are listed in `skipped`, each with its reason.
+/// Cost: linear in the file and in the triangles, quadratic in the number of points around one face.
+[[nodiscard]] Expected<FaceMeshes> model_faces(const step::File& file, double tolerance = 0);
+
+/// How many sides of triangles no other triangle continues: with the same two points, bit for bit, in the opposite
+/// order. 0 for the mesh of a closed shell. Triangles with a repeated point count as none. Cost: O(n log n).
+[[nodiscard]] std::size_t open_sides(std::span<const FaceMesh> faces);
+
+/// A written mesh of a model.
+struct ModelFile {
+  std::string bytes;
+  std::size_t faces = 0, triangles = 0, open_sides = 0;
+  std::vector<SkippedFace> skipped;
+};
+
+/// `model_faces` as a file of a format that holds triangles, one mesh per face: named by its B-spline surface, or, if
+/// that has no name, by its id. `options.unit` is used, `options.detail` is not.
+/// Errors: those of `model_faces`; a format of surfaces (usage); no face could be made triangles (input); a coordinate
+/// too large for the format (numerical).
+[[nodiscard]] Expected<ModelFile> save_model(const step::File& file, const Format& format, double tolerance = 0,
+                                             const SaveOptions& options = {});
+
+}  // namespace knead

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <expected>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "charted_surface.hpp"
+#include "face_loops.hpp"
+#include "knead/exchange/context_faces.hpp"
+#include "step_data.hpp"
+#include "step_faces.hpp"
+
+namespace knead::step {
+
+/// A face, and the surface that it lies on.
+struct FaceOnSurface {
+  Face face;
+  std::unique_ptr<ChartedSurface> surface;
+};
+
+/// Makes triangles of the faces of a file (docs/context-faces.md). Edges are sampled once, so that faces meet in the
+/// same points.
+class FaceTessellator {
+ public:
+  /// `data` must outlive it.
+  FaceTessellator(const File::Data& data, ChordLimit chord);
+
+  /// Errors (input): the face has no surface of a known form, or its edges are of an unknown one.
+  [[nodiscard]] Expected<FaceOnSurface> face_on_surface(const Face& face);
+  /// Divides the edges of a face where their chords are longer than a step on its surface. Errors as above.
+  [[nodiscard]] Expected<void> divide_edges(const FaceOnSurface& on);
+  /// Errors (input): its edges do not lie on its surface, bound nothing, or cross; it needs too many points.
+  [[nodiscard]] Expected<FaceMesh> mesh(const FaceOnSurface& on);
+
+  [[nodiscard]] const Reader& reader() const { return reader_; }
+
+ private:
+  class Chart;
+  struct Filling;
+  [[nodiscard]] Expected<std::unique_ptr<ChartedSurface>> surface_of(const Face& face, const std::vector<Loop>& loops);
+  [[nodiscard]] const char* add(const RegionPart& part, const std::vector<Loop>& loops, const ChartedSurface& surface,
+                                const Chart& chart, bool same_sense, FaceMesh& mesh) const;
+  [[nodiscard]] std::expected<Filling, const char*> fill(const ChartedSurface& surface, const Chart& chart,
+                                                         std::span<const std::vector<Eigen::Vector2d>> outline,
+                                                         std::span<const Point> bounds) const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> off(const ChartedSurface& surface, const Chart& chart,
+                                                 std::span<const std::vector<Eigen::Vector2d>> outline,
+                                                 std::span<const Point> bounds, const Filling& filling) const;
+
+  const File::Data& data_;
+  Reader reader_;
+  ChordLimit chord_;
+  EdgeSampler edges_;
+  std::vector<double> angle_units_;
+  std::unordered_map<std::uint32_t, std::size_t> splines_;  // position in `surfaces` by instance
+};
+
+}  // namespace knead::step

@@ -1,0 +1,164 @@
+#include "knead/exchange/model_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "face_tessellator.hpp"
+#include "knead/spline/grid_lines.hpp"
+#include "step_surfaces.hpp"
+#include "surface_mesh.hpp"
+
+namespace knead {
+
+using namespace step;
+
+namespace {
+
+constexpr double default_tolerance = 1.0 / 2000;  // of the diagonal of the model's box
+constexpr double least_tolerance = 1e-7;
+constexpr double share = 0.031;  // of radii: chords turn by 0.5 radians
+constexpr double safety = 0.65;  // triangles are measured at their centres and those of their sides alone
+
+/// Of the control points of its surfaces and the points of its edges.
+double diagonal_of(const step::File::Data& data, const std::vector<Face>& faces, const Reader& reader) {
+  Eigen::AlignedBox3d box;
+  EdgeSampler edges(reader, {share});
+  for (const Face& face : faces) {
+    const auto loops = edges.loops(face.bounds);
+    if (!loops) continue;
+    for (const Loop& loop : *loops) {
+      for (const Point& p : loop) box.extend(p);
+    }
+  }
+  if (box.isEmpty()) {
+    for (const SurfaceEntity& s : data.surfaces) {
+      for (const auto& row : s.surface.control_points().rowwise()) box.extend(Point(row.transpose()));
+    }
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+/// A surface that no face cuts.
+Expected<FaceMesh> whole(const SurfaceEntity& entity, double tolerance) {
+  ChordOptions options;
+  options.detail = 1;
+  options.tolerance = tolerance / 3;  // both directions, and the twist between them
+  options.most_points = 10'000'000;
+  options.most = 100'000;
+  const auto lines = grid_lines(entity.surface, options);
+  if (!lines) return std::unexpected(lines.error());
+  const auto mesh = detail::mesh_of({entity.id, entity.surface}, *lines);
+  if (!mesh) return std::unexpected(mesh.error());
+  FaceMesh result{entity.id, entity.id, {}, {}, mesh->triangles};
+  for (Eigen::Index k = 0; k < mesh->points.rows(); ++k) {
+    result.points.push_back(mesh->points.row(k).transpose());
+    result.normals.push_back(mesh->normals.row(k).transpose());
+  }
+  return result;
+}
+
+}  // namespace
+
+Expected<FaceMeshes> model_faces(const step::File& file, double tolerance) {
+  const step::File::Data& data = file.data();
+  const Reader reader(data.records);
+  const std::vector<Face> faces = read_faces(reader);
+  const double diagonal = diagonal_of(data, faces, reader);
+  if (faces.empty() && data.surfaces.empty()) return input_error("the file has no faces", {}, "open a file with faces");
+  if (tolerance == 0) tolerance = default_tolerance * diagonal;
+  if (!std::isfinite(tolerance) || tolerance < least_tolerance * diagonal || !(tolerance > 0)) {
+    return std::unexpected(
+        Error{ErrorKind::usage, fmt::format("{} is not a tolerance for this model", tolerance), "tolerance",
+              fmt::format("use a length above {:.2g}, in the units of the file", least_tolerance * diagonal)});
+  }
+  FaceTessellator tessellator(data, {share, safety * tolerance});
+  FaceMeshes result;
+  std::vector<FaceOnSurface> ready;
+  const auto skip = [&](const Face& face, Error reason) {
+    result.skipped.push_back({name_of(reader, face.instance), std::move(reason)});
+  };
+  for (const Face& face : faces) {
+    auto on = tessellator.face_on_surface(face);
+    if (!on)
+      skip(face, std::move(on.error()));
+    else if (auto divided = tessellator.divide_edges(*on); !divided)
+      skip(face, std::move(divided.error()));
+    else
+      ready.push_back(*std::move(on));
+  }
+  for (const FaceOnSurface& on : ready) {
+    auto mesh = tessellator.mesh(on);
+    if (mesh)
+      result.faces.push_back(*std::move(mesh));
+    else
+      skip(on.face, std::move(mesh.error()));
+  }
+  for (const SurfaceEntity& entity : data.surfaces) {
+    if (entity.faces > 0) continue;
+    auto mesh = whole(entity, tolerance);
+    if (mesh)
+      result.faces.push_back(*std::move(mesh));
+    else
+      result.skipped.push_back({entity.id, std::move(mesh.error())});
+  }
+  return result;
+}
+
+std::size_t open_sides(std::span<const FaceMesh> faces) {
+  using Ends = std::array<double, 6>;
+  std::vector<Ends> forth, back;
+  const auto add = [](std::vector<Ends>& to, const Point& a, const Point& b) {
+    to.push_back({a.x(), a.y(), a.z(), b.x(), b.y(), b.z()});
+  };
+  for (const FaceMesh& mesh : faces) {
+    for (const auto& t : mesh.triangles) {
+      const std::array<Point, 3> p = {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
+      if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        add(forth, p[k], p[(k + 1) % 3]);
+        add(back, p[(k + 1) % 3], p[k]);
+      }
+    }
+  }
+  std::ranges::sort(forth);
+  std::ranges::sort(back);
+  std::vector<Ends> open;
+  std::ranges::set_difference(forth, back, std::back_inserter(open));
+  return open.size();
+}
+
+Expected<ModelFile> save_model(const step::File& file, const Format& format, double tolerance,
+                               const SaveOptions& options) {
+  const auto model = model_faces(file, tolerance);
+  if (!model) return std::unexpected(model.error());
+  if (model->faces.empty()) {
+    const SkippedFace& first = model->skipped.front();
+    return std::unexpected(first.reason.within("none of the faces can be made triangles: " + first.id));
+  }
+  ModelFile result{{}, model->faces.size(), 0, open_sides(model->faces), model->skipped};
+  std::vector<NamedMesh> meshes;
+  for (const FaceMesh& face : model->faces) {
+    const SurfaceEntity* entity = file.find_surface(face.surface);
+    NamedMesh& mesh = meshes.emplace_back();
+    mesh.name = entity != nullptr && !entity->name.empty() ? entity->name : face.id;
+    const auto count = static_cast<Eigen::Index>(face.points.size());
+    mesh.points.resize(count, 3);
+    mesh.normals.resize(count, 3);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      mesh.points.row(k) = face.points[static_cast<std::size_t>(k)].transpose();
+      mesh.normals.row(k) = face.normals[static_cast<std::size_t>(k)].transpose();
+    }
+    mesh.triangles = face.triangles;
+    result.triangles += mesh.triangles.size();
+  }
+  auto bytes = save_meshes(meshes, format, options);
+  if (!bytes) return std::unexpected(std::move(bytes.error()));
+  result.bytes = *std::move(bytes);
+  return result;
+}
+
+}  // namespace knead

@@ -1,0 +1,143 @@
+#include "knead/exchange/model_mesh.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "exchange/face_builder.hpp"
+#include "exchange/mesh_measures.hpp"
+#include "knead/spline/closest_point.hpp"
+
+namespace knead {
+namespace {
+
+using testing::FaceBuilder;
+using testing::volume_of;
+constexpr double pi = std::numbers::pi;
+
+FaceMeshes model_of(const step::File& file, double tolerance) {
+  auto model = model_faces(file, tolerance);
+  if (!model) {
+    ADD_FAILURE() << model.error().message();
+    return {};
+  }
+  for (const auto& [id, reason] : model->skipped) ADD_FAILURE() << id << ": " << reason.message();
+  return *std::move(model);
+}
+
+/// A closed can: a cylinder with two lids that share its circles.
+step::File can(double radius, double height) {
+  FaceBuilder b;
+  const int below = b.circle(radius, 0), above = b.circle(radius, height);
+  const auto on = [&](const std::string& entity, double z, const std::string& measure) {
+    return b.entity(entity + "('',#" + std::to_string(b.frame(0, 0, z)) + measure + ")");
+  };
+  b.face(on("CYLINDRICAL_SURFACE", 0, "," + FaceBuilder::real(radius)), {b.bound({below}), b.bound({-above})});
+  b.face(on("PLANE", 0, ""), {b.bound({-below})}, false);
+  b.face(on("PLANE", height, ""), {b.bound({above})});
+  return b.file();
+}
+
+TEST(ModelMesh, AClosedShellGivesAClosedMesh) {
+  for (const double tolerance : {0.5, 0.05, 0.0005}) {
+    const FaceMeshes model = model_of(can(10, 30), tolerance);
+    ASSERT_EQ(model.faces.size(), 3U);
+    EXPECT_EQ(open_sides(model.faces), 0U);
+    const double exact = 3000 * pi, surface = 800 * pi;
+    EXPECT_NEAR(volume_of(model.faces), exact, tolerance * surface);
+    EXPECT_LT(volume_of(model.faces), exact);
+  }
+}
+
+TEST(ModelMesh, AnOpenShellIsOpenAlongItsEdge) {
+  FaceBuilder b;
+  b.face(b.entity("PLANE('',#" + std::to_string(b.frame()) + ")"), {b.bound({b.circle(10, 0)})});
+  const FaceMeshes model = model_of(b.file(), 0.01);
+  EXPECT_EQ(open_sides(model.faces), model.faces[0].points.size());
+}
+
+TEST(ModelMesh, SpheresAndToriAreClosedWithoutEdges) {
+  for (const std::string shape : {"SPHERICAL_SURFACE", "TOROIDAL_SURFACE"}) {
+    FaceBuilder b;
+    const bool sphere = shape.starts_with("SPH");
+    b.face(b.entity(shape + "('',#" + std::to_string(b.frame()) + (sphere ? ",3.)" : ",9.,3.)")),
+           {b.vertex_bound(sphere ? 0 : 12, 0, sphere ? 3 : 0)});
+    const FaceMeshes model = model_of(b.file(), 0.01);
+    EXPECT_EQ(open_sides(model.faces), 0U) << shape;
+    const double volume = sphere ? 36 * pi : 162 * pi * pi;
+    EXPECT_NEAR(volume_of(model.faces), volume, 0.01 * (sphere ? 36 * pi : 108 * pi * pi)) << shape;
+  }
+}
+
+/// The largest distance of a mesh from the surface that it lies on, at 12 points of each triangle, or of
+/// every so many of the larger meshes.
+double off(const FaceMesh& mesh, const Surface& surface) {
+  const auto search = ClosestPointSearch<2>::create(surface);
+  double result = 0;
+  constexpr std::size_t enough = 1000;
+  for (std::size_t n = 0; n < mesh.triangles.size(); n += 1 + mesh.triangles.size() / enough) {
+    const auto& t = mesh.triangles[n];
+    const Point &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+    for (int i = 0; i <= 4; ++i) {
+      for (int k = 0; k <= 4 - i; ++k) {
+        if (i == 4 || k == 4) continue;
+        result = std::max(result, search->nearest(Point(i * a + k * b + (4 - i - k) * c) / 4).distance);
+      }
+    }
+  }
+  return result;
+}
+
+class ModelMeshFile : public ::testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(ModelMeshFile, TrianglesAreWithinTheToleranceOfTheirSurface) {
+  const auto file = step::File::read(GetParam());
+  ASSERT_TRUE(file);
+  if (file->surfaces().empty()) GTEST_SKIP() << "there is no B-spline surface";
+  for (const double share : {1e-3, 1e-4}) {
+    Eigen::AlignedBox3d box;
+    for (const auto& s : file->surfaces()) {
+      for (const auto& row : s.surface.control_points().rowwise()) box.extend(Point(row.transpose()));
+    }
+    const double tolerance = share * box.diagonal().norm();
+    const FaceMeshes model = model_of(*file, tolerance);
+    int measured = 0;
+    for (const FaceMesh& mesh : model.faces) {
+      const auto* entity = file->find_surface(mesh.surface);
+      if (entity == nullptr || ++measured > 12) continue;
+      EXPECT_LE(off(mesh, entity->surface), tolerance) << mesh.id << " of " << model.faces.size();
+    }
+  }
+}
+
+std::vector<std::filesystem::path> files() {
+  auto result = testing::step_files_in(testing::collection());
+  for (auto& sample : testing::step_files_in(testing::samples())) result.push_back(std::move(sample));
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, ModelMeshFile, ::testing::ValuesIn(files()), [](const auto& instance) {
+  auto name = instance.param.stem().string();
+  std::ranges::replace_if(
+      name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+});
+
+TEST(ModelMesh, SaysWhatIsWrong) {
+  const auto file = can(10, 30);
+  for (const double tolerance : {-1.0, 1e-9, std::nan("")}) {
+    const auto model = model_faces(file, tolerance);
+    ASSERT_FALSE(model) << tolerance;
+    EXPECT_EQ(model.error().kind, ErrorKind::usage);
+    EXPECT_EQ(model.error().where, "tolerance");
+  }
+  const auto empty = model_faces(testing::parse_or_die(testing::step_text("#1=CARTESIAN_POINT('',(0.,0.,0.));\n")));
+  ASSERT_FALSE(empty);
+  EXPECT_EQ(empty.error().kind, ErrorKind::input);
+  const auto text = save_model(file, *find_format("step"));
+  ASSERT_FALSE(text);
+  EXPECT_NE(text.error().message().find(".stl"), std::string::npos) << text.error().message();
+}
+
+}  // namespace
+}  // namespace knead

@@ -1,0 +1,72 @@
+// The triangles of whole models, held against the areas and volumes that Open CASCADE finds.
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "exchange/mesh_measures.hpp"
+#include "knead/exchange/model_mesh.hpp"
+#include "oracle/occt_shapes.hpp"
+#include "oracle/step_oracle.hpp"
+
+namespace knead::oracle {
+namespace {
+
+using testing::area_of;
+using testing::volume_of;
+
+/// Closed where the file has only solids, with their volume, and every face with its area.
+void expect_model(const step::File& file, const fs::path& path, double tolerance) {
+  const auto model = model_faces(file, tolerance);
+  ASSERT_TRUE(model) << model.error().message();
+  for (const auto& [id, reason] : model->skipped) ADD_FAILURE() << id << " is left out: " << reason.message();
+  std::map<std::string, double> areas = occt_face_areas(path, file.length_unit());
+  areas.merge(occt_face_areas(path, file.length_unit(), true));
+  double whole = 0;
+  for (const FaceMesh& mesh : model->faces) {
+    const double area = area_of(mesh);
+    whole += area;
+    const auto found = areas.find(mesh.id);
+    if (found == areas.end()) continue;
+    // Chords shorten curves; and a strip as wide as the tolerance around the face.
+    Eigen::AlignedBox3d own;
+    for (const Point& p : mesh.points) own.extend(p);
+    EXPECT_NEAR(area, found->second, 0.02 * found->second + 8 * tolerance * own.diagonal().norm()) << mesh.id;
+  }
+  const auto volumes = occt_solid_volumes(path, file.length_unit());
+  const bool shells = file.bytes().find("SHELL_BASED_SURFACE_MODEL") != std::string::npos;
+  if (volumes.empty() || shells) return;
+  EXPECT_EQ(open_sides(model->faces), 0U);
+  double volume = 0;
+  for (const auto& [id, solid] : volumes) volume += solid;
+  EXPECT_NEAR(volume_of(model->faces), volume, tolerance * whole);
+}
+
+class MeshShape : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(MeshShape, IsClosedAndHasTheVolumeThatOpenCascadeFinds) {
+  const auto path = fs::temp_directory_path() / ("knead-mesh-" + std::to_string(getpid()) + "-" + GetParam() + ".step");
+  ASSERT_TRUE(occt_write_shape(GetParam(), path));
+  const auto file = step::File::read(path);
+  ASSERT_TRUE(file) << file.error().message();
+  for (const double tolerance : {0.2, 0.01}) expect_model(*file, path, tolerance);
+  fs::remove(path);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, MeshShape, ::testing::ValuesIn(occt_shape_names()),
+                         [](const auto& instance) { return instance.param; });
+
+class MeshOracle : public StepOracle {};
+
+TEST_P(MeshOracle, IsClosedAndHasTheVolumeThatOpenCascadeFinds) {
+  Eigen::AlignedBox3d box;
+  for (const auto& s : file_->surfaces()) {
+    for (const auto& row : s.surface.control_points().rowwise()) box.extend(Point(row.transpose()));
+  }
+  const double tolerance = box.diagonal().norm() / 2000;
+  expect_model(*file_, GetParam(), tolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, MeshOracle, ::testing::ValuesIn(all_files()), test_name);
+
+}  // namespace
+}  // namespace knead::oracle
