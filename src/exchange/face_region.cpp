@@ -5,13 +5,8 @@
 #include <cmath>
 
 namespace knead::step {
-namespace {
 
 using Eigen::Vector2d;
-
-constexpr double off_surface = 0.02;  // of the extent of the face: how far edges may be from its surface
-
-}  // namespace
 
 Expected<std::vector<RegionPart>> region_of(const Reader& reader, const Face& face, EdgeSampler& edges,
                                             const SurfaceFoot& feet, double size) {

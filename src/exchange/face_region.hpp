@@ -21,4 +21,7 @@ void add_turns(const RegionPart& part, const ParameterSpace& space, std::vector<
 /// A point lies on a surface if its foot is no farther than this share of the net's diagonal.
 inline constexpr double on_surface = 1e-5;
 
+/// The edges of a face may be this share of its extent off its surface.
+inline constexpr double off_surface = 0.02;
+
 }  // namespace knead::step

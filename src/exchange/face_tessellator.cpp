@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "face_region.hpp"
 #include "face_surface.hpp"
 #include "parameter_region.hpp"
 #include "spline_face.hpp"
@@ -17,7 +18,6 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double clearance = 0.35;    // of interior points from the outline, in steps
-constexpr double off_surface = 0.02;  // of the extent of the face: how far edges may be from its surface
 constexpr double most_inside = 1e6;   // points
 constexpr double most_pieces = 1000;  // of a chord
 constexpr int most_rounds = 6;        // of adding points where triangles are too far from the surface
@@ -152,9 +152,9 @@ class FaceTessellator::Chart {
     const Vector2d base = surface_.foot(surface_.at({0, 0}), Vector2d(0, 0)).parameters;
     for (int d = 0; d < 2; ++d) {
       const auto k = static_cast<std::size_t>(d);
-      Vector2d turn = Vector2d::Zero();
-      turn[d] = own.periods[k];
-      if (turn[d] > 0) space.periods[k] = to(base + turn)[d] - to(base)[d];
+      Vector2d period = Vector2d::Zero();
+      period[d] = own.periods[k];
+      if (period[d] > 0) space.periods[k] = to(base + period)[d] - to(base)[d];
       for (std::size_t end = 0; end < 2; ++end) {
         if (own.poles[k][end]) space.poles[k][end] = to(Vector2d::Constant(*own.poles[k][end]))[d];
       }

@@ -20,13 +20,13 @@ namespace {
 
 constexpr double default_tolerance = 1.0 / 2000;  // of the diagonal of the model's box
 constexpr double least_tolerance = 1e-7;
-constexpr double share = 0.031;  // of radii: chords turn by 0.5 radians
-constexpr double safety = 0.65;  // triangles are measured at their centres and those of their sides alone
+constexpr double half_radian = 0.031;  // of radii: chords turn by 0.5 radians
+constexpr double safety = 0.65;        // triangles are measured at their centres and those of their sides alone
 
 /// Of the control points of its surfaces and the points of its edges.
 double diagonal_of(const step::File::Data& data, const std::vector<Face>& faces, const Reader& reader) {
   Eigen::AlignedBox3d box;
-  EdgeSampler edges(reader, {share});
+  EdgeSampler edges(reader, {half_radian});
   for (const Face& face : faces) {
     const auto loops = edges.loops(face.bounds);
     if (!loops) continue;
@@ -75,7 +75,7 @@ Expected<FaceMeshes> model_faces(const step::File& file, double tolerance) {
         Error{ErrorKind::usage, fmt::format("{} is not a tolerance for this model", tolerance), "tolerance",
               fmt::format("use a length above {:.2g}, in the units of the file", least_tolerance * diagonal)});
   }
-  FaceTessellator tessellator(data, {share, safety * tolerance});
+  FaceTessellator tessellator(data, {half_radian, safety * tolerance});
   FaceMeshes result;
   std::vector<FaceOnSurface> ready;
   const auto skip = [&](const Face& face, Error reason) {

@@ -6,12 +6,12 @@ std::vector<Face> read_faces(const Reader& reader) {
   constexpr int max_shell_nesting = 4;
   std::vector<Face> result;
   for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
-    const bool on_surface = reader.is(k, "ADVANCED_FACE") || reader.is(k, "FACE_SURFACE");
-    if (!on_surface && !reader.is(k, "FACE")) continue;
+    const bool has_surface = reader.is(k, "ADVANCED_FACE") || reader.is(k, "FACE_SURFACE");
+    if (!has_surface && !reader.is(k, "FACE")) continue;
     const auto bounds = reader.attributes(k, "FACE", 1, 1);
     if (bounds.empty()) continue;
     Face face{k, bounds[0]};
-    if (on_surface) {
+    if (has_surface) {
       const auto own = reader.attributes(k, "FACE_SURFACE", 2, 2);
       auto target = own.empty() ? std::nullopt : reader.reference(own[0]);
       for (int depth = 0; depth < max_shell_nesting && target; ++depth) {
