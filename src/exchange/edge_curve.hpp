@@ -51,6 +51,12 @@ class EdgeCurve {
   [[nodiscard]] bool closed() const { return closed_; }
   /// A straight line.
   [[nodiscard]] bool straight() const { return std::holds_alternative<Line>(form_); }
+  /// The domain of a spline or polyline, which `spline` gives as a whole; none of other curves.
+  [[nodiscard]] std::optional<Interval> whole() const;
+  /// The curve over `range`, which may lie up to a turn past the domain of an ellipse, as a B-spline curve on the same
+  /// parameters: of degree 1 for lines, 2 for conics, exact but for rounding (`conic_spline`); splines and polylines as
+  /// they are, whatever the range.
+  [[nodiscard]] Expected<Curve> spline(const Interval& range) const;
   /// Whether an odd number of TRIMMED_CURVEs runs against the curve.
   [[nodiscard]] bool turned() const { return turned_; }
 

@@ -35,6 +35,18 @@ class FaceSurface final : public ChartedSurface {
   /// The lower and upper limits of v, at which the surface is a single point for all u.
   [[nodiscard]] const std::array<std::optional<double>, 2>& poles() const { return poles_; }
 
+  /// The domain of a direction that `patch` covers as a whole, as it is that of a spline; none elsewhere.
+  [[nodiscard]] std::array<std::optional<Interval>, 2> whole() const;
+  /// The swept curve is a TRIMMED_CURVE against the curve that it trims: `normal` is then the opposite of the file's.
+  [[nodiscard]] bool turned() const { return profile_ && profile_->turned(); }
+  /// Turns the parameters of a plane so that u runs along a direction; others stay.
+  void align(const Point& direction);
+  /// The part of the surface over [u] × [v] as a B-spline surface, on the same parameters up to its speed along arcs,
+  /// so that S_u × S_v points where `normal` does. Exact but for rounding: planes bilinear; arcs rational quadratic, in
+  /// parts of at most a quarter (Piegl & Tiller, The NURBS Book, 7.3, 8.3 and 8.5). The range must not go beyond a pole
+  /// or a turn; where `whole` has a domain it must be that.
+  [[nodiscard]] Expected<Surface> patch(const Interval& u, const Interval& v) const;
+
   /// The limit's share is that of the radius (for swept curves: of half their extent). In straight directions the
   /// chart is the parameter.
   void set_steps(ChordLimit chord) override;

@@ -5,9 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "face_region.hpp"
-#include "face_surface.hpp"
-#include "parameter_region.hpp"
 #include "spline_face.hpp"
 #include "triangulate.hpp"
 
@@ -126,47 +123,6 @@ void weld(std::vector<Point>& points, std::uint32_t first, const std::vector<std
 
 }  // namespace
 
-// Chart coordinates: whole steps where the surface is curved; where it is straight the face is one step long.
-class FaceTessellator::Chart {
- public:
-  Chart(const ChartedSurface& surface, std::span<const Foot> feet) : surface_(surface) {
-    const auto straight = surface.straight();
-    Vector2d lower = Vector2d::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (const Foot& foot : feet) {
-      const Vector2d c = surface.chart(foot.parameters);
-      lower = lower.cwiseMin(c);
-      upper = upper.cwiseMax(c);
-    }
-    if (feet.empty()) return;
-    for (int d = 0; d < 2; ++d) {
-      const double extent = surface.plane() ? (upper - lower).maxCoeff() : upper[d] - lower[d];
-      if (straight[std::size_t(d)] && extent > 0) scale_[d] = 1 / extent;
-    }
-  }
-  Vector2d to(const Vector2d& uv) const { return surface_.chart(uv).cwiseProduct(scale_); }
-  Vector2d from(const Vector2d& c) const { return surface_.from_chart(c.cwiseQuotient(scale_)); }
-
-  ParameterSpace space() const {
-    const ParameterSpace own = surface_.space();
-    ParameterSpace space;
-    const Vector2d base = surface_.foot(surface_.at({0, 0}), Vector2d(0, 0)).parameters;
-    for (int d = 0; d < 2; ++d) {
-      const auto k = static_cast<std::size_t>(d);
-      Vector2d period = Vector2d::Zero();
-      period[d] = own.periods[k];
-      if (period[d] > 0) space.periods[k] = to(base + period)[d] - to(base)[d];
-      for (std::size_t end = 0; end < 2; ++end) {
-        if (own.poles[k][end]) space.poles[k][end] = to(Vector2d::Constant(*own.poles[k][end]))[d];
-      }
-    }
-    return space;
-  }
-
- private:
-  const ChartedSurface& surface_;
-  Vector2d scale_ = Vector2d::Ones();
-};
-
 FaceTessellator::FaceTessellator(const File::Data& data, ChordLimit chord)
     : data_(data),
       reader_(data.records),
@@ -183,16 +139,9 @@ Expected<std::unique_ptr<ChartedSurface>> FaceTessellator::surface_of(const Face
     if (!spline) return reader_.error(face.instance, spline.error().what);
     return std::make_unique<SplineFace>(*std::move(spline));
   }
-  std::vector<Point> on_it;
-  for (const Loop& loop : loops) on_it.insert(on_it.end(), loop.begin(), loop.end());
-  if (face.surface != no_instance) {
-    auto surface = FaceSurface::read(reader_, face.surface, on_it, angle_units_);
-    if (!surface) return std::unexpected(std::move(surface.error()));
-    return std::make_unique<FaceSurface>(*std::move(surface));
-  }
-  auto plane = FaceSurface::plane_of(on_it);
-  if (!plane) return reader_.error(face.instance, "it has no surface, and its bounds span no plane");
-  return std::make_unique<FaceSurface>(*std::move(plane));
+  auto surface = face_surface(reader_, face, loops, angle_units_);
+  if (!surface) return std::unexpected(std::move(surface.error()));
+  return std::make_unique<FaceSurface>(*std::move(surface));
 }
 
 Expected<FaceOnSurface> FaceTessellator::face_on_surface(const Face& face) {
@@ -240,43 +189,13 @@ Expected<void> FaceTessellator::divide_edges(const FaceOnSurface& on) {
 }
 
 Expected<FaceMesh> FaceTessellator::mesh(const FaceOnSurface& on) {
-  const auto& [face, surface] = on;
-  auto loops = edges_.loops(face.bounds);
-  if (!loops) return std::unexpected(std::move(loops.error()));
-  // Now on the left as seen from the tip of the surface's normal, not the face's.
-  if (!face.same_sense) {
-    for (Loop& loop : *loops) std::reverse(loop.begin(), loop.end());
-  }
-  Eigen::AlignedBox3d box;
-  for (const Loop& loop : *loops) {
-    for (const Point& p : loop) box.extend(p);
-  }
-  std::vector<Foot> feet;
-  for (const Loop& loop : *loops) {
-    std::optional<Vector2d> near;
-    for (const Point& p : loop) {
-      feet.push_back(surface->foot(p, near));
-      near.reset();
-      if (!feet.back().free[0] && !feet.back().free[1]) near = feet.back().parameters;
-      const double off = (surface->at(feet.back().parameters) - p).norm();
-      if (!(off <= off_surface * box.diagonal().norm())) {
-        return reader_.error(face.instance, "its edges do not lie on its surface");
-      }
-    }
-  }
-  const Chart chart(*surface, feet);
-  std::vector<std::vector<LoopPoint>> in_chart;
-  auto foot = feet.begin();
-  for (const Loop& loop : *loops) {
-    auto& points = in_chart.emplace_back();
-    for (std::size_t k = 0; k < loop.size(); ++k, ++foot) points.push_back({chart.to(foot->parameters), foot->free});
-  }
-  auto parts = parameter_region(chart.space(), in_chart);
-  if (!parts) return reader_.error(face.instance, parts.error().what);
+  const Face& face = on.face;
+  const auto charted = charted_face(reader_, face, edges_, on.surface);
+  if (!charted) return std::unexpected(charted.error());
   FaceMesh result{name_of(reader_, face.instance), {}, {}, {}, {}};
   if (splines_.contains(face.surface)) result.surface = name_of(reader_, face.surface);
-  for (const RegionPart& part : *parts) {
-    if (const char* fault = add(part, *loops, *surface, chart, face.same_sense, result)) {
+  for (const RegionPart& part : charted->parts) {
+    if (const char* fault = add(part, charted->loops, charted->chart, face.same_sense, result)) {
       return reader_.error(face.instance, fault);
     }
   }
@@ -298,9 +217,9 @@ constexpr const char* too_many = "it would need more than a million points at th
 
 /// The centres of triangles that are farther from the surface than the limit, along its normal, at their own centre or
 /// at that of a side inside. `bounds`: the points of the outline.
-std::vector<Vector2d> FaceTessellator::off(const ChartedSurface& surface, const Chart& chart,
-                                           std::span<const std::vector<Vector2d>> outline,
+std::vector<Vector2d> FaceTessellator::off(const Chart& chart, std::span<const std::vector<Vector2d>> outline,
                                            std::span<const Point> bounds, const Filling& filling) const {
+  const ChartedSurface& surface = chart.surface();
   std::vector<Vector2d> flat;
   std::vector<std::size_t> next;  // along the outline
   for (const auto& loop : outline) {
@@ -335,8 +254,8 @@ std::vector<Vector2d> FaceTessellator::off(const ChartedSurface& surface, const 
 
 /// Or why not.
 std::expected<FaceTessellator::Filling, const char*> FaceTessellator::fill(
-    const ChartedSurface& surface, const Chart& chart, std::span<const std::vector<Vector2d>> outline,
-    std::span<const Point> bounds) const {
+    const Chart& chart, std::span<const std::vector<Vector2d>> outline, std::span<const Point> bounds) const {
+  const ChartedSurface& surface = chart.surface();
   const auto straight = surface.straight();
   Filling result;
   const auto complete = [&](std::optional<std::vector<Vector2d>> inside) -> const char* {
@@ -353,7 +272,7 @@ std::expected<FaceTessellator::Filling, const char*> FaceTessellator::fill(
   }
   const bool measured = std::isfinite(chord_.length) && !surface.plane();
   for (int round = 0; measured && fault == nullptr && round < most_rounds; ++round) {
-    const auto more = off(surface, chart, outline, bounds, result);
+    const auto more = off(chart, outline, bounds, result);
     if (more.empty()) break;
     auto inside = result.inside;
     inside.insert(inside.end(), more.begin(), more.end());
@@ -364,8 +283,9 @@ std::expected<FaceTessellator::Filling, const char*> FaceTessellator::fill(
 }
 
 /// None, or why not.
-const char* FaceTessellator::add(const RegionPart& part, const std::vector<Loop>& loops, const ChartedSurface& surface,
-                                 const Chart& chart, bool same_sense, FaceMesh& mesh) const {
+const char* FaceTessellator::add(const RegionPart& part, const std::vector<Loop>& loops, const Chart& chart,
+                                 bool same_sense, FaceMesh& mesh) const {
+  const ChartedSurface& surface = chart.surface();
   std::vector<std::vector<Vector2d>> outline;
   const auto first = static_cast<std::uint32_t>(mesh.points.size());
   const auto append = [&](const Vector2d& at, const Point& point) {
@@ -384,7 +304,7 @@ const char* FaceTessellator::add(const RegionPart& part, const std::vector<Loop>
   outline_of(part.outer);
   for (const auto& hole : part.holes) outline_of(hole);
   weld(mesh.points, first, added);
-  const auto filling = fill(surface, chart, outline, std::span(mesh.points).subspan(first));
+  const auto filling = fill(chart, outline, std::span(mesh.points).subspan(first));
   if (!filling) return filling.error();
   for (const Vector2d& p : filling->inside) append(p, surface.at(chart.from(p)));
   for (Triangle t : filling->triangles) {

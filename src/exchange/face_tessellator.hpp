@@ -6,8 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "charted_surface.hpp"
-#include "face_loops.hpp"
+#include "face_chart.hpp"
 #include "knead/exchange/context_faces.hpp"
 #include "step_data.hpp"
 #include "step_faces.hpp"
@@ -17,7 +16,7 @@ namespace knead::step {
 /// A face, and the surface that it lies on.
 struct FaceOnSurface {
   Face face;
-  std::unique_ptr<ChartedSurface> surface;
+  std::shared_ptr<const ChartedSurface> surface;
 };
 
 /// Makes triangles of the faces of a file (docs/context-faces.md). Edges are sampled once, so that faces meet in the
@@ -37,15 +36,14 @@ class FaceTessellator {
   [[nodiscard]] const Reader& reader() const { return reader_; }
 
  private:
-  class Chart;
   struct Filling;
   [[nodiscard]] Expected<std::unique_ptr<ChartedSurface>> surface_of(const Face& face, const std::vector<Loop>& loops);
-  [[nodiscard]] const char* add(const RegionPart& part, const std::vector<Loop>& loops, const ChartedSurface& surface,
-                                const Chart& chart, bool same_sense, FaceMesh& mesh) const;
-  [[nodiscard]] std::expected<Filling, const char*> fill(const ChartedSurface& surface, const Chart& chart,
+  [[nodiscard]] const char* add(const RegionPart& part, const std::vector<Loop>& loops, const Chart& chart,
+                                bool same_sense, FaceMesh& mesh) const;
+  [[nodiscard]] std::expected<Filling, const char*> fill(const Chart& chart,
                                                          std::span<const std::vector<Eigen::Vector2d>> outline,
                                                          std::span<const Point> bounds) const;
-  [[nodiscard]] std::vector<Eigen::Vector2d> off(const ChartedSurface& surface, const Chart& chart,
+  [[nodiscard]] std::vector<Eigen::Vector2d> off(const Chart& chart,
                                                  std::span<const std::vector<Eigen::Vector2d>> outline,
                                                  std::span<const Point> bounds, const Filling& filling) const;
 

@@ -2,8 +2,20 @@
 
 namespace knead::step {
 
-std::vector<Face> read_faces(const Reader& reader) {
+std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::uint32_t> surface) {
   constexpr int max_shell_nesting = 4;
+  for (int depth = 0; depth < max_shell_nesting && surface; ++depth) {
+    const char* cut = reader.is(*surface, "RECTANGULAR_TRIMMED_SURFACE") ? "RECTANGULAR_TRIMMED_SURFACE"
+                      : reader.is(*surface, "CURVE_BOUNDED_SURFACE")     ? "CURVE_BOUNDED_SURFACE"
+                                                                         : nullptr;
+    if (cut == nullptr) break;
+    const auto basis = reader.attributes(*surface, cut, 1, 1);
+    surface = basis.empty() ? std::nullopt : reader.reference(basis[0]);
+  }
+  return surface;
+}
+
+std::vector<Face> read_faces(const Reader& reader) {
   std::vector<Face> result;
   for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
     const bool has_surface = reader.is(k, "ADVANCED_FACE") || reader.is(k, "FACE_SURFACE");
@@ -13,15 +25,7 @@ std::vector<Face> read_faces(const Reader& reader) {
     Face face{k, bounds[0]};
     if (has_surface) {
       const auto own = reader.attributes(k, "FACE_SURFACE", 2, 2);
-      auto target = own.empty() ? std::nullopt : reader.reference(own[0]);
-      for (int depth = 0; depth < max_shell_nesting && target; ++depth) {
-        const char* cut = reader.is(*target, "RECTANGULAR_TRIMMED_SURFACE") ? "RECTANGULAR_TRIMMED_SURFACE"
-                          : reader.is(*target, "CURVE_BOUNDED_SURFACE")     ? "CURVE_BOUNDED_SURFACE"
-                                                                            : nullptr;
-        if (cut == nullptr) break;
-        const auto basis = reader.attributes(*target, cut, 1, 1);
-        target = basis.empty() ? std::nullopt : reader.reference(basis[0]);
-      }
+      const auto target = untrimmed(reader, own.empty() ? std::nullopt : reader.reference(own[0]));
       if (!target) continue;
       face.surface = *target;
       face.same_sense = reader.enumeration(own[1]) != "F";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct Face {
   std::uint32_t surface = no_instance;  ///< none: a FACE has only the geometry of its loops
   bool same_sense = true;
 };
+
+/// The surface that a RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE trims; another surface is itself. None where
+/// a reference is missing.
+[[nodiscard]] std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::uint32_t> surface);
 
 /// All faces, in the order of the file. RECTANGULAR_TRIMMED_SURFACE and CURVE_BOUNDED_SURFACE stand for the surface
 /// that they trim: the bounds of the face are more precise.

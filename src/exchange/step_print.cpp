@@ -1,6 +1,9 @@
 #include "step_print.hpp"
 
+#include <array>
+
 #include "part21_text.hpp"
+#include "step_surfaces.hpp"
 
 namespace knead::step {
 
@@ -35,6 +38,27 @@ std::string print_point(std::string_view name, const double* coordinates) {
   text += "=CARTESIAN_POINT('',(";
   for (int k = 0; k < 3; ++k) text.append(k == 0 ? "" : ",").append(format_real(coordinates[k]));
   return text + "));";
+}
+
+std::string print_surface(const Surface& surface, std::string_view label, const std::function<std::string(int)>& point,
+                          std::string_view line_break) {
+  const auto net = surface.net();
+  std::array<PrintedKnots, 2> knots;
+  for (std::size_t d = 0; d < 2; ++d) knots[d] = print_knots(surface.knots()[d], format_shortest_real);
+  const auto closed = closed_directions(surface);
+  const std::string name(label);
+  const auto own = std::to_string(surface.knots(0).degree()) + "," + std::to_string(surface.knots(1).degree()) + "," +
+                   print_net(net[0], net[1], point, line_break) + ",.UNSPECIFIED.," + (closed[0] ? ".T." : ".F.") +
+                   "," + (closed[1] ? ".T." : ".F.") + ",.U.";
+  const auto listed = knots[0].multiplicities + "," + knots[1].multiplicities + "," + knots[0].values + "," +
+                      knots[1].values + ",.UNSPECIFIED.";
+  if (!surface.rational()) return "B_SPLINE_SURFACE_WITH_KNOTS(" + name + "," + own + "," + listed + ")";
+  const auto weights = print_net(
+      net[0], net[1], [&](int k) { return format_shortest_real(surface.weights()[static_cast<std::size_t>(k)]); },
+      line_break);
+  return "(BOUNDED_SURFACE()B_SPLINE_SURFACE(" + own + ")B_SPLINE_SURFACE_WITH_KNOTS(" + listed +
+         ")GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(" + weights + ")REPRESENTATION_ITEM(" + name +
+         ")SURFACE())";
 }
 
 }  // namespace knead::step

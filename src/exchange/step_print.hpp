@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "knead/spline/knot_vector.hpp"
+#include "knead/spline/spline.hpp"
 
 namespace knead::step {
 
@@ -24,5 +24,12 @@ struct PrintedKnots {
 
 /// A CARTESIAN_POINT record, without a line break.
 [[nodiscard]] std::string print_point(std::string_view name, const double* coordinates);
+
+/// The record of a B_SPLINE_SURFACE_WITH_KNOTS without its name, complex if it has weights; the form is .UNSPECIFIED.,
+/// the closed flags are those of `closed_directions`.
+/// \param label a string literal with its quotes
+/// \param point the name of the record of control point k
+[[nodiscard]] std::string print_surface(const Surface& surface, std::string_view label,
+                                        const std::function<std::string(int)>& point, std::string_view line_break);
 
 }  // namespace knead::step

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -38,6 +39,14 @@ class Surgeon {
 
   /// Moves a VERTEX_POINT.
   [[nodiscard]] Expected<void> move_vertex(std::uint32_t vertex, const Point& place);
+
+  /// Gives a surface of another form the record of a B-spline surface, under its name and label. What describes
+  /// geometry on the surface, except faces and curves, refers to a copy of the old record from then on.
+  void become_spline(std::uint32_t instance, const Surface& surface);
+  /// Lets a face that lies on a part of a surface refer to the surface itself.
+  void lie_on(std::uint32_t face, std::uint32_t surface);
+  /// Takes the PCURVEs on any of these surfaces from an edge.
+  void drop_parameter_curves(std::uint32_t edge, const std::set<std::uint32_t>& surfaces);
 
   /// The bytes of the file with all changes.
   [[nodiscard]] std::string result();

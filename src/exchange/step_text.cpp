@@ -5,7 +5,6 @@
 
 #include "part21_text.hpp"
 #include "step_print.hpp"
-#include "step_surfaces.hpp"
 
 namespace knead::step {
 namespace {
@@ -73,28 +72,12 @@ std::string add_context(Records& records, const Unit& unit) {
 
 std::string add_surface(Records& records, const NewSurface& item) {
   const Surface& surface = item.surface;
-  const auto net = surface.net();
   std::vector<std::string> names;
   for (Eigen::Index k = 0; k < surface.size(); ++k) {
     names.push_back(records.add_point(surface.control_points().row(k).data()));
   }
-  std::array<PrintedKnots, 2> knots;
-  for (std::size_t d = 0; d < 2; ++d) knots[d] = print_knots(surface.knots()[d], format_shortest_real);
-  const auto closed = closed_directions(surface);
-  const auto label = encode_string(item.name);
-  const auto own = std::to_string(surface.knots(0).degree()) + "," + std::to_string(surface.knots(1).degree()) + "," +
-                   print_net(
-                       net[0], net[1], [&](int k) { return names[static_cast<std::size_t>(k)]; }, "\n") +
-                   ",.UNSPECIFIED.," + (closed[0] ? ".T." : ".F.") + "," + (closed[1] ? ".T." : ".F.") + ",.U.";
-  const auto listed = knots[0].multiplicities + "," + knots[1].multiplicities + "," + knots[0].values + "," +
-                      knots[1].values + ",.UNSPECIFIED.";
-  if (!surface.rational()) return records.add("B_SPLINE_SURFACE_WITH_KNOTS(" + label + "," + own + "," + listed + ")");
-  const auto weights = print_net(
-      net[0], net[1], [&](int k) { return format_shortest_real(surface.weights()[static_cast<std::size_t>(k)]); },
-      "\n");
-  return records.add("(BOUNDED_SURFACE()B_SPLINE_SURFACE(" + own + ")B_SPLINE_SURFACE_WITH_KNOTS(" + listed +
-                     ")GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_SURFACE(" + weights + ")REPRESENTATION_ITEM(" +
-                     label + ")SURFACE())");
+  return records.add(print_surface(
+      surface, encode_string(item.name), [&](int k) { return names[static_cast<std::size_t>(k)]; }, "\n"));
 }
 
 }  // namespace

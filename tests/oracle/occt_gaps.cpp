@@ -15,7 +15,7 @@
 #include <ShapeAnalysis_Surface.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
-#include <StepGeom_BSplineSurface.hxx>
+#include <StepGeom_Surface.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -111,7 +111,8 @@ gp_Vec normal_at(const SurfaceHandle& surface, gp_Pnt2d at) {
   const gp_Vec n = du.Crossed(dv);
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   surface->Bounds(u0, u1, v0, v1);
-  const double a = du.Magnitude() * (u1 - u0), b = dv.Magnitude() * (v1 - v0);
+  constexpr double unbounded = 1e3;  // planes, cylinders and cones are
+  const double a = du.Magnitude() * std::min(u1 - u0, unbounded), b = dv.Magnitude() * std::min(v1 - v0, unbounded);
   // Beside a pole there is no normal to speak of.
   if (std::min(a, b) <= 1e-5 * std::max(a, b) || n.Magnitude() == 0) return {0, 0, 0};
   return n / n.Magnitude();
@@ -174,7 +175,7 @@ std::optional<OcctFaces> OcctFaces::read(const std::filesystem::path& path) {
   const auto process = reader.WS()->TransferReader()->TransientProcess();
   for (int k = 1; k <= step->NbEntities(); ++k) {
     const auto face = opencascade::handle<StepShape_FaceSurface>::DownCast(step->Value(k));
-    if (face.IsNull() || !face->FaceGeometry()->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface))) continue;
+    if (face.IsNull()) continue;
     auto& list = data->on["#" + std::to_string(step->IdentLabel(face->FaceGeometry()))];
     for (TopExp_Explorer at(TransferBRep::ShapeResult(process, face), TopAbs_FACE); at.More(); at.Next()) {
       TopoDS_Face made = TopoDS::Face(at.Current());
@@ -314,6 +315,36 @@ OcctFaces::Moved OcctFaces::moved(const std::string& surface, const OcctFaces& a
       for (int j = 0; j < count; ++j) {
         look(a + (b - a) * (i + 0.5) / count, c + (d - c) * (j + 0.5) / count);
         look(u0 + (u1 - u0) * (i + 0.5) / count, v0 + (v1 - v0) * (j + 0.5) / count);
+      }
+    }
+  }
+  return result;
+}
+
+OcctFaces::Apart OcctFaces::apart(const std::string& surface, const OcctFaces& after) const {
+  constexpr int count = 21;
+  Apart result;
+  const auto from = data_->on.find(surface), to = after.data_->on.find(surface);
+  if (from == data_->on.end() || to == after.data_->on.end() || from->second.size() != to->second.size()) return result;
+  for (std::size_t n = 0; n < from->second.size(); ++n) {
+    const TopoDS_Face &face = from->second[n], &other = to->second[n];
+    const SurfaceHandle own = surface_of(face), theirs = surface_of(other);
+    const bool turned = (face.Orientation() == TopAbs_REVERSED) != (other.Orientation() == TopAbs_REVERSED);
+    BRepTopAdaptor_FClass2d side(face, 1e-7);
+    ShapeAnalysis_Surface search(theirs);
+    double a = 0, b = 0, c = 0, d = 0;
+    BRepTools::UVBounds(face, a, b, c, d);
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j < count; ++j) {
+        const gp_Pnt2d at(a + (b - a) * (i + 0.5) / count, c + (d - c) * (j + 0.5) / count);
+        if (side.Perform(at) != TopAbs_IN) continue;
+        const gp_Pnt p = own->Value(at.X(), at.Y());
+        gp_Pnt2d foot;
+        result.distance = std::max(result.distance, distance(theirs, p, search.ValueOfUV(p, 1e-9), 1e-9, &foot));
+        const double angle = degrees_between(normal_at(own, at), normal_at(theirs, foot));
+        const bool known = normal_at(own, at).Magnitude() > 0 && normal_at(theirs, foot).Magnitude() > 0;
+        if (known) result.turn = std::max(result.turn, turned ? 180 - angle : angle);
+        ++result.points;
       }
     }
   }

@@ -25,7 +25,7 @@ struct OcctCrease {
   double angle = 0;           ///< the largest between the tangent planes of both at the feet of these, degrees
 };
 
-/// The faces of a file that lie on B-spline surfaces, ready for measuring.
+/// The faces of a file by the surfaces on which they lie, ready for measuring.
 class OcctFaces {
  public:
   /// Lengths in mm. None where the file cannot be read.
@@ -47,6 +47,15 @@ class OcctFaces {
     bool folded = false;  ///< the normal of a point turned by more than 90 degrees
   };
   [[nodiscard]] Moved moved(const std::string& surface, const OcctFaces& after) const;
+
+  /// How far 21 × 21 points of the box of each face on a surface, those that the face shows, are from that surface in
+  /// `after`, mm, and the largest angle between the normals of both faces there, degrees. No points: the faces on it
+  /// are not as many there.
+  struct Apart {
+    int points = 0;
+    double distance = 0, turn = 0;
+  };
+  [[nodiscard]] Apart apart(const std::string& surface, const OcctFaces& after) const;
 
   struct Data;
 

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "knead/exchange/step_file.hpp"
+
+namespace knead::step {
+
+/// A surface of a STEP file on which faces lie and that is no B-spline surface.
+struct OtherSurface {
+  std::string id;                  ///< "#12"
+  std::string form;                ///< "PLANE", as its record calls it
+  std::vector<std::string> faces;  ///< ids of the faces on it, in the order of the file
+};
+
+/// In the order of their first faces. Cost: a pass over the file.
+[[nodiscard]] std::vector<OtherSurface> other_surfaces(const File& file);
+
+/// Those of them that a face at this edge lies on. Empty where there is no such edge.
+[[nodiscard]] std::vector<OtherSurface> other_surfaces_at(const File& file, const std::string& edge);
+
+/// The part of a plane, cylinder, cone, sphere, torus, surface of revolution or of linear extrusion that the faces on
+/// it cover, as a B-spline surface with the same points and the same side of its normal S_u × S_v (docs/step.md).
+///
+/// Exact but for rounding: control points are sums and products of what the file gives; to 1e-14 of the distance of the
+/// part from the origin of its placement, and of its size. It ends in each direction at an edge that runs along it, to
+/// the larger of the file's uncertainty and 1e-7 of the size of its faces; elsewhere 2 % of the extent beyond
+/// the farthest point of the edges. It is a whole turn where the faces leave open less than 2 % of one, from a seam or
+/// another edge along which the angle is constant, where there is one. A swept spline is covered as a whole.
+/// \param id of the surface, or of a face on it
+/// Errors (input): no such surface or face; a B-spline surface; a form without an exact B-spline form, or that is not
+/// known; edges that cannot be read or are off the surface. Cost: about that of the picture of its faces.
+[[nodiscard]] Expected<Surface> exact_spline(const File& file, const std::string& id);
+
+/// The file with these surfaces, each given by its id or that of a face on it, replaced by their `exact_spline`, and
+/// every other byte as it was.
+///
+/// The record of the surface is rewritten under its name, and its control points follow it; all faces on it refer to it
+/// as they did. What else describes geometry on it (PCURVE, RECTANGULAR_TRIMMED_SURFACE, CURVE_BOUNDED_SURFACE,
+/// OFFSET_SURFACE, SURFACE_REPLICA) refers to a copy of the old record under a new name. Edges of these faces lose
+/// their PCURVEs on it, since the parameters have changed: a SURFACE_CURVE or INTERSECTION_CURVE keeps the others, and
+/// where none is left, or on a seam, the edge refers to the curve in space.
+/// Errors: those of `exact_spline`; the result does not read back to the same bits (numerical).
+[[nodiscard]] Expected<File> with_splines(const File& file, std::span<const std::string> surfaces);
+
+}  // namespace knead::step
