@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cli.hpp"
+#include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/face_edges.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/scene/trims.hpp"
@@ -122,6 +123,14 @@ void print_faces(const step::File& file) {
                  region->in_shell ? ", in a shell" : "");
       print_region(s, *region);
     }
+  }
+  for (const step::OtherSurface& s : step::other_surfaces(file)) {
+    const auto made = step::exact_spline(file, s.id);
+    const std::string net = made ? fmt::format("can be converted, degree {} x {}, net {} x {}", made->knots(0).degree(),
+                                               made->knots(1).degree(), made->net()[0], made->net()[1])
+                                 : "cannot be converted: " + made.error().what;
+    fmt::print("  {:<8} {}, {} {}: {}\n", s.id, s.form, s.faces.size() == 1 ? "face" : "faces",
+               fmt::join(s.faces, ", "), net);
   }
 }
 

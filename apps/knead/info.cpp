@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli.hpp"
 #include "faces.hpp"
+#include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -72,6 +74,13 @@ void print_text(const step::File& file) {
     fmt::print("           from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.lower.x(), box.lower.y(),
                box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
   }
+  std::map<std::string, int> others;
+  for (const step::OtherSurface& s : step::other_surfaces(file)) ++others[s.form];
+  if (!others.empty()) {
+    std::string counts;
+    for (const auto& [form, count] : others) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, form);
+    fmt::print("  other surfaces, to be converted before they are sculpted (--faces lists them): {}\n", counts);
+  }
   for (const UnreadableSurface& s : file.unreadable_surfaces()) {
     fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
   }
@@ -89,6 +98,12 @@ Expected<void> run(const InfoArguments& options) {
     if (options.faces) print_faces(*file);
     return {};
   }
+  Json others = Json::array();
+  for (const step::OtherSurface& s : step::other_surfaces(*file)) {
+    const auto made = step::exact_spline(*file, s.id);
+    others.push_back({{"id", s.id}, {"form", s.form}, {"faces", s.faces}, {"convertible", made.has_value()}});
+    if (!made) others.back()["reason"] = made.error().message();
+  }
   Json surfaces = Json::array(), unreadable = Json::array(), instances = Json::array();
   for (const step::SurfaceEntity& s : file->surfaces()) surfaces.push_back(to_json(s));
   for (const UnreadableSurface& s : file->unreadable_surfaces()) {
@@ -101,6 +116,7 @@ Expected<void> run(const InfoArguments& options) {
                      {"units", file->length_unit()},
                      {"surfaces", std::move(surfaces)},
                      {"unreadable_surfaces", std::move(unreadable)},
+                     {"other_surfaces", std::move(others)},
                      {"instances", std::move(instances)}};
   fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));
   return {};

@@ -1,6 +1,7 @@
 // The session as WebAssembly exports it: a C interface of numbers and bytes. The caller writes bytes to
 // `knead_input(size)`, calls, and reads what came out from `knead_text()`; every call may grow the memory, so that
 // views of it must be taken anew. Functions that can fail return 0 then, and the text is {"error": …}.
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -32,7 +33,8 @@ struct Studio {
   ToolPicture tool;
   MaterialSamples material;
   std::optional<TrimLoops> trims;                             // of the open file, once asked for
-  std::vector<std::shared_ptr<const VisibleRegion>> visible;  // by them, of each surface; null: all of it
+  std::vector<std::shared_ptr<const VisibleRegion>> visible;  // by them, of each surface of the file; null: all of it
+  std::vector<std::string> converted;                         // what of the file was when they were
 };
 
 Studio& held() {
@@ -60,16 +62,31 @@ Point middle(const Document& document) {
   return document.surfaces().empty() ? Point(Point::Zero()) : Point((lower + upper) / 2);
 }
 
+/// The number in the open file of a surface of the session, which has converted ones last; the number of all where it
+/// is none of them.
+std::size_t place_in_file(int surface) {
+  const auto& surfaces = held().session->state().surfaces;
+  const auto& in_file = held().session->document().surfaces();
+  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) return in_file.size();
+  const auto found = std::ranges::find(in_file, surfaces[static_cast<std::size_t>(surface)].id, &DocumentSurface::id);
+  return static_cast<std::size_t>(found - in_file.begin());
+}
+
 /// What the faces of the open file show of a surface, once its trims have been asked for.
 std::shared_ptr<const VisibleRegion> visible_part(int surface) {
-  const auto k = static_cast<std::size_t>(surface);
+  if (held().converted != held().session->document().converted()) return nullptr;
+  const std::size_t k = place_in_file(surface);
   return k < held().visible.size() ? held().visible[k] : nullptr;
+}
+
+void forget_trims() {
+  held().trims.reset();
+  held().visible.clear();
 }
 
 int start(Document document) {
   held().origin = middle(document);
-  held().trims.reset();
-  held().visible.clear();
+  forget_trims();
   held().session.emplace(std::move(document));
   return answer(state_json(*held().session));
 }
@@ -137,6 +154,7 @@ KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size
   auto session = Session::restore(std::move(document), snapshot);
   if (!session) return fail(session.error());
   held().origin = origin;
+  forget_trims();
   held().session = std::move(*session);
   return answer("{}");
 }
@@ -352,6 +370,7 @@ KNEAD_EXPORT(knead_context) int knead_context() {
 KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
   auto& session = held().session;
   if (!session || !session->document().step_file()) return answer("null");
+  if (held().converted != session->document().converted()) forget_trims();
   if (!held().trims) {
     auto trims = trim_loops(*session->document().step_file());
     held().trims = trims ? *std::move(trims) : TrimLoops();
@@ -362,10 +381,11 @@ KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
       region.faces = trim.faces;
       part = std::make_shared<const VisibleRegion>(std::move(region));
     }
+    held().converted = session->document().converted();
   }
   const auto& all = held().trims->surfaces;
-  const bool known = surface >= 0 && surface < static_cast<int>(all.size());
-  return answer(known ? trim_json(all[static_cast<std::size_t>(surface)]) : "null");
+  const std::size_t k = place_in_file(surface);
+  return answer(k < all.size() ? trim_json(all[k]) : "null");
 }
 
 /// The edges of the faces of the open file on a surface: `face_edges_json`; none if they cannot be followed.

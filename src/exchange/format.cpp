@@ -71,6 +71,10 @@ Expected<const Format*> format_of_name(std::string_view file_name, FormatContent
       "use a name that ends in " + list_of_endings(content));
 }
 
+Expected<std::shared_ptr<const Source>> Source::with_splines(std::span<const std::string> /*surfaces*/) const {
+  return input_error("only faces of a STEP file can be converted", name());
+}
+
 Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name) {
   const Format* chosen = nullptr;
   std::vector<std::string> known;

@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "format_list.hpp"
+#include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/exchange/step_text.hpp"
 #include "moved_edge.hpp"
@@ -8,9 +11,12 @@ namespace {
 
 class StepSource final : public Source {
  public:
-  explicit StepSource(step::File file) : file_(std::move(file)) {
+  /// \param known surfaces that keep their objects
+  explicit StepSource(step::File file, std::span<const SourceSurface> known = {}) : file_(std::move(file)) {
     for (const step::SurfaceEntity& s : file_.surfaces()) {
-      surfaces_.push_back({s.id, s.name, s.unit, std::make_shared<const Surface>(s.surface)});
+      const auto same = std::ranges::find(known, s.id, &SourceSurface::id);
+      surfaces_.push_back(
+          {s.id, s.name, s.unit, same == known.end() ? std::make_shared<const Surface>(s.surface) : same->surface});
     }
   }
 
@@ -18,6 +24,12 @@ class StepSource final : public Source {
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
   const std::vector<UnreadableSurface>& unreadable() const override { return file_.unreadable_surfaces(); }
   const step::File* step_file() const override { return &file_; }
+
+  Expected<std::shared_ptr<const Source>> with_splines(std::span<const std::string> surfaces) const override {
+    auto file = step::with_splines(file_, surfaces);
+    if (!file) return std::unexpected(std::move(file.error()));
+    return std::make_shared<const StepSource>(*std::move(file), surfaces_);
+  }
 
   Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
                              std::span<const std::string> followed) const override {

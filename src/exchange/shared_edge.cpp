@@ -39,7 +39,7 @@ Expected<std::vector<std::size_t>> surfaces_at(const step::File::Data& data, con
     const auto found = data.surface_index.find(on.substr(0, on.find(' ')));
     if (found == data.surface_index.end()) {
       return input_error("the face " + name + " would have to follow the edge, but lies on " + on, id,
-                         "hold the edge: only faces on B-spline surfaces can follow");
+                         "convert that surface to a B-spline surface, or hold the edge");
     }
     if (std::ranges::find(result, found->second) == result.end()) result.push_back(found->second);
   }

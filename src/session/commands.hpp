@@ -4,6 +4,7 @@
 
 #include "commands/brush.hpp"
 #include "commands/coarsen.hpp"
+#include "commands/convert.hpp"
 #include "commands/drag.hpp"
 #include "commands/edge.hpp"
 #include "commands/edit_tool.hpp"
@@ -48,12 +49,12 @@ namespace knead {
 /// All commands, in the order of the help. Lengths are in file units unless a command says `relative`;
 /// (s, t) are fractions 0 to 1 of the parameter domain.
 using CommandVariant =
-    std::variant<NewCommand, SelectCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand, PinCommand,
-                 EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand, ReleaseCommand,
-                 ToolCommand, EditToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand, ForceCommand,
-                 LoadCommand, LimitCommand, EvolveCommand, StepCommand, StrokeCommand, BrushCommand, MaskCommand,
-                 DragCommand, RelaxCommand, LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand, RefineCommand,
-                 ElevateCommand, CoarsenCommand, MeasureCommand, UndoCommand, RedoCommand>;
+    std::variant<NewCommand, SelectCommand, ConvertCommand, MaterialCommand, RestCommand, ScalingCommand, HoldCommand,
+                 PinCommand, EdgeCommand, FreezeCommand, KeepCommand, SymmetryCommand, SmoothCommand, SeamsCommand,
+                 ReleaseCommand, ToolCommand, EditToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand,
+                 ForceCommand, LoadCommand, LimitCommand, EvolveCommand, StepCommand, StrokeCommand, BrushCommand,
+                 MaskCommand, DragCommand, RelaxCommand, LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand,
+                 RefineCommand, ElevateCommand, CoarsenCommand, MeasureCommand, UndoCommand, RedoCommand>;
 
 template <>
 const Type& type_of<CommandVariant>();

@@ -32,6 +32,16 @@ const std::vector<DocumentSurface>& Document::surfaces() const {
   return source_ ? source_->surfaces() : none;
 }
 
+Expected<Document> Document::with_splines(std::span<const std::string> surfaces) const {
+  if (!source_) return input_error("only faces of a STEP file can be converted", name_);
+  auto source = source_->with_splines(surfaces);
+  if (!source) return std::unexpected(std::move(source.error()));
+  Document document = *this;
+  document.source_ = *std::move(source);
+  document.converted_.insert(document.converted_.end(), surfaces.begin(), surfaces.end());
+  return document;
+}
+
 Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces,
                                      std::span<const std::string> followed) const {
   if (source_) {

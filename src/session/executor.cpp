@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "knead/exchange/face_conversion.hpp"
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
@@ -12,7 +15,12 @@ Expected<SceneSurface*> Executor::selected() {
     return input_error("there is no surface yet", {}, R"(make one first: {"do":"new","size":[1,1],"net":[8,8]})");
   }
   if (state.surfaces.empty()) {
-    return input_error("the file has no B-spline surface that could be sculpted", document.name());
+    const auto others = document.step_file() == nullptr ? std::vector<step::OtherSurface>()
+                                                        : step::other_surfaces(*document.step_file());
+    return input_error("the file has no B-spline surface that could be sculpted", document.name(),
+                       others.empty() ? ""
+                                      : fmt::format(R"(make one of another surface: {{"do":"convert","surface":"{}"}})",
+                                                    others[0].id));
   }
   return input_error(fmt::format("none of the {} surfaces is selected", state.surfaces.size()), {},
                      fmt::format(R"(select one first: {{"do":"select","surface":"{}"}})", state.surfaces.front().id));
@@ -32,6 +40,14 @@ Expected<int> Executor::find_surface(const std::string& id) const {
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
     if (state.surfaces[k].id == id) return static_cast<int>(k);
     if (k < listed) known += (k == 0 ? "" : ", ") + state.surfaces[k].id;
+  }
+  if (document.step_file() != nullptr) {
+    const auto others = step::other_surfaces(*document.step_file());
+    const auto other = std::ranges::find(others, id, &step::OtherSurface::id);
+    if (other != others.end()) {
+      return input_error(fmt::format("{} is a {}, not a B-spline surface", id, other->form), "surface",
+                         fmt::format(R"(convert it first: {{"do":"convert","surface":"{}"}})", id));
+    }
   }
   if (!document.is_fresh()) {
     for (const UnreadableSurface& s : document.source()->unreadable()) {

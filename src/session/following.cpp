@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "command_fields.hpp"
+#include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -17,10 +18,26 @@ constexpr double tighter = 0.4, much_tighter = 0.03, half = 0.5;
 constexpr double kept_motion =
     0.9;  // of their motion that edges keep when they are coupled more tightly than they must
 
+std::string list_of(const std::vector<std::string>& ids) {
+  std::string text;
+  for (const std::string& id : ids) text += (text.empty() ? "\"" : ",\"") + id + "\"";
+  return text;
+}
+
 Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, const std::string& id) {
   if (document.step_file() == nullptr) return input_error("only edges of faces in a STEP file can follow", id);
   auto edge = SharedEdge::create(*document.step_file(), id);
-  if (!edge) return std::unexpected(edge.error());
+  if (!edge) {
+    Error error = edge.error();
+    std::vector<std::string> others;
+    for (const step::OtherSurface& s : step::other_surfaces_at(*document.step_file(), id)) others.push_back(s.id);
+    if (!others.empty()) {
+      error.remedy = fmt::format(
+          R"(make it a B-spline surface, {{"do":"convert","surfaces":[{}]}}, and select it too; or hold the edge)",
+          list_of(others));
+    }
+    return std::unexpected(error);
+  }
   return std::make_shared<const SharedEdge>(std::move(*edge));
 }
 
@@ -43,12 +60,6 @@ double share_of(const std::vector<Point>& first, const std::vector<Point>& other
 double accepted_bend(const Parting& parting) { return std::max(accepted_angle, 2 * parting.angle_before); }
 
 double in_degrees(double radians) { return radians * 180 / std::numbers::pi; }
-
-std::string list_of(const std::vector<std::string>& ids) {
-  std::string text;
-  for (const std::string& id : ids) text += (text.empty() ? "\"" : ",\"") + id + "\"";
-  return text;
-}
 
 }  // namespace
 

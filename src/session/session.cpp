@@ -46,7 +46,7 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   const Command meant = any.without ? make_command(*any.without) : command;
   auto next = std::make_shared<SessionState>(state());
   next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
-  Executor executor{document_, cache_->model, cache_->stroke, cache_->brush, *next, progress};
+  Executor executor{document(), cache_->model, cache_->stroke, cache_->brush, *next, progress};
   if (!fields_of<StrokeCommand>(command)) {
     if (auto lifted = executor.lift(); !lifted) return lifted;
   }
@@ -132,9 +132,13 @@ void Session::join() {
 void Session::know_faces() {
   std::map<std::string, std::shared_ptr<const VisibleRegion>> known;
   std::map<std::string, std::shared_ptr<const SharedEdge>> courses;
-  const step::File* const file = document_.step_file();
-  if (file == nullptr) return;
+  const Document* last = nullptr;
   for (auto& state : states_) {
+    const Document& document = document_of(*state);
+    const step::File* const file = document.step_file();
+    if (file == nullptr) return;
+    if (last != nullptr && last != &document) known.clear();  // neighbours lie on other surfaces
+    last = &document;
     auto next = std::make_shared<SessionState>(*state);
     for (SceneSurface& s : next->surfaces) {
       if (!holds_trims(s.constraints)) continue;
@@ -204,10 +208,14 @@ int Session::moved_control_points(int surface) const {
 
 Expected<std::string> Session::save() const {
   std::vector<DocumentSurface> surfaces;
-  for (const SceneSurface& s : state().surfaces) surfaces.push_back({s.id, s.name, s.unit, s.current});
+  const auto append = [&](const SceneSurface& s) { surfaces.push_back({s.id, s.name, s.unit, s.current}); };
+  if (document().is_fresh()) std::ranges::for_each(state().surfaces, append);
+  for (const DocumentSurface& s : document().surfaces()) {  // converted ones come last in the scene
+    append(*std::ranges::find(state().surfaces, s.id, &SceneSurface::id));
+  }
   std::vector<std::string> followed;
   for (const FollowedEdge& edge : state().followed) followed.push_back(edge.id);
-  return document_.save(surfaces, followed);
+  return document().save(surfaces, followed);
 }
 
 }  // namespace knead

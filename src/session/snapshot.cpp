@@ -11,10 +11,10 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-/// Of versions 1 to 4: without probes, open strokes and their results; without brushes, masks and edges that follow;
-/// without their tangent planes; the present one.
-constexpr std::array<std::string_view, 4> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
-                                                    "Knead snapshot 4\n"};
+/// Of versions 1 to 5: without probes, open strokes and their results; without brushes, masks and edges that follow;
+/// without their tangent planes; without converted surfaces; the present one.
+constexpr std::array<std::string_view, 5> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
+                                                    "Knead snapshot 4\n", "Knead snapshot 5\n"};
 constexpr std::string_view magic = magics.back();
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.
@@ -104,6 +104,8 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   list(a, seam_reports);
   list(a, notes);
   archive::optional(a, energy_before);
+  const auto converted = state.document ? state.document->converted() : std::vector<std::string>();
+  list(a, converted);
 }
 
 /// Whether the shapes from before a stroke are on the nets of the selected surfaces; all of their control points.
@@ -141,8 +143,20 @@ bool fits(const OpenBrush& brush, const Scene& scene) {
          std::ranges::find(selection, brush.surface) != selection.end();
 }
 
+/// The document with these surfaces converted; that of the state before if they are the same.
+void read_converted(Reader& a, const Document& opened, SessionState& state) {
+  std::vector<std::string> converted;
+  if (a.version() > 4) list(a, converted);
+  if (a.bad() || converted == (state.document ? state.document->converted() : std::vector<std::string>{})) return;
+  state.document.reset();
+  if (converted.empty()) return;
+  auto document = opened.with_splines(converted);
+  if (!document) return a.fail();
+  state.document = std::make_shared<const Document>(std::move(*document));
+}
+
 /// Reads a state into one that starts as a copy of the previous one.
-void read_state(Reader& a, SessionState& state) {
+void read_state(Reader& a, const Document& opened, SessionState& state) {
   auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
          followed, coupling, bend, stroke, brush] = static_cast<Scene&>(state);
   auto& [steps, seam_reports, notes, energy_before] = static_cast<SessionRecord&>(state);
@@ -213,6 +227,7 @@ void read_state(Reader& a, SessionState& state) {
   list(a, notes);
   energy_before.reset();
   archive::optional(a, energy_before);
+  read_converted(a, opened, state);
   for (int k : state.selection()) {
     if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
   }
@@ -304,7 +319,7 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
   for (std::size_t k = a.length(8); k > 0 && !a.bad(); --k) session.entries_.push_back(commands());
   SessionState state;
   for (std::size_t k = 0; k <= session.entries_.size() && !a.bad(); ++k) {
-    read_state(a, state);
+    read_state(a, session.document_, state);
     session.states_.push_back(std::make_shared<const SessionState>(state));
   }
   if (a.bad() || !a.at_end() || session.position_ > session.entries_.size()) {

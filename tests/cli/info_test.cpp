@@ -45,6 +45,21 @@ TEST(Info, ListsPlacementsUnderInstances) {
   }
 }
 
+TEST(Info, SaysWhichOtherSurfacesCanBeConverted) {
+  const Json others = knead({"info", bonnet(), "--json"}).json().at("other_surfaces");
+  ASSERT_EQ(others.size(), 4U);
+  for (const Json& s : others) {
+    EXPECT_EQ(s.at("form"), "SURFACE_OF_LINEAR_EXTRUSION");
+    EXPECT_EQ(s.at("faces").size(), 1U);
+    EXPECT_EQ(s.at("convertible"), true);
+  }
+  EXPECT_NE(knead({"info", bonnet()}).out.find("4 SURFACE_OF_LINEAR_EXTRUSION"), std::string::npos);
+  const std::string listed = knead({"info", bonnet(), "--faces"}).out;
+  const std::string line = others[0].at("id").get<std::string>() + "     SURFACE_OF_LINEAR_EXTRUSION, face " +
+                           others[0].at("faces").at(0).get<std::string>() + ": can be converted";
+  EXPECT_NE(listed.find(line), std::string::npos) << listed;
+}
+
 TEST(Info, AFileWithoutSplineSurfacesIsNoError) {
   const Workshop workshop;
   const std::string path =

@@ -69,6 +69,7 @@ TEST(CommandJson, ReadsEveryCommand) {
 /// Every command with all of its fields, none at its default.
 const std::vector<std::string> all_commands = {
     R"({"do":"new","shape":"torus","size":[2,3],"radius":3,"height":4,"minor":0.5,"profile":[[1,0],[2,1.5]],"degree":[2,4],"net":[5,6],"knots_u":[0,0,1,1],"knots_v":[0,1],"points":[[1,2,3],[4,5,0.10000000000000001]],"weights":[1,2.5],"position":[1,2,3],"unit":"inch","name":"a \"b\""})",
+    R"({"do":"convert","surface":"#1","surfaces":["#2","#3"],"neighbours":true})",
     R"({"do":"select","surface":"#1","surfaces":["#2","#3"],"connected":true})",
     R"({"do":"material","alpha":[0.10000000000000001,0.5,1],"beta":[1e-300,2,3],"mass":2,"damping":3,"region":[[0,0.5],[0.25,1]],"falloff":0.25,"coefficient":"beta22","counts":[2,2],"samples":[1,2,3,4]})",
     R"({"do":"rest","mode":"none"})",

@@ -114,7 +114,9 @@ std::string in_version_1(std::string snapshot) {
   std::memcpy(&plastic[1], &one, sizeof one);
   plastic[25] = '\1';
   // The count of probes, no open stroke, the count of edges that follow, the coupling of positions, no brush, the
-  // coupling of tangent planes and how far these may open; counts of steps, seams and notes and a flag follow.
+  // coupling of tangent planes and how far these may open; counts of steps, seams and notes and a flag follow, and the
+  // count of converted surfaces.
+  snapshot.erase(snapshot.size() - 8);
   snapshot.erase(snapshot.size() - 75, 42);
   snapshot.erase(snapshot.rfind(plastic), plastic.size());
   snapshot[head - 2] = '1';

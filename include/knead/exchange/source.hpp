@@ -43,6 +43,10 @@ class Source {
   /// where these surfaces have moved them, by id; formats without faces have none.
   [[nodiscard]] virtual Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
                                                    std::span<const std::string> followed = {}) const = 0;
+  /// The same file with surfaces of other forms, given by their ids or those of faces on them, as B-spline surfaces;
+  /// its other surfaces stay the same objects. Errors (input): one cannot be converted; the format has no others.
+  [[nodiscard]] virtual Expected<std::shared_ptr<const Source>> with_splines(
+      std::span<const std::string> surfaces) const;
   /// The underlying STEP file, for what only STEP has: faces and their trimming. Null for other formats.
   [[nodiscard]] virtual const step::File* step_file() const { return nullptr; }
 

@@ -34,6 +34,12 @@ class Document {
   /// The same as a STEP file, for what only STEP has: faces and their trimming. Null for other formats.
   [[nodiscard]] const step::File* step_file() const { return source_ ? source_->step_file() : nullptr; }
 
+  /// The document with surfaces of other forms, given by their ids or those of faces on them, as B-spline surfaces, as
+  /// by `Source::with_splines`. Errors: those; there is no file (input).
+  [[nodiscard]] Expected<Document> with_splines(std::span<const std::string> surfaces) const;
+  /// What has been converted since it was opened, in order.
+  [[nodiscard]] const std::vector<std::string>& converted() const { return converted_; }
+
   /// The bytes of the file with these surfaces in place of the original ones (one each); for a fresh document, a STEP
   /// file with exactly these, in the unit of the first one. `followed`: as for `Source::save`.
   [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces,
@@ -44,6 +50,7 @@ class Document {
 
   std::string name_, unit_;
   std::shared_ptr<const Source> source_;
+  std::vector<std::string> converted_;
 };
 
 }  // namespace knead

@@ -41,7 +41,9 @@ struct SessionRecord {
 };
 
 /// The whole state at one moment. A value: undo restores an earlier one, bit for bit.
-struct SessionState : Scene, SessionRecord {};
+struct SessionState : Scene, SessionRecord {
+  std::shared_ptr<const Document> document = {};  ///< with the surfaces converted so far; null: as opened
+};
 
 /// A document and its history of commands: the model and controller of every user interface.
 ///
@@ -65,7 +67,8 @@ class Session {
   /// stroke with the one it continues. Does nothing if there are fewer than two entries, or if something can be redone.
   void join();
 
-  [[nodiscard]] const Document& document() const { return document_; }
+  /// With the surfaces that are converted in the present state.
+  [[nodiscard]] const Document& document() const { return document_of(state()); }
   [[nodiscard]] const SessionState& state() const { return *states_[position_]; }
   /// The commands in effect, in order: together with the document, the whole session.
   [[nodiscard]] std::vector<Command> journal() const;
@@ -93,10 +96,13 @@ class Session {
  private:
   struct ModelCache;
 
+  [[nodiscard]] const Document& document_of(const SessionState& state) const {
+    return state.document ? *state.document : document_;
+  }
   /// Restores the visible regions of surfaces whose edges are held, which a snapshot leaves to the document.
   void know_faces();
 
-  Document document_;
+  Document document_;             // as opened
   std::vector<Command> earlier_;  // of a partly restored history: in effect, and cannot be undone
   std::vector<std::shared_ptr<const SessionState>> states_;  // one more than entries_
   std::vector<std::vector<Command>> entries_;                // what undo reverts at once

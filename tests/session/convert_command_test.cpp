@@ -1,0 +1,156 @@
+// Surfaces of other forms that become B-spline surfaces: what the scene gets, what is written, and what follows then.
+
+#include <set>
+
+#include "exchange/two_sheets.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/exchange/shared_edge.hpp"
+#include "knead/scene/followed.hpp"
+#include "knead/scene/trims.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+
+namespace knead {
+namespace {
+
+using testing::two_sheets;
+using testing::TwoSheets;
+
+Session opened(const TwoSheets& sheets) { return Session(Document::from(*open_source(sheets.text, "sheets.step"))); }
+
+Expected<void> run(Session& session, const std::string& commands, int version = 2) {
+  const auto script =
+      parse_script("{\"knead\":" + std::to_string(version) + ",\"commands\":[" + commands + "]}", "script");
+  if (!script) return std::unexpected(script.error());
+  for (const Command& command : *script) {
+    if (auto done = session.execute(command); !done) return done;
+  }
+  return {};
+}
+
+const std::string convert = R"({"do":"convert","surface":"#20"})";
+const std::string both = R"({"do":"select","surfaces":["#10","#20"]})";
+
+std::string free_edge(const TwoSheets& sheets) {
+  return R"({"do":"edge","which":")" + TwoSheets::name(sheets.edge) + R"(","hold":"free"})";
+}
+
+const std::string press = R"({"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]},
+  {"do":"tool","name":"ball","radius":0.2,"rigid":true,"position":[1,0.5,0.16]},{"do":"evolve","mode":"static"})";
+
+TEST(Convert, TheSurfaceJoinsTheSceneWithItsEdgesHeld) {
+  Session session = opened(two_sheets(false, true));
+  ASSERT_EQ(session.state().surfaces.size(), 1U);
+  const auto done = run(session, convert);
+  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_EQ(session.state().surfaces.size(), 2U);
+  const SceneSurface& s = session.state().surfaces[1];
+  EXPECT_EQ(s.id, "#20");
+  EXPECT_TRUE(holds_trims(s.constraints));
+  EXPECT_EQ(session.document().surfaces().size(), 2U);
+  EXPECT_EQ(session.state().selected, 0) << "it is not selected by itself";
+  ASSERT_TRUE(run(session, R"({"do":"undo"})", 1));
+  EXPECT_EQ(session.state().surfaces.size(), 1U);
+  EXPECT_EQ(session.document().surfaces().size(), 1U);
+  EXPECT_EQ(*session.save(), two_sheets(false, true).text) << "undone, it is written as it was";
+  ASSERT_TRUE(run(session, R"({"do":"redo"})", 1));
+  EXPECT_NE(session.save()->find("#20=B_SPLINE_SURFACE_WITH_KNOTS("), std::string::npos);
+}
+
+TEST(Convert, AnEdgeToItFollowsThen) {
+  const TwoSheets sheets = two_sheets(false, true);
+  Session session = opened(sheets);
+  const auto done = run(session, convert + "," + both + "," + free_edge(sheets) + "," + press);
+  ASSERT_TRUE(done) << done.error().message();
+  const auto apart = parting(session.state(), *session.state().followed.at(0).course);
+  ASSERT_TRUE(apart);
+  EXPECT_LE(apart->distance, apart->tolerance);
+  EXPECT_LE(apart->angle, asked_angle);
+  const auto bytes = session.save();
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  const auto edge = SharedEdge::create(testing::parse_or_die(*bytes), TwoSheets::name(sheets.edge));
+  ASSERT_TRUE(edge) << edge.error().message();
+  EXPECT_LE(edge->gap(), 2 * apart->tolerance);
+  EXPECT_NEAR(edge->at(0.5).point.z(), -0.04, 0.004);
+}
+
+TEST(Convert, WithoutItTheErrorNamesTheFaceAndTheCommand) {
+  const TwoSheets sheets = two_sheets(false, true);
+  Session session = opened(sheets);
+  const auto refused = run(session, R"({"do":"select","surface":"#10"},)" + free_edge(sheets));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find(TwoSheets::name(sheets.faces[1])), std::string::npos) << refused.error().what;
+  EXPECT_NE(refused.error().what.find("#20 PLANE"), std::string::npos) << refused.error().what;
+  EXPECT_NE(refused.error().remedy.find(R"({"do":"convert","surfaces":["#20"]})"), std::string::npos)
+      << refused.error().remedy;
+  const auto select = run(session, both);
+  ASSERT_FALSE(select);
+  EXPECT_NE(select.error().remedy.find(convert), std::string::npos) << select.error().message();
+  const auto alone = run(session, convert + R"(,{"do":"select","surface":"#10"},)" + free_edge(sheets));
+  ASSERT_FALSE(alone);
+  EXPECT_NE(alone.error().what.find("not selected"), std::string::npos) << alone.error().message();
+}
+
+TEST(Convert, NeighboursOfTheSelectionAreFound) {
+  Session session = opened(two_sheets(false, true));
+  const auto done = run(session, R"({"do":"select","surface":"#10"},{"do":"convert","neighbours":true})");
+  ASSERT_TRUE(done) << done.error().message();
+  ASSERT_EQ(session.state().surfaces.size(), 2U);
+  EXPECT_EQ(session.state().surfaces[1].id, "#20");
+  const auto again = run(session, R"({"do":"convert","neighbours":true})");
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().where, "neighbours");
+  EXPECT_EQ(session.state().surfaces.size(), 2U);
+}
+
+TEST(Convert, RegionsBesideItKnowItsNewForm) {
+  Session session = opened(two_sheets(false, true));
+  ASSERT_TRUE(run(session, R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" + convert));
+  ASSERT_TRUE(session.state().surfaces[0].visible);
+  std::set<std::string> supports;
+  for (const TrimEdge& edge : session.state().surfaces[0].visible->edges) {
+    supports.insert(edge.supports.begin(), edge.supports.end());
+  }
+  EXPECT_TRUE(supports.contains("#20 B_SPLINE_SURFACE_WITH_KNOTS"));
+  EXPECT_FALSE(supports.contains("#20 PLANE"));
+}
+
+TEST(Convert, ASnapshotKeepsIt) {
+  const TwoSheets sheets = two_sheets(false, true);
+  Session session = opened(sheets);
+  ASSERT_TRUE(run(session, convert + "," + both + "," + free_edge(sheets) + "," + press));
+  auto restored = Session::restore(Document::from(*open_source(sheets.text, "sheets.step")), session.snapshot());
+  ASSERT_TRUE(restored) << restored.error().message();
+  EXPECT_EQ(*restored->save(), *session.save());
+  EXPECT_TRUE(restored->state().followed.at(0).course);
+  while (session.can_undo()) {
+    for (Session* s : {&session, &*restored}) ASSERT_TRUE(run(*s, R"({"do":"undo"})", 1));
+    EXPECT_EQ(restored->state().surfaces.size(), session.state().surfaces.size());
+    EXPECT_EQ(*restored->save(), *session.save());
+  }
+}
+
+TEST(Convert, TheJournalGivesTheSameBytes) {
+  const TwoSheets sheets = two_sheets(false, true);
+  Session session = opened(sheets), again = opened(sheets);
+  ASSERT_TRUE(run(session, convert + "," + both + "," + free_edge(sheets) + "," + press));
+  for (const Command& command : session.journal()) ASSERT_TRUE(again.execute(command));
+  EXPECT_EQ(*again.save(), *session.save());
+}
+
+TEST(Convert, WithoutAFieldItSaysWhichThereAre) {
+  Session session = opened(two_sheets(false, true));
+  const auto done = run(session, R"({"do":"convert"})");
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().remedy.find("neighbours"), std::string::npos);
+}
+
+TEST(Convert, ADocumentWithoutFacesIsRefused) {
+  Session session(Document::fresh("fresh"));
+  const auto done = run(session, convert);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().kind, ErrorKind::input);
+}
+
+}  // namespace
+}  // namespace knead
