@@ -9,7 +9,8 @@
 #include "knead/exchange/face_conversion.hpp"
 #include "oracle/occt_gaps.hpp"
 #include "oracle/occt_shapes.hpp"
-#include "oracle/step_oracle.hpp"
+#include "oracle/occt_shells.hpp"
+#include "oracle/pressed_edges.hpp"
 
 namespace knead::oracle {
 namespace {
@@ -130,6 +131,54 @@ TEST_P(ConvertedShape, IsTheSameSolid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ConvertedShape, ::testing::ValuesIn(occt_shape_names()),
+                         [](const auto& instance) { return instance.param; });
+
+/// Edges at which one of the faces lies on a converted surface, or both do.
+bool has_one_of(const std::vector<std::string>& surfaces, const std::vector<step::OtherSurface>& converted) {
+  return std::ranges::any_of(surfaces, [&](const std::string& id) {
+    return std::ranges::find(converted, id, &step::OtherSurface::id) != converted.end();
+  });
+}
+
+/// Converts all that can be, and presses edges to it.
+void press_converted(const fs::path& path, const step::File& file, const fs::path& directory, double least_reached) {
+  const auto others = convertible(file);
+  std::vector<std::string> ids;
+  for (const auto& s : others) ids.push_back(s.id);
+  const auto converted = step::with_splines(file, ids);
+  ASSERT_TRUE(converted) << converted.error().message();
+  const auto written = directory / ("converted_" + path.filename().string());
+  ASSERT_TRUE(write_file_atomically(written, converted->bytes()));
+  fs::create_directories(directory / "pressed");
+  const auto pairs = pairs_of(*converted, [&](const auto& surfaces) { return has_one_of(surfaces, others); });
+  EXPECT_FALSE(pairs.empty());
+  for (const Pair& pair : pairs) move(written, *converted, pair, Motion::press, directory / "pressed", least_reached);
+}
+
+class PressedConvertedFile : public StepOracle {};
+
+TEST_P(PressedConvertedFile, StaysClosedAlongItsEdges) {
+  if (step::other_surfaces(*file_).empty()) GTEST_SKIP() << "all of its faces lie on B-spline surfaces";
+  press_converted(GetParam(), *file_, directory_, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, PressedConvertedFile, ::testing::ValuesIn(all_files()), test_name);
+
+class PressedConvertedShell : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(PressedConvertedShell, StaysClosedAlongItsEdges) {
+  const auto directory = fs::temp_directory_path() / ("knead-convert-" + std::to_string(getpid()));
+  fs::create_directories(directory);
+  const auto path = directory / (GetParam() + ".step");
+  ASSERT_TRUE(occt_write_shell(GetParam(), path));
+  const auto file = step::File::read(path);
+  ASSERT_TRUE(file) << file.error().message();
+  ASSERT_FALSE(step::other_surfaces(*file).empty());
+  press_converted(path, *file, directory, 0.5);
+  fs::remove_all(directory);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shells, PressedConvertedShell, ::testing::ValuesIn(occt_mixed_shell_names()),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
@@ -21,8 +22,12 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <gp_Ax3.hxx>
+#include <gp_Cylinder.hxx>
+#include <numbers>
 
 namespace knead::oracle {
 namespace {
@@ -99,7 +104,30 @@ TopoDS_Face part(const opencascade::handle<Geom_BSplineSurface>& surface, const 
   return made;
 }
 
+/// A face on the plane of four corners.
+TopoDS_Face flat_face(const std::array<gp_Pnt, 4>& corners) {
+  BRepBuilderAPI_MakePolygon outline(corners[0], corners[1], corners[2], corners[3], true);
+  return BRepBuilderAPI_MakeFace(outline.Wire(), true).Face();
+}
+
+TopoDS_Face strip() { return flat_face({gp_Pnt(0, 0, 0), gp_Pnt(50, 0, 0), gp_Pnt(50, side, 0), gp_Pnt(0, side, 0)}); }
+
+/// Up to x = 50, where it runs along x.
+TopoDS_Face part_of_a_cylinder() {
+  const gp_Ax3 axes(gp_Pnt(50, 0, -40), gp_Dir(0, 1, 0), gp_Dir(0, 0, 1));
+  return BRepBuilderAPI_MakeFace(gp_Cylinder(axes, 40), -1, 0, 0, side).Face();
+}
+
+double rising(double x, double y) { return (x - 50) / 5 + 4 * std::sin((x - 50) / 30) * std::cos(y / 40); }
+
 std::vector<TopoDS_Face> faces_of(const std::string& name) {
+  if (name == "planes") {
+    const double z = 50 * std::tan(30 * std::numbers::pi / 180);
+    return {strip(), flat_face({gp_Pnt(50, 0, 0), gp_Pnt(side, 0, z), gp_Pnt(side, side, z), gp_Pnt(50, side, 0)})};
+  }
+  if (name == "plane_and_wavy") return {strip(), whole(sheet(50, side, 0, side, 5, 8, rising, even))};
+  if (name == "plane_and_flat") return {strip(), whole(sheet(50, side, 0, side, 6, 11, flat, uneven))};
+  if (name == "cylinder_and_flat") return {part_of_a_cylinder(), whole(sheet(50, side, 0, side, 6, 11, flat, uneven))};
   if (name == "matching") {
     return {whole(sheet(0, 50, 0, side, 5, 8, wavy, even)), whole(sheet(50, side, 0, side, 5, 8, wavy, even))};
   }
@@ -140,6 +168,10 @@ std::vector<TopoDS_Face> faces_of(const std::string& name) {
 
 std::vector<std::string> occt_shell_names() {
   return {"matching", "other_parameters", "inside", "curved", "strips", "corner", "smooth_corner"};
+}
+
+std::vector<std::string> occt_mixed_shell_names() {
+  return {"planes", "plane_and_wavy", "plane_and_flat", "cylinder_and_flat"};
 }
 
 bool occt_write_shell(const std::string& name, const std::filesystem::path& path) {

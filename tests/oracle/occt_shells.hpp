@@ -15,6 +15,11 @@ namespace knead::oracle {
 /// other knots and parametrisations, in one plane.
 [[nodiscard]] std::vector<std::string> occt_shell_names();
 
+/// Others with faces on planes and cylinders, over the same square: "planes", two that meet at 30 degrees;
+/// "plane_and_wavy", a strip beside a wavy B-spline face; "plane_and_flat" and "cylinder_and_flat", tangent to a flat
+/// one.
+[[nodiscard]] std::vector<std::string> occt_mixed_shell_names();
+
 /// Writes one of them as a STEP file in millimetres.
 [[nodiscard]] bool occt_write_shell(const std::string& name, const std::filesystem::path& path);
 
