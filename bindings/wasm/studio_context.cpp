@@ -64,7 +64,15 @@ std::string face_edges_json(const VisibleRegion& region) {
   for (const TrimEdge& edge : region.edges) {
     auto course = nlohmann::json::array();
     for (const Eigen::Vector2d& p : edge.course) add_fractions(course, p);
-    edges.push_back({{"id", edge.id}, {"course", std::move(course)}});
+    auto meets = nlohmann::json::array();
+    for (std::size_t k = 0; k < edge.neighbours.size(); ++k) {
+      const std::string& on = edge.supports[k];  // "#30 PLANE"
+      const auto space = on.find(' ');
+      meets.push_back({{"face", edge.neighbours[k]},
+                       {"surface", on.substr(0, space)},
+                       {"form", space == std::string::npos ? "" : on.substr(space + 1)}});
+    }
+    edges.push_back({{"id", edge.id}, {"course", std::move(course)}, {"meets", std::move(meets)}, {"seam", edge.seam}});
   }
   return edges.dump();
 }

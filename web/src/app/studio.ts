@@ -81,6 +81,8 @@ export class Studio implements App {
     for (const draw of this.onChange) draw();
   }
 
+  private shownIds = '';
+
   private show(frame: Frame): void {
     const now = performance.now();
     if (this.frame?.playing && frame.playing) {
@@ -94,6 +96,11 @@ export class Studio implements App {
     this.stepsEnd = frame.state.steps;
     if (this.steps.length > keptSteps) this.steps = this.steps.slice(-keptSteps);
     this.viewer.waiting = this.documents.waiting;
+    const ids = frame.state.surfaces.map((s) => s.id).join();
+    if (ids !== this.shownIds) {
+      this.shownIds = ids;
+      if (!this.fresh) this.documents.converted();
+    }
     this.viewer.show(frame, this.fresh);
     if (this.fresh) {
       this.fresh = false;
@@ -179,6 +186,10 @@ export class Studio implements App {
 
   showContext(context: Context | null, trims: Trim[]): void {
     this.viewer.showContext(context, trims);
+  }
+
+  forgetEdges(): void {
+    this.hand.edges.forget();
   }
 
   picture(scale: number): Promise<Blob> {

@@ -258,6 +258,14 @@ export class Documents {
     this.host.changed();
   }
 
+  /** Surfaces of the file have become B-splines, or are no longer: other faces are grey, and edges meet others. */
+  converted(): void {
+    const { file } = this;
+    if (file?.kind !== 'step') return;
+    this.host.forgetEdges();
+    void loadContext(this.host, () => this.file === file);
+  }
+
   /** A single surface is made ready to sculpt; among several the user chooses. */
   private async firstLook(): Promise<void> {
     const { host } = this;

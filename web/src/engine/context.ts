@@ -14,4 +14,8 @@ export type Trim = { faces: number[][][] } | null;
 export interface FaceEdge {
   id: `#${string}`;
   course: number[];
+  /** The faces at it, with the entities on which they lie: "PLANE" and the like. */
+  meets: { face: string; surface: string; form: string }[];
+  /** The same face is on both of its sides. */
+  seam: boolean;
 }

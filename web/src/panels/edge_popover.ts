@@ -5,8 +5,8 @@ import type { App } from './app';
 import { h, iconButton, toggle } from './dom';
 
 const choices: readonly (readonly [Continuity, string])[] = [
-  ['free', 'It may move'],
-  ['follow', 'It moves with the faces that meet here, which must all be selected, and these stay together'],
+  ['free', 'It may move, and other faces that meet here stay'],
+  ['follow', 'It moves with the faces that meet here: all are selected, and stay together'],
   ['position', 'It stays where it is'],
   ['clamped', 'It stays, with its tangent planes'],
   ['curvature', 'It stays, with its tangent planes and curvatures'],
@@ -30,7 +30,8 @@ export function listenToEdges(app: App): void {
     close();
     const info = app.state!.surfaces[surface]!;
     const now = continuityOf(info, edge);
-    const possible = choices.filter(([continuity]) => continuity !== (isSide(edge) ? 'follow' : 'symmetry'));
+    const meeting = app.hand.edges.meeting(edge);
+    const possible = choices.filter(([continuity]) => continuity !== (isSide(edge) ? 'follow' : 'symmetry') && (continuity !== 'follow' || meeting?.follow));
     const rows = possible.map(([continuity, about]) => toggle(continuityTitles[continuity], continuity === now, () => {
       close();
       void app.execute(asking(app, surface, edge, continuity));
@@ -38,6 +39,7 @@ export function listenToEdges(app: App): void {
     open = h('section', { class: 'popover', aria: { label: edgeTitle(edge) } },
       h('header', {}, h('b', {}, edgeTitle(edge)), iconButton('close', 'Close', close)),
       h('div', { class: 'row' }, ...rows),
+      meeting ? h('p', { class: 'note' }, meeting.text) : null,
       info.hold > 0 ? h('p', { class: 'note' }, `The outer ${info.hold} rows of control points are held as well (Constraints, Held rows).`) : null);
     app.viewer.element.append(open);
     const stage = app.viewer.element.getBoundingClientRect();
@@ -50,6 +52,8 @@ export function listenToEdges(app: App): void {
 
 function asking(app: App, surface: number, edge: Edge, continuity: Continuity): Command[] {
   const info = app.state!.surfaces[surface]!;
+  const follow = continuity === 'follow' ? app.hand.edges.meeting(edge)?.follow : null;
+  if (follow) return follow;
   if (!isSide(edge)) return [{ do: 'edge', edge, hold: continuity === 'symmetry' ? 'position' : continuity }];
   const wish: Command[] = continuity === 'symmetry' ? [{ do: 'symmetry', edge, ...app.hand.edges.plane(edge) }]
     : [{ do: 'edge', which: edge, hold: continuity }];

@@ -32,8 +32,8 @@ export function heldBadge(app: App): HTMLElement {
     const edges = app.hand.edges.faceEdges;
     badge.hidden = !info || viewer.waiting || edges === null || app.hand.active;
     if (badge.hidden || !info) return;
-    badge.textContent = heldInWords(info, edges!.map((e) => e.id));
-    badge.classList.toggle('loose', badge.textContent === 'Nothing held');
+    badge.textContent = heldInWords(info, edges!.map((e) => e.id), app.hand.edges.meetingOthers);
+    badge.classList.toggle('loose', badge.textContent.startsWith('Nothing held') || badge.textContent.endsWith('when it moves'));
     box = seenBox(viewer.surfaces[k!]?.picture ?? null, viewer.trimOf(k!));
     place();
   });

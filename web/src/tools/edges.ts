@@ -7,12 +7,14 @@ import type { FaceEdge } from '../engine/context';
 import type { Picture, SurfaceInfo, Vector3 } from '../engine/session_types';
 import type { Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
-import { type Continuity, continuityOf, type Edge, edgeNames, isSide, type Side } from './held';
+import { type Continuity, continuityOf, type Edge, edgeNames, isSide, type Meeting, meetingAt, type Side } from './held';
 import type { PointerTool } from './pointers';
 
 const colours: Record<Continuity, number> = {
   free: 0x8a97a5, follow: 0x4aa08c, position: 0xe0b13a, clamped: 0xe88433, curvature: 0xd6483d, symmetry: 0x9a6fd0,
 };
+
+const opening = 0xd64bb0; // free, though other faces meet there
 
 /**
  * Shows the edges of the selected surface in the colour of what is asked of them; a click on one asks for something else.
@@ -58,6 +60,20 @@ export class Edges implements PointerTool {
   get edges(): readonly Edge[] {
     const ids = this.faceEdges?.map((e) => e.id) ?? [];
     return ids.length > 0 ? ids : edgeNames;
+  }
+
+  /** What happens at an edge of a face when it is let go. */
+  meeting(edge: Edge): Meeting | null {
+    const { info } = this;
+    const known = this.faceEdges?.find((e) => e.id === edge);
+    const state = this.viewer.frame?.state;
+    if (!info || !known || !state) return null;
+    return meetingAt(known, info.id, state.surfaces.map((s) => s.id), state.selection.map((k) => state.surfaces[k]!.id));
+  }
+
+  /** The edges at which other faces stay behind if they are free. */
+  get meetingOthers(): Edge[] {
+    return this.edges.filter((e) => this.meeting(e)?.opens);
   }
 
   private async learn(): Promise<void> {
@@ -107,8 +123,9 @@ export class Edges implements PointerTool {
       line.geometry = new LineGeometry();
       line.geometry.setPositions(places!);
       const continuity = continuityOf(info!, edge);
-      line.material.color.set(colours[continuity]);
-      line.material.linewidth = this.hovered === edge ? 7 : continuity === 'free' ? 2.5 : 4;
+      const opens = continuity === 'free' && this.meeting(edge)?.opens;
+      line.material.color.set(opens ? opening : colours[continuity]);
+      line.material.linewidth = this.hovered === edge ? 7 : continuity === 'free' && !opens ? 2.5 : 4;
     });
     this.viewer.redraw();
   }

@@ -1,3 +1,4 @@
+import type { FaceEdge } from '../engine/context';
 import type { Command, SurfaceInfo } from '../engine/session_types';
 
 export const edgeNames = ['u0', 'u1', 'v0', 'v1'] as const;
@@ -29,14 +30,45 @@ export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
   return own ?? all;
 }
 
+const forms: Partial<Record<string, string>> = {
+  PLANE: 'plane', CYLINDRICAL_SURFACE: 'cylinder', CONICAL_SURFACE: 'cone', SPHERICAL_SURFACE: 'sphere', TOROIDAL_SURFACE: 'torus',
+  DEGENERATE_TOROIDAL_SURFACE: 'torus', SURFACE_OF_REVOLUTION: 'surface of revolution', SURFACE_OF_LINEAR_EXTRUSION: 'extrusion',
+};
+
+/** What an edge is to the faces that meet there. */
+export interface Meeting {
+  /** Faces of other surfaces stay behind where it is free: it opens. */
+  opens: boolean;
+  text: string;
+  /** What lets all of its faces move as one; null if nothing does. */
+  follow: Command[] | null;
+}
+
+/** `own`: the surface that the edge is looked at from; `surfaces`: all that can be sculpted, by id. */
+export function meetingAt(edge: FaceEdge, own: string, surfaces: readonly string[], selected: readonly string[]): Meeting {
+  if (edge.seam) return { opens: false, text: 'Its face is on both of its sides, so it cannot follow.', follow: null };
+  const others = edge.meets.filter((m) => m.surface !== own);
+  const free: Command = { do: 'edge', edge: edge.id, hold: 'follow' };
+  if (others.length === 0) return { opens: false, text: 'No other face meets it: nothing opens where it moves.', follow: [free] };
+  const fixed = [...new Set(others.map((m) => m.surface))].filter((s) => !surfaces.includes(s));
+  const all = [...new Set([...selected, own, ...others.map((m) => m.surface)])];
+  const faces = listed(others.map((m) => (forms[m.form] ? `the ${forms[m.form]!} ${m.face}` : m.face)));
+  const [stay, they] = others.length === 1 ? ['stays', 'it'] : ['stay', 'they'];
+  return {
+    opens: true,
+    text: `It meets ${faces}. Free, it opens: ${they} ${stay}. With Follow all are selected and move as one${fixed.length > 0 ? ', exact B-splines from then on' : ''}.`,
+    follow: [...(fixed.length > 0 ? [{ do: 'convert', surfaces: fixed } as const] : []), { do: 'select', surfaces: all }, free],
+  };
+}
+
 const counted = (count: number, one: string, many = `${one}s`) => `${count} ${count === 1 ? one : many}`;
 
 function listed(parts: string[]): string {
   return parts.length < 2 ? parts.join('') : `${parts.slice(0, -1).join(', ')} and ${parts.at(-1)!}`;
 }
 
-/** What of a surface is held, in a few words. `faceEdges`: ids of the edges of the faces on it. */
-export function heldInWords(info: SurfaceInfo, faceEdges: readonly Edge[]): string {
+/** What of a surface is held, in a few words. `faceEdges`: ids of the edges of the faces on it; `open`: those that would open. */
+export function heldInWords(info: SurfaceInfo, faceEdges: readonly Edge[], open: readonly Edge[] = []): string {
   const held = (edges: readonly Edge[]) => edges.filter((e) => !['free', 'follow'].includes(continuityOf(info, e))).length;
   const parts: string[] = [];
   if (info.hold > 0) parts.push(counted(info.hold, 'outer row'));
@@ -48,7 +80,9 @@ export function heldInWords(info: SurfaceInfo, faceEdges: readonly Edge[]): stri
   if (info.pins > 0) parts.push(counted(info.pins, 'point'));
   if (info.constraints.some((c) => c.do === 'freeze')) parts.push('frozen spans');
   if (info.constraints.some((c) => c.do === 'keep')) parts.push('kept lines');
-  return parts.length === 0 ? 'Nothing held' : `${listed(parts)} held`;
+  const words = parts.length === 0 ? 'Nothing held' : `${listed(parts)} held`;
+  const opening = open.filter((e) => continuityOf(info, e) === 'free').length;
+  return opening > 0 ? `${words}, ${opening === 1 ? 'one opens' : `${opening} open`} when it moves` : words;
 }
 
 /** A command that holds something, as a line of a list. */
