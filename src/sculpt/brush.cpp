@@ -53,7 +53,7 @@ double brush_falloff(double distance, double radius, double core) {
   return 1 - s * s * s * (10 - s * (15 - 6 * s));
 }
 
-Expected<void> BrushSamples::append(const Surface& shape, const GrevilleValues<2>& values) {
+Expected<void> BrushSamples::append(const Surface& shape, const GrevilleValues<2>& values, double side) {
   const std::array<const std::vector<double>*, 2> at = {&values.abscissae(0), &values.abscissae(1)};
   const auto jet = evaluate_grid<2>(shape, {std::span<const double>(*at[0]), std::span<const double>(*at[1])}, 1);
   if (!jet) return std::unexpected(jet.error());
@@ -67,7 +67,7 @@ Expected<void> BrushSamples::append(const Surface& shape, const GrevilleValues<2
     const Point u = jet->at({1, 0}).row(k), v = jet->at({0, 1}).row(k), across = u.cross(v);
     const double area = across.norm();
     const bool regular = area > 1e-9 * (u.squaredNorm() + v.squaredNorm());
-    normals.row(first + k) = regular ? Point(across / area) : Point(Point::Zero());
+    normals.row(first + k) = regular ? Point(side * across / area) : Point(Point::Zero());
     areas[first + k] = area * us[static_cast<std::size_t>(k) / vs.size()] * vs[static_cast<std::size_t>(k) % vs.size()];
   }
   return {};

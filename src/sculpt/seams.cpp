@@ -184,7 +184,33 @@ std::optional<Seam> compare(const Edge& a, const Edge& b, double tolerance) {
   return seam;
 }
 
+/// The side of its normal on which a patch lies along its edge: that of (edge's tangent) × (inwards) · (S_u × S_v).
+double turn_along(SurfaceEdge edge) { return edge == SurfaceEdge::u0 || edge == SurfaceEdge::v1 ? -1 : 1; }
+
 }  // namespace
+
+std::vector<double> seam_sides(std::span<const Seam> seams, int patches, int first) {
+  std::vector<double> sides(static_cast<std::size_t>(patches), 0);
+  const auto side = [&sides](int patch) -> double& { return sides[static_cast<std::size_t>(patch)]; };
+  side(first) = 1;
+  for (bool more = true; more;) {
+    more = false;
+    for (const Seam& seam : seams) {
+      const bool from_a = side(seam.a.patch) != 0;
+      if (seam.kind == SeamKind::reparametrised || from_a == (side(seam.b.patch) != 0)) continue;
+      // The patches lie on both sides of the edge: the same turn along it is a turn of the normal.
+      const double same = -turn_along(seam.a.edge) * turn_along(seam.b.edge) * (seam.reversed ? -1 : 1);
+      if (from_a) {
+        side(seam.b.patch) = same * side(seam.a.patch);
+      } else {
+        side(seam.a.patch) = same * side(seam.b.patch);
+      }
+      more = true;
+    }
+  }
+  std::ranges::replace(sides, 0., 1.);
+  return sides;
+}
 
 Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance)) {

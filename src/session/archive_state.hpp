@@ -286,15 +286,36 @@ void pass(A& a, Of<A, Fractions>& f) {
 }
 
 template <class A>
+void pass(A& a, Of<A, BrushPoint>& p) {
+  pass(a, p.surface);
+  pass(a, p.at);
+}
+
+/// Until version 4 a path was on one surface.
+inline void read_path_on_one_surface(Reader& a, std::vector<BrushPoint>& path) {
+  int surface = 0;
+  std::vector<Fractions> points;
+  pass(a, surface);
+  list(a, points, 16);
+  path.clear();
+  for (const Fractions& at : points) path.push_back({surface, at});
+}
+
+template <class A>
 void pass(A& a, Of<A, OpenBrush>& b) {
-  auto& [brush, images, surface, rope, path, before, masks] = b;
+  auto& [brush, images, rope, path, before, masks] = b;
   auto& [kind, radius, height, strength, core, by, angle, factor] = brush;
   choice(a, kind, BrushKind::unmask);
   for (auto* x : {&radius, &height, &strength, &core, &angle, &factor, &rope}) pass(a, *x);
   pass(a, by);
   list(a, images, 96);
-  pass(a, surface);
-  list(a, path, 16);
+  bool one_surface = false;
+  if constexpr (!A::writing) one_surface = a.version() < 5;
+  if (one_surface) {
+    if constexpr (!A::writing) read_path_on_one_surface(a, path);
+  } else {
+    list(a, path, 20);
+  }
   list(a, before, 16);
   list(a, masks, 8);
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "brush_path.hpp"
 #include "executor.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -43,45 +45,79 @@ Expected<std::array<std::vector<double>, 2>> halving(const Surface& s, const Fra
 
 }  // namespace
 
-/// Finer nets under a brush, where the edges of faces are held or refining is permitted; the shapes from before the
-/// stroke follow.
-Expected<void> Executor::refine_for_brush(const std::vector<Fractions>& places) {
+/// Finer nets of a surface at one place of a brush, where the edges of faces are held or refining is permitted. Returns
+/// the length of the longest span there that is left.
+Expected<double> Executor::refine_under_brush(SceneSurface& s, const Fractions& at) {
+  const Brush& brush = state.brush->brush;
+  const bool sharp = brush.kind == BrushKind::crease || brush.kind == BrushKind::ridge;
+  const double wanted = brush.radius * (sharp ? sharp_wanted : spans_wanted);
+  if (auto refined = refine_at_trims(s, at, brush.radius); !refined) return std::unexpected(refined.error());
+  double longest = 0;
+  for (int k = 0; k < most_halvings; ++k) {
+    const auto middles = halving(*s.current, at, brush.radius, wanted, longest);
+    if (!middles) return std::unexpected(middles.error());
+    if (state.permission != RefinePermission::automatic || !s.pins.empty()) break;
+    if ((*middles)[0].empty() && (*middles)[1].empty()) break;
+    const auto [m, n] = s.current->net();
+    if ((m + static_cast<int>((*middles)[0].size())) * (n + static_cast<int>((*middles)[1].size())) >
+        most_control_points) {
+      break;
+    }
+    auto done = change_net(s, [&](const Surface& shape) { return insert_knots<2>(shape, *middles); });
+    if (!done) return std::unexpected(done.error());
+  }
+  return longest;
+}
+
+/// Finer nets under a brush, also of the surfaces beside those on which it is; the shapes from before the stroke
+/// follow.
+Expected<void> Executor::refine_for_brush(const std::vector<BrushPoint>& places) {
   OpenBrush& open = *state.brush;
   const double radius = open.brush.radius;
-  const bool sharp = open.brush.kind == BrushKind::crease || open.brush.kind == BrushKind::ridge;
-  const double wanted = radius * (sharp ? sharp_wanted : spans_wanted);
-  SceneSurface& s = state.surfaces[static_cast<std::size_t>(open.surface)];
-  double coarsest = 0;
-  for (const Fractions& at : places) {
-    if (auto refined = refine_at_trims(s, at, radius); !refined) return refined;
-    for (int k = 0; k < most_halvings; ++k) {
-      double longest = 0;
-      const auto middles = halving(*s.current, at, radius, wanted, longest);
-      if (!middles) return std::unexpected(middles.error());
-      coarsest = std::max(coarsest, longest);
-      if (state.permission != RefinePermission::automatic || !s.pins.empty()) break;
-      if ((*middles)[0].empty() && (*middles)[1].empty()) break;
-      const auto [m, n] = s.current->net();
-      if ((m + static_cast<int>((*middles)[0].size())) * (n + static_cast<int>((*middles)[1].size())) >
-          most_control_points) {
-        break;
-      }
-      auto done = change_net(s, [&](const Surface& shape) { return insert_knots<2>(shape, *middles); });
-      if (!done) return done;
-      coarsest = 0;
+  const std::vector<int> selection = state.selection();
+  const BrushPath way(selection, open.before, radius, 0);
+  if (selection.size() > 1 && state.permission != RefinePermission::never) {
+    if (auto made = prepare_brush_model(); !made) return made;
+    for (const BrushPoint& at : places) {
+      const auto place = way.place(at);
+      if (!place) return std::unexpected(place.error());
+      if (auto united = unite_restricted(stroke_cache->scene.seams, place->at, radius); !united) return united;
     }
   }
+  const bool beside = state.permission == RefinePermission::automatic && selection.size() > 1;
+  std::map<int, double> coarsest;
+  for (const BrushPoint& at : places) {
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(at.surface)];
+    const auto longest = refine_under_brush(s, at.at);
+    if (!longest) return std::unexpected(longest.error());
+    coarsest[at.surface] = std::max(coarsest[at.surface], *longest);
+    if (!beside) continue;
+    const auto place = way.place(at);
+    if (!place) return std::unexpected(place.error());
+    for (int other : selection) {
+      if (other == at.surface) continue;
+      const BrushPoint foot = way.nearest(other, place->at);
+      const auto there = way.place(foot);
+      if (!there) return std::unexpected(there.error());
+      if ((there->at - place->at).norm() >= radius) continue;
+      const auto refined = refine_under_brush(state.surfaces[static_cast<std::size_t>(other)], foot.at);
+      if (!refined) return std::unexpected(refined.error());
+    }
+  }
+  if (state.permission == RefinePermission::automatic) {
+    if (auto united = refine_seams(); !united) return united;
+  }
   if (auto united = unite_followed(); !united) return united;
-  const std::vector<int> selection = state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {
     const SceneSurface& now = state.surfaces[static_cast<std::size_t>(selection[k])];
     open.before[k] = {now.rest, now.current};
     open.masks[k] = now.mask;
   }
-  if (coarsest > radius) {
+  for (const auto& [surface, longest] : coarsest) {
+    if (longest <= radius) continue;
     std::string note = fmt::format(
         R"({}: the net is coarse for the brush: its spans are up to {:.2g} times the radius; let it be refined with {{"do":"refine","permission":"auto"}})",
-        s.id, coarsest / radius);
+        state.surfaces[static_cast<std::size_t>(surface)].id, longest / radius);
     if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(std::move(note));
   }
   return {};

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "knead/scene/places.hpp"
+#include "knead/spline/closest_point.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -22,38 +24,104 @@ Expected<Point> point_at(const Surface& surface, const Fractions& at) {
   return evaluate_point<2>(surface, *u);
 }
 
-}  // namespace
-
-BrushPath::BrushPath(const Surface& surface, double spacing, double rope)
-    : surface_(surface), spacing_(spacing), rope_(rope) {
-  const Points& net = surface.control_points();
-  const double size = (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm();
+std::array<bool, 2> closed_directions(const Surface& surface, double size) {
+  std::array<bool, 2> closed = {};
   for (std::size_t d = 0; d < 2; ++d) {
-    closed_[d] = std::ranges::all_of(samples_along, [&](double t) {
+    closed[d] = std::ranges::all_of(samples_along, [&](double t) {
       const auto begin = point_at(surface, d == 0 ? Fractions{0, t} : Fractions{t, 0});
       const auto end = point_at(surface, d == 0 ? Fractions{1, t} : Fractions{t, 1});
       return begin && end && (*begin - *end).norm() <= closing_gap * size;
     });
   }
+  return closed;
 }
 
-Fractions BrushPath::towards(const Fractions& from, const Fractions& to, double share) const {
-  Fractions result = {};
+/// The fractions of the point of a surface near x.
+struct Foot {
+  Fractions at = {};
+  double distance = 0;
+};
+Foot foot_on(const Surface& shape, const std::array<bool, 2>& closed, const Point& x) {
+  Eigen::Index nearest = 0;
+  (shape.control_points().rowwise() - x.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  const int n = shape.net()[1], row = static_cast<int>(nearest);
+  const ClosestPoint<2> found =
+      closest_point_from<2>(shape, x, {shape.knots(0).greville(row / n), shape.knots(1).greville(row % n)}, closed);
+  Foot foot{{}, found.distance};
   for (std::size_t d = 0; d < 2; ++d) {
-    double way = to[d] - from[d];
-    if (closed_[d] && std::abs(way) > 0.5) way -= std::copysign(1, way);
-    result[d] = share == 1 ? to[d] : from[d] + share * way;
-    if (closed_[d]) result[d] -= result[d] < 0 ? -1 : result[d] > 1 ? 1 : 0;
-    result[d] = std::clamp(result[d], 0., 1.);
+    const Interval domain = shape.knots()[d].domain();
+    foot.at[d] = std::clamp((found.parameters[d] - domain.lower) / domain.length(), 0., 1.);
   }
-  return result;
+  return foot;
 }
 
-Expected<double> BrushPath::length(const Fractions& from, const Fractions& to) const {
+double distance_from_box(const Point& x, const Point& lower, const Point& upper) {
+  return (lower - x).cwiseMax(x - upper).cwiseMax(0).norm();
+}
+
+}  // namespace
+
+BrushPath::BrushPath(std::span<const int> selection, std::span<const OpenStroke::Before> shapes, double spacing,
+                     double rope)
+    : spacing_(spacing), rope_(rope) {
+  assert(selection.size() == shapes.size());
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    const Points& net = shapes[k].current->control_points();
+    const Point lower = net.colwise().minCoeff(), upper = net.colwise().maxCoeff();
+    sheets_.push_back(
+        {selection[k], shapes[k].current, closed_directions(*shapes[k].current, (upper - lower).norm()), lower, upper});
+  }
+}
+
+const BrushPath::Sheet& BrushPath::sheet(int surface) const {
+  const auto found = std::ranges::find(sheets_, surface, &Sheet::surface);
+  assert(found != sheets_.end());
+  return *found;
+}
+
+Expected<Point> BrushPath::point(const BrushPoint& at) const { return point_at(*sheet(at.surface).shape, at.at); }
+
+BrushPoint BrushPath::nearest(int surface, const Point& x) const {
+  const Sheet& on = sheet(surface);
+  return {surface, foot_on(*on.shape, on.closed, x).at};
+}
+
+Expected<BrushPoint> BrushPath::towards(const BrushPoint& from, const BrushPoint& to, double share) const {
+  if (share == 1) return to;
+  if (from.surface == to.surface) {
+    BrushPoint result = from;
+    const std::array<bool, 2>& closed = sheet(from.surface).closed;
+    for (std::size_t d = 0; d < 2; ++d) {
+      double way = to.at[d] - from.at[d];
+      if (closed[d] && std::abs(way) > 0.5) way -= std::copysign(1, way);
+      result.at[d] = from.at[d] + share * way;
+      if (closed[d]) result.at[d] -= result.at[d] < 0 ? -1 : result.at[d] > 1 ? 1 : 0;
+      result.at[d] = std::clamp(result.at[d], 0., 1.);
+    }
+    return result;
+  }
+  const auto p = point(from), q = point(to);
+  if (!p) return std::unexpected(p.error());
+  if (!q) return std::unexpected(q.error());
+  const Point x = *p + share * (*q - *p);
+  BrushPoint best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Sheet& on : sheets_) {
+    if (distance_from_box(x, on.lower, on.upper) >= least) continue;
+    const Foot foot = foot_on(*on.shape, on.closed, x);
+    if (foot.distance >= least) continue;
+    least = foot.distance;
+    best = {on.surface, foot.at};
+  }
+  return best;
+}
+
+Expected<double> BrushPath::length(const BrushPoint& from, const BrushPoint& to) const {
   double sum = 0;
-  auto before = point_at(surface_, from);
+  auto before = point(from);
   for (int k = 1; k <= length_pieces && before; ++k) {
-    auto here = point_at(surface_, towards(from, to, static_cast<double>(k) / length_pieces));
+    const auto next = towards(from, to, static_cast<double>(k) / length_pieces);
+    auto here = next ? point(*next) : std::unexpected(next.error());
     if (here) sum += (*here - *before).norm();
     before = std::move(here);
   }
@@ -61,8 +129,8 @@ Expected<double> BrushPath::length(const Fractions& from, const Fractions& to) c
   return sum;
 }
 
-Expected<std::vector<Fractions>> BrushPath::places(const Fractions& from, const Fractions& to,
-                                                   const Fractions& at) const {
+Expected<std::vector<BrushPoint>> BrushPath::places(const BrushPoint& from, const BrushPoint& to,
+                                                    const BrushPoint& at) const {
   const auto way = length(from, to);
   if (!way) return std::unexpected(way.error());
   if (*way > most_places * spacing_) {
@@ -72,31 +140,35 @@ Expected<std::vector<Fractions>> BrushPath::places(const Fractions& from, const 
                        "path", "give more points, or use a larger radius");
   }
   const int count = std::max(1, static_cast<int>(std::ceil(*way / spacing_)));
-  std::vector<Fractions> result;
-  Fractions here = at;
+  std::vector<BrushPoint> result;
+  BrushPoint here = at;
   for (int k = 1; k <= count; ++k) {
-    const Fractions pointer = towards(from, to, static_cast<double>(k) / count);
+    const auto pointer = towards(from, to, static_cast<double>(k) / count);
+    if (!pointer) return std::unexpected(pointer.error());
     if (rope_ > 0) {
-      const auto p = point_at(surface_, pointer), q = point_at(surface_, here);
+      const auto p = point(*pointer), q = point(here);
       if (!p) return std::unexpected(p.error());
       if (!q) return std::unexpected(q.error());
       const double distance = (*p - *q).norm();
       if (distance <= rope_) continue;
-      here = towards(here, pointer, 1 - rope_ / distance);
+      const auto drawn = towards(here, *pointer, 1 - rope_ / distance);
+      if (!drawn) return std::unexpected(drawn.error());
+      here = *drawn;
     } else {
-      here = pointer;
+      here = *pointer;
     }
     result.push_back(here);
   }
   return result;
 }
 
-Expected<BrushPlace> BrushPath::place(const Fractions& at) const {
-  const auto u = parameters_at(surface_, at, "path");
+Expected<BrushPlace> BrushPath::place(const BrushPoint& at) const {
+  const Surface& surface = *sheet(at.surface).shape;
+  const auto u = parameters_at(surface, at.at, "path");
   if (!u) return std::unexpected(u.error());
   Parameters<2> here(1, 2);
   here << (*u)[0], (*u)[1];
-  const auto jet = evaluate<2>(surface_, here, 1);
+  const auto jet = evaluate<2>(surface, here, 1);
   if (!jet) return std::unexpected(jet.error());
   const Point su = jet->at({1, 0}).row(0), sv = jet->at({0, 1}).row(0);
   return BrushPlace{jet->points().row(0).transpose(), su.cross(sv).stableNormalized()};

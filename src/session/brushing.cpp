@@ -5,6 +5,7 @@
 
 #include "brush_path.hpp"
 #include "executor.hpp"
+#include "knead/scene/places.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -18,8 +19,7 @@ constexpr double least_share = 0.5;      // of its way that a point goes by itse
 constexpr double limit_share = 1e-6;     // by which a limit may be exceeded, as for steps
 
 BrushPath path_of(const OpenBrush& open, const Scene& scene) {
-  return {*scene.surfaces[static_cast<std::size_t>(open.surface)].current, open.brush.radius / places_per_radius,
-          open.rope};
+  return {scene.selection(), open.before, open.brush.radius / places_per_radius, open.rope};
 }
 
 /// The brush without what a hand changes as it goes.
@@ -35,9 +35,8 @@ bool goes_on(const OpenBrush& from, const OpenBrush& to) {
   const auto same = [](const OpenStroke::Before& a, const OpenStroke::Before& b) {
     return a.rest == b.rest && a.current == b.current;
   };
-  return without_hand(from.brush) == without_hand(to.brush) && from.images == to.images && from.surface == to.surface &&
-         from.rope == to.rope && from.path.size() <= to.path.size() &&
-         std::equal(from.path.begin(), from.path.end(), to.path.begin()) &&
+  return without_hand(from.brush) == without_hand(to.brush) && from.images == to.images && from.rope == to.rope &&
+         from.path.size() <= to.path.size() && std::equal(from.path.begin(), from.path.end(), to.path.begin()) &&
          std::ranges::equal(from.before, to.before, same);
 }
 
@@ -64,8 +63,8 @@ bool BrushRun::reaches(Brush brush) const {
   return std::ranges::any_of(histories, [&](const BrushHistory& h) { return (h.weights(brush).array() > 0).any(); });
 }
 
-void Executor::begin_brush(const Brush& brush, std::vector<BrushImage> images, int surface, double rope) {
-  OpenBrush open{brush, std::move(images), surface, rope, {}, {}, {}};
+void Executor::begin_brush(const Brush& brush, std::vector<BrushImage> images, double rope) {
+  OpenBrush open{brush, std::move(images), rope, {}, {}, {}};
   for (int k : state.selection()) {
     const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
     open.before.push_back({s.rest, s.current});
@@ -79,12 +78,17 @@ Expected<void> Executor::start_brush_run() {
   const OpenBrush& open = *state.brush;
   const ModelInput& input = stroke_cache->scene.input;
   if (brush_cache && brush_cache->input == input && goes_on(brush_cache->open, open)) return {};
-  BrushRun run{input, open, {}, {}, {}, {}, false};
+  BrushRun run{input, open, {}, {}, {}, {}, {}, false};
   run.open.path.clear();
+  std::vector<Seam> seams;
+  for (const SeamReport& report : stroke_cache->scene.seams) seams.push_back(report.seam);
+  const std::vector<int> selection = state.selection();
+  const auto begin = std::ranges::find(selection, open.path.front().surface) - selection.begin();
+  run.sides = seam_sides(seams, static_cast<int>(selection.size()), static_cast<int>(begin));
   Eigen::Index rows = 0;
   for (std::size_t k = 0; k < open.before.size(); ++k) {
     const Surface& shape = *open.before[k].current;
-    if (auto done = run.samples.append(shape, stroke_cache->values[k]); !done) return done;
+    if (auto done = run.samples.append(shape, stroke_cache->values[k], run.sides[k]); !done) return done;
     rows += shape.size();
   }
   if (open.brush.kind == BrushKind::smooth) {
@@ -104,7 +108,7 @@ Expected<void> Executor::start_brush_run() {
   return {};
 }
 
-Expected<void> Executor::brush_to(const std::vector<Fractions>& path) {
+Expected<void> Executor::brush_to(const std::vector<BrushPoint>& path) {
   OpenBrush& open = *state.brush;
   const std::vector<int> selection = state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {  // places and nets are those of the shapes from before
@@ -115,10 +119,11 @@ Expected<void> Executor::brush_to(const std::vector<Fractions>& path) {
   }
   const std::size_t known = open.path.size();
   open.path.insert(open.path.end(), path.begin(), path.end());
-  std::vector<Fractions> places;
+  std::vector<BrushPoint> places;
+  const BrushPath way = path_of(open, state);
   for (std::size_t k = known; k < open.path.size(); ++k) {
-    const auto more = k == 0 ? std::vector<Fractions>{open.path[0]}
-                             : path_of(open, state).places(open.path[k - 1], open.path[k], open.path[k - 1]);
+    const auto more =
+        k == 0 ? std::vector<BrushPoint>{open.path[0]} : way.places(open.path[k - 1], open.path[k], open.path[k - 1]);
     if (!more) return std::unexpected(more.error());
     places.insert(places.end(), more->begin(), more->end());
   }
@@ -146,13 +151,16 @@ Expected<void> Executor::lead_brush() {
   const OpenBrush& open = *state.brush;
   BrushRun& run = *brush_cache;
   const BrushPath way = path_of(open, state);
+  const std::vector<int> selection = state.selection();
   for (std::size_t k = run.open.path.size(); k < open.path.size(); ++k) {
     if (k == 0) run.at = open.path[0];
-    auto next = k == 0 ? std::vector<Fractions>{run.at} : way.places(open.path[k - 1], open.path[k], run.at);
+    auto next = k == 0 ? std::vector<BrushPoint>{run.at} : way.places(open.path[k - 1], open.path[k], run.at);
     if (!next) return std::unexpected(next.error());
-    for (const Fractions& at : *next) {
-      const auto place = way.place(at);
+    for (const BrushPoint& at : *next) {
+      auto place = way.place(at);
       if (!place) return std::unexpected(place.error());
+      place->normal *=
+          run.sides[static_cast<std::size_t>(std::ranges::find(selection, at.surface) - selection.begin())];
       run.histories[0].go_to(open.brush, run.samples, *place, run.fair);
       for (std::size_t i = 0; i < open.images.size(); ++i) {
         run.histories[i + 1].go_to(open.images[i].of(open.brush), run.samples, open.images[i].of(*place), run.fair);
@@ -174,14 +182,17 @@ Expected<double> Executor::share_of_grab(const Points& displacement) const {
   if (!place) return std::unexpected(place.error());
   if (!stands_alone(*place, open)) return 0;
   const std::vector<int> selection = state.selection();
-  const auto k = static_cast<std::size_t>(std::ranges::find(selection, open.surface) - selection.begin());
+  const BrushPoint& at = open.path.front();
+  const auto k = static_cast<std::size_t>(std::ranges::find(selection, at.surface) - selection.begin());
   const Surface& shape = *open.before[k].current;
   const Eigen::Index first = stroke_cache->scene.model.rows()[k];
   const auto field = shape.with_control_points(displacement.middleRows(first, shape.size()));
   if (!field) return std::unexpected(field.error());
-  const auto moved = BrushPath(*field, open.brush.radius, 0).place(open.path.front());
+  const auto u = parameters_at(*field, at.at, "path");
+  if (!u) return std::unexpected(u.error());
+  const auto moved = evaluate_point<2>(*field, *u);
   if (!moved) return std::unexpected(moved.error());
-  return moved->at.dot(open.brush.by) / open.brush.by.squaredNorm();
+  return moved->dot(open.brush.by) / open.brush.by.squaredNorm();
 }
 
 /// The displacement of the control points that the open brush asks for and the constraints allow.

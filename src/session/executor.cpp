@@ -60,6 +60,16 @@ Expected<int> Executor::find_surface(const std::string& id) const {
       known.empty() ? "the file has no B-spline surface that could be sculpted" : "its surfaces are: " + known);
 }
 
+Expected<int> Executor::selected_surface(const std::optional<std::string>& id, const char* field) {
+  if (auto first = selected(); !first) return std::unexpected(first.error());
+  if (!id) return *state.selected;
+  const auto found = find_surface(*id);
+  if (!found) return found;
+  const std::vector<int> selection = state.selection();
+  if (std::ranges::find(selection, *found) != selection.end()) return found;
+  return input_error(fmt::format("{} is not selected", *id), field, "select it first");
+}
+
 Expected<Tool*> Executor::find_tool(const std::optional<std::string>& name) {
   std::string known;
   for (Tool& t : state.tools) {

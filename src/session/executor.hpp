@@ -23,9 +23,10 @@ struct StrokeModel {
 
 /// What an open brush has asked for so far: it follows from the scene.
 struct BrushRun {
-  ModelInput input;   ///< for which it was made
-  OpenBrush open;     ///< the path is as far as it was led
-  Fractions at = {};  ///< where the brush is, which may trail behind the end of the path
+  ModelInput input;           ///< for which it was made
+  OpenBrush open;             ///< the path is as far as it was led
+  BrushPoint at = {};         ///< where the brush is, which may trail behind the end of the path
+  std::vector<double> sides;  ///< of the selected surfaces: `seam_sides` from the one where the path begins
   BrushSamples samples;
   Points fair;                          ///< displacement to the fair shape, at the samples
   std::vector<BrushHistory> histories;  ///< of the stroke and its images
@@ -62,6 +63,9 @@ struct Executor {
   /// The only selected surface. Error: there are several.
   Expected<SceneSurface*> selected_alone();
   Expected<int> find_surface(const std::string& id) const;
+  /// The selected surface of this id; without one the first selected. Errors (input), named `field`: it is not
+  /// selected.
+  Expected<int> selected_surface(const std::optional<std::string>& id, const char* field = "surface");
   Expected<Tool*> find_tool(const std::optional<std::string>& name);
   /// Diagonal of the bounding box of the first selected surface's reference: the unit of `relative`.
   Expected<double> diagonal();
@@ -85,9 +89,9 @@ struct Executor {
   Expected<void> lift();
 
   /// Opens a stroke of a brush with the selected surfaces as they are; its path is empty.
-  void begin_brush(const Brush& brush, std::vector<BrushImage> images, int surface, double rope);
+  void begin_brush(const Brush& brush, std::vector<BrushImage> images, double rope);
   /// Leads the open brush on, and makes what it asks for the shapes and rest shapes.
-  Expected<void> brush_to(const std::vector<Fractions>& path);
+  Expected<void> brush_to(const std::vector<BrushPoint>& path);
 
   /// The same control points on other knots or with other weights. Errors: a limit is set (input), and those of
   /// `change`.
@@ -96,6 +100,9 @@ struct Executor {
   Expected<void> change_net(SceneSurface& surface, const SurfaceChange& change);
   /// Refines what seams between selected surfaces need; with `followed` only those between faces at edges that follow.
   Expected<void> refine_seams(bool followed = false);
+  /// Unites the knots of coupled edges within reach of a place that have too little in common to bend there
+  /// (`SeamReport::restricted`), unless refining is not permitted. `reports` are those of the selected surfaces.
+  Expected<void> unite_restricted(std::span<const SeamReport> reports, const Point& place, double reach);
   /// Halves the spans of the selected surfaces that a tool reaches. Returns whether there were any.
   Expected<bool> refine_under(const Tool& tool);
 
@@ -127,6 +134,7 @@ struct Executor {
 
  private:
   Expected<void> prepare_model(const EvolutionPolicy& evolution);
+  Expected<void> refine_as(const std::vector<SeamRefinement>& refinements);
   Expected<ActiveStep> one_step(const std::vector<PointForce>& more, double& seconds);
   Expected<void> take(const ActiveStep& step);
   /// The same motion, made again and again with edges coupled more tightly.
@@ -167,11 +175,13 @@ struct Executor {
   Expected<void> keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before);
   Expected<void> put_tool(const Point& place);
   Expected<ActiveStep> press();
+  Expected<void> unite_under_stroke();
   Expected<bool> refine_stroke(const ActiveStep* step);
   Expected<void> press_along(const std::vector<Point>& places);
   Expected<void> show_stroke(bool down);
   Expected<void> show_remembered(bool down);
-  Expected<void> refine_for_brush(const std::vector<Fractions>& places);
+  Expected<void> refine_for_brush(const std::vector<BrushPoint>& places);
+  Expected<double> refine_under_brush(SceneSurface& surface, const Fractions& at);
   Expected<void> prepare_brush_model();
   Expected<void> start_brush_run();
   Expected<void> lead_brush();

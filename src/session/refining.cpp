@@ -4,6 +4,7 @@
 
 #include "executor.hpp"
 #include "knead/scene/followed.hpp"
+#include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
@@ -15,6 +16,8 @@ std::string net_note(const SceneSurface& s) {
 }
 
 namespace {
+
+constexpr double near_seam = 2;  // sizes of the tool from its centre within which seams have to bend
 
 /// The rectangle of parameters of all spans whose control points come near the tool; none if there are none.
 std::optional<std::array<Interval, 2>> reach_of(const Surface& surface, const Tool& tool) {
@@ -42,6 +45,21 @@ std::optional<std::array<Interval, 2>> reach_of(const Surface& surface, const To
     }
   }
   return result;
+}
+
+/// How far a point is from samples of an edge.
+double distance_from(const Surface& surface, SurfaceEdge edge, const Point& place) {
+  constexpr int samples = 65;
+  const auto across = static_cast<std::size_t>(edge_across(edge));
+  std::array<std::vector<double>, 2> at;
+  const Interval fixed = surface.knots()[across].domain(), along = surface.knots()[1 - across].domain();
+  at[across] = {edge_at_end(edge) ? fixed.upper : fixed.lower};
+  for (int k = 0; k < samples; ++k) {
+    at[1 - across].push_back(std::min(along.lower + along.length() * k / (samples - 1), along.upper));
+  }
+  const auto points = evaluate_grid<2>(surface, {std::span<const double>(at[0]), std::span<const double>(at[1])}, 0);
+  if (!points) return std::numeric_limits<double>::infinity();
+  return (points->points().rowwise() - place.transpose()).rowwise().norm().minCoeff();
 }
 
 }  // namespace
@@ -77,7 +95,12 @@ Expected<void> Executor::refine_seams(bool followed) {
   std::ranges::copy_if(found->seams, std::back_inserter(whole), [&](const Seam& s) {
     return s.kind == SeamKind::whole && (!followed || followed_at(edges, s) != nullptr);
   });
-  for (const SeamRefinement& r : seam_refinements(patches, whole)) {
+  return refine_as(seam_refinements(patches, whole));
+}
+
+Expected<void> Executor::refine_as(const std::vector<SeamRefinement>& refinements) {
+  const std::vector<int> selection = state.selection();
+  for (const SeamRefinement& r : refinements) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[static_cast<std::size_t>(r.patch)])];
     auto done = change_net(s, [&](const Surface& shape) -> Expected<Surface> {
       Expected<Surface> result = shape;
@@ -90,6 +113,34 @@ Expected<void> Executor::refine_seams(bool followed) {
     if (!done) return done;
   }
   return {};
+}
+
+Expected<void> Executor::unite_restricted(std::span<const SeamReport> reports, const Point& place, double reach) {
+  if (state.permission == RefinePermission::never) return {};
+  std::vector<const SceneSurface*> surfaces;
+  std::vector<const Surface*> patches;
+  for (int index : state.selection()) {
+    surfaces.push_back(&state.surfaces[static_cast<std::size_t>(index)]);
+    patches.push_back(surfaces.back()->reference.get());
+  }
+  std::vector<Seam> near;
+  for (const SeamReport& report : reports) {
+    const auto a = static_cast<std::size_t>(report.seam.a.patch), b = static_cast<std::size_t>(report.seam.b.patch);
+    if (!report.restricted || report.seam.kind != SeamKind::whole) continue;
+    if (!surfaces[a]->pins.empty() || !surfaces[b]->pins.empty()) continue;
+    if (distance_from(*surfaces[a]->current, report.seam.a.edge, place) <= reach) near.push_back(report.seam);
+  }
+  return refine_as(seam_refinements(patches, near));
+}
+
+/// Lets seams bend under the tool.
+Expected<void> Executor::unite_under_stroke() {
+  if (state.together.empty() || state.permission == RefinePermission::never) return {};
+  if (auto made = prepare_stroke_model(); !made) return made;
+  const auto tool = find_tool(state.stroke->tool);
+  if (!tool) return std::unexpected(tool.error());
+  const PlacedShape& shape = (*tool)->shape;
+  return unite_restricted(stroke_cache->scene.seams, shape.placement().position, near_seam * shape.size());
 }
 
 }  // namespace knead

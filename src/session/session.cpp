@@ -80,6 +80,8 @@ bool goes_on(const StrokeCommand& first, const StrokeCommand& second) {
 bool goes_on(const BrushCommand& first, const BrushCommand& second) {
   BrushCommand like = second;
   like.path = first.path;
+  like.surface = first.surface;
+  like.surfaces = first.surfaces;
   like.open = first.open;
   like.by = first.by;
   like.angle = first.angle;
@@ -87,14 +89,34 @@ bool goes_on(const BrushCommand& first, const BrushCommand& second) {
   return first.open.value_or(false) && like == first;
 }
 
+/// The surface of each point of the path of a brush.
+std::vector<std::string> surfaces_of(const BrushCommand& c, const Scene& scene) {
+  if (!c.surfaces.empty()) return c.surfaces;
+  return {c.path.size(), c.surface.value_or(scene.surfaces[static_cast<std::size_t>(*scene.selected)].id)};
+}
+
+/// Puts the path of one command before that of the one that goes on with it.
+void prepend(const StrokeCommand& first, const Scene&, StrokeCommand& both) {
+  both.path.insert(both.path.begin(), first.path.begin(), first.path.end());
+}
+void prepend(const BrushCommand& first, const Scene& scene, BrushCommand& both) {
+  if (first.surface != both.surface || !first.surfaces.empty() || !both.surfaces.empty()) {
+    std::vector<std::string> surfaces = surfaces_of(first, scene), more = surfaces_of(both, scene);
+    surfaces.insert(surfaces.end(), more.begin(), more.end());
+    both.surface.reset();
+    both.surfaces = std::move(surfaces);
+  }
+  both.path.insert(both.path.begin(), first.path.begin(), first.path.end());
+}
+
 /// One command for two where the second goes on with the first.
 template <class C>
-std::optional<C> one_of(const Command& first, const Command& second) {
+std::optional<C> one_of(const Command& first, const Command& second, const Scene& scene) {
   const C* const down = fields_of<C>(first);
   const C* const on = fields_of<C>(second);
   if (down == nullptr || on == nullptr || !goes_on(*down, *on)) return std::nullopt;
   C both = *on;
-  both.path.insert(both.path.begin(), down->path.begin(), down->path.end());
+  prepend(*down, scene, both);
   return both;
 }
 
@@ -116,10 +138,10 @@ void Session::join() {
     ++first;
   }
   if (first != last.end()) {
-    if (const auto stroke = one_of<StrokeCommand>(entry.back(), *first)) {
+    if (const auto stroke = one_of<StrokeCommand>(entry.back(), *first, state())) {
       entry.back() = make_command(*stroke);
       ++first;
-    } else if (const auto brush = one_of<BrushCommand>(entry.back(), *first)) {
+    } else if (const auto brush = one_of<BrushCommand>(entry.back(), *first, state())) {
       entry.back() = make_command(*brush);
       ++first;
     }

@@ -12,7 +12,8 @@ using archive::Reader;
 using archive::Writer;
 
 /// Of versions 1 to 5: without probes, open strokes and their results; without brushes, masks and edges that follow;
-/// without their tangent planes; without converted surfaces; the present one.
+/// without their tangent planes; without converted surfaces and brushes that pass from surface to surface; the present
+/// one.
 constexpr std::array<std::string_view, 5> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
                                                     "Knead snapshot 4\n", "Knead snapshot 5\n"};
 constexpr std::string_view magic = magics.back();
@@ -139,8 +140,10 @@ bool fits(const OpenStroke& stroke, const Scene& scene) {
 bool fits(const OpenBrush& brush, const Scene& scene) {
   const std::vector<int> selection = scene.selection();
   if (brush.masks.size() != selection.size()) return false;
-  return rows_of(brush.before, scene) && brush.brush.radius > 0 &&
-         std::ranges::find(selection, brush.surface) != selection.end();
+  const auto is_selected = [&](const BrushPoint& p) {
+    return std::ranges::find(selection, p.surface) != selection.end();
+  };
+  return rows_of(brush.before, scene) && brush.brush.radius > 0 && std::ranges::all_of(brush.path, is_selected);
 }
 
 /// The document with these surfaces converted; that of the state before if they are the same.

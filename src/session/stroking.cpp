@@ -222,6 +222,7 @@ Expected<ActiveStep> Executor::press() {
 Expected<bool> Executor::refine_stroke(const ActiveStep* step) {
   OpenStroke& stroke = *state.stroke;
   if (step == nullptr) {
+    if (auto united = unite_under_stroke(); !united) return std::unexpected(united.error());
     if (auto refined = refine_trims(); !refined) return std::unexpected(refined.error());
     if (auto united = unite_followed(); !united) return std::unexpected(united.error());
   } else if (step->coarseness > coarse && state.permission == RefinePermission::automatic) {
@@ -321,11 +322,12 @@ Expected<void> Executor::show_remembered(bool down) {
   Points shown = stays;
   if (down && stroke.last.rows() > 0) remember(shown, unmasked(model.at_abscissae(stroke.last)));
   const bool same = shown == stays;
-  // The largest of many displacements is none that edges which follow allow on both sides; then the nearest one stays.
-  const bool follows = !model.scene.input.followed.empty();
+  // The largest of many displacements is none that coupled surfaces allow on both sides; then the nearest one stays.
+  const auto couples = [](const SeamReport& seam) { return seam.continuity != SeamContinuity::none; };
+  const bool coupled = !model.scene.input.followed.empty() || std::ranges::any_of(model.scene.seams, couples);
   const auto allowed = [&](const Points& values) {
     const Points x = model.control_points(values);
-    return follows ? model.scene.model.nearest_allowed(x) : model.scene.model.allowed(x);
+    return coupled ? model.scene.model.nearest_allowed(x) : model.scene.model.allowed(x);
   };
   const Points resting = allowed(stays);
   const Points showing = same ? resting : allowed(shown);

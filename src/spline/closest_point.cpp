@@ -225,9 +225,19 @@ Expected<ClosestPoint<D>> closest_point(const Spline<D>& spline, const Point& x)
   return search->nearest(x);
 }
 
+template <int D>
+ClosestPoint<D> closest_point_from(const Spline<D>& spline, const Point& x, const std::array<double, D>& start,
+                                   const std::array<bool, D>& closed) {
+  return descend<D>(spline, x, start, closed);
+}
+
 template class ClosestPointSearch<1>;
 template class ClosestPointSearch<2>;
 template Expected<ClosestPoint<1>> closest_point(const Curve&, const Point&);
 template Expected<ClosestPoint<2>> closest_point(const Surface&, const Point&);
+template ClosestPoint<1> closest_point_from<1>(const Curve&, const Point&, const std::array<double, 1>&,
+                                               const std::array<bool, 1>&);
+template ClosestPoint<2> closest_point_from<2>(const Surface&, const Point&, const std::array<double, 2>&,
+                                               const std::array<bool, 2>&);
 
 }  // namespace knead

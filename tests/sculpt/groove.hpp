@@ -19,18 +19,29 @@ struct Groove {
   double lowest = 0;                   ///< deepest point of the sheet
 };
 
-/// \param displaced the sheet, \param flat as it was. Depths are positive.
-inline Groove groove_of(const Surface& displaced, const Surface& flat, const Point& from, const Point& to,
-                        double radius, double depth) {
-  constexpr int samples = 801;
-  Parameters<2> grid(static_cast<Eigen::Index>(samples) * samples, 2);
-  const Interval u = flat.knots(0).domain(), v = flat.knots(1).domain();
-  for (int i = 0; i < samples; ++i) {
-    for (int j = 0; j < samples; ++j)
-      grid.row(static_cast<Eigen::Index>(i) * samples + j) << u.lower + u.length() * i / (samples - 1),
-          v.lower + v.length() * j / (samples - 1);
+/// The points of surfaces on equal grids of their parameters, one surface after the other.
+inline Points sampled(const std::vector<const Surface*>& surfaces) {
+  const int samples = surfaces.size() == 1 ? 801 : 501;
+  const auto each = static_cast<Eigen::Index>(samples) * samples;
+  Points points(each * static_cast<Eigen::Index>(surfaces.size()), 3);
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    Parameters<2> grid(each, 2);
+    const Interval u = surfaces[k]->knots(0).domain(), v = surfaces[k]->knots(1).domain();
+    for (int i = 0; i < samples; ++i) {
+      for (int j = 0; j < samples; ++j)
+        grid.row(static_cast<Eigen::Index>(i) * samples + j) << u.lower + u.length() * i / (samples - 1),
+            v.lower + v.length() * j / (samples - 1);
+    }
+    points.middleRows(each * static_cast<Eigen::Index>(k), each) = evaluate<2>(*surfaces[k], grid, 0)->at({0, 0});
   }
-  const Points after = evaluate<2>(displaced, grid, 0)->at({0, 0}), before = evaluate<2>(flat, grid, 0)->at({0, 0});
+  return points;
+}
+
+/// \param displaced the sheet, of one surface or of several that lie in the plane, \param flat as it was. Depths are
+/// positive.
+inline Groove groove_of(const std::vector<const Surface*>& displaced, const std::vector<const Surface*>& flat,
+                        const Point& from, const Point& to, double radius, double depth) {
+  const Points after = sampled(displaced), before = sampled(flat);
   Groove g;
   const Point along = (to - from).normalized(), across(-along.y(), along.x(), 0);
   const double length = (to - from).norm();
@@ -78,6 +89,11 @@ inline Groove groove_of(const Surface& displaced, const Surface& flat, const Poi
     }
   }
   return g;
+}
+
+inline Groove groove_of(const Surface& displaced, const Surface& flat, const Point& from, const Point& to,
+                        double radius, double depth) {
+  return groove_of(std::vector{&displaced}, std::vector{&flat}, from, to, radius, depth);
 }
 
 }  // namespace knead::testing

@@ -114,13 +114,20 @@ struct OpenStroke {
   Points last = {}, older = {};  ///< displacements of the last two places; empty: none
 };
 
+/// A point of the path of a brush.
+struct BrushPoint {
+  int surface = 0;  ///< an index into the scene's surfaces
+  Fractions at = {};
+
+  friend bool operator==(const BrushPoint&, const BrushPoint&) = default;
+};
+
 /// A stroke of a brush that may go on.
 struct OpenBrush {
   Brush brush;
   std::vector<BrushImage> images;  ///< copies of the stroke, besides itself
-  int surface = 0;                 ///< on which the path lies, an index into the scene's surfaces
   double rope = 0;                 ///< length of the rope by which the pointer draws the brush, file units; 0: none
-  std::vector<Fractions> path;     ///< all that it was given by
+  std::vector<BrushPoint> path;    ///< all that it was given by
   std::vector<OpenStroke::Before> before;  ///< per selected surface
   std::vector<std::vector<double>> masks;  ///< likewise, from before the stroke
 };

@@ -51,8 +51,9 @@ struct BrushSamples {
   Points normals;         ///< n = S_u × S_v / |S_u × S_v|; zero where undefined
   Eigen::VectorXd areas;  ///< |S_u × S_v| times the cell of the abscissa
 
+  /// `side`: 1 or −1, by which the normals are multiplied.
   /// Errors: those of evaluation. Cost: that of an evaluation of first order at all abscissae.
-  [[nodiscard]] Expected<void> append(const Surface& shape, const GrevilleValues<2>& values);
+  [[nodiscard]] Expected<void> append(const Surface& shape, const GrevilleValues<2>& values, double side = 1);
 };
 
 /// A point of the surface on the path of a brush.

@@ -68,6 +68,12 @@ struct FoundSeams {
 /// not meet. Errors: the tolerance is not a positive number (input).
 [[nodiscard]] Expected<FoundSeams> find_seams(std::span<const Surface* const> patches, double tolerance);
 
+/// 1 or −1 for each of so many patches: times these, the normals S_u × S_v of all patches that seams connect with
+/// `first` lie on the side of its own, whatever the angle between them. 1 for the others.
+/// Seams that are `reparametrised` count for nothing; where some contradict each other (a Möbius strip), the first one
+/// decides.
+[[nodiscard]] std::vector<double> seam_sides(std::span<const Seam> seams, int patches, int first);
+
 /// 1e-4 of the diagonal of the box of all control points: CAD systems leave gaps of 1e-6 to 1e-4 of the model, and
 /// edges shorter than that are details too fine to sculpt. A larger gap needs a larger tolerance.
 [[nodiscard]] double suggested_seam_tolerance(std::span<const Surface* const> patches);

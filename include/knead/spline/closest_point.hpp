@@ -60,4 +60,10 @@ class ClosestPointSearch {
 template <int D>
 [[nodiscard]] Expected<ClosestPoint<D>> closest_point(const Spline<D>& spline, const Point& x);
 
+/// A local minimum without a search to prepare: as `ClosestPointSearch<D>::nearest_from`.
+template <int D>
+[[nodiscard]] ClosestPoint<D> closest_point_from(const Spline<D>& spline, const Point& x,
+                                                 const std::array<double, D>& start,
+                                                 const std::array<bool, D>& closed = {});
+
 }  // namespace knead

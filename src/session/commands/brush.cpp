@@ -93,6 +93,26 @@ Expected<Brush> brush_of(const BrushCommand& c, double diagonal) {
   return b;
 }
 
+/// The points of the path with their surfaces.
+Expected<std::vector<BrushPoint>> path_of(Executor& executor, const BrushCommand& c) {
+  if (c.surface && !c.surfaces.empty()) {
+    return input_error("the path is on one surface or on those of its points", "surfaces",
+                       "give `surface` or `surfaces`");
+  }
+  if (!c.surfaces.empty() && c.surfaces.size() != c.path.size()) {
+    return input_error(fmt::format("there are {} surfaces for {} points of the path", c.surfaces.size(), c.path.size()),
+                       "surfaces", "give one for each");
+  }
+  auto surface = executor.selected_surface(c.surface);
+  std::vector<BrushPoint> path;
+  for (std::size_t k = 0; k < c.path.size() && surface; ++k) {
+    if (!c.surfaces.empty()) surface = executor.selected_surface(c.surfaces[k], "surfaces");
+    if (surface) path.push_back({*surface, c.path[k]});
+  }
+  if (!surface) return std::unexpected(surface.error());
+  return path;
+}
+
 }  // namespace
 
 std::span<const Choice> choices(BrushKind) {
@@ -119,6 +139,8 @@ void describe(BrushCommand& c, Fields& fields) {
              {.help = "`[[s, t], …]`, points of the surface; empty to go on with an open stroke where it is",
               .unit = Unit::fraction});
   fields.add("surface", c.surface, {.help = "id of the surface of the path", .fallback = "the first selected one"});
+  fields.add("surfaces", c.surfaces,
+             {.help = "ids of the surface of each point of a path that leads over several selected ones"});
   fields.add("radius", c.radius,
              {.help = "beyond which nothing moves, measured in space",
               .unit = Unit::length,
@@ -168,33 +190,26 @@ Expected<void> Executor::execute(const BrushCommand& c) {
   if (!brush) return std::unexpected(brush.error());
   auto images = images_of(c, **first);
   if (!images) return std::unexpected(images.error());
-  int surface = *state.selected;
-  if (c.surface) {
-    const auto found = find_surface(*c.surface);
-    if (!found) return std::unexpected(found.error());
-    surface = *found;
-    if (std::ranges::none_of(state.selection(), [&](int k) { return k == surface; })) {
-      return input_error(fmt::format("{} is not selected", *c.surface), "surface", "select it first");
-    }
-  }
+  const auto path = path_of(*this, c);
+  if (!path) return std::unexpected(path.error());
   const double rope = c.steady * brush->radius;
   const auto goes_on = [&](const OpenBrush& open) {
     Brush like = *brush;  // a hand changes these as it goes
     like.by = open.brush.by;
     like.angle = open.brush.angle;
     like.factor = open.brush.factor;
-    return open.brush == like && open.images == *images && open.surface == surface && open.rope == rope;
+    return open.brush == like && open.images == *images && open.rope == rope;
   };
   if (state.brush && !goes_on(*state.brush)) state.brush.reset();
   if (c.path.empty() && !state.brush) {
     return input_error("the path has no places", "path", "give one or more: [[s, t], ...]");
   }
-  if (!state.brush) begin_brush(*brush, std::move(*images), surface, rope);
+  if (!state.brush) begin_brush(*brush, std::move(*images), rope);
   if (acts_about_one_place(c.kind) && state.brush->path.size() + c.path.size() > 1) {
     return input_error("this kind of brush acts about one place", "path", "give one: [[s, t]]");
   }
   state.brush->brush = *brush;
-  if (auto done = brush_to(c.path); !done) return done;
+  if (auto done = brush_to(*path); !done) return done;
   if (c.open.value_or(false)) return {};
   state.brush.reset();
   if (brush_cache->stuck) {  // not of a stroke that may still come to where something is free

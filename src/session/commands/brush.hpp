@@ -14,6 +14,7 @@ struct BrushCommand {
   BrushKind kind = BrushKind::push;
   std::vector<Fractions> path;
   std::optional<std::string> surface;  ///< on which the path lies; default: the first selected one
+  std::vector<std::string> surfaces;   ///< of each point of the path, where it leads over several; empty: `surface`
   std::optional<double> radius;        ///< default: a tenth of the diagonal
   std::optional<double> height;        ///< default: a quarter of the radius
   std::optional<double> strength;      ///< default: 1, of pinch 0.5

@@ -14,8 +14,8 @@ namespace {
 constexpr int footprint_samples = 13;  // in either direction
 
 /// The points of a footprint: all samples of the domain within `radius` of the centre in space, each with its share of
-/// the force.
-Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fractions& at, double radius,
+/// the force. Control points are numbered from `first`.
+Expected<std::vector<PointForce>> footprint(const Surface& surface, int first, const Fractions& at, double radius,
                                             double strength) {
   const auto centre_at = parameters_at(surface, at);
   if (!centre_at) return std::unexpected(centre_at.error());
@@ -46,7 +46,7 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fracti
       const double s = 1 - (*place - *centre).squaredNorm() / (radius * radius);
       if (s <= 0) continue;
       PointForce force;
-      force.terms = basis_terms(surface, {u, v}, 0);
+      force.terms = basis_terms(surface, {u, v}, first);
       force.to = *place;
       force.strength = s * s;
       total += force.strength;
@@ -55,7 +55,7 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, const Fracti
   }
   if (forces.empty()) {  // smaller than the sample distance: a single point
     PointForce force;
-    force.terms = basis_terms(surface, *centre_at, 0);
+    force.terms = basis_terms(surface, *centre_at, first);
     force.to = *centre;
     forces.push_back(std::move(force));
     total = 1;
@@ -79,13 +79,15 @@ void describe(DragCommand& c, Fields& fields) {
   fields.add("plasticity", c.plasticity,
              {.help = "share of the displacement that becomes rest shape", .unit = Unit::fraction});
   fields.add("relative", c.relative, {.help = "`by` and `radius` are fractions of the diagonal"});
+  fields.add("surface", c.surface, {.help = "id of the surface of the point", .fallback = "the first selected one"});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
 }
 
 template <>
 Expected<void> Executor::execute(const DragCommand& c) {
-  auto surface = selected();
-  if (!surface) return std::unexpected(surface.error());
+  const auto chosen = selected_surface(c.surface);
+  if (!chosen) return std::unexpected(chosen.error());
+  SceneSurface& surface = state.surfaces[static_cast<std::size_t>(*chosen)];
   if (c.steps < 1) return input_error(fmt::format("{} steps are too few", c.steps), "steps", "use 1 or more");
   if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
     return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");
@@ -100,10 +102,15 @@ Expected<void> Executor::execute(const DragCommand& c) {
   if (!(std::isfinite(radius) && radius > 0)) {
     return input_error(fmt::format("{} is not a radius", radius), "radius", "use a number > 0");
   }
-  const auto at = place_on(**surface, {c.at, c.middle.value_or(false)});
+  const auto at = place_on(surface, {c.at, c.middle.value_or(false)});
   if (!at) return std::unexpected(at.error());
-  if (auto refined = refine_at_trims(**surface, *at, radius); !refined) return refined;
-  const auto grip = footprint(*(*surface)->current, *at, radius, c.strength);
+  if (auto refined = refine_at_trims(surface, *at, radius); !refined) return refined;
+  int first = 0;
+  for (int k : state.selection()) {
+    if (k == *chosen) break;
+    first += state.surfaces[static_cast<std::size_t>(k)].current->size();
+  }
+  const auto grip = footprint(*surface.current, first, *at, radius, c.strength);
   if (!grip) return std::unexpected(grip.error());
   for (int k = 0; k < c.steps; ++k) {
     std::vector<PointForce> forces = *grip;

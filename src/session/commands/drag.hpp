@@ -13,7 +13,8 @@ struct DragCommand {
   int steps = 4;
   double plasticity = 1;
   bool relative = false;
-  std::optional<bool> middle = {};  ///< of the visible part, instead of `at`
+  std::optional<bool> middle = {};          ///< of the visible part, instead of `at`
+  std::optional<std::string> surface = {};  ///< default: the first selected one
 };
 
 template <>

@@ -12,7 +12,8 @@ std::span<const Choice> choices(RefinePermission) {
       {"auto", RefinePermission::automatic,
        "from now on commands refine what they need (under a tool, at seams, for `mirror`)"},
       {"never", RefinePermission::never, "they say what is missing"},
-      {"trims", RefinePermission::trims, "only between a tool and held edges of faces"}};
+      {"trims", RefinePermission::trims,
+       "only between a tool and held edges of faces, and at seams under strokes whose nets have too little in common"}};
   return list;
 }
 

@@ -17,9 +17,9 @@ namespace {
 constexpr double bend_share = 1. / 16;
 constexpr double resistance = 2 * 20. / 3;
 
-/// Whether each control point acts mainly within the ball: the surface point at its Greville abscissae lies there. The
-/// one whose point is nearest to the centre always counts.
-Expected<std::vector<bool>> within(const Surface& surface, const Point& centre, double radius) {
+/// Whether each control point acts mainly within the ball: the surface point at its Greville abscissae lies there. With
+/// `some` the one whose point is nearest to the centre always counts.
+Expected<std::vector<bool>> within(const Surface& surface, const Point& centre, double radius, bool some) {
   const auto [m, n] = surface.net();
   Parameters<2> places(surface.size(), 2);
   for (int i = 0; i < m; ++i) {
@@ -36,7 +36,7 @@ Expected<std::vector<bool>> within(const Surface& surface, const Point& centre, 
   for (Eigen::Index k = 0; k < distances.size(); ++k) result[static_cast<std::size_t>(k)] = distances[k] <= radius;
   Eigen::Index nearest = 0;
   distances.minCoeff(&nearest);
-  result[static_cast<std::size_t>(nearest)] = true;
+  if (some) result[static_cast<std::size_t>(nearest)] = true;
   return result;
 }
 
@@ -66,13 +66,15 @@ void describe(RelaxCommand& c, Fields& fields) {
   fields.add("strength", c.strength,
              {.help = "about the share removed of a bump (1 − ρ²/r²)² on a sheet, > 0, up to 1: λ = 40 (1 − "
                       "strength) / (3 r² strength); smaller bumps lose more"});
+  fields.add("surface", c.surface, {.help = "id of the surface of the point", .fallback = "the first selected one"});
   fields.add("relative", c.relative, {.help = "`radius` is a fraction of the diagonal"});
 }
 
 template <>
 Expected<void> Executor::execute(const RelaxCommand& c) {
-  auto surface = selected();
-  if (!surface) return std::unexpected(surface.error());
+  const auto chosen = selected_surface(c.surface);
+  if (!chosen) return std::unexpected(chosen.error());
+  const SceneSurface& surface = state.surfaces[static_cast<std::size_t>(*chosen)];
   if (!(c.strength > 0 && c.strength <= 1)) {
     return input_error(fmt::format("{} is not a strength", c.strength), "strength", "use a number > 0, up to 1");
   }
@@ -82,14 +84,11 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   if (!(std::isfinite(radius) && radius > 0)) {
     return input_error(fmt::format("{} is not a radius", radius), "radius", "use a number > 0");
   }
-  const auto centre_at = parameters_at(*(*surface)->current, c.at);
+  const auto centre_at = parameters_at(*surface.current, c.at);
   if (!centre_at) return std::unexpected(centre_at.error());
-  const auto centre = evaluate_point<2>(*(*surface)->current, *centre_at);
+  const auto centre = evaluate_point<2>(*surface.current, *centre_at);
   if (!centre) return std::unexpected(centre.error());
-  auto free = within(*(*surface)->current, *centre, radius);
-  if (!free) return std::unexpected(free.error());
-  add_mirror_images(**surface, *free);
-  const auto scaling = normalised_scaling(*(*surface)->reference);
+  const auto scaling = normalised_scaling(*state.surfaces[static_cast<std::size_t>(*state.selected)].reference);
   if (!scaling) return std::unexpected(scaling.error());
 
   // A thin plate without a rest shape, with everything outside pinned: the step of the model in a state of its
@@ -106,10 +105,13 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
     s.mode = RestMode::none;
     s.material = MaterialFieldOf<2>(MaterialOf<2>{{1, 0, 1}, {bend, bend, bend}});
     s.velocity = Points(0, 3);
+    auto free = within(*s.current, *centre, radius, index == *chosen);
+    if (!free) return std::unexpected(free.error());
+    add_mirror_images(s, *free);
     const auto [m, n] = s.current->net();
     for (int i = 0; i < m; ++i) {
       for (int j = 0; j < n; ++j) {
-        if (index != *trial.selected || !(*free)[static_cast<std::size_t>(i * n + j)]) s.pins.insert({i, j});
+        if (!(*free)[static_cast<std::size_t>(i * n + j)]) s.pins.insert({i, j});
       }
     }
   }

@@ -11,6 +11,7 @@ struct RelaxCommand {
   std::optional<double> radius;  ///< default: a tenth of the diagonal
   double strength = 0.5;
   bool relative = false;
+  std::optional<std::string> surface = {};  ///< default: the first selected one
 };
 
 template <>

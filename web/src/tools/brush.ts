@@ -35,11 +35,10 @@ export interface BrushActions {
 
 export const brushName = 'brush';
 
-type Place = Pick<Hit, 'point' | 'normal' | 'fractions'> & { press: number };
+type Place = Pick<Hit, 'point' | 'normal' | 'fractions' | 'surface'> & { press: number };
 
 interface Stroke {
   viewport: Viewport;
-  surface: number;
   kind: 'ball' | 'grab' | 'smooth';
   inward: boolean;
   frozen: (GridPicker | null)[];
@@ -48,7 +47,7 @@ interface Stroke {
   /** Centres of the ball not yet sent to the session, and its radius. */
   ahead: Vector3[];
   radius: number;
-  at: [number, number];
+  at: Pick<Hit, 'fractions' | 'surface'>;
   cancelled: boolean;
 }
 
@@ -104,8 +103,8 @@ export class Brush implements PointerTool {
     const inward = (this.mode === 'push') !== event.altKey;
     const last = { ...hit, press: this.pressure(event) };
     const stroke: Stroke = {
-      viewport, surface: hit.surface, kind, inward, frozen, begun: Promise.resolve(true), start: hit.point.clone(),
-      ahead: [], radius: this.settings.radius, at: hit.fractions, cancelled: false,
+      viewport, kind, inward, frozen, begun: Promise.resolve(true), start: hit.point.clone(),
+      ahead: [], radius: this.settings.radius, at: hit, cancelled: false,
     };
     this.stroke = stroke;
     stroke.begun = this.actions.begin(
@@ -131,8 +130,8 @@ export class Brush implements PointerTool {
       void this.followOn(stroke, () => [{ do: 'undo' }, this.grab(stroke, by)], false);
       return;
     }
-    const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
-    if (!hit || hit.surface !== stroke.surface) return;
+    const hit = this.viewer.pickOn(stroke.viewport, event, stroke.frozen);
+    if (!hit || !this.viewer.isSelected(hit.surface)) return;
     this.showRing(hit);
     const place = { ...hit, press: this.pressure(event) };
     if (stroke.kind === 'ball') {
@@ -209,7 +208,7 @@ export class Brush implements PointerTool {
   }
 
   private smooth(at: Place): Command[] {
-    return [{ do: 'relax', at: at.fractions, radius: this.settings.radius, strength: this.settings.strength * at.press }];
+    return [{ do: 'relax', ...this.on(at), radius: this.settings.radius, strength: this.settings.strength * at.press }];
   }
 
   /** Continues along all pointer positions since the last call: the session uses its own spacing. */
@@ -228,7 +227,13 @@ export class Brush implements PointerTool {
   }
 
   private grab(stroke: Stroke, by: THREE.Vector3): Command {
-    return { do: 'drag', at: stroke.at, by: by.toArray(), radius: this.settings.radius, steps: 1 };
+    return { do: 'drag', ...this.on(stroke.at), by: by.toArray(), radius: this.settings.radius, steps: 1 };
+  }
+
+  /** A point of a surface, which is named where several are selected. */
+  private on({ fractions, surface }: Pick<Hit, 'fractions' | 'surface'>): { at: [number, number]; surface?: string } {
+    const { selection, surfaces } = this.viewer.frame!.state;
+    return selection.length > 1 ? { at: fractions, surface: surfaces[surface]!.id } : { at: fractions };
   }
 
   hover(viewport: Viewport | null, event?: PointerEvent): void {

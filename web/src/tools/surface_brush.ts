@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { BrushCommand } from '../engine/generated';
 import type { Command, Vector3 } from '../engine/session_types';
 import type { GridPicker } from '../view/picking';
-import type { Viewer } from '../view/viewer';
+import type { Hit, Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
 import type { BrushActions } from './brush';
 import type { PointerTool } from './pointers';
@@ -45,13 +45,13 @@ const perDegree = 2, perFactor = 160;
 
 interface Stroke {
   viewport: Viewport;
-  surface: number;
   frozen: (GridPicker | null)[];
   /** All but the path and what the hand changes. */
-  fields: Omit<BrushCommand, 'path'>;
+  fields: Omit<BrushCommand, 'path' | 'surfaces'>;
   start: THREE.Vector3;
   pressed: number;
-  ahead: [number, number][];
+  /** Points of the path not yet sent to the session, each with the id of its surface. */
+  ahead: { at: [number, number]; surface: string }[];
   begun: Promise<boolean>;
   cancelled: boolean;
 }
@@ -76,9 +76,9 @@ export class SurfaceBrush implements PointerTool {
   /** The middle of what is selected, file units. */
   middle(): Vector3 {
     const state = this.viewer.frame?.state;
-    const info = state?.surfaces[state.selection[0] ?? 0];
-    if (!info) return [0, 0, 0];
-    return [0, 1, 2].map((k) => (info.lower[k]! + info.upper[k]!) / 2) as Vector3;
+    const chosen = state?.surfaces.filter((_, k) => (state.selection.length > 0 ? state.selection.includes(k) : k === 0)) ?? [];
+    if (chosen.length === 0) return [0, 0, 0];
+    return [0, 1, 2].map((k) => (Math.min(...chosen.map((s) => s.lower[k]!)) + Math.max(...chosen.map((s) => s.upper[k]!))) / 2) as Vector3;
   }
 
   wheel(event: WheelEvent): boolean {
@@ -98,23 +98,26 @@ export class SurfaceBrush implements PointerTool {
       void this.actions.select(hit.surface);
       return true;
     }
-    const fields = this.fields(event, state.surfaces[hit.surface]!.id);
     const stroke: Stroke = {
-      viewport, surface: hit.surface, frozen: this.viewer.pickers, fields, start: hit.point.clone(), pressed: event.clientX,
-      ahead: [], begun: Promise.resolve(true), cancelled: false,
+      viewport, frozen: this.viewer.pickers, fields: this.fields(event), start: hit.point.clone(), pressed: event.clientX,
+      ahead: [this.pointOf(hit)], begun: Promise.resolve(true), cancelled: false,
     };
     this.stroke = stroke;
-    stroke.begun = this.actions.begin([{ ...fields, path: [hit.fractions], open: true } as Command]);
+    stroke.begun = this.actions.begin([this.on(stroke, true)]);
     return true;
   }
 
-  private fields(event: PointerEvent, surface: string): Omit<BrushCommand, 'path'> {
+  private pointOf(hit: Hit): Stroke['ahead'][number] {
+    return { at: hit.fractions, surface: this.viewer.frame!.state.surfaces[hit.surface]!.id };
+  }
+
+  private fields(event: PointerEvent): Stroke['fields'] {
     const { settings } = this;
     const kind = event.shiftKey ? 'smooth' : event.altKey ? (opposite[settings.kind] ?? settings.kind) : settings.kind;
     const radius = this.size();
     const inward = event.altKey && settings.kind === 'inflate';
     const [x, y, z] = this.middle();
-    const fields: Omit<BrushCommand, 'path'> = { do: 'brush', kind, surface, radius };
+    const fields: Stroke['fields'] = { do: 'brush', kind, radius };
     if (heights.includes(kind)) fields.height = (inward ? -1 : 1) * fullHeight * settings.strength * radius;
     if (shares.includes(kind)) fields.strength = kind === 'mask' || kind === 'unmask' ? 1 : settings.strength;
     if (settings.steady > 0 && !aboutPlaces.includes(kind)) fields.steady = settings.steady;
@@ -143,15 +146,20 @@ export class SurfaceBrush implements PointerTool {
       void this.followOn(stroke);
       return;
     }
-    const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
-    if (!hit || hit.surface !== stroke.surface) return;
+    const hit = this.viewer.pickOn(stroke.viewport, event, stroke.frozen);
+    if (!hit || !this.viewer.isSelected(hit.surface)) return;
     this.ring.show(hit.point, hit.normal, this.size());
-    stroke.ahead.push(hit.fractions);
+    stroke.ahead.push(this.pointOf(hit));
     void this.followOn(stroke);
   }
 
   private on(stroke: Stroke, open: boolean): Command {
-    return { ...stroke.fields, path: stroke.ahead.splice(0), ...(open ? { open } : {}) } as Command;
+    const points = stroke.ahead.splice(0);
+    const several = this.viewer.frame!.state.selection.length > 1;
+    return {
+      ...stroke.fields, path: points.map(({ at }) => at), ...(several ? { surfaces: points.map(({ surface }) => surface) } : {}),
+      ...(open ? { open } : {}),
+    } as Command;
   }
 
   private async followOn(stroke: Stroke): Promise<void> {
