@@ -92,6 +92,7 @@ Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Sur
 
 ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
   ModelInput input;
+  const bool visible_only = touches_visible(scene);
   for (int k : scene.selection()) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
     input.surfaces.push_back({.id = s.id,
@@ -105,6 +106,7 @@ ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
                               .smooth_knot_lines = s.smooth_knot_lines,
                               .smooth_poles = s.smooth_poles,
                               .visible = holds_trims(s.constraints) ? s.visible : nullptr,
+                              .touched = visible_only ? s.visible : nullptr,
                               .masked = masked_points(s)});
   }
   input.seams = scene.seams;
@@ -157,6 +159,9 @@ Expected<SceneModel> make_model(ModelInput input) {
   settings.route = input.evolution.route;
   settings.raw = input.scaling == ScalingMode::raw;
   settings.detail = input.detail;
+  if (std::ranges::any_of(input.surfaces, [](const SurfaceInput& s) { return s.touched != nullptr; })) {
+    for (const SurfaceInput& s : input.surfaces) settings.visible.push_back(s.touched);
+  }
   auto model = ActiveSurface::create(std::move(patches), settings);
   if (!model) return std::unexpected(model.error());
   return SceneModel{std::move(input), std::move(*model), std::move(reports), std::move(notes)};

@@ -35,6 +35,10 @@ bool holds_trims(const std::vector<KeptConstraint>& constraints) {
   });
 }
 
+bool touches_visible(const Scene& scene) {
+  return std::ranges::any_of(scene.tools, [](const Tool& t) { return t.touches == ToolTouch::visible; });
+}
+
 std::vector<int> trim_orders(const std::vector<KeptConstraint>& constraints, const VisibleRegion& region) {
   int all = -1;
   for (const KeptConstraint& kept : constraints) {

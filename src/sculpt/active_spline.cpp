@@ -64,6 +64,10 @@ Expected<void> validate(const std::vector<Spline<D>>& patches, const ActiveSetti
   if (!settings.fields.empty() && settings.fields.size() != patches.size()) {
     return usage_error(fmt::format("{} materials do not fit {} patches", settings.fields.size(), patches.size()));
   }
+  if (!settings.visible.empty() && (D != 2 || settings.visible.size() != patches.size())) {
+    return usage_error(
+        fmt::format("{} visible regions do not fit {} patches", settings.visible.size(), patches.size()));
+  }
   if (!settings.held.empty() && settings.held.size() != static_cast<std::size_t>(size)) {
     return usage_error(
         fmt::format("{} flags of held control points do not fit {} control points", settings.held.size(), size));
@@ -157,6 +161,11 @@ Expected<void> assemble_forces(const Spline<D>& patch, std::size_t k, const Acti
   auto load = ToolLoad<D>::create(patch, to.scalings[k],
                                   settings.detail > 0 ? settings.detail : std::numeric_limits<double>::infinity());
   if (!load) return std::unexpected(load.error());
+  if constexpr (D == 2) {
+    if (k < settings.visible.size() && settings.visible[k] && settings.route == ForceRoute::gauss) {
+      load->show(settings.visible[k]);
+    }
+  }
   to.loads.push_back(std::move(*load));
   if (settings.route == ForceRoute::analytic) {
     auto force = GrevilleForce<D>::create(patch, to.scalings[k], options);

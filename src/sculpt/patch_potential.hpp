@@ -21,7 +21,11 @@ class PatchPotential final : public Potential {
   void grip(const Points& x, double slip) {
     if (std::ranges::none_of(tools_, [](const ModelTool& t) { return t.tool().friction > 0 && t.tool().collides(); }))
       return;
-    for (std::size_t k = 0; k < loads_.size(); ++k) friction_.push_back(loads_[k].anchors(x, rows_[k], tools_, slip));
+    for (std::size_t k = 0; k < loads_.size(); ++k) {
+      friction_.push_back(loads_[k].anchors(x, rows_[k], tools_, slip));
+      visible_friction_.push_back(loads_[k].hides() ? loads_[k].anchors(x, rows_[k], tools_, slip, ToolPass::visible)
+                                                    : FrictionAnchors{});
+    }
   }
   /// No point may be further than `distance` from its position in `original`.
   void limit(const Points& original, double distance, double stiffness) {
@@ -57,6 +61,10 @@ class PatchPotential final : public Potential {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       loads_[k].evaluate(x, rows_[k], static_cast<int>(k),
                          {tools_, friction_.empty() ? nullptr : &friction_[k], limits_.empty() ? nullptr : &limits_[k]},
+                         state);
+      if (!loads_[k].hides()) continue;
+      loads_[k].evaluate(x, rows_[k], static_cast<int>(k),
+                         {tools_, friction_.empty() ? nullptr : &visible_friction_[k], nullptr, ToolPass::visible},
                          state);
     }
     for (std::size_t k = 0; k < points_.size(); ++k) add_point(k, x, state);
@@ -131,8 +139,8 @@ class PatchPotential final : public Potential {
   std::span<const ToolLoad<D>> loads_;
   std::span<const int> rows_;
   std::vector<ModelTool> tools_;
-  std::vector<double> given_;  // their stiffness, not softened
-  std::vector<FrictionAnchors> friction_;
+  std::vector<double> given_;                                 // their stiffness, not softened
+  std::vector<FrictionAnchors> friction_, visible_friction_;  // of the tools of either pass, by patch
   std::vector<DisplacementLimit> limits_;
 };
 

@@ -15,6 +15,7 @@ struct ContactPoint {
   std::array<int, 3> at{};  ///< Gauss point in every direction of the patch
   double factor = 0;        ///< Gauss weight / rational denominator²; the basis carries w N
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  int part = -1;  ///< the visible part of that point's cell, where an edge cuts it; −1: the Gauss point itself
 };
 
 /// A potential Ψ, its force −∇Ψ and its linearisation at one position.

@@ -20,6 +20,7 @@ class ToolLoad<D>::EntrySearch {
   EntrySearch(const ToolLoad& load, const Points& x, int first, const ModelTool& tool)
       : load_(load), x_(x), first_(first), tool_(tool) {
     for (std::size_t d = 0; d < D; ++d) spans_[d] = load.knots_[d].spans();
+    masked_ = load.pass_of(tool) == ToolPass::visible;
   }
 
   [[nodiscard]] double deepest() {
@@ -60,8 +61,22 @@ class ToolLoad<D>::EntrySearch {
     return -tool_.distance(Point(sum[0], sum[1], sum[2]) / denominator);
   }
 
+  /// Whether the tool touches a place of an element.
+  [[nodiscard]] bool touches(const std::array<double, D>& u) const {
+    if (!in_cut_) return true;
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();
+    for (std::size_t d = 0; d < std::min<std::size_t>(D, 2); ++d) {
+      const Interval domain = load_.knots_[d].domain();
+      at[static_cast<Eigen::Index>(d)] = (u[d] - domain.lower) / domain.length();
+    }
+    return load_.region_->contains(at);
+  }
+
   /// Keeps the deepest samples of all elements.
   void sample(const Element& element) {
+    const int visible = masked_ ? load_.visibility(element) : VisibleMask::full;
+    if (visible == VisibleMask::hidden) return;
+    in_cut_ = visible == VisibleMask::cut;
     Point lower, upper;
     load_.box_of(element, x_, first_, lower, upper);
     if (load_.in_hull_ && !tool_.may_reach(lower, upper)) return;
@@ -79,7 +94,7 @@ class ToolLoad<D>::EntrySearch {
     do {
       for (std::size_t d = 0; d < D; ++d) c.u[d] = k[d] == counts[d] ? end[d] : begin[d] + k[d] * c.spacing[d];
       c.depth = depth_at(element, c.u);
-      if (c.depth > -reach) keep(c);
+      if (c.depth > -reach && is_deep(c) && touches(c.u)) keep(c);
     } while (advance(k, counts));
   }
 
@@ -92,16 +107,18 @@ class ToolLoad<D>::EntrySearch {
     return false;
   }
 
+  /// Whether it is among the deepest so far.
+  [[nodiscard]] bool is_deep(const Candidate& c) const {
+    return candidates_.size() < refined || c.depth > candidates_.back().depth;
+  }
   void keep(const Candidate& c) {
-    if (candidates_.size() == refined) {
-      if (!(c.depth > candidates_.back().depth)) return;
-      candidates_.pop_back();
-    }
+    if (candidates_.size() == refined) candidates_.pop_back();
     candidates_.insert(std::ranges::upper_bound(candidates_, c.depth, std::greater{}, &Candidate::depth), c);
   }
 
   /// The depth found by a compass search within the candidate's element.
-  [[nodiscard]] double refine(Candidate& c) const {
+  [[nodiscard]] double refine(Candidate& c) {
+    in_cut_ = masked_ && load_.visibility(c.element) == VisibleMask::cut;
     for (double h = 1; h > 1e-6; h /= 2) {
       for (std::size_t d = 0; d < D; ++d) {
         const double begin = load_.knots_[d][span(c.element, d)], end = load_.knots_[d][span(c.element, d) + 1];
@@ -109,7 +126,7 @@ class ToolLoad<D>::EntrySearch {
           std::array<double, D> u = c.u;
           u[d] = std::clamp(u[d] + sign * h * c.spacing[d], begin, end);
           const double depth = depth_at(c.element, u);
-          if (depth <= c.depth) continue;
+          if (depth <= c.depth || !touches(u)) continue;
           c.depth = depth;
           c.u = u;
         }
@@ -123,6 +140,8 @@ class ToolLoad<D>::EntrySearch {
   int first_;
   const ModelTool& tool_;
   std::array<std::vector<int>, D> spans_;
+  bool masked_ = false;                // the tool touches what is visible only
+  bool in_cut_ = false;                // in the present element that is a part
   std::vector<Candidate> candidates_;  // deepest first
 };
 

@@ -93,6 +93,41 @@ Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainS
 }
 
 template <int D>
+void ToolLoad<D>::show(std::shared_ptr<const VisibleRegion> region) {
+  if constexpr (D == 2) {
+    std::array<std::vector<double>, 2> lines;
+    for (std::size_t d = 0; d < 2; ++d) {
+      const Interval domain = knots_[d].domain();
+      const std::vector<int> spans = knots_[d].spans();
+      double whole = 0;
+      for (const double w : quadrature_[d].weights) whole += w;
+      for (std::size_t s = 0; s < spans.size(); ++s) {
+        double at = (knots_[d][spans[s]] - domain.lower) / domain.length();
+        for (int k = spans_[d][s]; k < spans_[d][s + 1]; ++k) {
+          lines[d].push_back(at);
+          at += quadrature_[d].weights[static_cast<std::size_t>(k)] / whole;
+        }
+      }
+      lines[d].push_back(1);
+    }
+    auto mask = std::make_shared<const VisibleMask>(*region, lines);
+    if (mask->whole()) return;
+    part_values_.clear();
+    std::array<double, max_degree + 1> n;
+    for (const VisibleMask::Part& part : mask->parts()) {
+      for (std::size_t d = 0; d < 2; ++d) {
+        const KnotVector& knots = knots_[d];
+        const int p = knots.degree(), span = quadrature_[d].basis.first[static_cast<std::size_t>(part.cell[d])] + p;
+        basis_values(knots, span, knots.domain().lower + part.middle[d] * knots.domain().length(), n.data());
+        part_values_.insert(part_values_.end(), n.begin(), n.begin() + p + 1);
+      }
+    }
+    mask_ = std::move(mask);
+    region_ = std::move(region);
+  }
+}
+
+template <int D>
 long long ToolLoad<D>::points() const {
   long long count = 1;
   for (const BasisQuadrature& q : quadrature_) count *= q.basis.size();
@@ -109,12 +144,12 @@ long long ToolLoad<D>::index(const std::array<int, 3>& at) const {
 template <int D>
 void ToolLoad<D>::apply_hessian(const ContactPoint& contact, int first, const Points& v, Points& out) const {
   double sum[3] = {0, 0, 0};
-  for_each_function(contact.at, [&](int row, double n) {
+  for_each_function(contact.at, contact.part, [&](int row, double n) {
     const double* from = v.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
     for (int c = 0; c < 3; ++c) sum[c] += n * from[c];
   });
   const Point h = contact.factor * (contact.hessian * Point(sum[0], sum[1], sum[2]));
-  for_each_function(contact.at, [&](int row, double n) {
+  for_each_function(contact.at, contact.part, [&](int row, double n) {
     double* to = out.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
     for (int c = 0; c < 3; ++c) to[c] += n * h[c];
   });
@@ -122,11 +157,13 @@ void ToolLoad<D>::apply_hessian(const ContactPoint& contact, int first, const Po
 
 template <int D>
 void ToolLoad<D>::mark(const ContactPoint& contact, int first, std::vector<char>& marks) const {
-  for_each_function(contact.at, [&](int row, double) { marks[static_cast<std::size_t>(first + row)] = 1; });
+  for_each_function(contact.at, contact.part,
+                    [&](int row, double) { marks[static_cast<std::size_t>(first + row)] = 1; });
 }
 
 template <int D>
-FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip) const {
+FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip,
+                                     ToolPass pass) const {
   FrictionAnchors result;
   Workspace workspace;
   result.slip = slip;
@@ -135,9 +172,9 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
     Point lower, upper;
     box_of(element, x, first, lower, upper);
     for (const ModelTool& tool : tools) {
-      if (!tool.tool().collides() || tool.tool().friction == 0) continue;
+      if (!tool.tool().collides() || tool.tool().friction == 0 || pass_of(tool) != pass) continue;
       if (in_hull_ && !tool.may_reach(lower, upper)) continue;
-      for_each_point(element, x, first, workspace, [&](const Sample& s) {
+      const auto grip = [&](const Sample& s) {
         const ToolAction action = tool.action(s.place);
         if (!action.active) return;
         int& at = result.index[static_cast<std::size_t>(index(s.at))];
@@ -148,7 +185,12 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
         } else if (anchor.grip > result.anchors[static_cast<std::size_t>(at)].grip) {
           result.anchors[static_cast<std::size_t>(at)] = anchor;  // of two tools the stronger one grips
         }
-      });
+      };
+      if (pass == ToolPass::all) {
+        for_each_point(element, x, first, workspace, grip);
+      } else {
+        for_each_visible_point(element, x, first, workspace, grip);
+      }
     }
   });
   return result;

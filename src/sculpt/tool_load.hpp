@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,8 +9,15 @@
 #include "knead/sculpt/tool.hpp"
 #include "knead/spline/basis.hpp"
 #include "potential.hpp"
+#include "visible_mask.hpp"
 
 namespace knead {
+
+/// The tools of one evaluation of a `ToolLoad`.
+enum class ToolPass {
+  all,      ///< those that touch all of the patch
+  visible,  ///< those that touch its visible part only
+};
 
 /// Dry friction, lagged: the normal forces and positions of all points in contact at the start of a step.
 struct FrictionAnchors {
@@ -36,6 +44,12 @@ struct DisplacementLimit {
 /// least p + 1 points per span, and enough that they lie closer than a sixth of the smallest tool. Only spans whose
 /// control points come near a tool are evaluated (the shape lies in their convex hull; with a weight that is not
 /// positive it may not, and all are), so the cost depends on the contact, not the grid.
+///
+/// Tools that are `ToolTouch::visible` act on the visible part V of a surface, F_i = ∫_V R_i f(S) dû. Every Gauss point
+/// has a cell of the grid, as long in each direction as its weight, which contains it (Chebyshev, Markov, Stieltjes:
+/// Szegő, Orthogonal Polynomials, § 3.41). In cells that are visible it stays; where an edge cuts the cell, the
+/// centroid of the visible part takes its place and the area of that part its weight (see `VisibleMask`): exact where
+/// R_i f is linear in the cell.
 template <int D>
 class ToolLoad {
  public:
@@ -46,11 +60,17 @@ class ToolLoad {
   [[nodiscard]] static Expected<ToolLoad> create(const Spline<D>& spline, const DomainScaling<D>& scaling,
                                                  double detail);
 
+  /// The part of a surface that is visible, from now on. No effect if that is all of it. Surfaces only.
+  void show(std::shared_ptr<const VisibleRegion> region);
+  /// Whether tools that touch the visible part only need a pass of their own.
+  [[nodiscard]] bool hides() const { return mask_ != nullptr; }
+
   /// Everything that acts on the shape, in normalised units.
   struct Actors {
     std::span<const ModelTool> tools;
     const FrictionAnchors* friction = nullptr;
     const DisplacementLimit* limit = nullptr;
+    ToolPass pass = ToolPass::all;
   };
 
   /// Adds potential, force and contacts at control points x (rows `first` … of all points) to `state`.
@@ -63,8 +83,8 @@ class ToolLoad {
   void mark(const ContactPoint& contact, int first, std::vector<char>& marks) const;
 
   /// The anchors of friction where the tools are touched at x.
-  [[nodiscard]] FrictionAnchors anchors(const Points& x, int first, std::span<const ModelTool> tools,
-                                        double slip) const;
+  [[nodiscard]] FrictionAnchors anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip,
+                                        ToolPass pass = ToolPass::all) const;
 
   /// How deep the shape with control points x penetrates a tool, anywhere, not only at Gauss points: sampled three
   /// times as densely, with the deepest samples refined by a compass search to 1e-6 of the sample distance.
@@ -88,18 +108,29 @@ class ToolLoad {
   void for_each_control_point(const Element& element, const F& f) const;
   template <class F>
   void for_each_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f) const;
+  template <class F>
+  void for_each_visible_point(const Element& element, const Points& x, int first, Workspace& workspace,
+                              const F& f) const;
+  [[nodiscard]] ToolPass pass_of(const ModelTool& tool) const {
+    return mask_ && tool.tool().touches == ToolTouch::visible ? ToolPass::visible : ToolPass::all;
+  }
+  [[nodiscard]] int visibility(const Element& element) const;
+  [[nodiscard]] const double* values(const std::array<int, 3>& at, int part, std::size_t d) const;
   [[nodiscard]] long long index(const std::array<int, 3>& at) const;
   template <class F>
-  void for_each_function(const std::array<int, 3>& at, const F& f) const;
+  void for_each_function(const std::array<int, 3>& at, int part, const F& f) const;
   void box_of(const Element& element, const Points& x, int first, Point& lower, Point& upper) const;
 
   std::array<int, D> net_{};
   std::array<BasisQuadrature, D> quadrature_;
   std::vector<KnotVector> knots_;
-  std::array<std::vector<int>, D> spans_;       // first Gauss point of every span, and the end
-  std::array<std::vector<double>, D> lengths_;  // of every span, normalised
-  std::vector<double> weights_;                 // of the control points; empty for a polynomial spline
-  bool in_hull_ = true;                         // all weights are positive
+  std::array<std::vector<int>, D> spans_;        // first Gauss point of every span, and the end
+  std::array<std::vector<double>, D> lengths_;   // of every span, normalised
+  std::vector<double> weights_;                  // of the control points; empty for a polynomial spline
+  bool in_hull_ = true;                          // all weights are positive
+  std::shared_ptr<const VisibleRegion> region_;  // null: everything is visible
+  std::shared_ptr<const VisibleMask> mask_;      // of the Gauss points' cells; null likewise
+  std::vector<double> part_values_;  // of the basis at the centroid of every part, one direction after the other
 };
 
 }  // namespace knead

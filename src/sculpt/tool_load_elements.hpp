@@ -19,6 +19,7 @@ struct ToolLoad<D>::Sample {
   std::array<int, 3> at{};
   double weight, inverse;  // Gauss weight, 1 / denominator
   Point place;
+  int part = -1;  // as in `ContactPoint`
 };
 
 template <int D>
@@ -73,13 +74,26 @@ void ToolLoad<D>::box_of(const Element& element, const Points& x, int first, Poi
   });
 }
 
-/// f(row of the control point, value of its basis function times its weight) at one Gauss point.
+/// The values of the basis functions of direction d at one Gauss point, or at the visible part of its cell.
+template <int D>
+const double* ToolLoad<D>::values(const std::array<int, 3>& at, int part, std::size_t d) const {
+  if (part < 0) return quadrature_[d].basis.row(at[d], 0);
+  std::size_t width = 0, before = 0;
+  for (std::size_t e = 0; e < D; ++e) {
+    if (e == d) before = width;
+    width += static_cast<std::size_t>(quadrature_[e].basis.degree + 1);
+  }
+  return part_values_.data() + static_cast<std::size_t>(part) * width + before;
+}
+
+/// f(row of the control point, value of its basis function times its weight) at one Gauss point, or at the visible part
+/// of its cell.
 template <int D>
 template <class F>
-void ToolLoad<D>::for_each_function(const std::array<int, 3>& at, const F& f) const {
+void ToolLoad<D>::for_each_function(const std::array<int, 3>& at, int part, const F& f) const {
   const auto direction = [&](auto self, std::size_t d, int row, double product) -> void {
     const BasisTable& table = quadrature_[d].basis;
-    const double* n = table.row(at[d], 0);
+    const double* n = values(at, part, d);
     const int base = row * net_[d] + table.first[static_cast<std::size_t>(at[d])];
     for (int r = 0; r <= table.degree; ++r) {
       if (d + 1 == D) {
@@ -135,6 +149,43 @@ void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int fi
     }
   };
   contract(contract, 0, 1.0);
+}
+
+/// `VisibleMask::state` of the element.
+template <int D>
+int ToolLoad<D>::visibility(const Element& element) const {
+  if constexpr (D == 2) {
+    return mask_->state(element.begin, element.end);
+  } else {
+    return VisibleMask::full;
+  }
+}
+
+/// The same for every visible point, where edges cut the cell of a Gauss point for the visible part of it.
+template <int D>
+template <class F>
+void ToolLoad<D>::for_each_visible_point(const Element& element, const Points& x, int first, Workspace& workspace,
+                                         const F& f) const {
+  const int all = visibility(element);
+  if (all == VisibleMask::hidden) return;
+  if (all == VisibleMask::full) return for_each_point(element, x, first, workspace, f);
+  for_each_point(element, x, first, workspace, [&](const Sample& whole) {
+    const int state = mask_->state(whole.at[0], whole.at[1]);
+    if (state == VisibleMask::hidden) return;
+    if (state == VisibleMask::full) return f(whole);
+    Sample s = whole;
+    s.part = state;
+    s.weight *= mask_->parts()[static_cast<std::size_t>(state)].share;
+    double denominator = 0;
+    s.place.setZero();
+    for_each_function(s.at, s.part, [&](int row, double n) {
+      denominator += n;
+      s.place += n * x.row(first + row).transpose();
+    });
+    s.inverse = weights_.empty() ? 1 : 1 / denominator;
+    s.place *= s.inverse;
+    f(s);
+  });
 }
 
 }  // namespace knead

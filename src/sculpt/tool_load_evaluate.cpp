@@ -40,11 +40,16 @@ class ToolLoad<D>::Evaluation {
       double longest = 0;
       for (std::size_t d = 0; d < D; ++d)
         longest = std::max(longest, load_.lengths_[d][static_cast<std::size_t>(element.span[d])]);
-      load_.for_each_point(element, x_, first_, workspace_, [&](const Sample& s) {
+      const auto act = [&](const Sample& s) {
         press(s, longest);
         if (actors_.friction != nullptr) rub(s);
         if (limited) hold_back(s);
-      });
+      };
+      if (actors_.pass == ToolPass::all) {
+        load_.for_each_point(element, x_, first_, workspace_, act);
+      } else {
+        load_.for_each_visible_point(element, x_, first_, workspace_, act);
+      }
     });
   }
 
@@ -63,6 +68,7 @@ class ToolLoad<D>::Evaluation {
   void find_near(const Element& element) {
     near_.clear();
     for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
+      if (load_.pass_of(actors_.tools[t]) != actors_.pass) continue;
       unsigned char beyond = 0xff;
       load_.for_each_control_point(element,
                                    [&](int row) { beyond &= sides_[t * count_ + static_cast<std::size_t>(row)]; });
@@ -85,11 +91,11 @@ class ToolLoad<D>::Evaluation {
 
   void push(const Sample& s, double potential, const Point& force, const Eigen::Matrix3d& hessian) {
     state_.potential += s.weight * potential;
-    load_.for_each_function(s.at, [&](int row, double n) {
+    load_.for_each_function(s.at, s.part, [&](int row, double n) {
       double* to = state_.force.data() + 3 * static_cast<std::ptrdiff_t>(first_ + row);
       for (int c = 0; c < 3; ++c) to[c] += s.weight * s.inverse * n * force[c];
     });
-    state_.contacts.push_back({patch_, s.at, s.weight * s.inverse * s.inverse, hessian});
+    state_.contacts.push_back({patch_, s.at, s.weight * s.inverse * s.inverse, hessian, s.part});
   }
 
   /// Tools. `longest` is the element's longest span.
@@ -127,8 +133,9 @@ class ToolLoad<D>::Evaluation {
   /// The limit.
   void hold_back(const Sample& s) {
     Point original = Point::Zero();
-    load_.for_each_function(
-        s.at, [&](int row, double n) { original += s.inverse * n * actors_.limit->original.row(row).transpose(); });
+    load_.for_each_function(s.at, s.part, [&](int row, double n) {
+      original += s.inverse * n * actors_.limit->original.row(row).transpose();
+    });
     const Point displacement = s.place - original;
     const double length = displacement.norm(), beyond = length - actors_.limit->distance, k = actors_.limit->stiffness;
     if (!(beyond > 0)) return;

@@ -329,7 +329,7 @@ void pass(A& a, Of<A, Placement>& p) {
 }
 
 inline void pass(Writer& a, const Tool& t) {
-  const auto& [name, shape, mode, stiffness, range, rigid, friction, plasticity, direction] = t;
+  const auto& [name, shape, mode, stiffness, range, rigid, friction, plasticity, direction, touches] = t;
   a.text(name);
   write(a, type_of<Shape>(), &shape.shape());
   pass(a, shape.placement());
@@ -337,6 +337,7 @@ inline void pass(Writer& a, const Tool& t) {
   for (const double* x : {&stiffness, &range, &friction, &plasticity}) a.number(*x);
   a.flag(rigid);
   choice(a, direction, ToolDirection::push);
+  choice(a, touches, ToolTouch::visible);
 }
 inline std::optional<Tool> read_tool(Reader& a) {
   std::string name;
@@ -356,6 +357,7 @@ inline std::optional<Tool> read_tool(Reader& a) {
   for (double* x : {&t.stiffness, &t.range, &t.friction, &t.plasticity}) a.number(*x);
   a.flag(t.rigid);
   choice(a, t.direction, ToolDirection::push);
+  if (a.version() > 4) choice(a, t.touches, ToolTouch::visible);
   return t;
 }
 

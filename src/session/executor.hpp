@@ -111,7 +111,8 @@ struct Executor {
   Expected<const VisibleRegion*> visible(SceneSurface& surface);
   /// A surface as the document opened it, or as it was made.
   const Surface* document_surface(const SceneSurface& surface) const;
-  /// Makes `visible` known of all selected surfaces of which edges of faces are held.
+  /// Makes `visible` known of all selected surfaces of which edges of faces are held, or of which tools touch only what
+  /// is visible; where that cannot be known, the latter is noted.
   Expected<void> know_trims();
   /// Unites the knots of faces at edges that follow, where refining is permitted.
   Expected<void> unite_followed();

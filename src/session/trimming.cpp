@@ -46,8 +46,13 @@ Expected<const VisibleRegion*> Executor::visible(SceneSurface& surface) {
 Expected<void> Executor::know_trims() {
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    if (!holds_trims(s.constraints)) continue;
-    if (auto region = visible(s); !region) return std::unexpected(region.error());
+    const bool held = holds_trims(s.constraints);
+    if (!held && !touches_visible(state)) continue;
+    const auto region = visible(s);
+    if (region) continue;
+    if (held) return std::unexpected(region.error());
+    const std::string note = region.error().what + "; tools touch all of the surface";
+    if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
   }
   return {};
 }

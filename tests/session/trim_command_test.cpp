@@ -84,6 +84,45 @@ TEST(TrimCommands, AScriptOfVersion1HoldsNothingByItself) {
   EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
 }
 
+/// A ball in the middle of the disc's hole, deep in the surface that no face shows there.
+const std::string in_hole = R"({"do":"tool","name":"ball","radius":0.09,"rigid":true,"position":[0.6,0.5,0.03])";
+
+TEST(TrimCommands, AToolInAHoleTouchesNothing) {
+  for (const char* hold : {"", R"({"do":"hold","mode":"free"},)"}) {
+    Session session(document(disc().file));
+    const auto done = run(session, hold + in_hole + R"(},{"do":"evolve","mode":"acm"},{"do":"step"})");
+    ASSERT_TRUE(done) << done.error().message();
+    EXPECT_EQ(session.largest_displacement(0), 0);
+    const StepRecord& step = session.state().steps.back();
+    EXPECT_EQ(step.gap, 0);
+    EXPECT_TRUE(step.converged);
+    EXPECT_EQ(step.note, "");
+  }
+}
+
+TEST(TrimCommands, AToolTouchesAllOfASurfaceWhereThatIsAskedAndInVersion1) {
+  const std::string step = R"(,{"do":"evolve","mode":"acm"},{"do":"step"})";
+  Session asked(document(disc().file)), edited(document(disc().file)), first(document(disc().file));
+  const std::string free = R"({"do":"hold","mode":"free"},)";
+  ASSERT_TRUE(run(asked, free + in_hole + R"(,"touches":"all"})" + step));
+  ASSERT_TRUE(run(edited, free + in_hole + R"(},{"do":"edit_tool","touches":"all"})" + step));
+  ASSERT_TRUE(run(first, in_hole + "}" + step, 1));
+  EXPECT_GT(first.largest_displacement(0), 0.01);
+  for (const Session* other : {&asked, &edited}) {
+    EXPECT_EQ(other->state().surfaces[0].current->control_points(),
+              first.state().surfaces[0].current->control_points());
+  }
+  EXPECT_EQ(asked.state().tools[0].touches, ToolTouch::all);
+}
+
+TEST(TrimCommands, WhatToolsTouchIsInSnapshots) {
+  Session session(document(disc().file));
+  ASSERT_TRUE(run(session, in_hole + "}"));
+  const auto restored = Session::restore(session.document(), session.snapshot());
+  ASSERT_TRUE(restored) << restored.error().message();
+  EXPECT_EQ(restored->state().tools[0].touches, ToolTouch::visible);
+}
+
 TEST(TrimCommands, WhereNothingMayBeRefinedAndNothingIsFreeThatIsAnErrorWithTheRemedy) {
   Session session(document(disc().file));
   const auto done = run(session, R"({"do":"refine","permission":"never"},)" + pressed);

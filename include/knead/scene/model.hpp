@@ -20,6 +20,7 @@ struct SurfaceInput {
   std::vector<KeptConstraint> constraints;
   bool smooth_knot_lines = true, smooth_poles = true;
   std::shared_ptr<const VisibleRegion> visible;  ///< if edges of faces are held, else null
+  std::shared_ptr<const VisibleRegion> touched;  ///< where tools touch only what is visible, else null
   std::vector<bool> masked;                      ///< control points that a mask holds; empty: none
 
   friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;

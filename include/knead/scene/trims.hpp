@@ -11,6 +11,9 @@ namespace knead {
 /// Whether any edges of faces are held.
 [[nodiscard]] bool holds_trims(const std::vector<KeptConstraint>& constraints);
 
+/// Whether a tool of the scene touches only what is visible.
+[[nodiscard]] bool touches_visible(const Scene& scene);
+
 /// The order at which each edge of a region is held: by the last `TrimEdgeHold` with its id, or by `TrimHolds`; −1
 /// free.
 [[nodiscard]] std::vector<int> trim_orders(const std::vector<KeptConstraint>& constraints, const VisibleRegion& region);

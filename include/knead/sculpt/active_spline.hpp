@@ -9,6 +9,7 @@
 #include "knead/gramian/gramian.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
 #include "knead/sculpt/tool.hpp"
+#include "knead/sculpt/visible_region.hpp"
 #include "knead/solve/linear_constraint.hpp"
 
 namespace knead {
@@ -53,6 +54,9 @@ struct ActiveSettings {
   std::vector<MaterialFieldOf<D>> fields = {};
   std::vector<bool> held;                     ///< control points that do not move, one flag each; empty: none
   std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shape, file units
+  /// Of each patch, the part that tools touch which are `ToolTouch::visible`; empty or null: all of it. Surfaces only,
+  /// and the Gauss route: on the analytic one tools touch everything.
+  std::vector<std::shared_ptr<const VisibleRegion>> visible = {};
   double detail = 0;  ///< smallest tool dimension the forces must resolve, file units; 0: no tool
   ForceRoute route = ForceRoute::gauss;
   bool raw = false;  ///< no normalisation: the equations are taken on the knots as they are

@@ -17,6 +17,12 @@ enum class ToolMode {
 /// The direction in which a proximity tool acts.
 enum class ToolDirection { pull, push };
 
+/// Which part of a surface that is cut by the edges of faces a tool touches.
+enum class ToolTouch {
+  all,      ///< all of it, what no face shows too
+  visible,  ///< what its faces show
+};
+
 /// A shaped tool: Hookean springs between the surface and the tool (thesis Eq. 4.25).
 struct Tool {
   std::string name = "tool";
@@ -28,6 +34,7 @@ struct Tool {
   double friction = 0;     ///< collision: Coulomb's coefficient
   double plasticity = 0;   ///< share of the displacement that remains when the tool is removed, 0 to 1
   ToolDirection direction = ToolDirection::pull;
+  ToolTouch touches = ToolTouch::all;
 
   [[nodiscard]] bool collides() const { return mode != ToolMode::proximity; }
 };

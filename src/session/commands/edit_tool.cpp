@@ -57,6 +57,7 @@ void describe(EditToolCommand& c, Fields& fields) {
   fields.add("stiffness", c.stiffness, as_of_tool);
   fields.add("range", c.range, length);
   fields.add("direction", c.direction, {.help = "of proximity"});
+  fields.add("touches", c.touches, as_of_tool);
   fields.add("rigid", c.rigid, as_of_tool);
   fields.add("friction", c.friction, as_of_tool);
   fields.add("plasticity", c.plasticity, as_of_tool);
@@ -98,6 +99,7 @@ Expected<void> Executor::execute(const EditToolCommand& c) {
   edited.stiffness = c.stiffness.value_or(edited.stiffness);
   edited.range = c.range ? *c.range * unit : edited.range;
   edited.direction = c.direction.value_or(edited.direction);
+  edited.touches = c.touches.value_or(edited.touches);
   edited.rigid = c.rigid.value_or(edited.rigid);
   edited.friction = c.friction.value_or(edited.friction);
   edited.plasticity = c.plasticity.value_or(edited.plasticity);

@@ -19,6 +19,7 @@ struct EditToolCommand {
   std::optional<ToolMode> mode;
   std::optional<double> stiffness, range;
   std::optional<ToolDirection> direction;
+  std::optional<ToolTouch> touches;
   std::optional<bool> rigid;
   std::optional<double> friction, plasticity;
   bool relative = false;
