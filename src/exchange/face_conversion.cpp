@@ -83,18 +83,16 @@ std::vector<OtherSurface> other_surfaces(const File& file) {
   return result;
 }
 
-std::vector<OtherSurface> other_surfaces_at(const File& file, const std::string& edge) {
+std::vector<std::string> surfaces_at_edge(const File& file, const std::string& edge) {
   const Reader reader(file.data().records);
-  std::set<std::string> at_edge;
+  std::vector<std::string> result;
   for (const Face& face : read_faces(reader)) {
-    for (const std::uint32_t k : edges_around(reader, face)) {
-      if (name_of(reader, k) == edge) at_edge.insert(name_of(reader, face.instance));
-    }
+    if (face.surface == no_instance) continue;
+    const auto edges = edges_around(reader, face);
+    const std::string surface = name_of(reader, face.surface);
+    const bool meets = std::ranges::any_of(edges, [&](std::uint32_t k) { return name_of(reader, k) == edge; });
+    if (meets && std::ranges::find(result, surface) == result.end()) result.push_back(surface);
   }
-  std::vector<OtherSurface> result = other_surfaces(file);
-  std::erase_if(result, [&](const OtherSurface& s) {
-    return std::ranges::none_of(s.faces, [&](const std::string& face) { return at_edge.contains(face); });
-  });
   return result;
 }
 

@@ -29,12 +29,14 @@ Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, 
   auto edge = SharedEdge::create(*document.step_file(), id);
   if (!edge) {
     Error error = edge.error();
-    std::vector<std::string> others;
-    for (const step::OtherSurface& s : step::other_surfaces_at(*document.step_file(), id)) others.push_back(s.id);
+    const step::File& file = *document.step_file();
+    const std::vector<std::string> all = step::surfaces_at_edge(file, id);
+    std::vector<std::string> others = all;
+    std::erase_if(others, [&](const std::string& surface) { return file.find_surface(surface) != nullptr; });
     if (!others.empty()) {
       error.remedy = fmt::format(
-          R"(make it a B-spline surface, {{"do":"convert","surfaces":[{}]}}, and select it too; or hold the edge)",
-          list_of(others));
+          R"(convert it, {{"do":"convert","surfaces":[{}]}}, and select all of its surfaces, {{"do":"select","surfaces":[{}]}}, or hold the edge)",
+          list_of(others), list_of(all));
     }
     return std::unexpected(error);
   }

@@ -83,6 +83,7 @@ TEST(Convert, WithoutItTheErrorNamesTheFaceAndTheCommand) {
   EXPECT_NE(refused.error().what.find("#20 PLANE"), std::string::npos) << refused.error().what;
   EXPECT_NE(refused.error().remedy.find(R"({"do":"convert","surfaces":["#20"]})"), std::string::npos)
       << refused.error().remedy;
+  EXPECT_NE(refused.error().remedy.find(both), std::string::npos) << refused.error().remedy;
   const auto select = run(session, both);
   ASSERT_FALSE(select);
   EXPECT_NE(select.error().remedy.find(convert), std::string::npos) << select.error().message();

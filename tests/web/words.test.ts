@@ -42,6 +42,45 @@ describe('what the engine refuses', () => {
     else for (const command of advice.actions.find((a) => a.label === label)!.commands) engine.execute(command); // is a command that can be done
   });
 
+  it('an edge beside a face of another form offers to convert it, after which the edge follows', async () => {
+    const engine = await Engine.load(wasm);
+    engine.openStep(new Uint8Array(readFileSync(fileURLToPath(new URL('../../samples/bonnet.step', import.meta.url)))), 'bonnet.step');
+    engine.execute({ do: 'select', surface: '#285' });
+    engine.execute({ do: 'hold', mode: 'trim' });
+    const error = (() => {
+      try {
+        engine.execute({ do: 'edge', edge: '#43', hold: 'follow' });
+      } catch (e) {
+        if (e instanceof EngineError) return e.info;
+      }
+      throw new Error('this is not refused');
+    })();
+    const { text, remedy, actions } = adviceOn(error);
+    expect(text).toBe('That edge cannot follow: its face #454 lies on a surface of linear extrusion.');
+    expect(`${text} ${remedy}`).not.toMatch(/[{}`]/);
+    expect(actions.map((a) => a.label)).toEqual(['Convert and follow']);
+    for (const command of actions[0]!.commands) engine.execute(command);
+    const { surfaces, selection } = engine.state();
+    expect(selection.map((k) => surfaces[k]!.id)).toEqual(['#285', '#534']);
+    expect(surfaces.at(-1)).toMatchObject({ id: '#534', faces: 1, preset: 'clay' });
+    expect(surfaces[0]!.constraints).toContainEqual(expect.objectContaining({ do: 'edge', edge: '#43', hold: 'follow' }));
+    expect(engine.context()!.skipped).toEqual([]);
+    expect(engine.trims(surfaces.length - 1)).toBeNull(); // its face shows all of it
+    expect(engine.trims(0)).not.toBeNull();
+
+    engine.execute({ do: 'select', surface: '#285' });
+    const alone = (() => {
+      try {
+        engine.execute({ do: 'edge', edge: '#43', hold: 'follow' });
+      } catch (e) {
+        if (e instanceof EngineError) return adviceOn(e.info);
+      }
+      throw new Error('this is not refused');
+    })();
+    expect(alone.actions.map((a) => a.label)).toEqual(['Select both and follow']);
+    for (const command of alone.actions[0]!.commands) engine.execute(command);
+  });
+
   it('has no JSON left in words that nobody has written here', () => {
     const info: EngineErrorInfo = { kind: 'input', what: 'the net is odd', where: 'which', message: '',
       remedy: 'make one first: {"do":"new","size":[1,1]}, or use `knots` with lambda >= 0; or go on regardless with "allow":"held"' };

@@ -19,8 +19,8 @@ struct OtherSurface {
 /// In the order of their first faces. Cost: a pass over the file.
 [[nodiscard]] std::vector<OtherSurface> other_surfaces(const File& file);
 
-/// Those of them that a face at this edge lies on. Empty where there is no such edge.
-[[nodiscard]] std::vector<OtherSurface> other_surfaces_at(const File& file, const std::string& edge);
+/// The ids of the surfaces, of every form, on which the faces at an edge lie, each once, in the order of the faces.
+[[nodiscard]] std::vector<std::string> surfaces_at_edge(const File& file, const std::string& edge);
 
 /// The part of a plane, cylinder, cone, sphere, torus, surface of revolution or of linear extrusion that the faces on
 /// it cover, as a B-spline surface with the same points and the same side of its normal S_u × S_v (docs/step.md).

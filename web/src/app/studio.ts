@@ -43,6 +43,7 @@ export class Studio implements App {
   private fresh = false;
   private lastFrame = 0;
   private stepsEnd = 0;
+  private surfaceIds = '';
 
   constructor() {
     const kept = readKept();
@@ -81,8 +82,6 @@ export class Studio implements App {
     for (const draw of this.onChange) draw();
   }
 
-  private shownIds = '';
-
   private show(frame: Frame): void {
     const now = performance.now();
     if (this.frame?.playing && frame.playing) {
@@ -96,12 +95,10 @@ export class Studio implements App {
     this.stepsEnd = frame.state.steps;
     if (this.steps.length > keptSteps) this.steps = this.steps.slice(-keptSteps);
     this.viewer.waiting = this.documents.waiting;
-    const ids = frame.state.surfaces.map((s) => s.id).join();
-    if (ids !== this.shownIds) {
-      this.shownIds = ids;
-      if (!this.fresh) this.documents.converted();
-    }
     this.viewer.show(frame, this.fresh);
+    const ids = frame.state.surfaces.map((s) => s.id).join();
+    if (!this.fresh && ids !== this.surfaceIds) this.documents.askForContext();
+    this.surfaceIds = ids;
     if (this.fresh) {
       this.fresh = false;
       this.hand.brush.settings.radius = 0.08 * this.diagonal;

@@ -254,16 +254,15 @@ export class Documents {
     this.worked = this.picked = false;
     this.keeper.begin();
     this.host.showContext(null, []);
-    if (file?.kind === 'step') void loadContext(this.host, () => this.file === file);
+    this.askForContext();
     this.host.changed();
   }
 
-  /** Surfaces of the file have become B-splines, or are no longer: other faces are grey, and edges meet others. */
-  converted(): void {
+  /** The surroundings are others: another file, or faces of it that have become surfaces of the session. */
+  askForContext(): void {
     const { file } = this;
-    if (file?.kind !== 'step') return;
     this.host.forgetEdges();
-    void loadContext(this.host, () => this.file === file);
+    if (file?.kind === 'step') void loadContext(this.host, () => this.file === file);
   }
 
   /** A single surface is made ready to sculpt; among several the user chooses. */
@@ -281,7 +280,7 @@ export class Documents {
 
 /** How many commands at the start only make and prepare what is sculpted: they are the document as it is opened. */
 function preparation(commands: readonly Command[]): number {
-  const prepares = (c: Command) => ['new', 'select', 'hold', 'edge', 'material', 'evolve', 'load', 'refine', 'elevate', 'freeze', 'pin', 'symmetry', 'seams', 'limit',
+  const prepares = (c: Command) => ['new', 'select', 'convert', 'hold', 'edge', 'material', 'evolve', 'load', 'refine', 'elevate', 'freeze', 'pin', 'symmetry', 'seams', 'limit',
     'scaling'].includes(c.do) || (c.do === 'tool' && c.name !== 'brush');
   const first = commands.findIndex((c) => !prepares(c));
   return first < 0 ? commands.length : first;

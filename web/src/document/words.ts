@@ -1,4 +1,5 @@
 import type { Command, EngineErrorInfo } from '../engine/session_types';
+import { clay } from './clay';
 
 /** What an error of the engine means for a user, and what can be done about it at once. */
 export interface Advice {
@@ -12,8 +13,24 @@ const refine = { label: 'Refine', commands: [{ do: 'refine', region: [[0, 1], [0
 const refineWhereNeeded = { label: 'Refine where needed', commands: [{ do: 'refine', permission: 'trims' }] satisfies Command[] };
 const release = (label: string, ...what: string[]) => ({ label, commands: [{ do: 'release', ...(what.length > 0 ? { what } : {}) }] satisfies Command[] });
 
+/** What a remedy of the engine says in JSON. */
+const commandsIn = (remedy: string): Command[] => (remedy.match(/\{"do":.*?\}/g) ?? []).map((c) => JSON.parse(c) as Command);
+
+const follow = (edge: string): Command => ({ do: 'edge', edge, hold: 'follow' });
+
 /** By what the engine says: the first that fits. */
-const known: [RegExp, (found: RegExpExecArray) => Advice][] = [
+const known: [RegExp, (found: RegExpExecArray, error: EngineErrorInfo) => Advice][] = [
+  [/^the face (#\d+) would have to follow the edge, but lies on #\d+ (\w+)/, ([, face, form], { where, remedy }) => {
+    const [convert, select] = commandsIn(remedy);
+    const text = `That edge cannot follow: its face ${face} lies on a ${form!.toLowerCase().replaceAll('_', ' ')}.`;
+    if (convert?.do !== 'convert' || !select) return { text, actions: [] };
+    // New surfaces become clay, as those do that are clicked.
+    const commands: Command[] = [convert, { do: 'select', surfaces: convert.surfaces! }, ...clay, select, follow(where)];
+    return { text, remedy: 'As a spline surface of the same shape it can.', actions: [{ label: 'Convert and follow', commands }] };
+  }],
+  [/^the face on (#\d+) would have to follow the edge, but it is not selected/, ([, surface], { where, remedy }) => ({
+    text: `That edge moves with the face on ${surface} too, which is not selected.`,
+    actions: [{ label: 'Select both and follow', commands: [...commandsIn(remedy), follow(where)] }] })],
   [/^nothing holds the model in place/, () => ({
     text: 'Nothing holds the surface, so there is no position in which it would rest.', actions: [holdEdges] })],
   [/^nothing is free to move under the tool .*hold of the edges of its faces/, () => ({
@@ -53,7 +70,7 @@ const sentence = (text: string): string => (text ? text[0]!.toUpperCase() + text
 export function adviceOn(error: EngineErrorInfo): Advice {
   for (const [pattern, advice] of known) {
     const found = pattern.exec(error.what);
-    if (found) return advice(found);
+    if (found) return advice(found, error);
   }
   // Places of a file say where; fields of commands do not.
   const place = /^[a-z_]+\d*(\[\d+\])?$/i.test(error.where) ? '' : error.where;

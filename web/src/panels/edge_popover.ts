@@ -6,7 +6,7 @@ import { h, iconButton, toggle } from './dom';
 
 const choices: readonly (readonly [Continuity, string])[] = [
   ['free', 'It may move, and other faces that meet here stay'],
-  ['follow', 'It moves with the faces that meet here: all are selected, and stay together'],
+  ['follow', 'It moves with the faces that meet here, and these stay together'],
   ['position', 'It stays where it is'],
   ['clamped', 'It stays, with its tangent planes'],
   ['curvature', 'It stays, with its tangent planes and curvatures'],
@@ -31,7 +31,7 @@ export function listenToEdges(app: App): void {
     const info = app.state!.surfaces[surface]!;
     const now = continuityOf(info, edge);
     const meeting = app.hand.edges.meeting(edge);
-    const possible = choices.filter(([continuity]) => continuity !== (isSide(edge) ? 'follow' : 'symmetry') && (continuity !== 'follow' || meeting?.follow));
+    const possible = choices.filter(([continuity]) => continuity !== (isSide(edge) ? 'follow' : 'symmetry') && (continuity !== 'follow' || meeting?.follows));
     const rows = possible.map(([continuity, about]) => toggle(continuityTitles[continuity], continuity === now, () => {
       close();
       void app.execute(asking(app, surface, edge, continuity));
@@ -52,8 +52,6 @@ export function listenToEdges(app: App): void {
 
 function asking(app: App, surface: number, edge: Edge, continuity: Continuity): Command[] {
   const info = app.state!.surfaces[surface]!;
-  const follow = continuity === 'follow' ? app.hand.edges.meeting(edge)?.follow : null;
-  if (follow) return follow;
   if (!isSide(edge)) return [{ do: 'edge', edge, hold: continuity === 'symmetry' ? 'position' : continuity }];
   const wish: Command[] = continuity === 'symmetry' ? [{ do: 'symmetry', edge, ...app.hand.edges.plane(edge) }]
     : [{ do: 'edge', which: edge, hold: continuity }];

@@ -66,9 +66,7 @@ export class Edges implements PointerTool {
   meeting(edge: Edge): Meeting | null {
     const { info } = this;
     const known = this.faceEdges?.find((e) => e.id === edge);
-    const state = this.viewer.frame?.state;
-    if (!info || !known || !state) return null;
-    return meetingAt(known, info.id, state.surfaces.map((s) => s.id), state.selection.map((k) => state.surfaces[k]!.id));
+    return info && known ? meetingAt(known, info.id) : null;
   }
 
   /** The edges at which other faces stay behind if they are free. */

@@ -40,24 +40,20 @@ export interface Meeting {
   /** Faces of other surfaces stay behind where it is free: it opens. */
   opens: boolean;
   text: string;
-  /** What lets all of its faces move as one; null if nothing does. */
-  follow: Command[] | null;
+  follows: boolean;
 }
 
-/** `own`: the surface that the edge is looked at from; `surfaces`: all that can be sculpted, by id. */
-export function meetingAt(edge: FaceEdge, own: string, surfaces: readonly string[], selected: readonly string[]): Meeting {
-  if (edge.seam) return { opens: false, text: 'Its face is on both of its sides, so it cannot follow.', follow: null };
+/** `own`: the surface that the edge is looked at from. */
+export function meetingAt(edge: FaceEdge, own: string): Meeting {
+  if (edge.seam) return { opens: false, follows: false, text: 'Its face is on both of its sides, so it cannot follow.' };
   const others = edge.meets.filter((m) => m.surface !== own);
-  const free: Command = { do: 'edge', edge: edge.id, hold: 'follow' };
-  if (others.length === 0) return { opens: false, text: 'No other face meets it: nothing opens where it moves.', follow: [free] };
-  const fixed = [...new Set(others.map((m) => m.surface))].filter((s) => !surfaces.includes(s));
-  const all = [...new Set([...selected, own, ...others.map((m) => m.surface)])];
+  if (others.length === 0) return { opens: false, follows: true, text: 'No other face meets it: nothing opens where it moves.' };
   const faces = listed(others.map((m) => (forms[m.form] ? `the ${forms[m.form]!} ${m.face}` : m.face)));
   const [stay, they] = others.length === 1 ? ['stays', 'it'] : ['stay', 'they'];
   return {
     opens: true,
-    text: `It meets ${faces}. Free, it opens: ${they} ${stay}. With Follow all are selected and move as one${fixed.length > 0 ? ', exact B-splines from then on' : ''}.`,
-    follow: [...(fixed.length > 0 ? [{ do: 'convert', surfaces: fixed } as const] : []), { do: 'select', surfaces: all }, free],
+    follows: true,
+    text: `It meets ${faces}. Free, it opens: ${they} ${stay}. With Follow they move as one.`,
   };
 }
 

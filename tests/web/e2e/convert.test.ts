@@ -1,0 +1,51 @@
+import { join } from 'node:path';
+
+import { commands, openFile, root, settled, studioOfFile } from './page';
+
+/** An edge beside a face that is no spline surface: why it cannot follow is said, and one click converts that face. */
+
+const studio = studioOfFile({ width: 1100, height: 700 });
+
+interface Edges {
+  viewer: { context: { triangles: number }; main: { projectAll(points: ArrayLike<number>): Float32Array }; trims: unknown[] };
+  hand: { edges: { points(edge: string): Float32Array | null } };
+}
+const edge = '#43'; // between the skin #285 and the flange #534
+
+const triangles = () => studio.page.evaluate(() => (window as never as { studio: Edges }).studio.viewer.context.triangles);
+const trims = () => studio.page.evaluate(() => (window as never as { studio: Edges }).studio.viewer.trims.length);
+/** Where its middle is on the page. */
+const middle = () => studio.page.evaluate((id) => {
+  const { viewer, hand } = (window as never as { studio: Edges }).studio;
+  const points = hand.edges.points(id);
+  if (!points) return null;
+  const k = 3 * Math.floor(points.length / 6);
+  return [...viewer.main.projectAll(points.slice(k, k + 3))] as [number, number];
+}, edge);
+
+it('offers to convert the face beside it, and lets the edge follow', async () => {
+  const { page } = studio;
+  await openFile(page, join(root, 'samples/bonnet.step'));
+  await expect.poll(triangles).toBeGreaterThan(0);
+  const before = await triangles();
+  const shown = await trims();
+  await page.evaluate(() => (window as never as { studio: { select(k: number): Promise<void> } }).studio.select(0));
+  await page.keyboard.press('f');
+  await page.keyboard.press('d');
+  await expect.poll(middle).not.toBeNull();
+  await settled(page);
+  await page.mouse.click(...(await middle())!);
+  await page.locator('.popover button', { hasText: 'Follow' }).click();
+  const notice = page.locator('.notice.error');
+  await expect.poll(() => notice.textContent()).toContain('its face #454 lies on a surface of linear extrusion');
+  expect(await notice.textContent()).not.toMatch(/[{}]/);
+  await notice.locator('button', { hasText: 'Convert and follow' }).click();
+  await expect.poll(async () => (await commands(page)).at(-1)).toMatchObject({ do: 'edge', edge, hold: 'follow' });
+  await settled(page);
+  // The flange is a surface of the session now, and no longer of its surroundings.
+  await expect.poll(triangles).toBeLessThan(before);
+  await expect.poll(trims).toBe(shown + 1);
+  await page.keyboard.press('Control+z');
+  await expect.poll(triangles).toBe(before);
+  await expect.poll(trims).toBe(shown);
+});
