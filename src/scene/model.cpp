@@ -8,10 +8,12 @@
 #include "knead/scene/mask.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/sculpt/edge_coupling.hpp"
+#include "smooth_seams.hpp"
 
 namespace knead {
 namespace {
 
+constexpr CouplingTolerance smooth_tolerance{.position = 1e-3, .tangent = 1e-6};
 constexpr double exact_ratio = 1e-7;  // radians that derivatives at a seam may be off a fixed ratio
 constexpr SeamOptions along_edges{.rigid = false}, along_smooth_edges{.angle = exact_ratio, .rigid = false};
 
@@ -82,6 +84,25 @@ Expected<void> couple_followed(const ModelInput& input, std::span<const Surface*
   return {};
 }
 
+/// Appends the conditions that keep tangent planes common at smooth seams whose sides are in no fixed ratio.
+Expected<void> keep_smooth(std::span<const Surface* const> patches, std::span<const int> rows,
+                           std::span<SeamReport> reports, ActiveSettings<2>& settings) {
+  std::vector<CoupledEdge> edges;
+  for (SeamReport& report : reports) {
+    if (!may_crease(report)) continue;
+    auto edge = smooth_seam_edge(patches, report.seam);
+    if (!edge) return std::unexpected(edge.error());
+    edges.push_back(std::move(*edge));
+    report.continuity = SeamContinuity::g1;
+    report.reason = "tangent planes are kept common at points along the seam";
+  }
+  if (edges.empty()) return {};
+  const auto coupled = couple_edges(patches, rows, edges, settings.constraints, settings.held, smooth_tolerance);
+  if (!coupled) return std::unexpected(coupled.error());
+  settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
+  return {};
+}
+
 }  // namespace
 
 Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches) {
@@ -146,6 +167,9 @@ Expected<SceneModel> make_model(ModelInput input) {
       settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
       reports.insert(reports.end(), coupled->reports.begin(), coupled->reports.end());
     }
+  }
+  if (input.seams.smooth) {
+    if (auto kept = keep_smooth(pointers, *rows, reports, settings); !kept) return std::unexpected(kept.error());
   }
   if (auto coupled = couple_followed(input, pointers, *rows, settings); !coupled) {
     return std::unexpected(coupled.error());

@@ -164,6 +164,7 @@ struct Executor {
   Expected<void> refine_followed(const SceneSurface& touched, const TrimContact& contact, double size);
   void record(const ActiveStep& step, double seconds, std::string note);
   void note_model(const SceneModel& model);
+  void note_creases(const SceneModel& model);
   /// Whether the surfaces of which edges of faces are held have not folded: their normals point to the same side as at
   /// rest, at four points per span. Error (numerical): where they do not.
   Expected<void> check_folds();

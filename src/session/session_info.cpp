@@ -145,7 +145,7 @@ struct SessionInfo {
   std::variant<LoadCommand> load;
   std::variant<EvolveCommand> evolve;
   std::optional<double> limit;
-  bool raw = false, coupled = true;
+  bool raw = false, coupled = true, smooth = false;
   RefinePermission refine = RefinePermission::never;
   std::vector<SeamInfo> seams;
   std::vector<ReadingInfo> readings;
@@ -168,6 +168,7 @@ static void describe(SessionInfo& s, Fields& fields) {
   fields.add("limit", s.limit, {.unit = Unit::length});
   fields.add("raw", s.raw, {.help = "the scaling is that of the equations"});
   fields.add("coupled", s.coupled, {.help = "along seams"});
+  fields.add("smooth", s.smooth, {.help = "seams, even where their sides are in no fixed ratio"});
   fields.add("refine", s.refine);
   fields.add("seams", s.seams);
   fields.add("readings", s.readings, {.help = "of the points that `measure` names"});
@@ -268,6 +269,7 @@ std::string session_json(const Session& session) {
   info.limit = state.limit;
   info.raw = state.scaling == ScalingMode::raw;
   info.coupled = state.seams.couple;
+  info.smooth = state.seams.smooth;
   info.refine = state.permission;
   for (const SeamReport& seam : state.seam_reports) info.seams.push_back({seam.continuity, seam.seam.gap, seam.reason});
   info.readings = readings_of(state);

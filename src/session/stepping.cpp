@@ -165,6 +165,7 @@ void Executor::note_model(const SceneModel& model) {
   for (const std::string& note : model.notes) {
     if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
   }
+  note_creases(model);
 }
 
 Expected<void> Executor::yield(double plasticity) {

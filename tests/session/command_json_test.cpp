@@ -81,7 +81,7 @@ const std::vector<std::string> all_commands = {
     R"({"do":"keep","u":0.5,"v":0.25,"curve":[[0,0],[1,1]],"tolerance":0.001})",
     R"({"do":"symmetry","edge":"u1","mirror":"v","point":[1,2,3],"normal":[0,0,1]})",
     R"({"do":"smooth","knot_lines":false,"poles":false})",
-    R"({"do":"seams","couple":false,"tolerance":0.5})",
+    R"({"do":"seams","couple":false,"tolerance":0.5,"smooth":false})",
     R"({"do":"release"})",
     R"({"do":"release","what":["pins","symmetry"]})",
     R"({"do":"tool","name":"t","shape":"torus","radius":1,"minor":0.25,"height":3,"top_radius":0.5,"thickness":0.125,"rounding":0.0625,"sizes":[1,2,3],"exponents":[0.5,2],"surface":"#9","axis":[1,0,0],"orientation":[0,0,0,1],"scale":[1,2,3],"position":[1,2,3],"at":[0.5,1],"mode":"proximity","stiffness":5,"range":2,"direction":"push","rigid":true,"friction":0.5,"plasticity":0.25,"relative":true})",

@@ -63,6 +63,7 @@ struct EvolutionPolicy {
 struct SeamPolicy {
   bool couple = true;
   std::optional<double> tolerance = {};  ///< a length; left out: 1e-4 of the diagonal
+  bool smooth = false;                   ///< tangent planes stay common wherever they are, not only at a fixed ratio
 
   friend bool operator==(const SeamPolicy&, const SeamPolicy&) = default;
 };

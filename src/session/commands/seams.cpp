@@ -11,6 +11,10 @@ void describe(SeamsCommand& c, Fields& fields) {
              {.help = "how far apart the edges of a seam may be, a length",
               .unit = Unit::length,
               .fallback = "1e-4 of the diagonal of the selected surfaces"});
+  fields.add(
+      "smooth", c.seams.smooth,
+      {.help = "seams that were smooth stay so even where the sides are in no fixed ratio, which leaves them less "
+               "freedom"});
 }
 
 template <>

@@ -19,14 +19,14 @@ const halves: Command[] = [
   { do: 'select', surfaces: ['#1', '#2'] }, { do: 'material', preset: 'clay' },
 ];
 
-async function begin(key: string): Promise<void> {
+async function begin(key: string, list = halves): Promise<void> {
   const { page } = studio;
   await page.evaluate(async ({ list, settings }) => {
     const app = (window as never as { studio: Page }).studio;
     await app.documents.startFresh('halves', list);
     Object.assign(app.hand.brush.settings, settings);
     Object.assign(app.hand.surfaceBrush.settings, { kind: 'inflate', strength: 0.5, mirror: null, radial: 1, steady: 0 });
-  }, { list: halves, settings: { radius, strength: depth / radius } });
+  }, { list, settings: { radius, strength: depth / radius } });
   await settled(page);
   await page.keyboard.press(key);
 }
@@ -120,5 +120,35 @@ describe('over the seam of two selected surfaces', () => {
     const tops = [...(await points())].sort((p, q) => Math.abs(q[2]) - Math.abs(p[2]));
     expect(Math.abs(tops[0]![2])).toBeGreaterThan(3);
     expect(Math.abs(tops[0]![0] - 100 - 100 * drag.at![0])).toBeLessThan(radius);
+  });
+
+  it('a crease is said, and the button does the stroke again without', async () => {
+    const { page } = studio;
+    /** A cubic net of points of a quadrilateral, from its corners at (0, 0), (1, 0), (0, 1), (1, 1). */
+    const quad = (a: Vector3, b: Vector3, c: Vector3, d: Vector3): Command => {
+      const n = 24;
+      const knot = (k: number) => Math.min(1, Math.max(0, (k - 3) / (n - 3)));
+      const greville = (k: number) => (knot(k + 1) + knot(k + 2) + knot(k + 3)) / 3;
+      const points = Array.from({ length: n * n }, (_, k) => {
+        const s = greville(Math.floor(k / n)), t = greville(k % n);
+        return [0, 1, 2].map((i) => (1 - s) * ((1 - t) * a[i]! + t * c[i]!) + s * ((1 - t) * b[i]! + t * d[i]!)) as Vector3;
+      });
+      return { do: 'new', net: [n, n], points };
+    };
+    await begin('w', [
+      quad([0, 50, 0], [100, 0, 0], [0, 150, 0], [100, 200, 0]), quad([100, 0, 0], [200, 0, 0], [100, 200, 0], [200, 200, 0]),
+      { do: 'select', surfaces: ['#1', '#2'] }, { do: 'material', preset: 'clay' },
+    ]);
+    await led([-60, 10], [60, -10], 12);
+    const brush = (await commands(page)).at(-1)!;
+    const notice = page.locator('.notice', { hasText: 'was smooth, and now has a crease of' });
+    await expect.poll(() => notice.count()).toBe(1);
+    expect(await notice.textContent()).toMatch(/#1 u1 and #2 u0/);
+    await notice.locator('button', { hasText: 'Keep it smooth' }).click();
+    await expect.poll(async () => (await commands(page)).at(-2)).toMatchObject({ do: 'seams', smooth: true });
+    await settled(page);
+    expect((await commands(page)).at(-1)).toEqual(brush);
+    const notes = await page.evaluate(() => (window as never as { studio: { state: { notes: string[] } } }).studio.state.notes);
+    expect(notes.filter((text) => text.includes('crease of'))).toEqual([]);
   });
 });

@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import { Documents } from '../document/documents';
 import type { Notice, Question } from '../document/host';
 import { makeReady } from '../document/ready';
-import { adviceOn, inOneLine } from '../document/words';
+import { adviceOn, creaseIn, inOneLine } from '../document/words';
 import { Saving } from '../document/saving';
 import { Client } from '../engine/client';
 import type { Context, Trim } from '../engine/context';
@@ -103,9 +103,33 @@ export class Studio implements App {
       this.fresh = false;
       this.hand.brush.settings.radius = 0.08 * this.diagonal;
     }
+    this.tellCreases(frame.state.notes);
     this.computedTime += frame.computeTime;
     this.documents.keeper.computed(frame.unkept, frame.playing);
     this.changed();
+  }
+
+  /** Seams that have a crease, of which the user knows. */
+  private creased = new Set<string>();
+
+  /** Says once that connected surfaces have got a crease, and offers what does without. */
+  private tellCreases(notes: readonly string[]): void {
+    if (this.hand.active) return; // at the end of the stroke
+    const creases = notes.flatMap((note) => creaseIn(note) ?? []);
+    const fresh = creases.find(({ seam }) => !this.creased.has(seam));
+    this.creased = new Set(creases.map(({ seam }) => seam));
+    if (fresh) {
+      const { text, remedy } = fresh;
+      this.notify({ kind: 'info', text, remedy, actions: [{ label: 'Keep it smooth', act: () => void this.redoSmoothly() }] });
+    }
+  }
+
+  /** The last act again, with seams that stay smooth. */
+  private async redoSmoothly(): Promise<void> {
+    const { commands } = JSON.parse(await this.client.journal()) as { commands: Command[] };
+    // What is done with a ball is a tool, its strokes and its removal.
+    const first = commands.at(-1)?.do === 'remove' ? commands.map((c) => c.do).lastIndexOf('tool') : commands.length - 1;
+    if (await this.execute([{ do: 'undo' }]) && await this.execute([{ do: 'seams', smooth: true }])) await this.execute(commands.slice(first));
   }
 
   /** Executes commands as one entry of the history. Null if something went wrong, which the user has then been told. */

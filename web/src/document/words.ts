@@ -78,6 +78,17 @@ export function adviceOn(error: EngineErrorInfo): Advice {
   return { text: sentence(`${place ? `${place}: ` : ''}${plain(error.what)}`), ...(remedy ? { remedy: sentence(remedy) } : {}), actions: [] };
 }
 
+/** What a note says of a seam that was smooth and is not any more; null if it says something else. */
+export function creaseIn(note: string): { seam: string; text: string; remedy: string } | null {
+  const found = /^the seam (\S+ \w+) – (\S+ \w+) was smooth and has a crease of (\S+) degrees now at (\(.*?\)): it keeps its position only, as (.*); undo/.exec(note);
+  if (!found) return null;
+  const [, a, b, angle, place, why] = found;
+  return {
+    seam: `${a} ${b}`, text: `The seam between ${a} and ${b} was smooth, and now has a crease of ${angle} degrees at ${place}.`,
+    remedy: `These surfaces are joined in position only: ${why}. Kept smooth, they have less freedom there`,
+  };
+}
+
 /** The same as one line, beside a field. */
 export function inOneLine(error: EngineErrorInfo): string {
   const { text, remedy } = adviceOn(error);

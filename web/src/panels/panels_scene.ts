@@ -147,7 +147,7 @@ export function constraintsPanel(app: App): HTMLElement {
       row(
         h('button', { class: 'button small', type: 'button', title: 'Stays its own mirror image across the middle of u', onclick: () => run({ do: 'symmetry', mirror: 'u' }) }, 'Mirror u'),
         h('button', { class: 'button small', type: 'button', title: 'Stays its own mirror image across the middle of v', onclick: () => run({ do: 'symmetry', mirror: 'v' }) }, 'Mirror v'),
-        toggle('Seams', state.coupled, (couple) => run({ do: 'seams', couple }), 'Patches selected together stay together at their seams'),
+        toggle('Seams', state.coupled, (couple) => run({ do: 'seams', couple, smooth: state.smooth }), 'Patches selected together stay together at their seams'),
         h('button', { class: 'button small', type: 'button', title: 'Frees all that is held, pinned, frozen or kept', onclick: () => run({ do: 'release' }) }, 'Release all'),
       ),
       field('Limit', numberInput('Limit', state.limit, (v) => app.offer([v > 0 ? { do: 'limit', distance: v } : { do: 'limit' }]), length(app), 'none'),
