@@ -11,6 +11,10 @@
 namespace knead {
 namespace {
 
+/// What is left of the conditions at smooth knot lines whose ratio varies, beside held edges of faces: where these take
+/// most of the freedom, the exact conditions leave none.
+constexpr double smooth_beside_edges = 1e-3;
+
 constexpr double pole_tolerance = 1e-9;  // of the surface's size
 constexpr double pole_flatness = 1e-6;
 constexpr double symmetry_tolerance = 1e-6;  // of the surface's size
@@ -137,7 +141,9 @@ Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::
   }
   if (s.mode == RestMode::none) return list;  // the energy acts on the shape itself: no rest shape to stay smooth to
   if (s.smooth_knot_lines) {
-    const auto lines = keep_smooth(*s.reference, {}, list);
+    SmoothOptions options;
+    if (s.visible) options.tolerance = smooth_beside_edges;
+    const auto lines = keep_smooth(*s.reference, options, list);
     if (!lines) return std::unexpected(lines.error());
     for (const SmoothLine& line : *lines) {
       if (line.state == SmoothLine::State::crease) {
