@@ -8,11 +8,11 @@
 
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/model_mesh.hpp"
 #include "knead/session/command_json.hpp"
 #include "studio_combs.hpp"
 #include "studio_context.hpp"
 #include "studio_material.hpp"
+#include "studio_mesh.hpp"
 #include "studio_picture.hpp"
 #include "studio_state.hpp"
 #include "studio_surface.hpp"
@@ -329,31 +329,14 @@ KNEAD_EXPORT(knead_material) int knead_material(int surface, int rows, int colum
   return answer(material_json(held().material));
 }
 
-/// The model as one file of the format at this position in the list of formats: the faces of the open STEP file as it
-/// would be saved, or, without one, all surfaces, whole, with `detail` grid lines. The text is the file.
+/// The text is the `mesh_file` of the format at this position in the list of formats.
 KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
   auto& session = held().session;
   if (!session) return without_session();
   if (format < 0 || format >= static_cast<int>(formats().size())) {
     return fail({ErrorKind::usage, "there is no such format"});
   }
-  const Format& chosen = formats()[static_cast<std::size_t>(format)];
-  std::vector<NamedSurface> surfaces;
-  SaveOptions options;
-  options.detail = detail;
-  for (const SceneSurface& s : session->state().surfaces) {
-    surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
-    options.unit = s.unit;
-  }
-  if (session->document().step_file() != nullptr) {
-    auto saved = session->save();
-    if (!saved) return fail(saved.error());
-    const auto file = step::File::parse(*std::move(saved), "model");
-    if (!file) return fail(file.error());
-    auto model = save_model(*file, chosen, 0, options);
-    return model ? answer(std::move(model->bytes)) : fail(model.error());
-  }
-  auto bytes = save_surfaces(surfaces, chosen, options);
+  auto bytes = mesh_file(*session, formats()[static_cast<std::size_t>(format)], detail);
   return bytes ? answer(std::move(*bytes)) : fail(bytes.error());
 }
 

@@ -68,6 +68,7 @@ describe('a face of a file', () => {
     await expect.poll(() => popover.locator('b').textContent()).toMatch(/^Edge #\d+$/);
     const id = (await popover.locator('b').textContent())!.slice(5);
     expect(await popover.locator('button[aria-pressed=true]').textContent()).toBe('Position');
+    expect(await popover.locator('.note').textContent()).toBe('No other face meets it: nothing opens where it moves.');
     expect(await popover.locator('.chip').allTextContents()).toEqual(['Free', 'Follow', 'Position', 'Tangent', 'Curvature']);
     await popover.locator('button', { hasText: 'Tangent' }).click();
     await settled(page);

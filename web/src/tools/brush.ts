@@ -130,7 +130,7 @@ export class Brush implements PointerTool {
       void this.followOn(stroke, () => [{ do: 'undo' }, this.grab(stroke, by)], false);
       return;
     }
-    const hit = this.viewer.pickOn(stroke.viewport, event, stroke.frozen);
+    const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
     if (!hit || !this.viewer.isSelected(hit.surface)) return;
     this.showRing(hit);
     const place = { ...hit, press: this.pressure(event) };
@@ -202,7 +202,7 @@ export class Brush implements PointerTool {
   /** Puts a ball down, which stays down. */
   private ball(position: Vector3): Command[] {
     return [
-      { do: 'tool', name: brushName, shape: 'sphere', radius: this.settings.radius, position, mode: 'collision', plasticity: 1 },
+      { do: 'tool', name: brushName, shape: 'sphere', radius: this.settings.radius, position, mode: 'collision', plasticity: 1, touches: 'visible' },
       { do: 'stroke', tool: brushName, path: [position], open: true },
     ];
   }

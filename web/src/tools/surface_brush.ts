@@ -146,7 +146,7 @@ export class SurfaceBrush implements PointerTool {
       void this.followOn(stroke);
       return;
     }
-    const hit = this.viewer.pickOn(stroke.viewport, event, stroke.frozen);
+    const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
     if (!hit || !this.viewer.isSelected(hit.surface)) return;
     this.ring.show(hit.point, hit.normal, this.size());
     stroke.ahead.push(this.pointOf(hit));

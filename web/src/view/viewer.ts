@@ -292,11 +292,6 @@ export class Viewer {
     return best && !frozen && this.context.hides(this.raycaster, best.distance) ? null : best;
   }
 
-  /** What a stroke goes on over: where several surfaces are selected, not what their trims have cut away. */
-  pickOn(viewport: Viewport, event: { clientX: number; clientY: number }, frozen: readonly (GridPicker | null)[]): Hit | null {
-    return this.pick(viewport, event, frozen, (this.frame?.state.selection.length ?? 0) > 1);
-  }
-
   get pickers(): (GridPicker | null)[] {
     return this.surfaces.map((s) => s.picker);
   }

@@ -1,0 +1,28 @@
+import type { SurfaceInfo } from '@studio/engine/session_types';
+import { heldInWords, meetingAt } from '@studio/tools/held';
+
+const edge = (meets: [string, string, string][], seam = false) =>
+  ({ id: '#7' as const, course: [], seam, meets: meets.map(([face, surface, form]) => ({ face, surface, form })) });
+
+describe('an edge of a face', () => {
+  it('opens where faces of other surfaces stay behind, which are named', () => {
+    const meeting = meetingAt(edge([['#1', '#10', 'B_SPLINE_SURFACE_WITH_KNOTS'], ['#2', '#20', 'PLANE']]), '#10');
+    expect(meeting).toEqual({ opens: true, follows: true, text: 'It meets the plane #2. Free, it opens: it stays. With Follow they move as one.' });
+    expect(meetingAt(edge([['#1', '#10', ''], ['#2', '#20', 'B_SPLINE_SURFACE_WITH_KNOTS'], ['#3', '#30', 'CYLINDRICAL_SURFACE']]), '#10').text)
+      .toContain('It meets #2 and the cylinder #3. Free, it opens: they stay.');
+  });
+
+  it('opens nothing where no other face meets it, and cannot follow where its face is on both sides', () => {
+    expect(meetingAt(edge([['#1', '#10', '']]), '#10')).toMatchObject({ opens: false, follows: true });
+    expect(meetingAt(edge([['#1', '#10', '']], true), '#10')).toMatchObject({ opens: false, follows: false });
+  });
+
+  it('is counted where it would open, before it does', () => {
+    const info = (hold: 'free' | 'follow' | 'position') => ({ hold: 0, pins: 0, constraints: [
+      { do: 'hold', mode: 'trim' }, { do: 'edge', edge: '#7', hold }] }) as unknown as SurfaceInfo;
+    expect(heldInWords(info('position'), ['#7', '#8'], ['#7', '#8'])).toBe('2 edges held');
+    expect(heldInWords(info('free'), ['#7', '#8'], ['#7', '#8'])).toBe('1 of 2 edges held, one opens when it moves');
+    expect(heldInWords(info('free'), ['#7', '#8'], ['#8'])).toBe('1 of 2 edges held');
+    expect(heldInWords(info('follow'), ['#7', '#8'], ['#7', '#8'])).toBe('1 of 2 edges held');
+  });
+});
