@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "edge_curve.hpp"
 #include "parameter_region.hpp"
@@ -25,6 +27,17 @@ class ChartedSurface {
   [[nodiscard]] virtual Point normal(const Eigen::Vector2d& uv) const = 0;
   /// Parameters of the point of the surface nearest to p. `near`: those of a point beside it, if known.
   [[nodiscard]] virtual Foot foot(const Point& p, const std::optional<Eigen::Vector2d>& near) const = 0;
+  /// Those of points one after the other, each beside the one before; none is beside a pole.
+  [[nodiscard]] std::vector<Foot> feet(std::span<const Point> points) const {
+    std::vector<Foot> result;
+    std::optional<Eigen::Vector2d> near;
+    for (const Point& p : points) {
+      result.push_back(foot(p, near));
+      near.reset();
+      if (!result.back().free[0] && !result.back().free[1]) near = result.back().parameters;
+    }
+    return result;
+  }
   /// Where it closes on itself, and its poles, in parameters.
   [[nodiscard]] virtual ParameterSpace space() const = 0;
 

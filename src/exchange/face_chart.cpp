@@ -66,15 +66,13 @@ Expected<ChartedFace> charted_face(const Reader& reader, const Face& face, EdgeS
   }
   std::vector<Foot> feet;
   for (const Loop& loop : *loops) {
-    std::optional<Vector2d> near;
-    for (const Point& p : loop) {
-      feet.push_back(surface->foot(p, near));
-      near.reset();
-      if (!feet.back().free[0] && !feet.back().free[1]) near = feet.back().parameters;
-      const double off = (surface->at(feet.back().parameters) - p).norm();
+    const std::size_t first = feet.size();
+    for (const Foot& foot : surface->feet(loop)) {
+      const double off = (surface->at(foot.parameters) - loop[feet.size() - first]).norm();
       if (!(off <= off_surface * box.diagonal().norm())) {
         return reader.error(face.instance, "its edges do not lie on its surface");
       }
+      feet.push_back(foot);
     }
   }
   Chart chart(std::move(surface), feet);

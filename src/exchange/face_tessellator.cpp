@@ -161,13 +161,7 @@ Expected<void> FaceTessellator::divide_edges(const FaceOnSurface& on) {
   for (const auto edge : std::set<std::uint32_t>(edges.begin(), edges.end())) {
     const auto points = edges_.edge(edge);
     if (!points) return std::unexpected(points.error());
-    std::vector<Foot> feet;
-    std::optional<Vector2d> near;
-    for (const Point& p : **points) {
-      feet.push_back(on.surface->foot(p, near));
-      near.reset();
-      if (!feet.back().free[0] && !feet.back().free[1]) near = feet.back().parameters;
-    }
+    const std::vector<Foot> feet = on.surface->feet(**points);
     std::vector<int> pieces;
     for (std::size_t k = 0; k + 1 < feet.size(); ++k) {
       Vector2d to = feet[k + 1].parameters;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "face_region.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "step_surfaces.hpp"
 
@@ -79,8 +80,7 @@ Point SplineFace::normal(const Eigen::Vector2d& uv) const {
 }
 
 Foot SplineFace::foot(const Point& p, const std::optional<Eigen::Vector2d>& near) const {
-  constexpr double on_it = 1e-5;  // of the net's diagonal
-  return feet_.nearest(p, near, on_it * size_).foot;
+  return feet_.nearest(p, near, on_surface * size_).foot;
 }
 
 /// How far the twist takes the middle of a cell of one by one step off its triangles, about the largest.

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
-#include <set>
 
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
@@ -121,18 +120,9 @@ void write_row(const std::string& row) {
 /// Records of `before` that are missing in `after`, except those that moved with the edges: surfaces, control points,
 /// edges, vertices, curves.
 std::vector<std::string> lost_records(const std::string& before, const std::string& after) {
-  const auto records = [](const std::string& text) {
-    std::multiset<std::string> result;
-    std::size_t begin = 0;
-    for (std::size_t at = text.find(";\n"); at != std::string::npos; at = text.find(";\n", begin)) {
-      result.insert(text.substr(begin, at - begin));
-      begin = at + 2;
-    }
-    return result;
-  };
-  const auto new_records = records(after);
+  const auto new_records = records_of(after);
   std::vector<std::string> lost;
-  for (const std::string& record : records(before)) {
+  for (const std::string& record : records_of(before)) {
     const auto is = [&](const char* entity) { return record.find(entity) != std::string::npos; };
     if (new_records.contains(record) || is("CARTESIAN_POINT") || is("B_SPLINE_SURFACE") || is("EDGE_CURVE") ||
         is("VERTEX_POINT") || is("SURFACE_CURVE") || is("SEAM_CURVE") || is("INTERSECTION_CURVE")) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <memory>
+#include <set>
 
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
@@ -18,6 +19,17 @@ inline std::vector<fs::path> all_files() {
   auto files = knead::testing::step_files_in(knead::testing::collection());
   for (auto& sample : knead::testing::step_files_in(knead::testing::samples())) files.push_back(std::move(sample));
   return files;
+}
+
+/// The records of a file, without the ";" that ends them.
+inline std::multiset<std::string> records_of(const std::string& text) {
+  std::multiset<std::string> result;
+  std::size_t begin = 0;
+  for (std::size_t at = text.find(";\n"); at != std::string::npos; at = text.find(";\n", begin)) {
+    result.insert(text.substr(begin, at - begin));
+    begin = at + 2;
+  }
+  return result;
 }
 
 /// One file of the collection or the samples, and what Open CASCADE makes of it.

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
-#include <set>
 
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
@@ -93,16 +92,7 @@ double hinge(const Surface& before, const Surface& after) {
 
 /// Records of `before` that are not in `after`, but for the surface itself and control points.
 std::vector<std::string> lost_records(const std::string& before, const std::string& after, const std::string& surface) {
-  const auto records = [](const std::string& text) {
-    std::multiset<std::string> result;
-    std::size_t begin = 0;
-    for (std::size_t at = text.find(";\n"); at != std::string::npos; at = text.find(";\n", begin)) {
-      result.insert(text.substr(begin, at - begin));
-      begin = at + 2;
-    }
-    return result;
-  };
-  const auto old_records = records(before), new_records = records(after);
+  const auto old_records = records_of(before), new_records = records_of(after);
   std::vector<std::string> lost;
   for (const std::string& record : old_records) {
     if (new_records.contains(record) || record.find("CARTESIAN_POINT") != std::string::npos) continue;

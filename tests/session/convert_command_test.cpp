@@ -2,41 +2,26 @@
 
 #include <set>
 
-#include "exchange/two_sheets.hpp"
-#include "knead/exchange/format.hpp"
 #include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/scene/trims.hpp"
-#include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
+#include "session/running.hpp"
 
 namespace knead {
 namespace {
 
+using testing::both;
+using testing::opened;
+using testing::press;
+using testing::run;
 using testing::two_sheets;
 using testing::TwoSheets;
 
-Session opened(const TwoSheets& sheets) { return Session(Document::from(*open_source(sheets.text, "sheets.step"))); }
-
-Expected<void> run(Session& session, const std::string& commands, int version = 2) {
-  const auto script =
-      parse_script("{\"knead\":" + std::to_string(version) + ",\"commands\":[" + commands + "]}", "script");
-  if (!script) return std::unexpected(script.error());
-  for (const Command& command : *script) {
-    if (auto done = session.execute(command); !done) return done;
-  }
-  return {};
-}
-
 const std::string convert = R"({"do":"convert","surface":"#20"})";
-const std::string both = R"({"do":"select","surfaces":["#10","#20"]})";
 
 std::string free_edge(const TwoSheets& sheets) {
   return R"({"do":"edge","which":")" + TwoSheets::name(sheets.edge) + R"(","hold":"free"})";
 }
-
-const std::string press = R"({"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]},
-  {"do":"tool","name":"ball","radius":0.2,"rigid":true,"position":[1,0.5,0.16]},{"do":"evolve","mode":"static"})";
 
 TEST(Convert, TheSurfaceJoinsTheSceneWithItsEdgesHeld) {
   Session session = opened(two_sheets(false, true));

@@ -1,33 +1,18 @@
 // Edges that follow their faces: what moves, what is written, what is refused, and what is said.
 
-#include "exchange/two_sheets.hpp"
-#include "knead/exchange/format.hpp"
 #include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
-#include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
+#include "session/running.hpp"
 
 namespace knead {
 namespace {
 
+using testing::both;
+using testing::opened;
+using testing::press;
+using testing::run;
 using testing::two_sheets;
 using testing::TwoSheets;
-
-Session opened(const TwoSheets& sheets) { return Session(Document::from(*open_source(sheets.text, "sheets.step"))); }
-
-Expected<void> run(Session& session, const std::string& commands, int version = 2) {
-  const auto script =
-      parse_script("{\"knead\":" + std::to_string(version) + ",\"commands\":[" + commands + "]}", "script");
-  if (!script) return std::unexpected(script.error());
-  for (const Command& command : *script) {
-    if (auto done = session.execute(command); !done) return done;
-  }
-  return {};
-}
-
-const std::string both = R"({"do":"select","surfaces":["#10","#20"]})";
-const std::string press = R"({"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]},
-  {"do":"tool","name":"ball","radius":0.2,"rigid":true,"position":[1,0.5,0.16]},{"do":"evolve","mode":"static"})";
 
 std::string edge_command(const TwoSheets& sheets, const std::string& hold) {
   return R"({"do":"edge","which":")" + TwoSheets::name(sheets.edge) + R"(","hold":")" + hold + R"("})";

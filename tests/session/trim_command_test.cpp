@@ -1,17 +1,16 @@
 // Faces that are cut by trimming edges: what holds them, what is refined for it, and what is said.
 
 #include "exchange/face_builder.hpp"
-#include "knead/exchange/format.hpp"
 #include "knead/scene/held_points.hpp"
 #include "knead/scene/trims.hpp"
-#include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "session/running.hpp"
 
 namespace knead {
 namespace {
 
 using testing::FaceBuilder;
+using testing::run;
 
 struct Disc {
   step::File file;
@@ -30,17 +29,6 @@ Disc disc() {
 }
 
 Document document(const step::File& file) { return Document::from(*open_source(file.bytes(), file.name())); }
-
-/// Runs commands up to the first that fails.
-Expected<void> run(Session& session, const std::string& commands, int version = 2) {
-  const auto script =
-      parse_script("{\"knead\":" + std::to_string(version) + ",\"commands\":[" + commands + "]}", "script");
-  if (!script) return std::unexpected(script.error());
-  for (const Command& command : *script) {
-    if (auto done = session.execute(command); !done) return done;
-  }
-  return {};
-}
 
 const std::string ball = R"({"do":"tool","name":"ball","radius":0.05,"rigid":true,"at":"middle"},
   {"do":"move","tool":"ball","by":[0,0,0.04]})";

@@ -1,6 +1,6 @@
 import type { Command, Vector3 } from '@studio/engine/session_types';
 
-import { commands, positions, settled, spot, studioOfFile } from './page';
+import { commands, drag, positions, settled, spot, studioOfFile } from './page';
 
 /** Strokes whose pointer goes from one selected surface to another. */
 
@@ -31,14 +31,7 @@ async function begin(key: string, list = halves): Promise<void> {
   await page.keyboard.press(key);
 }
 
-async function led(from: [number, number], to: [number, number], moves: number): Promise<void> {
-  const { page } = studio;
-  await page.mouse.move(...(await spot(page, ...from)));
-  await page.mouse.down();
-  await page.mouse.move(...(await spot(page, ...to)), { steps: moves });
-  await page.mouse.up();
-  await settled(page);
-}
+const led = (from: [number, number], to: [number, number], moves: number) => drag(studio.page, from, to, moves);
 
 async function points(): Promise<Vector3[]> {
   const numbers = await positions(studio.page);

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { Engine } from '@studio/engine/engine';
 import type { Command, Vector3 } from '@studio/engine/session_types';
 
-import { commands, openStudio, positions, root, settled, spot, type Studio } from './page';
+import { commands, drag, openStudio, positions, root, settled, type Studio } from './page';
 
 /** Brushes, from the pointer's events to the saved file. */
 
@@ -51,14 +51,7 @@ async function begin(kind: string, more: Command[] = [], settings: Record<string
 
 const choose = (kind: string) => studio.page.locator('[data-panel=Brush] .chip', { hasText: new RegExp(`^${kind}$`) }).click();
 
-async function led(from: [number, number], to: [number, number], moves: number): Promise<void> {
-  const { page } = studio;
-  await page.mouse.move(...(await spot(page, ...from)));
-  await page.mouse.down();
-  await page.mouse.move(...(await spot(page, ...to)), { steps: moves });
-  await page.mouse.up();
-  await settled(page);
-}
+const led = (from: [number, number], to: [number, number], moves: number) => drag(studio.page, from, to, moves);
 
 /** The surface in the file that the page saves, as the engine reads it: a grid of points. */
 async function saved(): Promise<Vector3[]> {

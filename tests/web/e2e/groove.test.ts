@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { Engine } from '@studio/engine/engine';
 import type { Command, Vector3 } from '@studio/engine/session_types';
 
-import { commands, openStudio, positions, root, settled, spot, type Studio } from './page';
+import { commands, drag, openStudio, positions, root, settled, type Studio } from './page';
 
 /** From the pointer's events to the saved file: what a stroke leaves in clay is as wide and as deep as the ball that was led. */
 
@@ -43,11 +43,7 @@ async function led(from: [number, number], to: [number, number], moves: number):
   }, { list: sheet, settings: { radius, strength: depth / radius } });
   await settled(page);
   await page.keyboard.press('b');
-  await page.mouse.move(...(await spot(page, ...from)));
-  await page.mouse.down();
-  await page.mouse.move(...(await spot(page, ...to)), { steps: moves });
-  await page.mouse.up();
-  await settled(page);
+  await drag(page, from, to, moves);
 }
 
 /** The points of the surface in the file that the page saves, as the engine reads it. */

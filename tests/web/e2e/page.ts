@@ -170,6 +170,15 @@ export async function stroke(page: Page, ...places: [number, number][]): Promise
   await settled(page);
 }
 
+/** One drag from a place of the middle view to another, by so many moves of the pointer. */
+export async function drag(page: Page, from: [number, number], to: [number, number], moves: number): Promise<void> {
+  await page.mouse.move(...(await spot(page, ...from)));
+  await page.mouse.down();
+  await page.mouse.move(...(await spot(page, ...to)), { steps: moves });
+  await page.mouse.up();
+  await settled(page);
+}
+
 export const distance = (a: number[], b: number[]): number =>
   a.length === b.length ? a.reduce((most, x, k) => Math.max(most, Math.abs(x - b[k]!)), 0) : Infinity;
 

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "exchange/two_sheets.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+
+namespace knead::testing {
+
+/// Runs commands up to the first that fails.
+inline Expected<void> run(Session& session, const std::string& commands, int version = 2) {
+  const auto script =
+      parse_script("{\"knead\":" + std::to_string(version) + ",\"commands\":[" + commands + "]}", "script");
+  if (!script) return std::unexpected(script.error());
+  for (const Command& command : *script) {
+    if (auto done = session.execute(command); !done) return done;
+  }
+  return {};
+}
+
+inline Session opened(const TwoSheets& sheets) {
+  return Session(Document::from(*open_source(sheets.text, "sheets.step")));
+}
+
+/// Both of two sheets, and a press into the middle of their edge.
+inline const std::string both = R"({"do":"select","surfaces":["#10","#20"]})";
+inline const std::string press = R"({"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]},
+  {"do":"tool","name":"ball","radius":0.2,"rigid":true,"position":[1,0.5,0.16]},{"do":"evolve","mode":"static"})";
+
+}  // namespace knead::testing
