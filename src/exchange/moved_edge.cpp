@@ -6,7 +6,10 @@
 
 #include "knead/spline/evaluate.hpp"
 #include "spline/greville_interpolation.hpp"
+#include "step_data.hpp"
+#include "step_faces.hpp"
 #include "step_surfaces.hpp"
+#include "surface_foot.hpp"
 
 namespace knead::step {
 namespace {
@@ -139,6 +142,51 @@ double size_of(std::span<const Surface* const> surfaces) {
   return size;
 }
 
+/// The VERTEX_POINTs of the loops that are no more than a point, as of a whole sphere's pole, of the faces on a
+/// surface.
+std::vector<std::uint32_t> loop_vertices(const Reader& reader, std::uint32_t surface) {
+  std::vector<std::uint32_t> result;
+  for (const Face& face : read_faces(reader)) {
+    if (face.surface != surface) continue;
+    for (const auto bound : reader.references(face.bounds)) {
+      const auto own = reader.attributes(bound, "FACE_BOUND", 1, 2);
+      const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
+      if (!loop || !reader.is(*loop, "VERTEX_LOOP")) continue;
+      const auto at = reader.attributes(*loop, "VERTEX_LOOP", 1, 1);
+      const auto vertex = at.empty() ? std::nullopt : reader.reference(at[0]);
+      if (vertex && reader.file().instance(*vertex).uses == 1) result.push_back(*vertex);
+    }
+  }
+  return result;
+}
+
+/// Takes these vertices along with the surfaces that replace others.
+Expected<void> move_loop_vertices(const File& file, std::span<const Replacement> replacements,
+                                  std::map<std::string, Point>& vertices) {
+  const File::Data& data = file.data();
+  const Reader reader(data.records);
+  for (const Replacement& replacement : replacements) {
+    const std::size_t k = data.surface_index.at(replacement.id);
+    const Surface& before = data.surfaces[k].surface;
+    const auto loops = loop_vertices(reader, data.surface_instances[k]);
+    if (loops.empty()) continue;
+    const auto feet = SurfaceFoot::create(before);
+    if (!feet) return std::unexpected(feet.error());
+    for (const std::uint32_t vertex : loops) {
+      const auto own = reader.attributes(vertex, "VERTEX_POINT", 1, 1);
+      const auto geometry = own.empty() ? std::nullopt : reader.reference(own[0]);
+      const auto place = geometry ? reader.point(*geometry) : reader.error(vertex, "a VERTEX_POINT is needed here");
+      if (!place) return std::unexpected(place.error());
+      const auto foot = feet->nearest(*place, std::nullopt, 0).foot.parameters;
+      const auto way = displacement_at(before, replacement.surface, foot);
+      if (!way) return std::unexpected(way.error());
+      if (way->norm() <= rounding * net_diagonal(before.control_points())) continue;
+      vertices.try_emplace(name_of(reader, vertex), *place + *way);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<Curve> moved_curve(const SharedEdge& edge, std::span<const Surface* const> before,
@@ -200,6 +248,7 @@ Expected<MovedEdges> moved_edges(const File& file, std::span<const Replacement> 
     if (!curve) return std::unexpected(curve.error());
     result.edges.push_back({id, *std::move(curve)});
   }
+  if (auto moved = move_loop_vertices(file, replacements, vertices); !moved) return std::unexpected(moved.error());
   for (const auto& [id, place] : vertices) result.vertices.push_back({id, place});
   return result;
 }

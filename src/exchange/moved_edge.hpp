@@ -20,7 +20,8 @@ namespace knead::step {
 
 /// The edges with these ids, and their vertices, as they are after some surfaces were replaced. Edges and vertices that
 /// moved by less than rounding (1e-11 of the surfaces' size) are left out, as are edges whose surfaces have parted by
-/// more than the file's uncertainty and 1e-5 of the size. Errors: those of `SharedEdge::create` and `moved_curve`.
+/// more than the file's uncertainty and 1e-5 of the size. The vertices of a VERTEX_LOOP go along with the surface of
+/// its face. Errors: those of `SharedEdge::create` and `moved_curve`.
 [[nodiscard]] Expected<MovedEdges> moved_edges(const File& file, std::span<const Replacement> replacements,
                                                std::span<const std::string> ids);
 

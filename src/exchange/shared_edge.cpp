@@ -23,18 +23,16 @@ constexpr double sampling_chord = 2e-3;  // of the edge in space, between sample
 constexpr int least_samples = 64;        // intervals
 constexpr double least_speed = 1e-5;     // of a derivative, as a share of the other one
 constexpr double least_sine = 1e-9;
+constexpr double on_closing_line = 1e-4;  // fractions of the domain, as for edges along knot lines
 
 /// The surfaces of the faces at an edge. Errors: a face that cannot follow it.
 Expected<std::vector<std::size_t>> surfaces_at(const step::File::Data& data, const Reader& reader, std::uint32_t edge) {
   std::vector<std::size_t> result;
   const std::string id = name_of(reader, edge);
   for (const Face& face : read_faces(reader)) {
-    const auto count = std::ranges::count(edges_around(reader, face), edge);
-    if (count == 0) continue;
+    const auto around = edges_around(reader, face);
+    if (std::ranges::find(around, edge) == around.end()) continue;
     const std::string name = name_of(reader, face.instance);
-    if (count > 1) {
-      return input_error("the face " + name + " is on both sides of the edge", id, "seams of closed faces stay held");
-    }
     const std::string on = face.surface == no_instance ? "no surface" : reader.label(face.surface);
     const auto found = data.surface_index.find(on.substr(0, on.find(' ')));
     if (found == data.surface_index.end()) {
@@ -110,6 +108,17 @@ void look_across(std::span<const Surface> surfaces, const Point& along, SharedEd
   }
 }
 
+/// The closed direction along whose closing line all feet lie.
+std::optional<int> closed_across(std::span<const Vector2d> feet, const ParameterSpace& space) {
+  for (int d = 0; d < 2; ++d) {
+    if (space.periods[static_cast<std::size_t>(d)] == 0) continue;
+    const bool along = std::ranges::all_of(
+        feet, [d](const Vector2d& foot) { return std::abs(foot[d] - std::round(foot[d])) <= on_closing_line; });
+    if (along) return d;
+  }
+  return std::nullopt;
+}
+
 /// At least `least_samples` intervals, each chord within a small part of the edge's extent.
 std::vector<double> sampled(const EdgePiece& piece) {
   const std::vector<double> coarse = piece.curve.subdivided(piece.from, piece.to, {sampling_chord});
@@ -127,25 +136,44 @@ std::vector<double> sampled(const EdgePiece& piece) {
 }  // namespace
 
 struct SharedEdge::Data {
+  /// A side of the line along which a closed surface meets itself.
+  struct ClosingSide {
+    int direction = 0;  ///< in which it is closed
+    int end = 0;
+  };
   std::string id;
   EdgePiece piece;
   std::vector<std::string> surfaces = {};
   std::vector<Surface> shapes = {};
   std::vector<SurfaceFoot> feet = {};
   std::vector<double> near = {};  // distances within which a foot is right
+  std::vector<std::optional<ClosingSide>> sides = {};
   std::array<std::string, 2> vertices = {};
   std::array<std::vector<std::string>, 2> edges_at = {};
   std::vector<double> corners = {};
   std::vector<Sample> samples = {};
   double gap = 0, angle = 0, uncertainty = 0;
 
-  /// The feet of all samples on the surface of this number.
-  void follow(std::size_t surface) {
+  /// Adds a surface, twice if the edge runs along the line where it meets itself.
+  void follow(const SurfaceEntity& s, const SurfaceFoot& search) {
     std::vector<Point> points;
-    for (const Sample& s : samples) points.push_back(s.point);
-    const SurfaceFoot::Path path = feet[surface].along(points, near[surface]);
+    for (const Sample& sample : samples) points.push_back(sample.point);
+    const double within = on_surface * net_diagonal(s.surface.control_points());
+    const SurfaceFoot::Path path = search.along(points, within);
     gap = std::max(gap, path.distance);
-    for (std::size_t k = 0; k < samples.size(); ++k) samples[k].feet.push_back(path.feet[k]);
+    const auto closed = closed_across(path.feet, search.space());
+    for (int end = 0; end < (closed ? 2 : 1); ++end) {
+      surfaces.push_back(s.id);
+      shapes.push_back(s.surface);
+      feet.push_back(search);
+      near.push_back(std::max(within, 2 * gap));
+      sides.push_back(closed ? std::optional(ClosingSide{*closed, end}) : std::nullopt);
+      for (std::size_t k = 0; k < samples.size(); ++k) samples[k].feet.push_back(sided(path.feet[k], sides.back()));
+    }
+  }
+  static Vector2d sided(Vector2d foot, const std::optional<ClosingSide>& side) {
+    if (side) foot[side->direction] = side->end;
+    return foot;
   }
 };
 
@@ -175,12 +203,7 @@ Expected<SharedEdge> SharedEdge::create(const step::File& file, const std::strin
     const SurfaceEntity& s = data.surfaces[k];
     auto feet = SurfaceFoot::create(s.surface);
     if (!feet) return std::unexpected(feet.error());
-    made->surfaces.push_back(s.id);
-    made->shapes.push_back(s.surface);
-    made->feet.push_back(*std::move(feet));
-    made->near.push_back(on_surface * net_diagonal(s.surface.control_points()));
-    made->follow(made->feet.size() - 1);
-    made->near.back() = std::max(made->near.back(), 2 * made->gap);
+    made->follow(s, *feet);
     const auto found = contexts_of(reader, contexts, {data.surface_instances[k]});
     if (found[0] >= 0) {
       made->uncertainty = std::max(made->uncertainty, contexts[static_cast<std::size_t>(found[0])].uncertainty);
@@ -203,7 +226,7 @@ SharedEdge::Sample SharedEdge::at(double parameter) const {
   Sample result{parameter, d.piece.curve.at(parameter), {}};
   for (std::size_t k = 0; k < d.feet.size(); ++k) {
     const Vector2d hint = (1 - share) * a.feet[k] + share * after->feet[k];
-    result.feet.push_back(d.feet[k].beside(result.point, hint, d.near[k]));
+    result.feet.push_back(Data::sided(d.feet[k].beside(result.point, hint, d.near[k]), d.sides[k]));
   }
   look_across(d.shapes, d.piece.curve.derivative(parameter), result);
   return result;

@@ -103,8 +103,10 @@ struct Executor {
   /// Unites the knots of coupled edges within reach of a place that have too little in common to bend there
   /// (`SeamReport::restricted`), unless refining is not permitted. `reports` are those of the selected surfaces.
   Expected<void> unite_restricted(std::span<const SeamReport> reports, const Point& place, double reach);
-  /// Halves the spans of the selected surfaces that a tool reaches. Returns whether there were any.
-  Expected<bool> refine_under(const Tool& tool);
+  /// Halves the spans of the selected surfaces that a tool reaches. Returns whether there were any. Errors (numerical):
+  /// `limited`, where nobody asked for it, and a net would get more than 40 000 control points, and four times those
+  /// that it has in the file.
+  Expected<bool> refine_under(const Tool& tool, bool limited = false);
 
   /// What faces show of a surface, by the document's file; all of a surface that is in no file. Errors: a face on it
   /// cannot be followed (input).

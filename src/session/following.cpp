@@ -18,7 +18,8 @@ constexpr double tighter = 0.4, much_tighter = 0.03, half = 0.5;
 constexpr double kept_motion =
     0.9;  // of their motion that edges keep when they are coupled more tightly than they must
 
-std::string list_of(const std::vector<std::string>& ids) {
+std::string list_of(std::vector<std::string> ids) {
+  ids.erase(std::ranges::unique(ids).begin(), ids.end());  // both sides of a closed surface
   std::string text;
   for (const std::string& id : ids) text += (text.empty() ? "\"" : ",\"") + id + "\"";
   return text;
@@ -243,7 +244,8 @@ Expected<void> Executor::refine_followed(const SceneSurface& touched, const Trim
       const auto index = find_surface(edge.course->surfaces()[k]);
       if (!index) return std::unexpected(index.error());
       SceneSurface& s = state.surfaces[static_cast<std::size_t>(*index)];
-      if (&s == &touched || !s.visible) continue;
+      const bool itself = std::ranges::count(edge.course->surfaces(), s.id) > 1;
+      if ((&s == &touched && !itself) || !s.visible) continue;
       std::vector<bool> held;
       for (const int order : trim_orders(s.constraints, *s.visible)) held.push_back(order >= 0);
       TrimContact there{parameters_at_foot(*s.current, near->feet[k]), s.visible->distance(near->point, held)};

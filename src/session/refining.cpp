@@ -17,7 +17,8 @@ std::string net_note(const SceneSurface& s) {
 
 namespace {
 
-constexpr double near_seam = 2;  // sizes of the tool from its centre within which seams have to bend
+constexpr int least_limit = 40'000, grown = 4;  // of control points, and times those of the file, where nobody asked
+constexpr double near_seam = 2;                 // sizes of the tool from its centre within which seams have to bend
 
 /// The rectangle of parameters of all spans whose control points come near the tool; none if there are none.
 std::optional<std::array<Interval, 2>> reach_of(const Surface& surface, const Tool& tool) {
@@ -70,14 +71,27 @@ Expected<void> Executor::change_net(SceneSurface& s, const SurfaceChange& change
   return {};
 }
 
-Expected<bool> Executor::refine_under(const Tool& tool) {
+Expected<bool> Executor::refine_under(const Tool& tool, bool limited) {
   bool any = false;
   for (int index : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
     const auto reach = reach_of(*s.current, tool);
     if (!reach) continue;
     any = true;
-    auto done = change_net(s, [&](const Surface& shape) { return refine_region<2>(shape, *reach); });
+    const auto in_file = std::ranges::find(document.surfaces(), s.id, &DocumentSurface::id);
+    const int limit =
+        in_file == document.surfaces().end() ? least_limit : std::max(least_limit, grown * in_file->surface->size());
+    auto done = change_net(s, [&](const Surface& shape) -> Expected<Surface> {
+      auto finer = refine_region<2>(shape, *reach);
+      if (!limited || !finer || finer->size() <= limit) return finer;
+      const auto [m, n] = finer->net();
+      return numerical_error(
+          fmt::format("the tool {} needs a net of {} x {} on {}, more than the {} control points to which a command "
+                      "refines by itself",
+                      tool.name, m, n, s.id, limit),
+          tool.name,
+          R"(take a larger tool, refine where it matters, {"do":"refine","region":[[0.4,0.6],[0.4,0.6]]}, or go on with a coarse net: {"do":"refine","permission":"never"})");
+    });
     if (!done) return std::unexpected(done.error());
   }
   return any;

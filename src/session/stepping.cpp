@@ -56,7 +56,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
         more.empty()) {
       bool any = false;
       for (const Tool& tool : state.tools) {
-        auto refined = refine_under(tool);
+        auto refined = refine_under(tool, true);
         if (!refined) return std::unexpected(refined.error());
         any = any || *refined;
       }

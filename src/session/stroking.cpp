@@ -228,7 +228,7 @@ Expected<bool> Executor::refine_stroke(const ActiveStep* step) {
   } else if (step->coarseness > coarse && state.permission == RefinePermission::automatic) {
     const auto tool = find_tool(stroke.tool);
     if (!tool) return std::unexpected(tool.error());
-    if (auto refined = refine_under(Tool(**tool)); !refined) return refined;
+    if (auto refined = refine_under(Tool(**tool), true); !refined) return refined;
     if (auto united = unite_followed(); !united) return std::unexpected(united.error());
   }
   std::array<Points*, 3> fields = {&stroke.history, &stroke.last, &stroke.older};

@@ -271,7 +271,10 @@ std::vector<OcctCrease> OcctFaces::creases(const std::string& surface, const std
       const auto flat = BRep_Tool::CurveOnSurface(edge, face, f2, l2);
       if (BRep_Tool::Degenerated(edge) || curve.IsNull() || flat.IsNull()) return;
       for (const TopoDS_Face& next : others->second) {
-        const auto theirs = BRep_Tool::CurveOnSurface(edge, next, f3, l3);
+        const bool itself = next.IsSame(face);
+        if (itself && !BRep_Tool::IsClosed(edge, face)) continue;
+        const TopoDS_Edge turned = TopoDS::Edge(edge.Reversed());
+        const auto theirs = BRep_Tool::CurveOnSurface(itself ? turned : edge, next, f3, l3);
         if (theirs.IsNull()) continue;
         OcctCrease& made = result.emplace_back();
         for (int k = 0; k <= samples; ++k) {

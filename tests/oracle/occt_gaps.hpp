@@ -39,7 +39,7 @@ class OcctFaces {
   /// The edges of all faces on a surface of this file, in order, against that surface as it is in `after`: their
   /// distance from it, and the angle by which its normals turned. Empty: there is no such face in one of the two.
   [[nodiscard]] std::vector<OcctEdge> edges(const std::string& surface, const OcctFaces& after) const;
-  /// The edges that the faces on two surfaces have in common, in order.
+  /// The edges that the faces on two surfaces have in common, in order; on one surface, those at which it meets itself.
   [[nodiscard]] std::vector<OcctCrease> creases(const std::string& surface, const std::string& other) const;
   /// max |S_after − S| at a grid of 41 × 41 points of the surface that its faces show, and at those they do not.
   struct Moved {

@@ -22,7 +22,7 @@ constexpr double closed = 1e-3;                   // mm: an edge that is no fart
 constexpr double resolution = 1e-9;               // mm: to which distances are measured
 constexpr double least_size = 1e-3;               // of a surface: smaller tools are refused
 constexpr double smooth = 0.02, accepted = 0.05;  // degrees
-constexpr std::size_t most_pairs = 4, most_smooth = 2;
+constexpr std::size_t most_pairs = 4, most_smooth = 2, most_closing = 2;
 
 constexpr const char* names[] = {"press", "groove", "grab"};
 
@@ -47,8 +47,7 @@ Eigen::Vector2d course_at(const TrimEdge& edge, const Point& p) {
   return edge.course[static_cast<std::size_t>(near - edge.points.begin())];
 }
 
-/// Where to press on an edge that two surfaces share. None where they are the same surface twice, a seam, or where
-/// there is no room.
+/// Where to press on an edge that surfaces share, or on the seam of a closed one. None where there is no room.
 std::optional<Pair> pair_at(const step::File& file, const std::map<std::string, VisibleRegion>& regions,
                             const std::string& id, const std::vector<std::string>& surfaces) {
   Pair result{{id}, surfaces};
@@ -62,7 +61,7 @@ std::optional<Pair> pair_at(const step::File& file, const std::map<std::string, 
       others.push_back(edge.id != id);
       if (edge.id == id) own = &edge;
     }
-    if (own->seam || own->neighbours.size() != surfaces.size()) return std::nullopt;
+    if (own->neighbours.size() != surfaces.size()) return std::nullopt;
     if (result.normal.isZero()) result.place = own->points[own->points.size() / 2];
     if (own->points.size() == 2 && result.normal.isZero()) result.place = 0.5 * (own->points[0] + own->points[1]);
     const Surface& shape = file.find_surface(surface)->surface;
@@ -77,6 +76,10 @@ std::optional<Pair> pair_at(const step::File& file, const std::map<std::string, 
     result.radius = std::min(result.radius, region.distance(result.place, others) / 2);
     const Points& net = shape.control_points();
     size = std::max(size, (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm());
+    if (own->seam) {  // small beside the other side of a tube
+      const Eigen::VectorXd heights = net * n;
+      result.radius = std::min(result.radius, (heights.maxCoeff() - heights.minCoeff()) / 4);
+    }
   }
   if (!(result.radius > least_size * size && std::isfinite(result.radius) && result.normal.norm() > 0.1))
     return std::nullopt;
@@ -101,6 +104,17 @@ std::map<std::string, std::vector<std::string>> shared_edges(const std::map<std:
   }
   std::erase_if(shared, [](const auto& entry) { return entry.second.size() < 2; });
   return shared;
+}
+
+/// The edges with the same face on both of their sides.
+std::map<std::string, std::vector<std::string>> closing_edges(const std::map<std::string, VisibleRegion>& regions) {
+  std::map<std::string, std::vector<std::string>> result;
+  for (const auto& [surface, region] : regions) {
+    for (const TrimEdge& edge : region.edges) {
+      if (edge.seam) result[edge.id].push_back(surface);
+    }
+  }
+  return result;
 }
 
 /// So many of these at most, spread over them.
@@ -155,7 +169,7 @@ double bend_at(const OcctFaces& before, const OcctFaces& now, const step::File& 
   double result = -1;
   for (const std::string& a : pair.surfaces) {
     for (const std::string& b : pair.surfaces) {
-      if (a >= b) continue;
+      if (a > b) continue;
       const auto was = before.creases(a, b), is = now.creases(a, b);
       for (std::size_t k = 0; k < std::min(was.size(), is.size()); ++k) {
         if (was[k].angle <= smooth && is_pressed(was[k], file, pair)) result = std::max(result, is[k].angle);
@@ -206,6 +220,12 @@ std::vector<Pair> pairs_of(const step::File& file,
            std::ranges::any_of(result, [&](const Pair& known) { return known.edges == pair.edges; });
   });
   std::ranges::copy(spread(all, most_smooth), std::back_inserter(result));
+  std::vector<Pair> closing;
+  for (const auto& [id, surfaces] : closing_edges(regions)) {
+    if (wanted && !wanted(surfaces)) continue;
+    if (auto pair = pair_at(file, regions, id, surfaces)) closing.push_back(std::move(*pair));
+  }
+  std::ranges::copy(spread(closing, most_closing), std::back_inserter(result));
   return result;
 }
 

@@ -24,7 +24,8 @@ struct Pair {
   [[nodiscard]] std::string script(const step::File& file, Motion motion) const;
 };
 
-/// Up to four edges of a file shared by two surfaces, and up to two more that are smooth, spread over the file.
+/// Up to four edges of a file shared by two surfaces, up to two more that are smooth, and up to two at which a closed
+/// surface meets itself, spread over the file.
 /// \param wanted of the surfaces that share an edge; none: all
 [[nodiscard]] std::vector<Pair> pairs_of(
     const step::File& file, const std::function<bool(const std::vector<std::string>& surfaces)>& wanted = {});

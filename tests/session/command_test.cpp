@@ -292,6 +292,17 @@ TEST(Command, WithPermissionTheNetUnderASmallToolIsRefined) {
   EXPECT_TRUE(session.state().steps.back().note.empty()) << session.state().steps.back().note;
 }
 
+TEST(Command, WithPermissionANetGrowsToALimit) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,10],"net":[60,60]})", R"({"do":"refine","permission":"auto"})",
+                R"({"do":"tool","name":"ring","shape":"torus","radius":4,"minor":0.02,"position":[0,0,0]})"});
+  const Error error = refusal(session, R"({"do":"step"})");
+  EXPECT_EQ(error.kind, ErrorKind::numerical);
+  EXPECT_NE(error.message().find("the tool ring needs a net of 2"), std::string::npos) << error.message();
+  EXPECT_NE(error.message().find("40000 control points"), std::string::npos) << error.message();
+  EXPECT_EQ(first(session).current->net(), (std::array<int, 2>{60, 60})) << "nothing of it is left";
+}
+
 TEST(Command, SeamsKeepPatchesTogetherOrLetThemTear) {
   // Two sheets on the same place: all four edges of one lie on those of the other.
   const auto apart = [](const std::vector<std::string>& more) {

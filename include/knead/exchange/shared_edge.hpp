@@ -28,16 +28,16 @@ class SharedEdge {
     /// unit vector which all share: in the mean of their tangent planes, perpendicular to the curve. Empty beside a
     /// pole, where one has no tangent plane.
     std::vector<Eigen::Vector2d> across = {};
-    double angle = 0;  ///< largest angle between the tangent planes of the first surface and another, 0 … π/2
+    double angle = 0;  ///< largest angle between the tangent planes of the first of `surfaces()` and another, 0 … π/2
   };
 
   /// Errors (input): no such edge; a face at it that lies on another surface than a B-spline, named with its surface; a
-  /// face on both of its sides; a curve that cannot be followed. Cost: a pass over the file, and some hundred searches
-  /// for the nearest point.
+  /// curve that cannot be followed. Cost: a pass over the file, and some hundred searches for the nearest point.
   [[nodiscard]] static Expected<SharedEdge> create(const step::File& file, const std::string& id);
 
   [[nodiscard]] const std::string& id() const;
-  /// The ids of the surfaces on which its faces lie, each once.
+  /// The ids of the surfaces on which its faces lie, each once; a closed surface twice if the edge runs along the line
+  /// where it meets itself: its lower end, at fraction 0, and its upper one.
   [[nodiscard]] const std::vector<std::string>& surfaces() const;
   /// The ids of the VERTEX_POINTs at the least and at the greatest parameter; the same twice for a closed edge.
   [[nodiscard]] const std::array<std::string, 2>& vertices() const;
@@ -52,7 +52,7 @@ class SharedEdge {
   [[nodiscard]] const std::vector<double>& corners() const;
   /// Largest distance of the samples from any of the surfaces, file units.
   [[nodiscard]] double gap() const;
-  /// Largest angle between tangent planes at the samples, radians; 0 with one surface.
+  /// Largest angle between tangent planes at the samples, radians; 0 with one of `surfaces()`.
   [[nodiscard]] double angle() const;
   /// As stated by the file, in its own unit; 0 if none.
   [[nodiscard]] double uncertainty() const;

@@ -45,7 +45,9 @@ export interface Meeting {
 
 /** `own`: the surface that the edge is looked at from. */
 export function meetingAt(edge: FaceEdge, own: string): Meeting {
-  if (edge.seam) return { opens: false, follows: false, text: 'Its face is on both of its sides, so it cannot follow.' };
+  if (edge.seam) {
+    return { opens: true, follows: true, text: 'The surface meets itself here. Free, the edge stays behind: it opens. With Follow both sides move as one.' };
+  }
   const others = edge.meets.filter((m) => m.surface !== own);
   if (others.length === 0) return { opens: false, follows: true, text: 'No other face meets it: nothing opens where it moves.' };
   const faces = listed(others.map((m) => (forms[m.form] ? `the ${forms[m.form]!} ${m.face}` : m.face)));
