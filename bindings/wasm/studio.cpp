@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
@@ -59,7 +60,8 @@ Point middle(const Document& document) {
     lower = lower.cwiseMin(s.surface->control_points().colwise().minCoeff().transpose());
     upper = upper.cwiseMax(s.surface->control_points().colwise().maxCoeff().transpose());
   }
-  return document.surfaces().empty() ? Point(Point::Zero()) : Point((lower + upper) / 2);
+  if (!document.surfaces().empty()) return (lower + upper) / 2;
+  return document.step_file() != nullptr ? middle_of(*document.step_file()) : Point::Zero();
 }
 
 /// The number in the open file of a surface of the session, which has converted ones last; the number of all where it
@@ -125,13 +127,14 @@ KNEAD_EXPORT(knead_open) int knead_open(std::size_t name_size) {
   bytes.resize(bytes.size() - name_size);
   auto source = open_source(std::move(bytes), std::move(name));
   if (!source) return fail(source.error());
-  if ((*source)->surfaces().empty()) {
+  const step::File* file = (*source)->step_file();
+  if ((*source)->surfaces().empty() && (file == nullptr || step::other_surfaces(*file).empty())) {
     const auto& unreadable = (*source)->unreadable();
     if (!unreadable.empty()) return fail(unreadable.front().reason);
     return fail({ErrorKind::input,
-                 "the file holds no B-spline surface",
+                 "the file holds no surface",
                  {},
-                 "open a file with freeform faces: planes, cylinders and meshes cannot be sculpted"});
+                 "open a file with faces on surfaces: meshes cannot be sculpted"});
   }
   return start(Document::from(*std::move(source)));
 }

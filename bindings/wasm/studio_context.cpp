@@ -1,16 +1,43 @@
 #include "studio_context.hpp"
 
 #include <cmath>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "buffers.hpp"
+#include "knead/exchange/face_conversion.hpp"
 
 namespace knead::studio {
+
+Point middle_of(const step::File& file) {
+  constexpr double rough = 0.1;
+  const double none = std::numeric_limits<double>::infinity();
+  Point lower = Point::Constant(none), upper = -lower;
+  if (const auto context = context_faces(file, rough)) {
+    for (const FaceMesh& mesh : context->faces) {
+      for (const Point& p : mesh.points) {
+        lower = lower.cwiseMin(p);
+        upper = upper.cwiseMax(p);
+      }
+    }
+  }
+  return lower.x() <= upper.x() ? Point((lower + upper) / 2) : Point::Zero();
+}
+
 ContextPicture context_picture(const step::File& file, const Point& origin) {
   ContextPicture picture;
   FaceMeshes context;
   if (auto faces = context_faces(file)) context = *std::move(faces);
+  std::map<std::string, const step::OtherSurface*> below;  // of every face
+  const auto others = step::other_surfaces(file);
+  for (const step::OtherSurface& s : others) {
+    for (const std::string& face : s.faces) below[face] = &s;
+  }
   for (const FaceMesh& mesh : context.faces) {
+    const auto on = below.find(mesh.id);
+    const step::OtherSurface none, &surface = on == below.end() ? none : *on->second;
+    picture.faces.push_back({mesh.id, surface.id, surface.form, mesh.triangles.size()});
     const auto first = static_cast<std::uint32_t>(picture.positions.size() / 3);
     for (std::size_t k = 0; k < mesh.points.size(); ++k) {
       for (int d = 0; d < 3; ++d) {
@@ -27,11 +54,14 @@ ContextPicture context_picture(const step::File& file, const Point& origin) {
 }
 
 std::string context_json(const ContextPicture& context) {
-  auto skipped = nlohmann::json::array();
+  auto faces = nlohmann::json::array(), skipped = nlohmann::json::array();
+  for (const auto& [id, surface, form, triangles] : context.faces) {
+    faces.push_back({{"id", id}, {"surface", surface}, {"form", form}, {"triangles", triangles}});
+  }
   for (const SkippedFace& face : context.skipped) skipped.push_back({{"id", face.id}, {"reason", face.reason.what}});
   return "{\"buffers\":" +
          buffers_json({{"positions", context.positions}, {"normals", context.normals}, {"indices", context.indices}}) +
-         ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}";
+         ",\"faces\":" + faces.dump() + ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}";
 }
 
 namespace {

@@ -13,14 +13,24 @@ namespace knead::studio {
 
 /// The faces around the surfaces as triangles; points relative to the requested origin.
 struct ContextPicture {
+  /// One of them, with the surface it lies on; that is empty where no record describes it.
+  struct Face {
+    std::string id, surface, form;
+    std::size_t triangles = 0;
+  };
   std::vector<float> positions, normals;  ///< 3 per point
-  std::vector<std::uint32_t> indices;     ///< 3 per triangle
+  std::vector<std::uint32_t> indices;     ///< 3 per triangle, face after face
+  std::vector<Face> faces;
   std::vector<SkippedFace> skipped;       ///< faces that could not be triangulated
 };
 
 [[nodiscard]] ContextPicture context_picture(const step::File& file, const Point& origin);
 
-/// {"buffers": …, "skipped": [{"id": "#12", "reason": "…"}, …]}
+/// The middle of these faces.
+[[nodiscard]] Point middle_of(const step::File& file);
+
+/// {"buffers": …, "faces": [{"id": "#11", "surface": "#10", "form": "PLANE", "triangles": 2}, …], "skipped": [{"id":
+/// "#12", "reason": "…"}, …]}
 [[nodiscard]] std::string context_json(const ContextPicture& context);
 
 /// {"faces": [[[s, t, s, t, …], …], …]}: the loops of each face, in fractions of the domain; null for a whole surface.

@@ -14,9 +14,20 @@ describe('faces round the surfaces', () => {
     const context = engine.context()!;
     expect(context.skipped).toEqual([]);
     expect(context.indices.length).toBe(6); // a square
+    expect(context.faces).toEqual([{ id: expect.stringMatching(/^#\d+$/), surface: expect.stringMatching(/^#\d+$/), form: 'PLANE', triangles: 2 }]);
     const zs = [...context.positions].filter((_, k) => k % 3 === 2);
     expect(zs.every((z) => z === -4 - engine.origin[2])).toBe(true);
     expect([...context.normals].filter((_, k) => k % 3 === 2)).toEqual([1, 1, 1, 1]);
+  });
+
+  it('may be all there is, until one is converted', async () => {
+    const engine = await Engine.load(wasm);
+    engine.openStep(facesStep(true), 'planes.step');
+    const [face] = engine.context()!.faces;
+    expect(engine.origin[2]).toBe(-4);
+    engine.execute({ do: 'convert', surfaces: [face!.surface] });
+    expect(engine.context()!.faces).toEqual([]);
+    expect(engine.trims(0)).toBeNull(); // the square is all of it
   });
 
   it('leave what the faces show of the surfaces, in fractions of the domain', async () => {

@@ -1,5 +1,5 @@
-/** A STEP file: a flat patch of 10 × 10 whose face is a disc of radius 4, and a square of 40 × 40 on a plane below it. */
-export function facesStep(): Uint8Array {
+/** A STEP file: a flat patch of 10 × 10 whose face is a disc of radius 4, and a square of 40 × 40 on a plane below it; `planes`: the square alone. */
+export function facesStep(planes = false): Uint8Array {
   const lines: string[] = [];
   let next = 1;
   const add = (record: string) => {
@@ -9,16 +9,18 @@ export function facesStep(): Uint8Array {
   const real = (x: number) => (Number.isInteger(x) ? `${x}.` : `${x}`);
   const point = (x: number, y: number, z: number) => add(`CARTESIAN_POINT('',(${real(x)},${real(y)},${real(z)}))`);
   const frame = (z: number) => add(`AXIS2_PLACEMENT_3D('',#${point(0, 0, z)},$,$)`);
-  const grid = [-5, -2.5, 0, 2.5, 5];
-  const net = grid.map((x) => `(${grid.map((y) => `#${point(x, y, 0)}`).join()})`).join();
-  const patch = add(`B_SPLINE_SURFACE_WITH_KNOTS('patch',3,3,(${net}),.UNSPECIFIED.,.F.,.F.,.F.,(4,1,4),(4,1,4),(0.,0.5,1.),(0.,0.5,1.),.UNSPECIFIED.)`);
   const bound = (edges: number[]) => {
     const oriented = edges.map((e) => `#${add(`ORIENTED_EDGE('',*,*,#${e},.T.)`)}`).join();
     return add(`FACE_OUTER_BOUND('',#${add(`EDGE_LOOP('',(${oriented}))`)},.T.)`);
   };
-  const seam = add(`VERTEX_POINT('',#${point(4, 0, 0)})`);
-  const circle = add(`EDGE_CURVE('',#${seam},#${seam},#${add(`CIRCLE('',#${frame(0)},4.)`)},.T.)`);
-  add(`ADVANCED_FACE('',(#${bound([circle])}),#${patch},.T.)`);
+  if (!planes) {
+    const grid = [-5, -2.5, 0, 2.5, 5];
+    const net = grid.map((x) => `(${grid.map((y) => `#${point(x, y, 0)}`).join()})`).join();
+    const patch = add(`B_SPLINE_SURFACE_WITH_KNOTS('patch',3,3,(${net}),.UNSPECIFIED.,.F.,.F.,.F.,(4,1,4),(4,1,4),(0.,0.5,1.),(0.,0.5,1.),.UNSPECIFIED.)`);
+    const seam = add(`VERTEX_POINT('',#${point(4, 0, 0)})`);
+    const circle = add(`EDGE_CURVE('',#${seam},#${seam},#${add(`CIRCLE('',#${frame(0)},4.)`)},.T.)`);
+    add(`ADVANCED_FACE('',(#${bound([circle])}),#${patch},.T.)`);
+  }
   const corners = [[-20, -20], [20, -20], [20, 20], [-20, 20]] as const;
   const places = corners.map(([x, y]) => point(x, y, -4));
   const vertices = places.map((p) => add(`VERTEX_POINT('',#${p})`));

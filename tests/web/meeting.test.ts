@@ -12,9 +12,9 @@ describe('an edge of a face', () => {
       .toContain('It meets #2 and the cylinder #3. Free, it opens: they stay.');
   });
 
-  it('opens nothing where no other face meets it, and cannot follow where its face is on both sides', () => {
+  it('opens nothing where no other face meets it, and opens where a surface that meets itself leaves it behind', () => {
     expect(meetingAt(edge([['#1', '#10', '']]), '#10')).toMatchObject({ opens: false, follows: true });
-    expect(meetingAt(edge([['#1', '#10', '']], true), '#10')).toMatchObject({ opens: false, follows: false });
+    expect(meetingAt(edge([['#1', '#10', '']], true), '#10')).toMatchObject({ opens: true, follows: true });
   });
 
   it('is counted where it would open, before it does', () => {

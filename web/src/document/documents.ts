@@ -269,7 +269,9 @@ export class Documents {
   private async firstLook(): Promise<void> {
     const { host } = this;
     const surfaces = host.state!.surfaces;
-    if (surfaces.length === 1) {
+    if (surfaces.length === 0) {
+      host.notify({ kind: 'info', text: 'None of the faces is a spline surface yet: click one to make it one.' });
+    } else if (surfaces.length === 1) {
       await makeReady(host, 0, true);
       host.notify({ kind: 'info', text: 'Click the surface to sculpt it.' });
     } else if (host.state!.selection.length === 0 || this.file?.kind === 'rhino') {

@@ -1,8 +1,18 @@
+/** A face of the file that is no surface of the session. `surface` and `form`: the entity on which it lies, "PLANE" and the like; empty if there is none. */
+export interface GreyFace {
+  id: string;
+  surface: string;
+  form: string;
+  triangles: number;
+}
+
 /** The surroundings of the surfaces: triangles of the other faces of the file, relative to the session's origin. */
 export interface Context {
   positions: Float32Array;
   normals: Float32Array;
   indices: Uint32Array;
+  /** In the order of the triangles, of which each has so many. */
+  faces: GreyFace[];
   /** Faces that could not be triangulated, and why. */
   skipped: { id: string; reason: string }[];
 }

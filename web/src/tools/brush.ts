@@ -167,12 +167,13 @@ export class Brush implements PointerTool {
   }
 
   /** A press and release in one place, not a stroke: selects what is there. */
-  click(viewport: Viewport, event: PointerEvent): void {
+  click(viewport: Viewport, event: PointerEvent): boolean {
     const tool = this.viewer.pickTool(viewport, event);
     this.actions.pickTool(tool);
-    if (tool) return;
+    if (tool) return true;
     const hit = this.viewer.pick(viewport, event);
     if (hit && !this.viewer.isSelected(hit.surface)) void this.actions.select(hit.surface);
+    return hit !== null;
   }
 
   /** Esc: as if the stroke had never been. */

@@ -164,14 +164,15 @@ export class Edges implements PointerTool {
     return Promise.resolve();
   }
 
-  click(viewport: Viewport, event: PointerEvent): void {
+  click(viewport: Viewport, event: PointerEvent): boolean {
     const edge = this.at(viewport, event, event.pointerType === 'touch' ? 22 : 12);
     if (edge !== null) {
       this.onEdge(this.surface!, edge, { x: event.clientX, y: event.clientY });
-      return;
+      return true;
     }
     const hit = this.viewer.pick(viewport, event);
     if (hit && !this.viewer.isSelected(hit.surface)) void this.select(hit.surface);
+    return hit !== null;
   }
 
   hover(viewport: Viewport | null, event?: PointerEvent): void {

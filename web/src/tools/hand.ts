@@ -1,8 +1,11 @@
 import * as THREE from 'three';
 
+import { clay } from '../document/clay';
+import type { Viewport } from '../view/viewport';
 import { Brush, type BrushActions } from './brush';
 import { Edges } from './edges';
 import { followGizmo } from './gizmo';
+import { aForm } from './held';
 import type { Placing, ToolHost } from './host';
 import { Measure } from './measure';
 import { type Mode, paintModes } from './modes';
@@ -36,7 +39,7 @@ export class Hand {
     });
     this.edges = new Edges(viewer, actions.select, (surface) => host.client.faceEdges(surface), () => host.changed());
     this.measure = new Measure(viewer, (surface, at) => host.client.reading(surface, at), () => host.changed());
-    this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool());
+    this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool(), (viewport, event) => this.offerToConvert(viewport, event));
     for (const viewport of viewer.viewports) followGizmo(host, viewport);
     host.onChange.push(() => this.refresh());
   }
@@ -84,6 +87,22 @@ export class Hand {
     this.choose('look');
     host.viewer.selectTool(command.name!);
     host.changed();
+  }
+
+  /** A grey face is no spline surface, but most can become one. */
+  private offerToConvert(viewport: Viewport, event: PointerEvent): void {
+    const { host } = this;
+    const face = host.viewer.pickGrey(viewport, event);
+    if (!face?.surface) return;
+    const convert = async () => {
+      const { surface } = face; // held along its edges from the start
+      if (!(await host.execute([{ do: 'convert', surfaces: [surface] }, { do: 'select', surface }, ...clay]))) return;
+      await host.select(host.state!.surfaces.findIndex((s) => s.id === surface));
+    };
+    host.notify({
+      kind: 'info', text: `The face ${face.id} lies on ${aForm(face.form)}, which does not bend.`, remedy: 'As a spline surface of the same shape it can be sculpted.',
+      actions: [{ label: 'Make it a spline surface', act: () => void convert() }],
+    });
   }
 
   private actions(): BrushActions {

@@ -35,6 +35,12 @@ const forms: Partial<Record<string, string>> = {
   DEGENERATE_TOROIDAL_SURFACE: 'torus', SURFACE_OF_REVOLUTION: 'surface of revolution', SURFACE_OF_LINEAR_EXTRUSION: 'extrusion',
 };
 
+/** "a plane" for the entity "PLANE". */
+export function aForm(form: string): string {
+  const title = forms[form] ?? form.toLowerCase().replaceAll('_', ' ');
+  return `${/^[aeiou]/.test(title) ? 'an' : 'a'} ${title}`;
+}
+
 /** What an edge is to the faces that meet there. */
 export interface Meeting {
   /** Faces of other surfaces stay behind where it is free: it opens. */

@@ -74,9 +74,10 @@ export class Measure implements PointerTool {
     return Promise.resolve();
   }
 
-  click(viewport: Viewport, event: PointerEvent): void {
+  click(viewport: Viewport, event: PointerEvent): boolean {
     const hit = this.viewer.pick(viewport, event);
     if (hit) void this.pick(hit.surface, hit.fractions);
+    return true;
   }
 
   hover(viewport: Viewport | null): void {

@@ -12,8 +12,8 @@ export interface PointerTool {
   cancel(): Promise<void>;
   /** The pointer moves without a button, or, without a viewport, has left. */
   hover?(viewport: Viewport | null, event?: PointerEvent): void;
-  /** Pressed and released in one place, and not handled by anything else. */
-  click?(viewport: Viewport, event: PointerEvent): void;
+  /** Pressed and released in one place, and not handled by anything else; false if there is nothing for it. */
+  click?(viewport: Viewport, event: PointerEvent): boolean;
   doubleClick?(viewport: Viewport, event: MouseEvent): void;
   /** True if it handles the wheel. */
   wheel?(event: WheelEvent): boolean;
@@ -25,7 +25,9 @@ export class Pointers {
   private pressed: { x: number; y: number; moved: boolean } | null = null;
   private readonly fingers = new Map<number, { clientX: number; clientY: number }>();
 
-  constructor(viewports: readonly Viewport[], private readonly navigator: Navigator, private readonly tool: () => PointerTool) {
+  constructor(viewports: readonly Viewport[], private readonly navigator: Navigator, private readonly tool: () => PointerTool,
+    /** A click that the tool has nothing for. */
+    private readonly clicked: (viewport: Viewport, event: PointerEvent) => void) {
     for (const viewport of viewports) this.listen(viewport);
   }
 
@@ -124,7 +126,7 @@ export class Pointers {
     this.navigator.release(event);
     this.pressed = null;
     if (event.button === 0 && pressed && !pressed.moved && event.target === viewport.element && !this.onGizmo(viewport)) {
-      this.tool().click?.(viewport, event);
+      if (!this.tool().click?.(viewport, event)) this.clicked(viewport, event);
     }
   }
 

@@ -176,9 +176,10 @@ export class SurfaceBrush implements PointerTool {
     })();
   }
 
-  click(viewport: Viewport, event: PointerEvent): void {
+  click(viewport: Viewport, event: PointerEvent): boolean {
     const tool = this.viewer.pickTool(viewport, event);
     this.actions.pickTool(tool);
+    return tool !== null;
   }
 
   /** Esc: as if the stroke had never been. */

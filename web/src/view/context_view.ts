@@ -1,15 +1,17 @@
 import * as THREE from 'three';
 
-import type { Context } from '../engine/context';
+import type { Context, GreyFace } from '../engine/context';
 import type { Display, Palette } from './display';
 import { reliefLayer } from './relief';
 
-/** The other faces of the opened file, in grey, to show what is sculpted in its surroundings. They hide what is behind them and cannot be picked. */
+/** The other faces of the opened file, in grey, to show what is sculpted in its surroundings. They hide what is behind them. */
 export class ContextView {
   readonly mesh = new THREE.Mesh(
     new THREE.BufferGeometry(),
     new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }),
   );
+
+  private faces: GreyFace[] = [];
 
   constructor() {
     this.mesh.visible = false;
@@ -26,6 +28,7 @@ export class ContextView {
       geometry.setIndex(new THREE.BufferAttribute(context.indices, 1));
     }
     this.mesh.geometry = geometry;
+    this.faces = context?.faces ?? [];
   }
 
   get triangles(): number {
@@ -47,6 +50,18 @@ export class ContextView {
     const hit = ray.intersectObject(this.mesh, false).length > 0;
     ray.far = far;
     return hit;
+  }
+
+  /** The nearest face on the ray, up to a distance. */
+  hit(ray: THREE.Raycaster, distance: number): GreyFace | null {
+    const hit = this.mesh.visible ? ray.intersectObject(this.mesh, false)[0] : undefined;
+    if (hit?.faceIndex == null || hit.distance > distance) return null;
+    let first = 0;
+    for (const face of this.faces) {
+      first += face.triangles;
+      if (hit.faceIndex < first) return face;
+    }
+    return null;
   }
 
   restyle(display: Display, palette: Palette): void {

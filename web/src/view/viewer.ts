@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 
 import { format } from '../document/units';
-import type { Context, Trim } from '../engine/context';
+import type { Context, GreyFace, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
 import { type Bounds, boundsOf, seenBox } from './bounds';
 import { CombView } from './comb_view';
@@ -290,6 +290,12 @@ export class Viewer {
       if (hit && hit.distance <= far && (!best || hit.distance < best.distance)) best = { surface, ...hit };
     }
     return best && !frozen && this.context.hides(this.raycaster, best.distance) ? null : best;
+  }
+
+  /** The grey face under the pointer, if no surface is before it. */
+  pickGrey(viewport: Viewport, event: { clientX: number; clientY: number }): GreyFace | null {
+    if (this.pick(viewport, event)) return null;
+    return this.context.hit(this.raycaster, this.section.clip(this.raycaster.ray));
   }
 
   get pickers(): (GridPicker | null)[] {
