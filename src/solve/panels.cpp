@@ -4,87 +4,21 @@
 #include <cstddef>
 #include <iterator>
 #include <span>
-#include <type_traits>
+
+#include "simd/panel_kernels.hpp"
 
 namespace knead {
 namespace {
 
-/// The columns of one unknown.
-struct Single {
-  double value;
-
-  static Single load(const double* p) { return {*p}; }
-  void store(double* p) const { *p = value; }
-  void subtract(double l, Single x) { value -= l * x.value; }
-  void scale(double l) { value *= l; }
-};
-
-/// Four of them: two vectors of two, available in WebAssembly and on every x86-64.
-struct Four {
-  typedef double Pair __attribute__((vector_size(16), may_alias));
-  Pair a, b;
-
-  static Four load(const double* p) {
-    return {*reinterpret_cast<const Pair*>(p), *reinterpret_cast<const Pair*>(p + 2)};
-  }
-  void store(double* p) const {
-    *reinterpret_cast<Pair*>(p) = a;
-    *reinterpret_cast<Pair*>(p + 2) = b;
-  }
-  void subtract(double l, const Four& x) {
-    a -= l * x.a;
-    b -= l * x.b;
-  }
-  void scale(double l) {
-    a *= l;
-    b *= l;
-  }
-};
-
-template <int columns>
-using Values = std::conditional_t<columns == 1, Single, Four>;
-
-template <int columns, int width>
-void down(const double* l, std::span<const int> rows, double* x, double* own) {
-  using V = Values<columns>;
-  V known[width];
-  for (int i = 0; i < width; ++i) {
-    known[i] = V::load(own + columns * i);
-    for (int j = 0; j < i; ++j) known[i].subtract(*l++, known[j]);
-    known[i].scale(*l++);
-    known[i].store(own + columns * i);
-  }
-  for (const int row : rows) {
-    double* at = x + columns * static_cast<std::ptrdiff_t>(row);
-    V sum = V::load(at);
-    for (int j = 0; j < width; ++j) sum.subtract(l[j], known[j]);
-    sum.store(at);
-    l += width;
-  }
-}
-
-template <int columns, int width>
-void up(const double* l, std::span<const int> rows, const double* x, double* own) {
-  using V = Values<columns>;
-  V sum[width];
-  for (int j = 0; j < width; ++j) sum[j] = V::load(own + columns * j);
-  const double* below = l + width * (width + 1) / 2;
-  for (const int row : rows) {
-    const V known = V::load(x + columns * static_cast<std::ptrdiff_t>(row));
-    for (int j = 0; j < width; ++j) sum[j].subtract(below[j], known);
-    below += width;
-  }
-  for (int i = width; i-- > 0;) {
-    const double* row = l + i * (i + 1) / 2;
-    sum[i].scale(row[i]);
-    sum[i].store(own + columns * i);
-    for (int j = 0; j < i; ++j) sum[j].subtract(row[j], sum[i]);
-  }
+/// The fastest kernels up to those of an instruction set.
+const detail::PanelKernels& kernels_of(InstructionSet set) {
+  const bool wide = detail::avx2_panel_kernels != nullptr && set >= InstructionSet::avx2;
+  return wide ? *detail::avx2_panel_kernels : *detail::vector128_panel_kernels;
 }
 
 }  // namespace
 
-Panels::Panels(const SparseMatrix& lower) {
+Panels::Panels(const SparseMatrix& lower, InstructionSet set) : kernels_(&kernels_of(set)) {
   const auto* start = lower.outerIndexPtr();
   const auto* row = lower.innerIndexPtr();
   const auto size = static_cast<int>(lower.cols());
@@ -146,49 +80,23 @@ std::vector<int> Panels::reach(std::span<const int> rows) const {
   return result;
 }
 
-template <int columns, class F>
-void Panels::sweep(double* x, const Panel& panel, const F& kernel) const {
-  kernel(values_.data() + panel.value, std::span(rows_.data() + panel.row, static_cast<std::size_t>(panel.rows)), x,
-         x + columns * static_cast<std::ptrdiff_t>(panel.first));
-}
-
 template <int columns>
 void Panels::forward(double* x, std::span<const int> panels) const {
+  const auto& kernels = columns == 1 ? kernels_->down_one : kernels_->down_four;
   for (const int k : panels) {
     const Panel& p = panels_[static_cast<std::size_t>(k)];
-    switch (p.width) {
-      case 1:
-        sweep<columns>(x, p, down<columns, 1>);
-        break;
-      case 2:
-        sweep<columns>(x, p, down<columns, 2>);
-        break;
-      case 3:
-        sweep<columns>(x, p, down<columns, 3>);
-        break;
-      default:
-        sweep<columns>(x, p, down<columns, 4>);
-    }
+    kernels[p.width - 1](values_.data() + p.value, rows_.data() + p.row, p.rows, x,
+                         x + columns * static_cast<std::ptrdiff_t>(p.first));
   }
 }
 
 template <int columns>
 void Panels::backward(double* x, std::span<const int> panels) const {
+  const auto& kernels = columns == 1 ? kernels_->up_one : kernels_->up_four;
   for (std::size_t k = panels.size(); k-- > 0;) {
     const Panel& p = panels_[static_cast<std::size_t>(panels[k])];
-    switch (p.width) {
-      case 1:
-        sweep<columns>(x, p, up<columns, 1>);
-        break;
-      case 2:
-        sweep<columns>(x, p, up<columns, 2>);
-        break;
-      case 3:
-        sweep<columns>(x, p, up<columns, 3>);
-        break;
-      default:
-        sweep<columns>(x, p, up<columns, 4>);
-    }
+    kernels[p.width - 1](values_.data() + p.value, rows_.data() + p.row, p.rows, x,
+                         x + columns * static_cast<std::ptrdiff_t>(p.first));
   }
 }
 

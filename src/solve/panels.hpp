@@ -4,8 +4,12 @@
 #include <vector>
 
 #include "knead/energy/stiffness.hpp"
+#include "knead/gramian/instruction_set.hpp"
 
 namespace knead {
+namespace detail {
+struct PanelKernels;
+}
 
 /// A lower triangular matrix L divided into panels of up to four adjacent columns that mostly have the same rows: a
 /// panel stores a dense block over the union of their rows. Substitution then reads each row of the unknowns once per
@@ -17,7 +21,8 @@ class Panels {
 
   Panels() = default;
   /// \param lower L, columns sorted, diagonal first and not zero.
-  explicit Panels(const SparseMatrix& lower);
+  /// \param set the fastest instruction set to use; all give the same bits.
+  explicit Panels(const SparseMatrix& lower, InstructionSet set = best_instruction_set());
 
   /// The panels involved if the right side is zero except in these rows and the solution is needed only there,
   /// ascending.
@@ -26,7 +31,8 @@ class Panels {
 
   /// L y = b and Lᵀ x = y, in place, `columns` values per row, by these panels: all of them, or a reach. Every row of
   /// the forward sweep sums in the order of the columns of L; rows of the backward sweep first sum the entries below
-  /// their panel. `columns`: 1, or 4 for three (the last is carried along; x aligned to 16 bytes).
+  /// their panel. `columns`: 1, or 4 for three (the last is carried along; x aligned to 16 bytes, better
+  /// to 32).
   template <int columns>
   void forward(double* x, std::span<const int> panels) const;
   template <int columns>
@@ -41,9 +47,8 @@ class Panels {
     int row, rows;     // of those below, in rows_
     int value;         // in values_: the triangle row by row with 1 / L_jj on its diagonal, then the rows below
   };
-  template <int columns, class F>
-  void sweep(double* x, const Panel& panel, const F& kernel) const;
 
+  const detail::PanelKernels* kernels_ = nullptr;
   std::vector<Panel> panels_;
   std::vector<int> all_, panel_of_;  // 0, 1, … and the panel of every column
   std::vector<int> rows_;

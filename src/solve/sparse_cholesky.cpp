@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <cmath>
+#include <cstdint>
 
 #include "panels.hpp"
 
@@ -36,9 +37,26 @@ namespace {
 /// Columns side by side as `Panels` needs them: three and one more.
 template <class Values>
 inline constexpr int columns = Values::ColsAtCompileTime == 1 ? 1 : 4;
+/// Rows of that many values, each within one line of the cache.
 template <class Values>
-using Work =
-    Eigen::Matrix<double, Eigen::Dynamic, columns<Values>, columns<Values> == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+class Work {
+ public:
+  explicit Work(Eigen::Index rows) : values_(columns<Values> * rows + spare) {
+    const auto off = reinterpret_cast<std::uintptr_t>(values_.data()) / sizeof(double) % spare;
+    first_ = values_.data() + (spare - off) % spare;
+  }
+  Work(const Work&) = delete;
+  Work& operator=(const Work&) = delete;
+
+  [[nodiscard]] double* data() { return first_; }
+  [[nodiscard]] const double* data() const { return first_; }
+  void clear() { values_.setZero(); }
+
+ private:
+  static constexpr int spare = 4;
+  Eigen::VectorXd values_;
+  double* first_;
+};
 
 template <class Values>
 void put(Work<Values>& y, int row, const Values& b, Eigen::Index from) {
@@ -54,7 +72,7 @@ void take(const Work<Values>& y, int row, Values& x, Eigen::Index to) {
 
 template <class Values>
 Values whole(const Panels& panels, const Eigen::VectorXi& order, const Values& b) {
-  Work<Values> y(b.rows(), columns<Values>);
+  Work<Values> y(b.rows());
   for (Eigen::Index i = 0; i < b.rows(); ++i) put<Values>(y, order[i], b, i);
   panels.forward<columns<Values>>(y.data(), panels.all());
   panels.backward<columns<Values>>(y.data(), panels.all());
@@ -65,7 +83,7 @@ Values whole(const Panels& panels, const Eigen::VectorXi& order, const Values& b
 
 template <class Values>
 Values within(const Panels& panels, const SparseCholesky::Part& part, int size, const Values& b) {
-  Work<Values> y(size, columns<Values>);
+  Work<Values> y(size);
   panels.clear<columns<Values>>(y.data(), part.panels);
   for (std::size_t k = 0; k < part.rows.size(); ++k) put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
   panels.forward<columns<Values>>(y.data(), part.panels);
@@ -77,7 +95,8 @@ Values within(const Panels& panels, const SparseCholesky::Part& part, int size, 
 
 template <class Values>
 Values from(const Panels& panels, const Eigen::VectorXi& order, const SparseCholesky::Part& part, const Values& b) {
-  Work<Values> y = Work<Values>::Zero(order.size(), columns<Values>);
+  Work<Values> y(order.size());
+  y.clear();
   for (std::size_t k = 0; k < part.rows.size(); ++k) put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
   panels.forward<columns<Values>>(y.data(), part.panels);
   panels.backward<columns<Values>>(y.data(), panels.all());

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
 #include <limits>
 
+#include "solve/panels.hpp"
 #include "support/surfaces.hpp"
 
 namespace knead {
@@ -39,6 +41,30 @@ TEST(SparseCholesky, OneColumnIsSolvedAsThreeAre) {
   ASSERT_TRUE(cholesky);
   const Points b = random_points(p.surface.size(), 2), x = cholesky->solve(b);
   for (int c = 0; c < 3; ++c) EXPECT_EQ(cholesky->solve(Eigen::VectorXd(b.col(c))), x.col(c));
+}
+
+TEST(Panels, GiveTheSameBitsByEveryInstructionSet) {
+  const Problem p(testing::relief(testing::uniform_clamped(3, 14), testing::uniform_clamped(2, 11), 1));
+  SparseMatrix lower = Eigen::SimplicialLLT<SparseMatrix>(SparseMatrix(p.k + p.mass)).matrixL();
+  const Panels reference(lower, InstructionSet::vector128);
+  using Four = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+  Four b(lower.rows(), 4);
+  b << random_points(lower.rows(), 2), random_points(lower.rows(), 3).col(0);
+  Four expected = b;
+  reference.forward<4>(expected.data(), reference.all());
+  EXPECT_LE((lower * expected - b).norm(), 1e-12 * b.norm());
+  reference.backward<4>(expected.data(), reference.all());
+  Eigen::VectorXd one = b.col(1);
+  reference.forward<1>(one.data(), reference.all());
+  reference.backward<1>(one.data(), reference.all());
+  EXPECT_EQ(one, expected.col(1));
+  for (const InstructionSet set : available_instruction_sets()) {
+    const Panels panels(lower, set);
+    Four x = b;
+    panels.forward<4>(x.data(), panels.all());
+    panels.backward<4>(x.data(), panels.all());
+    EXPECT_EQ(x, expected) << name(set);
+  }
 }
 
 TEST(SparseCholesky, RefusesWhatIsNotPositiveDefinite) {
