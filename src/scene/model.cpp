@@ -181,6 +181,7 @@ Expected<SceneModel> make_model(ModelInput input) {
   settings.lambda = input.evolution.lambda;
   settings.time_step = input.evolution.time_step;
   settings.route = input.evolution.route;
+  settings.accuracy = input.evolution.accuracy;
   settings.raw = input.scaling == ScalingMode::raw;
   settings.detail = input.detail;
   if (std::ranges::any_of(input.surfaces, [](const SurfaceInput& s) { return s.touched != nullptr; })) {

@@ -103,6 +103,7 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
   limit_origin = (original.rowwise() - m.centre.transpose()) / m.length;
   y = m.inverse.space().feasible(before) - before;
   if (state.balanced) y = state.guess.rows() > 0 ? Points(state.guess / m.length) : Points::Zero(before.rows(), 3);
+  if (m.settings.accuracy == StepAccuracy::interactive) problem.accuracy = interactive_accuracy;
   problem.near = state.balanced && state.guess.rows() > 0;
 }
 

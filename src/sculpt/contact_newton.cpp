@@ -105,7 +105,7 @@ class Minimisation {
   /// The imbalance of forces, as a share of the norm of b.
   double imbalance() {
     const Anchor here = anchor();
-    return std::sqrt(std::max(0.0, here.rs)) / norm_of_b(here);
+    return std::sqrt(std::max(0.0, here.rs)) / norm_of_b(here, norm_of_force());
   }
 
   /// Iterates until the decrement is `tolerance` of the terms that the step balances. With `certain` the result is
@@ -116,9 +116,12 @@ class Minimisation {
     double before = std::numeric_limits<double>::infinity();
     while (true) {
       Anchor from = anchor();
-      if (progress.largest < 0) progress.largest = std::max(norm_of_b(from), norm_of_force());
+      if (progress.largest < 0) {
+        const double force = norm_of_force();
+        progress.largest = std::max(norm_of_b(from, force), force);
+      }
       const double decrement = std::sqrt(std::max(0.0, from.rs));
-      if (finished(decrement, progress)) return;
+      if (finished(decrement, from.quadratic, progress)) return;
       if (decrement > 0.5 * before && decrement <= rounded_tolerance * progress.largest) {
         summary.converged = true;  // the remainder is the rounding of AY: another round would find the same
         return;
@@ -126,7 +129,7 @@ class Minimisation {
       before = decrement;
       summary.converged = false;
       const Round round = descend(from, progress);
-      if (round == Round::over || (round == Round::small && !certain)) return;
+      if (round == Round::over || (round == Round::small && (!certain || problem_.accuracy > 0))) return;
     }
   }
 
@@ -146,6 +149,7 @@ class Minimisation {
     double tolerance;
     int max_iterations;
     double largest = -1;  // of the terms that the step balances; -1: not known yet
+    double enough = 0;    // a decrement this small ends the iteration
     int iteration = 0;
     int rounded_steps = 0;  // steps taken where the gain is below rounding
   };
@@ -203,11 +207,11 @@ class Minimisation {
     from.force_here = near.grown(from.force_here);
   }
 
-  /// sqrt(bᵀ A⁻¹ b) over the free unknowns.
-  double norm_of_b(const Anchor& from) {
+  /// sqrt(bᵀ A⁻¹ b) over the free unknowns. \param force sqrt(Fᵀ A⁻¹ F)
+  double norm_of_b(const Anchor& from, double force) {
     if (norm_of_b_ >= 0) return norm_of_b_;
-    if (state_.contacts.empty() && (y_.array() == 0).all()) {
-      norm_of_b_ = std::sqrt(std::max(0.0, from.rs));  // r is b
+    if ((y_.array() == 0).all()) {  // r is b + F
+      norm_of_b_ = std::sqrt(std::max(0.0, from.rs - 2 * dot(state_.force, from.s) + force * force));
     } else {
       norm_of_b_ = std::sqrt(std::max(0.0, dot(problem_.b, problem_.inverse.solve(problem_.b))));
       ++summary.solves;
@@ -226,10 +230,15 @@ class Minimisation {
     return std::sqrt(std::max(0.0, dot(force, near.inverse(force))));
   }
 
-  /// Whether to stop here, and with which outcome.
-  bool finished(double decrement, Progress& progress) {
+  /// Whether to stop here, and with which outcome. \param quadratic ½ YᵀAY − Yᵀb
+  bool finished(double decrement, double quadratic, Progress& progress) {
     progress.largest = std::max(progress.largest, decrement);
-    if (decrement > progress.tolerance * progress.largest && std::isfinite(decrement)) return false;
+    progress.enough = progress.tolerance * progress.largest;
+    if (problem_.accuracy > 0) {
+      const double displacement = std::sqrt(std::max(0.0, 2 * (quadratic + dot(y_, problem_.b))));  // √(YᵀAY)
+      progress.enough = std::max(progress.enough, problem_.accuracy * displacement);
+    }
+    if (decrement > progress.enough && std::isfinite(decrement)) return false;
     summary.converged = summary.finite = std::isfinite(decrement);
     return true;
   }
@@ -249,9 +258,9 @@ class Minimisation {
       // Loose while far away, tight near the end, where a step must not undo the gain of the previous one. Never below
       // the convergence tolerance: the remainder is then only rounding, and directions made from it violate the
       // constraints.
-      const double decrement = at.decrement(), tolerance = progress.tolerance, largest = progress.largest;
-      const double cg_tolerance =
-          std::clamp(0.1 * decrement / largest, std::clamp(0.1 * tolerance * largest / decrement, 1e-8, 1e-2), 1e-2);
+      const double decrement = at.decrement();
+      const double cg_tolerance = std::clamp(0.1 * decrement / progress.largest,
+                                             std::clamp(0.1 * progress.enough / decrement, 1e-8, 1e-2), 1e-2);
       to.ad = newton_direction(potential_, state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
     }
     to.d = to.ad.beta * view.from.s;
@@ -313,7 +322,8 @@ class Minimisation {
       advance(view, to, rounded);
       ++progress.iteration;
       update(view, at);
-      if (finished(at.decrement(), progress)) return std::isfinite(at.decrement()) ? Round::small : Round::over;
+      if (finished(at.decrement(), view.quadratic, progress))
+        return std::isfinite(at.decrement()) ? Round::small : Round::over;
       // β r and E e cancel, and so do the squares under the root of the decrement.
       if (at.rs < cancellation * at.r.beta * at.r.beta * from.rs) return Round::blurred;
     }

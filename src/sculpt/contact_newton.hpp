@@ -21,6 +21,8 @@ struct StepProblem {
   Points start;       // control points x₀ at which Ψ is evaluated for Y = 0
   double energy;      // ½ X₀ᵀ K X₀: the magnitude of the terms whose difference is Φ
   bool near = false;  // Y starts close to the minimum: stiff tools are used at full stiffness
+  /// Where above 0, an error of Y of this share of √(YᵀAY) is small enough.
+  double accuracy = 0;
 };
 
 /// Minimises, starting from `y` (feasible), which becomes the minimum.

@@ -172,6 +172,7 @@ Expected<void> Executor::prepare_stroke_model() {
   const OpenStroke& stroke = *state.stroke;
   EvolutionPolicy evolution;
   evolution.lambda = stroke.lambda;
+  evolution.accuracy = state.evolution.accuracy;
   ModelInput input = model_input(state, evolution);
   for (std::size_t k = 0; k < input.surfaces.size(); ++k) {
     SurfaceInput& s = input.surfaces[k];

@@ -201,6 +201,22 @@ TEST(Command, SymmetryOfAnEdgeAndOfAWholeSheet) {
   EXPECT_EQ(first(uneven).current->net()[0], 12);
 }
 
+TEST(Command, InteractiveStepsAreRecordedAndRepeated) {
+  const std::vector<std::string> press = {
+      testing::ball, R"({"do":"move","tool":"ball","by":[0,0,0.5]})", R"({"do":"step","count":3})",
+      R"({"do":"stroke","tool":"ball","path":[[5,5,-1],[5.5,5,-1]],"open":true})", R"({"do":"stroke","path":[]})"};
+  Session exact = on_sheet({R"({"do":"evolve","lambda":20})"});
+  Session quick = on_sheet({R"({"do":"evolve","lambda":20,"accuracy":"interactive"})"});
+  run(exact, press);
+  run(quick, press);
+  const Points a = first(exact).current->control_points(), b = first(quick).current->control_points();
+  EXPECT_GT((a - b).cwiseAbs().maxCoeff(), 0);
+  EXPECT_LE((a - b).cwiseAbs().maxCoeff(), interactive_accuracy * exact.largest_displacement(0));
+  Session again = fresh();
+  for (const Command& command : quick.journal()) ASSERT_TRUE(again.execute(command));
+  EXPECT_EQ(first(again).current->control_points(), b);
+}
+
 TEST(Command, StaticIsTheBalanceAndDynamicSwings) {
   Session still = on_sheet({lift, R"({"do":"evolve","mode":"static"})"});
   EXPECT_LT(still.state().steps.back().residual, 1e-8);

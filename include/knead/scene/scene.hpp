@@ -55,6 +55,7 @@ struct EvolutionPolicy {
   double time_step = 0.02;
   StepWeight weight = StepWeight::mass;
   ForceRoute route = ForceRoute::gauss;
+  StepAccuracy accuracy = StepAccuracy::exact;
 
   friend bool operator==(const EvolutionPolicy&, const EvolutionPolicy&) = default;
 };

@@ -39,7 +39,16 @@ enum class ForceRoute {
   analytic,  ///< interpolated at Greville abscissae, then the exact mass matrix (see `GrevilleForce`)
 };
 
-/// Everything that determines the matrices of an `ActiveSpline`.
+/// How exactly a step is solved. Errors are those of the displacement Y of the step in the energy norm, √(YᵀAY), and of
+/// the forces in its dual, √(gᵀA⁻¹g).
+enum class StepAccuracy {
+  exact,        ///< to 1e-11 of the forces that the step balances
+  interactive,  ///< to `interactive_accuracy` of the displacement of the step
+};
+
+inline constexpr double interactive_accuracy = 1e-6;
+
+/// Everything that determines the matrices of an `ActiveSpline`, and how its steps are solved.
 template <int D>
 struct ActiveSettings {
   MaterialOf<D> material;
@@ -61,6 +70,7 @@ struct ActiveSettings {
   ForceRoute route = ForceRoute::gauss;
   bool raw = false;  ///< no normalisation: the equations are taken on the knots as they are
   GramianMethod method = default_gramian_method;
+  StepAccuracy accuracy = StepAccuracy::exact;
 
   friend bool operator==(const ActiveSettings&, const ActiveSettings&) = default;
 };

@@ -29,6 +29,13 @@ std::span<const Choice> choices(Evolution) {
   return list;
 }
 
+std::span<const Choice> choices(StepAccuracy) {
+  static constexpr Choice list[] = {{"exact", StepAccuracy::exact, "to 1e-11 of the forces"},
+                                    {"interactive", StepAccuracy::interactive,
+                                     "to 1e-6 of each step's displacement, faster ([performance.md](performance.md))"}};
+  return list;
+}
+
 void describe(EvolveCommand& c, Fields& fields) {
   fields.name("evolve", "what steps do; static solves at once");
   fields.add("mode", c.evolution.mode);
@@ -38,6 +45,7 @@ void describe(EvolveCommand& c, Fields& fields) {
   fields.add("time_step", c.evolution.time_step, {.help = "dynamic: time per step"});
   fields.add("weight", c.evolution.weight, {.help = "acm: the weights of a step"});
   fields.add("route", c.evolution.route, {.help = "how tool forces are integrated"});
+  fields.add("accuracy", c.evolution.accuracy, {.help = "how exactly steps in contact are solved"});
 }
 
 template <>

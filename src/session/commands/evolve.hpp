@@ -13,6 +13,8 @@ std::span<const Choice> choices(ForceRoute);
 
 std::span<const Choice> choices(Evolution);
 
+std::span<const Choice> choices(StepAccuracy);
+
 template <>
 Expected<void> Executor::execute(const EvolveCommand& c);
 void describe(EvolveCommand& c, Fields& fields);

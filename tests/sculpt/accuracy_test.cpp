@@ -1,0 +1,135 @@
+// Interactive accuracy against exact: one step, and strokes of 200 frames.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "active.hpp"
+
+namespace knead {
+namespace {
+
+using testing::active;
+using testing::box;
+using testing::rim;
+
+ActiveSettings<2> sheet(const Surface& s, StepAccuracy accuracy) {
+  ActiveSettings<2> settings;
+  settings.held = rim(s, 2);
+  settings.detail = 0.15;
+  settings.lambda = 20;
+  settings.accuracy = accuracy;
+  return settings;
+}
+
+Tool ball(double stiffness) {
+  return {"ball", testing::sphere_at(Point(0.5, 0.5, 0.16), 0.15), ToolMode::collision, stiffness, 1};
+}
+
+/// A path that presses in, circles, and lifts off again.
+Point place(int frame, int frames) {
+  const double t = static_cast<double>(frame) / frames, angle = 2 * std::numbers::pi * t;
+  return {0.5 + 0.2 * std::cos(angle), 0.5 + 0.2 * std::sin(angle), 0.16 - 0.08 * std::sin(std::numbers::pi * t)};
+}
+
+/// √(XᵀKX) of a difference of control points.
+double energy_norm(const ActiveSurface& model, const Surface& rest, const Points& difference) {
+  return std::sqrt(model.energy(rest.control_points() + difference));
+}
+
+TEST(InteractiveAccuracy, HoldsInTheEnergyNormOfAStep) {
+  const Surface s = box<2>(3, 24);
+  for (const double stiffness : {1e2, 1e4, 1e7}) {
+    ActiveSettings<2> settings = sheet(s, StepAccuracy::exact);
+    settings.evolution = Evolution::stationary;  // its matrix is K
+    const auto exact = active<2>(s, settings);
+    settings.accuracy = StepAccuracy::interactive;
+    const auto quick = active<2>(s, settings);
+    Tool tool = ball(stiffness);
+    testing::move_to(tool, Point(0.45, 0.52, 0.09));
+    const auto a = exact.step(s.control_points(), {&tool, 1}), b = quick.step(s.control_points(), {&tool, 1});
+    ASSERT_TRUE(a && b);
+    EXPECT_TRUE(a->converged && b->converged);
+    const double step = energy_norm(exact, s, a->control_points - s.control_points());
+    EXPECT_GT(step, 0);
+    EXPECT_LE(energy_norm(exact, s, b->control_points - a->control_points), interactive_accuracy * step) << stiffness;
+  }
+}
+
+struct Stroked {
+  double error = 0;  ///< largest difference of control points in any frame, as a share of the largest displacement
+  double late = 0;   ///< the same over the second half
+  int solves_exact = 0, solves_quick = 0;
+};
+
+Stroked stroke(Tool tool, const ActiveLoads& loads = {}) {
+  constexpr int frames = 200;
+  const Surface s = box<2>(3, 24);
+  const auto exact = active<2>(s, sheet(s, StepAccuracy::exact)),
+             quick = active<2>(s, sheet(s, StepAccuracy::interactive));
+  ActiveState a{s.control_points()}, b = a;
+  Stroked result;
+  double displacement = 0;
+  for (int k = 0; k < frames; ++k) {
+    testing::move_to(tool, place(k, frames));
+    const auto on_a = exact.step(a, {&tool, 1}, loads), on_b = quick.step(b, {&tool, 1}, loads);
+    if (!on_a || !on_b || !on_a->converged || !on_b->converged) {
+      ADD_FAILURE() << "frame " << k;
+      return result;
+    }
+    a.control_points = on_a->control_points;
+    b.control_points = on_b->control_points;
+    displacement = std::max(displacement, (a.control_points - s.control_points()).cwiseAbs().maxCoeff());
+    if (displacement == 0) continue;
+    const double error = (a.control_points - b.control_points).cwiseAbs().maxCoeff() / displacement;
+    result.error = std::max(result.error, error);
+    if (2 * k >= frames) result.late = std::max(result.late, error);
+    result.solves_exact += on_a->solves;
+    result.solves_quick += on_b->solves;
+  }
+  return result;
+}
+
+// Steps are contractions: errors of earlier frames fade and do not add up.
+TEST(InteractiveAccuracy, StaysBoundedOverStrokes) {
+  for (const double stiffness : {1e2, 1e4, 1e7}) {
+    const Stroked s = stroke(ball(stiffness));
+    EXPECT_LE(s.error, interactive_accuracy) << stiffness;
+    EXPECT_LE(s.late, interactive_accuracy) << stiffness;
+    EXPECT_GT(s.error, 0) << stiffness;
+    EXPECT_LT(s.solves_quick, s.solves_exact) << stiffness;
+  }
+}
+
+TEST(InteractiveAccuracy, StaysBoundedWithFrictionAndLoads) {
+  Tool rubbing = ball(1e4);
+  rubbing.friction = 0.3;
+  ActiveLoads loads;
+  loads.force = Point(0, 0, 0.5);
+  const Stroked s = stroke(rubbing, loads);
+  EXPECT_LE(s.error, interactive_accuracy);
+  EXPECT_LT(s.solves_quick, s.solves_exact);
+}
+
+TEST(InteractiveAccuracy, RepeatsBitForBit) {
+  const Surface s = box<2>(3, 24);
+  const Tool tool = ball(1e4);
+  const auto once = active<2>(s, sheet(s, StepAccuracy::interactive)).step(s.control_points(), {&tool, 1});
+  const auto again = active<2>(s, sheet(s, StepAccuracy::interactive)).step(s.control_points(), {&tool, 1});
+  ASSERT_TRUE(once && again);
+  EXPECT_EQ(once->control_points, again->control_points);
+}
+
+TEST(InteractiveAccuracy, LeavesStepsWithoutContactAsTheyAre) {
+  const Surface s = box<2>(3, 24);
+  ActiveLoads loads;
+  loads.force = Point(0, 0, 1);
+  const auto exact = active<2>(s, sheet(s, StepAccuracy::exact)).step({s.control_points()}, {}, loads);
+  const auto quick = active<2>(s, sheet(s, StepAccuracy::interactive)).step({s.control_points()}, {}, loads);
+  ASSERT_TRUE(exact && quick);
+  EXPECT_LE((exact->control_points - quick->control_points).cwiseAbs().maxCoeff(),
+            1e-14 * exact->control_points.cwiseAbs().maxCoeff());
+}
+
+}  // namespace
+}  // namespace knead
