@@ -1,0 +1,64 @@
+// The stiffness matrix of a cubic net with all six terms: assembly beside writing the same bytes, and applying it to
+// three columns without assembly beside the product with the assembled matrix. Each pair alternates in one loop;
+// `ratio` is that of the medians.
+#include <benchmark/benchmark.h>
+
+#include <cstring>
+
+#include "knead/energy/stiffness.hpp"
+#include "medians.hpp"
+
+namespace {
+
+using namespace knead;
+
+Stiffness<2> stiffness(int net) {
+  const KnotVector k = *KnotVector::clamped_uniform(3, net);
+  return *Stiffness<2>::create({k, k}, stretch_and_bend<2>({{1, 0.3, 0.5}, {1e-3, 2e-3, 5e-4}}));
+}
+
+template <class Ours, class Reference>
+void beside(benchmark::State& state, const Ours& ours, const Reference& reference) {
+  std::vector<double> a, b;
+  for (auto _ : state) {
+    a.push_back(bench::milliseconds_of(ours));
+    b.push_back(bench::milliseconds_of(reference));
+  }
+  state.counters["ms"] = bench::median(a);
+  state.counters["reference_ms"] = bench::median(b);
+  state.counters["ratio"] = bench::median(a) / bench::median(b);
+}
+
+void assembly_over_write(benchmark::State& state) {
+  const Stiffness<2> k = stiffness(static_cast<int>(state.range(0)));
+  const auto entries = static_cast<std::size_t>(k.assemble().nonZeros());
+  std::vector<char> bytes(entries * (sizeof(double) + sizeof(int)));
+  int value = 0;
+  beside(
+      state, [&] { benchmark::DoNotOptimize(k.assemble().valuePtr()); },
+      [&] {
+        std::memset(bytes.data(), ++value, bytes.size());
+        benchmark::DoNotOptimize(bytes.data());
+        benchmark::ClobberMemory();
+      });
+}
+
+/// Times faster than the product.
+void product_over_apply(benchmark::State& state) {
+  const Stiffness<2> k = stiffness(static_cast<int>(state.range(0)));
+  const SparseMatrix assembled = k.assemble();
+  const Points x = Points::Random(k.size(), 3);
+  Points y(k.size(), 3);
+  beside(
+      state,
+      [&] {
+        y.noalias() = assembled * x;
+        benchmark::DoNotOptimize(y.data());
+      },
+      [&] { benchmark::DoNotOptimize(k.apply(x).data()); });
+}
+
+BENCHMARK(assembly_over_write)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(product_over_apply)->Arg(128)->Unit(benchmark::kMillisecond);
+
+}  // namespace

@@ -1,0 +1,88 @@
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "knead/scene/model.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+#include "medians.hpp"
+
+// A moving ball in contact with a sheet: a cubic net over the unit square with two rows held and λ = 20, a ball of
+// radius 0.15 whose centre goes from (0.5, 0.5, 0.16) by (0.005, 0, −0.004) per frame, 20 frames. Times are medians
+// over the frames, in milliseconds of the processor.
+
+namespace {
+
+using namespace knead;
+
+constexpr int frames = 20;
+
+void check(bool fine, const std::string& what) {
+  if (fine) return;
+  std::fprintf(stderr, "contact_bench: %s\n", what.c_str());
+  std::exit(1);
+}
+
+SessionState sheet(int net) {
+  Session session(Document::fresh("sheet"));
+  for (const std::string& line :
+       {fmt::format(R"({{"do":"new","shape":"plane","net":[{0},{0}]}})", net), std::string(R"({"do":"hold","rows":2})"),
+        std::string(R"({"do":"evolve","lambda":20})"),
+        std::string(R"({"do":"tool","name":"ball","radius":0.15,"position":[0.5,0.5,0.16]})")}) {
+    const auto command = parse_command(line);
+    check(command.has_value(), line);
+    const auto done = session.execute(*command);
+    check(done.has_value(), line);
+  }
+  return session.state();
+}
+
+/// The frames of one run, each appended to `times`.
+struct Work {
+  std::vector<double> times, iterations, solves;
+};
+
+void run(const SceneModel& scene, const SessionState& start, bool touches, Work& work) {
+  std::vector<Tool> tools = start.tools;
+  ActiveState state = active_state(start);
+  for (int k = 0; k < frames; ++k) {
+    const Placement& at = tools[0].shape.placement();
+    tools[0].shape = *tools[0].shape.moved(at.rotation, at.position + Point(0.005, 0, -0.004));
+    const double begun = bench::milliseconds();
+    auto step = scene.model.step(state, touches ? tools : std::vector<Tool>());
+    work.times.push_back(bench::milliseconds() - begun);
+    check(step.has_value() && step->converged, "a step failed");
+    work.iterations.push_back(step->iterations);
+    work.solves.push_back(step->solves);
+    state.control_points = std::move(step->control_points);
+  }
+}
+
+void frame(benchmark::State& state, bool touches, StepAccuracy accuracy) {
+  SessionState start = sheet(static_cast<int>(state.range(0)));
+  start.evolution.accuracy = accuracy;
+  auto scene = make_model(model_input(start, start.evolution));
+  check(scene.has_value(), "no model");
+  Work work;
+  for (auto _ : state) run(*scene, start, touches, work);
+  state.counters["ms"] = bench::median(work.times);
+  state.counters["iterations"] = bench::median(work.iterations);
+  state.counters["solves"] = bench::median(work.solves);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["memory_mb"] = static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void contact(benchmark::State& state) { frame(state, true, StepAccuracy::interactive); }
+void contact_exact(benchmark::State& state) { frame(state, true, StepAccuracy::exact); }
+void contact_free(benchmark::State& state) { frame(state, false, StepAccuracy::exact); }
+
+BENCHMARK(contact)->Arg(32)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(contact_exact)->Arg(32)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(contact_free)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+
+}  // namespace
