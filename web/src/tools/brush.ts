@@ -19,7 +19,7 @@ export interface BrushSettings {
 
 /** The pointer's requests to the session. */
 export interface BrushActions {
-  /** A new act of these commands; resolves once they are done, false if they failed. */
+  /** A new act of these commands, after the one before has ended; resolves once they are done, false if they failed. */
   begin(commands: Command[]): Promise<boolean>;
   /** Continues the act; requests that come too fast are dropped. */
   follow(commands: () => Command[], join: boolean): void;
@@ -149,9 +149,9 @@ export class Brush implements PointerTool {
     this.actions.settingsChanged();
   }
 
+  /** Also after the release of a stroke whose first command is still under way: `release` waits behind it. */
   private async followOn(stroke: Stroke, commands: () => Command[], join: boolean): Promise<void> {
-    const begun = await stroke.begun;
-    if (begun && !stroke.cancelled && this.stroke === stroke) this.actions.follow(commands, join);
+    if ((await stroke.begun) && !stroke.cancelled) this.actions.follow(commands, join);
   }
 
   release(): void {

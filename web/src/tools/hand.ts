@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 
 import { clay } from '../document/clay';
+import type { Command } from '../engine/session_types';
 import type { Viewport } from '../view/viewport';
 import { Brush, type BrushActions } from './brush';
 import { Edges } from './edges';
@@ -25,6 +26,8 @@ export class Hand {
   readonly measure: Measure;
   readonly pointers: Pointers;
   readonly placing: Placing = { shape: 'sphere' };
+  /** Resolves when the acts that have begun so far have ended. */
+  idle: Promise<void> = Promise.resolve();
 
   constructor(private readonly host: ToolHost) {
     const { viewer } = host;
@@ -110,27 +113,40 @@ export class Hand {
     // What has begun with an engine that has stopped since is over.
     let life = 0;
     const over = () => life !== host.client.deaths;
+    let finish = () => {};
+    const tried = async (commands: Command[]): Promise<boolean> => {
+      const [first, ...rest] = commands;
+      if ((await host.execute([first!])) === null) return false;
+      if (rest.length === 0 || (await host.execute(rest, true)) !== null) return true;
+      if (!over()) await host.execute([{ do: 'undo' }]); // what is refused leaves nothing behind
+      return false;
+    };
+    const ended = async (commands: Command[]): Promise<void> => {
+      await host.client.followed();
+      if (over() || (await host.execute(commands, commands.length > 0)) !== null || over() || commands.at(-1)?.do !== 'remove') return;
+      // The end of the stroke is refused: what was done before stays without its brush, or all is taken back.
+      if ((await host.execute([commands.at(-1)!], true)) === null) await host.execute([{ do: 'undo' }]);
+    };
     return {
       begin: async (commands) => {
+        const previous = this.idle;
+        let done = () => {};
+        this.idle = new Promise((resolve) => (done = resolve));
+        await previous;
+        finish = done;
         life = host.client.deaths;
-        const [first, ...rest] = commands;
-        if ((await host.execute([first!])) === null) return false;
-        if (rest.length === 0 || (await host.execute(rest, true)) !== null) return true;
-        if (!over()) await host.execute([{ do: 'undo' }]); // what is refused leaves nothing behind
-        return false;
+        const good = await tried(commands);
+        if (!good) done();
+        return good;
       },
       follow: (commands, join) => {
         if (!over()) host.client.follow(commands, join);
       },
-      end: async (commands) => {
-        await host.client.followed();
-        if (over() || (await host.execute(commands, commands.length > 0)) !== null || over() || commands.at(-1)?.do !== 'remove') return;
-        // The end of the stroke is refused: what was done before stays without its brush, or all is taken back.
-        if ((await host.execute([commands.at(-1)!], true)) === null) await host.execute([{ do: 'undo' }]);
-      },
+      end: (commands) => ended(commands).finally(finish),
       cancel: async () => {
         await host.client.followed();
         if (!over()) await host.execute([{ do: 'undo' }]);
+        finish();
       },
       place: (point, normal) => void this.place(point, normal),
       select: (surface) => host.select(surface),

@@ -179,7 +179,7 @@ export class PointEditor implements PointerTool {
     const command = (): Command => ({ do: 'points', ...this.which(), by: hold.by.toArray() });
     hold.begun ??= this.actions.begin([command()]);
     void hold.begun.then((good) => {
-      if (good && !hold.cancelled && this.hold === hold) this.actions.follow(() => [{ do: 'undo' }, command()], false);
+      if (good && !hold.cancelled) this.actions.follow(() => [{ do: 'undo' }, command()], false);
     });
   }
 
