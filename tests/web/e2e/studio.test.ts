@@ -182,6 +182,29 @@ describe('the studio', () => {
     expect(distance(before, await positions(page))).toBe(0);
   });
 
+  it('takes the surface along when a tool is sent to a typed place', async () => {
+    const { page } = studio;
+    await scene(page, 'Ball on a membrane');
+    await page.keyboard.press('v');
+    await page.locator('.panel[data-panel=Tools] .item').click();
+    const before = await positions(page);
+    const lowest = (all: number[]) => Math.min(...all.filter((_, k) => k % 3 === 2));
+    const count = (await commands(page)).length;
+    const field = page.locator('input[aria-label="Position 3"]');
+    const tool = () => page.evaluate(() => (window as never as { studio: { state: { tools: { position: number[]; size: number }[] } } }).studio.state.tools[0]!);
+    const { size } = await tool();
+    await field.fill(String(-size));
+    await field.press('Enter');
+    await expect.poll(async () => (await tool()).position[2]).toBe(-size);
+    await settled(page);
+    expect(lowest(await positions(page))).toBeLessThan(-1.6 * size); // in one jump it stayed above the middle of the ball
+    expect((await commands(page)).slice(count).map((c) => c.do)).toContain('step');
+    await page.locator('.top [aria-label^=Undo]').click();
+    await settled(page);
+    expect((await commands(page)).length).toBe(count); // one entry
+    expect(distance(before, await positions(page))).toBe(0);
+  });
+
   it('takes the surface along when a tool jumps', async () => {
     const { page } = studio;
     await scene(page, 'Ball on a membrane');

@@ -1,11 +1,15 @@
 import { format, parseLength } from '../document/units';
 import { type EditToolCommand, shapes } from '../engine/generated';
-import type { Command, ToolInfo } from '../engine/session_types';
+import type { Command, ToolInfo, Vector3 } from '../engine/session_types';
 import { constraintInWords } from '../tools/held';
+import { tooFar, wayOf } from '../tools/tool_way';
 import type { App } from './app';
 import { field, h, iconButton, select, title, toggle } from './dom';
 import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
+
+/** Pieces of the way to a place that is typed. */
+const longestWay = 256;
 
 const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? 'mm';
 const length = (app: App) => (text: string) => parseLength(text, unitOf(app));
@@ -110,6 +114,19 @@ function toolFields(app: App, tool: ToolInfo): (Node | null)[] {
   ];
 }
 
+/** Leads a tool to a place that was typed: one entry of the history. In one jump it would pass through the surface. */
+async function led(app: App, tool: ToolInfo, position: Vector3): Promise<string | null> {
+  const by = position.map((x, k) => x - tool.position[k]!) as Vector3;
+  const there: Command = { do: 'edit_tool', tool: tool.name, position };
+  if (app.state!.selection.length === 0 || by.every((x) => x === 0)) return app.offer([there]);
+  const answer = await app.offer([...wayOf(tool, by, longestWay), there, { do: 'step' }]);
+  if (answer === null && tooFar(tool, by, longestWay)) {
+    app.notify({ kind: 'info', text: `${tool.name} went so far that its steps were longer than an eighth of its size: it may have passed through the surface.`,
+      remedy: 'Undo, and let it go there by way of a nearer place.' });
+  }
+  return answer;
+}
+
 /** The numbers of its shape, and where the tool is. */
 function measures(app: App, tool: ToolInfo, change: (what: Partial<EditToolCommand>) => Promise<string | null>): Node[] {
   const input = (label: string, value: number, isLength: boolean, set: (v: number) => Promise<string | null>) => numberInput(label, value, set, isLength ? length(app) : undefined);
@@ -123,7 +140,8 @@ function measures(app: App, tool: ToolInfo, change: (what: Partial<EditToolComma
       return f.initial.length > 1 && f.name !== 'minor' ? several(label, f.name, value as number[], f.length, f.help)
         : field(label, input(label, single(value as number | [number, number]), f.length, (v) => change({ [f.name]: v })), f.help);
     }),
-    several('Position', 'position', tool.position, true, 'Of its centre'),
+    field('Position', row(...tool.position.map((value, k) => input(`Position ${k + 1}`, value, true, (v) => led(app, tool, tool.position.map((x, l) => (l === k ? v : x)) as Vector3)))),
+      'Of its centre. The tool goes there in steps, and takes the surface along'),
   ];
 }
 

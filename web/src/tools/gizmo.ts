@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import type { Command } from '../engine/session_types';
 import type { Viewport } from '../view/viewport';
 import type { ToolHost } from './host';
+import { wayOf } from './tool_way';
 
 const finest = 64; // pieces of one motion
 
@@ -19,9 +20,6 @@ export function followGizmo(host: ToolHost, viewport: Viewport): void {
     sent.scale.copy(object.scale);
   };
 
-  /** Pieces short enough for a tool not to pass through what it touches, if the surface takes a step after each. */
-  const pieces = (way: number, size: number | null): number => (size ? Math.min(finest, Math.max(1, Math.ceil((8 * way) / size))) : 1);
-
   /** From the state sent last to the present one, and a step of the surface unless it is playing anyway. */
   const commands = (): Command[] => {
     const { object } = gizmo;
@@ -31,10 +29,8 @@ export function followGizmo(host: ToolHost, viewport: Viewport): void {
     const steps = !host.playing() && host.state!.surfaces.length > 0 && host.state!.selection.length > 0;
     const by = object.position.clone().sub(sent.position);
     if (by.lengthSq() > 0) {
-      const count = steps ? pieces(by.length(), host.state!.tools.find((t) => t.name === tool)?.size ?? null) : 1;
-      const move: Command = { do: 'move', tool, by: by.divideScalar(count).toArray() };
-      for (let k = 1; k < count; ++k) list.push(move, { do: 'step' });
-      list.push(move);
+      const size = host.state!.tools.find((t) => t.name === tool)?.size ?? null;
+      list.push(...wayOf({ name: tool, size }, by.toArray(), steps ? finest : 1));
     }
     const turn = object.quaternion.clone().multiply(sent.turn.clone().invert());
     const sine = Math.hypot(turn.x, turn.y, turn.z);
