@@ -32,11 +32,12 @@ export function topBar(app: App): HTMLElement {
     iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), recentMenu(app), save, picker,
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
     h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
-    iconButton('fit', 'Fit everything (Shift+F; F: what is selected)', () => app.viewer.fitAll()), four,
-    iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
-    iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
-    iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),
-    iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app)));
+    ...foldable(
+      iconButton('fit', 'Fit everything (Shift+F; F: what is selected)', () => app.viewer.fitAll()), four,
+      iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
+      iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
+      iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),
+      iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app))));
   app.onChange.push(() => {
     const { state } = app;
     undo.disabled = !state?.undo || app.playing();
@@ -52,6 +53,28 @@ export function topBar(app: App): HTMLElement {
     document.title = state ? `${app.documents.name} – Knead studio` : 'Knead studio';
   });
   return bar;
+}
+
+/** Buttons that a narrow page shows below the bar, while the one before them is pressed. */
+function foldable(...buttons: HTMLElement[]): HTMLElement[] {
+  const unfold = (open: boolean) => {
+    folded.classList.toggle('open', open);
+    more.setAttribute('aria-expanded', String(open));
+  };
+  const more = iconButton('more', 'More: view, lab, theme, tour, shortcuts', () => unfold(!folded.classList.contains('open')));
+  const folded = h('div', { class: 'folded' }, ...buttons);
+  more.classList.add('unfold');
+  unfold(false);
+  folded.addEventListener('click', () => unfold(false));
+  document.addEventListener('pointerdown', (e) => {
+    if (!folded.contains(e.target as Node) && !more.contains(e.target as Node)) unfold(false);
+  });
+  const onEscape = (e: KeyboardEvent) => {
+    if (e.key === 'Escape') unfold(false);
+  };
+  more.addEventListener('keydown', onEscape);
+  folded.addEventListener('keydown', onEscape);
+  return [more, folded];
 }
 
 function menu(iconName: string, label: string, text: string, entries: [string, string, () => void][]): HTMLElement {
@@ -107,6 +130,7 @@ export function notices(app: App): HTMLElement {
     element.classList.toggle('stays', stays);
     if (!stays) setTimeout(close, notice.kind === 'error' ? 15_000 : 4_000);
   };
+  new ResizeObserver(() => app.viewer.redraw()).observe(stack); // what stands over the view makes room
   let session = 0;
   app.onChange.push(() => {
     if (session === app.documents.sessions) return;

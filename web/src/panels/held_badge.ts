@@ -11,6 +11,12 @@ export function heldBadge(app: App): HTMLElement {
   const { viewer } = app;
   let box: THREE.Box3 | null = null;
 
+  /** Where messages begin that lie below a place x of the page. */
+  const roof = (x: number): number => {
+    const tops = [...document.querySelectorAll('.notices > *')].map((notice) => notice.getBoundingClientRect())
+      .filter((r) => x + badge.offsetWidth / 2 > r.left && x - badge.offsetWidth / 2 < r.right).map((r) => r.top - 8);
+    return Math.min(...tops, Infinity);
+  };
   const place = () => {
     if (badge.hidden || !box) return;
     const { min, max } = box;
@@ -21,7 +27,8 @@ export function heldBadge(app: App): HTMLElement {
     const stage = viewer.element.getBoundingClientRect(), view = viewer.main.element.getBoundingClientRect();
     const within = (x: number, least: number, most: number) => Math.max(least, Math.min(x, most));
     const x = within((Math.min(...xs) + Math.max(...xs)) / 2, view.left + badge.offsetWidth / 2 + 8, view.right - badge.offsetWidth / 2 - 8);
-    const y = within(Math.max(...ys) + 8, view.top + 34, view.bottom - badge.offsetHeight - 26);
+    const lowest = Math.min(view.bottom - 26, roof(x)) - badge.offsetHeight;
+    const y = within(Math.max(...ys) + 8, view.top + 34, lowest);
     badge.style.left = `${Math.round(x - stage.left)}px`;
     badge.style.top = `${Math.round(y - stage.top)}px`;
   };
