@@ -1,34 +1,14 @@
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import type { Page } from 'playwright-core';
 
-import { commands, distance, openFile as open, openStudio, positions, ready, root, scene, settled, stroke, type Studio } from './page';
+import { commands, distance, openFile as open, positions, ready, root, scene, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
-let studio: Studio;
-let directory: string;
+const studio = studioOfFile();
+const directory = directoryOfFile();
 
-beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-documents-'));
-  studio = await openStudio();
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
-
-async function save(page: Page, entry: string): Promise<string> {
-  await page.locator('summary[aria-label=Save]').click();
-  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item').filter({ has: page.locator(`b:text-is("${entry}")`) }).click()]);
-  const path = join(directory, download.suggestedFilename());
-  await download.saveAs(path);
-  return path;
-}
+const save = (page: Page, entry: string) => saveAs(page, directory, entry);
 
 const kept = async (page: Page) => {
   const count = (await commands(page)).length;

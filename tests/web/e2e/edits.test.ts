@@ -1,18 +1,10 @@
 import type { Command } from '@studio/engine/session_types';
 
-import { commands, openStudio, scene, settled, stroke, type Studio } from './page';
+import { commands, scene, settled, stroke, studioOfFile } from './page';
 
 /** What the page sends changes what it names, and nothing beside it. */
 
-let studio: Studio;
-beforeAll(async () => {
-  studio = await openStudio();
-});
-afterAll(() => studio.close());
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile();
 
 interface Page {
   execute(commands: Command[]): Promise<unknown>;

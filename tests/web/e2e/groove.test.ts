@@ -1,29 +1,11 @@
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-
-import { Engine } from '@studio/engine/engine';
 import type { Command, Vector3 } from '@studio/engine/session_types';
 
-import { commands, drag, openStudio, positions, root, settled, type Studio } from './page';
+import { commands, drag, positions, settled, studioOfFile, directoryOfFile, drawnBy, engineOf, saveAs } from './page';
 
 /** From the pointer's events to the saved file: what a stroke leaves in clay is as wide and as deep as the ball that was led. */
 
-let studio: Studio;
-let wasm: Buffer;
-const directory = mkdtempSync(join(tmpdir(), 'knead-groove-'));
-beforeAll(async () => {
-  studio = await openStudio();
-  wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile();
+const directory = directoryOfFile();
 
 interface Page {
   hand: { brush: { settings: { radius: number; strength: number } } };
@@ -48,17 +30,7 @@ async function led(from: [number, number], to: [number, number], moves: number):
 
 /** The points of the surface in the file that the page saves, as the engine reads it. */
 async function saved(): Promise<Vector3[]> {
-  const { page } = studio;
-  await page.locator('summary[aria-label=Save]').click();
-  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item', { hasText: 'STEP file' }).click()]);
-  const path = join(directory, 'saved.step');
-  await download.saveAs(path);
-  const engine = await Engine.load(wasm);
-  engine.openStep(new Uint8Array(readFileSync(path)), 'saved.step');
-  const { positions: drawn } = engine.picture(0, 400);
-  const points: Vector3[] = [];
-  for (let k = 0; k < drawn.length; k += 3) points.push([drawn[k]! + engine.origin[0]!, drawn[k + 1]! + engine.origin[1]!, drawn[k + 2]! + engine.origin[2]!]);
-  return points;
+  return drawnBy(await engineOf(await saveAs(studio.page, directory, 'STEP file')), 400);
 }
 
 describe('a stroke in clay', () => {

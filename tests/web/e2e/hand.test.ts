@@ -1,14 +1,6 @@
-import { commands, distance, openStudio, positions, scene, settled, spot, stroke, type Studio } from './page';
+import { commands, distance, positions, scene, settled, spot, stroke, studioOfFile } from './page';
 
-let studio: Studio;
-beforeAll(async () => {
-  studio = await openStudio();
-});
-afterAll(() => studio.close());
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile();
 
 interface Vector {
   toArray(): number[];

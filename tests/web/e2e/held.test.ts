@@ -1,27 +1,13 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { facesStep } from '../faces_step';
-import { commands, openFile, openStudio, scene, settled, spot, stroke, type Studio } from './page';
+import { commands, openFile, scene, settled, spot, stroke, studioOfFile, directoryOfFile } from './page';
 
 /** What is held of a surface: told beside it, and changed by a click on an edge. */
 
-let studio: Studio;
-let directory: string;
-
-beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-held-'));
-  studio = await openStudio();
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile();
+const directory = directoryOfFile();
 
 const badge = () => studio.page.locator('.held-badge');
 const last = async () => (await commands(studio.page)).at(-1)!;

@@ -1,18 +1,10 @@
 import type { Command } from '@studio/engine/session_types';
 
-import { commands, distance, openStudio, positions, scene, settled, stroke, type Studio } from './page';
+import { commands, distance, positions, scene, settled, stroke, studioOfFile } from './page';
 
 /** What the page says where something cannot be done, and what it leaves as it was. */
 
-let studio: Studio;
-beforeAll(async () => {
-  studio = await openStudio({ width: 1100, height: 760 });
-});
-afterAll(() => studio.close());
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile({ width: 1100, height: 760 });
 
 const execute = async (...list: Command[]) => {
   await studio.page.evaluate((all) => (window as never as { studio: { execute(c: Command[]): Promise<unknown> } }).studio.execute(all), list);

@@ -1,26 +1,12 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { commands, distance, downloaded, openFile, openStudio, positions, question, ready, root, scene, settled, stroke, type Studio } from './page';
+import { commands, distance, openFile, positions, question, ready, root, scene, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
 /** How far undo goes back, what a script is applied to, and what becomes of the session before. */
 
-let studio: Studio;
-let directory: string;
-
-beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-opening-'));
-  studio = await openStudio();
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile();
+const directory = directoryOfFile();
 
 const undoButton = () => studio.page.locator('button[aria-label^="Undo"]');
 const undo = async (times: number) => {
@@ -109,9 +95,7 @@ describe('undo', () => {
     await page.keyboard.press('b');
     const before = await commands(page);
     await stroke(page, [0, 0], [30, 0]);
-    await page.locator('summary[aria-label=Save]').click();
-    const [download] = await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item', { hasText: 'Knead document' }).click()]);
-    await openFile(page, file('stroke.knead', await downloaded(download)));
+    await openFile(page, await saveAs(page, directory, 'Knead document'));
     await undo(8);
     expect(await commands(page)).toEqual(before);
   });

@@ -1,11 +1,12 @@
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 import { type Browser, chromium, type Download, type Page } from 'playwright-core';
 
-import type { Command } from '@studio/engine/session_types';
+import { Engine } from '@studio/engine/engine';
+import type { Command, Vector3 } from '@studio/engine/session_types';
 
 export const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
@@ -181,6 +182,29 @@ export async function drag(page: Page, from: [number, number], to: [number, numb
 
 export const distance = (a: number[], b: number[]): number =>
   a.length === b.length ? a.reduce((most, x, k) => Math.max(most, Math.abs(x - b[k]!)), 0) : Infinity;
+
+/** Saves the document by an entry of the page's menu into a directory, under the name that the page gives it. */
+export async function saveAs(page: Page, directory: string, entry: string): Promise<string> {
+  await page.locator('summary[aria-label=Save]').click();
+  const item = page.locator('details[open] .menu-item').filter({ has: page.locator(`b:text-is("${entry}")`) });
+  const [download] = await Promise.all([page.waitForEvent('download'), item.click()]);
+  const path = join(directory, download.suggestedFilename());
+  await download.saveAs(path);
+  return path;
+}
+
+/** A STEP file as the engine reads it. */
+export async function engineOf(path: string): Promise<Engine> {
+  const engine = await Engine.load(readFileSync(join(root, 'web/src/engine/knead_studio.wasm')));
+  engine.openStep(new Uint8Array(readFileSync(path)), basename(path));
+  return engine;
+}
+
+/** The points at which an engine draws its first surface, in so many lines per direction; file units. */
+export function drawnBy(engine: Engine, detail: number): Vector3[] {
+  const { positions: drawn } = engine.picture(0, detail);
+  return Array.from({ length: drawn.length / 3 }, (_, k) => [0, 1, 2].map((d) => drawn[3 * k + d]! + engine.origin[d]!) as Vector3);
+}
 
 /** The text of a file that the page gave away. */
 export async function downloaded(download: Download): Promise<string> {

@@ -1,16 +1,8 @@
-import { commands, distance, openStudio, positions, scene, settled, stroke, type Studio } from './page';
+import { commands, distance, positions, scene, settled, stroke, studioOfFile } from './page';
 
 /** The engine stops, or the graphics are taken away: the page goes on. */
 
-let studio: Studio;
-beforeAll(async () => {
-  studio = await openStudio();
-});
-afterAll(() => studio.close());
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile();
 
 /** The next command meets what a trap in the module throws. */
 const trap = async () => {

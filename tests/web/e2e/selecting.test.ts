@@ -1,27 +1,13 @@
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { facesStep } from '../faces_step';
-import { commands, distance, openFile, openStudio, positions, scene, settled, stroke, type Studio } from './page';
+import { commands, distance, openFile, positions, scene, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
 /** What the first click on an opened file does, and how a face is brought before the eye. */
 
-let studio: Studio;
-let directory: string;
-
-beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-selecting-'));
-  studio = await openStudio();
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile();
+const directory = directoryOfFile();
 
 interface Surface {
   id: string;
@@ -88,10 +74,7 @@ describe('a Rhino file', () => {
   it('begins with nothing chosen, and what is clicked is held', async () => {
     const { page } = studio;
     await scene(page, 'Two patches');
-    await page.locator('summary[aria-label=Save]').click();
-    const [download] = await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item').filter({ has: page.locator('b:text-is("Rhino file")') }).click()]);
-    const path = join(directory, 'two.3dm');
-    await download.saveAs(path);
+    const path = await saveAs(page, directory, 'Rhino file');
     await openFile(page, path);
     const shape = await positions(page);
     await page.keyboard.press('b');

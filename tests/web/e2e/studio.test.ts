@@ -1,41 +1,18 @@
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 
-import { commands, distance, native, openFile as open, openStudio, positions, ready, root, scene, settled, spot, stroke, type Studio } from './page';
+import { commands, distance, native, openFile as open, positions, ready, root, scene, settled, spot, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
-let studio: Studio;
-let directory: string;
-
-beforeAll(async () => {
-  directory = mkdtempSync(join(tmpdir(), 'knead-studio-'));
-  studio = await openStudio();
-});
-
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile();
+const directory = directoryOfFile();
 
 const openFile = (path: string, choice?: string) => open(studio.page, path, choice);
 
 const errors = () => studio.page.locator('.notice.error');
 
-async function save(entry: string): Promise<string> {
-  const { page } = studio;
-  await page.locator('summary[aria-label=Save]').click();
-  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item', { hasText: entry }).click()]);
-  const path = join(directory, download.suggestedFilename());
-  await download.saveAs(path);
-  return path;
-}
+const save = (entry: string) => saveAs(studio.page, directory, entry);
 
 /** Share of the pixels of the scene that differ. */
 const picture = async () => studio.page.locator('.stage').screenshot();
