@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "knead/spline/evaluate.hpp"
 
@@ -28,6 +29,16 @@ Point turned(const Point& x, const Point& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix() * x;
 }
 
+/// What a stamp at a place does to a point at `off` from it.
+Point stamped(const Brush& brush, const BrushPlace& place, const Point& normal, const Point& off) {
+  const Point e = (place.along - place.along.dot(normal) * normal).stableNormalized();
+  Point f = normal.cross(e);
+  if (f.dot(place.across) < 0) f = -f;
+  const double c = std::cos(brush.angle), s = std::sin(brush.angle), half = brush.radius / std::numbers::sqrt2;
+  const double xi = off.dot(c * e + s * f) / half, eta = off.dot(c * f - s * e) / half;
+  return brush.height * stamp_rim(xi, eta, brush.core) * brush.pattern.at(xi, eta) * normal;
+}
+
 /// The profile across a crease, a cusp.
 double cusp(double distance, double radius) {
   const double s = 1 - distance / radius;
@@ -43,7 +54,7 @@ bool has_strength(BrushKind kind) {
 }  // namespace
 
 bool acts_about_one_place(BrushKind kind) {
-  return kind == BrushKind::grab || kind == BrushKind::twist || kind == BrushKind::scale;
+  return kind == BrushKind::grab || kind == BrushKind::twist || kind == BrushKind::scale || kind == BrushKind::stamp;
 }
 
 double brush_falloff(double distance, double radius, double core) {
@@ -86,11 +97,14 @@ BrushImage BrushImage::after(const BrushImage& other) const {
   return {linear * other.linear, linear * other.offset + offset};
 }
 
-BrushPlace BrushImage::of(const BrushPlace& place) const { return {linear * place.at + offset, linear * place.normal}; }
+BrushPlace BrushImage::of(const BrushPlace& place) const {
+  return {linear * place.at + offset, linear * place.normal, linear * place.along, linear * place.across};
+}
 
 Brush BrushImage::of(Brush brush) const {
   brush.by = Point(linear * brush.by);
-  if (linear.determinant() < 0) brush.angle = -brush.angle;
+  const bool framed = brush.kind == BrushKind::stamp;  // its angle is in a frame that is mirrored itself
+  if (linear.determinant() < 0 && !framed) brush.angle = -brush.angle;
   return brush;
 }
 
@@ -198,6 +212,7 @@ void BrushHistory::go_to(const Brush& brush, const BrushSamples& samples, const 
 
 Point BrushHistory::about_first(const Brush& brush, const Point& x) const {
   const Point off = x - first_.place.at;
+  if (brush.kind == BrushKind::stamp) return stamped(brush, first_.place, first_.normal, off);
   const double w = brush_falloff(off.norm(), brush.radius, brush.core);
   if (brush.kind == BrushKind::grab) return w * brush.by;
   if (brush.kind == BrushKind::twist) return turned(off, first_.normal, w * brush.angle) - off;

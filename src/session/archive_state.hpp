@@ -304,10 +304,18 @@ inline void read_path_on_one_surface(Reader& a, std::vector<BrushPoint>& path) {
 template <class A>
 void pass(A& a, Of<A, OpenBrush>& b) {
   auto& [brush, images, rope, path, before, masks] = b;
-  auto& [kind, radius, height, strength, core, by, angle, factor] = brush;
-  choice(a, kind, BrushKind::unmask);
+  auto& [kind, radius, height, strength, core, by, angle, factor, pattern] = brush;
+  choice(a, kind, BrushKind::stamp);
   for (auto* x : {&radius, &height, &strength, &core, &angle, &factor, &rope}) pass(a, *x);
   pass(a, by);
+  if (kind == BrushKind::stamp) {
+    auto& [columns, heights] = pattern;
+    pass(a, columns);
+    a.numbers(heights);
+    if constexpr (!A::writing) {
+      if (columns < 2 || heights.size() < 4 || heights.size() % static_cast<std::size_t>(columns) != 0) a.fail();
+    }
+  }
   list(a, images, 96);
   bool one_surface = false;
   if constexpr (!A::writing) one_surface = a.version() < 5;

@@ -49,7 +49,8 @@ Expected<std::array<std::vector<double>, 2>> halving(const Surface& s, const Fra
 /// the length of the longest span there that is left.
 Expected<double> Executor::refine_under_brush(SceneSurface& s, const Fractions& at) {
   const Brush& brush = state.brush->brush;
-  const bool sharp = brush.kind == BrushKind::crease || brush.kind == BrushKind::ridge;
+  const bool sharp =
+      brush.kind == BrushKind::crease || brush.kind == BrushKind::ridge || brush.kind == BrushKind::stamp;
   const double wanted = brush.radius * (sharp ? sharp_wanted : spans_wanted);
   if (auto refined = refine_at_trims(s, at, brush.radius); !refined) return std::unexpected(refined.error());
   double longest = 0;

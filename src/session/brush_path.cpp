@@ -171,7 +171,9 @@ Expected<BrushPlace> BrushPath::place(const BrushPoint& at) const {
   const auto jet = evaluate<2>(surface, here, 1);
   if (!jet) return std::unexpected(jet.error());
   const Point su = jet->at({1, 0}).row(0), sv = jet->at({0, 1}).row(0);
-  return BrushPlace{jet->points().row(0).transpose(), su.cross(sv).stableNormalized()};
+  const Point normal = su.cross(sv).stableNormalized();
+  return BrushPlace{jet->points().row(0).transpose(), normal, su.stableNormalized(),
+                    normal.cross(su).stableNormalized()};
 }
 
 }  // namespace knead

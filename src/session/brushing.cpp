@@ -161,6 +161,7 @@ Expected<void> Executor::lead_brush() {
       if (!place) return std::unexpected(place.error());
       place->normal *=
           run.sides[static_cast<std::size_t>(std::ranges::find(selection, at.surface) - selection.begin())];
+      place->across = place->normal.cross(place->along);
       run.histories[0].go_to(open.brush, run.samples, *place, run.fair);
       for (std::size_t i = 0; i < open.images.size(); ++i) {
         run.histories[i + 1].go_to(open.images[i].of(open.brush), run.samples, open.images[i].of(*place), run.fair);

@@ -31,6 +31,7 @@ struct BrushRun {
   Points fair;                          ///< displacement to the fair shape, at the samples
   std::vector<BrushHistory> histories;  ///< of the stroke and its images
   bool stuck = false;                   ///< all that it asks for is held
+  std::string shape = {};               ///< of which the pattern of a stamp was made; empty: of none
 
   /// Whether any control point is within the radius of the path.
   [[nodiscard]] bool reaches(Brush brush) const;

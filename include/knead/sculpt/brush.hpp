@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "knead/sculpt/greville_values.hpp"
+#include "knead/sculpt/stamp.hpp"
 
 namespace knead {
 
@@ -22,21 +23,23 @@ enum class BrushKind {
   scale,    ///< larger or smaller about a point
   mask,     ///< what brushes and strokes leave alone
   unmask,   ///< which they do not any more
+  stamp,    ///< a pattern pressed as a height
 };
 
-/// Grab, twist and scale act about one place; the others along a path.
+/// Grab, twist, scale and stamp act about one place; the others along a path.
 [[nodiscard]] bool acts_about_one_place(BrushKind kind);
 
 /// A brush. Lengths in file units.
 struct Brush {
   BrushKind kind = BrushKind::push;
-  double radius = 1;         ///< R > 0
-  double height = 0.25;      ///< h of push, pull, inflate, crease and ridge; of either sign
-  double strength = 1;       ///< a, 0 to 1, of flatten, smooth, pinch, mask and unmask
-  double core = 0;           ///< share of the radius within which the falloff is 1; from 0 to less than 1
-  Point by = Point::Zero();  ///< grab: where the point goes, from where it is
-  double angle = 0;          ///< twist: about the normal, counterclockwise, radians
-  double factor = 1;         ///< scale: > 0
+  double radius = 1;          ///< R > 0
+  double height = 0.25;       ///< h of push, pull, inflate, crease, ridge and stamp; of either sign
+  double strength = 1;        ///< a, 0 to 1, of flatten, smooth, pinch, mask and unmask
+  double core = 0;            ///< share of the radius (of a stamp's half side) within which the falloff is 1; 0 to < 1
+  Point by = Point::Zero();   ///< grab: where the point goes, from where it is
+  double angle = 0;           ///< twist, stamp: about the normal, counterclockwise, radians
+  double factor = 1;          ///< scale: > 0
+  StampPattern pattern = {};  ///< stamp: over the square about the place whose corners are on the radius
 
   friend bool operator==(const Brush&, const Brush&) = default;
 };
@@ -59,6 +62,7 @@ struct BrushSamples {
 /// A point of the surface on the path of a brush.
 struct BrushPlace {
   Point at = Point::Zero(), normal = Point::Zero();
+  Point along = Point::Zero(), across = Point::Zero();  ///< where a stamp's ξ and η grow; they span the tangent plane
 };
 
 /// An isometry of space, x → Q x + o, which makes the copies of a stroke: mirror images and turns.

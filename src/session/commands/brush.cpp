@@ -6,14 +6,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "../shape_fields.hpp"
+
 namespace knead {
 namespace {
 
 constexpr double default_height = 0.25;  // of the radius
 constexpr double default_pinch = 0.5;
-constexpr double default_flat_core = 0.5;
+constexpr double default_flat_core = 0.5, default_stamp_core = 0.75;
 constexpr double largest_core = 0.95;
 constexpr int most_copies = 64;
+constexpr std::size_t most_samples = 512 * 512;  // of a pattern
 
 Point in_space(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
@@ -69,6 +72,40 @@ Expected<void> check(double x, const Range& range, const char* field) {
                      "use a number " + (range == Range{} ? std::string("that is finite") : in_words(range)));
 }
 
+/// The rows of a pattern, or the shape of a tool as a pattern within the core.
+Expected<StampPattern> pattern_of(const Executor& executor, const BrushCommand& c, double core) {
+  if (c.pattern.empty() == !c.shape) {
+    return input_error("a stamp is either a pattern or a shape", "pattern",
+                       R"(give "pattern": [[h, …], …], or "shape": "torus")");
+  }
+  if (c.shape) {
+    const std::optional<BrushRun>& known = executor.brush_cache;  // a hand that turns it asks again and again
+    if (known && known->shape == *c.shape && known->open.brush.core == core) return known->open.brush.pattern;
+    ShapeFields measures;
+    measures.radius = 1;
+    const auto shape = make_shape(*c.shape, measures, 1, 1, executor);
+    if (!shape) return std::unexpected(shape.error());
+    return stamp_of(*shape, core);
+  }
+  StampPattern pattern{static_cast<int>(c.pattern.front().size()), {}};
+  for (std::size_t k = 0; k < c.pattern.size(); ++k) {
+    const std::vector<double>& row = c.pattern[k];
+    if (row.size() != c.pattern.front().size()) {
+      return input_error(fmt::format("row {} has {} heights and the first one {}", k + 1, row.size(), pattern.columns),
+                         "pattern", "give rows of the same length");
+    }
+    if (!std::ranges::all_of(row, [](double h) { return std::isfinite(h); })) {
+      return input_error(fmt::format("a height of row {} is not finite", k + 1), "pattern", "use finite numbers");
+    }
+    pattern.heights.insert(pattern.heights.end(), row.begin(), row.end());
+  }
+  if (pattern.columns < 2 || c.pattern.size() < 2 || pattern.heights.size() > most_samples) {
+    return input_error(fmt::format("a pattern of {} × {} is not possible", c.pattern.size(), pattern.columns),
+                       "pattern", "give at least 2 rows of 2 heights, and at most 262,144 heights");
+  }
+  return pattern;
+}
+
 /// The brush in file units.
 Expected<Brush> brush_of(const BrushCommand& c, double diagonal) {
   const double unit = c.relative ? diagonal : 1;
@@ -78,7 +115,7 @@ Expected<Brush> brush_of(const BrushCommand& c, double diagonal) {
   b.height = c.height ? *c.height * unit : default_height * b.radius;
   b.strength = c.strength.value_or(c.kind == BrushKind::pinch ? default_pinch : 1);
   const bool flat = c.kind == BrushKind::flatten || c.kind == BrushKind::mask || c.kind == BrushKind::unmask;
-  b.core = c.core.value_or(flat ? default_flat_core : 0);
+  b.core = c.core.value_or(flat ? default_flat_core : c.kind == BrushKind::stamp ? default_stamp_core : 0);
   b.by = unit * in_space(c.by.value_or(Vector3{}));
   b.angle = c.angle.value_or(0) * std::numbers::pi / 180;
   b.factor = c.factor.value_or(1);
@@ -128,7 +165,8 @@ std::span<const Choice> choices(BrushKind) {
                                     {"twist", BrushKind::twist, "turns about the normal there"},
                                     {"scale", BrushKind::scale, "larger or smaller about it"},
                                     {"mask", BrushKind::mask, "paints what brushes and strokes leave alone"},
-                                    {"unmask", BrushKind::unmask, "frees it again"}};
+                                    {"unmask", BrushKind::unmask, "frees it again"},
+                                    {"stamp", BrushKind::stamp, "a pattern or shape as a height"}};
   return list;
 }
 
@@ -147,7 +185,7 @@ void describe(BrushCommand& c, Fields& fields) {
               .range = above(0),
               .fallback = "a tenth of the diagonal"});
   fields.add("height", c.height,
-             {.help = "of push, pull, inflate, crease and ridge, at full weight; either sign",
+             {.help = "of push, pull, inflate, crease, ridge and stamp, at full weight; either sign",
               .unit = Unit::length,
               .fallback = "a quarter of the radius"});
   fields.add(
@@ -162,11 +200,18 @@ void describe(BrushCommand& c, Fields& fields) {
              {.help = "share of the radius with full weight; from there it falls off smoothly",
               .unit = Unit::fraction,
               .range = between(0, largest_core),
-              .fallback = "`0`; of flatten, mask and unmask `0.5`"});
+              .fallback = "`0`; of flatten, mask and unmask `0.5`, of stamp `0.75`"});
   fields.add("by", c.by, {.help = "of grab: `[dx, dy, dz]`", .unit = Unit::length, .fallback = "`[0, 0, 0]`"});
   fields.add("angle", c.angle,
-             {.help = "of twist: counterclockwise about the normal", .unit = Unit::angle, .fallback = "`0`"});
+             {.help = "of twist and stamp: counterclockwise about the normal", .unit = Unit::angle, .fallback = "`0`"});
   fields.add("factor", c.factor, {.help = "of scale", .range = above(0), .fallback = "`1`"});
+  fields.add("pattern", c.pattern,
+             {.help = "of stamp: rows of heights over a square whose corners are on the radius, `1` for the whole "
+                      "`height`; the first row is the upper one, and columns go along the first parameter"});
+  fields.add(
+      "shape", c.shape,
+      {.help = "of stamp, in place of `pattern`: the shape of a tool as it is seen along its axis, as wide as the "
+               "`core`"});
   fields.add("steady", c.steady,
              {.help = "the brush is drawn along the path by a rope of so many radii, which takes out what trembles",
               .range = at_least(0)});
@@ -186,8 +231,13 @@ Expected<void> Executor::execute(const BrushCommand& c) {
   if (!first) return std::unexpected(first.error());
   const auto length = diagonal();
   if (!length) return std::unexpected(length.error());
-  const auto brush = brush_of(c, *length);
+  auto brush = brush_of(c, *length);
   if (!brush) return std::unexpected(brush.error());
+  if (c.kind == BrushKind::stamp) {
+    auto pattern = pattern_of(*this, c, brush->core);
+    if (!pattern) return std::unexpected(pattern.error());
+    brush->pattern = std::move(*pattern);
+  }
   auto images = images_of(c, **first);
   if (!images) return std::unexpected(images.error());
   const auto path = path_of(*this, c);
@@ -210,6 +260,7 @@ Expected<void> Executor::execute(const BrushCommand& c) {
   }
   state.brush->brush = *brush;
   if (auto done = brush_to(*path); !done) return done;
+  brush_cache->shape = c.shape.value_or("");
   if (c.open.value_or(false)) return {};
   state.brush.reset();
   if (brush_cache->stuck) {  // not of a stroke that may still come to where something is free

@@ -1,29 +1,11 @@
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-
-import { Engine } from '@studio/engine/engine';
 import type { Command, Vector3 } from '@studio/engine/session_types';
 
-import { commands, drag, openStudio, positions, root, settled, type Studio } from './page';
+import { commands, drag, positions, settled, studioOfFile, directoryOfFile, drawnBy, engineOf, saveAs } from './page';
 
 /** Brushes, from the pointer's events to the saved file. */
 
-let studio: Studio;
-let wasm: Buffer;
-const directory = mkdtempSync(join(tmpdir(), 'knead-brushes-'));
-beforeAll(async () => {
-  studio = await openStudio();
-  wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
-});
-afterAll(async () => {
-  await studio.close();
-  rmSync(directory, { recursive: true });
-});
-afterEach(() => {
-  expect(studio.problems).toEqual([]);
-  expect(studio.foreign).toEqual([]);
-});
+const studio = studioOfFile();
+const directory = directoryOfFile();
 
 interface Page {
   hand: { brush: { settings: { radius: number } }; surfaceBrush: { settings: Record<string, unknown> } };
@@ -53,29 +35,16 @@ const choose = (kind: string) => studio.page.locator('[data-panel=Brush] .chip',
 
 const led = (from: [number, number], to: [number, number], moves: number) => drag(studio.page, from, to, moves);
 
+let savedPath = '';
 /** The surface in the file that the page saves, as the engine reads it: a grid of points. */
 async function saved(): Promise<Vector3[]> {
-  const { page } = studio;
-  await page.locator('summary[aria-label=Save]').click();
-  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('details[open] .menu-item', { hasText: 'STEP file' }).click()]);
-  const path = join(directory, 'saved.step');
-  await download.saveAs(path);
-  const engine = await opened();
-  const { positions: drawn } = engine.picture(0, 200);
-  const points: Vector3[] = [];
-  for (let k = 0; k < drawn.length; k += 3) points.push([drawn[k]! + engine.origin[0]!, drawn[k + 1]! + engine.origin[1]!, drawn[k + 2]! + engine.origin[2]!]);
-  return points;
-}
-
-async function opened(): Promise<Engine> {
-  const engine = await Engine.load(wasm);
-  engine.openStep(new Uint8Array(readFileSync(join(directory, 'saved.step'))), 'saved.step');
-  return engine;
+  savedPath = await saveAs(studio.page, directory, 'STEP file');
+  return drawnBy(await engineOf(savedPath), 200);
 }
 
 /** The control points in the file that was saved last, to the last bit. */
 async function savedNet(): Promise<Vector3[]> {
-  const numbers = (await opened()).controlPoints(0);
+  const numbers = (await engineOf(savedPath)).controlPoints(0);
   return Array.from({ length: numbers.length / 3 }, (_, k) => [numbers[3 * k]!, numbers[3 * k + 1]!, numbers[3 * k + 2]!]);
 }
 
@@ -114,6 +83,44 @@ describe('brushes', () => {
     const apart = few.reduce((most, x, k) => Math.max(most, Math.abs(x - many[k]!)), 0);
     console.log(`inflated by ${top.toFixed(3)} of ${height}; 8 and 160 events ${apart.toFixed(4)} apart`);
     expect(apart).toBeLessThan(0.03 * height!);
+  });
+
+  it('stamp the shape of a tool, turned by the hand, and an image', async () => {
+    const { page } = studio;
+    const fine: Command[] = [{ do: 'refine', permission: 'auto' }]; // a span of the sheet is a third of the side
+    await begin('Stamp', fine, { strength: 0.4, stamp: { shape: 'box' } });
+    await led([0, 0], [90, 0], 6);
+    const box = await last();
+    expect(box).toMatchObject({ kind: 'stamp', shape: 'box', angle: 45 });
+    expect(box.places.length).toBe(1);
+    const [x, y] = box.places[0]!, height = box.height!;
+    const at = (points: Vector3[], dx: number, dy: number) =>
+      points.reduce((best, p) => (Math.hypot(p[0] - x - dx, p[1] - y - dy) < Math.hypot(best[0] - x - dx, best[1] - y - dy) ? p : best))[2];
+    const block = await saved(), half = 0.75 * radius / Math.SQRT2; // of its sides
+    expect(Math.abs(at(block, 0, 0) - height)).toBeLessThan(0.02 * height);
+    // A corner of the square lies where its side was before the turn.
+    expect(at(block, 1.05 * half, 0)).toBeGreaterThan(0.5 * height);
+    expect(at(block, 0.9 * half, 0.9 * half)).toBeLessThan(0.15 * height);
+    await undone(sheet.length + fine.length);
+
+    const halfWhite = await page.evaluate(() => {
+      const canvas = document.createElement('canvas');
+      canvas.width = canvas.height = 64;
+      const context = canvas.getContext('2d')!;
+      context.fillRect(0, 0, 64, 64);
+      context.fillStyle = 'white';
+      context.fillRect(32, 0, 32, 64);
+      return canvas.toDataURL('image/png').split(',')[1]!;
+    });
+    await page.locator('input[aria-label="Image of the stamp"]').setInputFiles({ name: 'half.png', mimeType: 'image/png', buffer: Buffer.from(halfWhite, 'base64') });
+    await expect.poll(() => page.locator('select[aria-label=Stamp]').inputValue()).toBe('image');
+    await led([0, 0], [0, 0], 1);
+    const image = await last();
+    expect(image.pattern!.length).toBe(64);
+    expect([image.pattern![10]![10], image.pattern![10]![50]]).toEqual([0, 1]);
+    const pressed = await saved();
+    expect(Math.abs(at(pressed, 0.45 * half, 0) - height)).toBeLessThan(0.15 * height);
+    expect(Math.abs(at(pressed, -0.45 * half, 0))).toBeLessThan(0.15 * height);
   });
 
   it('flatten what is under them', async () => {

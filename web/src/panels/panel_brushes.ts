@@ -1,10 +1,12 @@
 import { parseLength } from '../document/units';
 import type { MaskCommand } from '../engine/generated';
+import { heightsOf } from '../tools/stamp_image';
 import { brushKinds } from '../tools/surface_brush';
 import type { App } from './app';
 import { field, h, select, slider, title, toggle } from './dom';
 import { numberInput } from './number_input';
 import { note, row } from './panel';
+import { shapeTitles } from './panels_scene';
 
 /** The panel of the mode `brush`: the picker of kinds, how strong it is, where it is repeated, and the mask. */
 export function surfaceBrushFields(app: App): (Node | null)[] {
@@ -15,22 +17,46 @@ export function surfaceBrushFields(app: App): (Node | null)[] {
   };
   const about = brushKinds.find(([kind]) => kind === settings.kind)![1];
   const masking = settings.kind === 'mask' || settings.kind === 'unmask';
-  const moving = settings.kind === 'grab' || settings.kind === 'twist' || settings.kind === 'scale';
+  const moving = settings.kind === 'grab' || settings.kind === 'twist' || settings.kind === 'scale', stamping = settings.kind === 'stamp';
   return [
     row(...brushKinds.map(([kind, help]) => toggle(title(kind), settings.kind === kind, () => {
       set({ kind });
       if (kind === 'mask' || kind === 'unmask') showMask(app);
     }, help))),
+    ...(settings.kind === 'stamp' ? stampFields(app) : []),
     masking || moving ? null : field('Strength', row(
       slider('Brush strength', settings.strength, [0.02, 1], (strength) => set({ strength })),
       h('output', { class: 'number' }, `${Math.round(100 * settings.strength)} %`),
     ), 'How high it goes, 100 % half its radius; of flatten, smooth and pinch how far. Alt-wheel'),
-    moving ? null : field('Steady', slider('Steady stroke', settings.steady, [0, 2], (steady) => set({ steady: steady < 0.05 ? 0 : steady })),
+    moving || stamping ? null : field('Steady', slider('Steady stroke', settings.steady, [0, 2], (steady) => set({ steady: steady < 0.05 ? 0 : steady })),
       'The brush is drawn behind the pointer by a rope of so many radii'),
     ...repeatFields(app),
     ...maskFields(app),
     note(`${about}. ${settings.kind === 'smooth' ? '' : 'Shift smooths, '}Esc takes the stroke back.`),
   ];
+}
+
+/** What a stamp presses. */
+function stampFields(app: App): Node[] {
+  const { settings } = app.hand.surfaceBrush;
+  const { stamp } = settings;
+  const set = (change: typeof stamp) => {
+    settings.stamp = change;
+    app.changed();
+  };
+  const picker = h('input', { type: 'file', accept: 'image/png,image/jpeg,image/webp', hidden: true, aria: { label: 'Image of the stamp' } });
+  picker.addEventListener('change', () => {
+    const file = picker.files?.[0];
+    if (file) void app.attempt(async () => set({ image: file.name, pattern: await heightsOf(file) }));
+  });
+  const shapes = shapeTitles.filter(([name]) => name !== 'surface' && name !== 'plane').map(([name, text]) => [name, text] as const);
+  const image = 'image' in stamp ? [['image', stamp.image] as const] : [];
+  return [field('Stamp', row(
+    select('Stamp', [...shapes, ...image], 'shape' in stamp ? stamp.shape : 'image', (name) => {
+      if (name !== 'image') set({ shape: name });
+    }),
+    h('button', { class: 'button small', type: 'button', title: 'The lightness of an image as heights', onclick: () => picker.click() }, 'Image…'), picker,
+  ), 'The shape of a tool as it is seen from above, or an image: white is highest')];
 }
 
 /** The colours show the mask where they show nothing else. */

@@ -17,6 +17,7 @@ export const brushKinds: readonly (readonly [BrushKind, string])[] = [
   ['flatten', 'Towards the plane that fits what is under it'], ['smooth', 'Towards the fair shape'], ['pinch', 'Towards the path, within the surface'],
   ['crease', 'A sharp valley along the path. Alt: a crest'], ['ridge', 'A sharp crest along the path. Alt: a valley'],
   ['grab', 'Takes a point and what is round it along'], ['twist', 'Turns about a point: drag sideways'], ['scale', 'Larger or smaller about a point: drag sideways'],
+  ['stamp', 'A shape or an image as a height: drag sideways to turn it. Alt presses it in'],
   ['mask', 'Paints what is to stay as it is. Alt frees'], ['unmask', 'Frees what is masked. Alt masks'],
 ];
 
@@ -28,6 +29,8 @@ export interface SurfaceBrushSettings {
   steady: number;
   /** The plane in which a stroke is repeated; `at` in file units. */
   mirror: { axis: 'x' | 'y' | 'z'; at: number } | null;
+  /** What a stamp presses: the shape of a tool, or the heights of an image. */
+  stamp: { shape: string } | { image: string; pattern: number[][] };
   /** Strokes around the axis z through the middle of what is selected. */
   radial: number;
 }
@@ -35,9 +38,9 @@ export interface SurfaceBrushSettings {
 const opposite: Partial<Record<BrushKind, BrushKind>> = {
   push: 'pull', pull: 'push', crease: 'ridge', ridge: 'crease', mask: 'unmask', unmask: 'mask',
 };
-const heights: readonly BrushKind[] = ['push', 'pull', 'inflate', 'crease', 'ridge'];
+const heights: readonly BrushKind[] = ['push', 'pull', 'inflate', 'crease', 'ridge', 'stamp'];
 const shares: readonly BrushKind[] = ['flatten', 'smooth', 'pinch', 'mask', 'unmask'];
-const aboutPlaces: readonly BrushKind[] = ['grab', 'twist', 'scale'];
+const aboutPlaces: readonly BrushKind[] = ['grab', 'twist', 'scale', 'stamp'];
 /** Of the radius, at full strength. */
 const fullHeight = 0.5;
 /** Pixels by which a twist turns one degree and a scale grows by e. */
@@ -58,7 +61,7 @@ interface Stroke {
 
 /** Leads the brushes of the session over the surface, from the shape that stood when the button went down. */
 export class SurfaceBrush implements PointerTool {
-  settings: SurfaceBrushSettings = { kind: 'inflate', strength: 0.5, steady: 0, mirror: null, radial: 1 };
+  settings: SurfaceBrushSettings = { kind: 'inflate', strength: 0.5, steady: 0, mirror: null, radial: 1, stamp: { shape: 'torus' } };
 
   private stroke: Stroke | null = null;
   private readonly ring: Ring;
@@ -115,10 +118,11 @@ export class SurfaceBrush implements PointerTool {
     const { settings } = this;
     const kind = event.shiftKey ? 'smooth' : event.altKey ? (opposite[settings.kind] ?? settings.kind) : settings.kind;
     const radius = this.size();
-    const inward = event.altKey && settings.kind === 'inflate';
+    const inward = event.altKey && (settings.kind === 'inflate' || settings.kind === 'stamp');
     const [x, y, z] = this.middle();
     const fields: Stroke['fields'] = { do: 'brush', kind, radius };
     if (heights.includes(kind)) fields.height = (inward ? -1 : 1) * fullHeight * settings.strength * radius;
+    if (kind === 'stamp') Object.assign(fields, 'shape' in settings.stamp ? { shape: settings.stamp.shape } : { pattern: settings.stamp.pattern });
     if (shares.includes(kind)) fields.strength = kind === 'mask' || kind === 'unmask' ? 1 : settings.strength;
     if (settings.steady > 0 && !aboutPlaces.includes(kind)) fields.steady = settings.steady;
     if (settings.mirror) {
@@ -133,7 +137,7 @@ export class SurfaceBrush implements PointerTool {
   /** What the hand changes as it goes, of the kinds that act about a place. */
   private carried(stroke: Stroke, event: PointerEvent): Partial<BrushCommand> {
     const aside = event.clientX - stroke.pressed;
-    if (stroke.fields.kind === 'twist') return { angle: aside / perDegree };
+    if (stroke.fields.kind === 'twist' || stroke.fields.kind === 'stamp') return { angle: aside / perDegree };
     if (stroke.fields.kind === 'scale') return { factor: Math.exp(aside / perFactor) };
     return { by: stroke.viewport.unproject(event.clientX, event.clientY, stroke.start).sub(stroke.start).toArray() };
   }
