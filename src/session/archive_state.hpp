@@ -261,7 +261,7 @@ void pass(A& a, Of<A, OpenStroke::Before>& b) {
 
 template <class A>
 void pass(A& a, Of<A, OpenStroke>& s) {
-  auto& [tool, home, path, lambda, stiffness, tension, plasticity, before, history, last, older] = s;
+  auto& [tool, home, path, lambda, stiffness, tension, plasticity, before, history, last, older, share] = s;
   pass(a, tool);
   pass(a, home);
   pass(a, path.spacing);
@@ -271,6 +271,10 @@ void pass(A& a, Of<A, OpenStroke>& s) {
   for (auto* x : {&lambda, &stiffness, &tension, &plasticity.share, &plasticity.yield}) pass(a, *x);
   list(a, before, 16);
   for (auto* x : {&history, &last, &older}) pass(a, *x);
+  if constexpr (!A::writing) {
+    if (a.version() < 6) return;  // which had none
+  }
+  pass(a, share);
 }
 
 template <class A>

@@ -171,6 +171,9 @@ struct Executor {
   /// Whether the surfaces of which edges of faces are held have not folded: their normals point to the same side as at
   /// rest, at four points per span. Error (numerical): where they do not.
   Expected<void> check_folds();
+  /// Makes the open stroke shallower, everywhere alike, where it would fold a face. Returns the note on it; empty:
+  /// nothing folds. Errors: as above, where not even a tenth of it would be left.
+  Expected<std::string> keep_unfolded();
   /// The error of a step in which nothing is free to move under a tool.
   Error all_held(const std::string& tool) const;
   /// Some selected surface is held by the edges of its faces.

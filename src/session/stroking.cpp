@@ -307,7 +307,9 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
   }
   if (last.gap > 0 && (state.stroke->history.array() == 0).all()) return std::unexpected(all_held(last.gap_tool));
   if (auto shown = show_stroke(true); !shown) return shown;
-  if (auto sound = check_folds(); !sound) return sound;
+  const auto shallower = keep_unfolded();
+  if (!shallower) return std::unexpected(shallower.error());
+  if (!shallower->empty()) note = *shallower;
   note_model(stroke_cache->scene);
   last.iterations = iterations;
   last.converged = converged;
@@ -319,9 +321,9 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
 Expected<void> Executor::show_remembered(bool down) {
   const OpenStroke& stroke = *state.stroke;
   const StrokeModel& model = *stroke_cache;
-  const Points stays = unmasked(staying(stroke.history, stroke.plasticity));
+  const Points stays = stroke.share * unmasked(staying(stroke.history, stroke.plasticity));
   Points shown = stays;
-  if (down && stroke.last.rows() > 0) remember(shown, unmasked(model.at_abscissae(stroke.last)));
+  if (down && stroke.last.rows() > 0) remember(shown, stroke.share * unmasked(model.at_abscissae(stroke.last)));
   const bool same = shown == stays;
   // The largest of many displacements is none that coupled surfaces allow on both sides; then the nearest one stays.
   const auto couples = [](const SeamReport& seam) { return seam.continuity != SeamContinuity::none; };

@@ -146,6 +146,28 @@ Expected<void> Executor::check_folds() {
   return {};
 }
 
+Expected<std::string> Executor::keep_unfolded() {
+  constexpr int halvings = 6;
+  constexpr double safe = 0.9, least = 0.1;
+  const auto sound = check_folds();
+  if (sound) return std::string();
+  // What is held is linear in the displacement, and so holds for every share of it.
+  double flat = 0, folded = state.stroke->share;
+  const auto shows = [&](double share) {
+    state.stroke->share = share;
+    return show_stroke(true);
+  };
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (flat + folded);
+    if (auto shown = shows(middle); !shown) return std::unexpected(shown.error());
+    (check_folds() ? flat : folded) = middle;
+  }
+  if (safe * flat < least) return std::unexpected(sound.error());
+  if (auto shown = shows(safe * flat); !shown) return std::unexpected(shown.error());
+  if (auto still = check_folds(); !still) return std::unexpected(still.error());
+  return fmt::format("the stroke keeps {:.0f} % of its depth, as more would fold a face", 100 * safe * flat);
+}
+
 bool Executor::holds_edges() const {
   return std::ranges::any_of(state.selection(), [this](int k) {
     return holds_trims(state.surfaces[static_cast<std::size_t>(k)].constraints);

@@ -64,6 +64,21 @@ TEST(TrimCommands, AStrokeInClayLeavesItsGrooveInAFlatFace) {
   EXPECT_EQ(session.state().surfaces[0].current->knots(0).degree(), 3);
 }
 
+// A brush twice as wide as the strip between two edges, which is pressed as deep as it is wide.
+TEST(TrimCommands, AStrokeThatWouldFoldAFaceIsMadeShallower) {
+  Session session(document(disc().file));
+  const auto done = run(session, R"({"do":"material","preset":"clay"},
+    {"do":"tool","name":"ball","radius":0.1,"position":[0.3,0.4,0.2],"plasticity":1},
+    {"do":"stroke","tool":"ball","path":[[0.42,0.5,0.05],[0.42,0.52,-0.02]]})");
+  ASSERT_TRUE(done) << done.error().message();
+  const double depth = session.largest_displacement(0);
+  EXPECT_GT(depth, 0.01);
+  EXPECT_LT(depth, 0.11);
+  EXPECT_EQ(largest_gap(session), 0);
+  EXPECT_NE(session.state().steps.back().note.find("of its depth, as more would fold a face"), std::string::npos)
+      << session.state().steps.back().note;
+}
+
 TEST(TrimCommands, AScriptOfVersion1HoldsNothingByItself) {
   Session session(document(disc().file));
   const auto done = run(session, ball + R"(,{"do":"step"})", 1);

@@ -114,6 +114,7 @@ struct OpenStroke {
   std::vector<Before> before;    ///< per selected surface
   Points history;                ///< largest displacement so far at the Greville abscissae, file units
   Points last = {}, older = {};  ///< displacements of the last two places; empty: none
+  double share = 1;              ///< of all this that is shown and stays: less where more would fold a face
 };
 
 /// A point of the path of a brush.
