@@ -19,11 +19,35 @@ const encodings = {
 /** The bytes of a file as browsers get them. */
 export const packedForBrowsers = encodings.br;
 
+/** What every answer says: other pages may not put the studio into a frame, and types are what is said. */
+const security = {
+  'content-security-policy': "frame-ancestors 'none'", 'x-frame-options': 'DENY', 'x-content-type-options': 'nosniff',
+  'referrer-policy': 'no-referrer', 'cross-origin-resource-policy': 'same-origin',
+};
+
+/** The path that a request asks for, without its query; nothing if it cannot be decoded. */
+function pathOf(target) {
+  try {
+    const path = decodeURIComponent(target.split(/[?#]/, 1)[0]);
+    return path.startsWith('/') && !path.includes('\0') ? normalize(path) : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
 /** Starts the server; port 0 takes a free one. Resolves to { url, close }. */
 export function serve(directory, port = 0) {
   const packed = new Map();
   const server = createServer((request, response) => {
-    const path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
+    const path = pathOf(request.url);
+    if (path === undefined) {
+      response.writeHead(400, security).end('bad request');
+      return;
+    }
+    if (request.method !== 'GET' && request.method !== 'HEAD') {
+      response.writeHead(405, { ...security, allow: 'GET, HEAD' }).end();
+      return;
+    }
     const file = join(directory, path.endsWith('/') ? join(path, 'index.html') : path);
     let size, version;
     try {
@@ -32,10 +56,10 @@ export function serve(directory, port = 0) {
       size = stat.size;
       version = `${file} ${stat.mtimeMs} ${size}`;
     } catch {
-      response.writeHead(404).end('not found');
+      response.writeHead(404, security).end('not found');
       return;
     }
-    const head = { 'content-type': types[extname(file)] ?? 'application/octet-stream', 'cache-control': 'no-cache' };
+    const head = { ...security, 'content-type': types[extname(file)] ?? 'application/octet-stream', 'cache-control': 'no-cache' };
     // Names in assets/ change with their content: compressed once, kept by the browser.
     if (path.startsWith('/assets/')) head['cache-control'] = 'max-age=31536000, immutable';
     const accepted = (request.headers['accept-encoding'] ?? '').split(',').map((name) => name.split(';')[0].trim());
@@ -48,7 +72,8 @@ export function serve(directory, port = 0) {
       return;
     }
     response.writeHead(200, { ...head, 'content-length': size });
-    createReadStream(file).pipe(response);
+    if (request.method === 'HEAD') response.end();
+    else createReadStream(file).on('error', () => response.destroy()).pipe(response);
   });
   return new Promise((resolve, reject) => {
     server.on('error', reject);
