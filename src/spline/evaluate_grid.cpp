@@ -11,7 +11,9 @@ namespace {
 
 // Two doubles side by side: available on every 64-bit target. All arithmetic is lane by lane, in the order of the
 // scalar code, so results do not depend on the vector width.
-using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
+// A typedef: Clang ignores the alignment in an alias declaration, and then loads from odd addresses trap.
+typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));  // NOLINT(modernize-use-using)
+static_assert(alignof(Pair) == alignof(double));
 
 /// The last direction's basis with parameters side by side, so that neighbouring points of one span are computed at
 /// once: values(d, r)[k] = N^(d)_{first[k]+r}(u_k).
