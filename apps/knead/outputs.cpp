@@ -1,11 +1,10 @@
 #include "outputs.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
+
+#include "knead/exchange/file_io.hpp"
 
 namespace knead::cli {
 namespace {
@@ -21,23 +20,6 @@ bool same_file(const std::string& a, const std::string& b) {
   if (is_special(a)) return false;
   std::error_code code;
   return a == b || fs::equivalent(a, b, code) || fs::weakly_canonical(a, code) == fs::weakly_canonical(b, code);
-}
-
-Expected<void> check_writable(const std::string& path) {
-  if (is_special(path)) return {};
-  const auto fail = [&path](int reason, const char* remedy) {
-    return std::unexpected(
-        Error{ErrorKind::input, fmt::format("cannot be written: {}", std::strerror(reason)), {}, remedy, path, 0});
-  };
-  std::error_code code;
-  if (fs::is_directory(path, code)) return fail(EISDIR, "name a file");
-  fs::path target = path;
-  if (fs::is_symlink(target, code)) target = fs::weakly_canonical(target, code);
-  const fs::path directory = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (::access(directory.c_str(), W_OK | X_OK) != 0) {
-    return fail(errno, "check that its directory exists and may be written to");
-  }
-  return {};
 }
 
 }  // namespace

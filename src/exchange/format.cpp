@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "foreign_format.hpp"
 #include "format_list.hpp"
 #include "surface_mesh.hpp"
 
@@ -87,7 +88,8 @@ Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::stri
     if (chosen == nullptr && format.open != nullptr && has_ending(format, name)) chosen = &format;
   }
   if (chosen != nullptr) return chosen->open(std::move(bytes), std::move(name));
-  Error error{ErrorKind::input, "the format of this file is not known", {}, "open " + alternatives(known)};
+  Error error = detail::foreign_format(bytes).value_or(
+      Error{ErrorKind::input, "the format of this file is not known", {}, "open " + alternatives(known)});
   error.file = std::move(name);
   return std::unexpected(std::move(error));
 }

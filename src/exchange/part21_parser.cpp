@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "foreign_format.hpp"
 #include "part21_text.hpp"
 
 namespace knead {
@@ -23,6 +24,7 @@ bool Part21Parser::file_structure() {
   if (file_.bytes_.starts_with("\xEF\xBB\xBF")) lexer_.set_position(3);
   advance();
   if (!at_keyword(start_mark)) {
+    if (auto foreign = detail::foreign_format(file_.bytes_)) return fail(foreign->what, foreign->remedy);
     return fail("not a STEP file: it does not begin with the line ISO-10303-21",
                 "give a file in the form of ISO 10303-21");
   }

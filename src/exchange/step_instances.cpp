@@ -145,13 +145,17 @@ std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector
   if (mapped.empty()) return result;
   for (Index k = 0; k < reader.file().instances().size(); ++k) {
     const auto& record = reader.file().instance(k);
+    std::optional<bool> representation;  // looked at once per record: it may list any number of items
     for (auto value = record.first; value < record.last; ++value) {
       const auto target = reader.reference(value);
       const auto found = target ? result.find(*target) : result.end();
       // A representation, and not a style or a layer: (name, items, context).
       if (found == result.end() || found->second != no_instance) continue;
-      const auto own = reader.attributes(k, "REPRESENTATION", 0, 3);
-      if (own.size() >= 3 && reader.is_list(own[1]) && reader.reference(own[2])) found->second = k;
+      if (!representation) {
+        const auto own = reader.attributes(k, "REPRESENTATION", 0, 3);
+        representation = own.size() >= 3 && reader.is_list(own[1]) && reader.reference(own[2]);
+      }
+      if (*representation) found->second = k;
     }
   }
   return result;
