@@ -6,6 +6,7 @@
 
 #include "cli.hpp"
 #include "faces.hpp"
+#include "knead/base/printable.hpp"
 #include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/spline/extremum.hpp"
@@ -59,7 +60,7 @@ Json to_json(const step::Instance& i) {
 
 void print_text(const step::File& file) {
   fmt::print("{}: STEP{}, units {}, {} B-spline surface{}\n", file.name(),
-             file.schema().empty() ? "" : " " + file.schema(), file.length_unit(), file.surfaces().size(),
+             file.schema().empty() ? "" : " " + printable(file.schema()), file.length_unit(), file.surfaces().size(),
              file.surfaces().size() == 1 ? "" : "s");
   for (const step::SurfaceEntity& s : file.surfaces()) {
     const Surface& surface = s.surface;
@@ -69,8 +70,9 @@ void print_text(const step::File& file) {
     if (s.closed[0]) traits += ", closed in u";
     if (s.closed[1]) traits += ", closed in v";
     if (s.trimmed) traits += ", trimmed";
-    fmt::print("  {:<8} {}degree {} x {}, net {} x {}, {}\n", s.id, s.name.empty() ? "" : "\"" + s.name + "\", ",
-               surface.knots(0).degree(), surface.knots(1).degree(), m, n, traits);
+    fmt::print("  {:<8} {}degree {} x {}, net {} x {}, {}\n", s.id,
+               s.name.empty() ? "" : "\"" + printable(s.name) + "\", ", surface.knots(0).degree(),
+               surface.knots(1).degree(), m, n, traits);
     fmt::print("           from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.lower.x(), box.lower.y(),
                box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
   }

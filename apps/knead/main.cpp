@@ -1,9 +1,14 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <system_error>
 
 #include "cli.hpp"
 
@@ -39,7 +44,9 @@ knead::Error usage_error(const CLI::App& app, const CLI::ParseError& error, cons
 }
 
 int fail(const knead::Error& error) {
-  fmt::print(stderr, "knead: {}\n", error.message());
+  // Not by fmt::print, which throws if standard error is closed: the exit code still tells.
+  const std::string line = "knead: " + error.message() + "\n";
+  static_cast<void>(std::fputs(line.c_str(), stderr));
   return exit_code(error.kind);
 }
 
@@ -59,9 +66,16 @@ std::vector<std::string> joined_arguments(int argc, char** argv) {
   return {arguments.rbegin(), arguments.rend()};  // CLI11 takes them in reverse order
 }
 
-}  // namespace
+/// Opens what standard streams are closed, so that no file takes their place and gets what is printed; writing to them
+/// still fails.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) != stream) std::abort();
+  }
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app(
       "Knead sculpts exact B-spline and NURBS geometry: the CAD file that comes out is the one that went in,\n"
       "with the sculpted surface changed and nothing else.",
@@ -91,4 +105,22 @@ int main(int argc, char** argv) {
     return fail({knead::ErrorKind::input, "the output could not be written", "standard output", "is the disk full?"});
   }
   return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  occupy_standard_streams();
+  // The library's failures are values. What is left comes from the standard library: no memory, or no place to print
+  // to.
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return fail({knead::ErrorKind::numerical, "the memory is not enough", {}, "use a smaller net, model or count"});
+  } catch (const std::length_error&) {
+    return fail({knead::ErrorKind::numerical, "the memory is not enough", {}, "use a smaller net, model or count"});
+  } catch (const std::system_error& error) {
+    return fail({knead::ErrorKind::input, std::string("the output could not be written: ") + error.what(),
+                 "standard output", "is it closed, or the disk full?"});
+  }
 }

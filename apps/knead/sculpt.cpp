@@ -2,7 +2,9 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +12,7 @@
 
 #include "cli.hpp"
 #include "faces.hpp"
+#include "knead/base/printable.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/sculpt/describe_shape.hpp"
@@ -69,13 +72,19 @@ struct Outcome {
   int moved = 0, surfaces = 0;
 };
 
-Expected<Outcome> outcome_of(Session& session) {
+Outcome outcome_of(Session& session) {
   const SessionState& state = session.state();
   Outcome o;
-  const auto energy = session.energy();
-  if (!energy) return std::unexpected(energy.error());
-  o.energy_after = *energy;
-  o.energy_before = state.energy_before.value_or(*energy);
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  // Finished work is written even if its energy cannot be computed.
+  if (const auto energy = session.energy()) {
+    o.energy_after = *energy;
+    o.energy_before = state.energy_before.value_or(*energy);
+  } else {
+    o.energy_after = unknown;
+    o.energy_before = state.energy_before.value_or(unknown);
+    fmt::print(stderr, "knead: warning: there is no energy: {}\n", energy.error().message());
+  }
   for (const StepRecord& s : state.steps) o.time += s.time;
   if (!state.steps.empty()) {
     o.residual = state.steps.back().residual;
@@ -168,20 +177,21 @@ void print_summary(const SculptArguments& options, const Session& session, const
     for (int index : state.selection()) {
       const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
       const auto [m, n] = s.current->net();
-      fmt::print("{}: surface {}{}, lengths in {}\n", file, s.id, s.name.empty() ? "" : " \"" + s.name + "\"", s.unit);
+      fmt::print("{}: surface {}{}, lengths in {}\n", file, s.id,
+                 s.name.empty() ? "" : " \"" + printable(s.name) + "\"", s.unit);
       fmt::print("  degree {} x {}, net {} x {}, {}\n", s.current->knots(0).degree(), s.current->knots(1).degree(), m,
                  n, s.current->rational() ? "rational" : "polynomial");
     }
     for (const Tool& t : state.tools) {
       const Point& c = t.shape.placement().position;
-      fmt::print("  tool {}: {} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", t.name, in_words(t.shape.shape()),
-                 c.x(), c.y(), c.z(),
+      fmt::print("  tool {}: {} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", printable(t.name),
+                 in_words(t.shape.shape()), c.x(), c.y(), c.z(),
                  t.collides() ? (t.mode == ToolMode::imprint ? "imprint" : "collision")
                               : fmt::format("proximity within {:.4g}", t.range),
                  t.stiffness);
     }
   }
-  for (const std::string& note : state.notes) fmt::print("  {}\n", note);
+  for (const std::string& note : state.notes) fmt::print("  {}\n", printable(note, 2000));
   print_edges(state);
   for (const SeamReport& s : state.seam_reports) {
     fmt::print("  seam {} - {}: {}{}{}\n", edge_of(state, s.seam.a), edge_of(state, s.seam.b),
@@ -193,11 +203,13 @@ void print_summary(const SculptArguments& options, const Session& session, const
                o.residual);
     fmt::print("  largest displacement {:.6g}, {} control point{} moved\n", o.largest_displacement, o.moved,
                o.moved == 1 ? "" : "s");
-    fmt::print("  energy {:.6g} before, {:.6g} after\n", o.energy_before, o.energy_after);
+    if (std::isfinite(o.energy_after)) {
+      fmt::print("  energy {:.6g} before, {:.6g} after\n", o.energy_before, o.energy_after);
+    }
     if (o.gap > 0) fmt::print("  deepest entry into a tool: {:.2g} of its size\n", o.gap);
     const StepRecord& last = state.steps.back();
     if (!last.note.empty()) {
-      fmt::print(stderr, "knead: warning: {}\n", last.note);
+      fmt::print(stderr, "knead: warning: {}\n", printable(last.note, 2000));
     } else if (!last.converged) {
       fmt::print(stderr,
                  "knead: warning: the last step stopped before its minimum was reached; use more steps or a "
@@ -282,10 +294,9 @@ Expected<void> run(const SculptArguments& options) {
       }
     }
   }
-  const auto outcome = outcome_of(session);
-  if (!outcome) return std::unexpected(outcome.error());
-  print_summary(options, session, *outcome);
-  return write_results(options, session, *outcome);
+  const Outcome outcome = outcome_of(session);
+  print_summary(options, session, outcome);
+  return write_results(options, session, outcome);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include "knead/energy/spline_field.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "base/counts.hpp"
 #include "spline/greville_interpolation.hpp"
 #include "spline/tensor_contraction.hpp"
 
@@ -23,11 +25,14 @@ std::array<KnotVector, D> array_of(std::vector<KnotVector> knots) {
 
 template <int D>
 Expected<SplineField<D>> SplineField<D>::create(std::array<KnotVector, D> knots, std::vector<double> coefficients) {
-  std::size_t count = 1;
-  for (const KnotVector& k : knots) count *= static_cast<std::size_t>(k.count());
-  if (coefficients.size() != count) {
-    return input_error(fmt::format("the knots ask for {} coefficients, not {}", count, coefficients.size()));
+  std::array<int, D> counts;
+  for (std::size_t d = 0; d < D; ++d) counts[d] = knots[d].count();
+  const std::optional<std::int64_t> asked = product_of(counts);
+  if (!asked || static_cast<std::int64_t>(coefficients.size()) != *asked) {
+    return input_error(
+        fmt::format("the knots ask for {} coefficients, not {}", fmt::join(counts, " x "), coefficients.size()));
   }
+  const std::size_t count = coefficients.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (!std::isfinite(coefficients[i])) {
       return input_error("the coefficient is not a finite number", fmt::format("coefficient {}", i));
@@ -161,6 +166,12 @@ Expected<std::array<KnotVector, D>> sample_knots(const std::array<Interval, D>& 
       return input_error(fmt::format("{} samples do not span a grid", counts[d]), fmt::format("direction {}", d),
                          "give 2 or more in every direction");
     }
+  }
+  if (!product_of(counts)) {
+    return input_error(fmt::format("{} samples are too many", fmt::join(counts, " x ")), "counts",
+                       fmt::format("give at most {} in all", max_spline_size));
+  }
+  for (std::size_t d = 0; d < D; ++d) {
     auto knots = KnotVector::clamped_uniform(1, counts[d], domain[d].lower, domain[d].upper);
     if (!knots) return std::unexpected(knots.error().within(fmt::format("direction {}", d)));
     made.push_back(std::move(*knots));

@@ -7,13 +7,13 @@
 namespace knead {
 namespace {
 
-constexpr double most_pieces = 1000;  // of one straight line
+constexpr double most_line_pieces = 1000;  // of one straight line
 
 }  // namespace
 
 void add_between(Polygon& polygon, Eigen::Vector2d from, Eigen::Vector2d to) {
   const double steps = std::ceil((to - from).cwiseAbs().maxCoeff() - 1e-9);
-  const int pieces = static_cast<int>(std::clamp(steps, 1.0, most_pieces));
+  const int pieces = static_cast<int>(std::clamp(steps, 1.0, most_line_pieces));
   for (int k = 1; k < pieces; ++k) polygon.push_back({from + (to - from) * k / pieces});
 }
 

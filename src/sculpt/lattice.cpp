@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counts.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
+
+constexpr std::int64_t max_lattice_size = 1000000;
 
 Expected<Lattice> Lattice::create(const BoundingBox& box, double margin, const std::array<int, 3>& degree,
                                   const std::array<int, 3>& net) {
@@ -17,16 +20,18 @@ Expected<Lattice> Lattice::create(const BoundingBox& box, double margin, const s
   if (!(std::isfinite(margin) && margin > 0)) {
     return input_error(fmt::format("{} is not a margin", margin), "margin", "use a number > 0");
   }
+  if (std::ranges::all_of(net, [](int n) { return n > 0; }) && !product_of(net, max_lattice_size)) {
+    return input_error("the lattice has more than a million control points", "net", "use fewer");
+  }
   std::vector<KnotVector> knots;
   for (std::size_t d = 0; d < 3; ++d) {
     auto made = KnotVector::clamped_uniform(degree[d], net[d]);
     if (!made) return std::unexpected(made.error().within("net"));
     knots.push_back(std::move(*made));
   }
-  const double size = static_cast<double>(net[0]) * net[1] * net[2];
-  if (size > 1e6) return input_error("the lattice has more than a million control points", "net", "use fewer");
+  const Eigen::Index size = static_cast<Eigen::Index>(net[0]) * net[1] * net[2];
   const Point lower = box.lower.array() - margin * box.diagonal(), upper = box.upper.array() + margin * box.diagonal();
-  Points points(static_cast<Eigen::Index>(size), 3);
+  Points points(size, 3);
   Eigen::Index row = 0;
   for (int i = 0; i < net[0]; ++i) {
     for (int j = 0; j < net[1]; ++j) {

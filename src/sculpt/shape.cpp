@@ -12,12 +12,20 @@ namespace {
 
 using detail::Kernel;
 
+// Products of two of these, squared, are still numbers.
+constexpr double least_size = 1e-50, greatest_size = 1e50;
+
 /// The first invalid number of a shape, as an error that names the field.
 class Check {
  public:
-  Check& positive(double x, const char* field) { return bound(std::isfinite(x) && x > 0, x, field, "a number > 0"); }
+  Check& positive(double x, const char* field) {
+    bound(std::isfinite(x) && x > 0, x, field, "a number > 0");
+    return bound(x >= least_size && x <= greatest_size, x, field,
+                 fmt::format("a number from {} to {}", least_size, greatest_size));
+  }
   Check& at_least_zero(double x, const char* field) {
-    return bound(std::isfinite(x) && x >= 0, x, field, "a number >= 0");
+    bound(std::isfinite(x) && x >= 0, x, field, "a number >= 0");
+    return bound(x <= greatest_size, x, field, fmt::format("a number up to {}", greatest_size));
   }
   Check& exponent(double x, const char* field) {
     return bound(x >= 0.1 && x <= 4, x, field, "an exponent from 0.1 to 4");

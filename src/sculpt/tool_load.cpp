@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "knead/spline/evaluate.hpp"
 #include "tool_load_elements.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double points_per_detail = 6;
 constexpr double max_points_per_direction = 1e5;
+constexpr double max_points = 4e7;  // in all directions together
 
 /// The longest isocurve of direction d on every span of d, in file units.
 template <int D>
@@ -50,6 +52,11 @@ Expected<std::vector<double>> span_lengths(const Spline<D>& spline, std::size_t 
   return result;
 }
 
+std::unexpected<Error> too_small(double detail) {
+  return input_error(fmt::format("a tool of size {:.3g} is too small for this surface", detail), "tool",
+                     "use a larger tool, or sculpt a smaller surface");
+}
+
 /// Pieces per span, so that Gauss points lie closer than detail / points_per_detail.
 Expected<std::vector<int>> pieces(const std::vector<double>& lengths, int per_span, double detail) {
   std::vector<int> result;
@@ -58,10 +65,7 @@ Expected<std::vector<int>> pieces(const std::vector<double>& lengths, int per_sp
     // Rounded up with a little slack, so that a length that is a whole multiple up to rounding counts as whole.
     const double wanted = std::max(1.0, std::ceil(length * points_per_detail / (detail * per_span) * (1 - 1e-6)));
     total += wanted * per_span;
-    if (total > max_points_per_direction) {
-      return input_error(fmt::format("a tool of size {:.3g} is too small for this surface", detail), "tool",
-                         "use a larger tool, or sculpt a surface that is smaller or has a finer net");
-    }
+    if (total > max_points_per_direction) return too_small(detail);
     result.push_back(static_cast<int>(wanted));
   }
   return result;
@@ -73,18 +77,28 @@ template <int D>
 Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainScaling<D>& scaling, double detail) {
   ToolLoad load;
   load.net_ = spline.net();
+  std::array<std::vector<double>, D> lengths;
+  std::array<std::vector<int>, D> counts;
+  double points = 1;
   for (std::size_t d = 0; d < D; ++d) {
-    auto lengths = span_lengths<D>(spline, d);
-    if (!lengths) return std::unexpected(lengths.error());
+    auto longest = span_lengths<D>(spline, d);
+    if (!longest) return std::unexpected(longest.error());
+    lengths[d] = std::move(*longest);
     const int per_piece = spline.knots()[d].degree() + 1;
-    const auto counts = pieces(*lengths, per_piece, detail);
-    if (!counts) return std::unexpected(counts.error());
-    load.quadrature_[d] = gauss_basis(spline.knots()[d], per_piece, 0, *counts);
+    auto chosen = pieces(lengths[d], per_piece, detail);
+    if (!chosen) return std::unexpected(chosen.error());
+    counts[d] = std::move(*chosen);
+    points *= std::accumulate(counts[d].begin(), counts[d].end(), 0.0) * per_piece;
+  }
+  if (points > max_points) return too_small(detail);
+  for (std::size_t d = 0; d < D; ++d) {
+    const int per_piece = spline.knots()[d].degree() + 1;
+    load.quadrature_[d] = gauss_basis(spline.knots()[d], per_piece, 0, counts[d]);
     for (double& w : load.quadrature_[d].weights) w *= scaling.factors[d];
     load.spans_[d].push_back(0);
-    for (int count : *counts) load.spans_[d].push_back(load.spans_[d].back() + count * per_piece);
-    for (double& length : *lengths) length /= scaling.length;
-    load.lengths_[d] = std::move(*lengths);
+    for (int count : counts[d]) load.spans_[d].push_back(load.spans_[d].back() + count * per_piece);
+    for (double& length : lengths[d]) length /= scaling.length;
+    load.lengths_[d] = std::move(lengths[d]);
     load.knots_.push_back(spline.knots()[d]);
   }
   load.weights_.assign(spline.weights().begin(), spline.weights().end());

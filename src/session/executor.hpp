@@ -174,6 +174,8 @@ struct Executor {
   /// Makes the open stroke shallower, everywhere alike, where it would fold a face. Returns the note on it; empty:
   /// nothing folds. Errors: as above, where not even a tenth of it would be left.
   Expected<std::string> keep_unfolded();
+  /// Error (numerical): a selected surface is further from the surface as opened than `limit` allows.
+  [[nodiscard]] Expected<void> check_limit() const;
   /// The error of a step in which nothing is free to move under a tool.
   Error all_held(const std::string& tool) const;
   /// Some selected surface is held by the edges of its faces.

@@ -17,17 +17,17 @@ struct Json {
   double number = 0;
   std::string text = {};
   std::vector<Json> list = {};
-  std::vector<std::pair<std::string, Json>> members = {};  ///< each name once; of duplicates the last
+  std::vector<std::pair<std::string, Json>> members = {};  ///< each name once
 
   [[nodiscard]] bool is(Kind other) const { return kind == other; }
   /// The member of that name; null if there is none.
   [[nodiscard]] const Json* find(std::string_view name) const;
 };
 
-/// Errors: what is not JSON, with its line.
+/// Errors: what is not JSON, with its line; a name given twice in an object; more than `max_json_depth` levels.
 [[nodiscard]] Expected<Json> parse_json(std::string_view text);
 
-/// For messages: the value on one line, numbers with the fewest digits.
+/// For messages: the value on one line, numbers with the fewest digits, shortened to 120 bytes.
 [[nodiscard]] std::string shown(const Json& json);
 
 /// Text in quotes with escapes; what is not UTF-8 becomes U+FFFD.

@@ -6,6 +6,7 @@
 #include "knead/scene/followed.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "limits.hpp"
 
 namespace knead {
 
@@ -66,7 +67,13 @@ double distance_from(const Surface& surface, SurfaceEdge edge, const Point& plac
 }  // namespace
 
 Expected<void> Executor::change_net(SceneSurface& s, const SurfaceChange& change) {
-  if (auto done = knead::change_net(s, change); !done) return done;
+  const SurfaceChange limited = [&change](const Surface& shape) -> Expected<Surface> {
+    auto changed = change(shape);
+    if (!changed) return changed;
+    if (auto fits = check_net_size(changed->net()); !fits) return std::unexpected(fits.error());
+    return changed;
+  };
+  if (auto done = knead::change_net(s, limited); !done) return done;
   state.notes.push_back(net_note(s));
   return {};
 }

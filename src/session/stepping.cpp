@@ -24,6 +24,11 @@ bool nothing_moved(const Scene& scene, const ActiveStep& step) {
   return true;
 }
 
+std::unexpected<Error> beyond_numbers() {
+  return numerical_error("the forces, or the energy, exceed what numbers can hold", {},
+                         "use smaller loads and stiffnesses, or lengths nearer to 1");
+}
+
 }  // namespace
 
 std::string note_of(const ActiveStep& step) {
@@ -52,6 +57,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     double seconds = 0;
     const auto step = one_step(more, seconds);
     if (!step) return std::unexpected(step.error());
+    if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
     if (step->coarseness > coarse && state.permission == RefinePermission::automatic && refinements < max_refinements &&
         more.empty()) {
       bool any = false;
@@ -77,11 +83,27 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     if (!*taken) continue;
     tried.reset();
     if (auto sound = check_folds(); !sound) return sound;
+    if (auto within = check_limit(); !within) return within;
     record(*step, seconds, std::move(note));
     ++stepped;
     if (progress) progress(done + stepped, total > 0 ? total : count);
   }
   if (stepped > 0) note_model(*cache);
+  return {};
+}
+
+Expected<void> Executor::check_limit() const {
+  constexpr double tolerance = 1e-5;  // of the limit; steps keep it to 1e-6
+  if (!state.limit) return {};
+  for (int index : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    const double largest = largest_distance(*s.current, *s.opened);
+    if (largest <= *state.limit * (1 + tolerance)) continue;
+    return numerical_error(
+        fmt::format("the step leads {:.6g} away from the surface as opened, beyond the limit of {:.6g}", largest,
+                    *state.limit),
+        s.id, "refine the net, soften or move the tool, or set a larger limit");
+  }
   return {};
 }
 

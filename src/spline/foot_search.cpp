@@ -1,6 +1,7 @@
 #include "foot_search.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 namespace knead::detail {
@@ -164,6 +165,12 @@ FootResult FootSearch::nearest(const Point& x) const {
   const Foot* best = nullptr;
   for (const Foot& f : q.feet) {
     if (f.squared <= tie && (best == nullptr || firmer(f, *best))) best = &f;
+  }
+  if (best == nullptr) {  // squares that overflow compare with nothing
+    result.best = q.feet.front();
+    result.best.patch = std::max(result.best.patch, 0);
+    result.certified = false;
+    return result;
   }
   result.best = *best;
   for (int round = 0; round < 2; ++round) {  // the second if the first went to a cusp

@@ -1,8 +1,11 @@
 #include "knead/spline/spline.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+
+#include "base/counts.hpp"
 
 namespace knead {
 namespace {
@@ -32,8 +35,9 @@ template <int D>
 Expected<Spline<D>> Spline<D>::create(std::array<KnotVector, D> knots, Points control_points,
                                       std::vector<double> weights) {
   const std::array<int, D> net = net_of<D>(knots);
-  Eigen::Index expected = 1;
-  for (int n : net) expected *= n;
+  const std::optional<std::int64_t> asked = product_of(net);
+  if (!asked) return input_error(fmt::format("a net of {} is too large", fmt::join(net, " x ")), {}, "use fewer knots");
+  const auto expected = static_cast<Eigen::Index>(*asked);
   if (control_points.rows() != expected) {
     return input_error(fmt::format("{} control points do not fit the knots", control_points.rows()), {},
                        fmt::format("the knots ask for {}", expected));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace knead {
 
 void describe(CoarsenCommand& c, Fields& fields) {
@@ -12,6 +14,9 @@ void describe(CoarsenCommand& c, Fields& fields) {
 template <>
 Expected<void> Executor::execute(const CoarsenCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  if (!(std::isfinite(c.tolerance) && c.tolerance >= 0)) {
+    return input_error(fmt::format("{} is not a tolerance", c.tolerance), "tolerance", "use a length of 0 or more");
+  }
   for (int index : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
     const auto done = coarsen(s, c.tolerance);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../limits.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -88,7 +89,7 @@ Expected<void> Executor::execute(const DragCommand& c) {
   const auto chosen = selected_surface(c.surface);
   if (!chosen) return std::unexpected(chosen.error());
   SceneSurface& surface = state.surfaces[static_cast<std::size_t>(*chosen)];
-  if (c.steps < 1) return input_error(fmt::format("{} steps are too few", c.steps), "steps", "use 1 or more");
+  if (auto few = check_steps(c.steps, "steps"); !few) return few;
   if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
     return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../limits.hpp"
 #include "knead/sculpt/lattice.hpp"
 
 namespace knead {
@@ -28,7 +29,7 @@ template <>
 Expected<void> Executor::execute(const LatticeCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
-  if (c.steps < 1) return input_error(fmt::format("{} steps are too few", c.steps), "steps", "use 1 or more");
+  if (auto few = check_steps(c.steps, "steps"); !few) return few;
   // The lattice moves control points, so it must contain all of them.
   BoundingBox box;
   bool first = true;

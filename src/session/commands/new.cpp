@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../limits.hpp"
 #include "knead/exchange/step_text.hpp"
 #include "knead/spline/revolution.hpp"
 
 namespace knead {
 namespace {
-
-constexpr double most_points = 4e6;
 
 Expected<void> positive(double value, const char* where) {
   if (std::isfinite(value) && value > 0) return {};
@@ -42,6 +41,9 @@ Expected<void> check_weights(const std::vector<double>& weights, int count) {
 Expected<Surface> net_of(const NewCommand& c) {
   const bool explicit_points = !c.points.empty();
   const std::array<double, 2> size = c.size.value_or(std::array<double, 2>{1, 1});
+  if (c.knots_u.empty() && c.knots_v.empty() && std::ranges::all_of(c.net, [](int n) { return n > 0; })) {
+    if (auto fits = check_net_size(c.net); !fits) return std::unexpected(fits.error());
+  }
   std::vector<KnotVector> knots;
   for (std::size_t d = 0; d < 2; ++d) {
     auto made = knots_of(c, d, c.net[d], "net");
@@ -52,9 +54,7 @@ Expected<Surface> net_of(const NewCommand& c) {
     knots.push_back(std::move(*made));
   }
   const int m = knots[0].count(), n = knots[1].count();
-  if (static_cast<double>(m) * n > most_points) {
-    return input_error("the net has more than 4 million control points", "net", "use fewer");
-  }
+  if (auto fits = check_net_size({m, n}); !fits) return std::unexpected(fits.error());
   if (explicit_points && static_cast<double>(c.points.size()) != static_cast<double>(m) * n) {
     return input_error(fmt::format("{} points for a net of {} x {}", c.points.size(), m, n), "points",
                        fmt::format("give {}, along v first, or another net", m * n));
@@ -93,6 +93,7 @@ Expected<Curve> profile_of(const NewCommand& c) {
   if (c.shape == "cylinder") {
     const double height = c.height.value_or(2 * radius);
     if (auto checked = positive(height, "height"); !checked) return std::unexpected(checked.error());
+    if (auto fits = check_net_size({9, std::max(c.net[1], 0)}); !fits) return std::unexpected(fits.error());
     auto knots = knots_of(c, 1, c.net[1], "net");
     if (!knots) return std::unexpected(knots.error());
     Points points(knots->count(), 3);
@@ -135,9 +136,7 @@ Expected<Surface> turned(const NewCommand& c) {
   }
   const auto profile = profile_of(c);
   if (!profile) return std::unexpected(profile.error());
-  if (profile->size() * 9.0 > most_points) {
-    return input_error("the net has more than 4 million control points", "net", "use fewer");
-  }
+  if (auto fits = check_net_size({9, profile->size()}); !fits) return std::unexpected(fits.error());
   return revolve(*profile);
 }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "../limits.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
@@ -56,6 +59,11 @@ Expected<void> Executor::execute(const RefineCommand& c) {
       if (!region) return std::unexpected(region.error());
       done = change_net(s, [&](const Surface& shape) { return refine_region<2>(shape, *region); });
     } else {
+      const auto [m, n] = s.current->net();
+      const auto finer = [](int count, const std::vector<double>& added) {
+        return count + static_cast<int>(std::min<std::size_t>(added.size(), max_net_size));
+      };
+      if (auto fits = check_net_size({finer(m, c.knots_u), finer(n, c.knots_v)}); !fits) return fits;
       done = change_net(s, [&](const Surface& shape) { return insert_knots<2>(shape, {c.knots_u, c.knots_v}); });
     }
     if (!done) return done;

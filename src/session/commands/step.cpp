@@ -1,6 +1,6 @@
 #include "step.hpp"
 
-#include <fmt/format.h>
+#include "../limits.hpp"
 
 namespace knead {
 
@@ -20,7 +20,7 @@ void describe(StepCommand& c, Fields& fields) {
 
 template <>
 Expected<void> Executor::execute(const StepCommand& c) {
-  if (c.count < 0) return input_error(fmt::format("{} steps cannot be done", c.count), "count", "use 0 or more");
+  if (auto few = check_steps(c.count, "count", 0); !few) return few;
   EvolutionPolicy evolution = state.evolution;
   if (c.lambda) evolution.lambda = *c.lambda;
   if (c.weight) evolution.weight = *c.weight;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "../limits.hpp"
+
 namespace knead {
 namespace {
 
@@ -51,7 +53,7 @@ Expected<void> Executor::execute(const StrokeCommand& c) {
   if (c.path.empty() && !state.stroke) {
     return input_error("the path has no positions", "path", "give one or more: [[x, y, z], ...]");
   }
-  if (c.steps < 1) return input_error(fmt::format("{} steps are too few", c.steps), "steps", "use 1 or more");
+  if (auto few = check_steps(c.steps, "steps", 1, c.path.size()); !few) return few;
   if (!(c.plasticity >= 0 && c.plasticity <= 1)) {
     return input_error(fmt::format("{} is not a plasticity", c.plasticity), "plasticity", "use a number from 0 to 1");
   }

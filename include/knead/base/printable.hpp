@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace knead {
+
+/// Text from a file or a script, fit for one line of a terminal: control characters (C0, DEL and C1, so line breaks and
+/// escape sequences) and bytes that are not UTF-8 become "\n", "\t", "\r" or "\xNN"; all else is unchanged.
+///
+/// \param most bytes at most, of which long texts keep the first three quarters and the last quarter, cut between
+///        characters, with "…" in between; at least 16
+///
+/// Cost: O(most), after one look at the length.
+[[nodiscard]] std::string printable(std::string_view text, std::size_t most = 200);
+
+}  // namespace knead

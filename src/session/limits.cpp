@@ -1,0 +1,28 @@
+#include "limits.hpp"
+
+#include <fmt/format.h>
+
+#include "base/counts.hpp"
+
+namespace knead {
+
+Expected<void> check_net_size(const std::array<int, 2>& counts) {
+  if (product_of(counts, max_net_size)) return {};
+  return input_error(fmt::format("a net of {} x {} has more than {} million control points", counts[0], counts[1],
+                                 max_net_size / 1000000),
+                     "net", "use fewer");
+}
+
+Expected<void> check_steps(int steps, const char* field, int least, std::size_t places) {
+  if (steps < least) {
+    return input_error(
+        least == 0 ? fmt::format("{} steps cannot be done", steps) : fmt::format("{} steps are too few", steps), field,
+        fmt::format("use {} or more", least));
+  }
+  if (places == 0 || static_cast<std::size_t>(steps) <= max_steps / places) return {};
+  return input_error(places == 1 ? fmt::format("{} steps are too many", steps)
+                                 : fmt::format("{} steps at each of {} positions are too many", steps, places),
+                     field, fmt::format("a command may take {} in all", max_steps));
+}
+
+}  // namespace knead

@@ -1,0 +1,92 @@
+// What is hostile by accident or on purpose: the program ends with one line and an exit code, and writes nothing.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include "program.hpp"
+
+namespace knead::testing {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+/// Less memory for programs that are started, until the end of the scope.
+class LessMemory {
+ public:
+  explicit LessMemory(rlim_t bytes) {
+    getrlimit(RLIMIT_AS, &before_);
+    const rlimit less{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_AS, &less);
+  }
+  LessMemory(const LessMemory&) = delete;
+  LessMemory& operator=(const LessMemory&) = delete;
+  ~LessMemory() { setrlimit(RLIMIT_AS, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(Hostile, WithoutMemoryTheProgramSaysSo) {
+  if (sanitized) GTEST_SKIP() << "the sanitizer reserves more";
+  const Workshop workshop;
+  Json nets = Json::array();
+  for (int k = 0; k < 20; ++k) nets.push_back(command("new", {{"net", {2000, 2000}}}));
+  const std::string script = workshop.script(nets);
+  const LessMemory limit(rlim_t{600} << 20U);
+  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", workshop / "out.step", "--script", script}), 4, {"memory"}));
+  EXPECT_EQ(workshop.files(), std::vector<std::string>{"script.json"});
+}
+
+TEST(Hostile, TextFromFilesDoesNotReachTheTerminalRaw) {
+  const Workshop workshop;
+  const std::string out = workshop / "out.step";
+  const std::string lines = workshop.script(Json::array({command("new", {{"shape", "a\nb\x1B[2J"}})}));
+  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", out, "--script", lines}), 3, {"a\\nb\\x1B[2J"}));
+  const std::string huge = workshop.script(Json::array({command("new", {{"shape", std::string(2000000, 'x')}})}));
+  const Outcome run = knead({"sculpt", "--new", "-o", out, "--script", huge});
+  EXPECT_TRUE(fails_with(run, 3, {"…", "is not a shape"}));
+  EXPECT_LT(run.err.size(), 3000U);
+  const std::string named = workshop.script(Json::array({command("new", {{"name", "\x1B[31mred\n"}})}));
+  ASSERT_EQ(knead({"sculpt", "--new", "-o", out, "--script", named}).code, 0);
+  const Outcome info = knead({"info", out});
+  EXPECT_EQ(info.code, 0) << info.err;
+  EXPECT_EQ(info.out.find('\x1B'), std::string::npos) << info.out;
+}
+
+TEST(Hostile, AFileOfAnotherFormatIsCalledByItsName) {
+  const Workshop workshop;
+  const std::string file = workshop.file("part.step", "solid part\nfacet normal 0 0 1\n");
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"info", file},
+           {"sculpt", file, "-o", workshop / "out.step", "--script", workshop.script(Json::array())},
+           {"mesh", file, "--out", workshop / "out.stl"}}) {
+    EXPECT_TRUE(fails_with(knead(arguments), 3, {file, "STL", "export"})) << arguments[0];
+  }
+}
+
+TEST(Hostile, AProtectedOutputIsRefusedBeforeAnythingIsDone) {
+  const Workshop workshop;
+  const std::string out = workshop.file("out.step", "mine");
+  ASSERT_EQ(chmod(out.c_str(), 0444), 0);
+  const std::string script = workshop.script({command("new"), command("step", {{"count", 100000}})});
+  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", out, "--script", script}), 3, {out, "may not be written to"}));
+  EXPECT_EQ(content_of(out), "mine");
+}
+
+TEST(Hostile, ALimitThatAStepCannotKeepIsAnError) {
+  const Workshop workshop;
+  const std::string script =
+      workshop.script({command("new", {{"size", {15, 15.5}}, {"degree", {1, 4}}, {"net", {2, 5}}}),
+                       command("limit", {{"distance", 1.7}}),
+                       command("force", {{"at", {0.9, 0.6}}, {"to", {6, -4, -5}}, {"strength", 1e10}}),
+                       command("edge", {{"which", "v0"}}), command("step")});
+  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", workshop / "out.step", "--script", script}), 4,
+                         {"commands[4]", "beyond the limit of 1.7", "refine the net"}));
+  EXPECT_EQ(workshop.files(), std::vector<std::string>{"script.json"});
+}
+
+}  // namespace
+}  // namespace knead::testing
