@@ -61,7 +61,8 @@ std::string context_json(const ContextPicture& context) {
   for (const SkippedFace& face : context.skipped) skipped.push_back({{"id", face.id}, {"reason", face.reason.what}});
   return "{\"buffers\":" +
          buffers_json({{"positions", context.positions}, {"normals", context.normals}, {"indices", context.indices}}) +
-         ",\"faces\":" + faces.dump() + ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}";
+         ",\"faces\":" + faces.dump() +
+         ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}";
 }
 
 namespace {

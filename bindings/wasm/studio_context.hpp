@@ -21,7 +21,7 @@ struct ContextPicture {
   std::vector<float> positions, normals;  ///< 3 per point
   std::vector<std::uint32_t> indices;     ///< 3 per triangle, face after face
   std::vector<Face> faces;
-  std::vector<SkippedFace> skipped;       ///< faces that could not be triangulated
+  std::vector<SkippedFace> skipped;  ///< faces that could not be triangulated
 };
 
 [[nodiscard]] ContextPicture context_picture(const step::File& file, const Point& origin);

@@ -62,9 +62,7 @@ void read(Reader& a, const Type& type, void* value) {
     case Kind::array:
       break;
     case Kind::record:
-      for (const Field& field : type.fields) {
-        if (field.since <= a.version()) read(a, *field.type, field.of(value));
-      }
+      for (const Field& field : type.fields) read(a, *field.type, field.of(value));
       return;
     case Kind::variant: {
       int k = 0;

@@ -90,8 +90,6 @@ struct About {
   std::string_view fallback = {};
   /// The written value is this times the member: 2 for a height stored as its half.
   double factor = 1;
-  /// The first version of snapshots that has it.
-  int since = 1;
   /// An array of numbers that are mostly equal: a single number then stands for all.
   bool uniform = false;
 };

@@ -45,7 +45,7 @@ void describe(EvolveCommand& c, Fields& fields) {
   fields.add("time_step", c.evolution.time_step, {.help = "dynamic: time per step"});
   fields.add("weight", c.evolution.weight, {.help = "acm: the weights of a step"});
   fields.add("route", c.evolution.route, {.help = "how tool forces are integrated"});
-  fields.add("accuracy", c.evolution.accuracy, {.help = "how exactly steps in contact are solved", .since = 6});
+  fields.add("accuracy", c.evolution.accuracy, {.help = "how exactly steps in contact are solved"});
 }
 
 template <>
