@@ -142,20 +142,16 @@ double size_of(std::span<const Surface* const> surfaces) {
   return size;
 }
 
-/// The VERTEX_POINTs of the loops that are no more than a point, as of a whole sphere's pole, of the faces on a
-/// surface.
-std::vector<std::uint32_t> loop_vertices(const Reader& reader, std::uint32_t surface) {
+/// The VERTEX_POINTs of the loops of a face that are no more than a point, as of a whole sphere's pole.
+std::vector<std::uint32_t> loop_vertices(const Reader& reader, const Face& face) {
   std::vector<std::uint32_t> result;
-  for (const Face& face : read_faces(reader)) {
-    if (face.surface != surface) continue;
-    for (const auto bound : reader.references(face.bounds)) {
-      const auto own = reader.attributes(bound, "FACE_BOUND", 1, 2);
-      const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
-      if (!loop || !reader.is(*loop, "VERTEX_LOOP")) continue;
-      const auto at = reader.attributes(*loop, "VERTEX_LOOP", 1, 1);
-      const auto vertex = at.empty() ? std::nullopt : reader.reference(at[0]);
-      if (vertex && reader.file().instance(*vertex).uses == 1) result.push_back(*vertex);
-    }
+  for (const auto bound : reader.references(face.bounds)) {
+    const auto own = reader.attributes(bound, "FACE_BOUND", 1, 2);
+    const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
+    if (!loop || !reader.is(*loop, "VERTEX_LOOP")) continue;
+    const auto at = reader.attributes(*loop, "VERTEX_LOOP", 1, 1);
+    const auto vertex = at.empty() ? std::nullopt : reader.reference(at[0]);
+    if (vertex && reader.file().instance(*vertex).uses == 1) result.push_back(*vertex);
   }
   return result;
 }
@@ -163,13 +159,17 @@ std::vector<std::uint32_t> loop_vertices(const Reader& reader, std::uint32_t sur
 /// Takes these vertices along with the surfaces that replace others.
 Expected<void> move_loop_vertices(const File& file, std::span<const Replacement> replacements,
                                   std::map<std::string, Point>& vertices) {
+  if (replacements.empty()) return {};
   const File::Data& data = file.data();
   const Reader reader(data.records);
-  for (const Replacement& replacement : replacements) {
-    const std::size_t k = data.surface_index.at(replacement.id);
-    const Surface& before = data.surfaces[k].surface;
-    const auto loops = loop_vertices(reader, data.surface_instances[k]);
+  std::map<std::uint32_t, const Replacement*> after;  // by the instance of the surface
+  for (const Replacement& r : replacements) after[data.surface_instances[data.surface_index.at(r.id)]] = &r;
+  for (const Face& face : read_faces(reader)) {
+    const auto found = after.find(face.surface);
+    if (found == after.end()) continue;
+    const auto loops = loop_vertices(reader, face);
     if (loops.empty()) continue;
+    const Surface& before = file.find_surface(found->second->id)->surface;
     const auto feet = SurfaceFoot::create(before);
     if (!feet) return std::unexpected(feet.error());
     for (const std::uint32_t vertex : loops) {
@@ -178,7 +178,7 @@ Expected<void> move_loop_vertices(const File& file, std::span<const Replacement>
       const auto place = geometry ? reader.point(*geometry) : reader.error(vertex, "a VERTEX_POINT is needed here");
       if (!place) return std::unexpected(place.error());
       const auto foot = feet->nearest(*place, std::nullopt, 0).foot.parameters;
-      const auto way = displacement_at(before, replacement.surface, foot);
+      const auto way = displacement_at(before, found->second->surface, foot);
       if (!way) return std::unexpected(way.error());
       if (way->norm() <= rounding * net_diagonal(before.control_points())) continue;
       vertices.try_emplace(name_of(reader, vertex), *place + *way);
