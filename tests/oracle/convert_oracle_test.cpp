@@ -116,18 +116,26 @@ TEST_P(ConvertedFile, IsTheSameSolid) {
 
 INSTANTIATE_TEST_SUITE_P(Files, ConvertedFile, ::testing::ValuesIn(all_files()), test_name);
 
+/// Gives the file that `write` makes of this name, with its path and a directory beside it, which are removed after.
+template <class F>
+void on_made(const std::string& name, bool (*write)(const std::string&, const fs::path&), const F& act) {
+  const auto directory = fs::temp_directory_path() / ("knead-convert-" + std::to_string(getpid()));
+  fs::create_directories(directory / "after");
+  const auto path = directory / (name + ".step");
+  ASSERT_TRUE(write(name, path));
+  const auto file = step::File::read(path);
+  ASSERT_TRUE(file) << file.error().message();
+  act(path, *file, directory / "after");
+  fs::remove_all(directory);
+}
+
 class ConvertedShape : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ConvertedShape, IsTheSameSolid) {
-  const auto directory = fs::temp_directory_path() / ("knead-convert-" + std::to_string(getpid()));
-  fs::create_directories(directory / "after");
-  const auto path = directory / (GetParam() + ".step");
-  ASSERT_TRUE(occt_write_shape(GetParam(), path));
-  const auto file = step::File::read(path);
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(convertible(*file).size(), step::other_surfaces(*file).size()) << "all of them can be converted";
-  convert_some(path, *file, directory / "after");
-  fs::remove_all(directory);
+  on_made(GetParam(), occt_write_shape, [](const fs::path& path, const step::File& file, const fs::path& directory) {
+    EXPECT_EQ(convertible(file).size(), step::other_surfaces(file).size()) << "all of them can be converted";
+    convert_some(path, file, directory);
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ConvertedShape, ::testing::ValuesIn(occt_shape_names()),
@@ -140,8 +148,9 @@ bool has_one_of(const std::vector<std::string>& surfaces, const std::vector<step
   });
 }
 
-/// Converts all that can be, and presses edges to it.
-void press_converted(const fs::path& path, const step::File& file, const fs::path& directory, double least_reached) {
+/// Converts all that can be, and presses edges to it, of which there are at least so many.
+void press_converted(const fs::path& path, const step::File& file, const fs::path& directory, double least_reached,
+                     std::size_t least_pairs = 1) {
   const auto others = convertible(file);
   std::vector<std::string> ids;
   for (const auto& s : others) ids.push_back(s.id);
@@ -151,6 +160,7 @@ void press_converted(const fs::path& path, const step::File& file, const fs::pat
   ASSERT_TRUE(write_file_atomically(written, converted->bytes()));
   fs::create_directories(directory / "pressed");
   const auto pairs = pairs_of(*converted, [&](const auto& surfaces) { return has_one_of(surfaces, others); });
+  EXPECT_GE(pairs.size(), least_pairs);
   if (pairs.empty()) GTEST_SKIP() << "no edge has faces on both of its sides";
   for (const Pair& pair : pairs) move(written, *converted, pair, Motion::press, directory / "pressed", least_reached);
 }
@@ -167,15 +177,10 @@ INSTANTIATE_TEST_SUITE_P(Files, PressedConvertedFile, ::testing::ValuesIn(all_fi
 class PressedConvertedShell : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PressedConvertedShell, StaysClosedAlongItsEdges) {
-  const auto directory = fs::temp_directory_path() / ("knead-convert-" + std::to_string(getpid()));
-  fs::create_directories(directory);
-  const auto path = directory / (GetParam() + ".step");
-  ASSERT_TRUE(occt_write_shell(GetParam(), path));
-  const auto file = step::File::read(path);
-  ASSERT_TRUE(file) << file.error().message();
-  ASSERT_FALSE(step::other_surfaces(*file).empty());
-  press_converted(path, *file, directory, 0.5);
-  fs::remove_all(directory);
+  on_made(GetParam(), occt_write_shell, [](const fs::path& path, const step::File& file, const fs::path& directory) {
+    ASSERT_FALSE(step::other_surfaces(file).empty());
+    press_converted(path, file, directory, 0.5);
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Shells, PressedConvertedShell, ::testing::ValuesIn(occt_mixed_shell_names()),
@@ -184,14 +189,9 @@ INSTANTIATE_TEST_SUITE_P(Shells, PressedConvertedShell, ::testing::ValuesIn(occt
 class PressedConvertedShape : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PressedConvertedShape, StaysClosedAlongItsEdges) {
-  const auto directory = fs::temp_directory_path() / ("knead-convert-" + std::to_string(getpid()));
-  fs::create_directories(directory);
-  const auto path = directory / (GetParam() + ".step");
-  ASSERT_TRUE(occt_write_shape(GetParam(), path));
-  const auto file = step::File::read(path);
-  ASSERT_TRUE(file) << file.error().message();
-  press_converted(path, *file, directory, 0);
-  fs::remove_all(directory);
+  on_made(GetParam(), occt_write_shape, [](const fs::path& path, const step::File& file, const fs::path& directory) {
+    press_converted(path, file, directory, 0, 0);
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, PressedConvertedShape, ::testing::ValuesIn(occt_shape_names()),
