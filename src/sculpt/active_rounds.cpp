@@ -19,14 +19,15 @@ constexpr double route_tolerance = 1e-9;
 
 }  // namespace
 
-/// One minimisation with the present tools.
+/// One minimisation with the present tools; the potential there.
 template <int D>
-void ActiveSpline<D>::Run::descend(const StepProblem& step) {
-  const ContactSummary part = minimise_step(step, potential, y);
+PotentialState ActiveSpline<D>::Run::descend(const StepProblem& step) {
+  auto [part, reached] = minimise_step(step, potential, y);
   summary.iterations += part.iterations;
   summary.solves += part.solves;
   summary.finite = summary.finite && part.finite && y.allFinite();
   summary.converged = part.converged;
+  return std::move(reached);
 }
 
 template <int D>
@@ -78,9 +79,8 @@ void ActiveSpline<D>::Run::tell_entered(const Entries& found) {
 template <int D>
 PotentialState ActiveSpline<D>::Run::touch_rigid(const StepProblem& step) {
   for (int rounds_left = max_rigid_rounds;;) {
-    descend(step);
+    PotentialState reached = descend(step);
     if (!summary.finite) return {};
-    PotentialState reached = potential.evaluate(step.start + y);
     const Entries found = entries(step.start + y);
     const bool over = found.deepest <= rigid_gap || rounds_left == 0;
     if (over) {

@@ -30,7 +30,7 @@ struct ActiveSpline<D>::Run {
 
   [[nodiscard]] bool is_rigid(std::size_t t) const { return potential.tool(t).rigid && potential.tool(t).collides(); }
   void balance_dynamic();
-  void descend(const StepProblem& step);
+  [[nodiscard]] PotentialState descend(const StepProblem& step);
   [[nodiscard]] Entries entries(const Points& x) const;
   [[nodiscard]] bool keep_out(const Entries& found, const PotentialState& contact);
   void tell_entered(const Entries& found);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "contact_neighbourhood.hpp"
 
@@ -29,14 +30,17 @@ constexpr double stage_tolerance = 1e-4;
 constexpr int max_stage_iterations = 20;
 
 /// Contacts affect few control points, and the minimum is sought within their neighbourhood. Let r be the imbalance of
-/// forces b − AY + F at some Y₀, the anchor, and s = A⁻¹r: computed once on the whole net. From then on all directions,
-/// and so all residuals, are combinations β r + E e, with forces e in the neighbourhood (E embeds them) whose images
-/// A⁻¹E e are needed only there as well. Only a new Y is again needed everywhere.
+/// forces b − AY + F at some Y₀, the anchor, and z = L⁻¹r with A = LLᵀ: computed once on the whole net. From then on
+/// all directions, and so all residuals, are combinations β r + E e, with forces e in the neighbourhood (E embeds them)
+/// whose images A⁻¹E e are needed only there, as is s = A⁻¹r. The new Y = Y₀ + A⁻¹(β r + E e) is needed everywhere
+/// once, at the end.
 struct Anchor {
-  Points y, r, s;
+  Points y;
+  ConstrainedCholesky::Half z;
   double rs;         // rᵀ A⁻¹ r
   double quadratic;  // ½ YᵀAY − Yᵀb
-  Points s_here, force_here;
+  double squared;    // YᵀAY
+  Points y_here, s_here, force_here;
 };
 
 /// β r + E e.
@@ -46,9 +50,12 @@ struct Combination {
 
   /// (β r + E e)ᵀ A⁻¹ (β r + E e), given its image under A⁻¹ in the neighbourhood.
   [[nodiscard]] double norm(const Anchor& anchor, const Points& image) const {
-    return beta * (beta * anchor.rs + dot(anchor.s_here, e)) + dot(e, image);
+    return beta * with_r(anchor) + dot(e, image);
   }
+  /// rᵀ A⁻¹ (β r + E e).
+  [[nodiscard]] double with_r(const Anchor& anchor) const { return beta * anchor.rs + dot(anchor.s_here, e); }
   [[nodiscard]] Points image(const Anchor& anchor, const ContactNeighbourhood& near) const {
+    if ((e.array() == 0).all()) return beta * anchor.s_here;
     return beta * anchor.s_here + near.inverse(e);
   }
   void add(double t, const Combination& other) {
@@ -57,25 +64,33 @@ struct Combination {
   }
 };
 
-/// (A + H) d = r by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual;
-/// returns A d. If A + H turns out not to be positive, the result is the sum of the steps so far, or A⁻¹r: a descent
-/// direction in any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). \param image of r.
-Combination newton_direction(const Potential& potential, const PotentialState& state, const Anchor& anchor,
-                             const ContactNeighbourhood& near, Combination r, const Points& image, double tolerance,
-                             int& solves) {
-  Combination ad{0, Points::Zero(near.size(), 3)}, ap = r;
+/// A displacement d in the neighbourhood, A d, and the slope of Φ along d.
+struct Direction {
+  Combination ad;
+  Points d;
+  double slope = 0;
+};
+
+/// (A + H) d = r by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual.
+/// If A + H turns out not to be positive, the result is the sum of the steps so far, or A⁻¹r: a descent direction in
+/// any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). \param image of r.
+Direction newton_direction(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near, Combination r,
+                           const Points& image, double tolerance, int& solves) {
+  Direction to{{0, Points::Zero(near.size(), 3)}, Points::Zero(near.size(), 3)};
+  Combination ap = r;
   Points p = image;
   double rs = r.norm(anchor, image);
   const double target = tolerance * tolerance * rs;
   for (int iteration = 0; iteration < max_cg_iterations && rs > target && rs > 0; ++iteration) {
-    const Points hp = near.gather(potential.apply_hessian(state, near.scatter(p)));
+    const Points hp = near.hessian(state, p);
     const double pap = ap.norm(anchor, p), curvature = pap + dot(p, hp);
     if (curvature <= 1e-12 * pap) {
-      if (iteration == 0) ad = std::move(ap);
+      if (iteration == 0) to = {std::move(ap), std::move(p)};
       break;
     }
     const double step = rs / curvature;
-    ad.add(step, ap);
+    to.ad.add(step, ap);
+    to.d += step * p;
     r.add(-step, ap);
     r.e -= step * hp;
     const Points s = r.image(anchor, near);
@@ -88,24 +103,31 @@ Combination newton_direction(const Potential& potential, const PotentialState& s
     p = s + share * p;
     rs = next;
   }
-  return ad;
+  return to;
 }
 
 /// Newton's iteration on Φ.
 class Minimisation {
  public:
   Minimisation(const StepProblem& problem, Potential& potential, Points& y)
-      : problem_(problem), potential_(potential), y_(y), state_(potential.evaluate(problem.start + y)) {}
+      : problem_(problem), potential_(potential), y_(y), x_(problem.start + y), state_(potential.evaluate(x_)) {}
 
   ContactSummary summary;
 
+  [[nodiscard]] PotentialState take_state() { return std::move(state_); }
+
   /// Call after the potential has changed.
-  void renew() { state_ = potential_.evaluate(problem_.start + y_); }
+  void renew() {
+    state_ = potential_.evaluate(x_);
+    kept_.reset();
+  }
 
   /// The imbalance of forces, as a share of the norm of b.
   double imbalance() {
-    const Anchor here = anchor();
-    return std::sqrt(std::max(0.0, here.rs)) / norm_of_b(here, norm_of_force());
+    View here = view();
+    const double share = std::sqrt(std::max(0.0, here.from.rs)) / norm_of_b(here, norm_of_force(here));
+    kept_.emplace(std::move(here));
+    return share;
   }
 
   /// Iterates until the decrement is `tolerance` of the terms that the step balances. With `certain` the result is
@@ -115,31 +137,26 @@ class Minimisation {
     Progress progress{tolerance, max_iterations};
     double before = std::numeric_limits<double>::infinity();
     while (true) {
-      Anchor from = anchor();
+      View here = kept_ ? std::move(*kept_) : view();
+      kept_.reset();
       if (progress.largest < 0) {
-        const double force = norm_of_force();
-        progress.largest = std::max(norm_of_b(from, force), force);
+        const double force = norm_of_force(here);
+        progress.largest = std::max(norm_of_b(here, force), force);
       }
-      const double decrement = std::sqrt(std::max(0.0, from.rs));
-      if (finished(decrement, from.quadratic, progress)) return;
+      const double decrement = std::sqrt(std::max(0.0, here.from.rs));
+      if (finished(decrement, here, progress)) return;
       if (decrement > 0.5 * before && decrement <= rounded_tolerance * progress.largest) {
         summary.converged = true;  // the remainder is the rounding of AY: another round would find the same
         return;
       }
       before = decrement;
       summary.converged = false;
-      const Round round = descend(from, progress);
+      const Round round = descend(here, progress);
       if (round == Round::over || (round == Round::small && (!certain || problem_.accuracy > 0))) return;
     }
   }
 
  private:
-  const StepProblem& problem_;
-  Potential& potential_;
-  Points& y_;
-  PotentialState state_;
-  double norm_of_b_ = -1;
-
   /// Why a round ended: the decrement is small enough; it is too small relative to β r to be resolved from this anchor;
   /// or no further progress is possible.
   enum class Round { small, blurred, over };
@@ -154,18 +171,18 @@ class Minimisation {
     int rounded_steps = 0;  // steps taken where the gain is below rounding
   };
 
-  /// The present iterate relative to an anchor.
+  /// The present iterate Y₀ + u relative to an anchor.
   struct View {
-    Anchor& from;
-    ContactNeighbourhood& near;
-    Combination left;  // b − AY
+    Anchor from;
+    ContactNeighbourhood near;
+    Combination au;    // A u
+    Points u;          // in the neighbourhood
     double quadratic;  // ½ YᵀAY − Yᵀb
 
-    /// The same at another Y = Y₀ + u, where b − AY is known, so that no product with A is needed.
-    [[nodiscard]] double quadratic_at(const Points& y, const Combination& left_there) const {
-      const Points u = y - from.y;
-      return from.quadratic -
-             0.5 * ((1 + left_there.beta) * dot(u, from.r) + dot(near.gather(u), left_there.e - from.force_here));
+    /// The same at another u.
+    [[nodiscard]] double quadratic_at(const Combination& au_there, const Points& u_there) const {
+      return from.quadratic - au_there.with_r(from) + dot(u_there, from.force_here) +
+             0.5 * au_there.norm(from, u_there);
     }
   };
 
@@ -178,65 +195,77 @@ class Minimisation {
     [[nodiscard]] double decrement() const { return std::sqrt(std::max(0.0, rs)); }
   };
 
-  /// A displacement d, A d, and the slope of Φ along d.
-  struct Direction {
-    Combination ad;
-    Points d;
-    double slope;
-  };
+  const StepProblem& problem_;
+  Potential& potential_;
+  Points& y_;
+  Points x_;              // start + Y, while a round lasts in its neighbourhood only
+  PotentialState state_;  // at the present iterate
+  std::optional<View> kept_;
+  double norm_of_b_ = -1;
 
-  Anchor anchor() {
-    Anchor a{y_, problem_.b, {}, 0, 0, {}, {}};
+  /// From the present Y, where `state_` is complete.
+  View view() {
+    Anchor a{y_, {}, 0, 0, 0, {}, {}, {}};
+    Points r = problem_.b;
     if (!(y_.array() == 0).all()) {
       const Points ay = problem_.a * y_;
-      a.quadratic = 0.5 * dot(y_, ay) - dot(y_, problem_.b);
-      a.r -= ay;
+      a.squared = dot(y_, ay);
+      a.quadratic = 0.5 * a.squared - dot(y_, problem_.b);
+      r -= ay;
     }
-    a.r = problem_.inverse.space().lumped(a.r + state_.force);
-    a.s = problem_.inverse.solve(a.r);
+    r += state_.force;
+    a.z = problem_.inverse.forward(problem_.inverse.space().lumped(r));
     ++summary.solves;
-    a.rs = dot(a.r, a.s);
-    return a;
+    a.rs = a.z.squared_norm;
+    View here{std::move(a), ContactNeighbourhood(problem_.inverse, potential_), {}, {}, 0};
+    here.quadratic = here.from.quadratic;
+    here.au.e = here.u = here.from.force_here = Points(0, 3);
+    take_in(here, state_);
+    here.from.force_here = here.near.gather(state_.force);
+    return here;
   }
 
-  void take_in(ContactNeighbourhood& near, Anchor& from) const {
-    std::vector<char> marks(static_cast<std::size_t>(y_.rows()), 0);
-    potential_.mark(state_, marks);
-    near.extend(marks);
-    from.s_here = near.gather(from.s);
-    from.force_here = near.grown(from.force_here);
+  /// Extends the neighbourhood by the contacts of a state. Forces of the anchor beyond it are zero.
+  void take_in(View& view, const PotentialState& state) {
+    if (!view.near.extend(state)) return;
+    view.from.s_here = problem_.inverse.backward_within(view.near.part(), view.from.z);
+    view.from.y_here = view.near.gather(view.from.y);
+    view.from.force_here = view.near.grown(view.from.force_here);
+    if (view.u.rows() > 0 || view.au.beta != 0) {
+      view.au.e = view.near.grown(view.au.e);
+      view.u = view.au.image(view.from, view.near);
+      ++summary.solves;
+    } else {
+      view.au.e = view.u = Points::Zero(view.near.size(), 3);
+    }
   }
 
   /// sqrt(bᵀ A⁻¹ b) over the free unknowns. \param force sqrt(Fᵀ A⁻¹ F)
-  double norm_of_b(const Anchor& from, double force) {
+  double norm_of_b(const View& here, double force) {
     if (norm_of_b_ >= 0) return norm_of_b_;
     if ((y_.array() == 0).all()) {  // r is b + F
-      norm_of_b_ = std::sqrt(std::max(0.0, from.rs - 2 * dot(state_.force, from.s) + force * force));
+      const double both = dot(here.from.force_here, here.from.s_here);
+      norm_of_b_ = std::sqrt(std::max(0.0, here.from.rs - 2 * both + force * force));
     } else {
-      norm_of_b_ = std::sqrt(std::max(0.0, dot(problem_.b, problem_.inverse.solve(problem_.b))));
+      norm_of_b_ = std::sqrt(problem_.inverse.forward(problem_.b).squared_norm);
       ++summary.solves;
     }
     return norm_of_b_;
   }
 
-  double norm_of_force() {
+  double norm_of_force(const View& here) {
     if (state_.contacts.empty()) return 0;
-    ContactNeighbourhood near(problem_.inverse);
-    std::vector<char> marks(static_cast<std::size_t>(y_.rows()), 0);
-    potential_.mark(state_, marks);
-    near.extend(marks);
-    const Points force = near.gather(state_.force);
     ++summary.solves;
-    return std::sqrt(std::max(0.0, dot(force, near.inverse(force))));
+    return std::sqrt(std::max(0.0, dot(here.from.force_here, here.near.inverse(here.from.force_here))));
   }
 
-  /// Whether to stop here, and with which outcome. \param quadratic ½ YᵀAY − Yᵀb
-  bool finished(double decrement, double quadratic, Progress& progress) {
+  /// Whether to stop here, and with which outcome.
+  bool finished(double decrement, const View& view, Progress& progress) {
     progress.largest = std::max(progress.largest, decrement);
     progress.enough = progress.tolerance * progress.largest;
-    if (problem_.accuracy > 0) {
-      const double displacement = std::sqrt(std::max(0.0, 2 * (quadratic + dot(y_, problem_.b))));  // √(YᵀAY)
-      progress.enough = std::max(progress.enough, problem_.accuracy * displacement);
+    if (problem_.accuracy > 0) {  // of √(YᵀAY), at the anchor if that is not zero
+      const double squared = view.from.squared > 0 ? view.from.squared : view.au.norm(view.from, view.u);
+      progress.enough = std::max(progress.enough, problem_.accuracy * std::sqrt(std::max(0.0, squared)));
     }
     if (decrement > progress.enough && std::isfinite(decrement)) return false;
     summary.converged = summary.finite = std::isfinite(decrement);
@@ -245,15 +274,15 @@ class Minimisation {
 
   /// r = b − AY + F at the present iterate.
   void update(const View& view, Residual& at) {
-    at.r = view.left;
-    at.r.e += view.near.gather(state_.force);
+    at.r.beta = 1 - view.au.beta;
+    at.r.e = view.near.gather(state_.force) - view.from.force_here - view.au.e;
     at.image = at.r.image(view.from, view.near);
     at.rs = at.r.norm(view.from, at.image);
     ++summary.solves;
   }
 
-  Direction direction(const View& view, const Residual& at, const Progress& progress) {
-    Direction to{at.r, {}, 0};
+  Direction direction(View& view, const Residual& at, const Progress& progress) {
+    Direction to{at.r, at.image};
     if (!state_.contacts.empty()) {
       // Loose while far away, tight near the end, where a step must not undo the gain of the previous one. Never below
       // the convergence tolerance: the remainder is then only rounding, and directions made from it violate the
@@ -261,14 +290,9 @@ class Minimisation {
       const double decrement = at.decrement();
       const double cg_tolerance = std::clamp(0.1 * decrement / progress.largest,
                                              std::clamp(0.1 * progress.enough / decrement, 1e-8, 1e-2), 1e-2);
-      to.ad = newton_direction(potential_, state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
+      to = newton_direction(state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
     }
-    to.d = to.ad.beta * view.from.s;
-    if (!(to.ad.e.array() == 0).all()) {
-      to.d += view.near.inverse_everywhere(to.ad.e);
-      ++summary.solves;
-    }
-    to.slope = -at.r.beta * dot(view.from.r, to.d) - dot(at.r.e, view.near.gather(to.d));
+    to.slope = -at.r.beta * to.ad.with_r(view.from) - dot(at.r.e, to.d);
     return to;
   }
 
@@ -278,37 +302,35 @@ class Minimisation {
                             (problem_.energy + std::abs(view.quadratic) + std::abs(state_.potential) + view.from.rs);
   }
 
+  /// The potential at Y₀ + u, of contacts inside.
+  PotentialState evaluate_inside(const View& view, const Points& u) {
+    view.near.scatter(view.near.gather(problem_.start) + view.from.y_here + u, x_);
+    return potential_.evaluate(x_, &view.near.watched());
+  }
+
   /// Steps along the direction, halved until Φ decreases enough; a full step if values are not decisive.
   void advance(View& view, const Direction& to, bool rounded) {
     const double here = view.quadratic + state_.potential;
     for (double t = 1;; t /= 2) {
-      Points y = y_ + t * to.d;
-      PotentialState state = potential_.evaluate(problem_.start + y);
-      Combination left = view.left;
-      left.add(-t, to.ad);
-      const double next = view.quadratic_at(y, left);
+      Points u = view.u + t * to.d;
+      Combination au = view.au;
+      au.add(t, to.ad);
+      PotentialState state = evaluate_inside(view, u);
+      const double next = view.quadratic_at(au, u);
       if (!rounded && next + state.potential > here + sufficient_decrease * t * to.slope && t > 1e-10) continue;
-      y_ = std::move(y);
-      state_ = std::move(state);
-      view.left = std::move(left);
+      view.u = std::move(u);
+      view.au = std::move(au);
       view.quadratic = next;
+      state_ = std::move(state);
       break;
     }
-    take_in(view.near, view.from);
-    view.left.e = view.near.grown(view.left.e);
+    take_in(view, state_);
   }
 
-  /// Iterates from one anchor.
-  Round descend(Anchor& from, Progress& progress) {
-    ContactNeighbourhood near(problem_.inverse);
-    from.force_here.resize(0, 3);
-    take_in(near, from);
-    from.force_here = near.gather(state_.force);
-    View view{from, near, {1, -from.force_here}, from.quadratic};
+  /// Iterates inside the neighbourhood.
+  Round iterate_inside(View& view, Progress& progress) {
     Residual at;
-    at.r = {1, Points::Zero(near.size(), 3)};
-    at.image = from.s_here;
-    at.rs = from.rs;
+    update(view, at);
     while (true) {
       if (progress.iteration == progress.max_iterations || summary.solves > max_solves) return Round::over;
       ++summary.iterations;
@@ -322,17 +344,42 @@ class Minimisation {
       advance(view, to, rounded);
       ++progress.iteration;
       update(view, at);
-      if (finished(at.decrement(), view.quadratic, progress))
+      if (finished(at.decrement(), view, progress)) {
         return std::isfinite(at.decrement()) ? Round::small : Round::over;
+      }
       // β r and E e cancel, and so do the squares under the root of the decrement.
-      if (at.rs < cancellation * at.r.beta * at.r.beta * from.rs) return Round::blurred;
+      if (at.rs < cancellation * at.r.beta * at.r.beta * view.from.rs) return Round::blurred;
+    }
+  }
+
+  /// Iterates from one anchor until no contact is outside the neighbourhood.
+  Round descend(View& view, Progress& progress) {
+    const double before = view.quadratic + state_.potential;
+    while (true) {
+      const Round round = iterate_inside(view, progress);
+      y_ = view.from.y + problem_.inverse.backward(view.from.z, view.au.beta, view.near.part(), view.au.e);
+      ++summary.solves;
+      x_ = problem_.start + y_;
+      state_ = potential_.evaluate(x_);
+      if (view.near.contains(state_) || !y_.allFinite() || progress.iteration >= progress.max_iterations) return round;
+      summary.converged = false;
+      const bool lower = view.quadratic + state_.potential <= before;
+      take_in(view, state_);
+      if (lower) continue;
+      // What came into contact outside was not reckoned with: once more, watching it.
+      y_ = view.from.y;
+      x_ = problem_.start + y_;
+      view.au = {0, Points::Zero(view.near.size(), 3)};
+      view.u = view.au.e;
+      view.quadratic = view.from.quadratic;
+      state_ = potential_.evaluate(x_);
     }
   }
 };
 
 }  // namespace
 
-ContactSummary minimise_step(const StepProblem& problem, Potential& potential, Points& y) {
+Minimum minimise_step(const StepProblem& problem, Potential& potential, Points& y) {
   Minimisation minimisation(problem, potential, y);
   // A very stiff tool is approached through softer ones: from afar its springs would throw the surface about. A step
   // that starts near equilibrium, as most do, gains nothing from that.
@@ -347,7 +394,7 @@ ContactSummary minimise_step(const StepProblem& problem, Potential& potential, P
     minimisation.renew();
   }
   minimisation.iterate(problem.near ? followed_tolerance : relative_tolerance, max_newton_iterations, true);
-  return minimisation.summary;
+  return {minimisation.summary, minimisation.take_state()};
 }
 
 }  // namespace knead

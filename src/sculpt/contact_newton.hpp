@@ -25,7 +25,13 @@ struct StepProblem {
   double accuracy = 0;
 };
 
+/// The minimum, and the potential there.
+struct Minimum {
+  ContactSummary summary;
+  PotentialState state;
+};
+
 /// Minimises, starting from `y` (feasible), which becomes the minimum.
-[[nodiscard]] ContactSummary minimise_step(const StepProblem& problem, Potential& potential, Points& y);
+[[nodiscard]] Minimum minimise_step(const StepProblem& problem, Potential& potential, Points& y);
 
 }  // namespace knead

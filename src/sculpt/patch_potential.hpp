@@ -55,35 +55,33 @@ class PatchPotential final : public Potential {
   [[nodiscard]] const Tool& tool(std::size_t k) const { return tools_[k].tool(); }
   [[nodiscard]] double stiffness(std::size_t k) const { return given_[k]; }
 
-  [[nodiscard]] PotentialState evaluate(const Points& x) const override {
+  [[nodiscard]] PotentialState evaluate(const Points& x, const WatchedElements* watched = nullptr) const override {
     PotentialState state;
     state.force = Points::Zero(x.rows(), 3);
     for (std::size_t k = 0; k < loads_.size(); ++k) {
-      loads_[k].evaluate(x, rows_[k], static_cast<int>(k),
-                         {tools_, friction_.empty() ? nullptr : &friction_[k], limits_.empty() ? nullptr : &limits_[k]},
-                         state);
+      const auto friction = [&](const std::vector<FrictionAnchors>& of) { return of.empty() ? nullptr : &of[k]; };
+      const DisplacementLimit* limit = limits_.empty() ? nullptr : &limits_[k];
+      const int patch = static_cast<int>(k);
+      loads_[k].evaluate(x, rows_[k], patch, {tools_, friction(friction_), limit, ToolPass::all, watched}, state);
       if (!loads_[k].hides()) continue;
-      loads_[k].evaluate(x, rows_[k], static_cast<int>(k),
-                         {tools_, friction_.empty() ? nullptr : &visible_friction_[k], nullptr, ToolPass::visible},
+      loads_[k].evaluate(x, rows_[k], patch, {tools_, friction(visible_friction_), nullptr, ToolPass::visible, watched},
                          state);
     }
     for (std::size_t k = 0; k < points_.size(); ++k) add_point(k, x, state);
     return state;
   }
 
-  [[nodiscard]] Points apply_hessian(const PotentialState& state, const Points& v) const override {
-    Points result = Points::Zero(v.rows(), 3);
+  void apply_hessian(const PotentialState& state, const Points& v, Points& out) const override {
     for (const ContactPoint& c : state.contacts) {
       if (c.patch < 0) {
         const PointForce& force = points_[static_cast<std::size_t>(c.at[0])];
         const Point h = c.hessian * combined(force, v);
-        for (const auto& [row, r] : force.terms) result.row(row) += r * h.transpose();
+        for (const auto& [row, r] : force.terms) out.row(row) += r * h.transpose();
         continue;
       }
       const auto k = static_cast<std::size_t>(c.patch);
-      loads_[k].apply_hessian(c, rows_[k], v, result);
+      loads_[k].apply_hessian(c, rows_[k], v, out);
     }
-    return result;
   }
 
   void mark(const PotentialState& state, std::vector<char>& marks) const override {
@@ -96,6 +94,19 @@ class PatchPotential final : public Potential {
         loads_[k].mark(c, rows_[k], marks);
       }
     }
+  }
+
+  void widen(std::vector<char>& marks) const override {
+    for (std::size_t k = 0; k < loads_.size(); ++k) loads_[k].widen(rows_[k], marks);
+  }
+
+  [[nodiscard]] WatchedElements watch(const std::vector<char>& marks) const override {
+    WatchedElements watched;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      if (marks[i]) watched.rows.push_back(static_cast<int>(i));
+    }
+    for (std::size_t k = 0; k < loads_.size(); ++k) watched.elements.push_back(loads_[k].elements_of(rows_[k], marks));
+    return watched;
   }
 
   void soften(double cap) override {

@@ -29,17 +29,29 @@ struct PotentialState {
   bool limited = false;   ///< some point is restrained by a limit
 };
 
+/// Some control points, and the elements of every patch that depend on no others.
+struct WatchedElements {
+  std::vector<int> rows;                   ///< of all control points
+  std::vector<std::vector<int>> elements;  ///< by patch, ascending
+};
+
 /// A potential of the positions of all control points: the solver's view of tools, friction and limits.
 class Potential {
  public:
   virtual ~Potential() = default;
 
-  /// At the control points x (N × 3).
-  [[nodiscard]] virtual PotentialState evaluate(const Points& x) const = 0;
-  /// H V: the Hessian at `state`, applied to N × 3 directions. It may be indefinite.
-  [[nodiscard]] virtual Points apply_hessian(const PotentialState& state, const Points& v) const = 0;
+  /// At the control points x (N × 3). With `watched`, contacts of those elements only: x is read at their control
+  /// points, and the cost depends on their number.
+  [[nodiscard]] virtual PotentialState evaluate(const Points& x, const WatchedElements* watched = nullptr) const = 0;
+  /// Adds H v to `out`: the Hessian at `state` applied to N × 3 directions, both used only where contacts act. It may
+  /// be indefinite.
+  virtual void apply_hessian(const PotentialState& state, const Points& v, Points& out) const = 0;
   /// Sets marks[i] where a contact of `state` acts on control point i: elsewhere force and Hessian are zero.
   virtual void mark(const PotentialState& state, std::vector<char>& marks) const = 0;
+  /// Marks the neighbours of marked control points in their nets too.
+  virtual void widen(std::vector<char>& marks) const = 0;
+  /// The elements whose control points are all marked.
+  [[nodiscard]] virtual WatchedElements watch(const std::vector<char>& marks) const = 0;
   /// The same potential with no spring stiffer than `cap`.
   virtual void soften(double cap) = 0;
   /// The largest stiffness of a spring.

@@ -176,6 +176,37 @@ void ToolLoad<D>::mark(const ContactPoint& contact, int first, std::vector<char>
 }
 
 template <int D>
+void ToolLoad<D>::widen(int first, std::vector<char>& marks) const {
+  char* const begin = marks.data() + first;
+  std::size_t inner = 1, size = 1;
+  for (const int n : net_) size *= static_cast<std::size_t>(n);
+  for (std::size_t d = D; d-- > 0;) {
+    const auto n = static_cast<std::size_t>(net_[d]);
+    const std::vector<char> before(begin, begin + size);
+    for (std::size_t i = 0; i < size; ++i) {
+      if (!before[i]) continue;
+      const std::size_t at = i / inner % n;
+      if (at > 0) begin[i - inner] = 1;
+      if (at + 1 < n) begin[i + inner] = 1;
+    }
+    inner *= n;
+  }
+}
+
+template <int D>
+std::vector<int> ToolLoad<D>::elements_of(int first, const std::vector<char>& marks) const {
+  std::vector<int> result;
+  int number = 0;
+  for_each_element([&](const Element& element) {
+    bool all = true;
+    for_each_control_point(element, [&](int row) { all = all && marks[static_cast<std::size_t>(first + row)] != 0; });
+    if (all) result.push_back(number);
+    ++number;
+  });
+  return result;
+}
+
+template <int D>
 FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip,
                                      ToolPass pass) const {
   FrictionAnchors result;

@@ -71,6 +71,7 @@ class ToolLoad {
     const FrictionAnchors* friction = nullptr;
     const DisplacementLimit* limit = nullptr;
     ToolPass pass = ToolPass::all;
+    const WatchedElements* watched = nullptr;  ///< null: all elements
   };
 
   /// Adds potential, force and contacts at control points x (rows `first` … of all points) to `state`.
@@ -81,6 +82,11 @@ class ToolLoad {
 
   /// Sets the marks of the control points that a contact point of this patch depends on.
   void mark(const ContactPoint& contact, int first, std::vector<char>& marks) const;
+
+  /// Marks the neighbours of this patch's marked control points, by one in every direction of the net.
+  void widen(int first, std::vector<char>& marks) const;
+  /// The numbers of the elements whose control points are all marked, ascending.
+  [[nodiscard]] std::vector<int> elements_of(int first, const std::vector<char>& marks) const;
 
   /// The anchors of friction where the tools are touched at x.
   [[nodiscard]] FrictionAnchors anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip,
@@ -102,6 +108,8 @@ class ToolLoad {
 
   ToolLoad() = default;
 
+  [[nodiscard]] Element element(std::array<std::size_t, D> span) const;
+  [[nodiscard]] Element element(int number) const;
   template <class F>
   void for_each_element(const F& f) const;
   template <class F>

@@ -23,18 +23,36 @@ struct ToolLoad<D>::Sample {
 };
 
 template <int D>
+typename ToolLoad<D>::Element ToolLoad<D>::element(std::array<std::size_t, D> span) const {
+  Element e;
+  for (std::size_t d = 0; d < D; ++d) {
+    e.begin[d] = spans_[d][span[d]];
+    e.end[d] = spans_[d][span[d] + 1];
+    e.first[d] = quadrature_[d].basis.first[static_cast<std::size_t>(e.begin[d])];
+    e.span[d] = static_cast<int>(span[d]);
+  }
+  return e;
+}
+
+/// By its number, in the order of `for_each_element`.
+template <int D>
+typename ToolLoad<D>::Element ToolLoad<D>::element(int number) const {
+  std::array<std::size_t, D> span;
+  auto rest = static_cast<std::size_t>(number);
+  for (std::size_t d = D; d-- > 0;) {
+    const std::size_t count = spans_[d].size() - 1;
+    span[d] = rest % count;
+    rest /= count;
+  }
+  return element(span);
+}
+
+template <int D>
 template <class F>
 void ToolLoad<D>::for_each_element(const F& f) const {
   std::array<std::size_t, D> k{};
   while (true) {
-    Element e;
-    for (std::size_t d = 0; d < D; ++d) {
-      e.begin[d] = spans_[d][k[d]];
-      e.end[d] = spans_[d][k[d] + 1];
-      e.first[d] = quadrature_[d].basis.first[static_cast<std::size_t>(e.begin[d])];
-      e.span[d] = static_cast<int>(k[d]);
-    }
-    f(e);
+    f(element(k));
     std::size_t d = D;
     while (d-- > 0) {
       if (++k[d] + 1 < spans_[d].size()) break;

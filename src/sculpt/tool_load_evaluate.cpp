@@ -29,38 +29,57 @@ class ToolLoad<D>::Evaluation {
       : load_(load), x_(x), first_(first), patch_(patch), actors_(actors), state_(state) {
     find_sides();
     if (actors.limit == nullptr) return;
-    displacements_ = (x.middleRows(first, actors.limit->original.rows()) - actors.limit->original).rowwise().norm();
-  }
-
-  void run() {
-    load_.for_each_element([&](const Element& element) {
-      find_near(element);
-      const bool limited = actors_.limit != nullptr && may_exceed(element);
-      if (near_.empty() && !limited) return;
-      double longest = 0;
-      for (std::size_t d = 0; d < D; ++d)
-        longest = std::max(longest, load_.lengths_[d][static_cast<std::size_t>(element.span[d])]);
-      const auto act = [&](const Sample& s) {
-        press(s, longest);
-        if (actors_.friction != nullptr) rub(s);
-        if (limited) hold_back(s);
-      };
-      if (actors_.pass == ToolPass::all) {
-        load_.for_each_point(element, x_, first_, workspace_, act);
-      } else {
-        load_.for_each_visible_point(element, x_, first_, workspace_, act);
-      }
+    displacements_.resize(static_cast<Eigen::Index>(count_));
+    for_each_used([&](std::size_t k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      displacements_[i] = (x.row(first + i) - actors.limit->original.row(i)).norm();
     });
   }
 
+  void run() {
+    if (actors_.watched == nullptr) return load_.for_each_element([&](const Element& element) { visit(element); });
+    for (const int number : actors_.watched->elements[static_cast<std::size_t>(patch_)]) visit(load_.element(number));
+  }
+
  private:
+  void visit(const Element& element) {
+    find_near(element);
+    const bool limited = actors_.limit != nullptr && may_exceed(element);
+    if (near_.empty() && !limited) return;
+    double longest = 0;
+    for (std::size_t d = 0; d < D; ++d)
+      longest = std::max(longest, load_.lengths_[d][static_cast<std::size_t>(element.span[d])]);
+    const auto act = [&](const Sample& s) {
+      press(s, longest);
+      if (actors_.friction != nullptr) rub(s);
+      if (limited) hold_back(s);
+    };
+    if (actors_.pass == ToolPass::all) {
+      load_.for_each_point(element, x_, first_, workspace_, act);
+    } else {
+      load_.for_each_visible_point(element, x_, first_, workspace_, act);
+    }
+  }
+
+  /// f(i) for every control point of the patch that is used.
+  template <class F>
+  void for_each_used(const F& f) const {
+    if (actors_.watched == nullptr) {
+      for (std::size_t i = 0; i < count_; ++i) f(i);
+      return;
+    }
+    for (const int row : actors_.watched->rows) {
+      if (row >= first_ && row < first_ + static_cast<int>(count_)) f(static_cast<std::size_t>(row - first_));
+    }
+  }
+
   /// On which sides of every tool's box each control point lies.
   void find_sides() {
     count_ = static_cast<std::size_t>(std::accumulate(load_.net_.begin(), load_.net_.end(), 1, std::multiplies{}));
     sides_.resize(count_ * actors_.tools.size());
     for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
-      const double* at = x_.data() + 3 * static_cast<std::ptrdiff_t>(first_);
-      for (std::size_t i = 0; i < count_; ++i, at += 3) sides_[t * count_ + i] = actors_.tools[t].sides(at);
+      const double* points = x_.data() + 3 * static_cast<std::ptrdiff_t>(first_);
+      for_each_used([&](std::size_t i) { sides_[t * count_ + i] = actors_.tools[t].sides(points + 3 * i); });
     }
   }
 

@@ -77,10 +77,36 @@ Points ConstrainedCholesky::solve_within(const Part& part, const Points& b) cons
   return Eigen::Map<const Points>(x.data(), b.rows(), 3);
 }
 
-Points ConstrainedCholesky::solve_from(const Part& part, const Points& b) const {
+ConstrainedCholesky::Half ConstrainedCholesky::forward(const Points& b) const {
+  if (!cholesky_) return {};
+  if (!space_.coupled()) return cholesky_->forward(space_.reduce_points(b));
+  return cholesky_->forward(Eigen::VectorXd(space_.reduce(b).col(0)));
+}
+
+Points ConstrainedCholesky::backward_within(const Part& part, const Half& half) const {
+  const auto rows = static_cast<Eigen::Index>(part.points.size());
+  if (!cholesky_) return Points::Zero(rows, 3);
+  if (!space_.coupled()) {
+    Points y;
+    cholesky_->backward_within(part.factor, half, y);
+    return expanded(part, y, rows);
+  }
+  Eigen::VectorXd y;
+  cholesky_->backward_within(part.factor, half, y);
+  const Eigen::VectorXd x = expanded(part, y, 3 * rows);
+  return Eigen::Map<const Points>(x.data(), rows, 3);
+}
+
+Points ConstrainedCholesky::backward(const Half& half, double share, const Part& part, const Points& b) const {
   if (!cholesky_) return Points::Zero(space_.size(), 3);
-  if (!space_.coupled()) return space_.expand_points(cholesky_->solve_from(part.factor, reduced(part, b)));
-  return space_.expand(cholesky_->solve_from(part.factor, reduced(part, flat(b))));
+  if (!space_.coupled()) {
+    Points y;
+    cholesky_->backward(half, share, part.factor, reduced(part, b), y);
+    return space_.expand_points(y);
+  }
+  Eigen::VectorXd y;
+  cholesky_->backward(half, share, part.factor, reduced(part, flat(b)), y);
+  return space_.expand(y);
 }
 
 Points ConstrainedCholesky::solve(const Points& b) const {

@@ -29,8 +29,12 @@ class ConstrainedCholesky {
   /// X at the points of the part, for B given there and zero elsewhere, both in the order of the points. Cost and bits:
   /// see `SparseCholesky::solve_within`.
   [[nodiscard]] Points solve_within(const Part& part, const Points& b) const;
-  /// The same for all of X.
-  [[nodiscard]] Points solve_from(const Part& part, const Points& b) const;
+  /// The first half of a solve, with Bᵀ X; the second half where X is needed only at the points of the part; the
+  /// second half everywhere, for share · B + E b with b at the points of the part.
+  using Half = SparseCholesky::Half;
+  [[nodiscard]] Half forward(const Points& b) const;
+  [[nodiscard]] Points backward_within(const Part& part, const Half& half) const;
+  [[nodiscard]] Points backward(const Half& half, double share, const Part& part, const Points& b) const;
 
   [[nodiscard]] const ConstraintSpace& space() const { return space_; }
 

@@ -40,6 +40,9 @@ class Panels {
   /// Sets the rows of these panels to zero.
   template <int columns>
   void clear(double* x, std::span<const int> panels) const;
+  /// Copies the rows of these panels.
+  template <int columns>
+  void copy(const double* from, double* to, std::span<const int> panels) const;
 
  private:
   struct Panel {

@@ -94,15 +94,37 @@ Values within(const Panels& panels, const SparseCholesky::Part& part, int size, 
 }
 
 template <class Values>
-Values from(const Panels& panels, const Eigen::VectorXi& order, const SparseCholesky::Part& part, const Values& b) {
+SparseCholesky::Half first_half(const Panels& panels, const Eigen::VectorXi& order, const Values& b) {
+  Work<Values> y(b.rows());
+  for (Eigen::Index i = 0; i < b.rows(); ++i) put<Values>(y, order[i], b, i);
+  panels.forward<columns<Values>>(y.data(), panels.all());
+  SparseCholesky::Half half;
+  half.values = Eigen::Map<const Eigen::VectorXd>(y.data(), columns<Values> * b.rows());
+  half.squared_norm = half.values.squaredNorm();
+  return half;
+}
+
+template <class Values>
+void second_half_within(const Panels& panels, const SparseCholesky::Part& part, const SparseCholesky::Half& z,
+                        Values& x) {
+  Work<Values> y(z.values.size() / columns<Values>);
+  panels.copy<columns<Values>>(z.values.data(), y.data(), part.panels);
+  panels.backward<columns<Values>>(y.data(), part.panels);
+  x.resize(static_cast<Eigen::Index>(part.rows.size()), x.cols());
+  for (std::size_t k = 0; k < part.rows.size(); ++k) take<Values>(y, part.rows[k], x, static_cast<Eigen::Index>(k));
+}
+
+template <class Values>
+void second_half(const Panels& panels, const Eigen::VectorXi& order, const SparseCholesky::Half& z, double share,
+                 const SparseCholesky::Part& part, const Values& b, Values& x) {
   Work<Values> y(order.size());
   y.clear();
   for (std::size_t k = 0; k < part.rows.size(); ++k) put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
   panels.forward<columns<Values>>(y.data(), part.panels);
+  Eigen::Map<Eigen::VectorXd>(y.data(), columns<Values> * order.size()) += share * z.values;
   panels.backward<columns<Values>>(y.data(), panels.all());
-  Values x(order.size(), b.cols());
+  x.resize(order.size(), x.cols());
   for (Eigen::Index i = 0; i < order.size(); ++i) take<Values>(y, order[i], x, i);
-  return x;
 }
 
 }  // namespace
@@ -126,11 +148,26 @@ Eigen::VectorXd SparseCholesky::solve_within(const Part& part, const Eigen::Vect
   return within(factor_->panels, part, size_, b);
 }
 
-Points SparseCholesky::solve_from(const Part& part, const Points& b) const {
-  return from(factor_->panels, factor_->order, part, b);
+SparseCholesky::Half SparseCholesky::forward(const Points& b) const {
+  return first_half(factor_->panels, factor_->order, b);
 }
-Eigen::VectorXd SparseCholesky::solve_from(const Part& part, const Eigen::VectorXd& b) const {
-  return from(factor_->panels, factor_->order, part, b);
+SparseCholesky::Half SparseCholesky::forward(const Eigen::VectorXd& b) const {
+  return first_half(factor_->panels, factor_->order, b);
+}
+
+void SparseCholesky::backward_within(const Part& part, const Half& z, Points& x) const {
+  second_half_within(factor_->panels, part, z, x);
+}
+void SparseCholesky::backward_within(const Part& part, const Half& z, Eigen::VectorXd& x) const {
+  second_half_within(factor_->panels, part, z, x);
+}
+
+void SparseCholesky::backward(const Half& z, double share, const Part& part, const Points& b, Points& x) const {
+  second_half(factor_->panels, factor_->order, z, share, part, b, x);
+}
+void SparseCholesky::backward(const Half& z, double share, const Part& part, const Eigen::VectorXd& b,
+                              Eigen::VectorXd& x) const {
+  second_half(factor_->panels, factor_->order, z, share, part, b, x);
 }
 
 }  // namespace knead

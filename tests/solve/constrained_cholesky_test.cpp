@@ -131,9 +131,17 @@ TEST(ConstrainedCholesky, APartOfTheFactorGivesTheBitsOfTheWhole) {
       Points b = Points::Zero(size, 3);
       for (std::size_t k = 0; k < points.size(); ++k) b.row(points[k]) = here.row(static_cast<Eigen::Index>(k));
       const Points x = system->solve(b), within = system->solve_within(part, here);
-      EXPECT_EQ(system->solve_from(part, here), x);
+      const Points everywhere = random_points(size, 8);
+      const auto half = system->forward(everywhere);
+      EXPECT_EQ(system->backward(half, 0, part, here), x);
+      const Points whole = system->solve(everywhere);
+      EXPECT_EQ(system->backward(half, 1, part, Points::Zero(here.rows(), 3)), whole);
+      const double squared = everywhere.cwiseProduct(whole).sum();
+      EXPECT_NEAR(half.squared_norm, squared, 1e-12 * squared);
+      const Points second_within = system->backward_within(part, half);
       for (std::size_t k = 0; k < points.size(); ++k) {
         EXPECT_EQ(within.row(static_cast<Eigen::Index>(k)), x.row(points[k])) << points[k];
+        EXPECT_EQ(second_within.row(static_cast<Eigen::Index>(k)), whole.row(points[k])) << points[k];
       }
     }
   }

@@ -30,9 +30,21 @@ class SparseCholesky {
   /// part), on a tensor net a fraction of the whole that shrinks with its size. Same bits as `solve`.
   [[nodiscard]] Points solve_within(const Part& part, const Points& b) const;
   [[nodiscard]] Eigen::VectorXd solve_within(const Part& part, const Eigen::VectorXd& b) const;
-  /// The same for all of X: half the work of `solve`, and half of `solve_within`.
-  [[nodiscard]] Points solve_from(const Part& part, const Points& b) const;
-  [[nodiscard]] Eigen::VectorXd solve_from(const Part& part, const Eigen::VectorXd& b) const;
+
+  /// z of L z = B, the first half of a solve, in the order of the factor.
+  struct Half {
+    Eigen::VectorXd values;   ///< four per row for three columns, the last zero
+    double squared_norm = 0;  ///< Σ z², that is Bᵀ A⁻¹ B
+  };
+  [[nodiscard]] Half forward(const Points& b) const;
+  [[nodiscard]] Half forward(const Eigen::VectorXd& b) const;
+  /// The second half where X is needed only at the unknowns of the part: half the cost of `solve_within`.
+  void backward_within(const Part& part, const Half& z, Points& x) const;
+  void backward_within(const Part& part, const Half& z, Eigen::VectorXd& x) const;
+  /// All of X with A X = share · L z + E B, where E B is B at the unknowns of the part: half the work of `solve`, and
+  /// half of `solve_within`.
+  void backward(const Half& z, double share, const Part& part, const Points& b, Points& x) const;
+  void backward(const Half& z, double share, const Part& part, const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
 
   [[nodiscard]] int size() const { return size_; }
 
