@@ -135,7 +135,7 @@ Expected<Stiffness<D>> Stiffness<D>::create(const Spline<D>& spline, const Energ
 template <int D>
 Points Stiffness<D>::apply(const Points& x) const {
   assert(x.rows() == size_);
-  if (assembled_) return *assembled_ * x;
+  if (assembled_) return symmetric_product(*assembled_, x);
   Points sum = Points::Zero(size_, 3);
   Points buffers[2] = {Points(size_, 3), Points(size_, 3)};
   for (const Term& term : terms_) {

@@ -39,7 +39,7 @@ struct ActiveSpline<D>::Model {
   /// Xᵀ K X. K annihilates constants: without their mean the numbers are smaller, and so is the rounding.
   [[nodiscard]] double energy(const SparseMatrix& matrix, const Points& x) const {
     const Points y = x.rowwise() - x.colwise().mean();
-    return std::max(0.0, dot(y, matrix * y));
+    return std::max(0.0, dot(y, symmetric_product(matrix, y)));
   }
 
   Expected<Points> load_of(const ActiveState& state, const ActiveLoads& given) const;
