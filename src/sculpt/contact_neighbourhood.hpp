@@ -28,7 +28,6 @@ class ContactNeighbourhood {
     potential_.mark(state, marks);
     potential_.widen(marks);
     if (contains(marks)) return false;
-    potential_.widen(marks);
     std::vector<int> points = part_.points;
     for (std::size_t i = 0; i < marks.size(); ++i) {
       if (!marks[i] || inside_[i]) continue;
