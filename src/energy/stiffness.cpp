@@ -5,62 +5,11 @@
 #include <algorithm>
 #include <map>
 
+#include "simd/tensor_kernels.hpp"
 #include "tensor_pattern.hpp"
 
 namespace knead {
 namespace {
-
-/// Y = (I ⊗ G ⊗ I) X along one direction of a tensor stored with the last index fastest: X has `outer` slabs of
-/// G.size() rows of `inner` contiguous numbers.
-void apply_along(const BandMatrix& gramian, std::size_t outer, std::size_t inner, const double* x, double* y) {
-  const int n = gramian.size(), p = gramian.half_bandwidth();
-  std::fill(y, y + outer * static_cast<std::size_t>(n) * inner, 0.0);
-  for (std::size_t o = 0; o < outer; ++o) {
-    const double* slab = x + o * static_cast<std::size_t>(n) * inner;
-    double* out = y + o * static_cast<std::size_t>(n) * inner;
-    for (int i = 0; i < n; ++i) {
-      double* row = out + static_cast<std::size_t>(i) * inner;
-      for (int j = std::max(0, i - p); j <= std::min(n - 1, i + p); ++j) {
-        const double g = gramian(i, j);
-        const double* from = slab + static_cast<std::size_t>(j) * inner;
-        for (std::size_t c = 0; c < inner; ++c) row[c] += g * from[c];
-      }
-    }
-  }
-}
-
-/// One row of an assembled matrix: for every outer column a run of `length` entries Σ_g weight_g · band_g, the bands
-/// `stride` apart.
-struct Runs {
-  const double* band;
-  std::size_t stride;
-  const double* weights;
-  std::size_t kinds, columns;
-
-  template <int length>
-  double* write(double* to) const {
-    const double* w = weights;
-    for (std::size_t column = 0; column < columns; ++column, w += kinds, to += length) {
-      double sum[length] = {};
-      for (std::size_t g = 0; g < kinds; ++g) {
-        for (int c = 0; c < length; ++c) sum[c] += w[g] * band[g * stride + static_cast<std::size_t>(c)];
-      }
-      std::copy_n(sum, length, to);
-    }
-    return to;
-  }
-
-  double* write(double* to, int length) const {
-    const double* w = weights;
-    for (std::size_t column = 0; column < columns; ++column, w += kinds, to += length) {
-      std::fill_n(to, length, 0.0);
-      for (std::size_t g = 0; g < kinds; ++g) {
-        for (int c = 0; c < length; ++c) to[c] += w[g] * band[g * stride + static_cast<std::size_t>(c)];
-      }
-    }
-    return to;
-  }
-};
 
 template <int D>
 std::array<int, D> degrees(const std::array<KnotVector, D>& knots) {
@@ -133,26 +82,6 @@ Expected<Stiffness<D>> Stiffness<D>::create(const Spline<D>& spline, const Energ
 }
 
 template <int D>
-Points Stiffness<D>::apply(const Points& x) const {
-  assert(x.rows() == size_);
-  if (assembled_) return symmetric_product(*assembled_, x);
-  Points sum = Points::Zero(size_, 3);
-  Points buffers[2] = {Points(size_, 3), Points(size_, 3)};
-  for (const Term& term : terms_) {
-    const double* from = x.data();
-    std::size_t outer = 1, inner = static_cast<std::size_t>(size_) * 3;
-    for (std::size_t d = 0; d < D; ++d) {
-      inner /= static_cast<std::size_t>(net_[d]);
-      apply_along(factors_[d][static_cast<std::size_t>(term.factor[d])], outer, inner, from, buffers[d % 2].data());
-      from = buffers[d % 2].data();
-      outer *= static_cast<std::size_t>(net_[d]);
-    }
-    sum += term.coefficient * buffers[(D - 1) % 2];
-  }
-  return sum;
-}
-
-template <int D>
 double Stiffness<D>::energy(const Points& x) const {
   return x.cwiseProduct(apply(x)).sum();
 }
@@ -160,30 +89,45 @@ double Stiffness<D>::energy(const Points& x) const {
 template <int D>
 SparseMatrix Stiffness<D>::assemble() const {
   if (assembled_) return *assembled_;
-  const TensorPattern<D> pattern{net_, degree_};
-  SparseMatrix matrix = pattern.allocate();
+  SparseMatrix matrix = TensorPattern<D>{net_, degree_}.allocate();
+  refresh(matrix);
+  return matrix;
+}
 
-  // The factors of the last direction as full rows of 2p + 1 numbers, row j from column j − p on.
+template <int D>
+void Stiffness<D>::refresh(SparseMatrix& matrix) const {
+  if (assembled_) {
+    assert(matrix.nonZeros() == assembled_->nonZeros());
+    std::copy_n(assembled_->valuePtr(), assembled_->nonZeros(), matrix.valuePtr());
+    return;
+  }
+  const TensorPattern<D> pattern{net_, degree_};
   constexpr std::size_t last = D - 1;
+  constexpr auto spare = detail::TensorKernels::spare;
   const int n = net_[last], p = degree_[last], width = 2 * p + 1;
   const std::size_t kinds = factors_[last].size();
-  std::vector<double> band(kinds * static_cast<std::size_t>(n) * static_cast<std::size_t>(width), 0.0);
+  // The factors of the last direction as full rows of 2p + 1 numbers, row j from column j − p on.
+  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(n) * width + spare;
+  std::vector<double> band(kinds * static_cast<std::size_t>(stride), 0.0);
   for (std::size_t g = 0; g < kinds; ++g) {
+    double* to = band.data() + static_cast<std::ptrdiff_t>(g) * stride;
     for (int i = 0; i < n; ++i) {
-      for (int j = pattern.first(last, i); j < pattern.first(last, i) + pattern.length(last, i); ++j) {
-        band[(g * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)) * static_cast<std::size_t>(width) +
-             static_cast<std::size_t>(j - i + p)] = factors_[last][g](i, j);
+      for (int c = 0; c < pattern.length(last, i); ++c) {
+        const int j = pattern.first(last, i) + c;
+        to[static_cast<std::ptrdiff_t>(i) * width + j - i + p] = factors_[last][g](i, j);
       }
     }
   }
 
   // For every pair of outer indices the terms collapse to one coefficient per factor of the last direction.
   const TensorPattern<D> rows = pattern.outer();
-  std::vector<double> weights;
+  const detail::TensorKernels& kernels = detail::tensor_kernels();
+  std::vector<double> weights, end;
   double* to = matrix.valuePtr();
   for (int row = 0; row < rows.size(); ++row) {
     const std::array<int, D> i = rows.unpack(row);
     const std::vector<std::array<int, D>> columns = rows.columns(i);
+    const auto count = static_cast<std::ptrdiff_t>(columns.size());
     weights.assign(columns.size() * kinds, 0.0);
     for (std::size_t column = 0; column < columns.size(); ++column) {
       for (const Term& term : terms_) {
@@ -195,25 +139,16 @@ SparseMatrix Stiffness<D>::assemble() const {
       }
     }
     for (int k = 0; k < n; ++k) {
-      const int length = pattern.length(last, k), skip = pattern.first(last, k) - k + p;
-      const double* from = band.data() + static_cast<std::size_t>(k * width + skip);
-      const Runs runs{from, static_cast<std::size_t>(n * width), weights.data(), kinds, columns.size()};
-      switch (length) {
-        case 3:
-          to = runs.write<3>(to);
-          break;
-        case 5:
-          to = runs.write<5>(to);
-          break;
-        case 7:
-          to = runs.write<7>(to);
-          break;
-        default:
-          to = runs.write(to, length);
-      }
+      const std::ptrdiff_t length = pattern.length(last, k);
+      const double* from = band.data() + static_cast<std::ptrdiff_t>(k) * width + pattern.first(last, k) - k + p;
+      const bool past_the_end = row + 1 == rows.size() && k + 1 == n;  // there is nothing behind the last values
+      if (past_the_end) end.resize(static_cast<std::size_t>(count * length + spare));
+      kernels.write_runs(from, stride, weights.data(), static_cast<std::ptrdiff_t>(kinds), count, length,
+                         past_the_end ? end.data() : to);
+      if (past_the_end) std::copy_n(end.data(), count * length, to);
+      to += count * length;
     }
   }
-  return matrix;
 }
 
 template class Stiffness<1>;

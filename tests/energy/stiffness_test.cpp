@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 
+#include "energy/simd/tensor_kernels.hpp"
 #include "support/surfaces.hpp"
 
 namespace knead {
@@ -56,6 +57,56 @@ TEST(Stiffness, AppliedIsAssembledTimesVector) {
     const Points absolute = matrix.cwiseAbs() * x.cwiseAbs();
     EXPECT_LE(((assembled - applied).array().abs() - 1e-14 * absolute.array()).maxCoeff(), 0);
     EXPECT_NEAR(k.energy(x), x.cwiseProduct(assembled).sum(), 1e-13 * x.cwiseAbs().cwiseProduct(absolute).sum());
+  }
+}
+
+TEST(Stiffness, ARefreshedMatrixIsAnAssembledOne) {
+  for (const Surface& s : surfaces()) {
+    SparseMatrix kept = stiffness_of(s, {{1, 0, 1}, {0, 0, 0}}).assemble();
+    const SparseMatrix* const before = &kept;
+    const double* const values = kept.valuePtr();
+    const auto k = stiffness_of(s, general);
+    k.refresh(kept);
+    EXPECT_EQ((kept - k.assemble()).norm(), 0);
+    EXPECT_EQ(before->valuePtr(), values);
+  }
+}
+
+TEST(Stiffness, SymmetricProductsGatherRows) {
+  for (const Surface& s : surfaces()) {
+    const SparseMatrix k = stiffness_of(s, general).assemble();
+    const Points x = random_points(s.size(), 3), absolute = k.cwiseAbs() * x.cwiseAbs();
+    EXPECT_LE(((k * x - symmetric_product(k, x)).array().abs() - 1e-14 * absolute.array()).maxCoeff(), 0);
+  }
+}
+
+TEST(TensorKernels, GiveTheSameBitsByEveryInstructionSet) {
+  constexpr std::ptrdiff_t length = 77, count = 5, spare = detail::TensorKernels::spare;
+  const Eigen::VectorXd x = Eigen::VectorXd::Random(count * (length + 3)), f = Eigen::VectorXd::Random(count * length);
+  const auto& reference = detail::tensor_kernels(InstructionSet::vector128);
+  for (const InstructionSet set : available_instruction_sets()) {
+    const auto& kernels = detail::tensor_kernels(set);
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(length), y = expected;
+    reference.combine(x.data(), length, f.data(), count, length, expected.data());
+    kernels.combine(x.data(), length, f.data(), count, length, y.data());
+    EXPECT_EQ(y, expected) << name(set);
+    reference.add_band(f.data(), length, count, 3, x.data(), length, expected.data());
+    kernels.add_band(f.data(), length, count, 3, x.data(), length, y.data());
+    EXPECT_EQ(y, expected) << name(set);
+    for (const std::ptrdiff_t run : {1, 3, 7, 11, 15, 41}) {
+      for (const std::ptrdiff_t kinds : {1, 3, 5, 7}) {
+        const std::ptrdiff_t columns = 4;
+        Eigen::VectorXd runs = Eigen::VectorXd::Zero(columns * run + spare), written = runs;
+        reference.write_runs(x.data(), 45, f.data(), kinds, columns, run, runs.data());
+        kernels.write_runs(x.data(), 45, f.data(), kinds, columns, run, written.data());
+        EXPECT_EQ(written.head(columns * run), runs.head(columns * run)) << name(set) << run << kinds;
+        for (std::ptrdiff_t c = 0; c < run; ++c) {
+          double sum = 0;
+          for (std::ptrdiff_t g = 0; g < kinds; ++g) sum += f[3 * kinds + g] * x[g * 45 + c];
+          EXPECT_EQ(runs[3 * run + c], sum);
+        }
+      }
+    }
   }
 }
 
