@@ -1,6 +1,5 @@
 // The stiffness matrix of a cubic net with all six terms: assembly beside writing the same bytes, and applying it to
-// three columns without assembly beside the product with the assembled matrix. Each pair alternates in one loop;
-// `ratio` is that of the medians.
+// three columns without assembly beside the product with the assembled matrix.
 #include <benchmark/benchmark.h>
 
 #include <cstring>
@@ -18,25 +17,13 @@ Stiffness<2> stiffness(int net) {
   return *Stiffness<2>::create({k, k}, stretch_and_bend<2>({{1, 0.3, 0.5}, {1e-3, 2e-3, 5e-4}}));
 }
 
-template <class Ours, class Reference>
-void beside(benchmark::State& state, const Ours& ours, const Reference& reference) {
-  std::vector<double> a, b;
-  for (auto _ : state) {
-    a.push_back(bench::milliseconds_of(ours));
-    b.push_back(bench::milliseconds_of(reference));
-  }
-  state.counters["ms"] = bench::median(a);
-  state.counters["reference_ms"] = bench::median(b);
-  state.counters["ratio"] = bench::median(a) / bench::median(b);
-}
-
 /// The values of a matrix that is kept, as after a change of material.
 void assembly_over_write(benchmark::State& state) {
   const Stiffness<2> k = stiffness(static_cast<int>(state.range(0)));
   SparseMatrix kept = k.assemble();
   std::vector<char> bytes(static_cast<std::size_t>(kept.nonZeros()) * sizeof(double));
   int value = 0;
-  beside(
+  bench::beside(
       state,
       [&] {
         k.refresh(kept);
@@ -47,7 +34,8 @@ void assembly_over_write(benchmark::State& state) {
         std::memset(bytes.data(), ++value, bytes.size());
         benchmark::DoNotOptimize(bytes.data());
         benchmark::ClobberMemory();
-      });
+      },
+      bench::Ratio::over_reference);
 }
 
 /// A new matrix with its pattern, beside new memory of its size.
@@ -55,33 +43,33 @@ void new_assembly_over_write(benchmark::State& state) {
   const Stiffness<2> k = stiffness(static_cast<int>(state.range(0)));
   const auto entries = static_cast<std::size_t>(k.assemble().nonZeros());
   int value = 0;
-  beside(
+  bench::beside(
       state, [&] { benchmark::DoNotOptimize(k.assemble().valuePtr()); },
       [&] {
         std::unique_ptr<char[]> bytes(new char[entries * (sizeof(double) + sizeof(int))]);
         std::memset(bytes.get(), ++value, entries * (sizeof(double) + sizeof(int)));
         benchmark::DoNotOptimize(bytes.get());
         benchmark::ClobberMemory();
-      });
+      },
+      bench::Ratio::over_reference);
 }
 
-/// Times faster than the product.
-void product_over_apply(benchmark::State& state) {
+void apply_beside_product(benchmark::State& state) {
   const Stiffness<2> k = stiffness(static_cast<int>(state.range(0)));
   const SparseMatrix assembled = k.assemble();
   const Points x = Points::Random(k.size(), 3);
   Points y(k.size(), 3);
-  beside(
-      state,
+  bench::beside(
+      state, [&] { benchmark::DoNotOptimize(k.apply(x).data()); },
       [&] {
         y.noalias() = assembled * x;
         benchmark::DoNotOptimize(y.data());
       },
-      [&] { benchmark::DoNotOptimize(k.apply(x).data()); });
+      bench::Ratio::times_faster);
 }
 
 BENCHMARK(assembly_over_write)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(new_assembly_over_write)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
-BENCHMARK(product_over_apply)->Arg(128)->Unit(benchmark::kMillisecond);
+BENCHMARK(apply_beside_product)->Arg(128)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -1,50 +1,26 @@
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <cstdlib>
-#include <random>
 
 #include "knead/spline/evaluate.hpp"
+#include "sample_surface.hpp"
 
 // A bicubic net of 32 × 32 control points on a grid of 500 × 500 points. `memory` writes as many bytes as the result
 // has, into memory allocated as the result is: the limit on this machine, measured in the same run.
 
 namespace {
 
-using knead::KnotVector;
 using knead::Points;
 using knead::Surface;
 
-constexpr int net = 32, grid = 500;
-
-Surface sample(bool rational) {
-  const auto knots = KnotVector::clamped_uniform(3, net);
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> offset(-0.3, 0.3), weight(0.5, 2);
-  Points points(net * net, 3);
-  std::vector<double> weights;
-  for (int i = 0; i < net; ++i) {
-    for (int j = 0; j < net; ++j) {
-      points.row(i * net + j) << i + offset(random), j + offset(random), std::sin(0.3 * i) * std::cos(0.25 * j);
-      if (rational) weights.push_back(weight(random));
-    }
-  }
-  auto surface = Surface::create({*knots, *knots}, points, weights);
-  if (!surface) std::abort();
-  return *surface;
-}
-
-std::vector<double> parameters() {
-  std::vector<double> result;
-  for (int k = 0; k < grid; ++k) result.push_back(k / static_cast<double>(grid - 1));
-  return result;
-}
+constexpr int grid = knead::bench::sample_grid;
+using knead::bench::sample_surface;
 
 void report(benchmark::State& state) { state.SetItemsProcessed(state.iterations() * grid * grid); }
 
 void evaluate_grid(benchmark::State& state, bool rational, int order) {
-  const Surface surface = sample(rational);
-  const auto u = parameters();
+  const Surface surface = sample_surface(rational);
+  const auto u = knead::bench::sample_parameters();
   for (auto _ : state) {
     auto result = knead::evaluate_grid<2>(surface, std::array<std::span<const double>, 2>{u, u}, order);
     benchmark::DoNotOptimize(result->derivatives.back().data());
@@ -54,8 +30,8 @@ void evaluate_grid(benchmark::State& state, bool rational, int order) {
 
 /// Frame after frame: the basis is tabulated once and memory is used again.
 void evaluate_grid_again(benchmark::State& state, bool rational, int order) {
-  const Surface surface = sample(rational);
-  const auto table = knead::tabulate_basis(surface.knots(0), parameters(), order);
+  const Surface surface = sample_surface(rational);
+  const auto table = knead::tabulate_basis(surface.knots(0), knead::bench::sample_parameters(), order);
   knead::Evaluation<2> result;
   for (auto _ : state) {
     const std::array<const knead::BasisTable*, 2> tables{&*table, &*table};
@@ -66,8 +42,8 @@ void evaluate_grid_again(benchmark::State& state, bool rational, int order) {
 }
 
 void evaluate(benchmark::State& state, bool rational, int order) {
-  const Surface surface = sample(rational);
-  const auto u = parameters();
+  const Surface surface = sample_surface(rational);
+  const auto u = knead::bench::sample_parameters();
   knead::Parameters<2> scattered(grid * grid, 2);
   for (int k = 0; k < grid * grid; ++k) scattered.row(k) << u[k / grid], u[k % grid];
   for (auto _ : state) {

@@ -33,7 +33,15 @@ constexpr Source sources[] = {
     {"memory.json", "contact/256", "memory_mb", "memory_mb_256"},
     {"assembly.json", "assembly_over_write/128", "ratio", "assembly_over_write_128"},
     {"assembly.json", "assembly_over_write/256", "ratio", "assembly_over_write_256"},
-    {"assembly.json", "product_over_apply/128", "ratio", "apply_vs_csr_128"},
+    {"assembly.json", "apply_beside_product/128", "ratio", "apply_vs_csr_128"},
+    {"occt.json", "evaluation/points", "ratio", "evaluation_points_vs_occt"},
+    {"occt.json", "evaluation/d1_normal", "ratio", "evaluation_d1_normal_vs_occt"},
+    {"occt.json", "evaluation/rational_points", "ratio", "evaluation_rational_points_vs_occt"},
+    {"occt.json", "evaluation/rational_d1_normal", "ratio", "evaluation_rational_d1_normal_vs_occt"},
+    {"cholmod.json", "solve/64", "ratio", "solve_vs_cholmod_64"},
+    {"cholmod.json", "solve/128", "ratio", "solve_vs_cholmod_128"},
+    {"cholmod.json", "solve/256", "ratio", "solve_vs_cholmod_256"},
+    {"info.json", "info", "mb_per_s", "info_mb_per_s"},
 };
 
 void read(const std::string& directory, const Source& source, Figures& figures) {

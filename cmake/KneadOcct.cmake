@@ -1,5 +1,6 @@
 # Open CASCADE, for the programs that make and check CAD files. The library and the command line never link to it.
 # Found by its headers and libraries: its own package file accepts one exact version only and wants its visualisation.
+include_guard(GLOBAL)
 find_path(KNEAD_OCCT_INCLUDE_DIR STEPCAFControl_Writer.hxx PATH_SUFFIXES opencascade)
 set(KNEAD_OCCT_LIBRARIES)
 set(KNEAD_OCCT_FOUND ${KNEAD_OCCT_INCLUDE_DIR})

@@ -7,6 +7,8 @@ build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli1
 # The benchmarks are built with the tests, so that they keep compiling. OCCT is the oracle the tests compare STEP files
 # with; the product does not use it.
 tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
+# What benchmarks measure beside the library.
+peers=(libocct-data-exchange-dev libsuitesparse-dev)
 # The library for WebAssembly, and node to run it.
 wasm=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc nodejs)
 # The studio is built by node's tools, whose versions are those of web/package-lock.json. Node from elsewhere brings npm.
@@ -18,7 +20,7 @@ web=("${build[@]}" "${studio[@]}" chromium)
 case "${1:-}" in
   build) needed=("${build[@]}") ;;
   test) needed=("${build[@]}" "${tests[@]}") ;;
-  bench) needed=("${build[@]}" libbenchmark-dev) ;;
+  bench) needed=("${build[@]}" libbenchmark-dev "${peers[@]}") ;;
   format) needed=(clang-format) ;;
   wasm) needed=("${build[@]}" "${wasm[@]}") ;;
   studio) needed=("${build[@]}" "${studio[@]}") ;;
