@@ -73,11 +73,17 @@ Expected<Stiffness<D>> Stiffness<D>::create(const Spline<D>& spline, const Energ
   if (auto checked = check_orders<D>(energy); !checked) return std::unexpected(checked.error());
   auto matrix = assemble_rational<D>(spline, energy, options.rational_gauss_points);
   if (!matrix) return std::unexpected(matrix.error());
+  return of_matrix(spline, std::move(*matrix));
+}
+
+template <int D>
+Stiffness<D> Stiffness<D>::of_matrix(const Spline<D>& spline, SparseMatrix matrix) {
+  assert(matrix.rows() == spline.size() && matrix.cols() == spline.size());
   Stiffness result;
   result.net_ = spline.net();
   result.degree_ = degrees<D>(spline.knots());
   result.size_ = spline.size();
-  result.assembled_ = std::make_shared<const SparseMatrix>(std::move(*matrix));
+  result.assembled_ = std::make_shared<const SparseMatrix>(std::move(matrix));
   return result;
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "greville_force.hpp"
-#include "knead/energy/stiffness.hpp"
 #include "knead/sculpt/active_spline.hpp"
+#include "net_operator.hpp"
 #include "potential.hpp"
 #include "solve/constrained_cholesky.hpp"
 #include "tool_load.hpp"
@@ -15,7 +15,7 @@ namespace knead {
 /// A dynamic step is two stages of this share of it (Alexander's method).
 inline const double dynamic_stage = 1 - std::sqrt(0.5);
 
-/// The data of a step; all matrices on all unknowns, in normalised units.
+/// The data of a step; all operators on all unknowns, in normalised units.
 template <int D>
 struct ActiveSpline<D>::Model {
   ActiveSettings<D> settings;
@@ -28,7 +28,7 @@ struct ActiveSpline<D>::Model {
   Point centre;   // positions are relative to this point, to keep digits where coordinates are large
   double extent;  // diagonal of the control points, in units of `length`
   Points rest;
-  SparseMatrix stretch, bend, stiffness, weight, mass, damping, a;
+  NetOperator<D> stretch, bend, stiffness, weight, mass, damping, a;
   ConstrainedCholesky inverse;
 
   /// The origin of X.
@@ -37,9 +37,9 @@ struct ActiveSpline<D>::Model {
     return state.rest.rows() > 0 ? state.rest : rest;
   }
   /// Xᵀ K X. K annihilates constants: without their mean the numbers are smaller, and so is the rounding.
-  [[nodiscard]] double energy(const SparseMatrix& matrix, const Points& x) const {
+  [[nodiscard]] double energy(const NetOperator<D>& part, const Points& x) const {
     const Points y = x.rowwise() - x.colwise().mean();
-    return std::max(0.0, dot(y, symmetric_product(matrix, y)));
+    return std::max(0.0, dot(y, part * y));
   }
 
   Expected<Points> load_of(const ActiveState& state, const ActiveLoads& given) const;

@@ -12,28 +12,6 @@
 namespace knead {
 namespace {
 
-/// Appends the block with rows and columns shifted by `first`, as one of several on the diagonal.
-void add_block(const SparseMatrix& block, int first, std::vector<Eigen::Triplet<double>>& entries) {
-  for (Eigen::Index j = 0; j < block.outerSize(); ++j) {
-    for (SparseMatrix::InnerIterator it(block, j); it; ++it) {
-      entries.emplace_back(first + static_cast<int>(it.row()), first + static_cast<int>(j), it.value());
-    }
-  }
-}
-
-SparseMatrix block_diagonal(std::vector<SparseMatrix> blocks) {
-  if (blocks.size() == 1) return std::move(blocks.front());
-  std::vector<Eigen::Triplet<double>> entries;
-  int size = 0;
-  for (const SparseMatrix& block : blocks) {
-    add_block(block, size, entries);
-    size += static_cast<int>(block.rows());
-  }
-  SparseMatrix result(size, size);
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
-
 template <int D>
 Expected<void> validate_numbers(const ActiveSettings<D>& s) {
   if (const auto material = validated<D>(s.material); !material) return std::unexpected(material.error());
@@ -108,49 +86,52 @@ RestShape at_rest(const std::vector<Spline<D>>& patches) {
   return rest;
 }
 
-/// The parts assembled patch by patch; everything in the units of the first patch's scaling.
+/// The operators and forces, patch by patch; everything in the units of the first patch's scaling.
 template <int D>
 struct Assembly {
   std::vector<DomainScaling<D>> scalings;
   std::vector<ToolLoad<D>> loads;
   std::vector<GrevilleForce<D>> greville;  // for the analytic route
-  std::vector<SparseMatrix> stretch, bend, weight, mass, damping;
+  NetOperator<D> stretch, bend, stiffness, weight, mass, damping;
+
+  explicit Assembly(int size) : stretch(size), bend(size), stiffness(size), weight(size), mass(size), damping(size) {}
 };
 
+/// The operators of patch k, whose scaling is already known.
 template <int D>
-Expected<SparseMatrix> assemble_energy(const Spline<D>& patch, const Energy<D>& energy, const DomainScaling<D>& scaling,
-                                       const StiffnessOptions& options) {
-  const auto matrix = Stiffness<D>::create(patch, on_scaled_domain<D>(energy, scaling.factors), options);
-  if (!matrix) return std::unexpected(matrix.error());
-  return matrix->assemble();
-}
-
-/// The matrices of patch k, whose scaling is already known.
-template <int D>
-Expected<void> assemble_matrices(const Spline<D>& patch, std::size_t k, const ActiveSettings<D>& settings,
-                                 const StiffnessOptions& options, Assembly<D>& to) {
+Expected<void> add_operators(const Spline<D>& patch, std::size_t k, int first, const ActiveSettings<D>& settings,
+                             const StiffnessOptions& options, Assembly<D>& to) {
   const DomainScaling<D>& scaling = to.scalings[k];
-  auto weight = assemble_energy<D>(patch, mass_energy<D>(), scaling, options);
+  auto weight = Stiffness<D>::create(patch, on_scaled_domain<D>(mass_energy<D>(), scaling.factors), options);
   if (!weight) return std::unexpected(weight.error());
-  to.weight.push_back(std::move(*weight));
+  to.weight.add(first, 1, *weight);
   if (!settings.fields.empty()) {
     auto matrices = FieldAssembler<D>(patch, options).assemble(settings.fields[k], scaling.factors);
     if (!matrices) return std::unexpected(matrices.error());
-    to.stretch.push_back(std::move(matrices->stretch));
-    to.bend.push_back(std::move(matrices->bend));
-    to.mass.push_back(std::move(matrices->mass));
-    to.damping.push_back(std::move(matrices->damping));
+    to.stiffness.add(first, 1, Stiffness<D>::of_matrix(patch, matrices->stretch + matrices->bend));
+    to.stretch.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->stretch)));
+    to.bend.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->bend)));
+    to.mass.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->mass)));
+    to.damping.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->damping)));
     return {};
   }
-  const auto [stretching, bending] = parts<D>(settings.material);
-  auto stretch = assemble_energy<D>(patch, stretching, scaling, options);
+  const auto create = [&](const Energy<D>& energy) {
+    return Stiffness<D>::create(patch, on_scaled_domain<D>(energy, scaling.factors), options);
+  };
+  auto [stretching, bending] = parts<D>(settings.material);
+  auto stretch = create(stretching), bend = create(bending);
   if (!stretch) return std::unexpected(stretch.error());
-  auto bend = assemble_energy<D>(patch, bending, scaling, options);
   if (!bend) return std::unexpected(bend.error());
-  to.stretch.push_back(std::move(*stretch));
-  to.bend.push_back(std::move(*bend));
-  to.mass.push_back(settings.mass * to.weight.back());
-  to.damping.push_back(settings.damping * to.weight.back());
+  if (patch.rational()) {  // both are assembled
+    to.stiffness.add(first, 1, Stiffness<D>::of_matrix(patch, stretch->assemble() + bend->assemble()));
+  } else {
+    stretching.insert(stretching.end(), bending.begin(), bending.end());
+    to.stiffness.add(first, 1, *create(stretching));
+  }
+  to.stretch.add(first, 1, std::move(*stretch));
+  to.bend.add(first, 1, std::move(*bend));
+  to.mass.add(first, settings.mass, *weight);
+  to.damping.add(first, settings.damping, std::move(*weight));
   return {};
 }
 
@@ -178,8 +159,11 @@ Expected<void> assemble_forces(const Spline<D>& patch, std::size_t k, const Acti
 template <int D>
 Expected<Assembly<D>> assemble(const std::vector<Spline<D>>& patches, const ActiveSettings<D>& settings) {
   const StiffnessOptions options{settings.method, 0};
-  Assembly<D> result;
-  for (std::size_t k = 0; k < patches.size(); ++k) {
+  int size = 0;
+  for (const Spline<D>& patch : patches) size += patch.size();
+  Assembly<D> result(size);
+  int first = 0;
+  for (std::size_t k = 0; k < patches.size(); first += patches[k++].size()) {
     DomainScaling<D> scaling;
     if (!settings.raw) {
       const auto normalised = normalised_scaling<D>(patches[k]);
@@ -187,7 +171,7 @@ Expected<Assembly<D>> assemble(const std::vector<Spline<D>>& patches, const Acti
       scaling = k == 0 ? *normalised : in_unit<D>(*normalised, result.scalings.front().length);
     }
     result.scalings.push_back(scaling);
-    if (auto done = assemble_matrices<D>(patches[k], k, settings, options, result); !done)
+    if (auto done = add_operators<D>(patches[k], k, first, settings, options, result); !done)
       return std::unexpected(done.error());
     if (auto done = assemble_forces<D>(patches[k], k, settings, options, result); !done)
       return std::unexpected(done.error());
@@ -221,19 +205,21 @@ bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held)
   });
 }
 
-/// The matrix A of a step (see `ActiveSpline`).
+/// The operator A of a step (see `ActiveSpline`).
 template <int D>
-SparseMatrix step_matrix(const ActiveSettings<D>& settings, const SparseMatrix& k, const SparseMatrix& w,
-                         const SparseMatrix& m, const SparseMatrix& d) {
-  if (settings.evolution == Evolution::stationary) return k;
+NetOperator<D> step_operator(const ActiveSettings<D>& settings, const Assembly<D>& from) {
+  NetOperator<D> a = from.stiffness;
+  if (settings.evolution == Evolution::stationary) return a;
   if (settings.evolution == Evolution::dynamic) {
     const double tau = dynamic_stage * settings.time_step;
-    return k + d / tau + m / (tau * tau);
+    a.add(1 / tau, from.damping);
+    a.add(1 / (tau * tau), from.mass);
+  } else if (settings.weight == StepWeight::mass) {
+    a.add(settings.lambda, from.weight);
+  } else {
+    a.add_identity(settings.lambda);
   }
-  if (settings.weight == StepWeight::mass) return k + settings.lambda * w;
-  SparseMatrix identity(k.rows(), k.cols());
-  identity.setIdentity();
-  return k + settings.lambda * identity;
+  return a;
 }
 
 /// A⁻¹ on the free unknowns.
@@ -266,18 +252,15 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
   auto space = hold<D>(settings, rest, length);
   if (!space) return std::unexpected(space.error());
 
-  SparseMatrix stretch = block_diagonal(std::move(assembly->stretch)), bend = block_diagonal(std::move(assembly->bend)),
-               weight = block_diagonal(std::move(assembly->weight)), mass = block_diagonal(std::move(assembly->mass)),
-               damping = block_diagonal(std::move(assembly->damping));
-  SparseMatrix stiffness = stretch + bend;
-  SparseMatrix a = step_matrix<D>(settings, stiffness, weight, mass, damping);
-  auto inverse = factor<D>(a, std::move(*space), settings);
+  NetOperator<D> a = step_operator<D>(settings, *assembly);
+  auto inverse = factor<D>(a.assemble(), std::move(*space), settings);
   if (!inverse) return std::unexpected(inverse.error());
   return ActiveSpline(std::make_shared<const Model>(
       Model{settings, std::move(patches), std::move(rest.rows), std::move(assembly->scalings),
             std::move(assembly->loads), std::move(assembly->greville), length, rest.centre, rest.diagonal / length,
-            std::move(rest.points), std::move(stretch), std::move(bend), std::move(stiffness), std::move(weight),
-            std::move(mass), std::move(damping), std::move(a), std::move(*inverse)}));
+            std::move(rest.points), std::move(assembly->stretch), std::move(assembly->bend),
+            std::move(assembly->stiffness), std::move(assembly->weight), std::move(assembly->mass),
+            std::move(assembly->damping), std::move(a), std::move(*inverse)}));
 }
 
 template <int D>

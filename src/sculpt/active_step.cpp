@@ -56,12 +56,12 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   // Forces on the free unknowns: from tools and loads, the free part of the net, and the held part. K
   // annihilates constants: without their mean the numbers are smaller, and so is the rounding.
   const Points y = x.rowwise() - x.colwise().mean();
-  const Points stretching = symmetric_product(stretch, y), bending = symmetric_product(bend, y);
-  Points from_held = Points::Zero(x.rows(), 3);
+  const Points stretching = stretch * y, bending = bend * y;
+  Points held_part = Points::Zero(x.rows(), 3);
   for (int i = 0; i < space.size(); ++i) {
-    if (!space.is_determined(i)) continue;
-    for (SparseMatrix::InnerIterator it(stiffness, i); it; ++it) from_held.row(it.row()) += it.value() * x.row(i);
+    if (space.is_determined(i)) held_part.row(i) = x.row(i);
   }
+  const Points from_held = (held_part.array() == 0).all() ? held_part : stiffness * held_part;
   const Points from_free = stretching + bending - from_held;
   const double scale = contact.force.norm() + external.norm() + from_free.norm() + from_held.norm();
   result.residual = scale > 0 ? space.reduce(contact.force + external - from_free - from_held).norm() / scale : 0;
@@ -92,10 +92,14 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
       file_origin(m.origin(from)),
       before((from.control_points - file_origin) / m.length),
       external(std::move(forces)),
-      problem{m.a, m.inverse, {}, (file_origin.rowwise() - m.centre.transpose()) / m.length + before, 0},
+      problem{[this](const Points& x) { return m.a * x; },
+              m.inverse,
+              {},
+              (file_origin.rowwise() - m.centre.transpose()) / m.length + before,
+              0},
       potential(m.loads, m.rows, scaled),
       limit(given_loads.limit / m.length) {
-  const Points kx0 = symmetric_product(m.stiffness, before);
+  const Points kx0 = m.stiffness * before;
   if (state.balanced) external = kx0;
   problem.b = external - kx0;
   problem.energy = 0.5 * dot(before, kx0);
@@ -138,8 +142,7 @@ void ActiveSpline<D>::Run::balance_dynamic() {
   // The start of a stage: the beginning of the step, then a point further along the first stage.
   Points advance = Points::Zero(y.rows(), 3), v = v0;
   for (int k = 0; k < 2 && summary.finite; ++k) {
-    problem.b =
-        b + symmetric_product(m.mass, advance / (tau * tau) + v / tau) + symmetric_product(m.damping, advance / tau);
+    problem.b = b + m.mass * Points(advance / (tau * tau) + v / tau) + m.damping * Points(advance / tau);
     contact = settle(problem);
     velocity = (y - advance) / tau;
     if (k == 0) {
@@ -170,7 +173,7 @@ Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
     }
   }
   if (dynamic) {
-    result.kinetic = 0.5 * dot(velocity, symmetric_product(m.mass, velocity));
+    result.kinetic = 0.5 * dot(velocity, m.mass * velocity);
     result.velocity = m.length * velocity;
   }
   if (lagged.rows() > 0) external += lagged;

@@ -208,7 +208,7 @@ class Minimisation {
     Anchor a{y_, {}, 0, 0, 0, {}, {}, {}};
     Points r = problem_.b;
     if (!(y_.array() == 0).all()) {
-      const Points ay = symmetric_product(problem_.a, y_);
+      const Points ay = problem_.a(y_);
       a.squared = dot(y_, ay);
       a.quadratic = 0.5 * a.squared - dot(y_, problem_.b);
       r -= ay;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "potential.hpp"
 #include "solve/constrained_cholesky.hpp"
 
@@ -15,8 +17,8 @@ struct ContactSummary {
 
 /// One step as a minimisation over X = X₀ + Y:  Φ(Y) = ½ YᵀAY − Yᵀb + Ψ(x₀ + Y), Y + X₀ subject to constraints.
 struct StepProblem {
-  const SparseMatrix& a;
-  const ConstrainedCholesky& inverse;  // of A on the free unknowns
+  std::function<Points(const Points&)> a;  // A Y
+  const ConstrainedCholesky& inverse;      // of A on the free unknowns
   Points b;
   Points start;       // control points x₀ at which Ψ is evaluated for Y = 0
   double energy;      // ½ X₀ᵀ K X₀: the magnitude of the terms whose difference is Φ

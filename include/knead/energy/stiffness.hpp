@@ -40,6 +40,9 @@ class Stiffness {
   [[nodiscard]] static Expected<Stiffness> create(const std::array<KnotVector, D>& knots, const Energy<D>& energy,
                                                   const StiffnessOptions& options = {});
 
+  /// An operator on the control points of a spline that is assembled already, with the pattern of `assemble`.
+  [[nodiscard]] static Stiffness of_matrix(const Spline<D>& spline, SparseMatrix matrix);
+
   [[nodiscard]] int size() const { return size_; }
 
   /// K X for N × 3 coordinates. Nothing is assembled for polynomial splines. Cost for a surface: 6 (2p + 1) N

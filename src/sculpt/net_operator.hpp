@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "knead/energy/stiffness.hpp"
+
+namespace knead {
+
+/// A sum of symmetric operators on the control points of several patches, each acting within one patch, and of a
+/// multiple of the identity. It is applied patch by patch, and assembled nowhere that `Stiffness` does without.
+template <int D>
+class NetOperator {
+ public:
+  explicit NetOperator(int size = 0) : size_(size) {}
+
+  /// Adds `factor` times an operator on the control points from row `first` on.
+  void add(int first, double factor, Stiffness<D> block) {
+    if (factor != 0) blocks_.push_back({first, factor, std::move(block)});
+  }
+  void add(double factor, const NetOperator& other) {
+    for (const Block& block : other.blocks_) add(block.first, factor * block.factor, block.stiffness);
+    identity_ += factor * other.identity_;
+  }
+  void add_identity(double factor) { identity_ += factor; }
+
+  /// The product with N × 3 coordinates.
+  [[nodiscard]] Points operator*(const Points& x) const {
+    Points y = identity_ * x;
+    for (const Block& block : blocks_) {
+      const int rows = block.stiffness.size();
+      if (rows == size_) {
+        y += block.factor * block.stiffness.apply(x);
+      } else {
+        y.middleRows(block.first, rows) +=
+            block.factor * block.stiffness.apply(Points(x.middleRows(block.first, rows)));
+      }
+    }
+    return y;
+  }
+
+  /// All of it as one matrix.
+  [[nodiscard]] SparseMatrix assemble() const {
+    SparseMatrix sum(size_, size_);
+    if (std::ranges::all_of(blocks_, [this](const Block& b) { return b.stiffness.size() == size_; })) {
+      for (const Block& block : blocks_) {
+        const SparseMatrix part = block.stiffness.assemble();
+        sum = sum.nonZeros() == 0 ? SparseMatrix(block.factor * part) : SparseMatrix(sum + block.factor * part);
+      }
+    } else {
+      std::vector<Eigen::Triplet<double>> entries;
+      for (const Block& block : blocks_) append(block, entries);
+      sum.setFromTriplets(entries.begin(), entries.end());
+    }
+    if (identity_ == 0) return sum;
+    SparseMatrix identity(size_, size_);
+    identity.setIdentity();
+    return sum + identity_ * identity;
+  }
+
+ private:
+  struct Block {
+    int first;
+    double factor;
+    Stiffness<D> stiffness;
+  };
+
+  static void append(const Block& block, std::vector<Eigen::Triplet<double>>& entries) {
+    const SparseMatrix part = block.stiffness.assemble();
+    for (int j = 0; j < part.outerSize(); ++j) {
+      for (SparseMatrix::InnerIterator it(part, j); it; ++it) {
+        entries.emplace_back(block.first + static_cast<int>(it.row()), block.first + j, block.factor * it.value());
+      }
+    }
+  }
+
+  int size_;
+  double identity_ = 0;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace knead
