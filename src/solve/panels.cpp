@@ -23,6 +23,7 @@ Panels::Panels(const SparseMatrix& lower, InstructionSet set) : kernels_(&kernel
   const auto* row = lower.innerIndexPtr();
   const auto size = static_cast<int>(lower.cols());
   std::vector<int> united, wider;
+  int values = 0;
   for (int first = 0; first < size;) {
     // As many columns as fill three quarters of their panel.
     int width = 1, entries = start[first + 1] - start[first] - 1;
@@ -42,28 +43,35 @@ Panels::Panels(const SparseMatrix& lower, InstructionSet set) : kernels_(&kernel
       united = wider;
     }
     const int last = first + width - 1;
-    Panel panel{first, width, static_cast<int>(rows_.size()), 0, static_cast<int>(values_.size())};
+    Panel panel{first, width, static_cast<int>(rows_.size()), 0, values};
     rows_.insert(rows_.end(), std::ranges::upper_bound(united, last), united.end());
     panel.rows = static_cast<int>(rows_.size()) - panel.row;
-    const int triangle = width * (width + 1) / 2;
-    values_.resize(values_.size() + static_cast<std::size_t>(triangle + width * panel.rows), 0.0);
-    double* to = values_.data() + panel.value;
-    const std::span<const int> below(rows_.data() + panel.row, static_cast<std::size_t>(panel.rows));
-    for (int j = 0; j < width; ++j) {
-      for (auto k = start[first + j]; k < start[first + j + 1]; ++k) {
-        const double value = lower.valuePtr()[k];
-        if (const int i = row[k] - first; i < width) {
-          to[i * (i + 1) / 2 + j] = i == j ? 1 / value : value;
-        } else {
-          const auto place = std::ranges::lower_bound(below, row[k]) - below.begin();
-          to[triangle + width * place + j] = value;
-        }
-      }
-    }
+    values += width * (width + 1) / 2 + width * panel.rows;
     all_.push_back(static_cast<int>(panels_.size()));
     panel_of_.insert(panel_of_.end(), static_cast<std::size_t>(width), all_.back());
     panels_.push_back(panel);
     first += width;
+  }
+  values_.assign(static_cast<std::size_t>(values), 0.0);
+  for (const Panel& panel : panels_) fill(panel, lower);
+}
+
+void Panels::fill(const Panel& panel, const SparseMatrix& lower) {
+  const auto* start = lower.outerIndexPtr();
+  const auto* row = lower.innerIndexPtr();
+  const int triangle = panel.width * (panel.width + 1) / 2;
+  double* to = values_.data() + panel.value;
+  const std::span<const int> below(rows_.data() + panel.row, static_cast<std::size_t>(panel.rows));
+  for (int j = 0; j < panel.width; ++j) {
+    for (auto k = start[panel.first + j]; k < start[panel.first + j + 1]; ++k) {
+      const double value = lower.valuePtr()[k];
+      if (const int i = row[k] - panel.first; i < panel.width) {
+        to[i * (i + 1) / 2 + j] = i == j ? 1 / value : value;
+      } else {
+        const auto place = std::ranges::lower_bound(below, row[k]) - below.begin();
+        to[triangle + panel.width * place + j] = value;
+      }
+    }
   }
 }
 

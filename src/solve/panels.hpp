@@ -51,6 +51,9 @@ class Panels {
     int value;         // in values_: the triangle row by row with 1 / L_jj on its diagonal, then the rows below
   };
 
+  /// Copies the columns of a panel.
+  void fill(const Panel& panel, const SparseMatrix& lower);
+
   const detail::PanelKernels* kernels_ = nullptr;
   std::vector<Panel> panels_;
   std::vector<int> all_, panel_of_;  // 0, 1, … and the panel of every column

@@ -16,18 +16,16 @@ struct SparseCholesky::Factor {
 Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) {
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower> llt;
   llt.compute(a);
-  auto factor = std::make_shared<Factor>();
-  SparseMatrix lower;
-  if (llt.info() == Eigen::Success) {
-    lower = llt.matrixL();
-    factor->order = llt.permutationP().indices();
-  }
-  // A NaN passes the sign test of the factorisation and shows in L.
-  const bool finite = Eigen::Map<const Eigen::ArrayXd>(lower.valuePtr(), lower.nonZeros()).isFinite().all();
-  if (llt.info() != Eigen::Success || !finite) {
+  const auto not_positive = [] {
     return numerical_error("the system matrix is not positive definite", "Cholesky factorisation",
                            "hold more control points, or use a larger lambda or positive material coefficients");
-  }
+  };
+  if (llt.info() != Eigen::Success) return not_positive();
+  const SparseMatrix& lower = llt.matrixL().nestedExpression();  // not copied: it is the largest thing there is
+  // A NaN passes the sign test of the factorisation and shows in L.
+  if (!Eigen::Map<const Eigen::ArrayXd>(lower.valuePtr(), lower.nonZeros()).isFinite().all()) return not_positive();
+  auto factor = std::make_shared<Factor>();
+  factor->order = llt.permutationP().indices();
   factor->panels = Panels(lower);
   return SparseCholesky(std::move(factor), static_cast<int>(a.rows()));
 }
