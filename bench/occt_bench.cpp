@@ -75,9 +75,9 @@ void evaluation(benchmark::State& state, bool rational, int order) {
           for (Eigen::Index i = 0; i < size; ++i) {
             const double *a = du.data() + 3 * i, *b = dv.data() + 3 * i;
             const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-            const double length = std::sqrt(x * x + y * y + z * z);
+            const double scale = 1 / std::sqrt(x * x + y * y + z * z);
             double* to = normals.data() + 3 * i;
-            to[0] = x / length, to[1] = y / length, to[2] = z / length;
+            to[0] = scale * x, to[1] = scale * y, to[2] = scale * z;
           }
         }
         benchmark::DoNotOptimize(result.derivatives.back().data());
