@@ -24,7 +24,7 @@ class Sphere final : public ShapeKernel {
     }
     r.normal = x / norm;
     r.point = radius_ * r.normal;
-    r.hessian = (Eigen::Matrix3d::Identity() - r.normal * r.normal.transpose()) / norm;
+    r.hessian = (1 / norm) * (Eigen::Matrix3d::Identity() - r.normal * r.normal.transpose());
     return r;
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -195,13 +196,39 @@ void ToolLoad<D>::widen(int first, std::vector<char>& marks) const {
 
 template <int D>
 std::vector<int> ToolLoad<D>::elements_of(int first, const std::vector<char>& marks) const {
+  // Only elements between the first and the last marked control point of every direction can be meant.
+  std::array<int, D> lower = net_, upper{};
+  const int size = std::accumulate(net_.begin(), net_.end(), 1, std::multiplies{});
+  for (int i = 0; i < size; ++i) {
+    if (!marks[static_cast<std::size_t>(first + i)]) continue;
+    for (int d = D, rest = i; d-- > 0;) {
+      const auto k = static_cast<std::size_t>(d);
+      lower[k] = std::min(lower[k], rest % net_[k]);
+      upper[k] = std::max(upper[k], rest % net_[k]);
+      rest /= net_[k];
+    }
+  }
+  std::array<std::size_t, D> begin, end;
+  for (std::size_t d = 0; d < D; ++d) {
+    const std::vector<int>& starts = quadrature_[d].basis.first;
+    const int p = quadrature_[d].basis.degree;
+    const auto inside = [&](std::size_t span) {
+      const int start = starts[static_cast<std::size_t>(spans_[d][span])];
+      return start >= lower[d] && start + p <= upper[d];
+    };
+    const std::size_t count = spans_[d].size() - 1;
+    for (begin[d] = 0; begin[d] < count && !inside(begin[d]);) ++begin[d];
+    for (end[d] = begin[d]; end[d] < count && inside(end[d]);) ++end[d];
+  }
   std::vector<int> result;
-  int number = 0;
-  for_each_element([&](const Element& element) {
+  for_each_element(begin, end, [&](const Element& element) {
     bool all = true;
     for_each_control_point(element, [&](int row) { all = all && marks[static_cast<std::size_t>(first + row)] != 0; });
-    if (all) result.push_back(number);
-    ++number;
+    if (!all) return;
+    std::size_t number = 0;
+    for (std::size_t d = 0; d < D; ++d)
+      number = number * (spans_[d].size() - 1) + static_cast<std::size_t>(element.span[d]);
+    result.push_back(static_cast<int>(number));
   });
   return result;
 }

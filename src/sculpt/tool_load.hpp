@@ -113,6 +113,9 @@ class ToolLoad {
   template <class F>
   void for_each_element(const F& f) const;
   template <class F>
+  void for_each_element(const std::array<std::size_t, D>& begin, const std::array<std::size_t, D>& end,
+                        const F& f) const;
+  template <class F>
   void for_each_control_point(const Element& element, const F& f) const;
   template <class F>
   void for_each_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f) const;

@@ -50,13 +50,26 @@ typename ToolLoad<D>::Element ToolLoad<D>::element(int number) const {
 template <int D>
 template <class F>
 void ToolLoad<D>::for_each_element(const F& f) const {
-  std::array<std::size_t, D> k{};
+  std::array<std::size_t, D> end;
+  for (std::size_t d = 0; d < D; ++d) end[d] = spans_[d].size() - 1;
+  for_each_element({}, end, f);
+}
+
+/// The same for the spans from `begin` to before `end` in every direction.
+template <int D>
+template <class F>
+void ToolLoad<D>::for_each_element(const std::array<std::size_t, D>& begin, const std::array<std::size_t, D>& end,
+                                   const F& f) const {
+  for (std::size_t d = 0; d < D; ++d) {
+    if (begin[d] >= end[d]) return;
+  }
+  std::array<std::size_t, D> k = begin;
   while (true) {
     f(element(k));
     std::size_t d = D;
     while (d-- > 0) {
-      if (++k[d] + 1 < spans_[d].size()) break;
-      k[d] = 0;
+      if (++k[d] < end[d]) break;
+      k[d] = begin[d];
       if (d == 0) return;
     }
   }
