@@ -130,6 +130,7 @@ void Stiffness<D>::refresh(SparseMatrix& matrix) const {
   const detail::TensorKernels& kernels = detail::tensor_kernels();
   std::vector<double> weights, end;
   double* to = matrix.valuePtr();
+  const double* const behind = to + matrix.nonZeros();
   for (int row = 0; row < rows.size(); ++row) {
     const std::array<int, D> i = rows.unpack(row);
     const std::vector<std::array<int, D>> columns = rows.columns(i);
@@ -147,7 +148,7 @@ void Stiffness<D>::refresh(SparseMatrix& matrix) const {
     for (int k = 0; k < n; ++k) {
       const std::ptrdiff_t length = pattern.length(last, k);
       const double* from = band.data() + static_cast<std::ptrdiff_t>(k) * width + pattern.first(last, k) - k + p;
-      const bool past_the_end = row + 1 == rows.size() && k + 1 == n;  // there is nothing behind the last values
+      const bool past_the_end = to + count * length + spare > behind;
       if (past_the_end) end.resize(static_cast<std::size_t>(count * length + spare));
       kernels.write_runs(from, stride, weights.data(), static_cast<std::ptrdiff_t>(kinds), count, length,
                          past_the_end ? end.data() : to);

@@ -72,6 +72,27 @@ TEST(Stiffness, ARefreshedMatrixIsAnAssembledOne) {
   }
 }
 
+TEST(Stiffness, RefreshWritesNothingBehindTheValues) {
+  for (int p = 1; p <= 5; ++p) {
+    const KnotVector line = testing::uniform_clamped(p, 1), two = testing::uniform_clamped(1, 2);
+    const auto check = [](const auto& k) {
+      SparseMatrix kept = k->assemble();
+      const auto values = kept.nonZeros();
+      constexpr Eigen::Index more = 64;
+      kept.data().reserve(more);
+      std::fill_n(kept.valuePtr() + values, more, 5);
+      k->refresh(kept);
+      EXPECT_TRUE(
+          std::all_of(kept.valuePtr() + values, kept.valuePtr() + values + more, [](double v) { return v == 5; }));
+      EXPECT_EQ((kept - k->assemble()).norm(), 0);
+    };
+    check(Stiffness<1>::create({line}, mass_energy<1>()));
+    check(Stiffness<2>::create({line, line}, mass_energy<2>()));
+    check(Stiffness<2>::create({line, two}, mass_energy<2>()));
+    check(Stiffness<3>::create({line, two, two}, mass_energy<3>()));
+  }
+}
+
 TEST(Stiffness, SymmetricProductsGatherRows) {
   for (const Surface& s : surfaces()) {
     const SparseMatrix k = stiffness_of(s, general).assemble();
