@@ -157,7 +157,7 @@ Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
   const bool dynamic = m.settings.evolution == Evolution::dynamic;
   if (!y.allFinite() || !summary.finite) {
     return numerical_error("the step gives no finite result and was refused", "step",
-                           "use a larger lambda, a smaller stiffness or larger material coefficients");
+                           "use a larger lambda, a smaller stiffness, smaller loads or larger material coefficients");
   }
   if (const double largest = y.rowwise().norm().maxCoeff(); largest > run_away * std::max(m.extent, 1e-300)) {
     return numerical_error(
