@@ -37,4 +37,7 @@ inline constexpr std::string_view exit_codes =
 /// To 17 significant digits, which give back the same double; null if not finite.
 [[nodiscard]] std::string json_number(double value);
 
+/// "1 face", "2 faces".
+[[nodiscard]] std::string counted(std::size_t count, const char* one, const char* many);
+
 }  // namespace knead::cli

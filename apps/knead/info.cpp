@@ -10,6 +10,7 @@
 #include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/spline/extremum.hpp"
+#include "parts.hpp"
 
 namespace knead::cli {
 namespace {
@@ -86,10 +87,7 @@ void print_text(const step::File& file) {
   for (const UnreadableSurface& s : file.unreadable_surfaces()) {
     fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
   }
-  if (!file.instances().empty()) {
-    fmt::print("  {} assembly placement{} (--json lists them)\n", file.instances().size(),
-               file.instances().size() == 1 ? "" : "s");
-  }
+  print_parts(file);
 }
 
 Expected<void> run(const InfoArguments& options) {
@@ -119,7 +117,8 @@ Expected<void> run(const InfoArguments& options) {
                      {"surfaces", std::move(surfaces)},
                      {"unreadable_surfaces", std::move(unreadable)},
                      {"other_surfaces", std::move(others)},
-                     {"instances", std::move(instances)}};
+                     {"instances", std::move(instances)},
+                     {"assembly", parts_json(*file)}};
   fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));
   return {};
 }

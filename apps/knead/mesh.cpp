@@ -30,17 +30,12 @@ std::unexpected<Error> in_options(Error error, const MeshArguments& options) {
   return std::unexpected(std::move(error));
 }
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 /// The trimmed faces of a STEP file; says what was left out.
 Expected<void> write_model(const step::File& file, const Format& format, const MeshArguments& options) {
-  SaveOptions mesh;
-  mesh.unit = file.length_units().empty() ? "" : file.length_unit();
-  const auto model = save_model(file, format, options.tolerance, mesh);
+  const auto model = save_model(file, format, options.tolerance);
   if (!model) return in_options(model.error(), options);
   if (auto done = write_file_atomically(options.output, model->bytes); !done) return done;
+  for (const std::string& warning : model->warnings) fmt::print(stderr, "knead: warning: {}\n", warning);
   for (const SkippedFace& face : model->skipped) {
     fmt::print(stderr, "knead: warning: the face {} is left out: {}\n", face.id, face.reason.what);
   }
@@ -111,7 +106,8 @@ Action add_mesh(CLI::App& app) {
       ->capture_default_str()
       ->needs(untrimmed);
   command->footer(
-      "Every face of the model, cut along its edges, within the tolerance and in the file's units. Faces meet in\n"
+      "Every face of the model, cut along its edges, within the tolerance and in the file's units; parts of an\n"
+      "assembly stand where it puts them, as often as they are used. Faces meet in\n"
       "the same points along their edges, so that a closed solid gives a closed mesh. Triangles run\n"
       "counterclockwise as seen from outside. STL, PLY and glTF are binary; glTF is turned to y up and scaled to\n"
       "metres by its root node. With --untrimmed each surface is a grid with every knot line among its lines, and\n"

@@ -113,7 +113,8 @@ std::string edge_of(const SessionState& state, const PatchEdge& edge) {
   return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id, edge_name(edge.edge));
 }
 
-std::string report_json(const SessionState& state, const Outcome& o, const std::string& probes) {
+std::string report_json(const Session& session, const Outcome& o, const std::string& probes) {
+  const SessionState& state = session.state();
   std::string text = "{\"steps\":[";
   for (std::size_t k = 0; k < state.steps.size(); ++k) {
     const StepRecord& s = state.steps[k];
@@ -132,6 +133,7 @@ std::string report_json(const SessionState& state, const Outcome& o, const std::
       json_number(o.time), json_number(o.energy_before), json_number(o.energy_after), json_number(o.residual),
       json_number(o.largest_displacement), o.moved);
   text += ",\n\"edges\":" + edges_json(state);
+  text += ",\n\"places\":" + places_json(session).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   text += ",\n\"seams\":[";
   for (std::size_t k = 0; k < state.seam_reports.size(); ++k) {
     const SeamReport& s = state.seam_reports[k];
@@ -193,6 +195,7 @@ void print_summary(const SculptArguments& options, const Session& session, const
   }
   for (const std::string& note : state.notes) fmt::print("  {}\n", printable(note, 2000));
   print_edges(state);
+  print_places(session);
   for (const SeamReport& s : state.seam_reports) {
     fmt::print("  seam {} - {}: {}{}{}\n", edge_of(state, s.seam.a), edge_of(state, s.seam.b),
                continuity_name(s.continuity), s.reason.empty() ? "" : ", ", s.reason);
@@ -238,7 +241,7 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
   if (!options.report.empty()) {
     const auto probes = probes_json(session.state());
     if (!probes) return std::unexpected(probes.error());
-    if (auto done = write_file_atomically(options.report, report_json(session.state(), o, *probes)); !done) return done;
+    if (auto done = write_file_atomically(options.report, report_json(session, o, *probes)); !done) return done;
     fmt::print("wrote {}\n", options.report);
   }
   if (!options.picture.empty()) {
@@ -320,8 +323,8 @@ its fields with their defaults (`knead commands NAME` explains them):
       R"(
 The report is {"steps": [{"time", "energy", "residual", "largest_displacement", "stretch", "bend", "kinetic", "contact",
 "gap", "constraint_violation", "converged", "limited", "note"}, ...], "time", "energy_before", "energy_after",
-"residual", "largest_displacement", "control_points_moved", "edges", "seams", "notes"}: times in seconds, lengths in file units,
-gaps in sizes of the tool.
+"residual", "largest_displacement", "control_points_moved", "edges", "places", "seams", "notes"}: times in seconds,
+lengths in file units, gaps in sizes of the tool.
 )" + std::string(exit_codes));
   return [options] { return run(*options); };
 }

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <unordered_map>
 
 #include "face_tessellator.hpp"
+#include "knead/exchange/assembly.hpp"
 #include "knead/spline/grid_lines.hpp"
 #include "step_surfaces.hpp"
 #include "surface_mesh.hpp"
@@ -23,20 +26,78 @@ constexpr double least_tolerance = 1e-7;
 constexpr double half_radian = 0.031;  // of radii: chords turn by 0.5 radians
 constexpr double safety = 0.65;        // triangles are measured at their centres and those of their sides alone
 
-/// Of the control points of its surfaces and the points of its edges.
-double diagonal_of(const step::File::Data& data, const std::vector<Face>& faces, const Reader& reader) {
+/// Where the faces of a file, and its B-spline surfaces without faces, stand in the model.
+class Standing {
+ public:
+  explicit Standing(const Assembly& assembly) {
+    for (const Part& part : assembly.parts) {
+      for (const std::vector<std::string>* ids : {&part.faces, &part.surfaces}) {
+        for (const std::string& id : *ids) parts_[id].push_back(&part);
+      }
+    }
+  }
+
+  /// The largest factor by which it is scaled; rotations are within the rounding of single precision.
+  [[nodiscard]] float scale(const std::string& id) const {
+    double result = 0;
+    for_each(
+        id, [&](const Eigen::Affine3d& move) { result = std::max(result, move.linear().colwise().norm().maxCoeff()); });
+    return static_cast<float>(result > 0 ? result : 1);
+  }
+
+  void add(const FaceMesh& mesh, const std::string& id, std::vector<FaceMesh>& to) const {
+    for_each(id, [&](const Eigen::Affine3d& move) { to.push_back(moved(mesh, move)); });
+  }
+
+  /// Extends by the corners of a box round it.
+  void extend(Eigen::AlignedBox3d& box, const std::string& id, const Eigen::AlignedBox3d& own) const {
+    for_each(id, [&](const Eigen::Affine3d& move) {
+      for (int k = 0; k < 8; ++k) box.extend(move * own.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)));
+    });
+  }
+
+ private:
+  template <class Visit>
+  void for_each(const std::string& id, const Visit& visit) const {
+    const auto found = parts_.find(id);
+    if (found == parts_.end()) return;
+    for (const Part* part : found->second) {
+      for (const PartPlace& place : part->places) visit(place.to_model);
+    }
+  }
+
+  static FaceMesh moved(FaceMesh mesh, const Eigen::Affine3d& move) {
+    if (move.matrix().isIdentity(0)) return mesh;
+    const Eigen::Matrix3d linear = move.linear(), normals = linear.inverse().transpose();
+    for (Point& p : mesh.points) p = move * p;
+    for (Point& n : mesh.normals) n = (normals * n).stableNormalized();
+    if (linear.determinant() < 0) {
+      for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    }
+    return mesh;
+  }
+
+  std::unordered_map<std::string, std::vector<const Part*>> parts_;  // by id
+};
+
+/// Of the model's box: round the points of the edges of its faces or, without faces, its control points.
+double diagonal_of(const step::File::Data& data, const std::vector<Face>& faces, const Reader& reader,
+                   const Standing& standing) {
   Eigen::AlignedBox3d box;
   EdgeSampler edges(reader, {half_radian});
   for (const Face& face : faces) {
     const auto loops = edges.loops(face.bounds);
     if (!loops) continue;
+    Eigen::AlignedBox3d own;
     for (const Loop& loop : *loops) {
-      for (const Point& p : loop) box.extend(p);
+      for (const Point& p : loop) own.extend(p);
     }
+    if (!own.isEmpty()) standing.extend(box, name_of(reader, face.instance), own);
   }
   if (box.isEmpty()) {
     for (const SurfaceEntity& s : data.surfaces) {
-      for (const auto& row : s.surface.control_points().rowwise()) box.extend(Point(row.transpose()));
+      const Points& points = s.surface.control_points();
+      standing.extend(box, s.id, {points.colwise().minCoeff().transpose(), points.colwise().maxCoeff().transpose()});
     }
   }
   return box.isEmpty() ? 0 : box.diagonal().norm();
@@ -61,22 +122,11 @@ Expected<FaceMesh> whole(const SurfaceEntity& entity, double tolerance) {
   return result;
 }
 
-}  // namespace
-
-Expected<FaceMeshes> model_faces(const step::File& file, double tolerance) {
-  const step::File::Data& data = file.data();
-  const Reader reader(data.records);
-  const std::vector<Face> faces = read_faces(reader);
-  const double diagonal = diagonal_of(data, faces, reader);
-  if (faces.empty() && data.surfaces.empty()) return input_error("the file has no faces", {}, "open a file with faces");
-  if (tolerance == 0) tolerance = default_tolerance * diagonal;
-  if (!std::isfinite(tolerance) || tolerance < least_tolerance * diagonal || !(tolerance > 0)) {
-    return std::unexpected(
-        Error{ErrorKind::usage, fmt::format("{} is not a tolerance for this model", tolerance), "tolerance",
-              fmt::format("use a length above {:.2g}, in the units of the file", least_tolerance * diagonal)});
-  }
+/// Faces of parts of one scale.
+void add_faces(const step::File::Data& data, std::span<const Face> faces, double tolerance, const Standing& standing,
+               FaceMeshes& result) {
   FaceTessellator tessellator(data, {half_radian, safety * tolerance});
-  FaceMeshes result;
+  const Reader& reader = tessellator.reader();
   std::vector<FaceOnSurface> ready;
   const auto skip = [&](const Face& face, Error reason) {
     result.skipped.push_back({name_of(reader, face.instance), std::move(reason)});
@@ -93,19 +143,45 @@ Expected<FaceMeshes> model_faces(const step::File& file, double tolerance) {
   for (const FaceOnSurface& on : ready) {
     auto mesh = tessellator.mesh(on);
     if (mesh)
-      result.faces.push_back(*std::move(mesh));
+      standing.add(*mesh, mesh->id, result.faces);
     else
       skip(on.face, std::move(mesh.error()));
   }
+}
+
+Expected<FaceMeshes> faces_of(const step::File& file, double tolerance, const Assembly& assembly) {
+  const step::File::Data& data = file.data();
+  const Standing standing(assembly);
+  const Reader reader(data.records);
+  const std::vector<Face> faces = read_faces(reader);
+  const double diagonal = diagonal_of(data, faces, reader, standing);
+  if (faces.empty() && data.surfaces.empty()) return input_error("the file has no faces", {}, "open a file with faces");
+  if (tolerance == 0) tolerance = default_tolerance * diagonal;
+  if (!std::isfinite(tolerance) || tolerance < least_tolerance * diagonal || !(tolerance > 0)) {
+    return std::unexpected(
+        Error{ErrorKind::usage, fmt::format("{} is not a tolerance for this model", tolerance), "tolerance",
+              fmt::format("use a length above {:.2g}, in the units of the file", least_tolerance * diagonal)});
+  }
+  FaceMeshes result;
+  std::map<float, std::vector<Face>> by_scale;
+  for (const Face& face : faces) by_scale[standing.scale(name_of(reader, face.instance))].push_back(face);
+  for (const auto& [scale, own] : by_scale) add_faces(data, own, tolerance / scale, standing, result);
   for (const SurfaceEntity& entity : data.surfaces) {
     if (entity.faces > 0) continue;
-    auto mesh = whole(entity, tolerance);
+    auto mesh = whole(entity, tolerance / standing.scale(entity.id));
     if (mesh)
-      result.faces.push_back(*std::move(mesh));
+      standing.add(*mesh, entity.id, result.faces);
     else
       result.skipped.push_back({entity.id, std::move(mesh.error())});
   }
   return result;
+}
+
+}  // namespace
+
+Expected<FaceMeshes> model_faces(const step::File& file, double tolerance) {
+  const auto assembly = assembly_of(file);
+  return assembly ? faces_of(file, tolerance, *assembly) : std::unexpected(assembly.error());
 }
 
 std::size_t open_sides(std::span<const FaceMesh> faces) {
@@ -131,15 +207,17 @@ std::size_t open_sides(std::span<const FaceMesh> faces) {
   return open.size();
 }
 
-Expected<ModelFile> save_model(const step::File& file, const Format& format, double tolerance,
-                               const SaveOptions& options) {
-  const auto model = model_faces(file, tolerance);
+Expected<ModelFile> save_model(const step::File& file, const Format& format, double tolerance, SaveOptions options) {
+  const auto assembly = assembly_of(file);
+  if (!assembly) return std::unexpected(assembly.error());
+  const auto model = faces_of(file, tolerance, *assembly);
   if (!model) return std::unexpected(model.error());
   if (model->faces.empty()) {
     const SkippedFace& first = model->skipped.front();
     return std::unexpected(first.reason.within("none of the faces can be made triangles: " + first.id));
   }
-  ModelFile result{{}, model->faces.size(), 0, open_sides(model->faces), model->skipped};
+  ModelFile result{{}, model->faces.size(), 0, open_sides(model->faces), model->skipped, assembly->warnings};
+  options.unit = assembly->unit == "unknown" ? "" : assembly->unit;
   std::vector<NamedMesh> meshes;
   for (const FaceMesh& face : model->faces) {
     const SurfaceEntity* entity = file.find_surface(face.surface);

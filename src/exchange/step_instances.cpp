@@ -1,8 +1,10 @@
 #include "step_instances.hpp"
 
+#include <cmath>
 #include <optional>
+#include <span>
 #include <string_view>
-#include <unordered_map>
+#include <unordered_set>
 
 namespace knead::step {
 namespace {
@@ -17,6 +19,56 @@ std::optional<Index> attribute(const Reader& reader, Index instance, std::string
   return own.empty() ? std::nullopt : reader.reference(own[k]);
 }
 
+/// Orthonormal axes as columns, from directions that need not be (ISO 10303-42, base_axis); right-handed unless `y` is
+/// given otherwise. Axes that vanish or coincide are replaced.
+Eigen::Matrix3d axes(const Point& z_axis, const Point& x_axis, const std::optional<Point>& y_axis = {}) {
+  constexpr double parallel = 1e-9;
+  Eigen::Matrix3d result;
+  const Point z = z_axis.norm() > 0 ? Point(z_axis.normalized()) : Point::UnitZ();
+  Point x = x_axis - x_axis.dot(z) * z;
+  if (!(x.norm() > parallel * x_axis.norm())) x = z.unitOrthogonal();
+  x.normalize();
+  Point y = z.cross(x);
+  if (y_axis && y_axis->dot(y) < 0) y = -y;
+  result << x, y, z;
+  return result;
+}
+
+/// CARTESIAN_TRANSFORMATION_OPERATOR_3D. Its own attributes are the last five; writers differ in those before.
+std::optional<Eigen::Affine3d> read_operator(const Reader& reader, Index instance) {
+  if (!reader.is(instance, "CARTESIAN_TRANSFORMATION_OPERATOR_3D") || reader.file().instance(instance).complex) {
+    return std::nullopt;
+  }
+  const auto all = reader.parameters(instance, "CARTESIAN_TRANSFORMATION_OPERATOR_3D");
+  if (all.size() < 6) return std::nullopt;
+  const auto own = std::span(all).last(5);  // axis1, axis2, local_origin, scale, axis3
+  const auto direction = [&](std::size_t k) {
+    const auto target = reader.reference(own[k]);
+    return target ? reader.direction(*target) : std::nullopt;
+  };
+  const auto location = reader.reference(own[2]);
+  const auto origin = location ? reader.point(*location) : Expected<Point>(input_error("no location"));
+  if (!origin) return std::nullopt;
+  const double scale = reader.real(own[3]).value_or(1);
+  if (!(std::isfinite(scale) && scale > 0)) return std::nullopt;
+  const Point z = direction(4).value_or(Point::UnitZ());
+  const bool upright = z.tail<2>().norm() > 1e-12 * z.norm();
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  result.linear() = scale * axes(z, direction(0).value_or(upright ? Point::UnitX() : Point::UnitY()), direction(1));
+  result.translation() = *origin;
+  return result;
+}
+
+/// Either kind of frame.
+std::optional<Eigen::Affine3d> read_frame(const Reader& reader, Index instance) {
+  const auto placement = read_placement(reader, instance);
+  if (!placement) return read_operator(reader, instance);
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  result.linear() = axes(placement->axis, placement->ref_direction);
+  result.translation() = placement->origin;
+  return result;
+}
+
 class Assemblies {
  public:
   explicit Assemblies(const Reader& reader) : reader_(reader) {
@@ -27,7 +79,8 @@ class Assemblies {
         const auto representation = attribute(reader, k, "SHAPE_DEFINITION_REPRESENTATION", 0, 1);
         const auto definition = shape ? attribute(reader, *shape, "PRODUCT_DEFINITION_SHAPE", 0, 2) : std::nullopt;
         if (!definition || !representation) continue;
-        representation_of_.try_emplace(*definition, *representation);
+        const auto [first, added] = representation_of_.try_emplace(*definition, *representation);
+        if (!added) links_.emplace_back(first->second, *representation);
         definition_of_.try_emplace(*representation, *definition);
       } else if (reader.is(k, "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION")) {
         const auto relation = attribute(reader, k, "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", 0, 0);
@@ -40,39 +93,75 @@ class Assemblies {
     }
   }
 
-  std::optional<Instance> usage(Index k) const {
+  std::optional<Component> usage(Index k) const {
     // ASSEMBLY_COMPONENT_USAGE: id, name, description, relating and related PRODUCT_DEFINITION.
     const auto own = reader_.attributes(k, "PRODUCT_DEFINITION_RELATIONSHIP", 0, 5);
     if (own.empty()) return std::nullopt;
-    Instance result;
-    result.id = "#" + std::to_string(reader_.file().instance(k).id);
-    result.name = reader_.string(own[1]);
-    if (result.name.empty()) result.name = reader_.string(own[0]);
+    Component result;
+    Instance& instance = result.instance;
+    instance.id = "#" + std::to_string(reader_.file().instance(k).id);
+    instance.name = reader_.string(own[1]);
+    if (instance.name.empty()) instance.name = reader_.string(own[0]);
     const auto parent = reader_.reference(own[3]);
     const auto child = reader_.reference(own[4]);
-    if (parent) result.parent = product(*parent);
-    if (child) result.child = product(*child);
+    if (parent) instance.parent = product(*parent);
+    if (child) instance.child = product(*child);
     const auto relation = relation_of_.find(k);
     if (relation != relation_of_.end()) transform(relation->second, parent, child, result);
+    if (result.parent == no_instance && parent) result.parent = representation(*parent);
+    if (result.child == no_instance && child) result.child = representation(*child);
     return result;
   }
 
-  std::optional<Instance> mapped_item(Index k) const {
+  /// A relation with a transformation that no usage refers to: rep_1 within rep_2.
+  std::optional<Component> relation(Index k) const {
+    Component result;
+    result.instance.id = "#" + std::to_string(reader_.file().instance(k).id);
+    transform(k, std::nullopt, std::nullopt, result);
+    if (result.parent == no_instance || result.child == no_instance) return std::nullopt;
+    result.instance.parent = product_of_representation(result.parent);
+    result.instance.child = product_of_representation(result.child);
+    return result;
+  }
+
+  std::optional<Component> mapped_item(Index k) const {
     const auto source = attribute(reader_, k, "MAPPED_ITEM", 1, 0);
     const auto target = attribute(reader_, k, "MAPPED_ITEM", 1, 1);
     if (!source || !target) return std::nullopt;
-    Instance result;
-    result.id = "#" + std::to_string(reader_.file().instance(k).id);
-    result.name = reader_.item_name(k);
-    result.placement = read_placement(reader_, *target);
+    Component result;
+    result.instance.id = "#" + std::to_string(reader_.file().instance(k).id);
+    result.instance.name = reader_.item_name(k);
+    result.instance.placement = read_placement(reader_, *target);
+    result.place = read_frame(reader_, *target);
     if (const auto origin = attribute(reader_, *source, "REPRESENTATION_MAP", 0, 0)) {
-      result.frame = read_placement(reader_, *origin);
+      result.instance.frame = read_placement(reader_, *origin);
+      result.frame = read_frame(reader_, *origin);
     }
     if (const auto mapped = attribute(reader_, *source, "REPRESENTATION_MAP", 0, 1)) {
-      result.child = product_of_representation(*mapped);
+      result.instance.child = product_of_representation(*mapped);
+      result.child = *mapped;
     }
     return result;
   }
+
+  /// Of each representation of a product: its name.
+  std::unordered_map<Index, std::string> products() const {
+    std::unordered_map<Index, std::string> result;
+    for (const auto& [representation, definition] : definition_of_) {
+      if (!reader_.is(definition, "NEXT_ASSEMBLY_USAGE_OCCURRENCE"))
+        result.emplace(representation, product(definition));
+    }
+    return result;
+  }
+
+  /// Relations that usages refer to.
+  std::unordered_set<Index> used_relations() const {
+    std::unordered_set<Index> result;
+    for (const auto& [usage, relation] : relation_of_) result.insert(relation);
+    return result;
+  }
+
+  const std::vector<std::pair<Index, Index>>& links() const { return links_; }
 
   std::string product_of_representation(Index representation) const {
     const auto direct = definition_of_.find(representation);
@@ -94,6 +183,12 @@ class Assemblies {
     if (!first || !second) return;
     linked_.try_emplace(*first, *second);
     linked_.try_emplace(*second, *first);
+    links_.emplace_back(*first, *second);
+  }
+
+  Index representation(Index definition) const {
+    const auto found = representation_of_.find(definition);
+    return found == representation_of_.end() ? no_instance : found->second;
   }
 
   // PRODUCT_DEFINITION -> PRODUCT_DEFINITION_FORMATION -> PRODUCT, by position: each has subtypes with other names.
@@ -111,13 +206,10 @@ class Assemblies {
     return name.empty() ? reader_.string(own[0]) : name;
   }
 
-  void transform(Index relation, std::optional<Index> parent, std::optional<Index> child, Instance& result) const {
+  void transform(Index relation, std::optional<Index> parent, std::optional<Index> child, Component& result) const {
     const auto transformation = attribute(reader_, relation, "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION", 4, 0);
     const auto own = reader_.attributes(relation, "REPRESENTATION_RELATIONSHIP", 0, 4);
     if (!transformation || own.empty()) return;
-    const auto first = attribute(reader_, *transformation, "ITEM_DEFINED_TRANSFORMATION", 0, 2);
-    const auto second = attribute(reader_, *transformation, "ITEM_DEFINED_TRANSFORMATION", 0, 3);
-    if (!first || !second) return;
     // rep_1 is the component by convention (CAx-IF recommended practice); some writers reverse it.
     const auto rep_1 = reader_.reference(own[2]);
     const auto rep_2 = reader_.reference(own[3]);
@@ -127,8 +219,20 @@ class Assemblies {
       return found != representation_of_.end() && found->second == *representation;
     };
     const bool turned = (has(child, rep_2) && !has(child, rep_1)) || (has(parent, rep_1) && !has(parent, rep_2));
-    result.frame = read_placement(reader_, turned ? *second : *first);
-    result.placement = read_placement(reader_, turned ? *first : *second);
+    result.child = (turned ? rep_2 : rep_1).value_or(no_instance);
+    result.parent = (turned ? rep_1 : rep_2).value_or(no_instance);
+    if (auto moved = read_operator(reader_, *transformation)) {
+      result.place = turned ? moved->inverse() : *moved;
+      result.frame = Eigen::Affine3d::Identity();
+      return;
+    }
+    const auto first = attribute(reader_, *transformation, "ITEM_DEFINED_TRANSFORMATION", 0, 2);
+    const auto second = attribute(reader_, *transformation, "ITEM_DEFINED_TRANSFORMATION", 0, 3);
+    if (!first || !second) return;
+    result.instance.frame = read_placement(reader_, turned ? *second : *first);
+    result.instance.placement = read_placement(reader_, turned ? *first : *second);
+    result.frame = read_frame(reader_, turned ? *second : *first);
+    result.place = read_frame(reader_, turned ? *first : *second);
   }
 
   const Reader& reader_;
@@ -136,6 +240,7 @@ class Assemblies {
   std::unordered_map<Index, Index> definition_of_;      // and back
   std::unordered_map<Index, Index> relation_of_;        // of a NEXT_ASSEMBLY_USAGE_OCCURRENCE
   std::unordered_map<Index, Index> linked_;             // representations related without a transformation
+  std::vector<std::pair<Index, Index>> links_;          // all of these
 };
 
 // For each mapped item, the representation that lists it.
@@ -183,25 +288,39 @@ std::optional<AxisPlacement> read_placement(const Reader& reader, std::uint32_t 
   return result;
 }
 
-std::vector<Instance> read_instances(const Reader& reader) {
+Structure read_structure(const Reader& reader) {
   const Assemblies assemblies(reader);
-  std::vector<Instance> result;
-  std::vector<Index> mapped;
+  const auto used = assemblies.used_relations();
+  Structure result;
+  std::vector<Index> mapped, relations;
   for (Index k = 0; k < reader.file().instances().size(); ++k) {
     if (reader.is(k, "NEXT_ASSEMBLY_USAGE_OCCURRENCE")) {
-      if (auto usage = assemblies.usage(k)) result.push_back(*std::move(usage));
+      if (auto usage = assemblies.usage(k)) result.components.push_back(*std::move(usage));
     } else if (reader.is(k, "MAPPED_ITEM")) {
       mapped.push_back(k);
+    } else if (reader.is(k, "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION") && !used.contains(k)) {
+      relations.push_back(k);
     }
   }
   const auto holder = holders(reader, mapped);
   for (const auto k : mapped) {
     auto item = assemblies.mapped_item(k);
     if (!item) continue;
-    const auto representation = holder.at(k);
-    if (representation != no_instance) item->parent = assemblies.product_of_representation(representation);
-    result.push_back(*std::move(item));
+    item->parent = holder.at(k);
+    if (item->parent != no_instance) item->instance.parent = assemblies.product_of_representation(item->parent);
+    result.components.push_back(*std::move(item));
   }
+  for (const auto k : relations) {
+    if (auto component = assemblies.relation(k)) result.components.push_back(*std::move(component));
+  }
+  result.linked = assemblies.links();
+  result.product_of = assemblies.products();
+  return result;
+}
+
+std::vector<Instance> read_instances(const Reader& reader) {
+  std::vector<Instance> result;
+  for (Component& component : read_structure(reader).components) result.push_back(std::move(component.instance));
   return result;
 }
 

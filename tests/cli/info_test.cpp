@@ -45,6 +45,21 @@ TEST(Info, ListsPlacementsUnderInstances) {
   }
 }
 
+TEST(Info, SaysWhereThePartsOfAnAssemblyStand) {
+  const Json model = knead({"info", bonnet(), "--json"}).json().at("assembly");
+  EXPECT_EQ(model.at("unit"), "mm");
+  std::size_t rings = 0;
+  for (const Json& part : model.at("parts")) {
+    for (const char* field : {"name", "unit", "surfaces", "faces", "places"}) EXPECT_TRUE(part.contains(field));
+    if (part.at("surfaces") != Json::array({"#1044"})) continue;
+    rings += part.at("places").size();
+    EXPECT_EQ(part.at("places")[0].at("matrix").size(), 3U);
+  }
+  EXPECT_EQ(rings, 1U);
+  const std::string text = knead({"info", bonnet()}).out;
+  EXPECT_NE(text.find("B-spline surfaces: #1044"), std::string::npos) << text;
+}
+
 TEST(Info, SaysWhichOtherSurfacesCanBeConverted) {
   const Json others = knead({"info", bonnet(), "--json"}).json().at("other_surfaces");
   ASSERT_EQ(others.size(), 4U);

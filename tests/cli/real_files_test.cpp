@@ -54,6 +54,30 @@ TEST(RealFiles, TheReportHasTheAnglesAtASmoothEdgeThatFollows) {
   EXPECT_EQ(found, 2) << "once for each surface";
 }
 
+TEST(RealFiles, APartOfAnAssemblyChangesInAllItsPlaces) {
+  const std::string file = std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad/as1-oc-214.stp";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no collection of CAD files beside the project";
+  const Json parts = knead({"info", file, "--json"}).json().at("assembly").at("parts");
+  const auto nut = std::ranges::find_if(parts, [](const Json& part) { return part.at("name") == "nut"; });
+  ASSERT_NE(nut, parts.end());
+  ASSERT_EQ(nut->at("places").size(), 8U);
+  const Workshop workshop;
+  const std::string out = workshop / "out.step", report = workshop / "report.json";
+  const Json commands = {command("select", {{"surface", nut->at("surfaces")[0]}}), command("hold", {{"mode", "free"}}),
+                         command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
+                         command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
+                         command("step", {{"lambda", 10}})};
+  const Outcome run = knead({"sculpt", file, "-o", out, "--script", workshop.script(commands), "--report", report});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("its part \"nut\" stands in 8 places of the assembly"), std::string::npos) << run.out;
+  const Json places = Json::parse(content_of(report)).at("places");
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_EQ(places[0].at("surface"), nut->at("surfaces")[0]);
+  EXPECT_EQ(places[0].at("places"), 8);
+  const Json after = knead({"info", out, "--json"}).json().at("assembly");
+  EXPECT_EQ(after.at("parts"), parts) << "placements stay";
+}
+
 TEST(RealFiles, TakeADentInTheirFirstSurface) {
   const std::vector<std::string> files = step_files();
   if (files.empty()) GTEST_SKIP() << "no collection of CAD files beside the project";

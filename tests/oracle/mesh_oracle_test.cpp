@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "exchange/mesh_measures.hpp"
+#include "knead/exchange/assembly.hpp"
 #include "knead/exchange/model_mesh.hpp"
 #include "oracle/occt_shapes.hpp"
 #include "oracle/step_oracle.hpp"
@@ -14,13 +15,29 @@ namespace {
 using testing::area_of;
 using testing::volume_of;
 
+/// Every part where the assembly puts it, as often as it is used.
+void expect_in_place(const FaceMeshes& model, const OcctWhole& other, double tolerance, double area) {
+  Eigen::AlignedBox3d box;
+  for (const FaceMesh& mesh : model.faces) {
+    for (const Point& p : mesh.points) box.extend(p);
+  }
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(box.min()[k], other.lower[static_cast<std::size_t>(k)], 2 * tolerance) << k;
+    EXPECT_NEAR(box.max()[k], other.upper[static_cast<std::size_t>(k)], 2 * tolerance) << k;
+  }
+  EXPECT_NEAR(area, other.area, 0.01 * other.area);
+  EXPECT_EQ(model.faces.size(), static_cast<std::size_t>(other.faces));
+}
+
 /// Closed where the file has only solids, with their volume, and every face with its area.
 void expect_model(const step::File& file, const fs::path& path, double tolerance) {
   const auto model = model_faces(file, tolerance);
   ASSERT_TRUE(model) << model.error().message();
   for (const auto& [id, reason] : model->skipped) ADD_FAILURE() << id << " is left out: " << reason.message();
-  std::map<std::string, double> areas = occt_face_areas(path, file.length_unit());
-  areas.merge(occt_face_areas(path, file.length_unit(), true));
+  const auto assembly = step::assembly_of(file);
+  ASSERT_TRUE(assembly) << assembly.error().message();
+  std::map<std::string, double> areas = occt_face_areas(path, assembly->unit);
+  areas.merge(occt_face_areas(path, assembly->unit, true));
   double whole = 0;
   for (const FaceMesh& mesh : model->faces) {
     const double area = area_of(mesh);
@@ -32,13 +49,12 @@ void expect_model(const step::File& file, const fs::path& path, double tolerance
     for (const Point& p : mesh.points) own.extend(p);
     EXPECT_NEAR(area, found->second, 0.02 * found->second + 8 * tolerance * own.diagonal().norm()) << mesh.id;
   }
-  const auto volumes = occt_solid_volumes(path, file.length_unit());
+  const OcctWhole other = occt_whole(path, assembly->unit, assembly->placed());
+  if (assembly->placed()) expect_in_place(*model, other, tolerance, whole);
   const bool shells = file.bytes().find("SHELL_BASED_SURFACE_MODEL") != std::string::npos;
-  if (volumes.empty() || shells) return;
+  if (other.solids == 0 || shells) return;
   EXPECT_EQ(open_sides(model->faces), 0U);
-  double volume = 0;
-  for (const auto& [id, solid] : volumes) volume += solid;
-  EXPECT_NEAR(volume_of(model->faces), volume, tolerance * whole);
+  EXPECT_NEAR(volume_of(model->faces), other.volume, tolerance * whole);
 }
 
 class MeshShape : public ::testing::TestWithParam<std::string> {};

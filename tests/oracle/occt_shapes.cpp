@@ -3,6 +3,7 @@
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
@@ -16,6 +17,7 @@
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BezierCurve.hxx>
@@ -29,7 +31,6 @@
 #include <StepData_StepModel.hxx>
 #include <StepGeom_BSplineSurface.hxx>
 #include <StepShape_FaceSurface.hxx>
-#include <StepShape_ManifoldSolidBrep.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -38,6 +39,8 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <gp_Elips.hxx>
+#include <memory>
+#include <tuple>
 
 namespace knead::oracle {
 namespace {
@@ -207,18 +210,25 @@ bool occt_write_shape(const std::string& name, const std::filesystem::path& path
 
 namespace {
 
-/// Reads a file in this unit, and calls `visit` with each of its entities and what it became.
-template <class Visit>
-void for_each_entity(const std::filesystem::path& path, const std::string& unit, const Visit& visit) {
+/// Reads a file in this unit; null if it cannot.
+std::unique_ptr<STEPControl_Reader> read(const std::filesystem::path& path, const std::string& unit) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
-  STEPControl_Reader reader;
+  auto reader = std::make_unique<STEPControl_Reader>();
   const std::map<std::string, const char*> names = {{"m", "M"}, {"cm", "CM"}, {"inch", "INCH"}, {"foot", "FT"}};
   const auto known = names.find(unit);
   Interface_Static::SetCVal("xstep.cascade.unit", known == names.end() ? "MM" : known->second);
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return;
-  reader.TransferRoots();
-  const auto step = opencascade::handle<StepData_StepModel>::DownCast(reader.WS()->Model());
-  const auto process = reader.WS()->TransferReader()->TransientProcess();
+  if (reader->ReadFile(path.c_str()) != IFSelect_RetDone) return nullptr;
+  reader->TransferRoots();
+  return reader;
+}
+
+/// Calls `visit` with each entity of a file and what it became.
+template <class Visit>
+void for_each_entity(const std::filesystem::path& path, const std::string& unit, const Visit& visit) {
+  const auto reader = read(path, unit);
+  if (!reader) return;
+  const auto step = opencascade::handle<StepData_StepModel>::DownCast(reader->WS()->Model());
+  const auto process = reader->WS()->TransferReader()->TransientProcess();
   for (int k = 1; k <= step->NbEntities(); ++k) {
     const auto entity = step->Value(k);
     visit(entity, TransferBRep::ShapeResult(process, entity), "#" + std::to_string(step->IdentLabel(entity)));
@@ -244,15 +254,31 @@ std::map<std::string, double> occt_face_areas(const std::filesystem::path& path,
   return areas;
 }
 
-std::map<std::string, double> occt_solid_volumes(const std::filesystem::path& path, const std::string& unit) {
-  std::map<std::string, double> volumes;
-  for_each_entity(path, unit, [&](const auto& entity, const TopoDS_Shape& shape, const std::string& id) {
-    if (!entity->IsKind(STANDARD_TYPE(StepShape_ManifoldSolidBrep)) || shape.IsNull()) return;
+OcctWhole occt_whole(const std::filesystem::path& path, const std::string& unit, bool with_box) {
+  OcctWhole result;
+  const auto reader = read(path, unit);
+  if (!reader) return result;
+  const TopoDS_Shape shape = reader->OneShape();
+  for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
     GProp_GProps properties;
-    BRepGProp::VolumeProperties(shape, properties);
-    volumes[id] = properties.Mass();
-  });
-  return volumes;
+    BRepGProp::SurfaceProperties(at.Current(), properties);
+    result.area += std::abs(properties.Mass());
+    ++result.faces;
+  }
+  for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) {
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(at.Current(), properties);
+    result.volume += properties.Mass();
+    ++result.solids;
+  }
+  if (!with_box) return result;
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(shape, box, false, false);
+  std::tie(result.lower[0], result.lower[1], result.lower[2]) =
+      std::tuple(box.CornerMin().X(), box.CornerMin().Y(), box.CornerMin().Z());
+  std::tie(result.upper[0], result.upper[1], result.upper[2]) =
+      std::tuple(box.CornerMax().X(), box.CornerMax().Y(), box.CornerMax().Z());
+  return result;
 }
 
 }  // namespace knead::oracle

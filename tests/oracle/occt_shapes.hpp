@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -18,8 +19,13 @@ namespace knead::oracle {
 [[nodiscard]] std::map<std::string, double> occt_face_areas(const std::filesystem::path& path, const std::string& unit,
                                                             bool splines = false);
 
-/// The volume of every solid of a STEP file, by the name of its MANIFOLD_SOLID_BREP; lengths in `unit`.
-[[nodiscard]] std::map<std::string, double> occt_solid_volumes(const std::filesystem::path& path,
-                                                               const std::string& unit);
+/// A STEP file with its assemblies put together; lengths in `unit`.
+struct OcctWhole {
+  int faces = 0, solids = 0;
+  double area = 0, volume = 0;                   ///< of its faces, of its solids
+  std::array<double, 3> lower = {}, upper = {};  ///< of its box
+};
+/// \param with_box takes long for large surfaces
+[[nodiscard]] OcctWhole occt_whole(const std::filesystem::path& path, const std::string& unit, bool with_box);
 
 }  // namespace knead::oracle

@@ -36,7 +36,7 @@ struct FaceMeshes {
 /// extrusion, and polygons (POLY_LOOP); edges on lines, conics, polylines and B-spline curves (docs/context-faces.md).
 ///
 /// Coordinates are the file's, in the frame of the representation that the face belongs to, as those of `surfaces()`
-/// are; placements of assemblies are not applied.
+/// are; `assembly_of` (assembly.hpp) says where that stands in the model.
 ///
 /// \param chord how far a chord may be from its arc, as a share of the radius (for curves other than circles: of half
 ///   their extent): arcs are divided into steps of at most 2 acos(1 − chord), faces have interior points at such steps.

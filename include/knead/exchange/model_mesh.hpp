@@ -14,13 +14,13 @@ namespace knead {
 /// Corners lie on the face or, at its edges, on the curve of the edge. Triangles are measured along the normal at their
 /// centres and those of their sides, and divided where that is more than 0.65 of `tolerance`, at most six times: what
 /// lies between was within `tolerance` in every measured file. Chords turn by no more than 0.5 radians. A B-spline
-/// surface without faces is taken whole. Coordinates are as for `context_faces`: placements of assemblies are not
-/// applied.
+/// surface without faces is taken whole. Every part stands where the assembly puts it (assembly.hpp), as often as it is
+/// used; coordinates are the model's.
 ///
-/// \param tolerance a length in the file's units; 0: a two-thousandth of the diagonal of the model's box
-/// Errors (usage): a tolerance below 0, or below 1e-7 of the diagonal, or not finite; (input) a file without a face.
-/// Faces that fail are listed in `skipped`, each with its reason.
-/// Cost: linear in the file and in the triangles, quadratic in the number of points around one face.
+/// \param tolerance a length in the model's unit; 0: a two-thousandth of the diagonal of the model's box
+/// Errors (usage): a tolerance below 0, or below 1e-7 of the diagonal, or not finite; (input) a file without a face;
+/// those of `assembly_of`. Faces that fail are listed in `skipped`, each with its reason. Cost: linear in the file and
+/// in the triangles, quadratic in the number of points around one face.
 [[nodiscard]] Expected<FaceMeshes> model_faces(const step::File& file, double tolerance = 0);
 
 /// How many sides of triangles no other triangle continues: with the same two points, bit for bit, in the opposite
@@ -32,13 +32,14 @@ struct ModelFile {
   std::string bytes;
   std::size_t faces = 0, triangles = 0, open_sides = 0;
   std::vector<SkippedFace> skipped;
+  std::vector<std::string> warnings;  ///< of the assembly
 };
 
 /// `model_faces` as a file of a format that holds triangles, one mesh per face: named by its B-spline surface, or, if
-/// that has no name, by its id. `options.unit` is used, `options.detail` is not.
+/// that has no name, by its id. The unit is the model's; `options.unit` and `options.detail` are not used.
 /// Errors: those of `model_faces`; a format of surfaces (usage); no face could be made triangles (input); a coordinate
 /// too large for the format (numerical).
 [[nodiscard]] Expected<ModelFile> save_model(const step::File& file, const Format& format, double tolerance = 0,
-                                             const SaveOptions& options = {});
+                                             SaveOptions options = {});
 
 }  // namespace knead

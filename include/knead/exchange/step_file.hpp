@@ -50,10 +50,11 @@ struct AxisPlacement {
 };
 
 /// One placement of a component in an assembly: a NEXT_ASSEMBLY_USAGE_OCCURRENCE with its
-/// CONTEXT_DEPENDENT_SHAPE_REPRESENTATION, or a MAPPED_ITEM. The component is moved so that `frame` (in the child's
-/// coordinates) lands on `placement` (in the parent's). Nothing is applied to the surfaces.
+/// CONTEXT_DEPENDENT_SHAPE_REPRESENTATION, a MAPPED_ITEM, or another REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION.
+/// The component is moved so that `frame` (in the child's coordinates) lands on `placement` (in the parent's). Nothing
+/// is applied to the surfaces; `assembly_of` (assembly.hpp) says where they stand in the model.
 struct Instance {
-  std::string id;                          ///< "#123", of the NEXT_ASSEMBLY_USAGE_OCCURRENCE or MAPPED_ITEM
+  std::string id;                          ///< "#123", of that record
   std::string name;                        ///< its label
   std::string parent;                      ///< product name of the assembly; empty if the file gives none
   std::string child;                       ///< product name of the component; empty likewise

@@ -1,0 +1,118 @@
+#include "parts.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <vector>
+
+#include "cli.hpp"
+#include "knead/base/printable.hpp"
+#include "knead/exchange/assembly.hpp"
+
+namespace knead::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr std::size_t most_listed = 6;
+
+std::string title(const step::Part& part) {
+  return part.name.empty() ? "without a name" : "\"" + printable(part.name) + "\"";
+}
+
+void print_part(const step::Part& part) {
+  std::string surfaces;
+  for (std::size_t k = 0; k < part.surfaces.size() && k < most_listed; ++k)
+    surfaces += (k == 0 ? "" : ", ") + part.surfaces[k];
+  if (part.surfaces.size() > most_listed) surfaces += fmt::format(" and {} more", part.surfaces.size() - most_listed);
+  if (surfaces.empty()) surfaces = "none";
+  fmt::print("    {}: {}, B-spline surfaces: {}\n", title(part), counted(part.faces.size(), "face", "faces"), surfaces);
+  std::map<std::string, int> paths;
+  for (const step::PartPlace& place : part.places) ++paths[place.path];
+  std::size_t listed = 0;
+  for (const auto& [path, count] : paths) {
+    if (listed++ == most_listed) break;
+    fmt::print("      {} x {}\n", count, printable(path, 1000));
+  }
+  if (paths.size() > most_listed)
+    fmt::print("      and {} other paths (--json lists them)\n", paths.size() - most_listed);
+}
+
+/// A changed surface whose part is used several times.
+struct Repeated {
+  std::string surface, part;
+  std::size_t places = 0;
+};
+
+std::vector<Repeated> repeated(const Session& session) {
+  std::vector<Repeated> result;
+  const step::File* file = session.document().step_file();
+  const auto model = file == nullptr || file->instances().empty() ? Expected<step::Assembly>(step::Assembly{})
+                                                                  : step::assembly_of(*file);
+  if (!model) return result;
+  const auto& surfaces = session.state().surfaces;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    const step::Part* part = model->part_of(surfaces[k].id);
+    if (part == nullptr || part->places.size() < 2 || session.moved_control_points(static_cast<int>(k)) == 0) continue;
+    result.push_back({surfaces[k].id, part->name, part->places.size()});
+  }
+  return result;
+}
+
+}  // namespace
+
+void print_parts(const step::File& file) {
+  if (file.instances().empty()) return;
+  const auto model = step::assembly_of(file);
+  if (!model) {
+    fmt::print("  the assembly cannot be followed: {}\n", model.error().message());
+    return;
+  }
+  std::size_t places = 0;
+  for (const step::Part& part : model->parts) places += part.places.size();
+  fmt::print(
+      "  assembly, in {}: {} with geometry in {} (--json lists their placements); the file has each part once,\n"
+      "  so that a change shows in all its places\n",
+      model->unit, counted(model->parts.size(), "part", "parts"), counted(places, "place", "places"));
+  for (const step::Part& part : model->parts) print_part(part);
+  for (const std::string& warning : model->warnings) fmt::print("  warning: {}\n", warning);
+}
+
+Json parts_json(const step::File& file) {
+  const auto model = step::assembly_of(file);
+  if (!model) return {{"reason", model.error().message()}};
+  Json parts = Json::array();
+  for (const step::Part& part : model->parts) {
+    Json places = Json::array();
+    for (const step::PartPlace& place : part.places) {
+      Json rows = Json::array();
+      for (int k = 0; k < 3; ++k) {
+        const auto row = place.to_model.matrix().row(k);
+        rows.push_back({row[0], row[1], row[2], row[3]});
+      }
+      places.push_back({{"path", place.path}, {"matrix", std::move(rows)}});
+    }
+    parts.push_back({{"name", part.name},
+                     {"unit", part.unit},
+                     {"surfaces", part.surfaces},
+                     {"faces", part.faces},
+                     {"places", std::move(places)}});
+  }
+  return {{"unit", model->unit}, {"parts", std::move(parts)}, {"warnings", model->warnings}};
+}
+
+void print_places(const Session& session) {
+  for (const Repeated& r : repeated(session)) {
+    fmt::print("  {}: its part \"{}\" stands in {} places of the assembly, and has changed in all of them\n", r.surface,
+               printable(r.part), r.places);
+  }
+}
+
+Json places_json(const Session& session) {
+  Json result = Json::array();
+  for (const Repeated& r : repeated(session)) {
+    result.push_back({{"surface", r.surface}, {"part", r.part}, {"places", r.places}});
+  }
+  return result;
+}
+
+}  // namespace knead::cli
