@@ -88,6 +88,7 @@ void print_text(const step::File& file) {
     fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
   }
   print_parts(file);
+  for (const Error& warning : file.warnings()) fmt::print("  warning: {}\n", warning.message());
 }
 
 Expected<void> run(const InfoArguments& options) {
@@ -109,6 +110,8 @@ Expected<void> run(const InfoArguments& options) {
   for (const UnreadableSurface& s : file->unreadable_surfaces()) {
     unreadable.push_back({{"id", s.id}, {"reason", s.reason.message()}});
   }
+  Json warnings = Json::array();
+  for (const Error& warning : file->warnings()) warnings.push_back(warning.message());
   for (const step::Instance& i : file->instances()) instances.push_back(to_json(i));
   const Json info = {{"file", options.file},
                      {"format", "STEP"},
@@ -118,7 +121,8 @@ Expected<void> run(const InfoArguments& options) {
                      {"unreadable_surfaces", std::move(unreadable)},
                      {"other_surfaces", std::move(others)},
                      {"instances", std::move(instances)},
-                     {"assembly", parts_json(*file)}};
+                     {"assembly", parts_json(*file)},
+                     {"warnings", std::move(warnings)}};
   fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));
   return {};
 }

@@ -135,12 +135,18 @@ bool Part21Parser::resolve_range(std::uint32_t first, std::uint32_t last, std::u
     if (value.kind != Part21Kind::reference) continue;
     const auto id = parse_instance_name(file_.text(value.bytes));
     const auto found = id ? file_.index_.find(*id) : file_.index_.end();
+    if (!id) {
+      current_ = owner;
+      return fail_at(value.bytes.begin,
+                     "it refers to " + std::string(file_.text(value.bytes).substr(0, 40)) + ", a name above 2^63 - 1",
+                     "correct the name");
+    }
     if (found == file_.index_.end()) {
       current_ = owner;
-      return fail_at(
-          value.bytes.begin,
-          "it refers to " + std::string(file_.text(value.bytes).substr(0, 40)) + ", which the file does not define",
-          "add the missing entity or get the whole file");
+      if (file_.dangling_count_++ < Part21File::most_dangling)
+        file_.dangling_.push_back({place(), *id, value.bytes.begin});
+      file_.largest_id_ = std::max(file_.largest_id_, *id);  // no new record must become what is missing
+      continue;
     }
     value.target = found->second;
     if (value.target != no_instance) ++file_.instances_[value.target].uses;

@@ -56,6 +56,13 @@ struct Part21Instance {
   bool complex = false;               ///< external mapping: several parts
 };
 
+/// A reference to a name that the file does not define.
+struct Part21Dangling {
+  std::string place;  ///< "#12 STYLED_ITEM"
+  std::uint64_t id = 0;
+  std::uint32_t byte = 0;
+};
+
 /// A parsed exchange structure (ISO 10303-21, editions 1 to 3): every record and parameter with its bytes.
 ///
 /// Comments, print control directives and line breaks may occur between any two tokens; &SCOPE (edition 1), several
@@ -63,8 +70,8 @@ struct Part21Instance {
 /// these common deviations are accepted, since the bytes are kept as they are: a byte order mark, lower-case keywords,
 /// reals without a digit before the point or with an exponent letter D or e, bytes above 127 in strings, NUL or ^Z at
 /// the end. Errors (input), with line and entity: anything else outside the grammar; unterminated strings and comments;
-/// names defined twice or referred to but not defined; names above 2^63 − 1; more than 200 nested lists; more than 4
-/// GB. Cost: linear in the size of the file. Immutable.
+/// names defined twice; names above 2^63 − 1; more than 200 nested lists; more than 4
+/// GB. References to names that are not defined are `dangling`. Cost: linear in the size of the file. Immutable.
 class Part21File {
  public:
   [[nodiscard]] static Expected<Part21File> parse(std::string bytes, std::string name);
@@ -83,6 +90,12 @@ class Part21File {
   [[nodiscard]] bool taken(std::uint64_t id) const { return index_.contains(id); }
   /// The largest name taken; 0 if there is none.
   [[nodiscard]] std::uint64_t largest_id() const { return largest_id_; }
+
+  /// The first references to nothing, in the order of the file, and the number of all. Their targets are `no_instance`;
+  /// `largest_id` is no less than their names.
+  [[nodiscard]] const std::vector<Part21Dangling>& dangling() const { return dangling_; }
+  [[nodiscard]] std::size_t dangling_count() const { return dangling_count_; }
+  static constexpr std::size_t most_dangling = 10;
 
   /// The records of the HEADER section: values (kind `typed`), in order.
   [[nodiscard]] const std::vector<std::uint32_t>& header() const { return header_; }
@@ -109,6 +122,8 @@ class Part21File {
   std::vector<Part21Instance> instances_;
   std::vector<Part21Value> values_;
   std::vector<std::uint32_t> header_;
+  std::vector<Part21Dangling> dangling_;
+  std::size_t dangling_count_ = 0;
   std::vector<std::uint32_t> line_starts_;                  // of the second line and on
   std::unordered_map<std::uint64_t, std::uint32_t> index_;  // name to instance; no_instance: REFERENCE section
   std::uint64_t largest_id_ = 0;

@@ -103,6 +103,24 @@ std::string File::length_unit() const {
   return result;
 }
 
+std::vector<Error> File::warnings() const {
+  const auto& dangling = data_->records.dangling();
+  std::vector<Error> result;
+  for (const auto& [place, id, byte] : dangling) {
+    result.push_back({ErrorKind::input, "it refers to #" + std::to_string(id) + ", which the file does not define",
+                      place, "check that the file is complete", name(), data_->records.line(byte)});
+  }
+  const std::size_t others = data_->records.dangling_count() - dangling.size();
+  if (others > 0) {
+    result.push_back({ErrorKind::input,
+                      std::to_string(others) + " other references lead to nothing",
+                      {},
+                      "check that the file is complete",
+                      name()});
+  }
+  return result;
+}
+
 const SurfaceEntity* File::find_surface(const std::string& id) const {
   const auto found = data_->surface_index.find(id);
   return found == data_->surface_index.end() ? nullptr : &data_->surfaces[found->second];

@@ -125,6 +125,9 @@ class File {
   [[nodiscard]] const std::vector<LengthUnit>& length_units() const;
   /// The distinct names of `length_units`, joined by ", " (nearly always one name); "unknown" where there is none.
   [[nodiscard]] std::string length_unit() const;
+  /// What is wrong with the file outside of its surfaces: references to names that it does not define, the first ten of
+  /// them and the number of the others. What such a record describes is left out, and kept as it is when written.
+  [[nodiscard]] std::vector<Error> warnings() const;
   /// The surface with this id, or null.
   [[nodiscard]] const SurfaceEntity* find_surface(const std::string& id) const;
 
