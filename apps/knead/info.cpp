@@ -8,6 +8,8 @@
 #include "faces.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/exchange/face_conversion.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/spline/extremum.hpp"
 #include "parts.hpp"
@@ -59,10 +61,19 @@ Json to_json(const step::Instance& i) {
           {"frame", i.frame ? to_json(*i.frame) : Json()}};
 }
 
-void print_text(const step::File& file) {
-  fmt::print("{}: STEP{}, units {}, {} B-spline surface{}\n", file.name(),
-             file.schema().empty() ? "" : " " + printable(file.schema()), file.length_unit(), file.surfaces().size(),
-             file.surfaces().size() == 1 ? "" : "s");
+/// Of the file as a whole; of other formats than STEP the geometry is read as STEP.
+std::string unit_of(const Source& source) {
+  const step::File& file = *source.step_file();
+  if (source.format() == "STEP" || source.surfaces().empty()) return file.length_unit();
+  return source.surfaces().front().unit;
+}
+
+void print_text(const Source& source) {
+  const step::File& file = *source.step_file();
+  const bool step = source.format() == "STEP";
+  fmt::print("{}: {}{}, units {}, {}\n", file.name(), source.format(),
+             !step || file.schema().empty() ? "" : " " + printable(file.schema()), unit_of(source),
+             counted(file.surfaces().size(), "B-spline surface", "B-spline surfaces"));
   for (const step::SurfaceEntity& s : file.surfaces()) {
     const Surface& surface = s.surface;
     const auto [m, n] = surface.net();
@@ -84,18 +95,21 @@ void print_text(const step::File& file) {
     for (const auto& [form, count] : others) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, form);
     fmt::print("  other surfaces, to be converted before they are sculpted (--faces lists them): {}\n", counts);
   }
-  for (const UnreadableSurface& s : file.unreadable_surfaces()) {
+  for (const UnreadableSurface& s : source.unreadable()) {
     fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
   }
   print_parts(file);
-  for (const Error& warning : file.warnings()) fmt::print("  warning: {}\n", warning.message());
+  for (const std::string& remark : source.remarks()) fmt::print("  {}\n", printable(remark, 2000));
 }
 
 Expected<void> run(const InfoArguments& options) {
-  const auto file = step::File::read(options.file);
-  if (!file) return std::unexpected(file.error());
+  auto bytes = read_file(options.file);
+  if (!bytes) return std::unexpected(std::move(bytes.error()));
+  const auto source = open_source(*std::move(bytes), options.file);
+  if (!source) return std::unexpected(source.error());
+  const step::File* const file = (*source)->step_file();
   if (!options.json) {
-    print_text(*file);
+    print_text(**source);
     if (options.faces) print_faces(*file);
     return {};
   }
@@ -107,22 +121,20 @@ Expected<void> run(const InfoArguments& options) {
   }
   Json surfaces = Json::array(), unreadable = Json::array(), instances = Json::array();
   for (const step::SurfaceEntity& s : file->surfaces()) surfaces.push_back(to_json(s));
-  for (const UnreadableSurface& s : file->unreadable_surfaces()) {
+  for (const UnreadableSurface& s : (*source)->unreadable()) {
     unreadable.push_back({{"id", s.id}, {"reason", s.reason.message()}});
   }
-  Json warnings = Json::array();
-  for (const Error& warning : file->warnings()) warnings.push_back(warning.message());
   for (const step::Instance& i : file->instances()) instances.push_back(to_json(i));
   const Json info = {{"file", options.file},
-                     {"format", "STEP"},
-                     {"schema", file->schema()},
-                     {"units", file->length_unit()},
+                     {"format", (*source)->format()},
+                     {"schema", (*source)->format() == "STEP" ? file->schema() : ""},
+                     {"units", unit_of(**source)},
                      {"surfaces", std::move(surfaces)},
                      {"unreadable_surfaces", std::move(unreadable)},
                      {"other_surfaces", std::move(others)},
                      {"instances", std::move(instances)},
                      {"assembly", parts_json(*file)},
-                     {"warnings", std::move(warnings)}};
+                     {"remarks", (*source)->remarks()}};
   fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));
   return {};
 }
@@ -132,7 +144,7 @@ Expected<void> run(const InfoArguments& options) {
 Action add_info(CLI::App& app) {
   auto options = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand("info", "list the B-spline surfaces of a CAD file");
-  command->add_option("FILE", options->file, "STEP file")->required()->type_name("");
+  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))->required()->type_name("");
   command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");
   command->add_flag("--faces", options->faces, "list the visible parts of the surfaces, and the edges of their faces");
   command->footer(

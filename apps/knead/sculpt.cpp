@@ -255,14 +255,21 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
 
 /// Whether the name of the output promises what is written: it has no ending, that of the input, or one of a CAD
 /// format.
-Expected<void> check_ending(const SculptArguments& options) {
+Expected<void> check_ending(const SculptArguments& options, const Document& document) {
   const auto ending = std::filesystem::path(options.output).extension();
   if (ending.empty() || ending == std::filesystem::path(options.file).extension()) return {};
-  if (format_of_name(options.output, FormatContent::surfaces)) return {};
-  return usage_error(fmt::format("\"{}\" is not the name of a STEP file, and the result is one", options.output),
+  const auto wanted = format_of_name(options.output, FormatContent::surfaces);
+  const std::string_view written = document.source() != nullptr ? document.source()->format() : "STEP";
+  if (wanted && (*wanted)->name == written) return {};
+  std::string endings;
+  for (const Format& format : formats()) {
+    if (format.name != written) continue;
+    for (const std::string_view e : format.endings) endings += (endings.empty() ? "" : ", ") + std::string(e);
+  }
+  return usage_error(fmt::format("\"{}\" is not the name of a {} file, and the result is one", options.output, written),
                      "--output",
-                     fmt::format("use a name that ends in {}; `knead mesh` writes {}",
-                                 list_of_endings(FormatContent::surfaces), list_of_endings(FormatContent::triangles)));
+                     fmt::format("use a name that ends in one of {}; `knead mesh` writes {}", endings,
+                                 list_of_endings(FormatContent::triangles)));
 }
 
 Expected<void> run(const SculptArguments& options) {
@@ -270,7 +277,6 @@ Expected<void> run(const SculptArguments& options) {
   const NamedFile file{"FILE", options.file}, script{"--script", options.script}, output{"--output", options.output};
   // The surface may be sculpted in place: only --output may name the input file.
   if (auto possible = check_outputs({output}, {script}); !possible) return possible;
-  if (auto possible = check_ending(options); !possible) return possible;
   const NamedFile report{"--report", options.report}, picture{"--picture", options.picture};
   if (auto possible = check_outputs({report, picture}, {file, script, output}); !possible) return possible;
   if (options.fresh != options.file.empty()) {
@@ -284,6 +290,7 @@ Expected<void> run(const SculptArguments& options) {
   if (!commands) return std::unexpected(commands.error());
   auto document = options.fresh ? Document::fresh("sheet") : Document::open(options.file);
   if (!document) return std::unexpected(document.error());
+  if (auto possible = check_ending(options, *document); !possible) return possible;
 
   Session session(std::move(*document));
   {

@@ -15,15 +15,6 @@ constexpr std::size_t head_size = 4096;  // bytes that are looked at
 
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
 
-/// The first line of an IGES file has 80 columns and ends in "S      1": the start section (IGES 5.3, § 2.2.4.2).
-bool is_iges(std::string_view head) {
-  if (head.size() < 80 || (head[72] != 'S' && head[72] != 'C' && head[72] != 'B')) return false;
-  for (const char c : head.substr(73, 7)) {
-    if (c != ' ' && !is_digit(c)) return false;
-  }
-  return is_digit(head[79]);
-}
-
 bool is_text_stl(std::string_view head) { return head.starts_with("solid") && head.find("facet normal") != head.npos; }
 
 /// 80 bytes, the number of triangles, and 50 bytes for each.
@@ -39,6 +30,15 @@ bool is_gltf(std::string_view head) {
          (head.starts_with("{") && head.find("\"asset\"") != head.npos && head.find("\"version\"") != head.npos);
 }
 
+/// IGES 5.3, § 2.2.4.2.
+bool is_iges_head(std::string_view head) {
+  if (head.size() < 80 || (head[72] != 'S' && head[72] != 'C' && head[72] != 'B')) return false;
+  for (const char c : head.substr(73, 7)) {
+    if (c != ' ' && !is_digit(c)) return false;
+  }
+  return is_digit(head[79]);
+}
+
 struct Known {
   std::string_view name;
   bool (*recognised)(std::string_view head);
@@ -46,7 +46,7 @@ struct Known {
 
 // Those whose beginning decides come first.
 constexpr Known cad_formats[] = {
-    {"an IGES file", is_iges},
+    {"an IGES file", is_iges_head},
     {"a Rhino file (.3dm)", [](std::string_view head) { return head.starts_with("3D Geometry File Format"); }},
     {"an Open CASCADE file (.brep)",
      [](std::string_view head) {
@@ -77,6 +77,8 @@ constexpr Known packed_formats[] = {
 };
 
 }  // namespace
+
+bool is_iges(std::string_view bytes) { return is_iges_head(bytes.substr(0, head_size)); }
 
 std::optional<Error> foreign_format(std::string_view bytes) {
   const auto error = [](std::string what, std::string remedy) {

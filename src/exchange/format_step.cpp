@@ -23,7 +23,14 @@ class StepSource final : public Source {
   const std::string& name() const override { return file_.name(); }
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
   const std::vector<UnreadableSurface>& unreadable() const override { return file_.unreadable_surfaces(); }
+  std::string_view format() const override { return "STEP"; }
   const step::File* step_file() const override { return &file_; }
+  bool moves_edges() const override { return true; }
+  std::vector<std::string> remarks() const override {
+    std::vector<std::string> result;
+    for (const Error& warning : file_.warnings()) result.push_back("warning: " + warning.message());
+    return result;
+  }
 
   Expected<std::shared_ptr<const Source>> with_splines(std::span<const std::string> surfaces) const override {
     auto file = step::with_splines(file_, surfaces);

@@ -32,4 +32,11 @@ struct PrintedKnots {
 [[nodiscard]] std::string print_surface(const Surface& surface, std::string_view label,
                                         const std::function<std::string(int)>& point, std::string_view line_break);
 
+/// Adds a record and returns its name.
+using AddRecord = std::function<std::string(const std::string&)>;
+
+/// The context of a representation with its units: lengths in `unit`, one of `is_unit`, angles in radians.
+/// \param uncertainty a length
+[[nodiscard]] std::string print_context(std::string_view unit, double uncertainty, const AddRecord& add);
+
 }  // namespace knead::step

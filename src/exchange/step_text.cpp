@@ -47,27 +47,16 @@ class Records {
   int last_ = 0;
 };
 
-std::string add_length_unit(Records& records, const Unit& unit) {
+std::string add_length_unit(const AddRecord& add, const Unit& unit) {
   const auto metric = [&](std::string_view prefix) {
-    return records.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(" + std::string(prefix) + ",.METRE.))");
+    return add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(" + std::string(prefix) + ",.METRE.))");
   };
   if (!unit.prefix.empty()) return metric(unit.prefix);
-  const auto exponents = records.add("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)");
-  const auto factor = records.add("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(unit.millimetres) +
-                                  ")," + metric(".MILLI.") + ")");
-  return records.add("(CONVERSION_BASED_UNIT('" + std::string(unit.label) + "'," + factor +
-                     ")LENGTH_UNIT()NAMED_UNIT(" + exponents + "))");
-}
-
-std::string add_context(Records& records, const Unit& unit) {
-  const auto length = add_length_unit(records, unit);
-  const auto angle = records.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
-  const auto solid_angle = records.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
-  const auto uncertainty =
-      records.add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-07)," + length + ",'distance_accuracy_value','')");
-  return records.add("(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((" + uncertainty +
-                     "))GLOBAL_UNIT_ASSIGNED_CONTEXT((" + length + "," + angle + "," + solid_angle +
-                     "))REPRESENTATION_CONTEXT('',''))");
+  const auto exponents = add("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)");
+  const auto factor = add("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(unit.millimetres) + ")," +
+                          metric(".MILLI.") + ")");
+  return add("(CONVERSION_BASED_UNIT('" + std::string(unit.label) + "'," + factor + ")LENGTH_UNIT()NAMED_UNIT(" +
+             exponents + "))");
 }
 
 std::string add_surface(Records& records, const NewSurface& item) {
@@ -81,6 +70,17 @@ std::string add_surface(Records& records, const NewSurface& item) {
 }
 
 }  // namespace
+
+std::string print_context(std::string_view unit, double uncertainty, const AddRecord& add) {
+  const auto length = add_length_unit(add, *std::ranges::find(units, unit, &Unit::name));
+  const auto angle = add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
+  const auto solid_angle = add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
+  const auto gap = add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(uncertainty) + ")," +
+                       length + ",'distance_accuracy_value','')");
+  return add("(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((" + gap +
+             "))GLOBAL_UNIT_ASSIGNED_CONTEXT((" + length + "," + angle + "," + solid_angle +
+             "))REPRESENTATION_CONTEXT('',''))");
+}
 
 bool is_unit(std::string_view name) { return std::ranges::find(units, name, &Unit::name) != units.end(); }
 
@@ -109,7 +109,8 @@ Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOp
   const auto design = records.add("PRODUCT_DEFINITION_CONTEXT('part definition'," + application + ",'design')");
   const auto definition = records.add("PRODUCT_DEFINITION('design',''," + formation + "," + design + ")");
   const auto shape = records.add("PRODUCT_DEFINITION_SHAPE('',''," + definition + ")");
-  const auto context = add_context(records, *unit);
+  const auto context =
+      print_context(options.unit, 1e-7, [&](const std::string& record) { return records.add(record); });
   const auto origin = records.add("CARTESIAN_POINT('',(0.,0.,0.))");
   const auto axis = records.add("DIRECTION('',(0.,0.,1.))");
   const auto direction = records.add("DIRECTION('',(1.,0.,0.))");

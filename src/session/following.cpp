@@ -26,7 +26,9 @@ std::string list_of(std::vector<std::string> ids) {
 }
 
 Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, const std::string& id) {
-  if (document.step_file() == nullptr) return input_error("only edges of faces in a STEP file can follow", id);
+  if (document.source() == nullptr || !document.source()->moves_edges()) {
+    return input_error("only edges of faces in a STEP file can follow", id);
+  }
   auto edge = SharedEdge::create(*document.step_file(), id);
   if (!edge) {
     Error error = edge.error();

@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "knead/base/error.hpp"
@@ -35,6 +36,10 @@ class Source {
   virtual ~Source() = default;
 
   [[nodiscard]] virtual const std::string& name() const = 0;
+  /// The name of its format: "STEP".
+  [[nodiscard]] virtual std::string_view format() const = 0;
+  /// What else is to be said about the file: one sentence or count each.
+  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
   /// In the order of the file.
   [[nodiscard]] virtual const std::vector<SourceSurface>& surfaces() const = 0;
   [[nodiscard]] virtual const std::vector<UnreadableSurface>& unreadable() const = 0;
@@ -47,8 +52,11 @@ class Source {
   /// its other surfaces stay the same objects. Errors (input): one cannot be converted; the format has no others.
   [[nodiscard]] virtual Expected<std::shared_ptr<const Source>> with_splines(
       std::span<const std::string> surfaces) const;
-  /// The underlying STEP file, for what only STEP has: faces and their trimming. Null for other formats.
+  /// The file in the words of STEP, for faces and their trimming: a STEP file itself, or what a reader of another
+  /// format has made of it, with the same ids. Null for formats without faces.
   [[nodiscard]] virtual const step::File* step_file() const { return nullptr; }
+  /// Edges of its faces can be written anew.
+  [[nodiscard]] virtual bool moves_edges() const { return false; }
 
  protected:
   Source() = default;

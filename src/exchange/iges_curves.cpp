@@ -1,0 +1,202 @@
+#include "iges_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "knead/spline/evaluate.hpp"
+#include "part21_text.hpp"
+#include "step_print.hpp"
+
+namespace knead::iges {
+namespace {
+
+constexpr int max_pieces = 1'000'000;
+constexpr int max_composite_nesting = 8;
+constexpr int arc_samples = 32, samples_per_point = 8, most_samples = 2000;
+
+/// On a polygon, evenly by its corners.
+Point along(const std::vector<Point>& points, double t) {
+  const double place = t * static_cast<double>(points.size() - 1);
+  const auto k = std::min(static_cast<std::size_t>(place), points.size() - 2);
+  const double share = place - static_cast<double>(k);
+  return (1 - share) * points[k] + share * points[k + 1];
+}
+
+}  // namespace
+
+std::string list_of(const std::vector<int>& records) {
+  std::string text;
+  for (const int k : records) text += (text.empty() ? "(#" : ",#") + std::to_string(k);
+  return text + ")";
+}
+
+int StepRecords::point(const Point& p) {
+  put(next_, "CARTESIAN_POINT('',(" + format_real(p.x()) + "," + format_real(p.y()) + "," + format_real(p.z()) + "))");
+  return next_++;
+}
+
+int StepRecords::direction(const Point& d) {
+  return add("DIRECTION('',(" + format_real(d.x()) + "," + format_real(d.y()) + "," + format_real(d.z()) + "))");
+}
+
+int StepRecords::vertex(const Point& p) { return add(fmt::format("VERTEX_POINT('',#{})", point(p))); }
+
+int StepRecords::frame(const Point& origin, const Point& z, const Point& x) {
+  const int at = point(origin), axis = direction(z), reference = direction(x);
+  return add(fmt::format("AXIS2_PLACEMENT_3D('',#{},#{},#{})", at, axis, reference));
+}
+
+Expected<void> CurveReader::add(int number, const Eigen::Affine3d& outer, std::vector<Piece>& pieces) {
+  return add_nested(number, outer, pieces, 0);
+}
+
+Expected<void> CurveReader::add_nested(int number, const Eigen::Affine3d& outer, std::vector<Piece>& pieces,
+                                       int depth) {
+  const Entity* entity = file_.find(number);
+  if (entity == nullptr) return file_.error(number, "there is no such curve");
+  if (++count_ > max_pieces || depth > max_composite_nesting) {
+    return file_.error(number, "composite curves are nested too deeply, or have too many pieces");
+  }
+  const auto own = transform_of(file_, number);
+  if (!own) return std::unexpected(own.error());
+  const Eigen::Affine3d move = outer * *own;
+  if (entity->type == 102) {
+    const auto parameters = file_.parameters(number);
+    if (!parameters) return std::unexpected(parameters.error());
+    const auto count = parameters->values.size() > 1 ? integer(parameters->values[1]) : std::nullopt;
+    if (!count || *count < 1 || parameters->values.size() < 2 + static_cast<std::size_t>(*count)) {
+      return file_.error(number, "its list of curves is incomplete", "get the whole file");
+    }
+    for (std::size_t k = 2; k < 2 + static_cast<std::size_t>(*count); ++k) {
+      const int part = integer(parameters->values[k]).value_or(0);
+      const Entity* other = file_.find(part);
+      if (other != nullptr && (other->type == 116 || other->type == 132)) continue;  // points between curves
+      if (auto done = add_nested(part, move, pieces, depth + 1); !done) return done;
+    }
+    return {};
+  }
+  auto piece = entity->type == 100   ? arc(number, move)
+               : entity->type == 110 ? line(number, move)
+               : entity->type == 106 ? points(number, move)
+               : entity->type == 126 ? spline(number, outer)
+                                     : Expected<Piece>(Piece{});
+  if (!piece) return std::unexpected(std::move(piece.error()));
+  piece->number = number;
+  if (piece->geometry == 0) {
+    const Point origin = move.translation();
+    piece->at = [origin](double) { return origin; };
+    piece->geometry = records_.add(fmt::format("IGES_CURVE_{}('D{}')", entity->type, number));
+  }
+  pieces.push_back(*std::move(piece));
+  return {};
+}
+
+Expected<Piece> CurveReader::arc(int number, const Eigen::Affine3d& move) {
+  const auto parameters = file_.parameters(number);
+  if (!parameters) return std::unexpected(parameters.error());
+  const auto v = numbers(file_, number, *parameters, 1, 7);  // z, centre, start, end
+  if (!v) return std::unexpected(v.error());
+  const auto& p = *v;
+  const double radius = std::hypot(p[3] - p[1], p[4] - p[2]);
+  if (!(radius > 0) || !std::isfinite(radius)) return file_.error(number, "its radius is 0");
+  const double first = std::atan2(p[4] - p[2], p[3] - p[1]);
+  double turn = std::atan2(p[6] - p[2], p[5] - p[1]) - first;
+  if (p[3] == p[5] && p[4] == p[6])
+    turn = 2 * std::numbers::pi;
+  else if (turn <= 0)
+    turn += 2 * std::numbers::pi;
+  const Point centre = move * Point(p[1], p[2], p[0]), x = radius * move.linear().col(0),
+              y = radius * move.linear().col(1);
+  Piece piece;
+  piece.geometry =
+      records_.add(fmt::format("CIRCLE('',#{},{})", records_.frame(centre, x.cross(y), x), format_real(x.norm())));
+  piece.samples = arc_samples;
+  piece.at = [=](double t) { return Point(centre + std::cos(first + t * turn) * x + std::sin(first + t * turn) * y); };
+  return piece;
+}
+
+Expected<Piece> CurveReader::line(int number, const Eigen::Affine3d& move) {
+  const auto parameters = file_.parameters(number);
+  if (!parameters) return std::unexpected(parameters.error());
+  const auto v = numbers(file_, number, *parameters, 1, 6);
+  if (!v) return std::unexpected(v.error());
+  const Point a = move * Point((*v)[0], (*v)[1], (*v)[2]), b = move * Point((*v)[3], (*v)[4], (*v)[5]);
+  if (a == b) return file_.error(number, "it is a line without length");
+  const int from = records_.point(a),
+            vector = records_.add(fmt::format("VECTOR('',#{},1.)", records_.direction(b - a)));
+  Piece piece;
+  piece.geometry = records_.add(fmt::format("LINE('',#{},#{})", from, vector));
+  piece.at = [a, b](double t) { return Point((1 - t) * a + t * b); };
+  return piece;
+}
+
+Expected<Piece> CurveReader::points(int number, const Eigen::Affine3d& move) {
+  const auto parameters = file_.parameters(number);
+  if (!parameters) return std::unexpected(parameters.error());
+  const auto head = numbers(file_, number, *parameters, 1, 2);  // kind of tuples, their number
+  if (!head) return std::unexpected(head.error());
+  const auto kind = static_cast<int>((*head)[0]);
+  if (kind < 1 || kind > 3 || !((*head)[1] >= 2 && (*head)[1] < 1e8)) {
+    return file_.error(number, "its points are of an unknown kind, or too few");
+  }
+  const auto count = static_cast<std::size_t>((*head)[1]);
+  const std::size_t first = kind == 1 ? 4 : 3, size = kind == 1 ? 2 : kind == 2 ? 3 : 6;
+  const auto v = numbers(file_, number, *parameters, first, size * count);
+  const auto z = numbers(file_, number, *parameters, 3, 1);
+  if (!v || !z) return std::unexpected(!v ? v.error() : z.error());
+  auto corners = std::make_shared<std::vector<Point>>();
+  std::vector<int> list;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double* p = &(*v)[size * k];
+    corners->push_back(move * Point(p[0], p[1], kind == 1 ? (*z)[0] : p[2]));
+    list.push_back(records_.point(corners->back()));
+  }
+  Piece piece;
+  piece.geometry = records_.add("POLYLINE(''," + list_of(list) + ")");
+  piece.samples = std::min(static_cast<int>(count) - 1, most_samples);
+  piece.at = [corners](double t) { return along(*corners, t); };
+  return piece;
+}
+
+Expected<Piece> CurveReader::spline(int number, const Eigen::Affine3d& outer) {
+  auto read = read_curve(file_, number, outer);
+  if (!read) return std::unexpected(std::move(read.error()));
+  const auto curve = std::make_shared<const Curve>(*std::move(read));
+  const auto parameters = file_.parameters(number);
+  const std::size_t end =
+      7 + static_cast<std::size_t>(curve->size() + curve->knots(0).degree() + 1 + 4 * curve->size());
+  Interval domain = curve->knots(0).domain();
+  if (const auto limits = numbers(file_, number, *parameters, end, 2)) {
+    const Interval own{std::max((*limits)[0], domain.lower), std::min((*limits)[1], domain.upper)};
+    if (own.length() > 0) domain = own;
+  }
+  std::vector<int> list;
+  std::string weights;
+  for (Eigen::Index k = 0; k < curve->size(); ++k) {
+    list.push_back(records_.point(curve->control_points().row(k).transpose()));
+    if (!curve->rational()) continue;
+    weights += (k == 0 ? "" : ",") + format_real(curve->weights()[static_cast<std::size_t>(k)]);
+  }
+  const auto knots = step::print_knots(curve->knots(0), format_shortest_real);
+  const std::string own = fmt::format("{},{},.UNSPECIFIED.,.F.,.F.", curve->knots(0).degree(), list_of(list));
+  const std::string listed = knots.multiplicities + "," + knots.values + ",.UNSPECIFIED.";
+  Piece piece;
+  piece.geometry =
+      records_.add(curve->rational() ? "(BOUNDED_CURVE()B_SPLINE_CURVE(" + own + ")B_SPLINE_CURVE_WITH_KNOTS(" +
+                                           listed + ")CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE((" +
+                                           weights + "))REPRESENTATION_ITEM(''))"
+                                     : "B_SPLINE_CURVE_WITH_KNOTS(''," + own + "," + listed + ")");
+  piece.samples = std::min(samples_per_point * static_cast<int>(curve->size()), most_samples);
+  piece.at = [curve, domain](double t) {
+    const double u = std::clamp(domain.lower + t * domain.length(), domain.lower, domain.upper);
+    const auto point = evaluate_point<1>(*curve, {u});
+    return point ? *point : Point(curve->control_points().row(0).transpose());
+  };
+  return piece;
+}
+
+}  // namespace knead::iges

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "iges_geometry.hpp"
+
+namespace knead::iges {
+
+/// Writes records of an exchange structure.
+class StepRecords {
+ public:
+  explicit StepRecords(int first) : next_(first) {}
+  int add(const std::string& record) {
+    put(next_, record);
+    return next_++;
+  }
+  void put(int id, const std::string& record) { text_ += "#" + std::to_string(id) + "=" + record + ";\n"; }
+  int point(const Point& p);
+  int direction(const Point& d);
+  int vertex(const Point& p);
+  int frame(const Point& origin, const Point& z, const Point& x);
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  int next_;
+};
+
+/// A curve that is not made of others.
+struct Piece {
+  int number = 0;                   ///< its entity
+  int geometry = 0;                 ///< its record
+  std::function<Point(double)> at;  ///< from 0 to 1
+  int samples = 1;                  ///< chords that show its shape
+  bool reversed = false;            ///< run along from 1 to 0
+  [[nodiscard]] Point from() const { return at(reversed ? 1 : 0); }
+  [[nodiscard]] Point to() const { return at(reversed ? 0 : 1); }
+};
+
+/// Makes curves records of STEP; of composite curves (102) each of their parts.
+class CurveReader {
+ public:
+  CurveReader(const File& file, StepRecords& records) : file_(file), records_(records) {}
+  /// Adds the pieces of a curve in the coordinates of the model. Errors (input): it cannot be read; too many pieces.
+  [[nodiscard]] Expected<void> add(int number, const Eigen::Affine3d& outer, std::vector<Piece>& pieces);
+
+ private:
+  [[nodiscard]] Expected<void> add_nested(int number, const Eigen::Affine3d& outer, std::vector<Piece>& pieces,
+                                          int depth);
+  [[nodiscard]] Expected<Piece> arc(int number, const Eigen::Affine3d& move);
+  [[nodiscard]] Expected<Piece> line(int number, const Eigen::Affine3d& move);
+  [[nodiscard]] Expected<Piece> points(int number, const Eigen::Affine3d& move);
+  [[nodiscard]] Expected<Piece> spline(int number, const Eigen::Affine3d& outer);
+
+  const File& file_;
+  StepRecords& records_;
+  int count_ = 0;
+};
+
+/// A surface of another form than 128 as a record in the words of STEP, moved by `outer` and its own matrix: planes
+/// (108, 190), 192 to 198, 120 and 122 with their curves; "IGES_SURFACE_118('D15')" for what STEP does not have.
+[[nodiscard]] std::string surface_record(const File& file, int number, const Eigen::Affine3d& outer,
+                                         StepRecords& records, CurveReader& curves);
+
+/// "(#1,#2)".
+[[nodiscard]] std::string list_of(const std::vector<int>& records);
+
+}  // namespace knead::iges

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "iges_file.hpp"
+#include "knead/spline/spline.hpp"
+
+namespace knead::iges {
+
+/// Another surface for a B-spline surface (128), in the coordinates of the model.
+struct Replacement {
+  int number = 0;  ///< directory number
+  Surface surface;
+};
+
+/// The bytes of the file with these surfaces, and every other byte as it was.
+///
+/// The parameter records of a changed entity are written anew in 64 columns; numbers that stay the same keep their
+/// text, others have 17 digits. Where their number changes, the records behind them are numbered anew, and so are the
+/// pointers and the count in the directory and the count in the terminate section. Points of an entity with a
+/// transformation matrix go back through its inverse, to rounding. The result is read again and compared: the surfaces,
+/// and the parameters of all other entities. Errors: unknown numbers (input); the check fails (numerical). Cost: linear
+/// in the file.
+[[nodiscard]] Expected<std::string> with_surfaces(const File& file, std::span<const Replacement> replacements);
+
+}  // namespace knead::iges
