@@ -144,7 +144,9 @@ Expected<void> run(const InfoArguments& options) {
 Action add_info(CLI::App& app) {
   auto options = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand("info", "list the B-spline surfaces of a CAD file");
-  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))->required()->type_name("");
+  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
+      ->required()
+      ->type_name("");
   command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");
   command->add_flag("--faces", options->faces, "list the visible parts of the surfaces, and the edges of their faces");
   command->footer(

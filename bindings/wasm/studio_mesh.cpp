@@ -15,9 +15,9 @@ Expected<std::string> mesh_file(const Session& session, const Format& format, in
   if (session.document().step_file() == nullptr) return save_surfaces(surfaces, format, options);
   auto saved = session.save();
   if (!saved) return std::unexpected(saved.error());
-  const auto file = step::File::parse(*std::move(saved), "model");
+  const auto file = open_source(*std::move(saved), session.document().name());
   if (!file) return std::unexpected(file.error());
-  auto model = save_model(*file, format, 0, options);
+  auto model = save_model(*(*file)->step_file(), format, 0, options);
   if (!model) return std::unexpected(model.error());
   return std::move(model->bytes);
 }

@@ -54,7 +54,7 @@ class IgesSource final : public Source {
     std::vector<iges::Replacement> replacements;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k] == surfaces_[k].surface) continue;
-      replacements.push_back({std::stoi(surfaces_[k].id.substr(1)), *surfaces[k]});
+      replacements.push_back({iges::integer(std::string_view(surfaces_[k].id).substr(1)).value_or(0), *surfaces[k]});
     }
     return iges::with_surfaces(file_, replacements);
   }

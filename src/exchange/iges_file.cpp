@@ -212,7 +212,10 @@ Expected<void> File::split() {
     section = found;
     sections_[section].push_back(line);
   }
-  if (lines('D').empty()) return input_error("there is no directory section", name_, "get the whole file");
+  if (lines('D').empty()) {
+    return std::unexpected(
+        Error{ErrorKind::input, "an IGES file without a directory section", {}, "get the whole file", name_});
+  }
   if (lines('D').size() % 2 != 0) {
     return line_error(lines('D').back(), "the directory has an odd number of records", "get the whole file");
   }

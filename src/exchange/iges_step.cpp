@@ -49,8 +49,8 @@ class ViewBuilder {
     const std::string& unit = file_.global().unit;
     if (step::is_unit(unit)) {
       const double gap = file_.global().resolution > 0 ? file_.global().resolution : 1e-7;
-      static_cast<void>(step::print_context(unit, gap,
-                          [&](const std::string& record) { return fmt::format("#{}", records_.add(record)); }));
+      static_cast<void>(step::print_context(
+          unit, gap, [&](const std::string& record) { return fmt::format("#{}", records_.add(record)); }));
     }
     view_.text =
         "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'Knead','','');\n"

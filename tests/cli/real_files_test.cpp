@@ -54,6 +54,23 @@ TEST(RealFiles, TheReportHasTheAnglesAtASmoothEdgeThatFollows) {
   EXPECT_EQ(found, 2) << "once for each surface";
 }
 
+TEST(RealFiles, IgesFilesAreListedAndKept) {
+  const std::string file = std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad/wing128.igs";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no collection of CAD files beside the project";
+  const Json info = knead({"info", file, "--json"}).json();
+  EXPECT_EQ(info.at("format"), "IGES");
+  EXPECT_EQ(info.at("units"), "inch");
+  EXPECT_EQ(info.at("surfaces").size(), 2U);
+  const Json& remarks = info.at("remarks");
+  EXPECT_NE(std::ranges::find(remarks, "2 x 128 (B-spline surface)"), remarks.end()) << remarks;
+  const Workshop workshop;
+  const std::string script = workshop.script(Json::array()), out = workshop / "out.igs";
+  EXPECT_EQ(knead({"sculpt", file, "-o", out, "--script", script}).code, 0);
+  EXPECT_TRUE(identical(content_of(out), content_of(file)));
+  EXPECT_TRUE(fails_with(knead({"sculpt", file, "-o", workshop / "out.step", "--script", script}), 2,
+                         {"--output", "IGES", ".igs, .iges"}));
+}
+
 TEST(RealFiles, APartOfAnAssemblyChangesInAllItsPlaces) {
   const std::string file = std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad/as1-oc-214.stp";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no collection of CAD files beside the project";

@@ -215,7 +215,7 @@ TEST(Format, ThatNothingRecognisesIsAnErrorWithTheFormats) {
   const auto source = open_source("solid ball", "ball.stl");
   ASSERT_FALSE(source);
   EXPECT_EQ(source.error().file, "ball.stl");
-  EXPECT_EQ(source.error().remedy, "open STEP (.step, .stp, .p21)");
+  EXPECT_EQ(source.error().remedy, "open STEP (.step, .stp, .p21) or IGES (.igs, .iges)");
   // The ending names the reader that says what is wrong.
   EXPECT_NE(open_source("solid ball", "ball.step").error().message().find("ball.step:1"), std::string::npos);
 }

@@ -1,0 +1,137 @@
+// Surfaces of real IGES files are pressed in their visible middle, and Open CASCADE reads the result.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "exchange/mesh_measures.hpp"
+#include "exchange/support.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/exchange/model_mesh.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
+#include "oracle/occt_iges.hpp"
+#include "oracle/press.hpp"
+
+namespace knead::oracle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_pressed = 4;
+constexpr double closed_gap = 1e-3;  // mm
+
+/// A dent in a surface without faces, in lengths of its own.
+Press anywhere(const std::string& id) {
+  Press result;
+  result.script = R"({"knead":2,"commands":[{"do":"select","surface":")" + id +
+                  R"("},{"do":"hold","mode":"free"},{"do":"hold","rows":1},)"
+                  R"({"do":"tool","radius":0.1,"relative":true,"at":[0.4,0.45]},)"
+                  R"({"do":"move","by":[0.03,0.04,0.05],"relative":true},{"do":"step","lambda":10}]})";
+  return result;
+}
+
+class IgesOracle : public ::testing::TestWithParam<fs::path> {
+ protected:
+  void SetUp() override {
+    auto source = open_source(*read_file(GetParam()), GetParam().string());
+    ASSERT_TRUE(source) << source.error().message();
+    source_ = *std::move(source);
+    before_ = occt_read_iges(GetParam());
+    ASSERT_TRUE(before_);
+  }
+
+  /// Up to four surfaces with faces, small nets and large; of a file without faces, any.
+  std::vector<const step::SurfaceEntity*> chosen() const {
+    std::vector<const step::SurfaceEntity*> all;
+    for (const step::SurfaceEntity& s : source_->step_file()->surfaces()) all.push_back(&s);
+    std::ranges::stable_sort(all, {}, [](const step::SurfaceEntity* s) { return s->surface.size(); });
+    if (all.size() <= most_pressed) return all;
+    std::vector<const step::SurfaceEntity*> result;
+    for (std::size_t k = 0; k < most_pressed; ++k) result.push_back(all[k * (all.size() - 1) / (most_pressed - 1)]);
+    return result;
+  }
+
+  std::shared_ptr<const Source> source_;
+  std::optional<OcctIges> before_;
+};
+
+TEST_P(IgesOracle, FacesHaveTheAreaThatOpenCascadeFinds) {
+  const auto model = model_faces(*source_->step_file());
+  ASSERT_TRUE(model) << model.error().message();
+  double area = 0;
+  for (const FaceMesh& mesh : model->faces) area += testing::area_of(mesh);
+  const double scale = source_->surfaces()[0].unit == "inch" ? 25.4 : source_->surfaces()[0].unit == "m" ? 1000 : 1;
+  if (model->skipped.empty()) {
+    EXPECT_NEAR(area * scale * scale, before_->area, 0.005 * before_->area);
+  } else {
+    // Of two surfaces of revolution whose bounds consist of several meridians and arcs.
+    EXPECT_EQ(GetParam().filename(), "shaft.iges");
+    EXPECT_EQ(model->skipped.size(), 2U);
+    EXPECT_LT(area * scale * scale, before_->area);
+  }
+}
+
+TEST_P(IgesOracle, APressLeavesTopologyAndGapsAsTheyWere) {
+  const fs::path out = fs::temp_directory_path() / ("knead-iges-" + std::to_string(getpid()) + ".igs");
+  for (const step::SurfaceEntity* s : chosen()) {
+    SCOPED_TRACE(s->id);
+    const auto pressed = s->faces > 0 ? press(*source_->step_file(), *s, "trim") : Expected<Press>(anywhere(s->id));
+    ASSERT_TRUE(pressed) << pressed.error().message();
+    Session session(Document::from(source_));
+    const auto commands = parse_script(pressed->script, "press");
+    ASSERT_TRUE(commands) << commands.error().message();
+    for (const Command& command : *commands) {
+      const auto result = session.execute(command);
+      ASSERT_TRUE(result) << result.error().message();
+    }
+    const auto bytes = session.save();
+    ASSERT_TRUE(bytes) << bytes.error().message();
+    ASSERT_TRUE(write_file_atomically(out, *bytes));
+    const auto after = occt_read_iges(out);
+    ASSERT_TRUE(after);
+    EXPECT_EQ(after->topology, before_->topology);
+    EXPECT_LE(after->bad_faces, before_->bad_faces);
+    ASSERT_EQ(after->gaps.size(), before_->gaps.size());
+    double worst = 0;
+    for (std::size_t k = 0; k < after->gaps.size(); ++k) {
+      EXPECT_LE(after->gaps[k], std::max(closed_gap, 1.01 * before_->gaps[k])) << "edge " << k;
+      worst = std::max(worst, after->gaps[k] - before_->gaps[k]);
+    }
+    if (s->faces == 0) continue;
+    const auto& now = session.state().surfaces[static_cast<std::size_t>(*session.state().selected)];
+    const auto there = evaluate_point<2>(*now.current, pressed->at);
+    ASSERT_TRUE(there);
+    const double reached = (*there - pressed->place).norm() / pressed->depth;
+    EXPECT_GE(reached, 0.9) << "of the depth that was asked for";
+    const auto net = s->surface.net(), wider = now.current->net();
+    std::printf("| %s | %s | %d x %d | %d x %d | %.0f %% | %.2g |\n", GetParam().filename().c_str(), s->id.c_str(),
+                net[0], net[1], wider[0], wider[1], 100 * reached, worst);
+  }
+  fs::remove(out);
+}
+
+std::vector<fs::path> iges_files() {
+  std::vector<fs::path> files;
+  if (!fs::exists(testing::collection())) return files;
+  for (const auto& entry : fs::directory_iterator(testing::collection())) {
+    const auto ending = entry.path().extension();
+    if (ending == ".igs" || ending == ".iges") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(IgesOracle);
+INSTANTIATE_TEST_SUITE_P(Files, IgesOracle, ::testing::ValuesIn(iges_files()), [](const auto& instance) {
+  auto name = instance.param.stem().string();
+  std::ranges::replace_if(
+      name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace knead::oracle

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace knead::oracle {
+
+/// What Open CASCADE makes of an IGES file; lengths in mm.
+struct OcctIges {
+  std::map<std::string, int> topology;  ///< numbers of faces, edges, … by name
+  int bad_faces = 0;                    ///< that BRepCheck finds fault with
+  double area = 0;
+  /// Of each edge of each face, in order: how far its curve in space is from the face, at 41 points of its own curve in
+  /// parameters, or the tolerance of the edge, if that is larger.
+  std::vector<double> gaps;
+};
+
+/// None if it cannot be read.
+[[nodiscard]] std::optional<OcctIges> occt_read_iges(const std::filesystem::path& path);
+
+}  // namespace knead::oracle
