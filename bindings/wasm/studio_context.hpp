@@ -21,7 +21,8 @@ struct ContextPicture {
   std::vector<float> positions, normals;  ///< 3 per point
   std::vector<std::uint32_t> indices;     ///< 3 per triangle, face after face
   std::vector<Face> faces;
-  std::vector<SkippedFace> skipped;  ///< faces that could not be triangulated
+  std::vector<SkippedFace> skipped;   ///< faces that could not be triangulated
+  std::size_t parts = 0, places = 0;  ///< of an assembly that puts parts elsewhere than drawn, or several times; else 0
 };
 
 [[nodiscard]] ContextPicture context_picture(const step::File& file, const Point& origin);
@@ -30,7 +31,7 @@ struct ContextPicture {
 [[nodiscard]] Point middle_of(const step::File& file);
 
 /// {"buffers": …, "faces": [{"id": "#11", "surface": "#10", "form": "PLANE", "triangles": 2}, …], "skipped": [{"id":
-/// "#12", "reason": "…"}, …]}
+/// "#12", "reason": "…"}, …], "parts": 0, "places": 0}
 [[nodiscard]] std::string context_json(const ContextPicture& context);
 
 /// {"faces": [[[s, t, s, t, …], …], …]}: the loops of each face, in fractions of the domain; null for a whole surface.

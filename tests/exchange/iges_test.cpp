@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numbers>
+#include <random>
 #include <sstream>
 
 #include "exchange/iges_builder.hpp"
@@ -255,6 +256,69 @@ TEST(Iges, SaysWhatIsWrong) {
   unreadable("128,2,1,1,1", "128,2,1,9,1", "out of range");
   unreadable("0.,0.,0.5,1.,1.", "0.,z.,0.5,1.,1.", "not a number");
   unreadable("1.;", "1. ", "do not end");
+}
+
+/// The plate as a B-rep: one face (510) with a loop of shared edges.
+std::string shell() {
+  IgesBuilder b;
+  const int surface = b.add(128, plate());
+  const int vertices = b.add(502, "4,0.,0.,0.,4.,0.,0.,4.,2.,0.,0.,2.,0.", 0, 1);
+  const char* corners[] = {"0.,0.,0.", "4.,0.,0.", "4.,2.,0.", "0.,2.,0."};
+  std::string edges = "4", loop = "4";
+  std::vector<int> sides;
+  for (int k = 0; k < 4; ++k) sides.push_back(b.add(110, fmt::format("{},{}", corners[k], corners[(k + 1) % 4])));
+  for (int k = 0; k < 4; ++k) {
+    edges += fmt::format(",{},{},{},{},{}", sides[static_cast<std::size_t>(k)], vertices, k + 1, vertices, (k + 1) % 4 + 1);
+  }
+  const int list = b.add(504, edges, 0, 1);
+  for (int k = 0; k < 4; ++k) loop += fmt::format(",0,{},{},1,0", list, k + 1);
+  const int bound = b.add(508, loop, 0, 1);
+  b.add(510, fmt::format("{},1,1,{}", surface, bound), 0, 1);
+  return b.text();
+}
+
+TEST(Iges, FacesOfBRepsShareTheirEdges) {
+  const auto source = open_or_die(shell());
+  const step::File& view = *source->step_file();
+  EXPECT_EQ(view.surfaces()[0].faces, 1);
+  EXPECT_FALSE(view.surfaces()[0].trimmed);
+  const auto model = model_faces(view, 1e-3);
+  ASSERT_TRUE(model && model->skipped.empty());
+  EXPECT_EQ(view.bytes().find("IGES_"), std::string::npos);
+}
+
+TEST(Iges, DamagedFilesAreErrorsOrStayAsTheyAre) {
+  std::mt19937 random(7);  // NOLINT: the same files every time
+  const std::string letters = "0123456789,;.-+EDHSGPT \n";
+  int opened = 0;
+  for (const std::string& text : {trimmed(true), trimmed(false), shell()}) {
+    for (int k = 0; k < 1500; ++k) {
+      std::string bytes = text;
+      for (int n = 1 + static_cast<int>(random() % 4); n > 0; --n) {
+        const std::size_t at = random() % bytes.size();
+        switch (random() % 6) {
+          case 0: bytes.erase(at, 1 + random() % 90); break;
+          case 1: bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 90)); break;
+          default: bytes[at] = letters[random() % letters.size()];
+        }
+        if (bytes.empty()) bytes = text;
+      }
+      const auto source = open_source(bytes, "test.igs");
+      if (!source) continue;
+      ++opened;
+      std::vector<std::shared_ptr<const Surface>> same;
+      for (const SourceSurface& s : (*source)->surfaces()) same.push_back(s.surface);
+      EXPECT_EQ(*(*source)->save(same), bytes);
+      static_cast<void>(model_faces(*(*source)->step_file()));
+      if (same.empty()) continue;
+      same[0] = std::make_shared<const Surface>(lifted(*same[0], 0, 0.125));
+      const auto saved = (*source)->save(same);
+      if (saved) {
+        EXPECT_EQ(open_or_die(*saved)->surfaces().size(), same.size());
+      }
+    }
+  }
+  EXPECT_GT(opened, 500);
 }
 
 class IgesFile : public ::testing::TestWithParam<std::filesystem::path> {};

@@ -42,6 +42,14 @@ describe('faces round the surfaces', () => {
     expect(engine.trims(7)).toBeNull();
   });
 
+  it('say how many parts an assembly has, and in how many places', async () => {
+    const engine = await Engine.load(wasm);
+    engine.openStep(facesStep(), 'faces.step');
+    expect(engine.context()).toMatchObject({ parts: 0, places: 0 });
+    engine.openStep(readFileSync(fileURLToPath(new URL('../../samples/bonnet.step', import.meta.url))), 'bonnet.step');
+    expect(engine.context()).toMatchObject({ parts: 2, places: 2 });
+  });
+
   it('are none without a file', async () => {
     const engine = await Engine.load(wasm);
     engine.fresh('sheet');

@@ -42,7 +42,7 @@ describe('the cut of a surface', () => {
 
 it('cuts triangles', () => {
   const positions = Float32Array.of(0, 0, 0, 2, 0, 0, 0, 2, 0, 2, 2, 0);
-  const context = { positions, normals: positions, indices: Uint32Array.of(0, 1, 2, 1, 3, 2), faces: [], skipped: [] };
+  const context = { positions, normals: positions, indices: Uint32Array.of(0, 1, 2, 1, 3, 2), faces: [], skipped: [], parts: 0, places: 0 };
   expect(length(cutOfContext(context, [1, 0, 0, -0.5]))).toBeCloseTo(2, 6);
   expect(cutOfContext(context, [0, 0, 1, -0.5])).toEqual([]);
 });

@@ -17,7 +17,10 @@ export class Saving {
 
   step = () => this.work(async (stem) => {
     const { bytes, edges } = await this.host.client.save();
-    download(bytes, `${stem}-sculpted.step`, 'model/step');
+    // An IGES file comes back as one.
+    const { file } = this.documents;
+    const iges = file?.kind === 'step' ? /\.(igs|iges)$/i.exec(file.name) : null;
+    download(bytes, `${stem}-sculpted${iges ? iges[0] : '.step'}`, iges ? 'model/iges' : 'model/step');
     return closedEdges(edges, this.host.state!.surfaces[0]?.unit ?? '');
   });
 

@@ -15,6 +15,9 @@ export interface Context {
   faces: GreyFace[];
   /** Faces that could not be triangulated, and why. */
   skipped: { id: string; reason: string }[];
+  /** Of an assembly that puts parts elsewhere than they are drawn, or several times: how many there are, in how many places; else 0. */
+  parts: number;
+  places: number;
 }
 
 /** The loops of each face on a surface, s and t alternating: the parts enclosed by an odd number of loops are visible. Null: all. */

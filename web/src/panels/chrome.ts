@@ -12,7 +12,7 @@ import { toggleTour } from './tour';
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome screen. */
 
 export function topBar(app: App): HTMLElement {
-  const picker = h('input', { type: 'file', accept: '.step,.stp,.p21,.3dm,.knead,.json', hidden: true, aria: { label: 'File to open' } });
+  const picker = h('input', { type: 'file', accept: '.step,.stp,.p21,.igs,.iges,.3dm,.knead,.json', hidden: true, aria: { label: 'File to open' } });
   picker.addEventListener('change', () => {
     const file = picker.files?.[0];
     picker.value = '';
@@ -29,7 +29,7 @@ export function topBar(app: App): HTMLElement {
   const save = menu('save', 'Save', 'Save', saveEntries(app));
   const bar = h('header', { class: 'top' },
     h('span', { class: 'brand' }, 'Knead'),
-    iconButton('open', 'Open a STEP, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), recentMenu(app), save, picker,
+    iconButton('open', 'Open a STEP, IGES, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), recentMenu(app), save, picker,
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
     h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
     ...foldable(
