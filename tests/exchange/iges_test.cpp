@@ -268,7 +268,8 @@ std::string shell() {
   std::vector<int> sides;
   for (int k = 0; k < 4; ++k) sides.push_back(b.add(110, fmt::format("{},{}", corners[k], corners[(k + 1) % 4])));
   for (int k = 0; k < 4; ++k) {
-    edges += fmt::format(",{},{},{},{},{}", sides[static_cast<std::size_t>(k)], vertices, k + 1, vertices, (k + 1) % 4 + 1);
+    edges +=
+        fmt::format(",{},{},{},{},{}", sides[static_cast<std::size_t>(k)], vertices, k + 1, vertices, (k + 1) % 4 + 1);
   }
   const int list = b.add(504, edges, 0, 1);
   for (int k = 0; k < 4; ++k) loop += fmt::format(",0,{},{},1,0", list, k + 1);
@@ -297,9 +298,14 @@ TEST(Iges, DamagedFilesAreErrorsOrStayAsTheyAre) {
       for (int n = 1 + static_cast<int>(random() % 4); n > 0; --n) {
         const std::size_t at = random() % bytes.size();
         switch (random() % 6) {
-          case 0: bytes.erase(at, 1 + random() % 90); break;
-          case 1: bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 90)); break;
-          default: bytes[at] = letters[random() % letters.size()];
+          case 0:
+            bytes.erase(at, 1 + random() % 90);
+            break;
+          case 1:
+            bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 90));
+            break;
+          default:
+            bytes[at] = letters[random() % letters.size()];
         }
         if (bytes.empty()) bytes = text;
       }

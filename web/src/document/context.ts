@@ -7,8 +7,8 @@ export async function loadContext(host: Host, current: () => boolean): Promise<v
     if (!current()) return;
     host.showContext(context, trims);
     const { parts, places } = context ?? { parts: 0, places: 0 };
-    if (parts > 0) {
-      host.notify({ kind: 'info', text: `An assembly of ${parts === 1 ? 'one part' : `${parts} parts`} in ${places === 1 ? 'one place' : `${places} places`}: each part is drawn and sculpted once, in its own coordinates, and changes in all its places. Meshes show them where they belong.` });
+    if (places > parts) {
+      host.notify({ kind: 'info', text: `An assembly of ${parts === 1 ? 'one part' : `${parts} parts`} in ${places} places: each part is drawn and sculpted once, in its own coordinates, and changes in all its places. Meshes show them where they belong.` });
     }
     const skipped = context?.skipped.length ?? 0;
     if (skipped > 0) {
