@@ -165,7 +165,8 @@ TEST(Sculpt, TheReportSaysWhatTheFileShows) {
     EXPECT_GT(step.at("largest_displacement").get<double>(), 0);
     time += step.at("time").get<double>();
   }
-  ASSERT_EQ(report.size(), 10U);
+  ASSERT_EQ(report.size(), 11U);
+  EXPECT_TRUE(report.at("places").empty()) << "no part is used twice";
   const Json& last = report.at("steps").back();
   EXPECT_DOUBLE_EQ(report.at("time").get<double>(), time);
   EXPECT_EQ(report.at("residual"), last.at("residual"));
