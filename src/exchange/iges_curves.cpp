@@ -14,8 +14,8 @@
 namespace knead::iges {
 namespace {
 
-constexpr int max_pieces = 1'000'000;
 constexpr int max_composite_nesting = 8;
+constexpr std::size_t most_expansion = 64, least_size = 10'000;  // of the text, in files and bytes
 constexpr int arc_samples = 32, samples_per_point = 8, most_samples = 2000;
 
 /// On a polygon, evenly by its corners.
@@ -27,6 +27,10 @@ Point along(const std::vector<Point>& points, double t) {
 }
 
 }  // namespace
+
+bool exceeds(const File& file, const StepRecords& records) {
+  return records.text().size() / most_expansion > file.bytes().size() + least_size;
+}
 
 std::string list_of(const std::vector<int>& records) {
   std::string text;
@@ -58,8 +62,8 @@ Expected<void> CurveReader::add_nested(int number, const Eigen::Affine3d& outer,
                                        int depth) {
   const Entity* entity = file_.find(number);
   if (entity == nullptr) return file_.error(number, "there is no such curve");
-  if (++count_ > max_pieces || depth > max_composite_nesting) {
-    return file_.error(number, "composite curves are nested too deeply, or have too many pieces");
+  if (exceeds(file_, records_) || depth > max_composite_nesting) {
+    return file_.error(number, "curves are nested too deeply, or used too often");
   }
   const auto own = transform_of(file_, number);
   if (!own) return std::unexpected(own.error());

@@ -55,13 +55,15 @@ class CurveReader {
 
   const File& file_;
   StepRecords& records_;
-  int count_ = 0;
 };
 
 /// A surface of another form than 128 as a record in the words of STEP, moved by `outer` and its own matrix: planes
 /// (108, 190), 192 to 198, 120 and 122 with their curves; "IGES_SURFACE_118('D15')" for what STEP does not have.
 [[nodiscard]] std::string surface_record(const File& file, int number, const Eigen::Affine3d& outer,
                                          StepRecords& records, CurveReader& curves);
+
+/// Whether the records take more than 64 times the file: entities that are used again and again are written each time.
+[[nodiscard]] bool exceeds(const File& file, const StepRecords& records);
 
 /// "(#1,#2)".
 [[nodiscard]] std::string list_of(const std::vector<int>& records);

@@ -45,7 +45,10 @@ class ViewBuilder {
     for (std::size_t k = 0; k < file_.entities().size(); ++k) {
       if (file_.entities()[k].type == 128) add_spline(File::number(k));
     }
-    for (const int face : faces) add_face(face);
+    for (const int face : faces) {
+      if (exceeds(file_, records_)) break;  // what is left is not known: its surfaces count as whole
+      add_face(face);
+    }
     const std::string& unit = file_.global().unit;
     if (step::is_unit(unit)) {
       const double gap = file_.global().resolution > 0 ? file_.global().resolution : 1e-7;

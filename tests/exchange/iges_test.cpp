@@ -288,6 +288,23 @@ TEST(Iges, FacesOfBRepsShareTheirEdges) {
   EXPECT_EQ(view.bytes().find("IGES_"), std::string::npos);
 }
 
+TEST(Iges, WhatIsUsedAgainAndAgainIsLimited) {
+  IgesBuilder b;
+  const int surface = b.add(128, plate());
+  const int line = b.add(110, "0.,0.,0.,4.,0.,0.");
+  std::string pieces = "2000";
+  for (int k = 0; k < 2000; ++k) pieces += fmt::format(",{}", line);
+  const int loop = b.add(102, pieces);
+  const int boundary = b.add(142, fmt::format("1,{},0,{},2", surface, loop));
+  std::string holes;
+  for (int k = 0; k < 2000; ++k) holes += fmt::format(",{}", boundary);
+  b.add(144, fmt::format("{},1,2000,{}{}", surface, boundary, holes));
+  const std::string text = b.text();
+  const auto source = open_or_die(text);
+  // Four million pieces would take 600 MB; each boundary that is not followed still takes a record or two.
+  EXPECT_LT(source->step_file()->bytes().size(), 128 * (text.size() + 10'000));
+}
+
 TEST(Iges, DamagedFilesAreErrorsOrStayAsTheyAre) {
   std::mt19937 random(7);  // NOLINT: the same files every time
   const std::string letters = "0123456789,;.-+EDHSGPT \n";
