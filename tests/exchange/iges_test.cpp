@@ -16,6 +16,7 @@ namespace {
 
 using testing::IgesBuilder;
 using testing::plate;
+using testing::shell;
 
 std::shared_ptr<const Source> open_or_die(const std::string& bytes) {
   auto source = open_source(bytes, "test.igs");
@@ -256,26 +257,6 @@ TEST(Iges, SaysWhatIsWrong) {
   unreadable("128,2,1,1,1", "128,2,1,9,1", "out of range");
   unreadable("0.,0.,0.5,1.,1.", "0.,z.,0.5,1.,1.", "not a number");
   unreadable("1.;", "1. ", "do not end");
-}
-
-/// The plate as a B-rep: one face (510) with a loop of shared edges.
-std::string shell() {
-  IgesBuilder b;
-  const int surface = b.add(128, plate());
-  const int vertices = b.add(502, "4,0.,0.,0.,4.,0.,0.,4.,2.,0.,0.,2.,0.", 0, 1);
-  const char* corners[] = {"0.,0.,0.", "4.,0.,0.", "4.,2.,0.", "0.,2.,0."};
-  std::string edges = "4", loop = "4";
-  std::vector<int> sides;
-  for (int k = 0; k < 4; ++k) sides.push_back(b.add(110, fmt::format("{},{}", corners[k], corners[(k + 1) % 4])));
-  for (int k = 0; k < 4; ++k) {
-    edges +=
-        fmt::format(",{},{},{},{},{}", sides[static_cast<std::size_t>(k)], vertices, k + 1, vertices, (k + 1) % 4 + 1);
-  }
-  const int list = b.add(504, edges, 0, 1);
-  for (int k = 0; k < 4; ++k) loop += fmt::format(",0,{},{},1,0", list, k + 1);
-  const int bound = b.add(508, loop, 0, 1);
-  b.add(510, fmt::format("{},1,1,{}", surface, bound), 0, 1);
-  return b.text();
 }
 
 TEST(Iges, FacesOfBRepsShareTheirEdges) {
