@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+
+#include "knead/energy/stiffness.hpp"
+
+namespace knead {
+
+/// A thin, homogeneous, isotropic sheet, in any consistent units (N and mm give MPa; density per volume).
+struct ShellMaterial {
+  double young = 1;      ///< E > 0, force per area
+  double poisson = 0;    ///< ν, −1 < ν <= 1/2
+  double thickness = 1;  ///< t > 0
+  double density = 0;    ///< mass per volume, >= 0
+
+  friend bool operator==(const ShellMaterial&, const ShellMaterial&) = default;
+};
+
+/// The error names the number.
+[[nodiscard]] Expected<ShellMaterial> validated(const ShellMaterial& material);
+
+/// The parts of the energy, in units of force times length.
+struct ShellParts {
+  double membrane = 0, bending = 0;
+  [[nodiscard]] double sum() const { return membrane + bending; }
+};
+
+/// Stress resultants at all Gauss points, one column each: n^11, n^22, n^12 (membrane forces), m^11, m^22, m^12
+/// (bending moments), contravariant components in the rest shape's parametrisation. Columns: element after element, the
+/// last direction fastest, and so the points of an element.
+using ShellStress = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// The Koiter (Kirchhoff–Love) shell: the elastic energy of a sheet that is bent and stretched by any amount of turning
+/// and small strains (Koiter 1966; as an isogeometric element Kiendl, Bletzinger, Linhard and Wüchner 2009).
+///
+///   W(S) = ½ ∫ t ε:C:ε + t³/12 κ:C:κ dA,    ε = ½(a − A),  κ = B − b,
+///   C^αβγδ = E/(1 − ν²) (ν A^αβ A^γδ + ½(1 − ν)(A^αγ A^βδ + A^αδ A^βγ)),
+///
+/// a_αβ = S_α·S_β and b_αβ = S_αβ·n the fundamental forms of S, capitals those of the rest shape, dA its area. W does
+/// not change under rigid motions. The unknowns are the control points x (N × 3, all rows those of the rest shape's
+/// net); in Hessians unknown 3 i + c is coordinate c of control point i. Lengths are those of the rest shape.
+///
+/// Integrated by Gauss points on every span, the same for all parts: W, gradient and Hessian are consistent to
+/// rounding. p + 1 points per direction leave no zero-energy modes but the six rigid ones. Immutable, const is
+/// thread-safe.
+class ShellEnergy {
+ public:
+  /// \param gauss_points per span and direction; 0: degree + 1.
+  /// Errors: a bad material (input); degree 1, which has no curvature (input); a rest shape without a normal at a Gauss
+  /// point, a rational denominator that is not positive (numerical).
+  [[nodiscard]] static Expected<ShellEnergy> create(const Surface& rest, const ShellMaterial& material,
+                                                    int gauss_points = 0);
+
+  /// W(x). Where S has no normal at a Gauss point this and all that follows is not finite. Cost: O(points p²).
+  [[nodiscard]] ShellParts energy(const Points& x) const;
+  /// ∂W/∂x, the internal forces: N × 3. Cost: O(points p²).
+  [[nodiscard]] Points gradient(const Points& x) const;
+  /// The stress resultants t C:ε and t³/12 C:κ.
+  [[nodiscard]] ShellStress stress(const Points& x) const;
+  /// Those of the strains linearised about x: C:(ε(x) + ε'(x) d). Newton's method with them in the Hessian takes far
+  /// larger steps (Magisano, Leonetti and Garcea 2017).
+  [[nodiscard]] ShellStress stress(const Points& x, const Points& d) const;
+  /// ∂²W/∂x²: 3N × 3N, symmetric to the last bit, every entry of the tensor band stored. It may be indefinite. Cost:
+  /// about 18 (3 L)² multiply-adds per Gauss point, L = (p + 1)(q + 1).
+  [[nodiscard]] SparseMatrix hessian(const Points& x) const { return hessian(x, stress(x)); }
+  /// The same with other stresses in its geometric part.
+  [[nodiscard]] SparseMatrix hessian(const Points& x, const ShellStress& stress) const;
+
+  /// ∫ R_i dA · `per_area`: the forces on the control points of a load per area of the rest shape, N × 3.
+  [[nodiscard]] Points area_load(const Point& per_area) const;
+  [[nodiscard]] double area() const;
+  /// 0.5 E t / (1 − ν²) · area: the energy of a stretch of one, the scale that rounding is judged by.
+  [[nodiscard]] double stretching_scale() const;
+
+  [[nodiscard]] int size() const;
+  [[nodiscard]] const ShellMaterial& material() const;
+
+ private:
+  struct Data;
+  explicit ShellEnergy(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace knead

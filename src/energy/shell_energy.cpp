@@ -1,0 +1,339 @@
+#include "knead/energy/shell_energy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "rational_basis.hpp"
+#include "shell_point.hpp"
+#include "tensor_pattern.hpp"
+
+namespace knead {
+namespace {
+
+using detail::ShellElement;
+using detail::ShellPoint;
+using detail::ShellRest;
+using detail::Vector6;
+
+using Basis = Eigen::Block<const Eigen::MatrixXd, Eigen::Dynamic, 5, true>;
+
+Basis basis_at(const ShellElement& element, Eigen::Index point) { return element.derivative.middleCols<5>(5 * point); }
+
+Eigen::Matrix3Xd coordinates(const ShellElement& element, const Points& x) {
+  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(element.nodes.size()));
+  for (std::size_t r = 0; r < element.nodes.size(); ++r) {
+    result.col(static_cast<Eigen::Index>(r)) = x.row(element.nodes[r]).transpose();
+  }
+  return result;
+}
+
+Expected<double> positive(double value, const char* name) {
+  if (std::isfinite(value) && value > 0) return value;
+  return input_error(fmt::format("{} is not a {}", value, name), name, "use a finite number > 0");
+}
+
+/// The basis on the element whose Gauss points are [begin_d, begin_d + points_d) of the two tables.
+Expected<ShellElement> make_element(const Surface& rational, const RationalBasis<2>& functions,
+                                    const std::array<BasisQuadrature, 2>& quadrature, const std::array<int, 2>& begin,
+                                    const std::array<int, 2>& points) {
+  const std::array<int, 2> first{quadrature[0].basis.first[static_cast<std::size_t>(begin[0])],
+                                 quadrature[1].basis.first[static_cast<std::size_t>(begin[1])]};
+  const int p = rational.knots(0).degree(), q = rational.knots(1).degree(), local = (p + 1) * (q + 1);
+  ShellElement element;
+  for (int r = 0; r < local; ++r) {
+    const auto i = functions.global(first, r);
+    element.nodes.push_back(i[0] * rational.net()[1] + i[1]);
+  }
+  const Eigen::Index total = points[0] * points[1];
+  std::vector<Eigen::MatrixXd> tables(6, Eigen::MatrixXd(local, total));
+  for (int k = 0; k < total; ++k) {
+    const std::array<const double*, 2> rows{quadrature[0].basis.row(begin[0] + k / points[1], 0),
+                                            quadrature[1].basis.row(begin[1] + k % points[1], 0)};
+    if (auto ok = functions.evaluate(first, rows, k, tables); !ok) return std::unexpected(ok.error());
+  }
+  const auto table = [&](int a, int b) -> const Eigen::MatrixXd& {
+    return tables[static_cast<std::size_t>(multi_index_position<2>({a, b}))];
+  };
+  element.value = table(0, 0);
+  element.derivative.resize(local, 5 * total);
+  for (Eigen::Index k = 0; k < total; ++k) {
+    element.derivative.middleCols<5>(5 * k) << table(1, 0).col(k), table(0, 1).col(k), table(2, 0).col(k),
+        table(0, 2).col(k), table(1, 1).col(k);
+  }
+  return element;
+}
+
+/// Rows whose product left ᵀ right, plus its transpose, is an element's Hessian: per point six of the strains and three
+/// of the normal's second variation
+///   −Δδb_αβ = Σ_γ (n·Δa_γ)(a^γ·δc_αβ) + (a^γ·Δc_αβ)(n·δa_γ) + b_αβ a^γδ (n·Δa_δ)(n·δa_γ),
+/// δc_αβ = Σ_r c_αβ(r) δx_r. `membrane` is that of δ²ε, the same for each coordinate.
+struct HessianRows {
+  Eigen::MatrixXd left, right;                    // 9 per point × 3 L
+  Eigen::MatrixXd membrane_left, membrane_right;  // 2 per point × L
+
+  HessianRows(Eigen::Index points, Eigen::Index local)
+      : left(9 * points, 3 * local),
+        right(9 * points, 3 * local),
+        membrane_left(2 * points, local),
+        membrane_right(2 * points, local) {}
+
+  void set(Eigen::Index k, const ShellPoint& at, const Basis& basis, const ShellRest& rest, double thickness,
+           const Vector6& stress) {
+    const Eigen::Index local = basis.rows();
+    const Eigen::MatrixX3d second = detail::covariant_second(at, basis);
+    auto strain = left.middleRows(9 * k, 6);
+    detail::strain_rows(at, basis, second, strain);
+    const double half = rest.weight / 2;
+    const Eigen::Matrix3d stretch = half * thickness * rest.elastic, bend = stretch * (thickness * thickness / 12);
+    right.middleRows(9 * k, 3).noalias() = stretch * strain.topRows(3);
+    right.middleRows(9 * k + 3, 3).noalias() = bend * strain.bottomRows(3);
+
+    const Eigen::Vector3d moment(stress[3], stress[4], 2 * stress[5]);
+    const Eigen::RowVectorXd c = rest.weight * (second * moment).transpose();
+    const double mb = half * moment.dot(at.curvature);
+    for (Eigen::Index d = 0; d < 3; ++d) {  // R_,γ a^γ along axis d
+      const Eigen::RowVectorXd q = (basis.leftCols<2>() * at.dual.row(d).transpose()).transpose();
+      for (Eigen::Index e = 0; e < 3; ++e) {
+        left.row(9 * k + 6 + d).segment(e * local, local) = at.normal[e] * q;
+        right.row(9 * k + 6 + d).segment(e * local, local) = mb * at.normal[e] * q;
+      }
+      right.row(9 * k + 6 + d).segment(d * local, local) += c;
+    }
+    membrane_left.middleRows(2 * k, 2) = basis.leftCols<2>().transpose();
+    Eigen::Matrix2d force;
+    force << stress[0], stress[2], stress[2], stress[1];
+    membrane_right.middleRows(2 * k, 2).noalias() = half * force * basis.leftCols<2>().transpose();
+  }
+
+  [[nodiscard]] Eigen::MatrixXd product() const {
+    const Eigen::Index local = membrane_left.cols();
+    Eigen::MatrixXd half = left.transpose() * right;
+    const Eigen::MatrixXd membrane = membrane_left.transpose() * membrane_right;
+    for (Eigen::Index c = 0; c < 3; ++c) half.block(c * local, c * local, local, local) += membrane;
+    return half + half.transpose();
+  }
+};
+
+/// The 3N × 3N pattern of zeros: every entry of the scalar one as a 3 × 3 block.
+SparseMatrix three_fold(const SparseMatrix& scalar) {
+  SparseMatrix result(3 * scalar.rows(), 3 * scalar.cols());
+  result.resizeNonZeros(9 * scalar.nonZeros());
+  int* start = result.outerIndexPtr();
+  int* index = result.innerIndexPtr();
+  start[0] = 0;
+  for (Eigen::Index row = 0; row < scalar.outerSize(); ++row) {
+    const int begin = scalar.outerIndexPtr()[row], end = scalar.outerIndexPtr()[row + 1];
+    for (int c = 0; c < 3; ++c, ++start) {
+      for (int k = begin; k < end; ++k) {
+        for (int e = 0; e < 3; ++e) *index++ = 3 * scalar.innerIndexPtr()[k] + e;
+      }
+      start[1] = start[0] + 3 * (end - begin);
+    }
+  }
+  std::fill(result.valuePtr(), result.valuePtr() + result.nonZeros(), 0.0);
+  return result;
+}
+
+}  // namespace
+
+struct ShellEnergy::Data {
+  ShellMaterial material;
+  int size = 0;
+  TensorPattern<2> pattern;
+  std::vector<ShellElement> elements;
+  std::vector<ShellRest> rest;  // element after element
+  SparseMatrix scalar, zero;
+
+  /// Calls visit(element, point of the element, its rest, local geometry, index over all points).
+  template <class Visit>
+  void each_point(const Points& x, Visit visit) const {
+    Eigen::Index index = 0;
+    for (const ShellElement& element : elements) {
+      const Eigen::Matrix3Xd derivatives = coordinates(element, x) * element.derivative;
+      for (Eigen::Index k = 0; k < element.value.cols(); ++k, ++index) {
+        visit(element, k, rest[static_cast<std::size_t>(index)], ShellPoint(derivatives.middleCols<5>(5 * k)), index);
+      }
+    }
+  }
+
+  [[nodiscard]] Expected<void> add_rest(const ShellElement& element, const Points& x, const Eigen::VectorXd& weights) {
+    const Eigen::Matrix3Xd derivatives = coordinates(element, x) * element.derivative;
+    for (Eigen::Index k = 0; k < element.value.cols(); ++k) {
+      const ShellPoint at(derivatives.middleCols<5>(5 * k));
+      if (!(at.area > 0) || !at.inverse.allFinite()) {
+        return numerical_error("the rest shape has no normal at a Gauss point", fmt::format("point {}", rest.size()),
+                               "remove folds and spans on which control points coincide");
+      }
+      rest.push_back({weights[k] * at.area, at.metric, at.curvature,
+                      detail::plane_stress(at.inverse, material.young, material.poisson)});
+    }
+    return {};
+  }
+
+  void add_block(const ShellElement& element, const Eigen::MatrixXd& block, SparseMatrix& matrix) const {
+    const auto local = static_cast<Eigen::Index>(element.nodes.size());
+    for (Eigen::Index r = 0; r < local; ++r) {
+      const int node = element.nodes[static_cast<std::size_t>(r)];
+      const std::array<int, 2> i = pattern.unpack(node);
+      const int begin = scalar.outerIndexPtr()[node], count = scalar.outerIndexPtr()[node + 1] - begin;
+      double* to = matrix.valuePtr() + 9 * static_cast<std::ptrdiff_t>(begin);
+      for (Eigen::Index s = 0; s < local; ++s) {
+        const int at = 3 * pattern.offset(i, pattern.unpack(element.nodes[static_cast<std::size_t>(s)]));
+        for (Eigen::Index c = 0; c < 3; ++c) {
+          double* row = to + 3 * c * count + at;
+          for (Eigen::Index e = 0; e < 3; ++e) row[e] += block(e * local + s, c * local + r);
+        }
+      }
+    }
+  }
+};
+
+Expected<ShellMaterial> validated(const ShellMaterial& material) {
+  if (auto ok = positive(material.young, "young"); !ok) return std::unexpected(ok.error());
+  if (auto ok = positive(material.thickness, "thickness"); !ok) return std::unexpected(ok.error());
+  if (!(material.poisson > -1 && material.poisson <= 0.5)) {
+    return input_error(fmt::format("{} is not a Poisson's ratio", material.poisson), "poisson",
+                       "use a number > -1 and <= 0.5");
+  }
+  if (!std::isfinite(material.density) || material.density < 0) {
+    return input_error(fmt::format("{} is not a density", material.density), "density", "use a finite number >= 0");
+  }
+  return material;
+}
+
+Expected<ShellEnergy> ShellEnergy::create(const Surface& surface, const ShellMaterial& material, int gauss_points) {
+  if (auto ok = validated(material); !ok) return std::unexpected(ok.error());
+  auto data = std::make_shared<Data>();
+  std::array<BasisQuadrature, 2> quadrature;
+  std::array<int, 2> points;
+  for (std::size_t d = 0; d < 2; ++d) {
+    const KnotVector& knots = surface.knots()[d];
+    if (knots.degree() < 2) {
+      return input_error("a surface of degree 1 does not bend", fmt::format("direction {}", d == 0 ? "u" : "v"),
+                         "elevate its degree to 2 or more");
+    }
+    points[d] = gauss_points > 0 ? gauss_points : knots.degree() + 1;
+    quadrature[d] = gauss_basis(knots, points[d], 2);
+    data->pattern.degree[d] = knots.degree();
+  }
+  data->material = material;
+  data->size = surface.size();
+  data->pattern.net = surface.net();
+  const Points& x = surface.control_points();
+  const auto weighted =
+      surface.rational()
+          ? Expected<Surface>(surface)
+          : Surface::create(surface.knots(), x, std::vector<double>(static_cast<std::size_t>(surface.size()), 1.0));
+  if (!weighted) return std::unexpected(weighted.error());
+  const RationalBasis<2> functions(*weighted, 2);
+  for (int u = 0; u < quadrature[0].basis.size(); u += points[0]) {
+    for (int v = 0; v < quadrature[1].basis.size(); v += points[1]) {
+      auto element = make_element(*weighted, functions, quadrature, {u, v}, points);
+      if (!element) return std::unexpected(element.error());
+      Eigen::VectorXd weights(points[0] * points[1]);
+      for (int k = 0; k < weights.size(); ++k) {
+        weights[k] = quadrature[0].weights[static_cast<std::size_t>(u + k / points[1])] *
+                     quadrature[1].weights[static_cast<std::size_t>(v + k % points[1])];
+      }
+      if (auto ok = data->add_rest(*element, x, weights); !ok) return std::unexpected(ok.error());
+      data->elements.push_back(std::move(*element));
+    }
+  }
+  data->scalar = data->pattern.allocate();
+  data->zero = three_fold(data->scalar);
+  return ShellEnergy(std::move(data));
+}
+
+ShellParts ShellEnergy::energy(const Points& x) const {
+  ShellParts parts;
+  data_->each_point(x, [&](const ShellElement&, Eigen::Index, const ShellRest& rest, const ShellPoint& at, auto) {
+    const Vector6 strain = detail::shell_strain(at, rest.metric, rest.curvature);
+    const Vector6 stress = rest.stress(strain, data_->material.thickness);
+    parts.membrane += rest.weight / 2 * stress.head<3>().dot(strain.head<3>());
+    parts.bending += rest.weight / 2 * stress.tail<3>().dot(strain.tail<3>());
+  });
+  return parts;
+}
+
+Points ShellEnergy::gradient(const Points& x) const {
+  Points result = Points::Zero(x.rows(), 3);
+  data_->each_point(
+      x, [&](const ShellElement& element, Eigen::Index k, const ShellRest& rest, const ShellPoint& at, auto) {
+        const Vector6 s =
+            rest.weight * rest.stress(detail::shell_strain(at, rest.metric, rest.curvature), data_->material.thickness);
+        const Basis basis = basis_at(element, k);
+        const Eigen::MatrixX3d second = detail::covariant_second(at, basis);
+        Eigen::MatrixX3d force = basis.col(0) * (s[0] * at.tangent.col(0) + s[2] * at.tangent.col(1)).transpose();
+        force.noalias() += basis.col(1) * (s[1] * at.tangent.col(1) + s[2] * at.tangent.col(0)).transpose();
+        force.noalias() -= (second * Eigen::Vector3d(s[3], s[4], 2 * s[5])) * at.normal.transpose();
+        for (std::size_t r = 0; r < element.nodes.size(); ++r) {
+          result.row(element.nodes[r]) += force.row(static_cast<Eigen::Index>(r));
+        }
+      });
+  return result;
+}
+
+ShellStress ShellEnergy::stress(const Points& x) const { return stress(x, Points::Zero(x.rows(), 3)); }
+
+ShellStress ShellEnergy::stress(const Points& x, const Points& d) const {
+  ShellStress result(6, static_cast<Eigen::Index>(data_->rest.size()));
+  data_->each_point(x, [&](const ShellElement& element, Eigen::Index k, const ShellRest& rest, const ShellPoint& at,
+                           Eigen::Index index) {
+    Vector6 strain = detail::shell_strain(at, rest.metric, rest.curvature);
+    const Eigen::Matrix3Xd local = coordinates(element, d);
+    Eigen::Matrix<double, 6, Eigen::Dynamic> rows(6, 3 * local.cols());
+    const Basis basis = basis_at(element, k);
+    detail::strain_rows(at, basis, detail::covariant_second(at, basis), rows);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      strain += rows.middleCols(c * local.cols(), local.cols()) * local.row(c).transpose();
+    }
+    result.col(index) = rest.stress(strain, data_->material.thickness);
+  });
+  return result;
+}
+
+SparseMatrix ShellEnergy::hessian(const Points& x, const ShellStress& stress) const {
+  SparseMatrix matrix = data_->zero;
+  const ShellElement& any = data_->elements.front();
+  HessianRows rows(any.value.cols(), any.value.rows());
+  data_->each_point(x, [&](const ShellElement& element, Eigen::Index k, const ShellRest& rest, const ShellPoint& at,
+                           Eigen::Index index) {
+    rows.set(k, at, basis_at(element, k), rest, data_->material.thickness, stress.col(index));
+    if (k + 1 == element.value.cols()) data_->add_block(element, rows.product(), matrix);
+  });
+  return matrix;
+}
+
+Points ShellEnergy::area_load(const Point& per_area) const {
+  Points result = Points::Zero(data_->size, 3);
+  std::size_t index = 0;
+  for (const ShellElement& element : data_->elements) {
+    for (Eigen::Index k = 0; k < element.value.cols(); ++k, ++index) {
+      for (std::size_t r = 0; r < element.nodes.size(); ++r) {
+        const double share = data_->rest[index].weight * element.value(static_cast<Eigen::Index>(r), k);
+        result.row(element.nodes[r]) += share * per_area.transpose();
+      }
+    }
+  }
+  return result;
+}
+
+double ShellEnergy::area() const {
+  double sum = 0;
+  for (const ShellRest& rest : data_->rest) sum += rest.weight;
+  return sum;
+}
+
+double ShellEnergy::stretching_scale() const {
+  const ShellMaterial& m = data_->material;
+  return 0.5 * m.young * m.thickness / (1 - m.poisson * m.poisson) * area();
+}
+
+int ShellEnergy::size() const { return data_->size; }
+
+const ShellMaterial& ShellEnergy::material() const { return data_->material; }
+
+}  // namespace knead
