@@ -57,11 +57,11 @@ class ShellEnergy {
   [[nodiscard]] Points gradient(const Points& x) const;
   /// The stress resultants t C:ε and t³/12 C:κ.
   [[nodiscard]] ShellStress stress(const Points& x) const;
-  /// Those of the strains linearised about x: C:(ε(x) + ε'(x) d). Newton's method with them in the Hessian takes far
-  /// larger steps (Magisano, Leonetti and Garcea 2017).
+  /// Those of the strains linearised about x: C:(ε(x) + ε'(x) d). Newton's method with them in the Hessian needs
+  /// fewer iterations (Magisano, Leonetti and Garcea 2017).
   [[nodiscard]] ShellStress stress(const Points& x, const Points& d) const;
   /// ∂²W/∂x²: 3N × 3N, symmetric to the last bit, every entry of the tensor band stored. It may be indefinite. Cost:
-  /// about 18 (3 L)² multiply-adds per Gauss point, L = (p + 1)(q + 1).
+  /// about 9 (3 L)² multiply-adds per Gauss point, L = (p + 1)(q + 1).
   [[nodiscard]] SparseMatrix hessian(const Points& x) const { return hessian(x, stress(x)); }
   /// The same with other stresses in its geometric part.
   [[nodiscard]] SparseMatrix hessian(const Points& x, const ShellStress& stress) const;

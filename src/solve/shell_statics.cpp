@@ -1,0 +1,163 @@
+#include "knead/solve/shell_statics.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "constraint_space.hpp"
+
+namespace knead {
+namespace {
+
+/// A Newton step shorter than this share of the structure's size ends the iteration: rounding is all that is left.
+constexpr double negligible_step = 1e-13;
+
+using FlatMap = Eigen::Map<const Eigen::VectorXd>;
+
+FlatMap flattened(const Points& x) { return {x.data(), x.size()}; }
+
+Points points_of(const Eigen::VectorXd& x) { return Eigen::Map<const Points>(x.data(), x.size() / 3, 3); }
+
+/// T of the space over all 3N coordinates.
+SparseMatrix coordinate_map(const ConstraintSpace& space) {
+  std::vector<int> all(static_cast<std::size_t>(space.size()));
+  std::iota(all.begin(), all.end(), 0);
+  const int copies = space.coupled() ? 1 : 3;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const ConstraintSpace::Term& term : space.terms(all)) {
+    for (int c = 0; c < copies; ++c) {
+      entries.emplace_back(copies * term.row + c, copies * term.unknown + c, term.coefficient);
+    }
+  }
+  SparseMatrix map(3 * space.size(), copies * space.free_count());
+  map.setFromTriplets(entries.begin(), entries.end());
+  return map;
+}
+
+/// Newton's iteration towards one load.
+class ShellNewton {
+ public:
+  ShellNewton(const ShellEnergy& shell, const SparseMatrix& map, const Points& load, const ShellStaticsOptions& options,
+              double extent)
+      : shell_(shell), map_(map), load_(load), options_(options), extent_(extent) {}
+
+  struct Outcome {
+    bool converged = false, singular = false;
+    int iterations = 0;
+    double residual = 0;
+  };
+
+  /// Moves x to the equilibrium under `factor` times the load, or says that it was not reached.
+  Outcome iterate(Points& x, double factor) {
+    Outcome outcome;
+    ShellStress stress = shell_.stress(x);
+    double scale = factor * (map_.transpose() * flattened(load_)).norm();
+    while (true) {
+      const Points imbalance = factor * load_ - shell_.gradient(x);
+      const Eigen::VectorXd reduced = map_.transpose() * flattened(imbalance);
+      if (scale == 0) scale = reduced.norm();
+      outcome.residual = scale > 0 ? reduced.norm() / scale : 0;
+      if (!std::isfinite(outcome.residual)) return outcome;
+      outcome.converged = outcome.residual <= options_.tolerance;
+      if (outcome.converged || outcome.iterations == options_.max_iterations) return outcome;
+      const SparseMatrix system = map_.transpose() * shell_.hessian(x, stress) * map_;
+      if (!analysed_) solver_.analyzePattern(system);
+      analysed_ = true;
+      solver_.factorize(system);
+      outcome.singular = solver_.info() != Eigen::Success || vanishing_pivot();
+      if (outcome.singular) return outcome;
+      const Points d = points_of(map_ * solver_.solve(reduced));
+      ++outcome.iterations;
+      if (!d.allFinite()) return outcome;
+      stress = shell_.stress(x, d);
+      x += d;
+      if (d.cwiseAbs().maxCoeff() <= negligible_step * extent_) {
+        outcome.converged = true;
+        return outcome;
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] bool vanishing_pivot() const {
+    const Eigen::ArrayXd pivots = solver_.vectorD().array().abs();
+    return pivots.minCoeff() <= 1e-15 * pivots.maxCoeff();
+  }
+
+  const ShellEnergy& shell_;
+  const SparseMatrix& map_;
+  const Points& load_;
+  const ShellStaticsOptions& options_;
+  double extent_;
+  bool analysed_ = false;
+  Eigen::SimplicialLDLT<SparseMatrix> solver_;
+};
+
+Expected<void> check(const ShellEnergy& shell, const Points& rest, const Points& load,
+                     const ShellStaticsOptions& options) {
+  if (rest.rows() != shell.size() || load.rows() != shell.size()) {
+    return input_error(
+        fmt::format("{} control points and {} loads, but the shell has {}", rest.rows(), load.rows(), shell.size()),
+        "load", "give one row per control point");
+  }
+  if (!load.allFinite()) return input_error("a load is not finite", "load", "use finite numbers");
+  if (options.increments < 1) {
+    return input_error(fmt::format("{} is not a number of increments", options.increments), "increments",
+                       "use 1 or more");
+  }
+  if (!(options.tolerance > 0) || options.max_iterations < 1 || options.max_halvings < 0) {
+    return input_error("tolerance and iterations must be positive", "options", "use the defaults");
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<ShellEquilibrium> shell_equilibrium(const ShellEnergy& shell, const Points& rest,
+                                             std::span<const LinearConstraint> constraints, const Points& load,
+                                             const ShellStaticsOptions& options) {
+  if (auto ok = check(shell, rest, load, options); !ok) return std::unexpected(ok.error());
+  const auto space = ConstraintSpace::create(shell.size(), constraints);
+  if (!space) return std::unexpected(space.error());
+  const SparseMatrix map = coordinate_map(*space);
+  const double extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
+  ShellNewton newton(shell, map, load, options, extent);
+  ShellEquilibrium result;
+  result.control_points = rest + space->feasible(Points::Zero(rest.rows(), 3));
+  const double full = 1.0 / options.increments;
+  double part = full;
+  int spent = 0;
+  while (result.load_factor < 1) {
+    const double left = 1 - result.load_factor, next = part > left * (1 - 1e-9) ? 1 : result.load_factor + part;
+    Points x = result.control_points;
+    const auto outcome = newton.iterate(x, next);
+    spent += outcome.iterations;
+    if (outcome.converged) {
+      result.control_points = std::move(x);
+      result.load_factor = next;
+      result.increments.push_back({next, spent, outcome.residual, result.control_points - rest});
+      spent = 0;
+      part = std::min(full, 2 * part);
+      continue;
+    }
+    if (outcome.singular && result.increments.empty() && outcome.iterations == 0) {
+      return numerical_error("the shell can move without strain", "constraints",
+                             "hold it so that no rigid motion is left");
+    }
+    part /= 2;
+    if (part < full * std::exp2(-options.max_halvings - 0.5)) {
+      result.converged = false;
+      result.note =
+          fmt::format("no equilibrium was found beyond {:.3g} of the load; use more increments", result.load_factor);
+      break;
+    }
+  }
+  result.reactions = shell.gradient(result.control_points) - result.load_factor * load;
+  return result;
+}
+
+}  // namespace knead
