@@ -131,5 +131,35 @@ TEST(InteractiveAccuracy, LeavesStepsWithoutContactAsTheyAre) {
             1e-14 * exact->control_points.cwiseAbs().maxCoeff());
 }
 
+/// A load lifts the sheet from one ball, or from none, into others that are nowhere near it.
+TEST(InteractiveAccuracy, HoldsForWhatComesIntoContactElsewhere) {
+  const Surface s = box<2>(3, 24);
+  const auto ball_at = [](double x, double y, double z, double stiffness) {
+    return Tool{"ball", testing::sphere_at(Point(x, y, z), 0.1), ToolMode::collision, stiffness, 1};
+  };
+  const ActiveState start{s.control_points()};
+  ActiveLoads loads;
+  loads.force = Point(0, 0, 1);
+  for (const double stiffness : {1e2, 1e4, 1e7}) {
+    for (const bool touched : {false, true}) {
+      std::vector<Tool> tools = {ball_at(0.7, 0.7, 0.12, stiffness), ball_at(0.3, 0.65, 0.12, stiffness)};
+      if (touched) tools.push_back(ball_at(0.35, 0.3, 0.095, stiffness));
+      ActiveSettings<2> settings = sheet(s, StepAccuracy::exact);
+      settings.evolution = Evolution::stationary;
+      const auto exact = active<2>(s, settings);
+      settings.accuracy = StepAccuracy::interactive;
+      const auto quick = active<2>(s, settings);
+      const auto free = exact.step(start, {}, loads), a = exact.step(start, tools, loads),
+                 b = quick.step(start, tools, loads);
+      ASSERT_TRUE(free && a && b);
+      EXPECT_TRUE(a->converged && b->converged);
+      const double step = energy_norm(exact, s, a->control_points - s.control_points());
+      EXPECT_GT(energy_norm(exact, s, a->control_points - free->control_points), 0.005 * step) << "nothing is touched";
+      EXPECT_LE(energy_norm(exact, s, b->control_points - a->control_points), interactive_accuracy * step)
+          << stiffness << touched;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace knead
