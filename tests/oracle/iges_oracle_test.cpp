@@ -82,13 +82,7 @@ TEST_P(IgesOracle, APressLeavesTopologyAndGapsAsTheyWere) {
     const auto pressed = s->faces > 0 ? press(*source_->step_file(), *s, "trim") : Expected<Press>(anywhere(s->id));
     ASSERT_TRUE(pressed) << pressed.error().message();
     Session session(Document::from(source_));
-    const auto commands = parse_script(pressed->script, "press");
-    ASSERT_TRUE(commands) << commands.error().message();
-    for (const Command& command : *commands) {
-      const auto result = session.execute(command);
-      ASSERT_TRUE(result) << result.error().message();
-    }
-    const auto bytes = session.save();
+    const auto bytes = carried_out(session, pressed->script);
     ASSERT_TRUE(bytes) << bytes.error().message();
     ASSERT_TRUE(write_file_atomically(out, *bytes));
     const auto after = occt_read_iges(out);

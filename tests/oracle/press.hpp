@@ -6,6 +6,8 @@
 
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/step_file.hpp"
+#include "knead/session/command_json.hpp"
+#include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::oracle {
@@ -46,6 +48,16 @@ inline Expected<Press> press(const step::File& file, const step::SurfaceEntity& 
                   R"("},{"do":"tool","name":"ball","radius":)" + radius + R"(,"rigid":true,"position":)" +
                   list_of(result.place + (result.radius - result.depth) * n) + R"(},{"do":"evolve","mode":"static"}]})";
   return result;
+}
+
+/// Runs a script in a session, and saves its document.
+inline Expected<std::string> carried_out(Session& session, const std::string& script) {
+  const auto commands = parse_script(script, "press");
+  if (!commands) return std::unexpected(commands.error());
+  for (const Command& command : *commands) {
+    if (const auto result = session.execute(command); !result) return std::unexpected(result.error());
+  }
+  return session.save();
 }
 
 }  // namespace knead::oracle

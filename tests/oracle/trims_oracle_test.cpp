@@ -88,13 +88,7 @@ void PressedFace::press_all(const std::string& mode) {
     const auto pressed = press(*file_, *s, mode);
     ASSERT_TRUE(pressed) << pressed.error().message();
     Session session(Document::from(*open_source(file_->bytes(), file_->name())));
-    const auto commands = parse_script(pressed->script, "press");
-    ASSERT_TRUE(commands) << commands.error().message();
-    for (const Command& command : *commands) {
-      const auto result = session.execute(command);
-      ASSERT_TRUE(result) << result.error().message();
-    }
-    const auto bytes = session.save();
+    const auto bytes = carried_out(session, pressed->script);
     ASSERT_TRUE(bytes) << bytes.error().message();
     const auto path = directory_ / GetParam().filename();
     ASSERT_TRUE(write_file_atomically(path, *bytes));
