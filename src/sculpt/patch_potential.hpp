@@ -30,6 +30,7 @@ class PatchPotential final : public Potential {
   /// No point may be further than `distance` from its position in `original`.
   void limit(const Points& original, double distance, double stiffness) {
     limits_.clear();
+    limit_stiffness_ = stiffness;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       limits_.push_back({distance, stiffness, original.middleRows(rows_[k], rows_[k + 1] - rows_[k])});
     }
@@ -111,10 +112,11 @@ class PatchPotential final : public Potential {
 
   void soften(double cap) override {
     for (std::size_t t = 0; t < tools_.size(); ++t) tools_[t].set_stiffness(std::min(given_[t], cap));
+    for (DisplacementLimit& limit : limits_) limit.stiffness = std::min(limit_stiffness_, cap);
   }
 
   [[nodiscard]] double stiffest() const override {
-    double result = 0;
+    double result = limits_.empty() ? 0 : limit_stiffness_;
     for (double stiffness : given_) result = std::max(result, stiffness);
     return result;
   }
@@ -153,6 +155,7 @@ class PatchPotential final : public Potential {
   std::vector<double> given_;                                 // their stiffness, not softened
   std::vector<FrictionAnchors> friction_, visible_friction_;  // of the tools of either pass, by patch
   std::vector<DisplacementLimit> limits_;
+  double limit_stiffness_ = 0;  // not softened
 };
 
 }  // namespace knead
