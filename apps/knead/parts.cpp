@@ -37,27 +37,6 @@ void print_part(const step::Part& part) {
     fmt::print("      and {} other paths (--json lists them)\n", paths.size() - most_listed);
 }
 
-/// A changed surface whose part is used several times.
-struct Repeated {
-  std::string surface, part;
-  std::size_t places = 0;
-};
-
-std::vector<Repeated> repeated(const Session& session) {
-  std::vector<Repeated> result;
-  const step::File* file = session.document().step_file();
-  const auto model = file == nullptr || file->instances().empty() ? Expected<step::Assembly>(step::Assembly{})
-                                                                  : step::assembly_of(*file);
-  if (!model) return result;
-  const auto& surfaces = session.state().surfaces;
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const step::Part* part = model->part_of(surfaces[k].id);
-    if (part == nullptr || part->places.size() < 2 || session.moved_control_points(static_cast<int>(k)) == 0) continue;
-    result.push_back({surfaces[k].id, part->name, part->places.size()});
-  }
-  return result;
-}
-
 }  // namespace
 
 void print_parts(const step::File& file) {
@@ -100,16 +79,31 @@ Json parts_json(const step::File& file) {
   return {{"unit", model->unit}, {"parts", std::move(parts)}, {"warnings", model->warnings}};
 }
 
-void print_places(const Session& session) {
-  for (const Repeated& r : repeated(session)) {
+std::vector<RepeatedSurface> repeated_surfaces(const Session& session) {
+  std::vector<RepeatedSurface> result;
+  const step::File* file = session.document().step_file();
+  const auto model = file == nullptr || file->instances().empty() ? Expected<step::Assembly>(step::Assembly{})
+                                                                  : step::assembly_of(*file);
+  if (!model) return result;
+  const auto& surfaces = session.state().surfaces;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    const step::Part* part = model->part_of(surfaces[k].id);
+    if (part == nullptr || part->places.size() < 2 || session.moved_control_points(static_cast<int>(k)) == 0) continue;
+    result.push_back({surfaces[k].id, part->name, part->places.size()});
+  }
+  return result;
+}
+
+void print_places(std::span<const RepeatedSurface> surfaces) {
+  for (const RepeatedSurface& r : surfaces) {
     fmt::print("  {}: its part \"{}\" stands in {} places of the assembly, and has changed in all of them\n", r.surface,
                printable(r.part), r.places);
   }
 }
 
-Json places_json(const Session& session) {
+Json places_json(std::span<const RepeatedSurface> surfaces) {
   Json result = Json::array();
-  for (const Repeated& r : repeated(session)) {
+  for (const RepeatedSurface& r : surfaces) {
     result.push_back({{"surface", r.surface}, {"part", r.part}, {"places", r.places}});
   }
   return result;

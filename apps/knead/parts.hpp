@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "knead/exchange/step_file.hpp"
 #include "knead/session/session.hpp"
@@ -16,10 +17,17 @@ void print_parts(const step::File& file);
 /// under "reason".
 [[nodiscard]] nlohmann::ordered_json parts_json(const step::File& file);
 
-/// A line for every changed surface whose part is used several times: the change shows in all its places.
-void print_places(const Session& session);
+/// A changed surface whose part is used several times: the change shows in all its places.
+struct RepeatedSurface {
+  std::string surface, part;
+  std::size_t places = 0;
+};
+[[nodiscard]] std::vector<RepeatedSurface> repeated_surfaces(const Session& session);
 
-/// The same as a JSON list: [{"surface", "part", "places"}].
-[[nodiscard]] nlohmann::ordered_json places_json(const Session& session);
+/// A line for each.
+void print_places(std::span<const RepeatedSurface> surfaces);
+
+/// [{"surface", "part", "places"}].
+[[nodiscard]] nlohmann::ordered_json places_json(std::span<const RepeatedSurface> surfaces);
 
 }  // namespace knead::cli

@@ -70,11 +70,13 @@ class ProgressLine {
 struct Outcome {
   double time = 0, energy_before = 0, energy_after = 0, residual = 0, largest_displacement = 0, gap = 0;
   int moved = 0, surfaces = 0;
+  std::vector<RepeatedSurface> places;
 };
 
 Outcome outcome_of(Session& session) {
   const SessionState& state = session.state();
   Outcome o;
+  o.places = repeated_surfaces(session);
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   // Finished work is written even if its energy cannot be computed.
   if (const auto energy = session.energy()) {
@@ -113,8 +115,7 @@ std::string edge_of(const SessionState& state, const PatchEdge& edge) {
   return fmt::format("{} {}", state.surfaces[static_cast<std::size_t>(edge.patch)].id, edge_name(edge.edge));
 }
 
-std::string report_json(const Session& session, const Outcome& o, const std::string& probes) {
-  const SessionState& state = session.state();
+std::string report_json(const SessionState& state, const Outcome& o, const std::string& probes) {
   std::string text = "{\"steps\":[";
   for (std::size_t k = 0; k < state.steps.size(); ++k) {
     const StepRecord& s = state.steps[k];
@@ -133,7 +134,7 @@ std::string report_json(const Session& session, const Outcome& o, const std::str
       json_number(o.time), json_number(o.energy_before), json_number(o.energy_after), json_number(o.residual),
       json_number(o.largest_displacement), o.moved);
   text += ",\n\"edges\":" + edges_json(state);
-  text += ",\n\"places\":" + places_json(session).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  text += ",\n\"places\":" + places_json(o.places).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   text += ",\n\"seams\":[";
   for (std::size_t k = 0; k < state.seam_reports.size(); ++k) {
     const SeamReport& s = state.seam_reports[k];
@@ -195,7 +196,7 @@ void print_summary(const SculptArguments& options, const Session& session, const
   }
   for (const std::string& note : state.notes) fmt::print("  {}\n", printable(note, 2000));
   print_edges(state);
-  print_places(session);
+  print_places(o.places);
   for (const SeamReport& s : state.seam_reports) {
     fmt::print("  seam {} - {}: {}{}{}\n", edge_of(state, s.seam.a), edge_of(state, s.seam.b),
                continuity_name(s.continuity), s.reason.empty() ? "" : ", ", s.reason);
@@ -241,7 +242,7 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
   if (!options.report.empty()) {
     const auto probes = probes_json(session.state());
     if (!probes) return std::unexpected(probes.error());
-    if (auto done = write_file_atomically(options.report, report_json(session, o, *probes)); !done) return done;
+    if (auto done = write_file_atomically(options.report, report_json(session.state(), o, *probes)); !done) return done;
     fmt::print("wrote {}\n", options.report);
   }
   if (!options.picture.empty()) {

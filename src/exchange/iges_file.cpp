@@ -11,9 +11,7 @@
 namespace knead::iges {
 namespace {
 
-constexpr std::size_t columns = 80, letter_column = 72;
 constexpr std::string_view letters = "SGDPT";
-constexpr std::size_t data_columns = 64;  // of a parameter record; the entity's number follows
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -191,17 +189,17 @@ Expected<void> File::split() {
   std::size_t section = 0;
   for (std::size_t at = 0; at < bytes_.size();) {
     const std::size_t stop =
-        broken ? std::min(bytes_.find('\n', at), bytes_.size()) : std::min(at + columns, bytes_.size());
+        broken ? std::min(bytes_.find('\n', at), bytes_.size()) : std::min(at + record_columns, bytes_.size());
     Line line{static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(stop)};
     at = broken ? stop + 1 : stop;
     if (broken && line.end > line.begin && bytes_[line.end - 1] == '\r') --line.end;
     const std::string_view own = text(line);
     if (own.find_first_not_of(" \t\x1A\0") == std::string_view::npos) continue;
     const char letter = own.size() > letter_column ? own[letter_column] : ' ';
-    if (letter == 'C' && at < 2 * columns) {
+    if (letter == 'C' && at < 2 * record_columns) {
       return line_error(line, "an IGES file in compressed ASCII form", "export it in fixed ASCII form");
     }
-    if (letter == 'B' && at < 2 * columns) {
+    if (letter == 'B' && at < 2 * record_columns) {
       return line_error(line, "an IGES file in binary form", "export it in fixed ASCII form");
     }
     const auto found = letters.find(letter);

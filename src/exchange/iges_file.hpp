@@ -10,6 +10,10 @@
 
 namespace knead::iges {
 
+/// Columns of a record: its text, the section's letter and number; of a parameter record's text the data, with the
+/// entity's number behind.
+inline constexpr std::size_t record_columns = 80, letter_column = 72, data_columns = 64;
+
 /// One record: 80 columns, without what ends its line.
 struct Line {
   std::uint32_t begin = 0, end = 0;  ///< bytes of the file; `end` is before the line break

@@ -10,17 +10,25 @@ namespace {
 constexpr int max_matrix_nesting = 8;
 constexpr int max_control_points = 1 << 28;
 
-Expected<std::vector<int>> integers(const File& file, int number, const Parameters& parameters, std::size_t first,
-                                    std::size_t count) {
+/// `count` parameters from `first` on, each by `read`, which says nothing where a parameter is not `what`.
+template <class T>
+Expected<std::vector<T>> values(const File& file, int number, const Parameters& parameters, std::size_t first,
+                                std::size_t count, std::optional<T> (*read)(std::string_view), std::string_view what) {
   if (parameters.values.size() < first + count)
     return file.error(number, "parameters are missing", "get the whole file");
-  std::vector<int> result;
+  std::vector<T> result;
+  result.reserve(count);
   for (std::size_t k = first; k < first + count; ++k) {
-    const auto value = integer(parameters.values[k]);
-    if (!value) return file.error(number, fmt::format("parameter {} is not an integer", k), "correct it");
+    const auto value = read(parameters.values[k]);
+    if (!value) return file.error(number, fmt::format("parameter {} is not {}", k, what), "correct it");
     result.push_back(*value);
   }
   return result;
+}
+
+Expected<std::vector<int>> integers(const File& file, int number, const Parameters& parameters, std::size_t first,
+                                    std::size_t count) {
+  return values<int>(file, number, parameters, first, count, integer, "an integer");
 }
 
 /// Checks degrees and counts of one direction: K is the upper index of the control points.
@@ -89,18 +97,7 @@ Expected<Eigen::Affine3d> with_matrices(const File& file, int number, const Eige
 
 Expected<std::vector<double>> numbers(const File& file, int number, const Parameters& parameters, std::size_t first,
                                       std::size_t count) {
-  if (parameters.values.size() < first + count)
-    return file.error(number, "parameters are missing", "get the whole file");
-  std::vector<double> result;
-  result.reserve(count);
-  for (std::size_t k = first; k < first + count; ++k) {
-    const auto value = real(parameters.values[k]);
-    if (!value) {
-      return file.error(number, fmt::format("parameter {} is not a number that a double can hold", k), "correct it");
-    }
-    result.push_back(*value);
-  }
-  return result;
+  return values<double>(file, number, parameters, first, count, real, "a number that a double can hold");
 }
 
 Expected<SplineLayout> surface_layout(const File& file, int number, const Parameters& parameters) {

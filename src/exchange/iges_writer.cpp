@@ -14,8 +14,6 @@
 namespace knead::iges {
 namespace {
 
-constexpr std::size_t data_width = 64, letter_at = 72, record_width = 80;
-
 bool same_number(const std::string& text, double value) {
   const auto old = real(text);
   return old && std::bit_cast<std::uint64_t>(*old) == std::bit_cast<std::uint64_t>(value);
@@ -89,10 +87,10 @@ std::vector<std::string> wrapped(const std::vector<std::string>& values, const G
                                  const std::string& rest) {
   std::vector<std::string> lines(1);
   const auto put = [&](std::string token) {
-    if (lines.back().size() + token.size() > data_width && !lines.back().empty()) lines.emplace_back();
-    while (token.size() > data_width) {
-      lines.back() = token.substr(0, data_width);
-      token.erase(0, data_width);
+    if (lines.back().size() + token.size() > data_columns && !lines.back().empty()) lines.emplace_back();
+    while (token.size() > data_columns) {
+      lines.back() = token.substr(0, data_columns);
+      token.erase(0, data_columns);
       lines.emplace_back();
     }
     lines.back() += token;
@@ -171,8 +169,9 @@ class Surgeon {
       moved_[k] = number + 1;
       const auto change = changes_.find(k);
       if (change == changes_.end()) {
-        const std::size_t at = records[k].begin + letter_at + 1;
-        const std::string_view old = file_.text(records[k]).substr(letter_at + 1, record_width - letter_at - 1);
+        const std::size_t at = records[k].begin + letter_column + 1;
+        const std::string_view old =
+            file_.text(records[k]).substr(letter_column + 1, record_columns - letter_column - 1);
         // Numbers that were wrong stay so where nothing has moved.
         if (number != k) put(at, old.size(), field(old, static_cast<long long>(number) + 1));
         ++k;
@@ -181,12 +180,12 @@ class Surgeon {
       }
       const auto& [count, lines] = change->second;
       const std::string_view first = file_.text(records[k]);
-      const std::string_view sequence = first.substr(letter_at + 1, record_width - letter_at - 1);
+      const std::string_view sequence = first.substr(letter_column + 1, record_columns - letter_column - 1);
       std::string text;
       for (std::size_t n = 0; n < lines.size(); ++n) {
-        text +=
-            fmt::format("{}{:<64}{}P{}", n == 0 ? "" : eol, lines[n], first.substr(data_width, letter_at - data_width),
-                        field(sequence, static_cast<long long>(++number)));
+        text += fmt::format("{}{:<64}{}P{}", n == 0 ? "" : eol, lines[n],
+                            first.substr(data_columns, letter_column - data_columns),
+                            field(sequence, static_cast<long long>(++number)));
       }
       const std::size_t begin = records[k].begin, end = records[k + count - 1].end;
       edits_[begin] = {end, std::move(text)};
@@ -218,7 +217,7 @@ class Surgeon {
     if (file_.lines('T').empty() || written_ == file_.lines('P').size()) return;
     const Line& line = file_.lines('T').front();
     const std::string_view own = file_.text(line);
-    const auto at = own.substr(0, letter_at).find('P');
+    const auto at = own.substr(0, letter_column).find('P');
     if (at == std::string_view::npos) return;
     put(line.begin + at + 1, 7, field(own.substr(at + 1, 7), static_cast<long long>(written_)));
   }

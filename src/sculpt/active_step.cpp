@@ -92,7 +92,7 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
       file_origin(m.origin(from)),
       before((from.control_points - file_origin) / m.length),
       external(std::move(forces)),
-      problem{[this](const Points& x) { return m.a * x; },
+      problem{[&model](const Points& x) { return model.a * x; },
               m.inverse,
               {},
               (file_origin.rowwise() - m.centre.transpose()) / m.length + before,

@@ -37,10 +37,10 @@ constexpr int max_stage_iterations = 20;
 struct Anchor {
   Points y;
   ConstrainedCholesky::Half z;
-  double rs;         // rᵀ A⁻¹ r
-  double quadratic;  // ½ YᵀAY − Yᵀb
-  double squared;    // YᵀAY
-  Points y_here, s_here, force_here;
+  double rs;                          // rᵀ A⁻¹ r
+  double quadratic;                   // ½ YᵀAY − Yᵀb
+  double squared;                     // YᵀAY
+  Points x_here, s_here, force_here;  // x_here: start + Y₀
 };
 
 /// β r + E e.
@@ -229,7 +229,7 @@ class Minimisation {
   void take_in(View& view, const PotentialState& state) {
     if (!view.near.extend(state)) return;
     view.from.s_here = problem_.inverse.backward_within(view.near.part(), view.from.z);
-    view.from.y_here = view.near.gather(view.from.y);
+    view.from.x_here = view.near.gather(problem_.start) + view.near.gather(view.from.y);
     view.from.force_here = view.near.grown(view.from.force_here);
     if (view.u.rows() > 0 || view.au.beta != 0) {
       view.au.e = view.near.grown(view.au.e);
@@ -304,7 +304,7 @@ class Minimisation {
 
   /// The potential at Y₀ + u, of contacts inside.
   PotentialState evaluate_inside(const View& view, const Points& u) {
-    view.near.scatter(view.near.gather(problem_.start) + view.from.y_here + u, x_);
+    view.near.scatter(view.from.x_here + u, x_);
     return potential_.evaluate(x_, &view.near.watched());
   }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -179,8 +178,8 @@ void ToolLoad<D>::mark(const ContactPoint& contact, int first, std::vector<char>
 template <int D>
 void ToolLoad<D>::widen(int first, std::vector<char>& marks) const {
   char* const begin = marks.data() + first;
-  std::size_t inner = 1, size = 1;
-  for (const int n : net_) size *= static_cast<std::size_t>(n);
+  const auto size = static_cast<std::size_t>(control_points());
+  std::size_t inner = 1;
   for (std::size_t d = D; d-- > 0;) {
     const auto n = static_cast<std::size_t>(net_[d]);
     const std::vector<char> before(begin, begin + size);
@@ -198,8 +197,7 @@ template <int D>
 std::vector<int> ToolLoad<D>::elements_of(int first, const std::vector<char>& marks) const {
   // Only elements between the first and the last marked control point of every direction can be meant.
   std::array<int, D> lower = net_, upper{};
-  const int size = std::accumulate(net_.begin(), net_.end(), 1, std::multiplies{});
-  for (int i = 0; i < size; ++i) {
+  for (int i = 0; i < control_points(); ++i) {
     if (!marks[static_cast<std::size_t>(first + i)]) continue;
     for (int d = D, rest = i; d-- > 0;) {
       const auto k = static_cast<std::size_t>(d);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -107,6 +109,8 @@ class ToolLoad {
   using Workspace = std::array<std::vector<Homogeneous>, D + 1>;
 
   ToolLoad() = default;
+
+  [[nodiscard]] int control_points() const { return std::accumulate(net_.begin(), net_.end(), 1, std::multiplies{}); }
 
   [[nodiscard]] Element element(std::array<std::size_t, D> span) const;
   [[nodiscard]] Element element(int number) const;

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 
 #include "tool_load_elements.hpp"
 
@@ -75,7 +73,7 @@ class ToolLoad<D>::Evaluation {
 
   /// On which sides of every tool's box each control point lies.
   void find_sides() {
-    count_ = static_cast<std::size_t>(std::accumulate(load_.net_.begin(), load_.net_.end(), 1, std::multiplies{}));
+    count_ = static_cast<std::size_t>(load_.control_points());
     sides_.resize(count_ * actors_.tools.size());
     for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
       const double* points = x_.data() + 3 * static_cast<std::ptrdiff_t>(first_);

@@ -259,12 +259,8 @@ std::vector<std::filesystem::path> all_files() {
   return files;
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, ContextCorpus, ::testing::ValuesIn(all_files()), [](const auto& instance) {
-  auto name = instance.param.filename().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Files, ContextCorpus, ::testing::ValuesIn(all_files()),
+                         [](const auto& instance) { return testing::test_name(instance.param.filename().string()); });
 
 }  // namespace
 }  // namespace knead

@@ -193,12 +193,8 @@ TEST_P(Corpus, AllSurfacesRefinedReadBackExactly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Step, Corpus, ::testing::ValuesIn(all_files()), [](const auto& instance) {
-  auto name = instance.param.filename().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Step, Corpus, ::testing::ValuesIn(all_files()),
+                         [](const auto& instance) { return testing::test_name(instance.param.filename().string()); });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Corpus);
 
 TEST(Collection, IsThere) {

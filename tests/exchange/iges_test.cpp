@@ -367,24 +367,9 @@ TEST_P(IgesFile, ChangedAndRefinedSurfacesReadBack) {
   }
 }
 
-std::vector<std::filesystem::path> iges_files() {
-  std::vector<std::filesystem::path> files;
-  if (!std::filesystem::exists(testing::collection())) return files;
-  for (const auto& entry : std::filesystem::directory_iterator(testing::collection())) {
-    const auto ending = entry.path().extension();
-    if (ending == ".igs" || ending == ".iges") files.push_back(entry.path());
-  }
-  std::ranges::sort(files);
-  return files;
-}
-
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(IgesFile);
-INSTANTIATE_TEST_SUITE_P(Files, IgesFile, ::testing::ValuesIn(iges_files()), [](const auto& instance) {
-  auto name = instance.param.stem().string();
-  std::ranges::replace_if(
-      name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Files, IgesFile, ::testing::ValuesIn(testing::iges_files_in(testing::collection())),
+                         [](const auto& instance) { return testing::test_name(instance.param.stem().string()); });
 
 }  // namespace
 }  // namespace knead

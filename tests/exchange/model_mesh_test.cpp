@@ -123,12 +123,8 @@ std::vector<std::filesystem::path> files() {
   return result;
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, ModelMeshFile, ::testing::ValuesIn(files()), [](const auto& instance) {
-  auto name = instance.param.stem().string();
-  std::ranges::replace_if(
-      name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Files, ModelMeshFile, ::testing::ValuesIn(files()),
+                         [](const auto& instance) { return testing::test_name(instance.param.stem().string()); });
 
 TEST(ModelMesh, SaysWhatIsWrong) {
   const auto file = can(10, 30);

@@ -75,10 +75,7 @@ class StepOracle : public ::testing::TestWithParam<fs::path> {
 };
 
 inline std::string test_name(const ::testing::TestParamInfo<fs::path>& instance) {
-  auto name = instance.param.filename().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
+  return knead::testing::test_name(instance.param.filename().string());
 }
 
 }  // namespace knead::oracle

@@ -10,8 +10,7 @@ namespace knead {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// A X of a symmetric matrix with all of its entries stored, for N × 3 coordinates. Cost: that of reading A. Every row
-/// sums in the order of the columns.
+/// A X of a symmetric matrix with all of its entries stored, for N × 3 coordinates. Cost: that of reading A.
 [[nodiscard]] Points symmetric_product(const SparseMatrix& a, const Points& x);
 
 /// How `Stiffness` is integrated.
