@@ -248,8 +248,10 @@ KNEAD_EXPORT(knead_origin) double knead_origin(int axis) { return held().origin[
 KNEAD_EXPORT(knead_displays) int knead_displays() { return answer(displays_json()); }
 
 /// A picture of a surface, or of the shape as it was opened: the text is `picture_json`, its buffers stay until the
-/// next call. The input is what colours it (`read_display`). `detail`: grid lines wanted per direction.
-KNEAD_EXPORT(knead_picture) int knead_picture(int surface, int detail, int opened) {
+/// next call. The input is what colours it (`read_display`). `detail`: grid lines wanted per direction. From (s0, t0)
+/// to (s1, t1), fractions of its domain, chords are within `tolerance` where that is above 0.
+KNEAD_EXPORT(knead_picture)
+int knead_picture(int surface, int detail, int opened, double s0, double t0, double s1, double t1, double tolerance) {
   auto& session = held().session;
   if (!session) return without_session();
   const SessionState& state = session->state();
@@ -258,7 +260,9 @@ KNEAD_EXPORT(knead_picture) int knead_picture(int surface, int detail, int opene
   }
   auto display = read_display(held().input);
   if (!display) return fail(display.error());
-  const PictureOptions options{held().origin, detail, *std::move(display), opened != 0, visible_part(surface)};
+  const PictureOptions options{held().origin,         detail,
+                               *std::move(display),   opened != 0,
+                               visible_part(surface), PictureWindow{{s0, t0}, {s1, t1}, tolerance}};
   if (auto done = held().pictures.make(state, surface, options); !done) return fail(done.error());
   return answer(picture_json(held().pictures.picture()));
 }

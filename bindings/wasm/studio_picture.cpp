@@ -13,6 +13,18 @@ namespace {
 /// 2000 pixels.
 constexpr double chord = 1.25e-4;
 
+std::optional<GridWindow> window_of(const Surface& surface, const std::optional<PictureWindow>& asked) {
+  if (!asked || !(asked->tolerance > 0)) return {};
+  GridWindow window{.tolerance = asked->tolerance};
+  for (int d = 0; d < 2; ++d) {
+    const Interval domain = surface.knots(d).domain();
+    const auto k = static_cast<std::size_t>(d);
+    window.lower[k] = domain.lower + asked->lower[k] * domain.length();
+    window.upper[k] = domain.lower + asked->upper[k] * domain.length();
+  }
+  return window;
+}
+
 void append(std::vector<float>& to, const Point& p) {
   for (int d = 0; d < 3; ++d) to.push_back(static_cast<float>(p[d]));
 }
@@ -28,16 +40,18 @@ std::string picture_json(const Picture& p) {
                        {"fractions_t", p.fractions_t},
                        {"lines_u", p.lines_u},
                        {"lines_v", p.lines_v},
+                       {"coarse_u", p.coarse_u},
+                       {"coarse_v", p.coarse_v},
                        {"net", p.net},
                        {"held", p.held}}) +
          "}";
 }
 
-Expected<std::array<GridLines, 2>> PictureMaker::lines(const Scene& scene, int index, const Surface& drawn,
-                                                       int detail) {
+Expected<std::array<GridLines, 2>> PictureMaker::lines(const Scene& scene, int index, const Surface& drawn, int detail,
+                                                       const std::optional<GridWindow>& window) {
   const auto& opened = scene.surfaces[static_cast<std::size_t>(index)].opened;
-  const auto known =
-      std::ranges::find_if(lines_, [&](const KeptLines& l) { return l.of == opened && l.detail == detail; });
+  const auto known = std::ranges::find_if(
+      lines_, [&](const KeptLines& l) { return l.of == opened && l.detail == detail && l.window == window; });
   // Another net than that of the surface as opened has another grid.
   if (known != lines_.end() && opened->knots() == drawn.knots()) return known->lines;
   Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
@@ -49,20 +63,24 @@ Expected<std::array<GridLines, 2>> PictureMaker::lines(const Scene& scene, int i
   ChordOptions options;
   options.detail = std::max(1, detail);
   options.tolerance = size > 0 ? chord * size * 96 / options.detail : 1;
+  options.window = window;
   auto made = grid_lines(opened->knots() == drawn.knots() ? *opened : drawn, options);
   if (made && opened->knots() == drawn.knots()) {
     constexpr std::size_t most_kept = 512;
     if (lines_.size() == most_kept) lines_.clear();
-    lines_.push_back({opened, detail, *made});
+    lines_.push_back({opened, detail, window, *made});
   }
   return made;
 }
 
-Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surface& surface, int detail) {
+Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surface& surface,
+                                      const PictureOptions& options) {
+  const int detail = options.detail;
+  const auto window = window_of(surface, options.window);
   const auto& opened = scene.surfaces[static_cast<std::size_t>(index)].opened;
-  if (knots_ && *knots_ == surface.knots() && detail_ == detail && of_ == opened) return {};
+  if (knots_ && *knots_ == surface.knots() && detail_ == detail && window_ == window && of_ == opened) return {};
   knots_.reset();
-  auto grids = lines(scene, index, surface, detail);
+  auto grids = lines(scene, index, surface, detail, window);
   if (!grids) return std::unexpected(grids.error());
   of_ = opened;
   for (int d = 0; d < 2; ++d) {
@@ -73,6 +91,7 @@ Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surfa
     auto& fractions = d == 0 ? picture_.fractions_s : picture_.fractions_t;
     fractions.clear();
     (d == 0 ? picture_.lines_u : picture_.lines_v) = std::move(grid.knot_lines);
+    (d == 0 ? picture_.coarse_u : picture_.coarse_v) = std::move(grid.coarse);
     for (double u : parameters) fractions.push_back(static_cast<float>((u - domain.lower) / domain.length()));
     picture_.counts[static_cast<std::size_t>(d)] = static_cast<std::uint32_t>(parameters.size());
     auto table = tabulate_basis(knots, parameters, 2);
@@ -81,6 +100,7 @@ Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surfa
     tables_[static_cast<std::size_t>(d)] = std::move(*table);
   }
   detail_ = detail;
+  window_ = window;
   knots_ = surface.knots();
   return {};
 }
@@ -88,7 +108,7 @@ Expected<void> PictureMaker::tabulate(const Scene& scene, int index, const Surfa
 Expected<void> PictureMaker::make(const Scene& scene, int index, const PictureOptions& options) {
   const SceneSurface& surface = scene.surfaces[static_cast<std::size_t>(index)];
   const Surface& drawn = options.opened ? *surface.opened : *surface.current;
-  if (auto done = tabulate(scene, index, drawn, options.detail); !done) return done;
+  if (auto done = tabulate(scene, index, drawn, options); !done) return done;
   const int order = options.display.display ? options.display.display->order : 1;
   if (auto done = evaluate_grid<2>(drawn, {&tables_[0], &tables_[1]}, std::max(1, order), evaluation_); !done) {
     return done;

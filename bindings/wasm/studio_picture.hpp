@@ -16,16 +16,24 @@ namespace knead::studio {
 /// suffices.
 struct Picture {
   std::array<std::uint32_t, 2> counts = {0, 0};
-  std::vector<float> positions, normals;        ///< 3 per grid point; normals of length 1
-  std::vector<float> values;                    ///< of the display, one per grid point; empty without one
-  std::vector<float> fractions_s, fractions_t;  ///< of the domain, per grid line
-  std::vector<std::uint32_t> lines_u, lines_v;  ///< grid lines that are knot lines, ends of the domain included
-  std::vector<float> net;                       ///< control points, 3 each
-  std::vector<std::uint8_t> held;               ///< per control point: 0, 1 or 2 as in `held_points`
+  std::vector<float> positions, normals;          ///< 3 per grid point; normals of length 1
+  std::vector<float> values;                      ///< of the display, one per grid point; empty without one
+  std::vector<float> fractions_s, fractions_t;    ///< of the domain, per grid line
+  std::vector<std::uint32_t> lines_u, lines_v;    ///< grid lines that are knot lines, ends of the domain included
+  std::vector<std::uint32_t> coarse_u, coarse_v;  ///< those that are there without a window; empty: all
+  std::vector<float> net;                         ///< control points, 3 each
+  std::vector<std::uint8_t> held;                 ///< per control point: 0, 1 or 2 as in `held_points`
 };
 
 /// {"counts": [m, n], "buffers": …}: the locations of a picture's numbers, by the names of its members.
 [[nodiscard]] std::string picture_json(const Picture& picture);
+
+/// What is looked at from nearby: a part of the domain, in fractions of it, and how far chords may be from the surface
+/// there, file units.
+struct PictureWindow {
+  std::array<double, 2> lower = {0, 0}, upper = {1, 1};
+  double tolerance = 0;
+};
 
 /// How a surface is drawn.
 struct PictureOptions {
@@ -34,6 +42,7 @@ struct PictureOptions {
   AskedDisplay display = {};
   bool opened = false;                                ///< the shape as opened, not the present one
   std::shared_ptr<const VisibleRegion> visible = {};  ///< what faces show of it; null: all
+  std::optional<PictureWindow> window = {};
 };
 
 /// Makes pictures of one surface after the other; tables and memory are kept while the knots stay the same.
@@ -50,16 +59,19 @@ class PictureMaker {
   struct KeptLines {
     std::shared_ptr<const Surface> of;
     int detail = 0;
+    std::optional<GridWindow> window;
     std::array<GridLines, 2> lines;
   };
-  Expected<std::array<GridLines, 2>> lines(const Scene& scene, int index, const Surface& drawn, int detail);
-  Expected<void> tabulate(const Scene& scene, int index, const Surface& surface, int detail);
+  Expected<std::array<GridLines, 2>> lines(const Scene& scene, int index, const Surface& drawn, int detail,
+                                           const std::optional<GridWindow>& window);
+  Expected<void> tabulate(const Scene& scene, int index, const Surface& surface, const PictureOptions& options);
   void find_normals();
   Expected<void> find_held(const SceneSurface& surface);
   Expected<void> find_values(const Scene& scene, int index, const PictureOptions& options);
 
   std::optional<std::array<KnotVector, 2>> knots_;
   int detail_ = 0;
+  std::optional<GridWindow> window_;
   std::shared_ptr<const Surface> of_;  // the surface as opened
   std::vector<KeptLines> lines_;
   std::array<std::vector<double>, 2> parameters_;

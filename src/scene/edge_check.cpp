@@ -1,19 +1,32 @@
 #include "knead/scene/edge_check.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "knead/exchange/shared_edge.hpp"
-#include "knead/spline/evaluate.hpp"
+#include "knead/spline/curvature.hpp"
 
 namespace knead {
 namespace {
 
-/// A face along an edge: its points, and its unit normals, zero where there is no tangent plane.
+/// A face along an edge: its points, its unit normals, zero where there is no tangent plane, and its shape operators,
+/// empty where they are not known.
 struct FaceSide {
   std::vector<Point> points, normals;
+  std::vector<Eigen::Matrix3d> bending;
 };
+
+/// J I⁻¹ II I⁻¹ Jᵀ
+Eigen::Matrix3d shape_operator(const Point& u, const Point& v, const FundamentalForms& forms) {
+  Eigen::Matrix<double, 3, 2> dual;  // J I⁻¹: e^i with e^i · S_j = δ_ij
+  dual.col(0) = (forms.g * u - forms.f * v) / forms.squared_area();
+  dual.col(1) = (forms.e * v - forms.f * u) / forms.squared_area();
+  Eigen::Matrix2d second;
+  second << forms.l, forms.m, forms.m, forms.n;
+  return dual * second * dual.transpose();
+}
 
 Expected<FaceSide> side_of(const EdgeContactFace& face, const Surface& surface) {
   Parameters<2> places(static_cast<Eigen::Index>(face.feet.size()), 2);
@@ -21,22 +34,25 @@ Expected<FaceSide> side_of(const EdgeContactFace& face, const Surface& surface) 
     const auto at = parameters_at_foot(surface, face.feet[k]);
     places.row(static_cast<Eigen::Index>(k)) << at[0], at[1];
   }
-  const auto jet = evaluate<2>(surface, places, 1);
+  const auto jet = evaluate<2>(surface, places, 2);
   if (!jet) return std::unexpected(jet.error());
   FaceSide side;
   for (Eigen::Index k = 0; k < places.rows(); ++k) {
-    const Point u = jet->at({1, 0}).row(k).transpose(), v = jet->at({0, 1}).row(k).transpose();
-    const Point normal = u.cross(v);
+    const auto derivative = [&](int i, int j) { return Point(jet->at({i, j}).row(k).transpose()); };
+    const Point u = derivative(1, 0), v = derivative(0, 1);
+    const Point normal = (face.same_sense ? 1 : -1) * u.cross(v);
     side.points.emplace_back(jet->points().row(k).transpose());
     const bool regular = normal.norm() > 1e-9 * (u.squaredNorm() + v.squaredNorm());
-    side.normals.emplace_back(regular ? Point((face.same_sense ? 1 : -1) * normal.normalized()) : Point(Point::Zero()));
+    side.normals.emplace_back(regular ? Point(normal.normalized()) : Point(Point::Zero()));
+    const FundamentalForms forms(u, v, derivative(2, 0), derivative(1, 1), derivative(0, 2), side.normals.back());
+    side.bending.push_back(regular ? shape_operator(u, v, forms) : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
   }
   return side;
 }
 
 struct Meeting {
   double gap = 0;
-  std::optional<double> angle;
+  std::optional<double> angle, curvature;
 };
 
 void meet(const FaceSide& a, const FaceSide& b, Meeting& meeting) {
@@ -45,6 +61,10 @@ void meet(const FaceSide& a, const FaceSide& b, Meeting& meeting) {
     if (a.normals[k].isZero() || b.normals[k].isZero()) continue;
     const double angle = std::atan2(a.normals[k].cross(b.normals[k]).norm(), a.normals[k].dot(b.normals[k]));
     meeting.angle = std::max(meeting.angle.value_or(0), angle);
+    if (angle > tangent_angle || a.bending.empty() || b.bending.empty()) continue;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> difference(a.bending[k] - b.bending[k],
+                                                                    Eigen::EigenvaluesOnly);
+    meeting.curvature = std::max(meeting.curvature.value_or(0), difference.eigenvalues().cwiseAbs().maxCoeff());
   }
 }
 
@@ -53,7 +73,7 @@ Expected<Meeting> meeting_of(const Scene& scene, const EdgeContact& contact, boo
   std::vector<FaceSide> sides;
   for (const EdgeContactFace& face : contact.faces) {
     if (face.surface.empty()) {
-      sides.push_back({face.points, face.normals});
+      sides.push_back({face.points, face.normals, face.bending});
       continue;
     }
     const auto s = std::ranges::find(scene.surfaces, face.surface, &SceneSurface::id);
@@ -64,7 +84,7 @@ Expected<Meeting> meeting_of(const Scene& scene, const EdgeContact& contact, boo
   }
   Meeting meeting;
   if (sides.size() == 1)
-    meet(sides[0], {contact.points, std::vector<Point>(contact.points.size(), Point::Zero())}, meeting);
+    meet(sides[0], {contact.points, std::vector<Point>(contact.points.size(), Point::Zero()), {}}, meeting);
   for (std::size_t a = 0; a < sides.size(); ++a) {
     for (std::size_t b = a + 1; b < sides.size(); ++b) meet(sides[a], sides[b], meeting);
   }
@@ -88,6 +108,8 @@ Expected<std::vector<EdgeCheck>> check_edges(const Scene& scene, const std::vect
     check.opened_gap = then->gap;
     check.angle = now->angle;
     check.opened_angle = then->angle;
+    check.curvature = now->curvature;
+    check.opened_curvature = then->curvature;
   }
   return result;
 }

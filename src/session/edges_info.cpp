@@ -33,6 +33,9 @@ void describe(CheckedEdgeInfo& e, Fields& fields) {
   fields.add("opened_gap", e.opened_gap, {.help = "as it was opened", .unit = Unit::length});
   fields.add("angle", e.angle, {.help = "between their normals, degrees; null where there is one face"});
   fields.add("opened_angle", e.opened_angle, {.help = "as it was opened"});
+  fields.add("curvature", e.curvature,
+             {.help = "by which they differ where they are tangent, per length; null where they are not"});
+  fields.add("opened_curvature", e.opened_curvature, {.help = "as it was opened"});
   fields.add("unknown", e.unknown, {.help = "why nothing is known of it"});
 }
 
@@ -91,7 +94,8 @@ Expected<std::string> checked_edges_json(const Session& session, std::size_t sur
     return angle ? std::optional(*angle * 180 / std::numbers::pi) : std::nullopt;
   };
   for (const EdgeCheck& e : *checks) {
-    infos.push_back({e.id, e.faces, e.gap, e.opened_gap, degrees(e.angle), degrees(e.opened_angle), e.unknown});
+    infos.push_back({e.id, e.faces, e.gap, e.opened_gap, degrees(e.angle), degrees(e.opened_angle), e.curvature,
+                     e.opened_curvature, e.unknown});
   }
   return json_of(infos);
 }

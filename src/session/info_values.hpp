@@ -31,7 +31,7 @@ struct CheckedEdgeInfo {
   std::string id;
   std::vector<std::string> faces;
   double gap = 0, opened_gap = 0;
-  std::optional<double> angle, opened_angle;
+  std::optional<double> angle, opened_angle, curvature, opened_curvature;
   std::string unknown;
 };
 void describe(CheckedEdgeInfo& e, Fields& fields);

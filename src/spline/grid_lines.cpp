@@ -26,6 +26,35 @@ GridLines divided(const KnotVector& knots, const std::vector<int>& pieces) {
   return lines;
 }
 
+/// How closely the lines of one direction follow a surface: the largest chord over a whole span, of each, and in how
+/// many pieces it is cut.
+struct Direction {
+  std::vector<SpanChord> chords;
+  std::vector<int> pieces;
+};
+
+/// Lines with the pieces in a window cut on, each into as many as the tolerance asks for.
+GridLines divided(const KnotVector& knots, const Direction& of, double lower, double upper, double tolerance) {
+  const GridLines coarse = divided(knots, of.pieces);
+  GridLines lines;
+  std::size_t next = 0;  // knot line
+  for (std::uint32_t k = 0; k < coarse.parameters.size(); ++k) {
+    const bool knot = next < coarse.knot_lines.size() && coarse.knot_lines[next] == k;
+    if (knot) lines.knot_lines.push_back(static_cast<std::uint32_t>(lines.parameters.size()));
+    if (knot) ++next;
+    lines.coarse.push_back(static_cast<std::uint32_t>(lines.parameters.size()));
+    lines.parameters.push_back(coarse.parameters[k]);
+    if (k + 1 == coarse.parameters.size()) break;
+    const double from = coarse.parameters[k], to = coarse.parameters[k + 1];
+    if (to < lower || from > upper) continue;
+    const double in_span = of.pieces[next - 1];
+    const double chord = of.chords[next - 1].distance / (in_span * in_span);
+    const int count = static_cast<int>(std::clamp(std::ceil(std::sqrt(chord / tolerance)), 1.0, 1e6));
+    for (int j = 1; j < count; ++j) lines.parameters.push_back(from + (to - from) * j / count);
+  }
+  return lines;
+}
+
 /// The same number in every span.
 int pieces_per_span(const KnotVector& knots, int detail, int most) {
   const int count = static_cast<int>(knots.spans().size()), least = knots.degree() == 1 ? 1 : 2;
@@ -92,31 +121,54 @@ GridLines grid_lines(const KnotVector& knots, int detail, int most) {
   return divided(knots, std::vector<int>(knots.spans().size(), pieces_per_span(knots, detail, most)));
 }
 
+namespace {
+
+bool allowed(const ChordOptions& options, double rows, double columns) {
+  return rows <= options.most && columns <= options.most && rows * columns <= options.most_points;
+}
+
+std::array<GridLines, 2> with_window(const Surface& surface, const std::array<Direction, 2>& of,
+                                     const ChordOptions& options) {
+  const GridWindow& window = *options.window;
+  for (double tolerance = window.tolerance;; tolerance *= 2) {
+    std::array lines = {divided(surface.knots(0), of[0], window.lower[0], window.upper[0], tolerance),
+                        divided(surface.knots(1), of[1], window.lower[1], window.upper[1], tolerance)};
+    const auto count = [&](std::size_t d) { return static_cast<double>(lines[d].parameters.size()); };
+    const bool finer = count(0) > static_cast<double>(lines[0].coarse.size()) ||
+                       count(1) > static_cast<double>(lines[1].coarse.size());
+    if (allowed(options, count(0), count(1)) || !finer) return lines;
+  }
+}
+
+}  // namespace
+
 Expected<std::array<GridLines, 2>> grid_lines(const Surface& surface, const ChordOptions& options) {
   assert(options.detail >= 1 && options.tolerance > 0);
-  std::array<std::vector<SpanChord>, 2> errors;
+  assert(!options.window || options.window->tolerance > 0);
+  std::array<Direction, 2> of;
   std::array<int, 2> base;
   for (int d = 0; d < 2; ++d) {
     auto found = span_chords(surface, d);
     if (!found) return std::unexpected(found.error());
-    errors[static_cast<std::size_t>(d)] = *std::move(found);
+    of[static_cast<std::size_t>(d)].chords = *std::move(found);
     base[static_cast<std::size_t>(d)] = pieces_per_span(surface.knots(d), options.detail, 400);
   }
   for (double tolerance = options.tolerance;; tolerance *= 2) {
-    std::array<std::vector<int>, 2> pieces;
     std::array<double, 2> counts = {1, 1};
     bool finer = false;
     for (std::size_t d = 0; d < 2; ++d) {
-      for (const SpanChord& chord : errors[d]) {
+      auto& [chords, pieces] = of[d];
+      pieces.clear();
+      for (const SpanChord& chord : chords) {
         const double wanted = std::min(std::ceil(std::sqrt(chord.distance / tolerance)), 1e6);
-        pieces[d].push_back(std::max(base[d], static_cast<int>(wanted)));
-        counts[d] += pieces[d].back();
-        finer = finer || pieces[d].back() > base[d];
+        pieces.push_back(std::max(base[d], static_cast<int>(wanted)));
+        counts[d] += pieces.back();
+        finer = finer || pieces.back() > base[d];
       }
     }
-    const bool few =
-        counts[0] <= options.most && counts[1] <= options.most && counts[0] * counts[1] <= options.most_points;
-    if (few || !finer) return std::array{divided(surface.knots(0), pieces[0]), divided(surface.knots(1), pieces[1])};
+    if (!allowed(options, counts[0], counts[1]) && finer) continue;
+    if (options.window) return with_window(surface, of, options);
+    return std::array{divided(surface.knots(0), of[0].pieces), divided(surface.knots(1), of[1].pieces)};
   }
 }
 

@@ -85,6 +85,35 @@ TEST(EdgeCheck, APartedEdgeHasAGap) {
   EXPECT_NEAR(check_of(session, sheets.outer).gap, 2, 1e-14);
 }
 
+// The right sheet as z = (x - 1)², which bends by 2 across the edge, where it is tangent to the flat one.
+const std::string parabola[] = {R"({"do":"elevate","by":[1,0]})", R"({"do":"points","which":[4,5],"by":[0,0,1]})"};
+
+TEST(EdgeCheck, ATangentEdgeHasADifferenceInCurvature) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets.text);
+  EXPECT_LE(check_of(session, sheets.edge).curvature.value_or(1), 1e-15);
+  run(session, {right, parabola[0], parabola[1]});
+  EdgeCheck check = check_of(session, sheets.edge);
+  EXPECT_LE(check.angle.value_or(1), 1e-15);
+  EXPECT_NEAR(check.curvature.value_or(0), 2, 1e-13);
+  EXPECT_LE(check.opened_curvature.value_or(1), 1e-15);
+  EXPECT_FALSE(check_of(session, sheets.outer).curvature);
+  // Bent alike on both sides, there is none: the left sheet becomes z = (x - 1)², too.
+  run(session, {R"({"do":"select","surface":"#10"})", parabola[0], R"({"do":"points","which":[0,1],"by":[0,0,1]})"});
+  check = check_of(session, sheets.edge);
+  EXPECT_LE(check.angle.value_or(1), 1e-14);
+  EXPECT_LE(check.curvature.value_or(1), 1e-13);
+}
+
+TEST(EdgeCheck, ACreaseHasNoDifferenceInCurvature) {
+  const TwoSheets sheets = two_sheets();
+  Session session = opened(sheets.text);
+  run(session, {right, R"({"do":"points","which":[2,3],"by":[0,0,1]})"});
+  const EdgeCheck check = check_of(session, sheets.edge);
+  EXPECT_FALSE(check.curvature);
+  EXPECT_TRUE(check.opened_curvature);
+}
+
 TEST(EdgeCheck, AFaceOnAPlaneIsAsInTheFile) {
   const TwoSheets sheets = two_sheets(false, true);
   Session session = opened(sheets.text);
@@ -127,6 +156,8 @@ TEST(EdgeCheck, ThePageIsToldInDegrees) {
     EXPECT_EQ(edge.at("faces").size(), shared ? 2U : 1U);
     EXPECT_EQ(edge.at("angle").is_null(), !shared);
     EXPECT_NEAR(shared ? edge.at("angle").get<double>() : 45, 45, 1e-12);
+    EXPECT_TRUE(edge.at("curvature").is_null());
+    EXPECT_EQ(edge.at("opened_curvature").is_null(), !shared);
   }
   Session fresh(Document::fresh("none"));
   run(fresh, {R"({"do":"new","shape":"plane"})"});

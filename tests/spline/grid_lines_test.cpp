@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -93,6 +94,46 @@ TEST(GridLines, TheLimitsHold) {
   // The knots' own lines are more than that: they stay.
   EXPECT_EQ((*grid_lines(surface, {.tolerance = 1e-9, .most = 3}))[0].parameters,
             grid_lines(surface.knots(0), 96).parameters);
+}
+
+TEST(GridLines, AreFinerInAWindowAlone) {
+  const Surface surface = thread(3, 1);
+  const GridWindow window{{0.3, 0.2}, {0.31, 0.4}, 1e-6};
+  const auto far = grid_lines(surface, {.tolerance = 0.01}),
+             near = grid_lines(surface, {.tolerance = 0.01, .window = window});
+  ASSERT_TRUE(far);
+  ASSERT_TRUE(near);
+  EXPECT_TRUE((*far)[0].coarse.empty());
+  for (std::size_t d = 0; d < 2; ++d) {
+    const GridLines &coarse = (*far)[d], &fine = (*near)[d];
+    ASSERT_EQ(fine.coarse.size(), coarse.parameters.size());
+    for (std::size_t k = 0; k < fine.coarse.size(); ++k) {
+      EXPECT_EQ(fine.parameters[fine.coarse[k]], coarse.parameters[k]);
+    }
+    ASSERT_EQ(fine.knot_lines.size(), coarse.knot_lines.size());
+    for (std::size_t k = 0; k < fine.knot_lines.size(); ++k) {
+      EXPECT_EQ(fine.parameters[fine.knot_lines[k]], coarse.parameters[coarse.knot_lines[k]]);
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(fine.parameters));
+  }
+  std::array<GridLines, 2> inside;
+  for (std::size_t d = 0; d < 2; ++d) {
+    for (const double u : (*near)[d].parameters) {
+      if (u >= window.lower[d] && u <= window.upper[d]) inside[d].parameters.push_back(u);
+    }
+  }
+  EXPECT_LE(chord_error(surface, inside, 0), 1.2e-6);
+  // A hundredth of the thread takes fewer lines than all of it would.
+  EXPECT_LT((*near)[0].parameters.size(), (*far)[0].parameters.size() + 500);
+}
+
+TEST(GridLines, OfAWindowKeepToTheirLimits) {
+  const Surface surface = thread(3, 1);
+  const GridWindow whole{{0, 0}, {1, 1}, 1e-12};
+  const auto lines = grid_lines(surface, {.tolerance = 0.01, .most = 900, .window = whole});
+  ASSERT_TRUE(lines);
+  EXPECT_LE((*lines)[0].parameters.size(), 900U);
+  EXPECT_GT((*lines)[0].parameters.size(), grid_lines(surface, {.tolerance = 0.01})->at(0).parameters.size());
 }
 
 }  // namespace

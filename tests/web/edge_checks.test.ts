@@ -1,7 +1,7 @@
 import { allowedGap, brokeSmooth, type CheckedEdge, edgesInWords, gapes, ordered } from '@studio/document/edge_checks';
 
 const edge = (id: string, gap: number, angle: number | null, more: Partial<CheckedEdge> = {}): CheckedEdge =>
-  ({ id, faces: ['#1', '#2'], gap, opened_gap: 0, angle, opened_angle: angle, unknown: '', surface: 0, ...more });
+  ({ id, faces: ['#1', '#2'], gap, opened_gap: 0, angle, opened_angle: angle, curvature: null, opened_curvature: null, unknown: '', surface: 0, ...more });
 
 describe('edges of faces', () => {
   const closed = edge('#10', 1e-7, 90), wide = edge('#12', 0.4, 0), narrow = edge('#11', 0.002, 0);
@@ -13,6 +13,8 @@ describe('edges of faces', () => {
     expect(ordered(all, 'worst', 0.001).map((e) => e.id)).toEqual(['#12', '#11', '#13', '#10', '#8', '#9']);
     expect(ordered(all, 'gap', 0.001).map((e) => e.id).slice(0, 2)).toEqual(['#12', '#11']);
     expect(ordered(all, 'angle', 0.001).map((e) => e.id).slice(0, 3)).toEqual(['#10', '#9', '#13']);
+    const bent = [edge('#14', 0, 0, { curvature: 0.02 }), edge('#15', 0, 0, { curvature: 0.5 }), closed];
+    expect(ordered(bent, 'curvature', 0.001).map((e) => e.id)).toEqual(['#15', '#14', '#10']);
     expect(ordered(all, 'id', 0.001).map((e) => e.id)).toEqual(['#8', '#9', '#10', '#11', '#12', '#13']);
   });
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "knead/spline/knot_vector.hpp"
@@ -14,6 +15,7 @@ namespace knead {
 struct GridLines {
   std::vector<double> parameters;         ///< ascending, ends of the domain included
   std::vector<std::uint32_t> knot_lines;  ///< which of them are knots, ends included
+  std::vector<std::uint32_t> coarse;      ///< which of them are there without a window; empty: all
 };
 
 /// `detail` pieces over the domain, rounded up to the same number in each span; at least two where the degree is above
@@ -32,18 +34,29 @@ struct SpanChord {
 /// Errors: a rational denominator that is not positive (numerical).
 [[nodiscard]] Expected<std::vector<SpanChord>> span_chords(const Surface& surface, int direction);
 
+/// A part of the domain that is looked at from nearby.
+struct GridWindow {
+  std::array<double, 2> lower = {0, 0}, upper = {0, 0};  ///< parameters
+  double tolerance = 0;                                  ///< there, as `ChordOptions::tolerance`
+  bool operator==(const GridWindow&) const = default;
+};
+
 /// How closely the lines of a grid follow a surface.
 struct ChordOptions {
   int detail = 96;            ///< as for `grid_lines` of the knots: the coarsest grid
   double tolerance = 0;       ///< distance of chords from the surface, a length > 0
   int most = 1500;            ///< lines per direction
   int most_points = 100'000;  ///< of the grid; both limits yield to `detail`
+  std::optional<GridWindow> window = {};
 };
 
 /// The grid lines of both directions, with more pieces in every span whose chords would be farther from the surface
 /// than the tolerance: a chord over h is off by h²/8 · max |S_uu − (S_uu · t) t| with the unit tangent t, that is by κ
 /// L²/8 for the length L of the piece. The maximum is estimated as for `span_chords`, so that chords are within about
 /// the tolerance. Where that would take more points than the options allow, the tolerance is doubled until it does not.
+/// Of these pieces, the ones that lie in the window, in part or whole, are divided evenly until they are within its
+/// tolerance by the same rule; it is doubled likewise. The other lines stay as they are, so that a picture outside of
+/// the window does not change.
 /// Cost: one evaluation of order 2 at these points. Errors: a rational denominator that is not positive (numerical).
 [[nodiscard]] Expected<std::array<GridLines, 2>> grid_lines(const Surface& surface, const ChordOptions& options);
 

@@ -14,6 +14,7 @@ import type { App } from '../panels/app';
 import { Hand } from '../tools/hand';
 import { defaultDisplay, type Display, type Theme } from '../view/display';
 import { Viewer } from '../view/viewer';
+import { CloserLook } from './closer_look';
 
 const keptSteps = 400; // of the plot
 const mostDeaths = 20; // of engines, before a page gives up
@@ -35,6 +36,7 @@ export class Studio implements App {
   /** Milliseconds that the worker has spent on this session's commands. */
   computedTime = 0;
 
+  private readonly closer: CloserLook;
   /** Panels are redrawn on these. */
   readonly onChange: (() => void)[] = [];
   notify: (notice: Notice) => void = () => {};
@@ -52,6 +54,8 @@ export class Studio implements App {
     this.client = new Client(() => new Worker(new URL('../engine/worker.ts', import.meta.url), { type: 'module' }));
     this.viewer = new Viewer(this.display);
     this.hand = new Hand(this);
+    this.closer = new CloserLook(this.viewer, () => this.frame !== null && !this.hand.active && !this.playing() && !this.viewer.turntable.on,
+      () => this.askForPictures(this.comparing));
     this.viewer.navigator.convention = this.display.convention;
     this.viewer.onMaximise = (view) => this.setDisplay({ view, fourViews: !this.display.fourViews });
     this.client.onFrame = (frame) => this.show(frame);
@@ -246,7 +250,7 @@ export class Studio implements App {
     const on = (direction: 'u' | 'v') => (combs === direction || combs === 'both' ? combCurves : 0);
     const asked: PictureSettings['combs'] = combs === 'none' ? undefined : { curves: [on('u'), on('v')], teeth: combTeeth };
     const display = colour ? { display: colour.name, settings: colourSettings[colour.name] ?? {} } : plain;
-    void this.attempt(async () => void (await this.client.pictures({ detail, display, opened, combs: asked })));
+    void this.attempt(async () => void (await this.client.pictures({ detail, display, opened, combs: asked, windows: this.closer.windows() })));
   }
 
   private comparing = false;

@@ -6,7 +6,7 @@ export interface CheckedEdge extends CheckedEdgeInfo {
   /** Number of the surface that was asked about. */
   surface: number;
 }
-export type EdgeOrder = 'worst' | 'id' | 'gap' | 'angle';
+export type EdgeOrder = 'worst' | 'id' | 'gap' | 'angle' | 'curvature';
 
 const smooth = 0.5; // degrees: what was within this was meant to be smooth
 const creased = 0.1; // degrees more than as opened
@@ -29,6 +29,7 @@ export function ordered(edges: readonly CheckedEdge[], order: EdgeOrder, allowed
     worst: (e) => [gapes(e, allowed) ? e.gap : 0, brokeSmooth(e) ? e.angle! : 0, e.unknown ? 1 : 0, e.faces.length > 1 ? e.gap : 0],
     gap: (e) => [e.faces.length > 1 ? e.gap : -1],
     angle: (e) => [e.angle ?? -1],
+    curvature: (e) => [e.curvature ?? -1],
     id: (e) => [-number(e.id)],
   };
   const key = keys[order];

@@ -3,10 +3,12 @@ import type { Context, FaceEdge, Trim } from './context';
 import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } from './generated';
 import { type DisplayChoice, type DisplayInfo, type DisplayRange, plain } from './displays';
 import {
-  coefficients, type Combs, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture,
+  coefficients, type Combs, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture, type PictureWindow,
   type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture,
 } from './session_types';
 import { start } from './wasi';
+
+const everywhere: PictureWindow = { lower: [0, 0], upper: [1, 1], tolerance: 0 };
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -29,7 +31,7 @@ interface Exports {
   knead_displays(): number;
   knead_range(): number;
   knead_combs(surface: number, alongU: number, alongV: number, teeth: number): number;
-  knead_picture(surface: number, detail: number, opened: number): number;
+  knead_picture(surface: number, detail: number, opened: number, s0: number, t0: number, s1: number, t1: number, tolerance: number): number;
   knead_tool_picture(tool: number): number;
   knead_material(surface: number, rows: number, columns: number): number;
   knead_control_points(surface: number): number;
@@ -170,10 +172,11 @@ export class Engine {
     return this.json(this.wasm.knead_displays()) as DisplayInfo[];
   }
 
-  /** A surface, or with `opened` its original shape, with about `detail` grid lines per direction. */
-  picture(surface: number, detail: number, display: DisplayChoice = plain, opened = false): Picture {
+  /** A surface, or with `opened` its original shape, with about `detail` grid lines per direction, in a window more. */
+  picture(surface: number, detail: number, display: DisplayChoice = plain, opened = false, window: PictureWindow | null = null): Picture {
     this.give(new TextEncoder().encode(JSON.stringify(display)));
-    const found = this.json(this.wasm.knead_picture(surface, detail, opened ? 1 : 0)) as { counts: [number, number]; buffers: BufferTable };
+    const { lower: [s0, t0], upper: [s1, t1], tolerance } = window ?? everywhere;
+    const found = this.json(this.wasm.knead_picture(surface, detail, opened ? 1 : 0, s0, t0, s1, t1, tolerance)) as { counts: [number, number]; buffers: BufferTable };
     const { floats, indices, flags } = this.buffers(found.buffers);
     return {
       surface,
@@ -185,6 +188,9 @@ export class Engine {
       t: floats('fractions_t'),
       linesU: indices('lines_u'),
       linesV: indices('lines_v'),
+      coarseU: indices('coarse_u'),
+      coarseV: indices('coarse_v'),
+      window,
       net: floats('net'),
       held: flags('held'),
     };

@@ -1,6 +1,6 @@
 import type { Context } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
-import type { Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, SessionInfo, StepInfo, ToolPicture } from './session_types';
+import type { Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SessionInfo, StepInfo, ToolPicture } from './session_types';
 
 /** How surfaces are drawn. */
 export interface PictureSettings {
@@ -10,6 +10,8 @@ export interface PictureSettings {
   opened?: boolean;
   /** On how many curves each way, and in how many pieces of every span, the selected surfaces have curvature combs. */
   combs?: { curves: [number, number]; teeth: number };
+  /** What the views show from nearby, of each surface. Only frames that answer this request have them. */
+  windows?: readonly (PictureWindow | null)[];
 }
 
 /** Requests of the page to the worker. Every request is answered by one `Reply` with its number. */

@@ -26,6 +26,13 @@ export class EngineError extends Error {
   }
 }
 
+/** What is looked at from nearby: a part of a surface, fractions of its domain, and how far chords may be from it there, file units. */
+export interface PictureWindow {
+  lower: [number, number];
+  upper: [number, number];
+  tolerance: number;
+}
+
 /** A surface to draw; positions relative to the session's origin. */
 export interface Picture {
   surface: number;
@@ -37,6 +44,10 @@ export interface Picture {
   t: Float32Array;
   linesU: Uint32Array;
   linesV: Uint32Array;
+  /** Those of the grid lines that are there without a window; empty: all. */
+  coarseU: Uint32Array;
+  coarseV: Uint32Array;
+  window: PictureWindow | null;
   net: Float32Array;
   /** Per control point: 0 free, 1 does not move, 2 bound to others (pinned surface points, kept curves). */
   held: Uint8Array;

@@ -12,6 +12,8 @@ const engineLoaded = Engine.load(fetch(wasmUrl)).then((engine) => {
   return engine;
 });
 let settings: PictureSettings = { detail: 96, display: plain };
+/** Nothing has changed since the page asked for pictures: what it sees from nearby is drawn finely. */
+let resting = false;
 let playing: 'no' | 'on' | 'toRest' = 'no';
 let ownEntry = false; // the steps of this play have begun their history entry
 let frameDrawn = true;
@@ -57,6 +59,7 @@ const travels = (command: Command) => command.do === 'undo' || command.do === 'r
 
 function execute(commands: Command[], join: boolean, keep = false): void {
   const start = performance.now();
+  resting = false;
   try {
     history.execute(commands, join, keep);
   } finally {
@@ -103,7 +106,7 @@ function sendFrame(engine: Engine): void {
   frameDue = false;
   const start = performance.now();
   const state = history.state();
-  const pictures = state.surfaces.map((_, k) => engine.picture(k, settings.detail, settings.display, settings.opened));
+  const pictures = state.surfaces.map((_, k) => engine.picture(k, settings.detail, settings.display, settings.opened, resting ? settings.windows?.[k] : null));
   const range = engine.range();
   const { combs: asked } = settings;
   const combs = asked ? state.selection.map((k) => engine.combs(k, asked.curves, asked.teeth)) : [];
@@ -183,6 +186,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       break;
     case 'pictures':
       settings = request.settings;
+      resting = playing === 'no';
       if (hasSession(engine)) sendFrame(engine);
       break;
     case 'play':

@@ -9,6 +9,7 @@ import { note, panel } from './panel';
 const columns: [EdgeOrder, string, string][] = [
   ['id', 'Edge', 'By the number in the file'], ['gap', 'Gap', 'Between the faces that meet there, the widest along the edge'],
   ['angle', 'Angle', 'Between the normals of the faces, the largest along the edge; 0° is smooth'],
+  ['curvature', 'Bend', 'By which the curvatures of the faces differ where they are smooth, the largest along the edge; 0 is continuous curvature'],
 ];
 
 /** How the faces at the edges of the selected surfaces meet: a table, the worst first. A click on a row leads to the edge. */
@@ -86,10 +87,12 @@ export function checkPanel(app: App): HTMLElement {
       e.unknown || e.faces.length < 2 ? '–' : format(e.gap < 1e-6 * allowed ? 0 : e.gap));
     const angle = h('td', { class: brokeSmooth(e) ? 'wrong' : '', title: was(`${format(e.opened_angle ?? 0)}°`, e.opened_angle) },
       e.angle === null ? '–' : `${e.angle < 1e-6 ? '0' : format(e.angle)}°`);
+    const curvature = h('td', { title: was(`${format(e.opened_curvature ?? 0)} per ${app.viewer.unit}`, e.opened_curvature) },
+      e.curvature === null ? '–' : format(e.curvature < 1e-9 / app.diagonal ? 0 : e.curvature));
     return h('tr', { class: e.id === chosen ? 'on' : '', data: { edge: e.id } },
       h('th', { scope: 'row' }, h('button', { type: 'button', title: e.unknown || `Edge ${e.id} ${faces}: zoom to it`,
         aria: { label: `Edge ${e.id} ${faces}`, pressed: String(e.id === chosen) }, onclick: () => void lead(e) }, e.id, h('small', {}, e.faces.join(' ')))),
-      gap, angle, h('td', {}, continuityTitles[continuityOf(info, e.id as Edge)]));
+      gap, angle, curvature, h('td', {}, continuityTitles[continuityOf(info, e.id as Edge)]));
   };
   app.onChange.push(() => {
     if (session !== app.documents.sessions) {

@@ -2,6 +2,7 @@ import * as THREE from 'three';
 
 import type { Picture, SurfaceInfo } from '../engine/session_types';
 import { type Display, type Palette, palettes } from './display';
+import { coarseLines } from './nearby';
 import { mark } from './net';
 import { GridPicker } from './picking';
 import { reliefLayer } from './relief';
@@ -63,7 +64,7 @@ export class SurfaceView {
     geometry.boundingSphere = null;
     geometry.boundingBox = null;
 
-    const topology = `${m} ${n} ${picture.linesU.join()} ${picture.linesV.join()}`;
+    const topology = `${m} ${n} ${picture.linesU.join()} ${picture.linesV.join()} ${picture.coarseU.join()} ${picture.coarseV.join()}`;
     if (topology !== this.topology) {
       this.topology = topology;
       geometry.setIndex(new THREE.BufferAttribute(triangles(m, n), 1));
@@ -75,7 +76,7 @@ export class SurfaceView {
       const knotsU = [...picture.linesU];
       const knotsV = [...picture.linesV];
       this.knotLines.geometry.setIndex(new THREE.BufferAttribute(gridLines(m, n, knotsU, knotsV), 1));
-      geometry.setAttribute('isocurve', new THREE.BufferAttribute(gridCoordinates(between(m, every(m)), between(n, every(n))), 2));
+      geometry.setAttribute('isocurve', new THREE.BufferAttribute(gridCoordinates(between(m, every(picture, 0)), between(n, every(picture, 1))), 2));
       this.isocurves.geometry.setIndex(null);
     }
     for (const part of [this.depth, this.knotLines, this.isocurves]) {
@@ -201,17 +202,18 @@ export class SurfaceView {
     const { geometry } = this.isocurves;
     if (!this.picture || (geometry.index && all === this.allIsocurves)) return;
     this.allIsocurves = all;
-    const [m, n] = this.picture.counts;
-    geometry.setIndex(new THREE.BufferAttribute(all ? gridLines(m, n, every(m), every(n)) : gridLines(m, n, [0, m - 1], [0, n - 1]), 1));
+    const { picture } = this;
+    const [m, n] = picture.counts;
+    geometry.setIndex(new THREE.BufferAttribute(all ? gridLines(m, n, every(picture, 0), every(picture, 1)) : gridLines(m, n, [0, m - 1], [0, n - 1]), 1));
   }
 
   private showNormals(picture: Picture, palette: Palette, flipped: boolean): void {
-    const [m, n] = picture.counts;
+    const n = picture.counts[1];
     this.mesh.geometry.computeBoundingSphere();
     const length = (flipped ? -0.04 : 0.04) * (this.mesh.geometry.boundingSphere?.radius ?? 1);
     const ends: number[] = [];
-    for (const k of every(m)) {
-      for (const l of every(n)) {
+    for (const k of every(picture, 0)) {
+      for (const l of every(picture, 1)) {
         const at = 3 * (k * n + l);
         for (const distance of [0, length]) {
           for (let d = 0; d < 3; ++d) ends.push(picture.positions[at + d]! + distance * picture.normals[at + d]!);
@@ -299,10 +301,11 @@ function setAttribute(geometry: THREE.BufferGeometry, name: string, data: Float3
   }
 }
 
-/** About every sixth grid line, first and last included. */
-function every(count: number): number[] {
-  const pieces = Math.max(1, Math.round((count - 1) / isocurveSpacing));
-  return Array.from({ length: pieces + 1 }, (_, k) => Math.round((k * (count - 1)) / pieces));
+/** About every sixth grid line of a direction, first and last included; lines of a window do not count. */
+function every(picture: Picture, direction: 0 | 1): number[] {
+  const lines = coarseLines(picture, direction);
+  const pieces = Math.max(1, Math.round((lines.length - 1) / isocurveSpacing));
+  return Array.from({ length: pieces + 1 }, (_, k) => lines[Math.round((k * (lines.length - 1)) / pieces)]!);
 }
 
 /** Two for each cell between every `step`-th lines of a grid of m × n points. */
