@@ -78,6 +78,12 @@ class Follower {
       const Vector2d at = surface->foot(p).parameters;
       result.points.push_back(surface->at(at));
       result.normals.push_back((face.same_sense ? 1 : -1) * surface->normal(at));
+      result.bending.emplace_back(Eigen::Matrix3d::Zero());
+      const auto curvature = surface->curvature(at);
+      for (std::size_t k = 0; curvature && k < 2; ++k) {
+        const Point& along = curvature->directions[k];
+        result.bending.back() += (face.same_sense ? 1 : -1) * curvature->principal[k] * along * along.transpose();
+      }
     }
     return {};
   }

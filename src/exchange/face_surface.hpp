@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "charted_surface.hpp"
+#include "knead/spline/curvature.hpp"
 
 namespace knead::step {
 
@@ -26,6 +27,9 @@ class FaceSurface final : public ChartedSurface {
 
   [[nodiscard]] Point at(const Eigen::Vector2d& uv) const override;
   [[nodiscard]] Point normal(const Eigen::Vector2d& uv) const override;
+  /// By the B-spline surface that is the same about the point (`patch`); its normal is `normal`.
+  /// Errors: no tangent plane there, as at a pole (numerical); those of `patch`.
+  [[nodiscard]] Expected<SurfaceCurvature> curvature(const Eigen::Vector2d& uv) const;
   /// In closed form; on swept curves by a search and Newton's iteration. A point beside it is not needed.
   [[nodiscard]] Foot foot(const Point& p, const std::optional<Eigen::Vector2d>& near = {}) const override;
   [[nodiscard]] ParameterSpace space() const override;

@@ -105,6 +105,31 @@ TEST(EdgeCheck, ATangentEdgeHasADifferenceInCurvature) {
   EXPECT_LE(check.curvature.value_or(1), 1e-13);
 }
 
+TEST(EdgeCheck, TheCurvatureOfAnotherSurfaceIsKnown) {
+  // The plane of the right sheet becomes a cylinder of radius 4 below it, an extruded circle, or a cone.
+  const std::string place =
+      "#22=CARTESIAN_POINT('',(1.,0.,-4.));#23=DIRECTION('',(0.,1.,0.));#24=DIRECTION('',(1.,0.,0.));"
+      "#25=AXIS2_PLACEMENT_3D('',#22,#23,#24);";
+  const std::string extruded =
+      "#26=CIRCLE('',#25,4.);#27=VECTOR('',#23,1.);#20=SURFACE_OF_LINEAR_EXTRUSION('',#26,#27);";
+  // Through (1, 0, 0) and (1, 1, 0), about y: z = -4 + 4 means a turned line is the same cylinder.
+  const std::string turned =
+      "#26=LINE('',#3,#27);#27=VECTOR('',#23,1.);#28=AXIS1_PLACEMENT('',#22,#23);"
+      "#20=SURFACE_OF_REVOLUTION('',#26,#28);";
+  for (const std::string& surface : {std::string("#20=CYLINDRICAL_SURFACE('',#25,4.);"), extruded, turned}) {
+    TwoSheets sheets = two_sheets(false, true);
+    const std::string plane = "#20=PLANE('',#21);";
+    const auto at = sheets.text.find(plane);
+    ASSERT_NE(at, std::string::npos);
+    sheets.text.replace(at, plane.size(), place + surface);
+    const EdgeCheck check = check_of(opened(sheets.text), sheets.edge);
+    ASSERT_EQ(check.unknown, "") << surface;
+    EXPECT_NEAR(check.curvature.value_or(0), 0.25, 1e-13) << surface << " angle " << check.angle.value_or(9);
+  }
+  const TwoSheets flat = two_sheets(false, true);
+  EXPECT_LE(check_of(opened(flat.text), flat.edge).curvature.value_or(1), 1e-15);
+}
+
 TEST(EdgeCheck, ACreaseHasNoDifferenceInCurvature) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets.text);
