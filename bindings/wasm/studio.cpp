@@ -166,9 +166,24 @@ KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size
 KNEAD_EXPORT(knead_fresh) int knead_fresh() { return start(Document::fresh(held().input)); }
 
 namespace {
+
 int without_session() {
   return fail({ErrorKind::usage, "nothing is open", {}, "open a file or start a fresh document"});
 }
+
+int reply(Expected<std::string> text) { return text ? answer(*std::move(text)) : fail(text.error()); }
+
+/// What `act` answers for a surface of the session, by its number.
+template <class Act>
+int with_surface(int surface, const Act& act) {
+  if (!held().session) return without_session();
+  const auto& surfaces = held().session->state().surfaces;
+  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) {
+    return fail({ErrorKind::usage, "there is no such surface"});
+  }
+  return act(surfaces[static_cast<std::size_t>(surface)]);
+}
+
 }  // namespace
 
 /// The input is one command. With `join`, it becomes one entry of the history with the command before it.
@@ -219,26 +234,26 @@ KNEAD_EXPORT(knead_checked_edges) int knead_checked_edges(int surface) {
   auto& session = held().session;
   if (!session) return without_session();
   if (surface < 0 || surface >= static_cast<int>(session->state().surfaces.size())) return answer("[]");
-  auto text = checked_edges_json(*session, static_cast<std::size_t>(surface));
-  return text ? answer(*std::move(text)) : fail(text.error());
+  return reply(checked_edges_json(*session, static_cast<std::size_t>(surface)));
 }
 
 /// The text is `reading_json`, at the fractions (s, t) of the domain.
 KNEAD_EXPORT(knead_reading) int knead_reading(int surface, double s, double t) {
-  auto& session = held().session;
-  if (!session) return without_session();
-  if (surface < 0 || surface >= static_cast<int>(session->state().surfaces.size())) {
-    return fail({ErrorKind::usage, "there is no such surface"});
-  }
-  auto text = reading_json(*session, surface, {s, t});
-  return text ? answer(*std::move(text)) : fail(text.error());
+  return with_surface(surface, [&](const SceneSurface&) {
+    return reply(reading_json(*held().session, surface, {s, t}));
+  });
+}
+
+/// The input is the id of a face that is on no surface of the session; the text is `face_reading_json` near (x, y, z).
+KNEAD_EXPORT(knead_face_reading) int knead_face_reading(double x, double y, double z) {
+  if (!held().session) return without_session();
+  return reply(face_reading_json(*held().session, held().input, {x, y, z}));
 }
 
 /// The text is the saved file.
 KNEAD_EXPORT(knead_save) int knead_save() {
   if (!held().session) return without_session();
-  auto bytes = held().session->save();
-  return bytes ? answer(std::move(*bytes)) : fail(bytes.error());
+  return reply(held().session->save());
 }
 
 /// Coordinate `axis` of the origin of pictures, file units.
@@ -252,19 +267,15 @@ KNEAD_EXPORT(knead_displays) int knead_displays() { return answer(displays_json(
 /// to (s1, t1), fractions of its domain, chords are within `tolerance` where that is above 0.
 KNEAD_EXPORT(knead_picture)
 int knead_picture(int surface, int detail, int opened, double s0, double t0, double s1, double t1, double tolerance) {
-  auto& session = held().session;
-  if (!session) return without_session();
-  const SessionState& state = session->state();
-  if (surface < 0 || surface >= static_cast<int>(state.surfaces.size())) {
-    return fail({ErrorKind::usage, "there is no such surface"});
-  }
-  auto display = read_display(held().input);
-  if (!display) return fail(display.error());
-  const PictureOptions options{held().origin,         detail,
-                               *std::move(display),   opened != 0,
-                               visible_part(surface), PictureWindow{{s0, t0}, {s1, t1}, tolerance}};
-  if (auto done = held().pictures.make(state, surface, options); !done) return fail(done.error());
-  return answer(picture_json(held().pictures.picture()));
+  return with_surface(surface, [&](const SceneSurface&) {
+    auto display = read_display(held().input);
+    if (!display) return fail(display.error());
+    const PictureOptions options{held().origin,         detail,
+                                 *std::move(display),   opened != 0,
+                                 visible_part(surface), PictureWindow{{s0, t0}, {s1, t1}, tolerance}};
+    const auto done = held().pictures.make(held().session->state(), surface, options);
+    return done ? answer(picture_json(held().pictures.picture())) : fail(done.error());
+  });
 }
 
 /// Where the colours of the pictures end that were made since that of the first surface: the text is `range_json`.
@@ -273,17 +284,12 @@ KNEAD_EXPORT(knead_range) int knead_range() { return answer(range_json(held().pi
 /// Curvature combs of a surface along `along_u` curves on which u runs and `along_v` on which v does, with `teeth`
 /// pieces of every knot span: the text is `comb_json`, its buffers stay until the next call.
 KNEAD_EXPORT(knead_combs) int knead_combs(int surface, int along_u, int along_v, int teeth) {
-  auto& session = held().session;
-  if (!session) return without_session();
-  const SessionState& state = session->state();
-  if (surface < 0 || surface >= static_cast<int>(state.surfaces.size())) {
-    return fail({ErrorKind::usage, "there is no such surface"});
-  }
-  auto combs = comb_picture(*state.surfaces[static_cast<std::size_t>(surface)].current, {{along_u, along_v}, teeth},
-                            held().origin, visible_part(surface).get());
-  if (!combs) return fail(combs.error());
-  held().combs = *std::move(combs);
-  return answer(comb_json(held().combs));
+  return with_surface(surface, [&](const SceneSurface& s) {
+    auto combs = comb_picture(*s.current, {{along_u, along_v}, teeth}, held().origin, visible_part(surface).get());
+    if (!combs) return fail(combs.error());
+    held().combs = *std::move(combs);
+    return answer(comb_json(held().combs));
+  });
 }
 
 /// The shape of a tool in its own frame: the text is `tool_picture_json`, its buffers stay until the next call.
@@ -298,42 +304,27 @@ KNEAD_EXPORT(knead_tool_picture) int knead_tool_picture(int tool) {
 
 /// Control points of a surface in full precision: the text is raw doubles.
 KNEAD_EXPORT(knead_control_points) int knead_control_points(int surface) {
-  auto& session = held().session;
-  if (!session) return without_session();
-  const auto& surfaces = session->state().surfaces;
-  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) {
-    return fail({ErrorKind::usage, "there is no such surface"});
-  }
-  const Points& points = surfaces[static_cast<std::size_t>(surface)].current->control_points();
-  return answer(
-      {reinterpret_cast<const char*>(points.data()), static_cast<std::size_t>(points.size()) * sizeof(double)});
+  return with_surface(surface, [](const SceneSurface& s) {
+    const Points& points = s.current->control_points();
+    return answer(std::string(reinterpret_cast<const char*>(points.data()),
+                              static_cast<std::size_t>(points.size()) * sizeof(double)));
+  });
 }
 
 /// Degree, net, knots, weights and control points of a surface in full precision, as JSON.
 KNEAD_EXPORT(knead_surface) int knead_surface(int surface) {
-  auto& session = held().session;
-  if (!session) return without_session();
-  const auto& surfaces = session->state().surfaces;
-  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) {
-    return fail({ErrorKind::usage, "there is no such surface"});
-  }
-  return answer(surface_json(*surfaces[static_cast<std::size_t>(surface)].current));
+  return with_surface(surface, [](const SceneSurface& s) { return answer(surface_json(*s.current)); });
 }
 
 /// The material of a surface as it is now, by samples over its domain: the text is `material_json`, its buffers stay
 /// until the next call.
 KNEAD_EXPORT(knead_material) int knead_material(int surface, int rows, int columns) {
-  auto& session = held().session;
-  if (!session) return without_session();
-  const auto& surfaces = session->state().surfaces;
-  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) {
-    return fail({ErrorKind::usage, "there is no such surface"});
-  }
-  const SceneSurface& s = surfaces[static_cast<std::size_t>(surface)];
-  auto samples = material_samples(s.material, *s.reference, {rows, columns});
-  if (!samples) return fail(samples.error());
-  held().material = *std::move(samples);
-  return answer(material_json(held().material));
+  return with_surface(surface, [&](const SceneSurface& s) {
+    auto samples = material_samples(s.material, *s.reference, {rows, columns});
+    if (!samples) return fail(samples.error());
+    held().material = *std::move(samples);
+    return answer(material_json(held().material));
+  });
 }
 
 /// The text is the `mesh_file` of the format at this position in the list of formats.
@@ -343,8 +334,7 @@ KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
   if (format < 0 || format >= static_cast<int>(formats().size())) {
     return fail({ErrorKind::usage, "there is no such format"});
   }
-  auto bytes = mesh_file(*session, formats()[static_cast<std::size_t>(format)], detail);
-  return bytes ? answer(std::move(*bytes)) : fail(bytes.error());
+  return reply(mesh_file(*session, formats()[static_cast<std::size_t>(format)], detail));
 }
 
 /// The faces of the open file that are no surfaces of the session: the text is `context_json`, its buffers stay until

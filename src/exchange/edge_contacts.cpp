@@ -19,15 +19,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double loop_chord = 1e-2;  // of the edges that tell which part of a swept surface a face needs
-
 /// Follows edges over the surfaces of the faces around them.
 class Follower {
  public:
   explicit Follower(const step::File::Data& data)
       : data_(data),
         reader_(data.records),
-        loops_(reader_, {loop_chord}),
+        loops_(reader_, {under_chord}),
         angle_units_(plane_angle_units(reader_)),
         feet_(data.surfaces.size()) {}
 
@@ -61,19 +59,8 @@ class Follower {
   }
 
   Expected<void> along_other(const Face& face, const std::vector<Point>& points, EdgeContactFace& result) {
-    auto loops = loops_.loops(face.bounds);
-    if (!loops) return std::unexpected(loops.error());
-    std::vector<Point> on_it;
-    for (const Loop& loop : *loops) on_it.insert(on_it.end(), loop.begin(), loop.end());
-    std::optional<FaceSurface> surface;
-    if (face.surface == no_instance) {
-      surface = FaceSurface::plane_of(on_it);
-      if (!surface) return reader_.error(face.instance, "it has no surface, and its bounds span no plane");
-    } else {
-      auto read = FaceSurface::read(reader_, face.surface, on_it, angle_units_);
-      if (!read) return std::unexpected(read.error());
-      surface = *std::move(read);
-    }
+    const auto surface = FaceSurface::under(reader_, face, loops_, angle_units_);
+    if (!surface) return std::unexpected(surface.error());
     for (const Point& p : points) {
       const Vector2d at = surface->foot(p).parameters;
       result.points.push_back(surface->at(at));

@@ -73,6 +73,18 @@ Expected<FaceSurface> FaceSurface::read(const Reader& reader, std::uint32_t inst
   return reader.error(instance, "faces on surfaces of this form are not drawn");
 }
 
+Expected<FaceSurface> FaceSurface::under(const Reader& reader, const Face& face, EdgeSampler& loops,
+                                         std::span<const double> angle_units) {
+  const auto around = loops.loops(face.bounds);
+  if (!around) return std::unexpected(around.error());
+  std::vector<Point> on_it;
+  for (const Loop& loop : *around) on_it.insert(on_it.end(), loop.begin(), loop.end());
+  if (face.surface != no_instance) return read(reader, face.surface, on_it, angle_units);
+  const auto plane = plane_of(on_it);
+  if (!plane) return reader.error(face.instance, "it has no surface, and its bounds span no plane");
+  return *plane;
+}
+
 Expected<FaceSurface> FaceSurface::read_elementary(const Reader& reader, std::uint32_t instance, const Elementary& form,
                                                    std::span<const Point> on_it, std::span<const double> angle_units) {
   const auto frame = position_of(reader, instance);

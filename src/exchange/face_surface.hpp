@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "charted_surface.hpp"
+#include "face_loops.hpp"
 #include "knead/spline/curvature.hpp"
+#include "step_faces.hpp"
 
 namespace knead::step {
 
@@ -22,6 +24,9 @@ class FaceSurface final : public ChartedSurface {
   /// Errors (input): another type of entity, or an incomplete one.
   [[nodiscard]] static Expected<FaceSurface> read(const Reader& reader, std::uint32_t instance,
                                                   std::span<const Point> on_it, std::span<const double> angle_units);
+  /// Of a face, by its loops; of one without surface the plane of these.
+  [[nodiscard]] static Expected<FaceSurface> under(const Reader& reader, const Face& face, EdgeSampler& loops,
+                                                   std::span<const double> angle_units);
   /// For a face without surface (FACE with a POLY_LOOP): the plane of the loop by Newell's normal.
   [[nodiscard]] static std::optional<FaceSurface> plane_of(std::span<const Point> loop);
 
@@ -99,6 +104,9 @@ class FaceSurface final : public ChartedSurface {
   std::array<double, 2> periods_ = {0, 0};
   std::array<std::optional<double>, 2> poles_ = {};
 };
+
+/// Of the edges that tell which part of a swept surface a face needs (`FaceSurface::under`).
+inline constexpr double under_chord = 1e-2;
 
 /// The radians of every plane angle unit that a file assigns; 1 (radians) if it assigns none.
 [[nodiscard]] std::vector<double> plane_angle_units(const Reader& reader);

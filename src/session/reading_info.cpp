@@ -1,5 +1,6 @@
 #include "command_fields.hpp"
 #include "info_values.hpp"
+#include "knead/exchange/face_point.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/session/session_info.hpp"
 
@@ -8,7 +9,7 @@ namespace knead {
 void describe(ReadingInfo& r, Fields& fields) {
   fields.name("reading info", "What is measured at a point of a surface.");
   fields.add("name", r.name);
-  fields.add("surface", r.surface, {.help = "its number"});
+  fields.add("surface", r.surface, {.help = "its number; -1 of a face on no surface of the session"});
   fields.add("at", r.at, {.unit = Unit::fraction});
   fields.add("point", r.point, {.unit = Unit::length});
   fields.add("displacement", r.displacement, {.help = "from the surface as opened", .unit = Unit::length});
@@ -45,6 +46,19 @@ Expected<std::string> reading_json(const Session& session, int surface, const st
   const auto reading = reading_of(session.state(), Probe{"measurements", "", surface, at});
   if (!reading) return std::unexpected(reading.error());
   return json_of(*reading);
+}
+
+Expected<std::string> face_reading_json(const Session& session, const std::string& face, const Point& near) {
+  const step::File* file = session.document().step_file();
+  if (file == nullptr) return input_error("the document has no faces", face);
+  const auto found = point_on_face(*file, face, near);
+  if (!found) return std::unexpected(found.error());
+  ReadingInfo info;
+  info.surface = -1;
+  info.point = array_of(found->point);
+  info.normal = array_of(found->normal);
+  info.curvature = found->curvature;
+  return json_of(info);
 }
 
 }  // namespace knead

@@ -1,9 +1,10 @@
 #include "restated.hpp"
 
+#include "command_fields.hpp"
+
 namespace knead {
 namespace {
 
-Vector3 array_of(const Point& p) { return {p[0], p[1], p[2]}; }
 /// All edges in the order of `SurfaceEdge`, after `EdgeChoice::all`.
 EdgeChoice choice_of(SurfaceEdge edge) { return static_cast<EdgeChoice>(static_cast<int>(edge) + 1); }
 

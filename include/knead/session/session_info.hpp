@@ -32,6 +32,11 @@ namespace knead {
 /// normal, curvature}, as by `read_probe`. Errors: a point outside the domain (input).
 [[nodiscard]] Expected<std::string> reading_json(const Session& session, int surface, const std::array<double, 2>& at);
 
+/// The same of a face that lies on no surface of the session, at the point of it that is nearest (`point_on_face`):
+/// `surface` is -1. Errors: those of `point_on_face`; a document without a file of faces (input).
+[[nodiscard]] Expected<std::string> face_reading_json(const Session& session, const std::string& face,
+                                                      const Point& near);
+
 /// {"error": {kind, what, where, remedy, message}}.
 [[nodiscard]] std::string error_json(const Error& error);
 

@@ -147,8 +147,34 @@ it('points that trims hide are not there', async () => {
   await page.keyboard.press('q');
   await page.keyboard.press('3');
   await kind('Radius');
-  await click([4.6, 4.6, 0]); // of the patch, not of the disc on it
-  expect(await readings()).toEqual([]);
+  await click([4.6, 4.6, 0]); // of the patch, not of the disc on it: the plane below
   await click([1, 1, 0]);
-  expect((await readings()).length).toBe(1);
+  expect((await readings()).map((r) => [r.points[0]!.surface, r.points[0]!.point[2]])).toEqual([[-1, -4], [0, 0]]);
+});
+
+it('grey faces are measured like surfaces, but not pinned, and F shows the one that was clicked', async () => {
+  const { page } = studio;
+  await page.keyboard.press('Shift+F');
+  await settled(page);
+  await kind('Distance');
+  await click([0, 1, 0], [-15, 10, -4]);
+  const [a, b] = (await readings()).find((r) => r.name === 'distance 1')!.points;
+  expect([a!.surface, b!.surface]).toEqual([0, -1]);
+  expect(b!.point[2]).toBe(-4);
+  expect(Math.hypot(b!.point[0]! + 15, b!.point[1]! - 10)).toBeLessThan(0.2); // the pixel
+  expect(b!.normal).toEqual([0, 0, 1]);
+  expect((await said('distance 1'))['Δz']).toMatch(/^-4 /);
+  expect(await panel().locator('li[data-reading="distance 1"] button').first().isDisabled()).toBe(true);
+  // From near, the whole face.
+  const height = (near: number | null) => page.evaluate((zoom) => {
+    const { main, origin } = (window as never as { studio: { viewer: { origin: number[]; main: { placement(): { height: number }; restore(p: object): void } } } }).studio.viewer;
+    const to = [-15, 10, -4].map((x, d) => x - origin[d]!);
+    if (zoom) main.restore({ ...main.placement(), target: to, position: [to[0], to[1], to[2]! + 1], height: zoom });
+    return main.placement().height;
+  }, near);
+  await page.keyboard.press('v');
+  expect(await height(3)).toBeCloseTo(3, 6);
+  await click([-15, 10, -4]);
+  await page.keyboard.press('f');
+  expect(await height(null)).toBeGreaterThan(40);
 });

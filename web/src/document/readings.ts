@@ -5,7 +5,7 @@ import type { Command, Vector3 } from '../engine/session_types';
 export const measureKinds = { radius: 1, distance: 2, angle: 3, normals: 2 } as const;
 export type MeasureKind = keyof typeof measureKinds;
 
-/** What the engine says of a point of a surface. */
+/** What the engine says of a point of a surface, or, where `surface` is −1, of a face that does not move. */
 export type MeasuredPoint = Omit<ReadingInfo, 'name'>;
 
 /** A measurement. A pinned one follows its points on the surface: they are measurements of the session. */
@@ -100,6 +100,9 @@ export function newReading(kind: MeasureKind, points: readonly MeasuredPoint[], 
   const name = nameOf(kind, number);
   return { kind, name, points, pinned: false, names: points.map((_, k) => `${name}/${letters[k]}`) };
 }
+
+/** Whether the session can follow all of its points: those of grey faces it does not know. */
+export const canFollow = ({ points }: Reading): boolean => points.every((p) => p.surface >= 0);
 
 /** What lets a reading follow the surface. `ids`: of the surfaces. */
 export const pinning = ({ points, names }: Reading, ids: readonly string[]): Command[] =>

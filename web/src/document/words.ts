@@ -56,7 +56,7 @@ const known: [RegExp, (found: RegExpExecArray, error: EngineErrorInfo) => Advice
   [/surfaces is selected$/, () => ({ text: 'No surface is selected.', remedy: 'Click the one that is meant.', actions: [] })],
   [/^there is no surface yet/, () => ({ text: 'There is no surface yet.', remedy: 'Make one in the panel “Create”, or open a file.', actions: [] })],
   [/^a tool of size (\S+) is too small/, ([, size]) => ({
-    text: `A brush or tool of ${size} is too small for this surface.`, remedy: 'Take a larger one, or make the net finer.', actions: [refine] })],
+    text: `A brush or tool of ${size} is too small for this surface.`, remedy: 'Take a larger one.', actions: [] })], // a finer net does not help: the surface is as large
 ];
 
 /** Without what only scripts need: fields in JSON, names of commands. */

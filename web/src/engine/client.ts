@@ -2,7 +2,7 @@ import type { Context, FaceEdge, Trim } from './context';
 import type { DisplayInfo } from './displays';
 import type { CheckedEdgeInfo, EdgesInfo, ReadingInfo } from './generated';
 import type { Frame, PictureSettings, Reply, Request } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo, type MaterialSamples, type MeshFormat, type SurfaceNumbers } from './session_types';
+import { type Command, EngineError, type EngineErrorInfo, type MaterialSamples, type MeshFormat, type SurfaceNumbers, type Vector3 } from './session_types';
 
 interface Answer {
   bytes?: Uint8Array;
@@ -127,6 +127,8 @@ export class Client {
     JSON.parse((await this.ask({ kind: 'checkedEdges', surface })).text!) as CheckedEdgeInfo[];
   reading = async (surface: number, at: [number, number]): Promise<ReadingInfo> =>
     JSON.parse((await this.ask({ kind: 'reading', surface, at })).text!) as ReadingInfo;
+  faceReading = async (face: string, near: Vector3): Promise<ReadingInfo> =>
+    JSON.parse((await this.ask({ kind: 'faceReading', face, near })).text!) as ReadingInfo;
   room = async (surface: number): Promise<number | null> => JSON.parse((await this.ask({ kind: 'room', surface })).text!) as number | null;
   save = async (): Promise<{ bytes: Uint8Array; edges: EdgesInfo[] }> => {
     const { bytes, text } = await this.ask({ kind: 'save' });

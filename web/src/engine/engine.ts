@@ -4,7 +4,7 @@ import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } f
 import { type DisplayChoice, type DisplayInfo, type DisplayRange, plain } from './displays';
 import {
   coefficients, type Combs, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture, type PictureWindow,
-  type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture,
+  type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture, type Vector3,
 } from './session_types';
 import { start } from './wasi';
 
@@ -42,6 +42,7 @@ interface Exports {
   knead_face_edges(surface: number): number;
   knead_checked_edges(surface: number): number;
   knead_reading(surface: number, s: number, t: number): number;
+  knead_face_reading(x: number, y: number, z: number): number;
 }
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
@@ -155,6 +156,12 @@ export class Engine {
   /** What is measured at a point of a surface, in fractions of its domain. */
   reading(surface: number, [s, t]: [number, number]): ReadingInfo {
     return this.json(this.wasm.knead_reading(surface, s, t)) as ReadingInfo;
+  }
+
+  /** The same on a face that is on no surface of the session, at its point nearest to `near`. */
+  faceReading(face: string, near: Vector3): ReadingInfo {
+    this.give(new TextEncoder().encode(face));
+    return this.json(this.wasm.knead_face_reading(...near)) as ReadingInfo;
   }
 
   /** All numbers of a surface as it is now, in full precision. */

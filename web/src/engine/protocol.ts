@@ -1,6 +1,6 @@
 import type { Context } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
-import type { Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SessionInfo, StepInfo, ToolPicture } from './session_types';
+import type { Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
 
 /** How surfaces are drawn. */
 export interface PictureSettings {
@@ -43,6 +43,8 @@ export type Request =
   /** `Engine.checkedEdges`, `Engine.reading` as text. */
   | { kind: 'checkedEdges'; surface: number }
   | { kind: 'reading'; surface: number; at: [number, number] }
+  /** `Engine.faceReading` as text. */
+  | { kind: 'faceReading'; face: string; near: Vector3 }
   /** `Engine.room` as text. */
   | { kind: 'room'; surface: number }
   | { kind: 'save' }

@@ -222,6 +222,9 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     case 'reading':
       post({ kind: 'done', id, text: JSON.stringify(engine.reading(request.surface, request.at)) });
       return;
+    case 'faceReading':
+      post({ kind: 'done', id, text: JSON.stringify(engine.faceReading(request.face, request.near)) });
+      return;
     case 'room':
       post({ kind: 'done', id, text: JSON.stringify(engine.room(request.surface)) });
       return;

@@ -1,4 +1,4 @@
-import { digits, inWords, type MeasureKind, measureKinds, pinning, type Reading, readingText, valuesOf } from '../document/readings';
+import { canFollow, digits, inWords, type MeasureKind, measureKinds, pinning, type Reading, readingText, valuesOf } from '../document/readings';
 import type { Command } from '../engine/session_types';
 import type { App } from './app';
 import { h, iconButton, toggle } from './dom';
@@ -26,7 +26,7 @@ export function measurePanel(app: App): HTMLElement {
       toggle(label, measure.kind === kind, () => measure.choose(kind as MeasureKind), about));
     return [
       row(...chips),
-      app.hand.mode === 'measure' ? note(`Click ${left === 1 ? 'a point' : `${left} points`} of the surface${measure.picked.length > 0 ? ': Esc begins again' : ''}.`) : null,
+      app.hand.mode === 'measure' ? note(`Click ${left === 1 ? 'a point' : `${left} points`} ${measure.picked.length > 0 ? ': Esc begins again' : ''}.`) : null,
       readings.length === 0 ? null : h('ul', { class: 'readings' }, ...readings.map((r) => item(app, r))),
       readings.length < 2 ? null : row(h('button', { class: 'button small', type: 'button', title: 'All readings as text',
         onclick: () => copy(app, readings.map((r) => readingText(r, unitOf(app), sizeOf(app))).join('\n')) }, 'Copy all')),
@@ -36,9 +36,9 @@ export function measurePanel(app: App): HTMLElement {
 
 function item(app: App, reading: Reading): HTMLElement {
   const values = valuesOf(reading, unitOf(app), sizeOf(app));
-  const pin = iconButton('pin', reading.pinned ? `${reading.name} follows the surface` : `Pin ${reading.name}: it follows the surface`, () => void pinDown(app, reading));
+  const pin = iconButton('pin', reading.pinned ? `${reading.name} follows the surface` : !canFollow(reading) ? 'Points of grey faces are not pinned' : `Pin ${reading.name}: it follows the surface`, () => void pinDown(app, reading));
   pin.classList.toggle('on', reading.pinned);
-  pin.disabled = reading.pinned;
+  pin.disabled = reading.pinned || !canFollow(reading);
   return h('li', { data: { reading: reading.name } },
     h('div', { class: 'reading-head' }, h('b', {}, reading.name), pin,
       iconButton('copy', `Copy ${reading.name} as text`, () => copy(app, readingText(reading, unitOf(app), sizeOf(app)))),

@@ -41,8 +41,9 @@ export class Hand {
       material: (surface, counts) => host.client.material(surface, counts),
     });
     this.edges = new Edges(viewer, actions.select, (surface) => host.client.faceEdges(surface), () => host.changed());
-    this.measure = new Measure(viewer, (surface, at) => host.client.reading(surface, at), () => host.changed());
-    this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool(), (viewport, event) => this.offerToConvert(viewport, event));
+    this.measure = new Measure(viewer, host.client, () => host.changed());
+    this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool(), (viewport, event) => this.offerToConvert(viewport, event),
+      () => (viewer.context.chosen = null));
     for (const viewport of viewer.viewports) followGizmo(host, viewport);
     host.onChange.push(() => this.refresh());
   }
@@ -95,7 +96,8 @@ export class Hand {
   /** A grey face is no spline surface, but most can become one. */
   private offerToConvert(viewport: Viewport, event: PointerEvent): void {
     const { host } = this;
-    const face = host.viewer.pickGrey(viewport, event);
+    const face = host.viewer.pickGrey(viewport, event)?.face;
+    host.viewer.context.chosen = face?.id ?? null; // what F shows
     if (!face?.surface) return;
     const convert = async () => {
       const { surface } = face; // held along its edges from the start

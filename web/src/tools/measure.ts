@@ -9,7 +9,13 @@ import type { PointerTool } from './pointers';
 
 const colour = 0xf2c14e;
 
-/** Picks points of surfaces and measures at them. The numbers are the engine's: the picture says only which point is meant. */
+/** Who knows the numbers: at a place of a surface, and of a grey face near a point of the file. */
+export interface Reader {
+  reading(surface: number, at: [number, number]): Promise<MeasuredPoint>;
+  faceReading(face: string, near: Vector3): Promise<MeasuredPoint>;
+}
+
+/** Picks points of surfaces and grey faces, and measures at them. The numbers are the engine's: the picture says only which point is meant. */
 export class Measure implements PointerTool {
   readonly active = false;
   kind: MeasureKind = 'distance';
@@ -24,7 +30,7 @@ export class Measure implements PointerTool {
 
   constructor(
     private readonly viewer: Viewer,
-    private readonly read: (surface: number, at: [number, number]) => Promise<MeasuredPoint>,
+    private readonly engine: Reader,
     private readonly changed: () => void,
   ) {
     for (const part of [this.points, this.lines]) {
@@ -75,8 +81,11 @@ export class Measure implements PointerTool {
   }
 
   click(viewport: Viewport, event: PointerEvent): boolean {
-    const hit = this.viewer.pick(viewport, event);
-    if (hit) void this.pick(hit.surface, hit.fractions);
+    const { viewer, engine } = this;
+    const hit = viewer.pick(viewport, event);
+    const grey = hit ? null : viewer.pickGrey(viewport, event);
+    if (hit) void this.pick(engine.reading(hit.surface, hit.fractions));
+    else if (grey) void this.pick(engine.faceReading(grey.face.id, grey.point.toArray().map((x, d) => x + viewer.origin[d]!) as Vector3));
     return true;
   }
 
@@ -84,9 +93,9 @@ export class Measure implements PointerTool {
     if (viewport) viewport.element.style.cursor = 'crosshair';
   }
 
-  private async pick(surface: number, at: [number, number]): Promise<void> {
+  private async pick(read: Promise<MeasuredPoint>): Promise<void> {
     const asked = ++this.asked;
-    const point = await this.read(surface, at).catch(() => null);
+    const point = await read.catch(() => null);
     if (!point || asked !== this.asked) return;
     this.picked.push(point);
     if (this.picked.length === measureKinds[this.kind]) {

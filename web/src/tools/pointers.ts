@@ -27,7 +27,9 @@ export class Pointers {
 
   constructor(viewports: readonly Viewport[], private readonly navigator: Navigator, private readonly tool: () => PointerTool,
     /** A click that the tool has nothing for. */
-    private readonly clicked: (viewport: Viewport, event: PointerEvent) => void) {
+    private readonly clicked: (viewport: Viewport, event: PointerEvent) => void,
+    /** A press that the tool takes. */
+    private readonly taken: () => void) {
     for (const viewport of viewports) this.listen(viewport);
   }
 
@@ -73,6 +75,7 @@ export class Pointers {
     if (event.button !== 0 || this.onGizmo(viewport)) return;
     const tool = this.tool();
     if (!tool.press(viewport, event)) return;
+    this.taken();
     this.busy = tool;
     viewport.element.setPointerCapture(event.pointerId);
     viewport.element.focus({ preventScroll: true });

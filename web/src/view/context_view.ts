@@ -4,6 +4,13 @@ import type { Context, GreyFace } from '../engine/context';
 import type { Display, Palette } from './display';
 import { reliefLayer } from './relief';
 
+/** A place of the other faces. */
+export interface GreyHit {
+  face: GreyFace;
+  /** Scene coordinates. */
+  point: THREE.Vector3;
+}
+
 /** The other faces of the opened file, in grey, to show what is sculpted in its surroundings. They hide what is behind them. */
 export class ContextView {
   readonly mesh = new THREE.Mesh(
@@ -11,6 +18,8 @@ export class ContextView {
     new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }),
   );
 
+  /** Id of the face that was clicked last, if nothing else was since. */
+  chosen: string | null = null;
   private faces: GreyFace[] = [];
 
   constructor() {
@@ -29,6 +38,7 @@ export class ContextView {
     }
     this.mesh.geometry = geometry;
     this.faces = context?.faces ?? [];
+    this.chosen = null;
   }
 
   get triangles(): number {
@@ -42,6 +52,22 @@ export class ContextView {
     return this.mesh.geometry.boundingBox;
   }
 
+  /** Round the chosen face; null where there is none. */
+  chosenBox(): THREE.Box3 | null {
+    const { index, attributes: { position } } = this.mesh.geometry;
+    if (!this.mesh.visible || !index || !position) return null;
+    const box = new THREE.Box3();
+    let first = 0;
+    for (const face of this.faces) {
+      const end = first + face.triangles;
+      for (let k = 3 * first; face.id === this.chosen && k < 3 * end; ++k) {
+        box.expandByPoint(new THREE.Vector3().fromBufferAttribute(position as THREE.BufferAttribute, index.getX(k)));
+      }
+      first = end;
+    }
+    return box.isEmpty() ? null : box;
+  }
+
   /** Whether it stands before what the ray meets at this distance. Faces that touch there do not. */
   hides(ray: THREE.Raycaster, distance: number): boolean {
     if (!this.mesh.visible) return false;
@@ -53,13 +79,13 @@ export class ContextView {
   }
 
   /** The nearest face on the ray, up to a distance. */
-  hit(ray: THREE.Raycaster, distance: number): GreyFace | null {
+  hit(ray: THREE.Raycaster, distance: number): GreyHit | null {
     const hit = this.mesh.visible ? ray.intersectObject(this.mesh, false)[0] : undefined;
     if (hit?.faceIndex == null || hit.distance > distance) return null;
     let first = 0;
     for (const face of this.faces) {
       first += face.triangles;
-      if (hit.faceIndex < first) return face;
+      if (hit.faceIndex < first) return { face, point: hit.point };
     }
     return null;
   }

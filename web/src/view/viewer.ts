@@ -1,11 +1,11 @@
 import * as THREE from 'three';
 
 import { format } from '../document/units';
-import type { Context, GreyFace, Trim } from '../engine/context';
+import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
 import { type Bounds, boundsOf, seenBox } from './bounds';
 import { CombView } from './comb_view';
-import { ContextView } from './context_view';
+import { ContextView, type GreyHit } from './context_view';
 import { type Display, type Palette, palettes, type Theme } from './display';
 import { Ground, roundStepAbove } from './ground';
 import { limitsOf } from './limits';
@@ -236,11 +236,12 @@ export class Viewer {
     this.redraw();
   }
 
-  /** Shows what is seen of the selected surfaces; all if there are none. */
+  /** Shows the grey face that was clicked last, or what is seen of the selected surfaces; all if there are none. */
   fitSelected(): void {
     const { state } = this.frame ?? {};
     const boxes = (state?.selection ?? []).map((k) => seenBox(this.surfaces[k]?.picture ?? null, this.trims[k] ?? null));
-    if (boxes.length > 0 && !this.waiting) this.fit(boundsOf(boxes));
+    const grey = this.context.chosenBox();
+    if (grey || (boxes.length > 0 && !this.waiting)) this.fit(boundsOf(grey ? [grey] : boxes));
     else this.fitAll();
   }
 
@@ -293,7 +294,7 @@ export class Viewer {
   }
 
   /** The grey face under the pointer, if no surface is before it. */
-  pickGrey(viewport: Viewport, event: { clientX: number; clientY: number }): GreyFace | null {
+  pickGrey(viewport: Viewport, event: { clientX: number; clientY: number }): GreyHit | null {
     if (this.pick(viewport, event)) return null;
     return this.context.hit(this.raycaster, this.section.clip(this.raycaster.ray));
   }
