@@ -352,7 +352,7 @@ KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
   if (!session || !session->document().step_file()) return answer("null");
   if (held().converted != session->document().converted()) forget_trims();
   if (!held().trims) {
-    auto trims = trim_loops(*session->document().step_file());
+    auto trims = trim_loops(*session->document().step_file(), trim_chord);
     held().trims = trims ? *std::move(trims) : TrimLoops();
     for (const SurfaceTrim& trim : held().trims->surfaces) {
       auto& part = held().visible.emplace_back();

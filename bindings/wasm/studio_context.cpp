@@ -74,10 +74,10 @@ std::string context_json(const ContextPicture& context) {
 
 namespace {
 
-/// A millionth of the domain is less than a pixel of any picture.
+/// A billionth of the domain is less than a pixel of a picture from a hundred thousand times as near as all of it.
 void add_fractions(nlohmann::json& numbers, const Eigen::Vector2d& p) {
-  numbers.push_back(std::round(p.x() * 1e6) / 1e6);
-  numbers.push_back(std::round(p.y() * 1e6) / 1e6);
+  numbers.push_back(std::round(p.x() * 1e9) / 1e9);
+  numbers.push_back(std::round(p.y() * 1e9) / 1e9);
 }
 
 }  // namespace

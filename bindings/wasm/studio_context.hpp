@@ -11,6 +11,9 @@
 
 namespace knead::studio {
 
+/// Of loops that are drawn (`trim_loops`): a circle of 10,000 pixels is drawn within one.
+inline constexpr double trim_chord = 1e-4;
+
 /// The faces around the surfaces as triangles; points relative to the requested origin.
 struct ContextPicture {
   /// One of them, with the surface it lies on; that is empty where no record describes it.

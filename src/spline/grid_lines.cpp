@@ -48,7 +48,7 @@ GridLines divided(const KnotVector& knots, const Direction& of, double lower, do
     const double from = coarse.parameters[k], to = coarse.parameters[k + 1];
     if (to < lower || from > upper) continue;
     const double in_span = of.pieces[next - 1];
-    const double chord = of.chords[next - 1].distance / (in_span * in_span);
+    const double chord = of.chords[next - 1].drift / (in_span * in_span);
     const int count = static_cast<int>(std::clamp(std::ceil(std::sqrt(chord / tolerance)), 1.0, 1e6));
     for (int j = 1; j < count; ++j) lines.parameters.push_back(from + (to - from) * j / count);
   }
@@ -106,11 +106,13 @@ Expected<std::vector<SpanChord>> span_chords(const Surface& surface, int d) {
     const double square = t.squaredNorm(), speed = std::sqrt(square);
     const double across = (square > 0 ? Point(along - along.dot(t) / square * t) : along).norm();
     chord.distance = std::max(chord.distance, across);
+    chord.drift = std::max(chord.drift, along.norm());
     if (speed > slow) chord.turn = std::max(chord.turn, across / speed);
   }
   for (std::size_t k = 0; k < spans.size(); ++k) {
     const double length = knots[spans[k] + 1] - knots[spans[k]];
     chords[k].distance *= length * length / 8;
+    chords[k].drift *= length * length / 8;
     chords[k].turn *= length;
   }
   return chords;

@@ -1,5 +1,6 @@
 import type { Picture } from '@studio/engine/session_types';
-import { cutOfContext, cutOfPicture, shown } from '@studio/view/section_lines';
+import { shown } from '@studio/engine/trim_tree';
+import { cutOfContext, cutOfPicture } from '@studio/view/section_lines';
 
 /** A grid over the unit square, m × n points, at the height z(x, y). */
 function sheet(m: number, n: number, z: (x: number, y: number) => number): Picture {

@@ -26,6 +26,7 @@ struct GridLines {
 /// The chord over the whole of a span, in one direction of a surface.
 struct SpanChord {
   double distance = 0;  ///< from the surface: h²/8 · max |S_uu − (S_uu · t) t|
+  double drift = 0;     ///< between points of chord and surface of the same parameter: h²/8 · max |S_uu|
   double turn = 0;      ///< of the tangent, radians: h · max |S_uu − (S_uu · t) t| / |S_u|
 };
 
@@ -54,8 +55,9 @@ struct ChordOptions {
 /// than the tolerance: a chord over h is off by h²/8 · max |S_uu − (S_uu · t) t| with the unit tangent t, that is by κ
 /// L²/8 for the length L of the piece. The maximum is estimated as for `span_chords`, so that chords are within about
 /// the tolerance. Where that would take more points than the options allow, the tolerance is doubled until it does not.
-/// Of these pieces, the ones that lie in the window, in part or whole, are divided evenly until they are within its
-/// tolerance by the same rule; it is doubled likewise. The other lines stay as they are, so that a picture outside of
+/// Of these pieces, the ones that lie in the window, in part or whole, are divided evenly until their points are within
+/// its tolerance of those of the surface with the same parameters, so that what is drawn by parameters, such as trims,
+/// is where it belongs; it is doubled likewise. The other lines stay as they are, so that a picture outside of
 /// the window does not change.
 /// Cost: one evaluation of order 2 at these points. Errors: a rational denominator that is not positive (numerical).
 [[nodiscard]] Expected<std::array<GridLines, 2>> grid_lines(const Surface& surface, const ChordOptions& options);

@@ -1,6 +1,7 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
+import { facesStep } from '../faces_step';
 import { directoryOfFile, openFile, settled, studioOfFile } from './page';
 
 /** Faces that meet along a slanted trim leave no hole between them in the picture. */
@@ -82,5 +83,55 @@ it('shows no background through an edge, from near or far', async () => {
     });
     expect(holes.seen, `zoom ${zoom}`).toBeGreaterThan(1500);
     expect(holes.bad, `zoom ${zoom}`).toBe(0);
+  }
+});
+
+it('ends faces within a pixel of their edges, from near or far', async () => {
+  const { page } = studio;
+  const path = join(directory, 'disc.step');
+  writeFileSync(path, facesStep());
+  await openFile(page, path);
+  await page.waitForFunction(() => (window as never as { studio: { viewer: { trimOf(k: number): unknown } } }).studio.viewer.trimOf(0) !== null);
+  await page.evaluate(() => (window as never as { studio: { setDisplay(d: object): void } }).studio.setDisplay({ isocurves: false, grid: false, context: false }));
+  await page.keyboard.press('3');
+  for (const zoom of [1, 5, 20]) {
+    // About a point of the circle of radius 4, which is the edge.
+    const found = await page.evaluate(async (factor) => {
+      const { main, origin, palette } = (window as never as { studio: { viewer: { origin: number[]; palette: { background: number }; main: {
+        placement(): object; restore(p: object): void; projectAll(p: number[]): Float32Array } } } }).studio.viewer;
+      const angle = 0.7;
+      const to = [4 * Math.cos(angle) - origin[0]!, 4 * Math.sin(angle) - origin[1]!, -origin[2]!];
+      main.restore({ ...main.placement(), target: to, position: [to[0], to[1], to[2]! + 1], height: 12 / factor });
+      await new Promise((resolve) => setTimeout(resolve, 700)); // the view stands still, and is drawn finely
+      const canvas = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!;
+      const box = canvas.getBoundingClientRect();
+      const copy = document.createElement('canvas');
+      [copy.width, copy.height] = [canvas.width, canvas.height];
+      const context = copy.getContext('2d')!;
+      context.drawImage(canvas, 0, 0);
+      const { data, width, height } = context.getImageData(0, 0, copy.width, copy.height);
+      const background = [palette.background >> 16, (palette.background >> 8) & 255, palette.background & 255];
+      // Inwards to the middle of the circle, in steps of a tenth of a pixel: the first pixel of the face, by its middle.
+      const pixel = 12 / factor / box.height;
+      const places: number[] = [];
+      for (let k = -400; k <= 400; ++k) {
+        const a = angle + (k / 400) * Math.min(1, 1.2 / factor);
+        for (let off = 60; off >= -60; --off) {
+          const r = 4 + (off / 10) * pixel;
+          const [x, y] = main.projectAll([r * Math.cos(a) - origin[0]!, r * Math.sin(a) - origin[1]!, -origin[2]!]);
+          const [right, down] = [(x! - box.left) * (width / box.width), (y! - box.top) * (width / box.width)];
+          const [col, row] = [Math.floor(right), Math.floor(down)];
+          if (!(col >= 0 && row >= 0 && col < width && row < height)) break;
+          const at = 4 * (row * width + col);
+          if (background.every((c, d) => Math.abs(data[at + d]! - c) < 30)) continue;
+          places.push(off / 10 + (col + 0.5 - right) * Math.cos(a) - (row + 0.5 - down) * Math.sin(a));
+          break;
+        }
+      }
+      return { farthest: Math.max(...places), nearest: Math.min(...places), count: places.length };
+    }, zoom);
+    expect(found.count, `zoom ${zoom}`).toBeGreaterThan(200);
+    expect(found.farthest, `zoom ${zoom}`).toBeLessThan(0.75); // half a pixel over the edge
+    expect(found.nearest, `zoom ${zoom}`).toBeGreaterThan(-1.5); // the path meets a corner of the pixel (0.7), the loop has chords (0.5)
   }
 });

@@ -9,6 +9,7 @@ interface Answer {
   text?: string;
   opened?: number;
   context?: Context | null;
+  trims?: Trim[];
   material?: MaterialSamples;
 }
 
@@ -140,8 +141,8 @@ export class Client {
   material = async (surface: number, counts: [number, number]): Promise<MaterialSamples> =>
     (await this.ask({ kind: 'material', surface, counts })).material!;
   context = async (): Promise<{ context: Context | null; trims: Trim[] }> => {
-    const { context, text } = await this.ask({ kind: 'context' });
-    return { context: context ?? null, trims: JSON.parse(text!) as Trim[] };
+    const { context, trims } = await this.ask({ kind: 'context' });
+    return { context: context ?? null, trims: trims! };
   };
   journal = async (): Promise<string> => (await this.ask({ kind: 'journal' })).text!;
 

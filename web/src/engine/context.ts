@@ -20,8 +20,20 @@ export interface Context {
   places: number;
 }
 
-/** The loops of each face on a surface, s and t alternating: the parts enclosed by an odd number of loops are visible. Null: all. */
-export type Trim = { faces: number[][][] } | null;
+/**
+ * What trims leave of a surface, so that a point is decided exactly from a few line segments: a quadtree over the domain, whose
+ * leaves have the segments of the loops in and beside them, and a reference point of which it is known whether it shows. A
+ * point of the leaf shows as the reference does, turned over by every segment between the two.
+ */
+export interface TrimTree {
+  /** Four numbers a node. Inside: number of the first of four children (lower left, lower right, upper left, upper right), −1. Leaf: first segment, how many, 1 where the reference shows. */
+  nodes: Float32Array;
+  /** Segments of the leaves, one after the other: from (s, t) to (s, t). */
+  segments: Float32Array;
+}
+
+/** The loops of each face on a surface, s and t alternating: the parts enclosed by an odd number of loops are visible. Null: all. `tree`: the same for drawing, by `trimTree`. */
+export type Trim = { faces: number[][][]; tree?: TrimTree } | null;
 
 /** An edge of a face: places along it, s and t in turn; on closed surfaces they may lie outside of 0 … 1. */
 export interface FaceEdge {

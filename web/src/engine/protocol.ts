@@ -1,4 +1,4 @@
-import type { Context } from './context';
+import type { Context, Trim } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
 import type { Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
 
@@ -36,7 +36,7 @@ export type Request =
   | { kind: 'material'; surface: number; counts: [number, number] }
   /** All surfaces as one mesh file. */
   | { kind: 'mesh'; format: MeshFormat; detail: number }
-  /** The other faces of the file, and the trims of the surfaces as text (`Trim[]`). */
+  /** The other faces of the file, and the trims of the surfaces. */
   | { kind: 'context' }
   /** `Engine.faceEdges` as text. */
   | { kind: 'faceEdges'; surface: number }
@@ -79,7 +79,7 @@ export interface Frame {
 export type Reply =
   | { kind: 'ready'; displays: DisplayInfo[] }
   | { kind: 'frame'; frame: Frame }
-  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; opened?: number; context?: Context | null; material?: MaterialSamples }
+  | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; opened?: number; context?: Context | null; trims?: Trim[]; material?: MaterialSamples }
   | { kind: 'failed'; id: number; error: EngineErrorInfo }
   /** The module has trapped: nothing that it holds can be relied on. */
   | { kind: 'died'; message: string };

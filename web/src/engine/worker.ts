@@ -4,6 +4,7 @@ import { History } from './history';
 import wasmUrl from './knead_studio.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
 import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
+import { trimTree } from './trim_tree';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
 
@@ -208,9 +209,12 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       return;
     case 'context': {
       const context = engine.context();
-      const text = JSON.stringify(engine.state().surfaces.map((_, k) => engine.trims(k)));
-      post({ kind: 'done', id, context, text },
-        context ? [context.positions, context.normals, context.indices].map((a) => a.buffer as ArrayBuffer) : []);
+      const trims = engine.state().surfaces.map((_, k) => {
+        const trim = engine.trims(k);
+        return trim && { ...trim, tree: trimTree(trim)! };
+      });
+      const arrays = [...(context ? [context.positions, context.normals, context.indices] : []), ...trims.flatMap((t) => (t ? [t.tree.nodes, t.tree.segments] : []))];
+      post({ kind: 'done', id, context, trims }, arrays.map((a) => a.buffer as ArrayBuffer));
       return;
     }
     case 'faceEdges':

@@ -1,5 +1,6 @@
 import type { Context, Trim } from '../engine/context';
 import type { Picture } from '../engine/session_types';
+import { shown } from '../engine/trim_tree';
 
 /** Where a plane meets what is drawn: pure functions of buffers. A plane is (a, b, c, d): a x + b y + c z + d = 0. */
 export type PlaneNumbers = readonly [number, number, number, number];
@@ -62,21 +63,6 @@ export function cutOfContext({ positions, indices }: Context, plane: PlaneNumber
     });
   }
   return result;
-}
-
-/** Whether some face shows a point of the domain: an odd number of its loops enclose it. */
-export function shown(trim: Trim, s: number, t: number): boolean {
-  if (!trim) return true;
-  return trim.faces.some((loops) => {
-    let odd = false;
-    for (const loop of loops) {
-      for (let k = 0, l = loop.length - 2; k < loop.length; l = k, k += 2) {
-        const [t0, t1] = [loop[k + 1]!, loop[l + 1]!];
-        if (t0 > t !== t1 > t && s < mix(loop[k]!, loop[l]!, (t - t0) / (t1 - t0))) odd = !odd;
-      }
-    }
-    return odd;
-  });
 }
 
 /** Appends the parts of a piece that the trims leave: it is divided where loops cross it. */

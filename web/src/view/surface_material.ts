@@ -4,6 +4,7 @@ import { type Display, type Palette, toleranceOf } from './display';
 import { lookTexture } from './looks';
 import { reliefUniforms } from './relief';
 import { depthShaders, fragmentShader, vertexShader } from './surface_shader';
+import { trimGlsl, trimUniforms, type TrimUniforms } from './trim_shader';
 
 /** One material for everything a surface can look like: a look, zebra stripes, or coloured by a display. */
 export function surfaceMaterial(): THREE.ShaderMaterial {
@@ -19,8 +20,7 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
       limits: { value: new THREE.Vector2(-1, 1) },
       selected: { value: 1 },
       marks: { value: null },
-      trim: { value: null },
-      trimmed: { value: false },
+      ...trimUniforms(),
       flipped: { value: false },
       accent: { value: new THREE.Color(0x3fb6a8) },
       look: { value: null },
@@ -42,7 +42,20 @@ export function surfaceMaterial(): THREE.ShaderMaterial {
 
 /** Draws how far away the surface is, with the trim of its other material. */
 export function depthMaterial({ uniforms }: THREE.ShaderMaterial): THREE.ShaderMaterial {
-  return new THREE.ShaderMaterial({ side: THREE.DoubleSide, uniforms: { trim: uniforms.trim!, trimmed: uniforms.trimmed! }, ...depthShaders });
+  return new THREE.ShaderMaterial({ side: THREE.DoubleSide, uniforms: { ...trimOf(uniforms) }, ...depthShaders });
+}
+
+const trimOf = ({ trimNodes, trimSegments, trimmed }: Record<string, THREE.IUniform>): TrimUniforms =>
+  ({ trimNodes: trimNodes!, trimSegments: trimSegments!, trimmed: trimmed! });
+
+/** Lines over the surface end where its trims do. */
+export function trimmedLines(material: THREE.LineBasicMaterial, { uniforms }: THREE.ShaderMaterial): THREE.LineBasicMaterial {
+  material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, trimOf(uniforms));
+    shader.vertexShader = shader.vertexShader.replace('void main() {', 'varying vec2 vPlace;\nvoid main() {\n  vPlace = uv;');
+    shader.fragmentShader = shader.fragmentShader.replace('void main() {', `varying vec2 vPlace;\n${trimGlsl}\nvoid main() {\n  if (hidden(vPlace)) discard;`);
+  };
+  return material;
 }
 
 /** Makes a material show what the display asks for. */

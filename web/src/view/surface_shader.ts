@@ -1,3 +1,5 @@
+import { trimGlsl } from './trim_shader';
+
 /** How far the colours just outside a tolerance are from grey. */
 export const justOutside = 0.3;
 
@@ -27,14 +29,15 @@ export const fragmentShader = /* glsl */ `
   uniform vec3 front, back, accent;
   uniform float selected, reliefStrength, tolerance;
   uniform vec2 limits, reliefSize;
-  uniform sampler2D marks, trim, look, relief;
-  uniform bool trimmed, mirrors, flipped;
+  uniform sampler2D marks, look, relief;
+  uniform bool mirrors, flipped;
   uniform vec4 isocurveColour, sections; // of the latter: unit vector across them, then how many per length
   uniform float sectionOffset, stripePeriod;
   uniform vec3 sectionColour, stripeAxis;
   varying vec2 vSpan, vPlace, vIsocurve;
   varying vec3 vNormal, vView, vSceneNormal, vScene;
   varying float vValue;
+  ${trimGlsl}
 
   // Blue below, grey at zero, red above; the brightness changes evenly on both sides. Within the tolerance all is grey, and
   // just outside it no longer.
@@ -79,7 +82,7 @@ export const fragmentShader = /* glsl */ `
   }
 
   void main() {
-    if (trimmed && texture2D(trim, vPlace).a < 0.5) discard;
+    if (hidden(vPlace)) discard;
     vec3 n = normalize(vNormal);
     if (!gl_FrontFacing) n = -n;
     vec3 v = normalize(vView);
@@ -125,11 +128,10 @@ export const depthShaders = {
       gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     }`,
   fragmentShader: /* glsl */ `
-    uniform sampler2D trim;
-    uniform bool trimmed;
     varying vec2 vPlace;
+    ${trimGlsl}
     void main() {
-      if (trimmed && texture2D(trim, vPlace).a < 0.5) discard;
+      if (hidden(vPlace)) discard;
       gl_FragColor = vec4(1.0);
     }`,
 };

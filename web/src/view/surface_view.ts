@@ -7,7 +7,8 @@ import { mark } from './net';
 import { GridPicker } from './picking';
 import { reliefLayer } from './relief';
 import { clippable } from './section';
-import { depthMaterial, restyleMaterial, surfaceMaterial } from './surface_material';
+import { depthMaterial, restyleMaterial, surfaceMaterial, trimmedLines } from './surface_material';
+import type { TrimTextures } from './trim_shader';
 
 const isocurveSpacing = 6; // grid lines between isocurves that are not knot lines
 
@@ -21,7 +22,7 @@ export class SurfaceView {
   /** Control points are shown regardless of the display. */
   editing = false;
 
-  private mask: THREE.Texture | null = null;
+  private mask: TrimTextures | null = null;
   private readonly depth: THREE.Mesh;
   /** All of them where the surface itself is not drawn; else its sides alone, and the surface draws the others. */
   private allIsocurves = false;
@@ -44,6 +45,7 @@ export class SurfaceView {
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), clippable(surfaceMaterial()));
     this.depth = new THREE.Mesh(new THREE.BufferGeometry(), clippable(depthMaterial(this.mesh.material)));
     this.depth.layers.set(reliefLayer);
+    for (const { material } of [this.isocurves, this.knotLines]) trimmedLines(material, this.mesh.material);
     for (const part of [this.mesh, this.depth, this.isocurves, this.knotLines, this.normals, this.net, this.points]) part.frustumCulled = false;
     this.net.material.depthTest = false; // points and net lie on, and behind, what they control
     this.knotLines.renderOrder = 1;
@@ -97,8 +99,8 @@ export class SurfaceView {
   }
 
   /** The visible part of the surface if it is drawn trimmed; null: all. The view owns it from now on. */
-  set trim(mask: THREE.Texture | null) {
-    this.mask?.dispose();
+  set trim(mask: TrimTextures | null) {
+    this.forgetMask();
     this.mask = mask;
     this.placeMask();
   }
@@ -161,14 +163,9 @@ export class SurfaceView {
   restyle(display: Display, palette: Palette, selected: boolean): void {
     const { uniforms } = this.mesh.material;
     const mask = display.trimmed ? this.mask : null;
-    uniforms.trim!.value = mask;
+    uniforms.trimNodes!.value = mask?.nodes ?? null;
+    uniforms.trimSegments!.value = mask?.segments ?? null;
     uniforms.trimmed!.value = mask !== null;
-    for (const { material } of [this.isocurves, this.knotLines]) {
-      if (material.map === mask) continue;
-      material.map = mask;
-      material.alphaTest = mask ? 0.05 : 0;
-      material.needsUpdate = true;
-    }
     const pale = display.colour !== null || display.stripes !== 'none';
     restyleMaterial(this.mesh.material, display, palette);
     uniforms.selected!.value = selected ? 1 : 0;
@@ -224,8 +221,13 @@ export class SurfaceView {
     this.normals.material.color.set(palette.knotLine);
   }
 
+  private forgetMask(): void {
+    this.mask?.nodes.dispose();
+    this.mask?.segments.dispose();
+  }
+
   dispose(): void {
-    this.mask?.dispose();
+    this.forgetMask();
     (this.mesh.material.uniforms.marks!.value as THREE.DataTexture | null)?.dispose();
     for (const part of [this.mesh, this.depth, this.isocurves, this.knotLines, this.normals, this.net, this.points]) {
       part.geometry.dispose();

@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import { format } from '../document/units';
 import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
+import { shown } from '../engine/trim_tree';
 import { type Bounds, boundsOf, seenBox } from './bounds';
 import { CombView } from './comb_view';
 import { ContextView, type GreyHit } from './context_view';
@@ -12,12 +13,11 @@ import { limitsOf } from './limits';
 import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
 import { Section, type SectionAxis } from './section';
-import { shown } from './section_lines';
 import { Relief } from './relief';
 import { placeSections } from './surface_material';
 import { SurfaceView } from './surface_view';
 import { ToolView } from './tool_view';
-import { trimMasks } from './trim_mask';
+import { trimTextures } from './trim_shader';
 import { Turntable } from './turntable';
 import { type ViewName, Viewport } from './viewport';
 
@@ -157,8 +157,7 @@ export class Viewer {
     this.surroundings = context;
     this.section.forget();
     this.trims = trims;
-    const masks = trimMasks(trims);
-    this.surfaces.forEach((s, k) => (s.trim = masks[k] ?? null));
+    this.surfaces.forEach((s, k) => (s.trim = trimTextures(trims[k] ?? null)));
     this.restyle();
   }
 
