@@ -15,6 +15,42 @@ bool any_held(const SceneSurface& s) {
   return s.visible && std::ranges::any_of(trim_orders(s.constraints, *s.visible), [](int order) { return order >= 0; });
 }
 
+constexpr double beside = 0.1;  // of the size of a surface: folds nearer to a held edge than this are beside it
+
+/// The held edge of faces beside a place, in fractions; null where there is none. In space, on the surface as opened.
+const TrimEdge* held_beside(const SceneSurface& s, const Eigen::Vector2d& at) {
+  const auto place = evaluate_point<2>(*s.opened, parameters_of(*s.opened, at));
+  if (!place) return nullptr;
+  const Points& net = s.opened->control_points();
+  double least = beside * (net.colwise().maxCoeff() - net.colwise().minCoeff()).norm();
+  const std::vector<int> orders = trim_orders(s.constraints, *s.visible);
+  const TrimEdge* nearest = nullptr;
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    if (orders[k] < 0) continue;
+    std::vector<bool> only(orders.size());
+    only[k] = true;
+    const double distance = s.visible->distance(*place, only);
+    if (distance > least) continue;
+    least = distance;
+    nearest = &s.visible->edges[k];
+  }
+  return nearest;
+}
+
+Error fold_error(const SceneSurface& s, const Eigen::Vector2d& at) {
+  const std::string place = fmt::format("{} at [{:.4f}, {:.4f}]", s.id, at.x(), at.y());
+  if (const TrimEdge* edge = held_beside(s, at)) {
+    return {
+        ErrorKind::numerical,
+        fmt::format("the step folds {} beside the edge {}, which is held, and was refused", place, edge->id), "step",
+        fmt::format(
+            R"(press less deep or farther from it, or let the edge follow: {{"do":"edge","edge":"{}","hold":"follow"}})",
+            edge->id)};
+  }
+  return {ErrorKind::numerical, fmt::format("the step folds {} and was refused", place), "step",
+          "press less deep, go there in several steps with a larger lambda, or use a stiffer material"};
+}
+
 }  // namespace
 
 const Surface* Executor::document_surface(const SceneSurface& surface) const {
@@ -138,10 +174,7 @@ Expected<void> Executor::check_folds() {
     if (!any_held(s) || s.current == s.opened) continue;
     const auto fold = first_fold(*s.opened, *s.current, *s.visible);
     if (!fold) return std::unexpected(fold.error());
-    if (!*fold) continue;
-    return numerical_error(
-        fmt::format("the step folds {} at [{:.4f}, {:.4f}] and was refused", s.id, (*fold)->x(), (*fold)->y()), "step",
-        R"(press less deep, go there in several steps with a larger lambda, or use a stiffer material)");
+    if (*fold) return std::unexpected(fold_error(s, **fold));
   }
   return {};
 }

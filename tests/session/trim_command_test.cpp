@@ -94,6 +94,27 @@ TEST(TrimCommands, AStrokeThatWouldFoldAFaceIsMadeShallower) {
       << session.state().steps.back().note;
 }
 
+// Points between the hole and the rim, pushed over the one or the other.
+TEST(TrimCommands, AFoldBesideAHeldEdgeNamesIt) {
+  const Disc d = disc();
+  const auto refused = [&](const std::string& first, const char* at, const char* by) {
+    Session session(document(d.file));
+    const auto done =
+        run(session, first + R"({"do":"brush","kind":"grab","radius":0.15,"path":[)" + at + R"(],"by":)" + by + R"(})");
+    EXPECT_FALSE(done);
+    EXPECT_EQ(session.largest_displacement(0), 0);
+    return done ? Error{} : done.error();
+  };
+  for (const auto& [edge, by] : {std::pair{d.hole, "[-0.2,0,0]"}, {d.edge, "[0.2,0,0]"}}) {
+    const Error error = refused("", "[0.8,0.5]", by);
+    EXPECT_NE(error.what.find("beside the edge " + edge + ", which is held"), std::string::npos) << error.message();
+    EXPECT_NE(error.remedy.find(R"({"do":"edge","edge":")" + edge + R"(","hold":"follow"})"), std::string::npos);
+  }
+  const Error freed = refused(R"({"do":"edge","edge":")" + d.hole + R"(","hold":"free"},)", "[0.8,0.5]", "[-0.2,0,0]");
+  EXPECT_NE(freed.what.find("folds #10"), std::string::npos) << freed.message();
+  EXPECT_EQ(freed.what.find(d.hole + ","), std::string::npos) << "it is not held";
+}
+
 TEST(TrimCommands, AScriptOfVersion1HoldsNothingByItself) {
   Session session(document(disc().file));
   const auto done = run(session, ball + R"(,{"do":"step"})", 1);

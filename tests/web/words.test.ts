@@ -43,6 +43,18 @@ describe('what the engine refuses', () => {
     else for (const command of advice.actions.find((a) => a.label === label)!.commands) engine.execute(command); // is a command that can be done
   });
 
+  it('a fold names the held edge beside it, which may follow instead', () => {
+    const error = { kind: 'numerical', where: 'step', what: 'the step folds #10 at [0.7000, 0.5000] beside the edge #43, which is held, and was refused',
+      remedy: 'press less deep or farther from it, or let the edge follow: {"do":"edge","edge":"#43","hold":"follow"}' } as EngineErrorInfo;
+    const { text, remedy, actions } = adviceOn(error);
+    expect(text).toContain('beside the held edge #43');
+    expect(remedy).toMatch(/let the edge follow/);
+    expect(actions).toEqual([{ label: 'Let the edge follow', commands: [{ do: 'edge', edge: '#43', hold: 'follow' }] }]);
+    const far = adviceOn({ ...error, what: 'the step folds #10 at [0.7000, 0.5000] and was refused' });
+    expect(far.text).not.toContain('#43');
+    expect(far.actions).toEqual([]);
+  });
+
   it('an edge beside a face of another form offers to convert it, after which the edge follows', async () => {
     const engine = await Engine.load(wasm);
     engine.openStep(new Uint8Array(readFileSync(fileURLToPath(new URL('../../samples/bonnet.step', import.meta.url)))), 'bonnet.step');

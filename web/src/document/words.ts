@@ -40,6 +40,10 @@ const known: [RegExp, (found: RegExpExecArray, error: EngineErrorInfo) => Advice
     text: `The ${rows} outer rows of control points that are held leave nothing free to move under the brush.`, actions: [refine, release('Hold nothing', 'hold')] })],
   [/^nothing is free to move under the tool/, () => ({
     text: 'Everything under the brush is pinned, frozen or held.', actions: [release('Release all')] })],
+  [/^the step folds .* beside the edge (#\d+), which is held/, ([, edge], { remedy }) => ({
+    text: `The surface would fold over itself beside the held edge ${edge}, so nothing was done.`,
+    remedy: 'Press less deep or farther from it, go there in several strokes, or let the edge follow.',
+    actions: [{ label: 'Let the edge follow', commands: commandsIn(remedy) }] })],
   [/^the step folds/, () => ({
     text: 'The surface would fold over itself there, so nothing was done.', remedy: 'Press less deep or farther from held edges, go there in several strokes, or use a stiffer material.', actions: [] })],
   [/^the step (runs away|gives no finite result)/, () => ({
