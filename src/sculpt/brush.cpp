@@ -12,9 +12,10 @@
 namespace knead {
 namespace {
 
-constexpr double first_length = 1. / 16;  // of a path at its first place, in radii
-constexpr int fewest_of_plane = 6;        // samples
-constexpr double opposed = 0.1;           // mean of normals below which they say nothing of a direction
+constexpr double first_length = 1. / 16;            // of a path at its first place, in radii
+constexpr int fewest_of_plane = 6;                  // samples
+constexpr double most_lean = std::numbers::pi / 3;  // of a pen's axis, from the normal
+constexpr double opposed = 0.1;                     // mean of normals below which they say nothing of a direction
 
 /// Half the way to the neighbours on both sides.
 std::vector<double> cells_of(const std::vector<double>& at) {
@@ -49,6 +50,40 @@ bool is_sharp(BrushKind kind) { return kind == BrushKind::crease || kind == Brus
 
 bool has_strength(BrushKind kind) {
   return kind == BrushKind::flatten || kind == BrushKind::smooth || kind == BrushKind::pinch;
+}
+
+bool leans(BrushKind kind) {
+  switch (kind) {
+    case BrushKind::push:
+    case BrushKind::pull:
+    case BrushKind::flatten:
+    case BrushKind::pinch:
+    case BrushKind::crease:
+    case BrushKind::ridge:
+    case BrushKind::stamp:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// The direction of a pen's axis, on the side of the normal and no farther from it than pens may lean.
+Point leaned(const Point& normal, const Point& axis) {
+  const Point along = axis.dot(normal) * normal, aside = axis - along;
+  const double up = along.norm(), out = aside.norm();
+  if (up + out == 0 || normal.squaredNorm() == 0) return normal;
+  const double angle = std::min(std::atan2(out, up), most_lean);
+  if (angle == 0) return normal;
+  return std::cos(angle) * normal + std::sin(angle) * (axis.dot(normal) < 0 ? -aside : aside) / out;
+}
+
+double radius_of(const Brush& brush, double pressure) {
+  const bool sized = brush.pressure == PressureUse::size || brush.pressure == PressureUse::both;
+  return sized ? pressure * brush.radius : brush.radius;
+}
+
+double depth_of(const Brush& brush, double pressure) {
+  return brush.pressure == PressureUse::depth || brush.pressure == PressureUse::both ? pressure : 1;
 }
 
 }  // namespace
@@ -98,7 +133,11 @@ BrushImage BrushImage::after(const BrushImage& other) const {
 }
 
 BrushPlace BrushImage::of(const BrushPlace& place) const {
-  return {linear * place.at + offset, linear * place.normal, linear * place.along, linear * place.across};
+  return {linear * place.at + offset,
+          linear * place.normal,
+          linear * place.along,
+          linear * place.across,
+          {place.pen.pressure, linear * place.pen.axis}};
 }
 
 Brush BrushImage::of(Brush brush) const {
@@ -113,7 +152,11 @@ BrushHistory::BrushHistory(Eigen::Index samples)
 
 BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSamples& samples, const BrushPlace& place) {
   Frame frame{place, place.at, place.normal};
-  const double reach = brush.radius * brush.radius;
+  const double radius = radius_of(brush, place.pen.pressure), reach = radius * radius;
+  const auto lean = [&] {
+    if (leans(brush.kind) && !place.pen.axis.isZero(0)) frame.normal = leaned(frame.normal, place.pen.axis);
+    return frame;
+  };
   Point normal = Point::Zero(), middle = Point::Zero();
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   double total = 0, known = 0;
@@ -122,7 +165,7 @@ BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSample
     const Point off = samples.points.row(g).transpose() - place.at;
     const double square = off.squaredNorm();
     if (square >= reach) continue;
-    const double w = brush_falloff(std::sqrt(square), brush.radius, brush.core) * samples.areas[g];
+    const double w = brush_falloff(std::sqrt(square), radius, brush.core) * samples.areas[g];
     const Point n = samples.normals.row(g);
     normal += w * n;
     middle += w * off;
@@ -132,15 +175,15 @@ BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSample
     count += w > 0 ? 1 : 0;
   }
   if (normal.norm() > opposed * known) frame.normal = normal.normalized();
-  if (brush.kind != BrushKind::flatten || count < fewest_of_plane) return frame;
+  if (brush.kind != BrushKind::flatten || count < fewest_of_plane) return lean();
   middle /= total;
   spread = spread / total - middle * middle.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  if (!(axes.eigenvalues()[1] > 1e-6 * axes.eigenvalues()[2])) return frame;  // on a line
+  if (!(axes.eigenvalues()[1] > 1e-6 * axes.eigenvalues()[2])) return lean();  // on a line
   frame.middle = place.at + middle;
   const Point across = axes.eigenvectors().col(0);
   frame.normal = across.dot(frame.normal) < 0 ? Point(-across) : across;
-  return frame;
+  return lean();
 }
 
 /// d at full weight, of the kinds that have a mean along the path.
@@ -175,19 +218,27 @@ void BrushHistory::add(const Brush& brush, const BrushSamples& samples, const Fr
     const Point nearest = from.place.at + share * piece;
     const double distance = (x - nearest).norm();
     if (distance >= brush.radius) continue;
+    reaches_ = true;
+    const double pressure = from.place.pen.towards(to.place.pen, share).pressure;
+    const double radius = radius_of(brush, pressure);
+    if (distance >= radius) continue;
     const double profile =
-        is_sharp(brush.kind) ? cusp(distance, brush.radius) : brush_falloff(distance, brush.radius, brush.core);
-    const bool nearer = profile > weight_[g];
-    if (nearer) weight_[g] = profile;
+        depth_of(brush, pressure) *
+        (is_sharp(brush.kind) ? cusp(distance, radius) : brush_falloff(distance, radius, brush.core));
     if (brush.kind == BrushKind::pinch) {
-      if (!nearer) continue;
+      const double near = brush_falloff(distance, brush.radius, brush.core);  // however it is pressed
+      if (near < total_[g] || (near == total_[g] && profile <= weight_[g])) continue;
+      total_[g] = near;
+      weight_[g] = profile;
       const Point normal = ((1 - share) * from.normal + share * to.normal).stableNormalized();
       sum_.row(g) = (nearest - x) - (nearest - x).dot(normal) * normal;
-      total_[g] = 1;
       continue;
     }
+    weight_[g] = std::max(weight_[g], profile);
     for (const Frame* end : {&from, &to}) {  // the trapezoidal rule
-      const double w = brush_falloff((x - end->place.at).norm(), brush.radius, brush.core) * 0.5 * length;
+      const double reach = radius_of(brush, end->place.pen.pressure), off = (x - end->place.at).norm();
+      if (off >= reach) continue;
+      const double w = brush_falloff(off, reach, brush.core) * 0.5 * length;
       if (w == 0) continue;
       sum_.row(g) += w * asked_at(*end, brush, samples, g, fair);
       total_[g] += w;
@@ -203,7 +254,8 @@ void BrushHistory::go_to(const Brush& brush, const BrushSamples& samples, const 
     add(brush, samples, first_, first_, first_length * brush.radius, fair);
     return;
   }
-  const double length = (place.at - last_.place.at).norm();
+  const double turn = std::abs(place.pen.pressure - last_.place.pen.pressure);
+  const double length = (place.at - last_.place.at).norm() + first_length * brush.radius * turn;
   if (length == 0 || acts_about_one_place(brush.kind)) return;
   const Frame next = frame_at(brush, samples, place);
   add(brush, samples, last_, next, length, fair);
@@ -212,7 +264,12 @@ void BrushHistory::go_to(const Brush& brush, const BrushSamples& samples, const 
 
 Point BrushHistory::about_first(const Brush& brush, const Point& x) const {
   const Point off = x - first_.place.at;
-  if (brush.kind == BrushKind::stamp) return stamped(brush, first_.place, first_.normal, off);
+  if (brush.kind == BrushKind::stamp) {
+    Brush pressed = brush;
+    pressed.radius = radius_of(brush, first_.place.pen.pressure);
+    pressed.height = depth_of(brush, first_.place.pen.pressure) * brush.height;
+    return stamped(pressed, first_.place, first_.normal, off);
+  }
   const double w = brush_falloff(off.norm(), brush.radius, brush.core);
   if (brush.kind == BrushKind::grab) return w * brush.by;
   if (brush.kind == BrushKind::twist) return turned(off, first_.normal, w * brush.angle) - off;
@@ -227,7 +284,8 @@ Points BrushHistory::displacement(const Brush& brush, const BrushSamples& sample
     if (acts_about_one_place(brush.kind)) {
       result.row(g) = about_first(brush, samples.points.row(g));
     } else if (total_[g] > 0) {
-      result.row(g) = strength * weight_[g] / total_[g] * sum_.row(g);
+      const double total = brush.kind == BrushKind::pinch ? 1 : total_[g];
+      result.row(g) = strength * weight_[g] / total * sum_.row(g);
     }
   }
   return result;

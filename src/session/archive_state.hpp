@@ -293,6 +293,11 @@ template <class A>
 void pass(A& a, Of<A, BrushPoint>& p) {
   pass(a, p.surface);
   pass(a, p.at);
+  if constexpr (!A::writing) {
+    if (a.version() < 7) return;  // which had no pens
+  }
+  pass(a, p.pen.pressure);
+  pass(a, p.pen.axis);
 }
 
 /// Until version 4 a path was on one surface.
@@ -302,13 +307,13 @@ inline void read_path_on_one_surface(Reader& a, std::vector<BrushPoint>& path) {
   pass(a, surface);
   list(a, points, 16);
   path.clear();
-  for (const Fractions& at : points) path.push_back({surface, at});
+  for (const Fractions& at : points) path.push_back({surface, at, {}});
 }
 
 template <class A>
 void pass(A& a, Of<A, OpenBrush>& b) {
   auto& [brush, images, rope, path, before, masks] = b;
-  auto& [kind, radius, height, strength, core, by, angle, factor, pattern] = brush;
+  auto& [kind, radius, height, strength, core, by, angle, factor, pattern, pressure] = brush;
   choice(a, kind, BrushKind::stamp);
   for (auto* x : {&radius, &height, &strength, &core, &angle, &factor, &rope}) pass(a, *x);
   pass(a, by);
@@ -330,6 +335,10 @@ void pass(A& a, Of<A, OpenBrush>& b) {
   }
   list(a, before, 16);
   list(a, masks, 8);
+  if constexpr (!A::writing) {
+    if (a.version() < 7) return;
+  }
+  choice(a, pressure, PressureUse::none);
 }
 
 template <class A>

@@ -16,6 +16,7 @@ namespace {
 constexpr double felt_radii = 0.25;    // how far held points are felt, and what smoothing evens out, in radii
 constexpr double spans_wanted = 0.25;  // longest spans under a brush where nets may be refined, in radii
 constexpr double sharp_wanted = 1. / 16;
+constexpr double least_size = 0.25;  // of a pen's pressure on the size, for which nets are refined
 constexpr int most_halvings = 6;
 constexpr int most_control_points = 25000;  // of a surface that is refined under a brush
 
@@ -47,11 +48,13 @@ Expected<std::array<std::vector<double>, 2>> halving(const Surface& s, const Fra
 
 /// Finer nets of a surface at one place of a brush, where the edges of faces are held or refining is permitted. Returns
 /// the length of the longest span there that is left.
-Expected<double> Executor::refine_under_brush(SceneSurface& s, const Fractions& at) {
+Expected<double> Executor::refine_under_brush(SceneSurface& s, const Fractions& at, double pressure) {
   const Brush& brush = state.brush->brush;
+  const bool sized = brush.pressure == PressureUse::size || brush.pressure == PressureUse::both;
   const bool sharp =
       brush.kind == BrushKind::crease || brush.kind == BrushKind::ridge || brush.kind == BrushKind::stamp;
-  const double wanted = brush.radius * (sharp ? sharp_wanted : spans_wanted);
+  const double wanted =
+      (sized ? std::max(pressure, least_size) : 1) * brush.radius * (sharp ? sharp_wanted : spans_wanted);
   if (auto refined = refine_at_trims(s, at, brush.radius); !refined) return std::unexpected(refined.error());
   double longest = 0;
   for (int k = 0; k < most_halvings; ++k) {
@@ -89,7 +92,7 @@ Expected<void> Executor::refine_for_brush(const std::vector<BrushPoint>& places)
   std::map<int, double> coarsest;
   for (const BrushPoint& at : places) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(at.surface)];
-    const auto longest = refine_under_brush(s, at.at);
+    const auto longest = refine_under_brush(s, at.at, at.pen.pressure);
     if (!longest) return std::unexpected(longest.error());
     coarsest[at.surface] = std::max(coarsest[at.surface], *longest);
     if (!beside) continue;
@@ -101,7 +104,8 @@ Expected<void> Executor::refine_for_brush(const std::vector<BrushPoint>& places)
       const auto there = way.place(foot);
       if (!there) return std::unexpected(there.error());
       if ((there->at - place->at).norm() >= radius) continue;
-      const auto refined = refine_under_brush(state.surfaces[static_cast<std::size_t>(other)], foot.at);
+      const auto refined =
+          refine_under_brush(state.surfaces[static_cast<std::size_t>(other)], foot.at, at.pen.pressure);
       if (!refined) return std::unexpected(refined.error());
     }
   }

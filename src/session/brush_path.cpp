@@ -83,13 +83,13 @@ Expected<Point> BrushPath::point(const BrushPoint& at) const { return point_at(*
 
 BrushPoint BrushPath::nearest(int surface, const Point& x) const {
   const Sheet& on = sheet(surface);
-  return {surface, foot_on(*on.shape, on.closed, x).at};
+  return {surface, foot_on(*on.shape, on.closed, x).at, {}};
 }
 
 Expected<BrushPoint> BrushPath::towards(const BrushPoint& from, const BrushPoint& to, double share) const {
   if (share == 1) return to;
   if (from.surface == to.surface) {
-    BrushPoint result = from;
+    BrushPoint result{from.surface, from.at, from.pen.towards(to.pen, share)};
     const std::array<bool, 2>& closed = sheet(from.surface).closed;
     for (std::size_t d = 0; d < 2; ++d) {
       double way = to.at[d] - from.at[d];
@@ -111,7 +111,7 @@ Expected<BrushPoint> BrushPath::towards(const BrushPoint& from, const BrushPoint
     const Foot foot = foot_on(*on.shape, on.closed, x);
     if (foot.distance >= least) continue;
     least = foot.distance;
-    best = {on.surface, foot.at};
+    best = {on.surface, foot.at, from.pen.towards(to.pen, share)};
   }
   return best;
 }
@@ -173,7 +173,7 @@ Expected<BrushPlace> BrushPath::place(const BrushPoint& at) const {
   const Point su = jet->at({1, 0}).row(0), sv = jet->at({0, 1}).row(0);
   const Point normal = su.cross(sv).stableNormalized();
   return BrushPlace{jet->points().row(0).transpose(), normal, su.stableNormalized(),
-                    normal.cross(su).stableNormalized()};
+                    normal.cross(su).stableNormalized(), at.pen};
 }
 
 }  // namespace knead

@@ -58,10 +58,7 @@ bool stands_alone(const BrushPlace& place, const OpenBrush& open) {
 
 }  // namespace
 
-bool BrushRun::reaches(Brush brush) const {
-  brush.strength = 1;
-  return std::ranges::any_of(histories, [&](const BrushHistory& h) { return (h.weights(brush).array() > 0).any(); });
-}
+bool BrushRun::reaches() const { return std::ranges::any_of(histories, &BrushHistory::reaches); }
 
 void Executor::begin_brush(const Brush& brush, std::vector<BrushImage> images, double rope) {
   OpenBrush open{brush, std::move(images), rope, {}, {}, {}};
@@ -170,7 +167,7 @@ Expected<void> Executor::lead_brush() {
     }
     run.open.path.push_back(open.path[k]);
   }
-  if (run.reaches(open.brush)) return {};
+  if (run.reaches()) return {};
   return input_error("the brush reaches no control point: the spans of the net are longer than its radius", "radius",
                      R"(use a larger one, or let the net be refined: {"do":"refine","permission":"auto"})");
 }

@@ -34,7 +34,7 @@ struct BrushRun {
   std::string shape = {};               ///< of which the pattern of a stamp was made; empty: of none
 
   /// Whether any control point is within the radius of the path.
-  [[nodiscard]] bool reaches(Brush brush) const;
+  [[nodiscard]] bool reaches() const;
 };
 
 struct Session::ModelCache {
@@ -191,7 +191,7 @@ struct Executor {
   Expected<void> show_stroke(bool down);
   Expected<void> show_remembered(bool down);
   Expected<void> refine_for_brush(const std::vector<BrushPoint>& places);
-  Expected<double> refine_under_brush(SceneSurface& surface, const Fractions& at);
+  Expected<double> refine_under_brush(SceneSurface& surface, const Fractions& at, double pressure);
   Expected<void> prepare_brush_model();
   Expected<void> start_brush_run();
   Expected<void> lead_brush();

@@ -82,6 +82,8 @@ bool goes_on(const BrushCommand& first, const BrushCommand& second) {
   like.path = first.path;
   like.surface = first.surface;
   like.surfaces = first.surfaces;
+  like.pressure = first.pressure;
+  like.tilt = first.tilt;
   like.open = first.open;
   like.by = first.by;
   like.angle = first.angle;
@@ -100,6 +102,14 @@ void prepend(const StrokeCommand& first, const Scene&, StrokeCommand& both) {
   both.path.insert(both.path.begin(), first.path.begin(), first.path.end());
 }
 void prepend(const BrushCommand& first, const Scene& scene, BrushCommand& both) {
+  const auto one_after_the_other = [&]<class T>(std::vector<T> before, std::vector<T>& after, const T& without) {
+    if (before.empty() && after.empty()) return;
+    before.resize(first.path.size(), without);
+    after.resize(both.path.size(), without);
+    after.insert(after.begin(), before.begin(), before.end());
+  };
+  one_after_the_other(first.pressure, both.pressure, 1.0);
+  one_after_the_other(first.tilt, both.tilt, Vector3{});
   if (first.surface != both.surface || !first.surfaces.empty() || !both.surfaces.empty()) {
     std::vector<std::string> surfaces = surfaces_of(first, scene), more = surfaces_of(both, scene);
     surfaces.insert(surfaces.end(), more.begin(), more.end());

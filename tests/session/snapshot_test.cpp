@@ -106,20 +106,11 @@ TEST(Snapshot, SharesWhatTheHistoryShares) {
   EXPECT_LT(session.snapshot().size() - before, 50U * 1000U);
 }
 
-/// A snapshot of one state with one surface and neither steps nor notes, as version 1 of the format had it.
-std::string in_version_1(std::string snapshot) {
-  const std::size_t head = std::string_view("Knead snapshot 1\n").size();
-  const double one = 1;
-  std::string plastic(34, '\0');  // of the surface: along, share, yield, locality, in radii; the length of its mask
-  std::memcpy(&plastic[1], &one, sizeof one);
-  plastic[25] = '\1';
-  // The count of probes, no open stroke, the count of edges that follow, the coupling of positions, no brush, the
-  // coupling of tangent planes and how far these may open; counts of steps, seams and notes and a flag follow, and the
-  // count of converted surfaces.
-  snapshot.erase(snapshot.size() - 8);
-  snapshot.erase(snapshot.size() - 75, 42);
-  snapshot.erase(snapshot.rfind(plastic), plastic.size());
-  snapshot[head - 2] = '1';
+constexpr std::size_t head = std::string_view("Knead snapshot 1\n").size();
+
+/// The bytes of a snapshot after its head with the version and the checksum that they have there.
+std::string sealed(std::string snapshot, char version) {
+  snapshot[head - 2] = version;
   std::uint64_t hash = 0xcbf29ce484222325U;
   const std::string_view content = std::string_view(snapshot).substr(head + 8);
   for (std::size_t k = 0; k < content.size(); k += 8) {
@@ -132,6 +123,21 @@ std::string in_version_1(std::string snapshot) {
   return snapshot;
 }
 
+/// A snapshot of one state with one surface and neither steps nor notes, as version 1 of the format had it.
+std::string in_version_1(std::string snapshot) {
+  const double one = 1;
+  std::string plastic(34, '\0');  // of the surface: along, share, yield, locality, in radii; the length of its mask
+  std::memcpy(&plastic[1], &one, sizeof one);
+  plastic[25] = '\1';
+  // The count of probes, no open stroke, the count of edges that follow, the coupling of positions, no brush, the
+  // coupling of tangent planes and how far these may open; counts of steps, seams and notes and a flag follow, and the
+  // count of converted surfaces.
+  snapshot.erase(snapshot.size() - 8);
+  snapshot.erase(snapshot.size() - 75, 42);
+  snapshot.erase(snapshot.rfind(plastic), plastic.size());
+  return sealed(std::move(snapshot), '1');
+}
+
 TEST(Snapshot, ReadsTheVersionBefore) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,10]})"});
@@ -141,11 +147,29 @@ TEST(Snapshot, ReadsTheVersionBefore) {
   EXPECT_TRUE(same_state(restored->state(), session.state()));
 }
 
+// An open brush at one place of one surface without a mask, which had no pen in version 6.
+TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,10],"net":[12,12]})",
+                R"({"do":"brush","kind":"push","radius":3,"path":[[0.3125,0.40625]],"open":true})"});
+  std::string old = session.snapshot(0);
+  const std::array<double, 2> at = {0.3125, 0.40625};
+  std::string place(sizeof at, '\0');
+  std::memcpy(place.data(), at.data(), sizeof at);
+  const std::size_t pen = old.rfind(place) + place.size();
+  old.erase(pen, 4 * sizeof(double));  // pressure and axis
+  old.erase(pen + 40, 4);              // what pressure scales, after the shapes before and the masks
+  const auto restored = Session::restore(Document::fresh("test"), sealed(old, '6'));
+  ASSERT_TRUE(restored) << restored.error().message();
+  ASSERT_TRUE(restored->state().brush);
+  EXPECT_TRUE(same_state(restored->state(), session.state()));
+}
+
 TEST(Snapshot, RefusesBytesThatAreNotItsOwn) {
   Session session = on_sheet(rich);
   const std::string good = session.snapshot();
   EXPECT_FALSE(Session::restore(session.document(), ""));
-  EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot 7\n"));
+  EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot 8\n"));
   for (std::size_t size = 0; size < good.size(); size += 997) {
     EXPECT_FALSE(Session::restore(session.document(), std::string_view(good).substr(0, size))) << size;
   }

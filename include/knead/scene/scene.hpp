@@ -121,6 +121,7 @@ struct OpenStroke {
 struct BrushPoint {
   int surface = 0;  ///< an index into the scene's surfaces
   Fractions at = {};
+  PenHold pen = {};
 
   friend bool operator==(const BrushPoint&, const BrushPoint&) = default;
 };

@@ -29,6 +29,26 @@ enum class BrushKind {
 /// Grab, twist, scale and stamp act about one place; the others along a path.
 [[nodiscard]] bool acts_about_one_place(BrushKind kind);
 
+/// What the pressure of a pen scales.
+enum class PressureUse {
+  depth,  ///< the weight of a place: how far its points go
+  size,   ///< the radius there
+  both,
+  none,
+};
+
+/// How a pen is held at a place of the path of a brush.
+struct PenHold {
+  double pressure = 1;         ///< p, 0 to 1
+  Point axis = Point::Zero();  ///< of the pen, of any length; zero: along the normal of the surface
+
+  friend bool operator==(const PenHold&, const PenHold&) = default;
+  /// The one at a share of the way to another; exactly this one where both are the same.
+  [[nodiscard]] PenHold towards(const PenHold& other, double share) const {
+    return {pressure + share * (other.pressure - pressure), axis + share * (other.axis - axis)};
+  }
+};
+
 /// A brush. Lengths in file units.
 struct Brush {
   BrushKind kind = BrushKind::push;
@@ -40,6 +60,7 @@ struct Brush {
   double angle = 0;           ///< twist, stamp: about the normal, counterclockwise, radians
   double factor = 1;          ///< scale: > 0
   StampPattern pattern = {};  ///< stamp: over the square about the place whose corners are on the radius
+  PressureUse pressure = PressureUse::depth;  ///< what the pen's pressure scales at each place of a path
 
   friend bool operator==(const Brush&, const Brush&) = default;
 };
@@ -63,6 +84,7 @@ struct BrushSamples {
 struct BrushPlace {
   Point at = Point::Zero(), normal = Point::Zero();
   Point along = Point::Zero(), across = Point::Zero();  ///< where a stamp's ξ and η grow; they span the tangent plane
+  PenHold pen = {};
 };
 
 /// An isometry of space, x → Q x + o, which makes the copies of a stroke: mirror images and turns.
@@ -91,7 +113,12 @@ struct BrushImage {
 ///
 /// where d(g, l) is what the brush would do to the sample at full weight at the place l: so u depends on the path and
 /// not on the number of places by which it was given, or on how often a place was passed. Pinch takes d at the
-/// nearest place. A value.
+/// nearest place.
+///
+/// A pen's pressure p, linear between places, makes ŵ the largest p w on the path (PressureUse::depth), or the radius
+/// of a place p R (size). Its axis leans the direction of push, pull, crease, ridge and stamp, and the plane of flatten
+/// and pinch, from the normal by up to 60°; the others have no direction of their own. Pressure that changes at one
+/// place counts as R/16 of path for a change by 1. At p = 1 without an axis all bits are those without a pen. A value.
 class BrushHistory {
  public:
   explicit BrushHistory(Eigen::Index samples);
@@ -102,6 +129,8 @@ class BrushHistory {
 
   /// u, one row per sample; exactly zero from the radius on.
   [[nodiscard]] Points displacement(const Brush& brush, const BrushSamples& samples) const;
+  /// Whether a sample was within the radius, however lightly a pen was pressed.
+  [[nodiscard]] bool reaches() const { return reaches_; }
   /// a ŵ.
   [[nodiscard]] Eigen::VectorXd weights(const Brush& brush) const { return brush.strength * weight_; }
 
@@ -118,7 +147,7 @@ class BrushHistory {
            const Points& fair);
   [[nodiscard]] Point about_first(const Brush& brush, const Point& x) const;
 
-  bool begun_ = false;
+  bool begun_ = false, reaches_ = false;
   Frame first_, last_;
   Eigen::VectorXd weight_, total_;  // ŵ and ∫ w dl
   Points sum_;                      // ∫ w d dl

@@ -119,6 +119,7 @@ Expected<Brush> brush_of(const BrushCommand& c, double diagonal) {
   b.by = unit * in_space(c.by.value_or(Vector3{}));
   b.angle = c.angle.value_or(0) * std::numbers::pi / 180;
   b.factor = c.factor.value_or(1);
+  b.pressure = c.presses;
   for (const auto& [x, range, field] :
        {std::tuple{b.radius, above(0), "radius"}, std::tuple{b.height, Range{}, "height"},
         std::tuple{b.strength, between(0, 1), "strength"}, std::tuple{b.core, between(0, largest_core), "core"},
@@ -128,6 +129,32 @@ Expected<Brush> brush_of(const BrushCommand& c, double diagonal) {
     if (auto fits = check(x, range, field); !fits) return std::unexpected(fits.error());
   }
   return b;
+}
+
+/// What a pen says of the points of the path has to be possible.
+Expected<void> check_pen(const BrushCommand& c) {
+  const auto given = [&c](std::size_t count, const char* field, const char* what) -> Expected<void> {
+    if (count == 0 || count == c.path.size()) return {};
+    return input_error(fmt::format("there are {} {} for {} points of the path", count, what, c.path.size()), field,
+                       "give one for each, or leave them out");
+  };
+  if (auto fits = given(c.pressure.size(), "pressure", "pressures"); !fits) return fits;
+  if (auto fits = given(c.tilt.size(), "tilt", "tilts"); !fits) return fits;
+  const bool unpressed = c.kind == BrushKind::grab || c.kind == BrushKind::twist || c.kind == BrushKind::scale;
+  if (unpressed && !c.pressure.empty()) {
+    return input_error("grab, twist and scale have no pressure", "pressure", "leave it out");
+  }
+  for (std::size_t k = 0; k < c.pressure.size(); ++k) {
+    if (c.pressure[k] >= 0 && c.pressure[k] <= 1) continue;
+    return input_error(fmt::format("{} is not a pressure", c.pressure[k]), fmt::format("pressure[{}]", k),
+                       "use a number from 0 to 1");
+  }
+  for (std::size_t k = 0; k < c.tilt.size(); ++k) {
+    if (in_space(c.tilt[k]).allFinite()) continue;
+    return input_error("a number is not finite", fmt::format("tilt[{}]", k),
+                       "give [x, y, z], the direction of the pen");
+  }
+  return {};
 }
 
 /// The points of the path with their surfaces.
@@ -144,7 +171,10 @@ Expected<std::vector<BrushPoint>> path_of(Executor& executor, const BrushCommand
   std::vector<BrushPoint> path;
   for (std::size_t k = 0; k < c.path.size() && surface; ++k) {
     if (!c.surfaces.empty()) surface = executor.selected_surface(c.surfaces[k], "surfaces");
-    if (surface) path.push_back({*surface, c.path[k]});
+    if (!surface) break;
+    path.push_back({*surface, c.path[k], {}});
+    if (!c.pressure.empty() && c.presses != PressureUse::none) path.back().pen.pressure = c.pressure[k];
+    if (!c.tilt.empty()) path.back().pen.axis = in_space(c.tilt[k]).normalized();
   }
   if (!surface) return std::unexpected(surface.error());
   return path;
@@ -170,6 +200,14 @@ std::span<const Choice> choices(BrushKind) {
   return list;
 }
 
+std::span<const Choice> choices(PressureUse) {
+  static constexpr Choice list[] = {{"depth", PressureUse::depth, "how far points go"},
+                                    {"size", PressureUse::size, "the radius"},
+                                    {"both", PressureUse::both, "depth and radius"},
+                                    {"none", PressureUse::none, "nothing"}};
+  return list;
+}
+
 void describe(BrushCommand& c, Fields& fields) {
   fields.name("brush", "lead a brush over the surface");
   fields.add("kind", c.kind, {.help = "what it does", .presence = Presence::required});
@@ -179,6 +217,17 @@ void describe(BrushCommand& c, Fields& fields) {
   fields.add("surface", c.surface, {.help = "id of the surface of the path", .fallback = "the first selected one"});
   fields.add("surfaces", c.surfaces,
              {.help = "ids of the surface of each point of a path that leads over several selected ones"});
+  fields.add("pressure", c.pressure,
+             {.help = "of a pen at each point of the path, `0` to `1`, linear in between; not of grab, twist and scale",
+              .unit = Unit::fraction,
+              .range = between(0, 1),
+              .fallback = "`1`"});
+  fields.add("presses", c.presses, {.help = "what `pressure` scales"});
+  fields.add(
+      "tilt", c.tilt,
+      {.help = "`[[x, y, z], …]`: the direction of the pen at each point of the path, in which push, pull, crease, "
+               "ridge, flatten, pinch and stamp act, up to 60° from the normal; `[0, 0, 0]` along it",
+       .fallback = "the normal"});
   fields.add("radius", c.radius,
              {.help = "beyond which nothing moves, measured in space",
               .unit = Unit::length,
@@ -240,6 +289,7 @@ Expected<void> Executor::execute(const BrushCommand& c) {
   }
   auto images = images_of(c, **first);
   if (!images) return std::unexpected(images.error());
+  if (auto possible = check_pen(c); !possible) return possible;
   const auto path = path_of(*this, c);
   if (!path) return std::unexpected(path.error());
   const double rope = c.steady * brush->radius;
