@@ -30,10 +30,25 @@ export function surfaceBrushFields(app: App): (Node | null)[] {
     ), 'How high it goes, 100 % half its radius; of flatten, smooth and pinch how far. Alt-wheel'),
     moving || stamping ? null : field('Steady', slider('Steady stroke', settings.steady, [0, 2], (steady) => set({ steady: steady < 0.05 ? 0 : steady })),
       'The brush is drawn behind the pointer by a rope of so many radii'),
+    ...penFields(app, moving || stamping),
     ...repeatFields(app),
     ...maskFields(app),
     note(`${about}. ${settings.kind === 'smooth' ? '' : 'Shift smooths, '}Esc takes the stroke back.`),
   ];
+}
+
+/** What a pen does; brushes about a place have no pressure. */
+function penFields(app: App, aboutPlace: boolean): Node[] {
+  const { settings } = app.hand.surfaceBrush;
+  const set = (change: Partial<typeof settings>) => {
+    Object.assign(settings, change);
+    app.changed();
+  };
+  return [field('Pen', row(
+    aboutPlace ? null : select('Pressure of the pen', [['depth', 'presses deeper'], ['size', 'makes it larger'], ['both', 'deeper and larger'], ['none', 'changes nothing']] as const,
+      settings.presses, (presses) => set({ presses })),
+    toggle('Tilt', settings.tilt, (tilt) => set({ tilt }), 'A pen that leans leans what the brush does, up to 60° from the normal'),
+  ), 'What the pressure and the tilt of a pen do; a mouse is a pen that is upright and pressed fully')];
 }
 
 /** What a stamp presses. */

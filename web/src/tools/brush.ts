@@ -5,6 +5,7 @@ import type { GridPicker } from '../view/picking';
 import type { Hit, Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
 import { brushModes, type Mode } from './modes';
+import { pressureOf } from './pen';
 import type { PointerTool } from './pointers';
 import { Ring } from './ring';
 
@@ -115,7 +116,7 @@ export class Brush implements PointerTool {
   }
 
   private pressure(event: PointerEvent): number {
-    return this.settings.pressure && event.pointerType === 'pen' ? Math.max(0.05, event.pressure) : 1;
+    return (this.settings.pressure ? pressureOf(event) : null) ?? 1;
   }
 
   drag(event: PointerEvent): void {

@@ -6,6 +6,7 @@ import type { GridPicker } from '../view/picking';
 import type { Hit, Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
 import type { BrushActions } from './brush';
+import { axisOf, pressureOf } from './pen';
 import type { PointerTool } from './pointers';
 import { Ring } from './ring';
 
@@ -29,6 +30,10 @@ export interface SurfaceBrushSettings {
   steady: number;
   /** The plane in which a stroke is repeated; `at` in file units. */
   mirror: { axis: 'x' | 'y' | 'z'; at: number } | null;
+  /** What the pressure of a pen scales. */
+  presses: NonNullable<BrushCommand['presses']>;
+  /** Whether a pen that leans leans what the brush does. */
+  tilt: boolean;
   /** What a stamp presses: the shape of a tool, or the heights of an image. */
   stamp: { shape: string } | { image: string; pattern: number[][] };
   /** Strokes around the axis z through the middle of what is selected. */
@@ -53,15 +58,15 @@ interface Stroke {
   fields: Omit<BrushCommand, 'path' | 'surfaces'>;
   start: THREE.Vector3;
   pressed: number;
-  /** Points of the path not yet sent to the session, each with the id of its surface. */
-  ahead: { at: [number, number]; surface: string }[];
+  /** Points of the path not yet sent to the session, each with the id of its surface and how a pen is held there. */
+  ahead: { at: [number, number]; surface: string; pressure: number | null; axis: Vector3 | null }[];
   begun: Promise<boolean>;
   cancelled: boolean;
 }
 
 /** Leads the brushes of the session over the surface, from the shape that stood when the button went down. */
 export class SurfaceBrush implements PointerTool {
-  settings: SurfaceBrushSettings = { kind: 'inflate', strength: 0.5, steady: 0, mirror: null, radial: 1, stamp: { shape: 'torus' } };
+  settings: SurfaceBrushSettings = { kind: 'inflate', strength: 0.5, steady: 0, mirror: null, radial: 1, presses: 'depth', tilt: false, stamp: { shape: 'torus' } };
 
   private stroke: Stroke | null = null;
   private readonly ring: Ring;
@@ -103,15 +108,21 @@ export class SurfaceBrush implements PointerTool {
     }
     const stroke: Stroke = {
       viewport, frozen: this.viewer.pickers, fields: this.fields(event), start: hit.point.clone(), pressed: event.clientX,
-      ahead: [this.pointOf(hit)], begun: Promise.resolve(true), cancelled: false,
+      ahead: [this.pointOf(hit, viewport, event)], begun: Promise.resolve(true), cancelled: false,
     };
     this.stroke = stroke;
     stroke.begun = this.actions.begin([this.on(stroke, true)]);
     return true;
   }
 
-  private pointOf(hit: Hit): Stroke['ahead'][number] {
-    return { at: hit.fractions, surface: this.viewer.frame!.state.surfaces[hit.surface]!.id };
+  private pointOf(hit: Hit, viewport: Viewport, event: PointerEvent): Stroke['ahead'][number] {
+    const { kind, presses, tilt } = this.settings;
+    const pen = event.pointerType === 'pen';
+    return {
+      at: hit.fractions, surface: this.viewer.frame!.state.surfaces[hit.surface]!.id,
+      pressure: presses === 'none' || aboutPlaces.includes(kind) ? null : pressureOf(event),
+      axis: pen && tilt ? axisOf(event, viewport.camera, hit.normal) : null,
+    };
   }
 
   private fields(event: PointerEvent): Stroke['fields'] {
@@ -121,6 +132,7 @@ export class SurfaceBrush implements PointerTool {
     const inward = event.altKey && (settings.kind === 'inflate' || settings.kind === 'stamp');
     const [x, y, z] = this.middle();
     const fields: Stroke['fields'] = { do: 'brush', kind, radius };
+    if (event.pointerType === 'pen' && settings.presses !== 'depth' && !aboutPlaces.includes(kind)) fields.presses = settings.presses;
     if (heights.includes(kind)) fields.height = (inward ? -1 : 1) * fullHeight * settings.strength * radius;
     if (kind === 'stamp') Object.assign(fields, 'shape' in settings.stamp ? { shape: settings.stamp.shape } : { pattern: settings.stamp.pattern });
     if (shares.includes(kind)) fields.strength = kind === 'mask' || kind === 'unmask' ? 1 : settings.strength;
@@ -153,7 +165,7 @@ export class SurfaceBrush implements PointerTool {
     const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
     if (!hit || !this.viewer.isSelected(hit.surface)) return;
     this.ring.show(hit.point, hit.normal, this.size());
-    stroke.ahead.push(this.pointOf(hit));
+    stroke.ahead.push(this.pointOf(hit, stroke.viewport, event));
     void this.followOn(stroke);
   }
 
@@ -162,6 +174,8 @@ export class SurfaceBrush implements PointerTool {
     const several = this.viewer.frame!.state.selection.length > 1;
     return {
       ...stroke.fields, path: points.map(({ at }) => at), ...(several ? { surfaces: points.map(({ surface }) => surface) } : {}),
+      ...(points.some(({ pressure }) => pressure !== null) ? { pressure: points.map(({ pressure }) => pressure ?? 1) } : {}),
+      ...(points.some(({ axis }) => axis) ? { tilt: points.map(({ axis }) => axis ?? [0, 0, 0]) } : {}),
       ...(open ? { open } : {}),
     } as Command;
   }
