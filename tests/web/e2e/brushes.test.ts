@@ -1,6 +1,6 @@
 import type { Command, Vector3 } from '@studio/engine/session_types';
 
-import { commands, drag, positions, settled, studioOfFile, directoryOfFile, drawnBy, engineOf, saveAs } from './page';
+import { commands, drag, positions, settled, spot, studioOfFile, directoryOfFile, drawnBy, engineOf, saveAs } from './page';
 
 /** Brushes, from the pointer's events to the saved file. */
 
@@ -13,6 +13,8 @@ interface Page {
 }
 
 const radius = 25, side = 200;
+/** Pressure of a pen where its strokes begin. */
+const least = 0.25;
 const sheet: Command[] = [{ do: 'new', size: [side, side], net: [48, 48] }, { do: 'edge' }];
 const bumps: Command[] = [
   { do: 'brush', kind: 'pull', radius: 40, height: 6, path: [[0.45, 0.5]] }, { do: 'brush', kind: 'push', radius: 14, height: 2, path: [[0.55, 0.5]] },
@@ -25,7 +27,7 @@ async function begin(kind: string, more: Command[] = [], settings: Record<string
     await app.documents.startFresh('sheet', list);
     app.hand.brush.settings.radius = size;
     Object.assign(app.hand.surfaceBrush.settings, brush);
-  }, { list: [...sheet, ...more], size: radius, brush: { strength: 0.5, mirror: null, radial: 1, steady: 0, ...settings } });
+  }, { list: [...sheet, ...more], size: radius, brush: { strength: 0.5, mirror: null, radial: 1, steady: 0, presses: 'depth', tilt: false, ...settings } });
   await settled(page);
   await page.keyboard.press('w');
   await choose(kind);
@@ -34,6 +36,22 @@ async function begin(kind: string, more: Command[] = [], settings: Record<string
 const choose = (kind: string) => studio.page.locator('[data-panel=Brush] .chip', { hasText: new RegExp(`^${kind}$`) }).click();
 
 const led = (from: [number, number], to: [number, number], moves: number) => drag(studio.page, from, to, moves);
+
+/** One stroke of a pen between places of the middle view, the harder the farther; leaning to the right by so many degrees. */
+async function penned(from: [number, number], to: [number, number], moves: number, lean = 0): Promise<void> {
+  const { page } = studio;
+  const devtools = await page.context().newCDPSession(page);
+  const event = async (type: 'mousePressed' | 'mouseMoved' | 'mouseReleased', share: number) => {
+    const [x, y] = await spot(page, from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1]));
+    await devtools.send('Input.dispatchMouseEvent', {
+      type, x, y, button: 'left', buttons: 1, clickCount: 1, pointerType: 'pen', force: least + (1 - least) * share, tiltX: lean, tiltY: 0,
+    });
+  };
+  await event('mousePressed', 0);
+  for (let k = 1; k <= moves; ++k) await event('mouseMoved', k / moves);
+  await event('mouseReleased', 1);
+  await settled(page);
+}
 
 let savedPath = '';
 /** The surface in the file that the page saves, as the engine reads it: a grid of points. */
@@ -186,6 +204,46 @@ describe('brushes', () => {
     await studio.page.locator('button', { hasText: /^Clear$/ }).click();
     await settled(studio.page);
     expect((await commands(studio.page)).at(-1)).toMatchObject({ do: 'mask', change: 'clear' });
+  });
+
+  it('follow the pressure of a pen, and are done again to the same bits', async () => {
+    const { page } = studio;
+    await begin('Push');
+    await penned([-80, 0], [80, 10], 20);
+    const { height, places, pressure, tilt } = await last();
+    expect(tilt).toBeUndefined();
+    expect(pressure).toHaveLength(places.length);
+    expect(pressure![0]).toBeCloseTo(least, 2);
+    expect(pressure!.at(-1)).toBeCloseTo(1, 2);
+    const points = await saved();
+    places.forEach(([x, y], k) => {
+      const near = points.filter((p) => Math.hypot(p[0] - x, p[1] - y) < 0.06 * radius);
+      const deepest = Math.max(...near.map((p) => -p[2]));
+      expect(Math.abs(deepest - pressure![k]! * height!)).toBeLessThan(0.1 * pressure![k]! * height!);
+    });
+    const drawn = await positions(page), script = await commands(page);
+    await page.evaluate((list) => (window as never as { studio: Page }).studio.documents.startFresh('again', list), script);
+    await settled(page);
+    expect(await positions(page)).toEqual(drawn);
+    // A mouse sends neither.
+    await page.keyboard.press('w');
+    await led([-40, 40], [40, 40], 8);
+    expect((await last()).pressure).toBeUndefined();
+  });
+
+  it('become larger by the pressure of a pen, and lean with it, where they are set to', async () => {
+    await begin('Pull');
+    await studio.page.locator('select[aria-label="Pressure of the pen"]').selectOption('size');
+    await studio.page.locator('[data-panel=Brush] .chip', { hasText: /^Tilt$/ }).click();
+    await penned([-80, 0], [80, 10], 20, 40);
+    const { presses, tilt, height, places } = await last();
+    expect(presses).toBe('size');
+    expect(tilt).toHaveLength(places.length);
+    const points = await saved();
+    const wide = (k: number) => points.filter((p) => Math.abs(p[0] - places[k]![0]) < 1 && p[2] > 0.5 * height! * Math.cos(Math.PI / 3)).length;
+    expect(wide(places.length - 4)).toBeGreaterThan(1.5 * wide(4));
+    const top = points.reduce((a, b) => (b[2] > a[2] ? b : a));
+    expect(top[2]).toBeLessThan(0.9 * height!); // it leans
   });
 
   it('repeat strokes in a mirror', async () => {
