@@ -17,6 +17,7 @@
 #include "studio_picture.hpp"
 #include "studio_state.hpp"
 #include "studio_surface.hpp"
+#include "studio_trims.hpp"
 #include "tool_picture.hpp"
 
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
@@ -33,9 +34,7 @@ struct Studio {
   ContextPicture context;
   ToolPicture tool;
   MaterialSamples material;
-  std::optional<TrimLoops> trims;                             // of the open file, once asked for
-  std::vector<std::shared_ptr<const VisibleRegion>> visible;  // by them, of each surface of the file; null: all of it
-  std::vector<std::string> converted;                         // what of the file was when they were
+  ShownParts shown;
 };
 
 Studio& held() {
@@ -76,19 +75,12 @@ std::size_t place_in_file(int surface) {
 
 /// What the faces of the open file show of a surface, once its trims have been asked for.
 std::shared_ptr<const VisibleRegion> visible_part(int surface) {
-  if (held().converted != held().session->document().converted()) return nullptr;
-  const std::size_t k = place_in_file(surface);
-  return k < held().visible.size() ? held().visible[k] : nullptr;
-}
-
-void forget_trims() {
-  held().trims.reset();
-  held().visible.clear();
+  return held().shown.visible(held().session->document(), place_in_file(surface));
 }
 
 int start(Document document) {
   held().origin = middle(document);
-  forget_trims();
+  held().shown.forget();
   held().session.emplace(std::move(document));
   return answer(state_json(*held().session));
 }
@@ -157,7 +149,7 @@ KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size
   auto session = Session::restore(std::move(document), snapshot);
   if (!session) return fail(session.error());
   held().origin = origin;
-  forget_trims();
+  held().shown.forget();
   held().session = std::move(*session);
   return answer("{}");
 }
@@ -270,9 +262,15 @@ int knead_picture(int surface, int detail, int opened, double s0, double t0, dou
   return with_surface(surface, [&](const SceneSurface&) {
     auto display = read_display(held().input);
     if (!display) return fail(display.error());
-    const PictureOptions options{held().origin,         detail,
-                                 *std::move(display),   opened != 0,
-                                 visible_part(surface), PictureWindow{{s0, t0}, {s1, t1}, tolerance}};
+    const bool sees = display->display != nullptr && display->display->sees_model;
+    const auto seen = sees ? held().shown.around(held().session->document()) : nullptr;
+    const PictureOptions options{held().origin,
+                                 detail,
+                                 *std::move(display),
+                                 opened != 0,
+                                 visible_part(surface),
+                                 PictureWindow{{s0, t0}, {s1, t1}, tolerance},
+                                 seen};
     const auto done = held().pictures.make(held().session->state(), surface, options);
     return done ? answer(picture_json(held().pictures.picture())) : fail(done.error());
   });
@@ -350,20 +348,7 @@ KNEAD_EXPORT(knead_context) int knead_context() {
 KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
   auto& session = held().session;
   if (!session || !session->document().step_file()) return answer("null");
-  if (held().converted != session->document().converted()) forget_trims();
-  if (!held().trims) {
-    auto trims = trim_loops(*session->document().step_file(), trim_chord);
-    held().trims = trims ? *std::move(trims) : TrimLoops();
-    for (const SurfaceTrim& trim : held().trims->surfaces) {
-      auto& part = held().visible.emplace_back();
-      if (trim.whole) continue;
-      VisibleRegion region;
-      region.faces = trim.faces;
-      part = std::make_shared<const VisibleRegion>(std::move(region));
-    }
-    held().converted = session->document().converted();
-  }
-  const auto& all = held().trims->surfaces;
+  const auto& all = held().shown.trims(session->document());
   const std::size_t k = place_in_file(surface);
   return answer(k < all.size() ? trim_json(all[k]) : "null");
 }

@@ -59,6 +59,18 @@ ContextPicture context_picture(const step::File& file, const Point& origin) {
   return picture;
 }
 
+std::shared_ptr<const Surroundings> surroundings(const step::File& file,
+                                                 std::span<const std::shared_ptr<const VisibleRegion>> visible) {
+  constexpr double fine = 2.5e-4;
+  auto result = std::make_shared<Surroundings>();
+  if (auto faces = context_faces(file, fine)) result->faces = std::move(faces->faces);
+  const auto senses = face_senses(file);
+  for (std::size_t k = 0; k < senses.size(); ++k) {
+    result->shown[file.surfaces()[k].id] = {k < visible.size() ? visible[k] : nullptr, senses[k]};
+  }
+  return result;
+}
+
 std::string context_json(const ContextPicture& context) {
   auto faces = nlohmann::json::array(), skipped = nlohmann::json::array();
   for (const auto& [id, surface, form, triangles] : context.faces) {

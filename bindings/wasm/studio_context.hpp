@@ -7,6 +7,7 @@
 #include "knead/exchange/context_faces.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/exchange/trim_loops.hpp"
+#include "knead/scene/display.hpp"
 #include "knead/sculpt/visible_region.hpp"
 
 namespace knead::studio {
@@ -36,6 +37,11 @@ struct ContextPicture {
 /// {"buffers": …, "faces": [{"id": "#11", "surface": "#10", "form": "PLANE", "triangles": 2}, …], "skipped": [{"id":
 /// "#12", "reason": "…"}, …], "parts": 0, "places": 0}
 [[nodiscard]] std::string context_json(const ContextPicture& context);
+
+/// The faces around the surfaces in full precision, four times as fine as drawn, and what is shown of each surface.
+/// \param visible of each surface of the file, in its order; null: all of it
+[[nodiscard]] std::shared_ptr<const Surroundings> surroundings(
+    const step::File& file, std::span<const std::shared_ptr<const VisibleRegion>> visible);
 
 /// {"faces": [[[s, t, s, t, …], …], …]}: the loops of each face, in fractions of the domain; null for a whole surface.
 [[nodiscard]] std::string trim_json(const SurfaceTrim& trim);

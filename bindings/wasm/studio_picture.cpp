@@ -189,10 +189,11 @@ Expected<void> PictureMaker::find_values(const Scene& scene, int index, const Pi
                            .normals = normals_,
                            .settings = settings,
                            .memory = memory_,
-                           .visible = options.visible};
+                           .visible = options.visible,
+                           .around = options.around};
   const auto values = display->values(input);
   if (!values) return std::unexpected(values.error());
-  picture_.values.assign(values->begin(), values->end());
+  for (const double x : *values) picture_.values.push_back(std::isnan(x) ? no_value : static_cast<float>(x));
   range_.add(input, *values);
   return {};
 }

@@ -17,13 +17,16 @@ namespace knead::studio {
 struct Picture {
   std::array<std::uint32_t, 2> counts = {0, 0};
   std::vector<float> positions, normals;          ///< 3 per grid point; normals of length 1
-  std::vector<float> values;                      ///< of the display, one per grid point; empty without one
+  std::vector<float> values;  ///< of the display, one per grid point, `no_value` for none; empty without one
   std::vector<float> fractions_s, fractions_t;    ///< of the domain, per grid line
   std::vector<std::uint32_t> lines_u, lines_v;    ///< grid lines that are knot lines, ends of the domain included
   std::vector<std::uint32_t> coarse_u, coarse_v;  ///< those that are there without a window; empty: all
   std::vector<float> net;                         ///< control points, 3 each
   std::vector<std::uint8_t> held;                 ///< per control point: 0, 1 or 2 as in `held_points`
 };
+
+/// Stands for a value that is not a number, in a form that shaders can tell apart and interpolate.
+inline constexpr float no_value = -1e30F;
 
 /// {"counts": [m, n], "buffers": …}: the locations of a picture's numbers, by the names of its members.
 [[nodiscard]] std::string picture_json(const Picture& picture);
@@ -43,6 +46,7 @@ struct PictureOptions {
   bool opened = false;                                ///< the shape as opened, not the present one
   std::shared_ptr<const VisibleRegion> visible = {};  ///< what faces show of it; null: all
   std::optional<PictureWindow> window = {};
+  std::shared_ptr<const Surroundings> around = {};    ///< for displays that see them; null: nothing is
 };
 
 /// Makes pictures of one surface after the other; tables and memory are kept while the knots stay the same.

@@ -1,5 +1,6 @@
 #include "knead/exchange/context_faces.hpp"
 
+#include <unordered_map>
 #include <unordered_set>
 
 #include "face_tessellator.hpp"
@@ -27,6 +28,18 @@ Expected<FaceMeshes> context_faces(const step::File& file, double chord) {
       result.skipped.push_back({name_of(reader, face.instance), std::move(mesh.error())});
   }
   return result;
+}
+
+std::vector<int> face_senses(const step::File& file) {
+  const step::File::Data& data = file.data();
+  std::unordered_map<std::uint32_t, std::array<bool, 2>> found;  // by surface: faces against it, along it
+  for (const Face& face : read_faces(Reader(data.records))) found[face.surface][face.same_sense ? 1 : 0] = true;
+  std::vector<int> senses;
+  for (const auto instance : data.surface_instances) {
+    const auto [against, along] = found[instance];
+    senses.push_back((along ? 1 : 0) - (against ? 1 : 0));
+  }
+  return senses;
 }
 
 }  // namespace knead

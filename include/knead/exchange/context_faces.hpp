@@ -46,4 +46,9 @@ struct FaceMeshes {
 /// Cost: linear in the file and in the triangles, quadratic in the number of points around one face.
 [[nodiscard]] Expected<FaceMeshes> context_faces(const step::File& file, double chord = 1e-3);
 
+/// On which side of each of the file's `surfaces()` the material of its faces is not: 1 where their normals are
+/// S_u × S_v, −1 where they are opposite (same_sense is false); 0 where no face lies on it, or faces of both kinds do.
+/// Cost: a pass over the file.
+[[nodiscard]] std::vector<int> face_senses(const step::File& file);
+
 }  // namespace knead

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "knead/exchange/context_faces.hpp"
 #include "knead/scene/energy_density.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -25,6 +27,19 @@ struct DisplaySetting {
 /// How values become colours. Diverging: two colours that meet at 0; rising: from pale at 0 to dark.
 enum class DisplayPalette { diverging, rising };
 
+/// What stands around a surface: the rest of the file, which is no part of a scene.
+struct Surroundings {
+  /// Of a surface: what faces show of it (null: all), and on which side of it they have no material (`face_senses`).
+  struct Shown {
+    std::shared_ptr<const VisibleRegion> visible;
+    int sense = 0;
+  };
+  std::vector<FaceMesh> faces;         ///< those that lie on no surface of the scene
+  std::map<std::string, Shown> shown;  ///< by the ids of surfaces; others are shown whole
+};
+
+class ModelFacets;
+
 /// What displays keep from one picture to the next: energy units already computed, and what of a grid is visible.
 struct DisplayMemory {
   struct Visible {
@@ -34,6 +49,7 @@ struct DisplayMemory {
   };
   std::vector<Visible> visible;
   std::vector<std::pair<EnergyScalingInput, Expected<DomainScaling<2>>>> scalings;
+  std::shared_ptr<ModelFacets> facets;
 };
 
 /// The input of a display: one surface of a scene on a grid of parameters, v fastest.
@@ -48,6 +64,7 @@ struct DisplayInput {
   std::span<const std::vector<double>> settings;  ///< in the order of `Display::settings`
   DisplayMemory& memory;
   std::shared_ptr<const VisibleRegion> visible = {};  ///< what faces show of the surface; null: all
+  std::shared_ptr<const Surroundings> around = {};    ///< for displays that see them; null: the scene is all there is
 };
 
 /// A field that colours surfaces. Menus, legends and settings follow from it.
@@ -63,10 +80,11 @@ struct Display {
   double share = 1;                                  ///< of the automatic range that the palette spans
   /// The setting up to whose magnitude values have the neutral colour; "" for none.
   std::string_view tolerance = {};
-  bool compares = false;  ///< with the shape as it was opened
-  int order = 1;          ///< highest order of the derivatives it uses
+  bool compares = false;    ///< with the shape as it was opened
+  bool sees_model = false;  ///< uses `DisplayInput::around`
+  int order = 1;            ///< highest order of the derivatives it uses
   std::vector<DisplaySetting> settings = {};
-  /// One value for each grid point, in the given unit.
+  /// One value for each grid point, in the given unit; not a number where there is none.
   Expected<std::vector<double>> (*values)(const DisplayInput& input) = nullptr;
 };
 

@@ -10,6 +10,7 @@ Display mean_curvature_display();
 Display gaussian_curvature_display();
 Display largest_curvature_display();
 Display draft_angle_display();
+Display thickness_display();
 Display gap_display();
 Display energy_display();
 Display mask_display();
@@ -20,6 +21,7 @@ inline constexpr std::array all_displays = {deviation_display,
                                             gaussian_curvature_display,
                                             largest_curvature_display,
                                             draft_angle_display,
+                                            thickness_display,
                                             gap_display,
                                             energy_display,
                                             mask_display};

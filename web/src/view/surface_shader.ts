@@ -88,8 +88,9 @@ export const fragmentShader = /* glsl */ `
     vec3 v = normalize(vView);
     vec3 base = gl_FrontFacing != flipped ? front : back;
     // The legend shows the output of this, after the conversion to the screen's colours.
-    if (mode == 2) base = pow(diverging(vValue), vec3(2.2));
-    if (mode == 3) base = pow(rising((vValue - limits.x) / (limits.y - limits.x)), vec3(2.2));
+    bool valued = vValue > -1e20; // what has none holds -1e30 (studio_picture.hpp)
+    if (mode == 2 && valued) base = pow(diverging(vValue), vec3(2.2));
+    if (mode == 3 && valued) base = pow(rising((vValue - limits.x) / (limits.y - limits.x)), vec3(2.2));
     if (mode == 1) {
       gl_FragColor = vec4(zebra(n, v), 1.0);
     } else if (mode == 4) {

@@ -1,0 +1,38 @@
+#include "studio_trims.hpp"
+
+#include "studio_context.hpp"
+
+namespace knead::studio {
+
+const std::vector<SurfaceTrim>& ShownParts::trims(const Document& document) {
+  if (converted_ != document.converted()) forget();
+  if (trims_) return trims_->surfaces;
+  auto found = trim_loops(*document.step_file(), trim_chord);
+  trims_ = found ? *std::move(found) : TrimLoops();
+  for (const SurfaceTrim& trim : trims_->surfaces) {
+    auto& part = visible_.emplace_back();
+    if (trim.whole) continue;
+    VisibleRegion region;
+    region.faces = trim.faces;
+    part = std::make_shared<const VisibleRegion>(std::move(region));
+  }
+  converted_ = document.converted();
+  return trims_->surfaces;
+}
+
+std::shared_ptr<const VisibleRegion> ShownParts::visible(const Document& document, std::size_t surface) const {
+  if (converted_ != document.converted()) return nullptr;
+  return surface < visible_.size() ? visible_[surface] : nullptr;
+}
+
+const std::shared_ptr<const Surroundings>& ShownParts::around(const Document& document) {
+  if (document.step_file() == nullptr) {
+    around_.reset();
+    return around_;
+  }
+  trims(document);
+  if (!around_) around_ = surroundings(*document.step_file(), visible_);
+  return around_;
+}
+
+}  // namespace knead::studio
