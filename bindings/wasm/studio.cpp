@@ -290,6 +290,22 @@ KNEAD_EXPORT(knead_combs) int knead_combs(int surface, int along_u, int along_v,
   });
 }
 
+/// The same of the curves in which the plane (x, y, z) · p = offset cuts it, in file units; (x, y, z) is of length 1.
+KNEAD_EXPORT(knead_section_combs)
+int knead_section_combs(int surface, double x, double y, double z, double offset) {
+  auto& session = held().session;
+  if (!session) return without_session();
+  const SessionState& state = session->state();
+  if (surface < 0 || surface >= static_cast<int>(state.surfaces.size())) {
+    return fail({ErrorKind::usage, "there is no such surface"});
+  }
+  auto combs = section_comb_picture(*state.surfaces[static_cast<std::size_t>(surface)].current, {{x, y, z}, offset},
+                                    held().origin, visible_part(surface).get());
+  if (!combs) return fail(combs.error());
+  held().combs = *std::move(combs);
+  return answer(comb_json(held().combs));
+}
+
 /// The shape of a tool in its own frame: the text is `tool_picture_json`, its buffers stay until the next call.
 KNEAD_EXPORT(knead_tool_picture) int knead_tool_picture(int tool) {
   auto& session = held().session;

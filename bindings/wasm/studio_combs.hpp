@@ -6,6 +6,7 @@
 
 #include "knead/sculpt/visible_region.hpp"
 #include "knead/spline/curvature_comb.hpp"
+#include "knead/spline/section_comb.hpp"
 
 namespace knead::studio {
 
@@ -20,6 +21,11 @@ struct CombPicture {
 /// Errors: those of `curvature_combs`. \param visible null: all of the surface
 [[nodiscard]] Expected<CombPicture> comb_picture(const Surface& surface, const CurvatureCombOptions& options,
                                                  const Point& origin, const VisibleRegion* visible);
+
+/// Of the curves in which a plane, in file units, cuts a surface; teeth as dense as chords that are within 1e-3 of the
+/// extent of its control points. Errors: those of `section_combs`. \param visible null: all of the surface
+[[nodiscard]] Expected<CombPicture> section_comb_picture(const Surface& surface, const SectionPlane& plane,
+                                                         const Point& origin, const VisibleRegion* visible);
 
 /// {"largest", "at": [x, y, z], "buffers": …}
 [[nodiscard]] std::string comb_json(const CombPicture& picture);

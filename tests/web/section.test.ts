@@ -1,6 +1,7 @@
 import type { Picture } from '@studio/engine/session_types';
 import { shown } from '@studio/engine/trim_tree';
 import { cutOfContext, cutOfPicture } from '@studio/view/section_lines';
+import { stepsBetween } from '@studio/view/section_planes';
 
 /** A grid over the unit square, m × n points, at the height z(x, y). */
 function sheet(m: number, n: number, z: (x: number, y: number) => number): Picture {
@@ -46,4 +47,14 @@ it('cuts triangles', () => {
   const context = { positions, normals: positions, indices: Uint32Array.of(0, 1, 2, 1, 3, 2), faces: [], skipped: [], parts: 0, places: 0 };
   expect(length(cutOfContext(context, [1, 0, 0, -0.5]))).toBeCloseTo(2, 6);
   expect(cutOfContext(context, [0, 0, 1, -0.5])).toEqual([]);
+});
+
+describe('the planes of section curves', () => {
+  it('are multiples of the step, those in the middle where there are many', () => {
+    expect(stepsBetween(-25, 41, 20)).toEqual([-20, 0, 20, 40].map((x) => x || expect.closeTo(0)));
+    expect(stepsBetween(1, 2, 20)).toEqual([]);
+    const many = stepsBetween(-1000, 1000, 1);
+    expect(many.length).toBe(60);
+    expect(Math.abs(many[0]! + many.at(-1)!)).toBeLessThan(2);
+  });
 });

@@ -13,6 +13,7 @@ import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type
 import type { App } from '../panels/app';
 import { Hand } from '../tools/hand';
 import { defaultDisplay, type Display, type Theme } from '../view/display';
+import { sectionPlanes } from '../view/section_planes';
 import { Viewer } from '../view/viewer';
 import { CloserLook } from './closer_look';
 
@@ -53,6 +54,11 @@ export class Studio implements App {
     this.theme = kept.theme ?? (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
     this.client = new Client(() => new Worker(new URL('../engine/worker.ts', import.meta.url), { type: 'module' }));
     this.viewer = new Viewer(this.display);
+    const { section } = this.viewer, drawn = section.onChange;
+    section.onChange = () => {
+      drawn();
+      if (this.display.combs === 'sections') this.askForPictures(false);
+    };
     this.hand = new Hand(this);
     this.closer = new CloserLook(this.viewer, () => this.frame !== null && !this.hand.active && !this.playing() && !this.viewer.turntable.on,
       () => this.askForPictures(this.comparing));
@@ -235,7 +241,8 @@ export class Studio implements App {
 
   setDisplay(change: Partial<Display>): void {
     const redraw = (change.colour !== undefined && change.colour !== this.display.colour) || change.colourSettings !== undefined || change.detail !== undefined ||
-      change.combs !== undefined || change.combCurves !== undefined || change.combTeeth !== undefined;
+      change.combs !== undefined || change.combCurves !== undefined || change.combTeeth !== undefined ||
+      (this.display.combs === 'sections' && (change.sections !== undefined || change.sectionSpacing !== undefined));
     Object.assign(this.display, change);
     this.viewer.navigator.convention = this.display.convention;
     this.viewer.restyle();
@@ -248,9 +255,10 @@ export class Studio implements App {
   askForPictures(opened: boolean): void {
     const { detail, colour, colourSettings, combs, combCurves, combTeeth } = this.display;
     const on = (direction: 'u' | 'v') => (combs === direction || combs === 'both' ? combCurves : 0);
-    const asked: PictureSettings['combs'] = combs === 'none' ? undefined : { curves: [on('u'), on('v')], teeth: combTeeth };
+    const asked: PictureSettings['combs'] = combs === 'none' || combs === 'sections' ? undefined : { curves: [on('u'), on('v')], teeth: combTeeth };
     const display = colour ? { display: colour.name, settings: colourSettings[colour.name] ?? {} } : plain;
-    void this.attempt(async () => void (await this.client.pictures({ detail, display, opened, combs: asked, windows: this.closer.windows() })));
+    const sectionCombs = combs === 'sections' ? sectionPlanes(this.viewer) : undefined;
+    void this.attempt(async () => void (await this.client.pictures({ detail, display, opened, combs: asked, sectionCombs, windows: this.closer.windows() })));
   }
 
   private comparing = false;

@@ -4,7 +4,7 @@ import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } f
 import { type DisplayChoice, type DisplayInfo, type DisplayRange, plain } from './displays';
 import {
   coefficients, type Combs, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture, type PictureWindow,
-  type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture, type Vector3,
+  type SectionPlane, type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture, type Vector3,
 } from './session_types';
 import { start } from './wasi';
 
@@ -31,6 +31,7 @@ interface Exports {
   knead_displays(): number;
   knead_range(): number;
   knead_combs(surface: number, alongU: number, alongV: number, teeth: number): number;
+  knead_section_combs(surface: number, x: number, y: number, z: number, offset: number): number;
   knead_picture(surface: number, detail: number, opened: number, s0: number, t0: number, s1: number, t1: number, tolerance: number): number;
   knead_tool_picture(tool: number): number;
   knead_material(surface: number, rows: number, columns: number): number;
@@ -210,7 +211,16 @@ export class Engine {
 
   /** Curvature combs on as many curves each way, with so many pieces of every knot span. */
   combs(surface: number, [alongU, alongV]: [number, number], teeth: number): Combs {
-    const { buffers, largest, at } = this.json(this.wasm.knead_combs(surface, alongU, alongV, teeth)) as { buffers: BufferTable; largest: number; at: Combs['at'] };
+    return this.combsFrom(this.wasm.knead_combs(surface, alongU, alongV, teeth));
+  }
+
+  /** Those of the curves in which a plane of the file cuts it: a unit vector across it, then its offset along that. */
+  sectionCombs(surface: number, plane: SectionPlane): Combs {
+    return this.combsFrom(this.wasm.knead_section_combs(surface, ...plane));
+  }
+
+  private combsFrom(answer: number): Combs {
+    const { buffers, largest, at } = this.json(answer) as { buffers: BufferTable; largest: number; at: Combs['at'] };
     const { floats, flags } = this.buffers(buffers);
     return { places: floats('places'), vectors: floats('vectors'), joined: flags('joined'), largest, at };
   }

@@ -1,6 +1,6 @@
 import type { Context, Trim } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
-import type { Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
+import type { Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SectionPlane, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
 
 /** How surfaces are drawn. */
 export interface PictureSettings {
@@ -12,6 +12,8 @@ export interface PictureSettings {
   combs?: { curves: [number, number]; teeth: number };
   /** What the views show from nearby, of each surface. Only frames that answer this request have them. */
   windows?: readonly (PictureWindow | null)[];
+  /** Planes at whose cuts the selected surfaces have them. */
+  sectionCombs?: readonly SectionPlane[];
 }
 
 /** Requests of the page to the worker. Every request is answered by one `Reply` with its number. */

@@ -53,6 +53,9 @@ export interface Picture {
   held: Uint8Array;
 }
 
+/** Points p of the file with (x, y, z) · p = offset; (x, y, z) is of length 1. */
+export type SectionPlane = readonly [x: number, y: number, z: number, offset: number];
+
 /** Curvature combs of a surface (bindings/wasm/studio_combs.hpp); places relative to the session's origin. */
 export interface Combs {
   places: Float32Array;

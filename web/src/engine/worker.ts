@@ -109,8 +109,11 @@ function sendFrame(engine: Engine): void {
   const state = history.state();
   const pictures = state.surfaces.map((_, k) => engine.picture(k, settings.detail, settings.display, settings.opened, resting ? settings.windows?.[k] : null));
   const range = engine.range();
-  const { combs: asked } = settings;
-  const combs = asked ? state.selection.map((k) => engine.combs(k, asked.curves, asked.teeth)) : [];
+  const { combs: asked, sectionCombs = [] } = settings;
+  const combs = state.selection.flatMap((k) => [
+    ...(asked ? [engine.combs(k, asked.curves, asked.teeth)] : []),
+    ...sectionCombs.map((plane) => engine.sectionCombs(k, plane)),
+  ]);
   const toolPictures = newToolPictures(engine, state.tools);
   if (state.steps < shownSteps) shownSteps = 0;
   const firstStep = Math.max(shownSteps, state.steps - 400);

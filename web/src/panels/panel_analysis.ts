@@ -27,15 +27,16 @@ export function analysisPanel(app: App): HTMLElement {
 /** Curvature combs of the selected surfaces. */
 function combFields(app: App, unit: string): (Node | null)[] {
   const { combs, combCurves, combTeeth, combScale } = app.display;
-  const choose = field('Combs', select<Display['combs']>('Curvature combs', [['none', 'None'], ['u', 'Along u'], ['v', 'Along v'], ['both', 'Both ways']], combs,
-    (to) => app.setDisplay({ combs: to })), 'Curvature along isocurves of the selected surfaces, away from the centre of curvature');
+  const choose = field('Combs', select<Display['combs']>('Curvature combs', [['none', 'None'], ['u', 'Along u'], ['v', 'Along v'], ['both', 'Both ways'], ['sections', 'On section curves']], combs,
+    (to) => app.setDisplay({ combs: to })), 'Curvature along isocurves of the selected surfaces, or where sections cut them, away from the centre of curvature');
   if (combs === 'none') return [choose];
   const { largest } = app.viewer.combs;
+  const onSections = combs === 'sections';
   return [
     choose,
-    field('Curves', slider('Curves with combs', combCurves, [1, 25], (x) => app.setDisplay({ combCurves: Math.round(x) })), 'In each direction'),
-    field('Teeth', slider('Teeth of the combs', combTeeth, [1, 20], (x) => app.setDisplay({ combTeeth: Math.round(x) })), 'Pieces of every knot span'),
+    onSections ? null : field('Curves', slider('Curves with combs', combCurves, [1, 25], (x) => app.setDisplay({ combCurves: Math.round(x) })), 'In each direction'),
+    onSections ? null : field('Teeth', slider('Teeth of the combs', combTeeth, [1, 20], (x) => app.setDisplay({ combTeeth: Math.round(x) })), 'Pieces of every knot span'),
     field('Length', slider('Length of the combs', combScale, [0.02, 1], (x) => app.setDisplay({ combScale: x })), 'Of the largest curvature'),
-    note(largest > 0 ? `Largest curvature ${format(largest)} 1/${unit}, radius ${format(1 / largest)} ${unit}` : 'Straight, or nothing is selected'),
+    note(largest > 0 ? `Largest curvature ${format(largest)} 1/${unit}, radius ${format(1 / largest)} ${unit}` : `Straight, or nothing is selected${onSections ? ', or no section cuts it' : ''}`),
   ];
 }

@@ -27,8 +27,8 @@ export interface Display {
   sections: 'none' | 'x' | 'y' | 'z';
   /** File units, from the file's origin; 0: a round length that follows from the size. */
   sectionSpacing: number;
-  /** Curvature combs of the selected surfaces, on curves along which u runs, v, or both. */
-  combs: 'none' | 'u' | 'v' | 'both';
+  /** Curvature combs of the selected surfaces, on curves along which u runs, v, or both; or where sections cut. */
+  combs: 'none' | 'u' | 'v' | 'both' | 'sections';
   combCurves: number;
   /** Pieces of every knot span. */
   combTeeth: number;
