@@ -20,6 +20,22 @@ constexpr double pole_flatness = 1e-6;
 constexpr double symmetry_tolerance = 1e-6;  // of the surface's size
 constexpr double symmetry_angle = 1e-3;
 
+/// Appends the conditions of `from` for these coordinates only. One on a single control point leaves its coordinate its
+/// bits, as a held flag does.
+void append_components(const ConstraintList& from, const Components& components, ConstraintList& to) {
+  const auto append = [&](LinearConstraint condition) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!components[c]) continue;
+      condition.normal = Point::Unit(static_cast<Eigen::Index>(c));
+      to.constraints.push_back(condition);
+    }
+  };
+  for (std::size_t k = 0; k < from.held.size(); ++k) {
+    if (from.held[k]) append({from.held_by[k], {{static_cast<int>(k), 1.0}}});
+  }
+  for (const LinearConstraint& condition : from.constraints) append(condition);
+}
+
 /// Appends the conditions of one constraint.
 struct Asked {
   const Surface& reference;
@@ -28,14 +44,21 @@ struct Asked {
   ConstraintList& list;
 
   Expected<void> operator()(const EdgeHold& c) const {
-    return holding([&] { return hold_edge(rest, c.edge, c.order, list); });
+    return holding([&] {
+      return by_components(c.components, [&](ConstraintList& to) { return hold_edge(rest, c.edge, c.order, to); });
+    });
   }
 
   Expected<void> operator()(const PointPin& c) const {
     const auto u = parameters_at(rest, c.at);
     if (!u) return std::unexpected(u.error());
-    if (c.to) return pin_point(rest, (*u)[0], (*u)[1], Point((*c.to)[0], (*c.to)[1], (*c.to)[2]), list);
-    return holding([&] { return pin_point(rest, (*u)[0], (*u)[1], std::nullopt, list); });
+    std::optional<Point> to;
+    if (c.to) to = Point((*c.to)[0], (*c.to)[1], (*c.to)[2]);
+    const auto pin = [&] {
+      return by_components(c.components,
+                           [&](ConstraintList& rows) { return pin_point(rest, (*u)[0], (*u)[1], to, rows); });
+    };
+    return to ? pin() : holding(pin);
   }
 
   Expected<void> operator()(const Freeze& c) const {
@@ -78,6 +101,16 @@ struct Asked {
   Expected<void> operator()(const TrimEdgeHold&) const { return {}; }
 
  private:
+  /// What `f` appends to a list, for these coordinates only.
+  template <class F>
+  Expected<void> by_components(const Components& components, const F& f) const {
+    if (components == all_components) return f(list);
+    ConstraintList all(reference.size());
+    if (auto done = f(all); !done) return done;
+    append_components(all, components, list);
+    return {};
+  }
+
   /// What `f` appends is held where it was when requested, not where it is at rest.
   template <class F>
   Expected<void> holding(const F& f) const {

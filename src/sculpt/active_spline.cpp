@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -198,11 +199,16 @@ Expected<ConstraintSpace> hold(const ActiveSettings<D>& settings, const RestShap
 /// Whether anything forbids a displacement of the whole model.
 bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held) {
   if (std::ranges::find(held, true) != held.end()) return true;
-  return std::ranges::any_of(space.constraints(), [](const LinearConstraint& c) {
+  Eigen::Matrix3d forbidden = Eigen::Matrix3d::Zero();  // directions in which it would violate a condition
+  for (const LinearConstraint& c : space.constraints()) {
     double sum = 0;
     for (const auto& [unknown, coefficient] : c.terms) sum += coefficient;
-    return std::abs(sum) > 1e-12;
-  });
+    if (std::abs(sum) <= 1e-12) continue;
+    if (!c.normal) return true;
+    const Point n = c.normal->normalized();
+    forbidden += n * n.transpose();
+  }
+  return Eigen::FullPivLU<Eigen::Matrix3d>(forbidden).rank() == 3;
 }
 
 /// The operator A of a step (see `ActiveSpline`).

@@ -1,6 +1,7 @@
 #include "restated.hpp"
 
 #include "command_fields.hpp"
+#include "components.hpp"
 
 namespace knead {
 namespace {
@@ -15,7 +16,8 @@ std::optional<MirrorPlane> plane_given(const SymmetryCommand& c) {
 
 struct Restate {
   Command operator()(const EdgeHold& c) const {
-    return make_command(EdgeCommand{choice_of(c.edge), static_cast<EdgeCondition>(c.order)});
+    return make_command(
+        EdgeCommand{choice_of(c.edge), static_cast<EdgeCondition>(c.order), {}, components_text(c.components)});
   }
   Command operator()(const TrimHolds& c) const {
     HoldCommand hold;
@@ -33,6 +35,7 @@ struct Restate {
     PinCommand pin;
     pin.at = c.at;
     pin.to = c.to;
+    pin.components = components_text(c.components);
     return make_command(pin);
   }
   Command operator()(const Freeze& c) const { return make_command(FreezeCommand{c}); }
@@ -66,7 +69,9 @@ std::optional<Constraint> constraint_of(const Command& command) {
       return TrimEdgeHold{*c->edge, follow || c->hold == EdgeCondition::free ? -1 : static_cast<int>(c->hold), follow};
     }
     if (c->which == EdgeChoice::all || c->hold > EdgeCondition::curvature) return std::nullopt;
-    return EdgeHold{edges_of(c->which).front(), static_cast<int>(c->hold)};
+    const auto components = components_of(c->components);
+    if (!components) return std::nullopt;
+    return EdgeHold{edges_of(c->which).front(), static_cast<int>(c->hold), *components};
   }
   if (const auto* c = fields_of<HoldCommand>(command)) {
     const HoldMode mode = c->mode.value_or(HoldMode::rows);
@@ -75,7 +80,9 @@ std::optional<Constraint> constraint_of(const Command& command) {
   }
   if (const auto* c = fields_of<PinCommand>(command)) {
     if (!c->at) return std::nullopt;
-    return PointPin{*c->at, c->to};
+    const auto components = components_of(c->components);
+    if (!components) return std::nullopt;
+    return PointPin{*c->at, c->to, *components};
   }
   if (const auto* c = fields_of<FreezeCommand>(command)) return c->freeze;
   if (const auto* c = fields_of<KeepCommand>(command)) return c->keep;

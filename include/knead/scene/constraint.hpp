@@ -23,6 +23,10 @@ enum class EdgeChoice { all, u0, u1, v0, v1 };
 /// The edges that a choice stands for.
 [[nodiscard]] std::vector<SurfaceEdge> edges_of(EdgeChoice which);
 
+/// Which coordinates, x, y and z, are held.
+using Components = std::array<bool, 3>;
+inline constexpr Components all_components = {true, true, true};
+
 // Constraints that hold a surface. Each is stored with the shape of the surface when it was requested
 // (`KeptConstraint`): what is held stays where it was then.
 
@@ -31,6 +35,7 @@ enum class EdgeChoice { all, u0, u1, v0, v1 };
 struct EdgeHold {
   SurfaceEdge edge = SurfaceEdge::u0;
   int order = 0;
+  Components components = all_components;
   friend bool operator==(const EdgeHold&, const EdgeHold&) = default;
 };
 
@@ -38,6 +43,7 @@ struct EdgeHold {
 struct PointPin {
   Fractions at = {0.5, 0.5};
   std::optional<Vector3> to = {};  ///< its target, file units; left out: where it was
+  Components components = all_components;
   friend bool operator==(const PointPin&, const PointPin&) = default;
 };
 

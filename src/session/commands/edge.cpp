@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+
+#include "../components.hpp"
 
 namespace knead {
 namespace {
@@ -76,12 +79,21 @@ void describe(EdgeCommand& c, Fields& fields) {
   fields.add("hold", c.hold);
   fields.add("edge", c.edge,
              {.help = "`\"#456\"`: one edge of a face, as `knead info --faces` lists it, instead of `which`"});
+  fields.add("components", c.components,
+             {.help = "the coordinates that this holds or frees, as `\"xz\"`; the others stay as they were",
+              .fallback = "`\"xyz\"`"});
 }
 
 template <>
 Expected<void> Executor::execute(const EdgeCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  if (c.edge) return hold_face_edge(*this, c);
+  const auto components = components_of(c.components);
+  if (!components) return std::unexpected(components.error());
+  if (c.edge) {
+    if (*components == all_components) return hold_face_edge(*this, c);
+    return input_error("edges of faces are held in all coordinates", "components",
+                       "leave it out, or hold a boundary isocurve by which");
+  }
   if (c.hold == EdgeCondition::follow) {
     return input_error("boundary isocurves do not follow", "hold",
                        R"(name an edge of a face, "which":"#456", or use "free")");
@@ -91,12 +103,14 @@ Expected<void> Executor::execute(const EdgeCommand& c) {
   const int order = c.hold == EdgeCondition::position ? 0 : c.hold == EdgeCondition::clamped ? 1 : 2;
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
-      const auto* edge = std::get_if<EdgeHold>(&kept.constraint);
-      return edge != nullptr && std::ranges::find(edges, edge->edge) != edges.end();
+    std::erase_if(s.constraints, [&](KeptConstraint& kept) {
+      auto* edge = std::get_if<EdgeHold>(&kept.constraint);
+      if (edge == nullptr || std::ranges::find(edges, edge->edge) == edges.end()) return false;
+      for (std::size_t d = 0; d < 3; ++d) edge->components[d] = edge->components[d] && !(*components)[d];
+      return std::ranges::none_of(edge->components, std::identity());
     });
     if (c.hold == EdgeCondition::free) continue;
-    for (SurfaceEdge edge : edges) s.constraints.push_back({EdgeHold{edge, order}, s.current});
+    for (SurfaceEdge edge : edges) s.constraints.push_back({EdgeHold{edge, order, *components}, s.current});
   }
   return c.hold == EdgeCondition::free ? Expected<void>() : check_constraints();
 }

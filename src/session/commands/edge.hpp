@@ -9,7 +9,8 @@ enum class EdgeCondition { position, clamped, curvature, free, follow };
 struct EdgeCommand {
   EdgeChoice which = EdgeChoice::all;
   EdgeCondition hold = EdgeCondition::position;
-  std::optional<std::string> edge = {};  ///< of a face, by its id in the file, instead of `which`
+  std::optional<std::string> edge = {};        ///< of a face, by its id in the file, instead of `which`
+  std::optional<std::string> components = {};  ///< "x", "yz", …; default: all
 };
 
 std::span<const Choice> choices(EdgeCondition);

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "../components.hpp"
+
 namespace knead {
 
 void describe(PinCommand& c, Fields& fields) {
@@ -14,6 +16,8 @@ void describe(PinCommand& c, Fields& fields) {
   fields.add("at", c.at, {.help = "`[s, t]`: a surface point", .unit = Unit::fraction});
   fields.add("to", c.to,
              {.help = "`[x, y, z]` where that point goes", .unit = Unit::length, .fallback = "where it is"});
+  fields.add("components", c.components,
+             {.help = "the coordinates of that point that are held, as `\"z\"` or `\"xy\"`", .fallback = "`\"xyz\"`"});
 }
 
 template <>
@@ -23,6 +27,11 @@ Expected<void> Executor::execute(const PinCommand& c) {
   if (c.to && !c.at) return input_error("there is no point to move there", "to", "give at, the surface point");
   if (c.control_points.empty() && !c.at) {
     return input_error("nothing is pinned", "control_points", "give control_points, or at");
+  }
+  const auto components = components_of(c.components);
+  if (!components) return std::unexpected(components.error());
+  if (c.components && !c.at) {
+    return input_error("control points are pinned in all coordinates", "components", "give at, the surface point");
   }
   const auto [m, n] = (*surface)->rest->net();
   for (std::size_t k = 0; k < c.control_points.size(); ++k) {
@@ -36,7 +45,7 @@ Expected<void> Executor::execute(const PinCommand& c) {
   if (!c.at) return {};
   // Points belong to one surface.
   const std::vector<int> others = std::exchange(state.together, {});
-  auto done = keep(PointPin{*c.at, c.to});
+  auto done = keep(PointPin{*c.at, c.to, *components});
   state.together = others;
   return done;
 }

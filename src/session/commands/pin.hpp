@@ -8,7 +8,8 @@ namespace knead {
 struct PinCommand {
   std::vector<std::array<int, 2>> control_points;
   std::optional<Fractions> at;
-  std::optional<Vector3> to;  ///< default: where it is
+  std::optional<Vector3> to;                   ///< default: where it is
+  std::optional<std::string> components = {};  ///< of that point: "x", "yz", …; default: all
 };
 
 template <>
