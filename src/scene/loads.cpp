@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "dead_loads.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/sculpt/loads.hpp"
@@ -39,26 +40,50 @@ Expected<Surface> load_field(const Load& load, const Surface& surface) {
   return field;
 }
 
+namespace {
+
+/// Σ over the selected surfaces of the loads that keep their direction, but the one per parameter domain.
+Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
+  Points nodal = Points::Zero(model.rows().back(), 3);
+  const std::vector<int> selection = scene.selection();
+  for (std::size_t patch = 0; patch < selection.size(); ++patch) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(selection[patch])];
+    const DomainScaling<2>& scaling = model.scaling(static_cast<int>(patch));
+    auto rows = nodal.middleRows(model.rows()[patch], s.current->size());
+    if (!scene.load.samples.empty()) {
+      const auto field = load_field(scene.load, *s.reference);
+      if (!field) return std::unexpected(field.error());
+      const auto forces = load_forces<2>(*s.reference, scaling, *field);
+      if (!forces) return std::unexpected(forces.error());
+      rows += *forces;
+    }
+    if (scene.load.per == LoadMeasure::area) {
+      const auto forces = area_forces(*s.rest, scaling, Point(scene.load.vector.data()));
+      if (!forces) return std::unexpected(forces.error());
+      rows += *forces;
+    }
+    for (const SceneForce& f : scene.forces) {
+      if (f.surface != selection[patch] || !keeps_direction(f.kind)) continue;
+      const auto forces = dead_forces(s, f, scaling.length);
+      if (!forces) return std::unexpected(forces.error());
+      rows += *forces;
+    }
+  }
+  return nodal;
+}
+
+}  // namespace
+
 Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& model) {
   const auto vector = [](const Vector3& v) { return Point(v[0], v[1], v[2]); };
   ActiveLoads loads;
-  loads.force = vector(scene.load.vector);
+  if (scene.load.per == LoadMeasure::parameters) loads.force = vector(scene.load.vector);
   loads.gravity = vector(scene.load.gravity);
   loads.pressure = scene.load.pressure;
   loads.wind = vector(scene.load.wind);
-  if (!scene.load.samples.empty()) {
-    loads.nodal.resize(model.rows().back(), 3);
-    int patch = 0;
-    for (int k : scene.selection()) {
-      const Surface& surface = *scene.surfaces[static_cast<std::size_t>(k)].reference;
-      const auto field = load_field(scene.load, surface);
-      if (!field) return std::unexpected(field.error());
-      const auto nodal = load_forces<2>(surface, model.scaling(patch), *field);
-      if (!nodal) return std::unexpected(nodal.error());
-      loads.nodal.middleRows(model.rows()[static_cast<std::size_t>(patch)], surface.size()) = *nodal;
-      ++patch;
-    }
-  }
+  auto nodal = dead_loads(scene, model);
+  if (!nodal) return std::unexpected(nodal.error());
+  if ((nodal->array() != 0).any()) loads.nodal = std::move(*nodal);
   for (const SceneForce& f : scene.forces) {
     int first = 0;
     bool selected = false;
@@ -67,14 +92,14 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& mode
       if (selected) break;
       first += scene.surfaces[static_cast<std::size_t>(k)].current->size();
     }
-    if (!selected) continue;
+    if (!selected || keeps_direction(f.kind)) continue;
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(f.surface)];
-    const auto u = parameters_at(*s.current, f.at);
+    const auto u = parameters_at(*s.current, *f.at);
     if (!u) return std::unexpected(u.error());
     PointForce force;
     force.kind = f.kind == PointForceKind::spring ? PointForce::Kind::spring : PointForce::Kind::volcano;
     force.terms = basis_terms(*s.current, *u, first);
-    force.to = vector(f.to);
+    force.to = vector(*f.to);
     force.strength = f.strength;
     force.core = f.core;
     for (const KeptConstraint& kept : s.constraints) {  // and its mirror images
@@ -82,7 +107,7 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& mode
       if (symmetry == nullptr) continue;
       const auto plane = plane_of(*symmetry, *s.reference);
       if (!plane) return std::unexpected(plane.error());
-      Fractions at = f.at;
+      Fractions at = *f.at;
       double& along = at[static_cast<std::size_t>(symmetry->direction)];
       if (along == 0.5) continue;
       along = 1 - along;

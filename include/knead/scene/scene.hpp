@@ -20,24 +20,35 @@ namespace knead {
 
 // What is being sculpted, as plain values: no commands, no files, no computed data.
 
-enum class PointForceKind { spring, volcano };
+/// Springs and volcanoes pull a point towards a place or away from it; dead forces keep their direction, on a point or
+/// along an edge.
+enum class PointForceKind { spring, volcano, dead, line };
 
-/// A force on one point of a surface, acting until it is removed (thesis Eq. 4.24).
+/// A force on one point or one edge of a surface, acting until it is removed (thesis Eq. 4.24).
 struct SceneForce {
   std::string name = "force";
   int surface = 0;  ///< index into the scene's surfaces
   PointForceKind kind = PointForceKind::spring;
-  Fractions at = {0.5, 0.5};
-  Vector3 to = {0, 0, 0};
-  double strength = 10;
-  double core = 0.1;  ///< volcano: within this distance it stops growing
+  std::optional<Fractions> at = {};     ///< all but line
+  std::optional<Vector3> to = {};       ///< spring, volcano
+  double strength = 10;                 ///< of these
+  double core = 0.1;                    ///< volcano: within this distance it stops growing
+  std::optional<Vector3> vector = {};   ///< dead: the force, line: per length of the rest shape
+  std::optional<EdgeChoice> edge = {};  ///< line
 
   friend bool operator==(const SceneForce&, const SceneForce&) = default;
 };
 
+/// What `Load::vector` is counted by.
+enum class LoadMeasure {
+  parameters,  ///< the parameter domain, as the model scales it
+  area,        ///< the area of the rest shape, in lengths of the model
+};
+
 /// Loads distributed over the selected surfaces.
 struct Load {
-  Vector3 vector = {0, 0, 0};   ///< force per area
+  Vector3 vector = {0, 0, 0};  ///< force per measure
+  LoadMeasure per = LoadMeasure::parameters;
   Vector3 gravity = {0, 0, 0};  ///< acceleration, multiplied by the mass
   double pressure = 0;          ///< force per area along the normal S_u × S_v
   Vector3 wind = {0, 0, 0};     ///< velocity of the air

@@ -10,28 +10,64 @@
 namespace knead {
 
 std::span<const Choice> choices(PointForceKind) {
-  static constexpr Choice list[] = {{"spring", PointForceKind::spring, "draws the point to `to`"},
-                                    {"volcano", PointForceKind::volcano, "drives it away from there"}};
+  static constexpr Choice list[] = {
+      {"spring", PointForceKind::spring, "draws the point to `to`"},
+      {"volcano", PointForceKind::volcano, "drives it away from there"},
+      {"dead", PointForceKind::dead, "`vector`, whatever the point does"},
+      {"line", PointForceKind::line, "`vector` per length of the rest shape, along `edge`"}};
   return list;
 }
 
 void describe(ForceCommand& c, Fields& fields) {
-  fields.name("force", "a force on one surface point, until `remove`");
+  fields.name("force", "a force on one surface point or edge, until `remove`");
   fields.add("name", c.force.name, {.help = "what `remove` calls it"});
   fields.add("kind", c.force.kind);
-  fields.add("at", c.force.at,
-             {.help = "`[s, t]`: the surface point", .unit = Unit::fraction, .presence = Presence::required});
-  fields.add("to", c.force.to, {.help = "`[x, y, z]`", .unit = Unit::length, .presence = Presence::required});
+  fields.add("at", c.force.at, {.help = "`[s, t]`: the surface point, of all kinds but line", .unit = Unit::fraction});
+  fields.add("to", c.force.to, {.help = "`[x, y, z]`: of springs and volcanoes", .unit = Unit::length});
   fields.add("strength", c.force.strength, {.help = "spring constant, or k of the volcano's k/r²"});
   fields.add("core", c.force.core,
              {.help = "distance within which the force of a volcano no longer grows", .unit = Unit::length});
+  fields.add(
+      "vector", c.force.vector,
+      {.help = "`[x, y, z]`: of a dead force, or of a line force per length; lengths and forces are those of the "
+               "model, in `scaling` raw those of the file"});
+  fields.add("edge", c.force.edge, {.help = "of a line force"});
 }
+
+namespace {
+
+/// Whether the force has all that its kind needs, and nothing that it does not have.
+Expected<void> check_kind(const SceneForce& f) {
+  const bool line = f.kind == PointForceKind::line, dead = line || f.kind == PointForceKind::dead;
+  const struct {
+    const char* name;
+    bool given, needed;
+    const char* remedy;
+  } fields[] = {{"at", f.at.has_value(), !line, "give the surface point, as [0.5,0.5]"},
+                {"to", f.to.has_value(), !dead, "give the place, as [0,0,1]"},
+                {"vector", f.vector.has_value(), dead, "give the force, as [0,0,-1]"},
+                {"edge", f.edge.has_value(), line, "give the edge, as \"u1\""}};
+  for (const auto& [name, given, needed, remedy] : fields) {
+    if (given == needed) continue;
+    const std::string_view kind = choices(PointForceKind{})[static_cast<std::size_t>(f.kind)].name;
+    if (needed) return input_error(fmt::format("a force of kind {} needs it", kind), name, remedy);
+    return input_error(fmt::format("a force of kind {} has none", kind), name, "leave it out");
+  }
+  if (f.vector && !point_of(*f.vector).allFinite())
+    return input_error("a force is not finite", "vector", "use numbers");
+  return {};
+}
+
+}  // namespace
 
 template <>
 Expected<void> Executor::execute(const ForceCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
-  if (auto u = parameters_at(*(*surface)->current, c.force.at); !u) return std::unexpected(u.error());
+  if (auto complete = check_kind(c.force); !complete) return complete;
+  if (c.force.at) {
+    if (auto u = parameters_at(*(*surface)->current, *c.force.at); !u) return std::unexpected(u.error());
+  }
   if (!(c.force.strength >= 0 && c.force.strength <= max_tool_stiffness)) {
     return input_error(fmt::format("{} is not a strength", c.force.strength), "strength",
                        fmt::format("use a number from 0 to {}", max_tool_stiffness));

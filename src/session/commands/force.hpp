@@ -4,7 +4,7 @@
 
 namespace knead {
 
-/// A force on one surface point, acting until it is removed (thesis Eq. 4.24).
+/// A force on one surface point or edge, acting until it is removed (thesis Eq. 4.24).
 struct ForceCommand {
   SceneForce force;  ///< on the first selected surface
 };

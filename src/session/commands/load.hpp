@@ -9,6 +9,8 @@ struct LoadCommand {
   Load load;
 };
 
+std::span<const Choice> choices(LoadMeasure);
+
 template <>
 Expected<void> Executor::execute(const LoadCommand& c);
 void describe(LoadCommand& c, Fields& fields);
