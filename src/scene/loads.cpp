@@ -77,7 +77,7 @@ Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
 Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& model) {
   const auto vector = [](const Vector3& v) { return Point(v[0], v[1], v[2]); };
   ActiveLoads loads;
-  if (scene.load.per == LoadMeasure::parameters) loads.force = vector(scene.load.vector);
+  if (scene.load.per != LoadMeasure::area) loads.force = vector(scene.load.vector);
   loads.gravity = vector(scene.load.gravity);
   loads.pressure = scene.load.pressure;
   loads.wind = vector(scene.load.wind);

@@ -96,9 +96,15 @@ void command(Reader& a, T& x) {
 }
 
 template <class A>
+void pass(A& a, Of<A, ShellMaterial>& m) {
+  auto& [young, poisson, thickness, density] = m;
+  for (auto* x : {&young, &poisson, &thickness, &density}) pass(a, *x);
+}
+
+template <class A>
 void pass(A& a, Of<A, StepRecord>& s) {
   auto& [surface, time, energy, stretch, bend, kinetic, contact, residual, largest_displacement, gap, violation,
-         iterations, converged, limited, note] = s;
+         iterations, converged, limited, note, load_factor, increments] = s;
   pass(a, surface);
   for (auto* x :
        {&time, &energy, &stretch, &bend, &kinetic, &contact, &residual, &largest_displacement, &gap, &violation}) {
@@ -108,6 +114,13 @@ void pass(A& a, Of<A, StepRecord>& s) {
   pass(a, converged);
   pass(a, limited);
   pass(a, note);
+  if constexpr (!A::writing) {
+    load_factor.reset();
+    increments.clear();
+    if (a.version() < 7) return;  // which had no shells
+  }
+  optional(a, load_factor);
+  list(a, increments);
 }
 
 template <class A>
@@ -208,8 +221,8 @@ void pass(A& a, Of<A, Probe>& p) {
 
 template <class A>
 void pass(A& a, Of<A, SceneSurface>& s) {
-  auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, hold_rows, pins, constraints,
-         smooth_knot_lines, smooth_poles, plastic, mask, visible] = s;
+  auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, shell, hold_rows, pins,
+         constraints, smooth_knot_lines, smooth_poles, plastic, mask, visible] = s;
   if constexpr (!A::writing) visible.reset();  // the document provides it
   for (auto* x : {&id, &name, &unit}) pass(a, *x);
   for (auto* x : {&opened, &reference, &rest, &current}) pass(a, *x);
@@ -236,6 +249,7 @@ void pass(A& a, Of<A, SceneSurface>& s) {
   if constexpr (!A::writing) {
     plastic = {};
     mask.clear();
+    shell.reset();
     if (a.version() == 1) return;  // which had none
   }
   auto& [along, share, yield, locality, in_radii] = plastic;
@@ -246,6 +260,10 @@ void pass(A& a, Of<A, SceneSurface>& s) {
     if (a.version() == 2) return;  // which had no masks
   }
   pass(a, mask);
+  if constexpr (!A::writing) {
+    if (a.version() < 7) return;  // which had no shells
+  }
+  optional(a, shell);
 }
 
 template <class A>

@@ -54,7 +54,8 @@ struct Executor {
   std::optional<BrushRun>& brush_cache;
   SessionState& state;
   const Session::Progress& progress;
-  bool allow_held = false;  ///< a tool may touch what is held alone
+  bool allow_held = false;             ///< a tool may touch what is held alone
+  std::optional<int> increments = {};  ///< of the load of a shell
 
   template <class C>
   Expected<void> execute(const C& command);
@@ -79,6 +80,9 @@ struct Executor {
   /// `count` steps with the forces of the scene and these.
   Expected<void> run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more = {},
                      int done = 0, int total = 0);
+  /// One static step of the selected surface as a shell, from its rest shape. Errors: those of `shell_problem` and
+  /// `shell_equilibrium`; another mode (input).
+  Expected<void> run_shell(const EvolutionPolicy& evolution);
   /// Share `plasticity` of the displacement becomes rest shape.
   Expected<void> yield(double plasticity);
 

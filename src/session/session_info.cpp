@@ -21,6 +21,7 @@ struct SurfaceInfo {
   std::array<std::optional<double>, 3> alpha, beta;
   std::optional<double> mass, damping;
   std::optional<MaterialPreset> preset;
+  std::optional<ShellMaterial> shell;
   double plasticity = 0, yield = 0, locality = 0;
   LengthUnit lengths = LengthUnit::radii;
   RestMode rest = RestMode::shape;
@@ -30,6 +31,14 @@ struct SurfaceInfo {
   std::vector<CommandVariant> constraints;
   int moved = 0;
 };
+
+static void describe(ShellMaterial& m, Fields& fields) {
+  fields.name("shell info", "The material of a shell, in units of the file.");
+  fields.add("young", m.young);
+  fields.add("poisson", m.poisson);
+  fields.add("thickness", m.thickness, {.unit = Unit::length});
+  fields.add("density", m.density);
+}
 
 static void describe(SurfaceInfo& s, Fields& fields) {
   fields.name("surface info", "A surface of the session.");
@@ -46,6 +55,7 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("mass", s.mass, {.help = "null where it varies"});
   fields.add("damping", s.damping, {.help = "null where it varies"});
   fields.add("preset", s.preset, {.help = "its named material, if it has one"});
+  fields.add("shell", s.shell, {.help = "null where the model is linear"});
   fields.add("plasticity", s.plasticity, {.help = "share of a displacement that strokes leave"});
   fields.add("yield", s.yield, {.help = "up to this displacement they leave nothing"});
   fields.add("locality", s.locality, {.help = "how far a dent is felt"});
@@ -108,6 +118,8 @@ static void describe(StepRecord& s, Fields& fields) {
   fields.add("converged", s.converged);
   fields.add("limited", s.limited, {.help = "the limit restricts the displacement"});
   fields.add("note", s.note, {.help = "what went wrong, and the remedy"});
+  fields.add("load_factor", s.load_factor, {.help = "of a shell: the share of the load that is balanced"});
+  fields.add("increments", s.increments, {.help = "of a shell: Newton iterations of each part of the load"});
 }
 
 std::span<const Choice> choices(SeamContinuity) {
@@ -216,6 +228,7 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
   info.mass = constant(s.material.mass);
   info.damping = constant(s.material.damping);
   info.preset = preset_of(s);
+  info.shell = s.shell;
   info.plasticity = s.plastic.share;
   info.yield = s.plastic.yield;
   info.locality = s.plastic.locality;

@@ -13,7 +13,8 @@ using archive::Writer;
 
 /// Of versions 1 to 7: without probes, open strokes and their results; without brushes, masks and edges that follow;
 /// without their tangent planes; without converted surfaces, brushes that pass from surface to surface, and tools that
-/// touch what is visible only; without stamps, and strokes that are kept from folding; without pens; the present one.
+/// touch what is visible only; without stamps, and strokes that are kept from folding; without pens and
+/// shells; the present one.
 constexpr std::array<std::string_view, 7> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
                                                     "Knead snapshot 4\n", "Knead snapshot 5\n", "Knead snapshot 6\n",
                                                     "Knead snapshot 7\n"};

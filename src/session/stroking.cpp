@@ -122,6 +122,9 @@ Points StrokeModel::control_points(const Points& x) const {
 Expected<void> Executor::begin_stroke(const std::string& name, double share) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
+  if ((*surface)->shell) {
+    return input_error("a shell has no contact with tools", "tool", R"(use {"do":"material","model":"linear"})");
+  }
   const auto tool = find_tool(name);
   if (!tool) return std::unexpected(tool.error());
   if (state.scaling == ScalingMode::raw) {

@@ -123,12 +123,19 @@ std::string sealed(std::string snapshot, char version) {
   return snapshot;
 }
 
-/// A snapshot of one state with one surface and neither steps nor notes, as version 1 of the format had it.
-std::string in_version_1(std::string snapshot) {
+/// What versions after the first have of a surface by default: along, share, yield, locality, in radii; the length of
+/// its mask; no shell.
+std::string plastic_of_surface() {
   const double one = 1;
-  std::string plastic(34, '\0');  // of the surface: along, share, yield, locality, in radii; the length of its mask
+  std::string plastic(35, '\0');
   std::memcpy(&plastic[1], &one, sizeof one);
   plastic[25] = '\1';
+  return plastic;
+}
+
+/// A snapshot of one state with one surface and neither steps nor notes, as version 1 of the format had it.
+std::string in_version_1(std::string snapshot) {
+  const std::string plastic = plastic_of_surface();
   // The count of probes, no open stroke, the count of edges that follow, the coupling of positions, no brush, the
   // coupling of tangent planes and how far these may open; counts of steps, seams and notes and a flag follow, and the
   // count of converted surfaces.
@@ -147,7 +154,7 @@ TEST(Snapshot, ReadsTheVersionBefore) {
   EXPECT_TRUE(same_state(restored->state(), session.state()));
 }
 
-// An open brush at one place of one surface without a mask, which had no pen in version 6.
+// An open brush at one place of one surface without a mask. Version 6 had neither pens nor shells.
 TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,10],"net":[12,12]})",
@@ -159,6 +166,9 @@ TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
   const std::size_t pen = old.rfind(place) + place.size();
   old.erase(pen, 4 * sizeof(double));  // pressure and axis
   old.erase(pen + 40, 4);              // what pressure scales, after the shapes before and the masks
+  const std::size_t surface = old.rfind(plastic_of_surface());
+  ASSERT_NE(surface, std::string::npos);
+  old.erase(surface + plastic_of_surface().size() - 1, 1);
   const auto restored = Session::restore(Document::fresh("test"), sealed(old, '6'));
   ASSERT_TRUE(restored) << restored.error().message();
   ASSERT_TRUE(restored->state().brush);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "knead/energy/shell_energy.hpp"
 #include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/sculpt/active_spline.hpp"
@@ -47,11 +48,11 @@ enum class LoadMeasure {
 
 /// Loads distributed over the selected surfaces.
 struct Load {
-  Vector3 vector = {0, 0, 0};  ///< force per measure
-  LoadMeasure per = LoadMeasure::parameters;
-  Vector3 gravity = {0, 0, 0};  ///< acceleration, multiplied by the mass
-  double pressure = 0;          ///< force per area along the normal S_u × S_v
-  Vector3 wind = {0, 0, 0};     ///< velocity of the air
+  Vector3 vector = {0, 0, 0};           ///< force per measure
+  std::optional<LoadMeasure> per = {};  ///< left out: area on shells, else parameters
+  Vector3 gravity = {0, 0, 0};          ///< acceleration, multiplied by the mass
+  double pressure = 0;                  ///< force per area along the normal S_u × S_v
+  Vector3 wind = {0, 0, 0};             ///< velocity of the air
   /// Samples of a force per area on a grid over the domain, last direction fastest, linear in between.
   std::array<int, 2> counts = {0, 0};
   std::vector<Vector3> samples = {};  ///< empty: none
@@ -168,7 +169,8 @@ struct SceneSurface {
   Points velocity = {};  ///< of a dynamic evolution, a spline on the present net; empty: at rest
   RestMode mode = RestMode::shape;
   MaterialFieldOf<2> material = {};
-  int hold_rows = 0;  ///< outer rows of control points that do not move
+  std::optional<ShellMaterial> shell = {};  ///< instead of `material`: static steps are those of a shell
+  int hold_rows = 0;                        ///< outer rows of control points that do not move
   std::set<std::array<int, 2>> pins = {};
   std::vector<KeptConstraint> constraints = {};
   bool smooth_knot_lines = true, smooth_poles = true;

@@ -11,7 +11,7 @@ std::span<const Choice> choices(LoadMeasure) {
 void describe(LoadCommand& c, Fields& fields) {
   fields.name("load", "loads everywhere on the selected surfaces; replaces earlier ones");
   fields.add("vector", c.load.vector, {.help = "force per area"});
-  fields.add("per", c.load.per, {.help = "which area that is"});
+  fields.add("per", c.load.per, {.help = "which area that is", .fallback = "`area` on shells, else `parameters`"});
   fields.add("gravity", c.load.gravity, {.help = "acceleration; the force is mass times this"});
   fields.add("pressure", c.load.pressure, {.help = "force per area along the normal S_u × S_v"});
   fields.add("wind", c.load.wind, {.help = "velocity of the air; the force is along the normal"});

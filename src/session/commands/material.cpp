@@ -89,8 +89,33 @@ const Preset presets[] = {
     {{{1, 0, 1}, {0, 0, 0}}, 1, {true, 0, 0, 0, true}},                                  // membrane
 };
 
+bool names_shell(const MaterialCommand& c) { return c.young || c.poisson || c.thickness || c.density; }
+
 bool names_something(const MaterialCommand& c) {
-  return c.alpha || c.beta || c.mass || c.damping || c.coefficient || c.preset || c.plasticity || c.yield || c.locality;
+  return c.alpha || c.beta || c.mass || c.damping || c.coefficient || c.preset || c.plasticity || c.yield ||
+         c.locality || c.model || names_shell(c);
+}
+
+/// The shell that a surface is after the command; none where its model is linear.
+Expected<std::optional<ShellMaterial>> shell_of(const MaterialCommand& c, const SceneSurface& s) {
+  const bool shell = c.model ? *c.model == MaterialModel::shell : s.shell.has_value();
+  if (!shell) {
+    if (!names_shell(c)) return std::nullopt;
+    return input_error("the linear model has no Young's modulus, Poisson's ratio, thickness or density", "model",
+                       R"(add "model":"shell", or use alpha, beta and mass)");
+  }
+  if (!s.shell && !(c.young && c.thickness)) {
+    return input_error("a shell needs a Young's modulus and a thickness", c.young ? "thickness" : "young",
+                       R"(give them, as "young":210000,"thickness":1)");
+  }
+  ShellMaterial next = s.shell.value_or(ShellMaterial{});
+  if (c.young) next.young = *c.young;
+  if (c.poisson) next.poisson = *c.poisson;
+  if (c.thickness) next.thickness = *c.thickness;
+  if (c.density) next.density = *c.density;
+  auto checked = validated(next);
+  if (!checked) return std::unexpected(checked.error());
+  return *checked;
 }
 
 Expected<void> check_plastic(const MaterialCommand& c) {
@@ -127,6 +152,13 @@ std::span<const Choice> choices(MaterialPreset) {
 std::span<const Choice> choices(LengthUnit) {
   static constexpr Choice list[] = {{"radii", LengthUnit::radii, "of the tool"},
                                     {"file", LengthUnit::file, "units of the file"}};
+  return list;
+}
+
+std::span<const Choice> choices(MaterialModel) {
+  static constexpr Choice list[] = {
+      {"linear", MaterialModel::linear, "the active model"},
+      {"shell", MaterialModel::shell, "Koiter's shell, for static steps ([shell.md](shell.md))"}};
   return list;
 }
 
@@ -195,6 +227,12 @@ void describe(MaterialCommand& c, Fields& fields) {
               .range = at_least(0),
               .fallback = "that of the preset"});
   fields.add("lengths", c.lengths, {.help = "what `yield` and `locality` count", .fallback = "`radii`"});
+  fields.add("model", c.model, {.help = "of whole surfaces", .fallback = "as it was, at first `linear`"});
+  fields.add("young", c.young, {.help = "of a shell: Young's modulus, force per area; all in units of the file"});
+  fields.add("poisson", c.poisson, {.help = "of a shell: Poisson's ratio", .fallback = "as it was, at first 0"});
+  fields.add("thickness", c.thickness, {.help = "of a shell", .unit = Unit::length});
+  fields.add("density", c.density,
+             {.help = "of a shell: mass per volume, for `load` gravity", .fallback = "as it was, at first 0"});
 }
 
 void read_as_version_1(MaterialCommand& c) {
@@ -208,7 +246,7 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   if (!names_something(given)) {
     return input_error("no field is given", "alpha",
-                       "give a preset, alpha, beta, mass, damping, plasticity, yield, locality, or coefficient");
+                       "give a preset, alpha, beta, mass, damping, plasticity, yield, locality, coefficient, or model");
   }
   if (auto checked = check_plastic(given); !checked) return checked;
   MaterialCommand c = given;
@@ -228,6 +266,9 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
     auto next = c.coefficient ? sampled(c, s) : c.region ? painted(c, s) : everywhere(c, s);
     if (!next) return std::unexpected(next.error());
     if (auto checked = validated<2>(*next); !checked) return std::unexpected(checked.error());
+    const auto shell = shell_of(c, s);
+    if (!shell) return std::unexpected(shell.error());
+    s.shell = *shell;
     s.material = std::move(*next);
     s.plastic = plastic_of(c, preset, s.plastic);
   }

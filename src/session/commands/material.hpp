@@ -7,11 +7,15 @@ namespace knead {
 /// Materials that there are by name.
 enum class MaterialPreset { clay, wax, rubber, sheet_metal, cloth, membrane };
 
+/// What resists: the linear active model, or a shell.
+enum class MaterialModel { linear, shell };
+
 /// What lengths of a material are counted in.
 enum class LengthUnit { radii, file };
 
 std::span<const Choice> choices(MaterialPreset);
 std::span<const Choice> choices(LengthUnit);
+std::span<const Choice> choices(MaterialModel);
 
 /// A material that has a name, as pages show it: α11 = α22 and β11 = β12 = β22.
 struct NamedMaterial {
@@ -39,6 +43,8 @@ struct MaterialCommand {
   /// What strokes leave; default: that of the preset, else as it was.
   std::optional<double> plasticity, yield, locality;
   std::optional<LengthUnit> lengths;  ///< default: radii
+  std::optional<MaterialModel> model;
+  std::optional<double> young, poisson, thickness, density;  ///< of a shell, in units of the file
 };
 
 template <>

@@ -16,6 +16,8 @@ void describe(StepCommand& c, Fields& fields) {
   fields.add("lambda", c.lambda, {.help = "for these steps only", .fallback = "that of `evolve`"});
   fields.add("weight", c.weight, {.help = "for these steps only", .fallback = "that of `evolve`"});
   fields.add("allow", c.allow);
+  fields.add("increments", c.increments,
+             {.help = "of a shell: the load is applied in this many equal parts", .fallback = "1"});
 }
 
 template <>
@@ -24,6 +26,10 @@ Expected<void> Executor::execute(const StepCommand& c) {
   EvolutionPolicy evolution = state.evolution;
   if (c.lambda) evolution.lambda = *c.lambda;
   if (c.weight) evolution.weight = *c.weight;
+  if (c.increments) {
+    if (auto few = check_steps(*c.increments, "increments", 1); !few) return few;
+  }
+  increments = c.increments;
   allow_held = c.allow.has_value();
   return run(c.count, evolution);
 }

@@ -15,6 +15,7 @@ struct StepCommand {
   std::optional<double> lambda;  ///< default: that of `evolve`
   std::optional<StepWeight> weight;
   std::optional<StepAllowance> allow = {};
+  std::optional<int> increments = {};  ///< of a shell; default: 1
 };
 
 template <>

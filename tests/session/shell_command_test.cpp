@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "sheet.hpp"
+
+namespace knead {
+namespace {
+
+using testing::at;
+using testing::first;
+using testing::fresh;
+using testing::refusal;
+using testing::run;
+using testing::same_bits;
+using testing::same_state;
+
+// A cantilever 10 long, 1 wide and 0.1 thick, E = 1.2e6, ν = 0, clamped at u = 0.
+
+const std::vector<std::string> cantilever = {
+    R"({"do":"new","size":[10,1],"net":[19,4]})", R"({"do":"edge","which":"u0","hold":"clamped"})",
+    R"({"do":"material","model":"shell","young":1.2e6,"poisson":0,"thickness":0.1})",
+    R"({"do":"evolve","mode":"static"})"};
+
+Session bent(const std::vector<std::string>& load) {
+  Session session = fresh();
+  run(session, cantilever);
+  run(session, load);
+  return session;
+}
+
+Point tip(const Session& session) { return at(*first(session).current, 1, 0.5) - at(*first(session).opened, 1, 0.5); }
+
+TEST(ShellCommand, ASmallLineForceBendsAsABeamDoes) {
+  // w = F L³ / (3 E I), I = b t³/12 = 1/12000: the cubic is in the space; turns are of the order of w / L = 3e-6, what
+  // they change of the order of their square, and the tolerance of Newton's method is 1e-8.
+  const Session session = bent({R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,1e-5]})", R"({"do":"step"})"});
+  const double exact = 1e-5 * 1000 / (3 * 1.2e6 / 12000);
+  EXPECT_NEAR(tip(session)[2], exact, 1e-6 * exact);
+}
+
+TEST(ShellCommand, AnAreaLoadBendsAsABeamDoes) {
+  // w = q L⁴ / (8 E I): the quartic is approximated by cubics on 16 spans, whose tip is exact.
+  const Session session = bent({R"({"do":"load","vector":[0,0,1e-6]})", R"({"do":"step"})"});
+  const double exact = 1e-6 * 10000 / (8 * 1.2e6 / 12000);
+  EXPECT_NEAR(tip(session)[2], exact, 1e-6 * exact);
+}
+
+TEST(ShellCommand, GravityIsDensityTimesThickness) {
+  const Session weight =
+      bent({R"({"do":"material","density":2})", R"({"do":"load","gravity":[0,0,-5e-6]})", R"({"do":"step"})"});
+  const Session load = bent({R"({"do":"load","vector":[0,0,-1e-6]})", R"({"do":"step"})"});
+  EXPECT_NEAR(tip(weight)[2], tip(load)[2], 1e-12);
+}
+
+TEST(ShellCommand, BendsFarAsInTheLiterature) {
+  // Sze, Liu and Lo (2004): under P = 4 the tip moves by 6.698 along z and −3.286 along x.
+  const Session session =
+      bent({R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,4]})", R"({"do":"step","increments":4})"});
+  EXPECT_NEAR(tip(session)[2], 6.698, 0.002 * 6.698);
+  EXPECT_NEAR(tip(session)[0], -3.286, 0.002 * 3.286);
+  const StepRecord& last = session.state().steps.back();
+  EXPECT_EQ(last.load_factor, 1);
+  EXPECT_TRUE(last.converged);
+  EXPECT_EQ(last.increments.size(), 4U);
+  EXPECT_EQ(std::accumulate(last.increments.begin(), last.increments.end(), 0), last.iterations);
+  EXPECT_LT(last.residual, 1e-8);
+  const Points now = first(session).current->control_points(), then = first(session).opened->control_points();
+  EXPECT_TRUE(same_bits(now.topRows(8), then.topRows(8)));  // the clamped rows
+}
+
+TEST(ShellCommand, HoldsSingleCoordinates) {
+  const Session session =
+      bent({R"({"do":"edge","which":"u1","components":"z"})",
+            R"({"do":"force","kind":"dead","at":[0.5,0.5],"vector":[0,0,-1]})", R"({"do":"step","increments":2})"});
+  EXPECT_EQ(tip(session)[2], 0);
+  EXPECT_LT(tip(session)[0], -1e-3);  // it slides in
+  EXPECT_LT((at(*first(session).current, 0.5, 0.5))[2], -1e-2);
+}
+
+TEST(ShellCommand, IsUndoneAndInSnapshots) {
+  Session session = bent({});
+  const SessionState before = session.state();
+  run(session, {R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,1]})", R"({"do":"step","increments":2})"});
+  const auto restored = Session::restore(session.document(), session.snapshot());
+  ASSERT_TRUE(restored) << restored.error().message();
+  EXPECT_TRUE(same_state(session.state(), restored->state()));
+  EXPECT_EQ(restored->state().steps, session.state().steps);
+  EXPECT_EQ(first(*restored).shell, first(session).shell);
+  run(session, {R"({"do":"undo"})"});
+  run(session, {R"({"do":"undo"})"});
+  EXPECT_TRUE(same_state(session.state(), before));
+}
+
+TEST(ShellCommand, NamesWhatIsWrong) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,1],"net":[8,4]})"});
+  EXPECT_EQ(refusal(session, R"({"do":"material","young":1})").where, "model");
+  EXPECT_EQ(refusal(session, R"({"do":"material","model":"shell","young":1})").where, "thickness");
+  EXPECT_FALSE(refusal(session, R"({"do":"material","model":"shell","young":-1,"thickness":1})").what.empty());
+  EXPECT_EQ(refusal(session, R"({"do":"step","increments":2})").where, "increments");
+  run(session, {R"({"do":"material","model":"shell","young":1,"thickness":1})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "evolve");
+  run(session, {R"({"do":"load","vector":[0,0,1]})"});
+  EXPECT_EQ(refusal(session, R"({"do":"evolve","mode":"static"})").kind, ErrorKind::numerical);  // nothing holds it
+  run(session, {R"({"do":"load"})", R"({"do":"edge","hold":"clamped"})", R"({"do":"evolve","mode":"static"})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step","increments":0})").where, "increments");
+  run(session, {R"({"do":"force","name":"s","at":[0.5,0.5],"to":[0,0,1]})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "s");
+  run(session, {R"({"do":"remove","tool":"s"})", R"({"do":"load","pressure":1})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "load");
+  run(session, {R"({"do":"load"})", R"({"do":"tool","name":"ball","radius":2,"position":[5,0.5,9]})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "tool");
+  run(session, {R"({"do":"material","model":"linear"})", R"({"do":"step"})"});
+}
+
+}  // namespace
+}  // namespace knead
