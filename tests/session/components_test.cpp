@@ -16,45 +16,46 @@ using testing::same_state;
 // Constraints on single coordinates, on sheets of size 10 by 10 with nets of 10 by 10. Edge v0 has the control points
 // 10 i.
 
-constexpr const char* drag = R"({"do":"load","vector":[1,2,3]})";
+constexpr const char* pull_load = R"({"do":"load","vector":[1,2,3]})";
 
-Session dragged(const std::vector<std::string>& constraints) {
+Session dragged_sheet(const std::vector<std::string>& constraints) {
   Session session = fresh();
   run(session, {new_sheet});
   run(session, constraints);
-  run(session, {drag, R"({"do":"step","count":3})"});
+  run(session, {pull_load, R"({"do":"step","count":3})"});
   return session;
 }
 
 /// Of control point k: which coordinates kept their bits.
-Components kept(const Session& session, int k) {
+Components kept_components(const Session& session, int k) {
   const auto now = first(session).current->control_points().row(k),
              then = first(session).opened->control_points().row(k);
   return {now[0] == then[0], now[1] == then[1], now[2] == then[2]};
 }
 
 TEST(Components, OfAnEdgeKeepTheirBitsAndTheOthersMove) {
-  const Session session = dragged({R"({"do":"edge","which":"v0","components":"xz"})"});
+  const Session session = dragged_sheet({R"({"do":"edge","which":"v0","components":"xz"})"});
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(kept(session, 10 * i), (Components{true, false, true})) << i;
-    EXPECT_EQ(kept(session, 10 * i + 1), (Components{})) << i;
+    EXPECT_EQ(kept_components(session, 10 * i), (Components{true, false, true})) << i;
+    EXPECT_EQ(kept_components(session, 10 * i + 1), (Components{})) << i;
   }
 }
 
 TEST(Components, OfAClampedEdgeHoldItsSlopeToo) {
-  const Session session = dragged({R"({"do":"edge","which":"v0","hold":"clamped","components":"zy"})"});
+  const Session session = dragged_sheet({R"({"do":"edge","which":"v0","hold":"clamped","components":"zy"})"});
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(kept(session, 10 * i), (Components{false, true, true})) << i;
-    EXPECT_EQ(kept(session, 10 * i + 1), (Components{false, true, true})) << i;
-    EXPECT_EQ(kept(session, 10 * i + 2), (Components{})) << i;
+    EXPECT_EQ(kept_components(session, 10 * i), (Components{false, true, true})) << i;
+    EXPECT_EQ(kept_components(session, 10 * i + 1), (Components{false, true, true})) << i;
+    EXPECT_EQ(kept_components(session, 10 * i + 2), (Components{})) << i;
   }
 }
 
 TEST(Components, OfOneLoadMoveAsInTheModelWithoutTheOthers) {
   // Coordinates of the linear model are independent: x and z move as with the whole edge held, y as with a free one.
-  const Session some = dragged({R"({"do":"edge","which":"u0"})", R"({"do":"edge","which":"v0","components":"xz"})"});
-  const Session all = dragged({R"({"do":"edge","which":"u0"})", R"({"do":"edge","which":"v0"})"});
-  const Session none = dragged({R"({"do":"edge","which":"u0"})"});
+  const Session some =
+      dragged_sheet({R"({"do":"edge","which":"u0"})", R"({"do":"edge","which":"v0","components":"xz"})"});
+  const Session all = dragged_sheet({R"({"do":"edge","which":"u0"})", R"({"do":"edge","which":"v0"})"});
+  const Session none = dragged_sheet({R"({"do":"edge","which":"u0"})"});
   const auto column = [](const Session& s, int c) { return first(s).current->control_points().col(c).eval(); };
   // 1e-12 of lengths up to 10: the condition of the factored matrix with lambda 1 is below 1e4.
   EXPECT_LT((column(some, 0) - column(all, 0)).cwiseAbs().maxCoeff(), 1e-11);
@@ -64,7 +65,7 @@ TEST(Components, OfOneLoadMoveAsInTheModelWithoutTheOthers) {
 }
 
 TEST(Components, OfAPinHoldThePointInThemAlone) {
-  const Session session = dragged({R"({"do":"pin","at":[0.4,0.3],"components":"z"})"});
+  const Session session = dragged_sheet({R"({"do":"pin","at":[0.4,0.3],"components":"z"})"});
   const Point now = at(*first(session).current, 0.4, 0.3), then = at(*first(session).opened, 0.4, 0.3);
   EXPECT_NEAR(now[2], then[2], 1e-13);
   EXPECT_GT(now[0] - then[0], 1e-3);
@@ -72,8 +73,8 @@ TEST(Components, OfAPinHoldThePointInThemAlone) {
 }
 
 TEST(Components, OfAPinThatMovesGoThereAlone) {
-  const Session session =
-      dragged({R"({"do":"edge","which":"u0"})", R"({"do":"pin","at":[0.6,0.3],"to":[99,99,0.5],"components":"z"})"});
+  const Session session = dragged_sheet(
+      {R"({"do":"edge","which":"u0"})", R"({"do":"pin","at":[0.6,0.3],"to":[99,99,0.5],"components":"z"})"});
   const Point now = at(*first(session).current, 0.6, 0.3);
   EXPECT_NEAR(now[2], 0.5, 1e-12);
   EXPECT_LT(now[0], 20);
@@ -83,9 +84,9 @@ TEST(Components, OfAnEdgeAreHeldAndFreedOneByOne) {
   Session session = fresh();
   run(session,
       {new_sheet, R"({"do":"edge","which":"v0"})", R"({"do":"edge","which":"v0","hold":"free","components":"x"})",
-       R"({"do":"edge","which":"v0","hold":"clamped","components":"z"})", drag, R"({"do":"step"})"});
-  EXPECT_EQ(kept(session, 30), (Components{false, true, true}));
-  EXPECT_EQ(kept(session, 31), (Components{false, false, true}));
+       R"({"do":"edge","which":"v0","hold":"clamped","components":"z"})", pull_load, R"({"do":"step"})"});
+  EXPECT_EQ(kept_components(session, 30), (Components{false, true, true}));
+  EXPECT_EQ(kept_components(session, 31), (Components{false, false, true}));
   run(session, {R"({"do":"edge","which":"v0","hold":"free"})"});
   EXPECT_TRUE(first(session).constraints.empty());
 }

@@ -18,7 +18,7 @@ using testing::same_bits;
 // Loads that keep their direction, in raw units on sheets held at one edge: what they do is compared where it must
 // agree.
 
-Points displaced(const std::vector<std::string>& commands) {
+Points displaced_by(const std::vector<std::string>& commands) {
   Session session = fresh();
   run(session, {new_sheet, R"({"do":"scaling","mode":"raw"})", R"({"do":"edge","which":"u0"})"});
   run(session, commands);
@@ -26,23 +26,23 @@ Points displaced(const std::vector<std::string>& commands) {
   return first(session).current->control_points() - first(session).opened->control_points();
 }
 
-double apart(const Points& a, const Points& b) {
+double relative_difference(const Points& a, const Points& b) {
   return (a - b).cwiseAbs().maxCoeff() / std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
 }
 
 TEST(DeadLoads, OnASquareSheetAreaIsTheParameterMeasureTimesItsSpeed) {
   // 10 by 10 on [0, 1]²: dA = 100 du dv.
-  const Points area = displaced({R"({"do":"load","vector":[0,0,1],"per":"area"})"});
-  const Points parameters = displaced({R"({"do":"load","vector":[0,0,100]})"});
+  const Points area = displaced_by({R"({"do":"load","vector":[0,0,1],"per":"area"})"});
+  const Points parameters = displaced_by({R"({"do":"load","vector":[0,0,100]})"});
   EXPECT_GT(area.cwiseAbs().maxCoeff(), 1);
-  EXPECT_LT(apart(area, parameters), 1e-11);  // condition of a 10 × 10 plate times rounding
+  EXPECT_LT(relative_difference(area, parameters), 1e-11);  // condition of a 10 × 10 plate times rounding
 }
 
 TEST(DeadLoads, ALineOfForceBalancesThePointForceOfItsResultantInSymmetricSheets) {
   // Under a load along x, y or z the mean displacement of the loaded edge by a line force p and that of the whole force
   // at its middle follow Betti's theorem: the work of each in the other's displacement is the same.
-  const Points line = displaced({R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,2]})"});
-  const Points point = displaced({R"({"do":"force","kind":"dead","at":[0.7,0.3],"vector":[0,0,3]})"});
+  const Points line = displaced_by({R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,2]})"});
+  const Points point = displaced_by({R"({"do":"force","kind":"dead","at":[0.7,0.3],"vector":[0,0,3]})"});
   Session a = fresh();
   run(a, {new_sheet});
   const auto spline = [&](const Points& d) { return *first(a).current->with_control_points(d); };

@@ -17,48 +17,51 @@ using testing::same_state;
 
 // A cantilever 10 long, 1 wide and 0.1 thick, E = 1.2e6, ν = 0, clamped at u = 0.
 
-const std::vector<std::string> cantilever = {
+const std::vector<std::string> cantilever_commands = {
     R"({"do":"new","size":[10,1],"net":[19,4]})", R"({"do":"edge","which":"u0","hold":"clamped"})",
     R"({"do":"material","model":"shell","young":1.2e6,"poisson":0,"thickness":0.1})",
     R"({"do":"evolve","mode":"static"})"};
 
-Session bent(const std::vector<std::string>& load) {
+Session bent_cantilever(const std::vector<std::string>& load) {
   Session session = fresh();
-  run(session, cantilever);
+  run(session, cantilever_commands);
   run(session, load);
   return session;
 }
 
-Point tip(const Session& session) { return at(*first(session).current, 1, 0.5) - at(*first(session).opened, 1, 0.5); }
+Point tip_displacement(const Session& session) {
+  return at(*first(session).current, 1, 0.5) - at(*first(session).opened, 1, 0.5);
+}
 
 TEST(ShellCommand, ASmallLineForceBendsAsABeamDoes) {
   // w = F L³ / (3 E I), I = b t³/12 = 1/12000: the cubic is in the space; turns are of the order of w / L = 3e-6, what
   // they change of the order of their square, and the tolerance of Newton's method is 1e-8.
-  const Session session = bent({R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,1e-5]})", R"({"do":"step"})"});
+  const Session session =
+      bent_cantilever({R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,1e-5]})", R"({"do":"step"})"});
   const double exact = 1e-5 * 1000 / (3 * 1.2e6 / 12000);
-  EXPECT_NEAR(tip(session)[2], exact, 1e-6 * exact);
+  EXPECT_NEAR(tip_displacement(session)[2], exact, 1e-6 * exact);
 }
 
 TEST(ShellCommand, AnAreaLoadBendsAsABeamDoes) {
   // w = q L⁴ / (8 E I): the quartic is approximated by cubics on 16 spans, whose tip is exact.
-  const Session session = bent({R"({"do":"load","vector":[0,0,1e-6]})", R"({"do":"step"})"});
+  const Session session = bent_cantilever({R"({"do":"load","vector":[0,0,1e-6]})", R"({"do":"step"})"});
   const double exact = 1e-6 * 10000 / (8 * 1.2e6 / 12000);
-  EXPECT_NEAR(tip(session)[2], exact, 1e-6 * exact);
+  EXPECT_NEAR(tip_displacement(session)[2], exact, 1e-6 * exact);
 }
 
 TEST(ShellCommand, GravityIsDensityTimesThickness) {
-  const Session weight =
-      bent({R"({"do":"material","density":2})", R"({"do":"load","gravity":[0,0,-5e-6]})", R"({"do":"step"})"});
-  const Session load = bent({R"({"do":"load","vector":[0,0,-1e-6]})", R"({"do":"step"})"});
-  EXPECT_NEAR(tip(weight)[2], tip(load)[2], 1e-12);
+  const Session weight = bent_cantilever(
+      {R"({"do":"material","density":2})", R"({"do":"load","gravity":[0,0,-5e-6]})", R"({"do":"step"})"});
+  const Session load = bent_cantilever({R"({"do":"load","vector":[0,0,-1e-6]})", R"({"do":"step"})"});
+  EXPECT_NEAR(tip_displacement(weight)[2], tip_displacement(load)[2], 1e-12);
 }
 
 TEST(ShellCommand, BendsFarAsInTheLiterature) {
   // Sze, Liu and Lo (2004): under P = 4 the tip moves by 6.698 along z and −3.286 along x.
-  const Session session =
-      bent({R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,4]})", R"({"do":"step","increments":4})"});
-  EXPECT_NEAR(tip(session)[2], 6.698, 0.002 * 6.698);
-  EXPECT_NEAR(tip(session)[0], -3.286, 0.002 * 3.286);
+  const Session session = bent_cantilever(
+      {R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,4]})", R"({"do":"step","increments":4})"});
+  EXPECT_NEAR(tip_displacement(session)[2], 6.698, 0.002 * 6.698);
+  EXPECT_NEAR(tip_displacement(session)[0], -3.286, 0.002 * 3.286);
   const StepRecord& last = session.state().steps.back();
   EXPECT_EQ(last.load_factor, 1);
   EXPECT_TRUE(last.converged);
@@ -70,16 +73,16 @@ TEST(ShellCommand, BendsFarAsInTheLiterature) {
 }
 
 TEST(ShellCommand, HoldsSingleCoordinates) {
-  const Session session =
-      bent({R"({"do":"edge","which":"u1","components":"z"})",
-            R"({"do":"force","kind":"dead","at":[0.5,0.5],"vector":[0,0,-1]})", R"({"do":"step","increments":2})"});
-  EXPECT_EQ(tip(session)[2], 0);
-  EXPECT_LT(tip(session)[0], -1e-3);  // it slides in
+  const Session session = bent_cantilever({R"({"do":"edge","which":"u1","components":"z"})",
+                                           R"({"do":"force","kind":"dead","at":[0.5,0.5],"vector":[0,0,-1]})",
+                                           R"({"do":"step","increments":2})"});
+  EXPECT_EQ(tip_displacement(session)[2], 0);
+  EXPECT_LT(tip_displacement(session)[0], -1e-3);  // it slides in
   EXPECT_LT((at(*first(session).current, 0.5, 0.5))[2], -1e-2);
 }
 
 TEST(ShellCommand, IsUndoneAndInSnapshots) {
-  Session session = bent({});
+  Session session = bent_cantilever({});
   const SessionState before = session.state();
   run(session, {R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,1]})", R"({"do":"step","increments":2})"});
   const auto restored = Session::restore(session.document(), session.snapshot());
