@@ -125,6 +125,10 @@ std::string report_json(const SessionState& state, const Outcome& o, const std::
         k == 0 ? "" : ",", json_number(s.time), json_number(s.energy), json_number(s.residual),
         json_number(s.largest_displacement), json_number(s.stretch), json_number(s.bend), json_number(s.kinetic),
         json_number(s.contact), json_number(s.gap), json_number(s.violation), s.converged, s.limited);
+    if (s.load_factor) {
+      text += fmt::format(",\"load_factor\":{},\"increments\":[{}]", json_number(*s.load_factor),
+                          fmt::join(s.increments, ","));
+    }
     if (!s.note.empty()) text += ",\"note\":" + json_string(s.note);
     text += "}";
   }
@@ -330,8 +334,8 @@ its fields with their defaults (`knead commands NAME` explains them):
 )" + command_help() +
       R"(
 The report is {"steps": [{"time", "energy", "residual", "largest_displacement", "stretch", "bend", "kinetic", "contact",
-"gap", "constraint_violation", "converged", "limited", "note"}, ...], "time", "energy_before", "energy_after",
-"residual", "largest_displacement", "control_points_moved", "edges", "places", "seams", "notes"}: times in seconds,
+"gap", "constraint_violation", "converged", "limited", "note", and of shells "load_factor", "increments"}, ...], "time",
+"energy_before", "energy_after", "residual", "largest_displacement", "control_points_moved", "edges", "places", "seams", "notes"}: times in seconds,
 lengths in file units, gaps in sizes of the tool.
 )" + std::string(exit_codes));
   return [options] { return run(*options); };

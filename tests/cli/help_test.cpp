@@ -48,9 +48,27 @@ TEST(Help, CommandsListsAllOrExplainsOne) {
 
 TEST(Help, SculptNamesEveryFieldOfTheReport) {
   const std::string help = knead({"sculpt", "--help"}).out;
-  for (const char* field : {"steps", "time", "energy", "residual", "largest_displacement", "energy_before",
-                            "energy_after", "control_points_moved", "stretch", "bend", "kinetic", "contact", "gap",
-                            "constraint_violation", "converged", "limited", "note", "seams", "notes"}) {
+  for (const char* field : {"steps",
+                            "time",
+                            "energy",
+                            "residual",
+                            "largest_displacement",
+                            "energy_before",
+                            "energy_after",
+                            "control_points_moved",
+                            "stretch",
+                            "bend",
+                            "kinetic",
+                            "contact",
+                            "gap",
+                            "constraint_violation",
+                            "converged",
+                            "limited",
+                            "load_factor",
+                            "increments",
+                            "note",
+                            "seams",
+                            "notes"}) {
     EXPECT_NE(help.find('"' + std::string(field) + '"'), std::string::npos) << field;
   }
 }
