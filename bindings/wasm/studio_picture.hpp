@@ -16,7 +16,7 @@ namespace knead::studio {
 /// suffices.
 struct Picture {
   std::array<std::uint32_t, 2> counts = {0, 0};
-  std::vector<float> positions, normals;          ///< 3 per grid point; normals of length 1
+  std::vector<float> positions, normals;  ///< 3 per grid point; normals of length 1
   std::vector<float> values;  ///< of the display, one per grid point, `no_value` for none; empty without one
   std::vector<float> fractions_s, fractions_t;    ///< of the domain, per grid line
   std::vector<std::uint32_t> lines_u, lines_v;    ///< grid lines that are knot lines, ends of the domain included
@@ -46,7 +46,7 @@ struct PictureOptions {
   bool opened = false;                                ///< the shape as opened, not the present one
   std::shared_ptr<const VisibleRegion> visible = {};  ///< what faces show of it; null: all
   std::optional<PictureWindow> window = {};
-  std::shared_ptr<const Surroundings> around = {};    ///< for displays that see them; null: nothing is
+  std::shared_ptr<const Surroundings> around = {};  ///< for displays that see them; null: nothing is
 };
 
 /// Makes pictures of one surface after the other; tables and memory are kept while the knots stay the same.
