@@ -10,9 +10,9 @@ const types = {
   '.svg': 'image/svg+xml', '.json': 'application/json', '.step': 'model/step',
 };
 
-/** How files go over the network to whom accepts it; of brotli the quality that takes less time than gzip. */
+/** How files go over the network to whom accepts it; of brotli a quality that takes about three times as long as gzip, once a file. */
 const encodings = {
-  br: (bytes) => brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 5, [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } }),
+  br: (bytes) => brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 7, [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } }),
   gzip: gzipSync,
 };
 

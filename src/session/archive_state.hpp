@@ -17,6 +17,13 @@ namespace knead::archive {
 template <class A, class T>
 using Of = std::conditional_t<A::writing, const T, T>;
 
+/// Whether bytes are read that a version before this one wrote.
+template <class A>
+bool older_than(const A& a, int version) {
+  if constexpr (!A::writing) return a.version() < version;
+  return false;
+}
+
 template <class A>
 void pass(A& a, Of<A, double>& x) {
   a.number(x);
@@ -256,13 +263,9 @@ void pass(A& a, Of<A, SceneSurface>& s) {
   pass(a, along);
   for (auto* x : {&share, &yield, &locality}) pass(a, *x);
   pass(a, in_radii);
-  if constexpr (!A::writing) {
-    if (a.version() == 2) return;  // which had no masks
-  }
+  if (older_than(a, 3)) return;  // which had no masks
   pass(a, mask);
-  if constexpr (!A::writing) {
-    if (a.version() < 7) return;  // which had no shells
-  }
+  if (older_than(a, 7)) return;  // which had no shells
   optional(a, shell);
 }
 
@@ -289,9 +292,7 @@ void pass(A& a, Of<A, OpenStroke>& s) {
   for (auto* x : {&lambda, &stiffness, &tension, &plasticity.share, &plasticity.yield}) pass(a, *x);
   list(a, before, 16);
   for (auto* x : {&history, &last, &older}) pass(a, *x);
-  if constexpr (!A::writing) {
-    if (a.version() < 6) return;  // which had none
-  }
+  if (older_than(a, 6)) return;  // which had none
   pass(a, share);
 }
 
@@ -311,9 +312,7 @@ template <class A>
 void pass(A& a, Of<A, BrushPoint>& p) {
   pass(a, p.surface);
   pass(a, p.at);
-  if constexpr (!A::writing) {
-    if (a.version() < 7) return;  // which had no pens
-  }
+  if (older_than(a, 7)) return;  // which had no pens
   pass(a, p.pen.pressure);
   pass(a, p.pen.axis);
 }
@@ -344,18 +343,14 @@ void pass(A& a, Of<A, OpenBrush>& b) {
     }
   }
   list(a, images, 96);
-  bool one_surface = false;
-  if constexpr (!A::writing) one_surface = a.version() < 5;
-  if (one_surface) {
+  if (older_than(a, 5)) {
     if constexpr (!A::writing) read_path_on_one_surface(a, path);
   } else {
     list(a, path, 20);
   }
   list(a, before, 16);
   list(a, masks, 8);
-  if constexpr (!A::writing) {
-    if (a.version() < 7) return;
-  }
+  if (older_than(a, 7)) return;
   choice(a, pressure, PressureUse::none);
 }
 

@@ -101,7 +101,7 @@ const std::vector<std::string> all_commands = {
     R"({"do":"evolve","mode":"static","lambda":1,"time_step":0.125,"weight":"mass","route":"analytic","accuracy":"exact"})",
     R"({"do":"step","count":3,"lambda":1,"weight":"mass"})",
     R"({"do":"stroke","tool":"a","path":[[1,2,3],[4,5,6]],"steps":3,"plasticity":0.5,"relative":true})",
-    R"({"do":"brush","kind":"inflate","path":[[0.25,0.5],[0.5,0.5]],"surface":"#1","surfaces":[],"radius":3,"height":-1,"strength":0.5,"core":0.25,"by":[1,2,3],"angle":30,"factor":2,"pattern":[],"steady":0.5,"mirror":[[1,2,3],[0,0,1]],"axis":[[1,2,3],[0,0,1]],"radial":3,"open":true,"relative":true})",
+    R"({"do":"brush","kind":"inflate","path":[[0.25,0.5],[0.5,0.5]],"surface":"#1","surfaces":[],"pressure":[0.5,1],"presses":"size","tilt":[[0,0,1],[0,1,1]],"radius":3,"height":-1,"strength":0.5,"core":0.25,"by":[1,2,3],"angle":30,"factor":2,"pattern":[],"steady":0.5,"mirror":[[1,2,3],[0,0,1]],"axis":[[1,2,3],[0,0,1]],"radial":3,"open":true,"relative":true})",
     R"({"do":"mask","change":"grow","radius":3,"relative":true})",
     R"({"do":"lattice","net":[4,5,6],"degree":[2,3,1],"margin":0.5,"steps":2,"lambda":3,"hold":["u0","w1"]})",
     R"({"do":"points","which":[3,4],"rows_u":[1],"rows_v":[0,2],"by":[1,2,3],"to":[[1,2,3],[-0.0,5,6]],"relative":true})",

@@ -101,3 +101,20 @@ it('curvature combs name the largest curvature, and stand on the selected surfac
   await settled(page);
   expect((await ends()).visible).toBe(false);
 });
+
+it('combs on section curves have the curvature of the circles that are cut', async () => {
+  const { page } = studio;
+  await scene(page, 'Torus'); // radii 70 and 30
+  await page.locator('select[aria-label="Section curves"]').selectOption('x');
+  await page.locator('select[aria-label="Curvature combs"]').selectOption('sections');
+  await page.locator('input[aria-label="Step of the section curves"]').fill('150'); // x = 0 alone
+  await page.keyboard.press('Enter');
+  await settled(page);
+  await expect.poll(() => page.locator('.panel[data-panel=Analysis] .note').textContent()).toMatch(/radius 30 mm$/);
+  await page.locator('select[aria-label="Section curves"]').selectOption('z');
+  await settled(page);
+  // The plane z = 0 cuts it in circles of the radii 40 and 100.
+  await expect.poll(() => page.locator('.panel[data-panel=Analysis] .note').textContent()).toMatch(/radius 40 mm$/);
+  await page.locator('select[aria-label="Curvature combs"]').selectOption('none');
+  await page.locator('select[aria-label="Section curves"]').selectOption('none');
+});

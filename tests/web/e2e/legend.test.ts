@@ -1,7 +1,12 @@
-import { scene, settled, studioOfFile } from './page';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { facesStep } from '../faces_step';
+import { directoryOfFile, openFile, scene, settled, studioOfFile } from './page';
 import { pixels, quantile, raise, setDisplay } from './pixels';
 
 const studio = studioOfFile({ width: 1100, height: 720 });
+const directory = directoryOfFile();
 
 const legend = () => studio.page.locator('.legend-card');
 const ticks = () => legend().locator('.legend-ticks span').allTextContents();
@@ -67,4 +72,14 @@ it('deviations within the tolerance are grey, those beyond it are not', async ()
   // But for points whose pixel lies on the other side of the edge.
   expect(quantile(within, 0.99)).toBeLessThan(8);
   expect(quantile(beyond, 0.01)).toBeGreaterThan(40);
+});
+
+it('the thickness is the distance to the face behind, and the legend says so', async () => {
+  const { page } = studio;
+  const path = join(directory, 'thick.step'); // a disc 4 above a grey square
+  writeFileSync(path, facesStep());
+  await openFile(page, path);
+  await colour('thickness');
+  await settled(page);
+  await expect.poll(async () => number((await ticks()).at(-1)!)).toBe(4);
 });
