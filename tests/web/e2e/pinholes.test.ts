@@ -91,7 +91,8 @@ it('ends faces within a pixel of their edges, from near or far', async () => {
   const path = join(directory, 'disc.step');
   writeFileSync(path, facesStep());
   await openFile(page, path);
-  await page.waitForFunction(() => (window as never as { studio: { viewer: { trimOf(k: number): unknown } } }).studio.viewer.trimOf(0) !== null);
+  // Of this file: a circle, not the triangle of the one before.
+  await page.waitForFunction(() => ((window as never as { studio: { viewer: { trimOf(k: number): { faces: number[][][] } | null } } }).studio.viewer.trimOf(0)?.faces[0]![0]!.length ?? 0) > 40);
   await page.evaluate(() => (window as never as { studio: { setDisplay(d: object): void } }).studio.setDisplay({ isocurves: false, grid: false, context: false }));
   await page.keyboard.press('3');
   for (const zoom of [1, 5, 20]) {
@@ -102,7 +103,10 @@ it('ends faces within a pixel of their edges, from near or far', async () => {
       const angle = 0.7;
       const to = [4 * Math.cos(angle) - origin[0]!, 4 * Math.sin(angle) - origin[1]!, -origin[2]!];
       main.restore({ ...main.placement(), target: to, position: [to[0], to[1], to[2]! + 1], height: 12 / factor });
-      await new Promise((resolve) => setTimeout(resolve, 700)); // the view stands still, and is drawn finely
+      // The view stands still, and is drawn finely.
+      const { viewer } = (window as never as { studio: { viewer: { surfaces: { picture: { window: object | null } }[] } } }).studio;
+      for (let k = 0; k < 100 && factor > 10 && !viewer.surfaces[0]!.picture.window; ++k) await new Promise((resolve) => setTimeout(resolve, 100));
+      await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
       const canvas = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!;
       const box = canvas.getBoundingClientRect();
       const copy = document.createElement('canvas');

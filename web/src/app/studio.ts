@@ -111,6 +111,7 @@ export class Studio implements App {
     this.surfaceIds = ids;
     if (this.fresh) {
       this.fresh = false;
+      this.hand.size.unit = 'length';
       this.hand.brush.settings.radius = 0.08 * this.diagonal;
     }
     this.tellCreases(frame.state.notes);
@@ -211,6 +212,7 @@ export class Studio implements App {
   }
 
   sizeBrush(radius: number): void {
+    if (this.hand.size.unit !== 'length') return; // it has a size of its own
     this.hand.brush.settings.radius = Math.min(radius, 0.08 * this.diagonal);
     this.changed();
   }

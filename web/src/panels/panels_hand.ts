@@ -2,6 +2,7 @@ import * as THREE from 'three';
 
 import { format, parseLength } from '../document/units';
 import { materials, type PointsCommand } from '../engine/generated';
+import type { SizeUnit } from '../tools/brush_size';
 import { brushModes, paintModes } from '../tools/modes';
 import type { App } from './app';
 import { field, h, select, slider, title, toggle } from './dom';
@@ -24,7 +25,7 @@ function wide(label: string, control: HTMLElement, tip?: string): HTMLElement {
 }
 
 export function brushPanel(app: App): HTMLElement {
-  const key = (a: App) => [a.hand.mode, a.hand.brush.settings, a.hand.surfaceBrush.settings, a.state?.surfaces.map((s) => s.masked), a.hand.paint.settings, a.hand.placing, unitOf(a), a.state?.surfaces.map((s) => s.id)];
+  const key = (a: App) => [a.hand.mode, a.hand.brush.settings, a.hand.size.unit, a.hand.surfaceBrush.settings, a.state?.surfaces.map((s) => s.masked), a.hand.paint.settings, a.hand.placing, unitOf(a), a.state?.surfaces.map((s) => s.id)];
   return panel(app, 'Brush', key, () => {
     const { mode } = app.hand;
     const brush = brushModes.includes(mode);
@@ -42,18 +43,22 @@ export function brushPanel(app: App): HTMLElement {
 }
 
 function radiusField(app: App): HTMLElement {
-  const { settings } = app.hand.brush;
+  const { brush: { settings }, size } = app.hand;
   return field('Radius', row(
     slider('Brush radius', Math.log(settings.radius / app.diagonal), [Math.log(0.005), Math.log(0.5)], (v) => {
       settings.radius = Math.exp(v) * app.diagonal;
       app.changed();
     }),
-    numberInput('Brush radius in units', settings.radius, (v) => {
+    numberInput('Brush radius in units', Number(size.value.toPrecision(4)), (v) => {
       if (!(v > 0)) return 'A radius is larger than 0';
-      settings.radius = v;
+      size.value = v;
       return app.changed();
-    }, length(app)),
-  ), 'Shift-wheel over the surface, or the wheel while pressing; Ctrl-drag to the side; [ and ]');
+    }, size.unit === 'length' ? length(app) : undefined),
+    select<SizeUnit>('Unit of the brush radius', [['length', unitOf(app)], ['screen', 'px'], ['face', '%']], size.unit, (unit) => {
+      size.unit = unit;
+      app.changed();
+    }),
+  ), 'Of the file, pixels of the screen, or a share of the diagonal of the selected faces, which it keeps. Shift-wheel over the surface, or the wheel while pressing; Ctrl-drag to the side; [ and ]');
 }
 
 function depthField(app: App): HTMLElement {

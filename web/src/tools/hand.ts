@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import { clay } from '../document/clay';
 import type { Command } from '../engine/session_types';
 import type { Viewport } from '../view/viewport';
+import { BrushSize } from './brush_size';
 import { Brush, type BrushActions } from './brush';
 import { Edges } from './edges';
 import { followGizmo } from './gizmo';
@@ -18,6 +19,7 @@ import { SurfaceBrush } from './surface_brush';
 
 /** Everything that the pointer can do, and which of these a press now means. */
 export class Hand {
+  readonly size: BrushSize;
   readonly brush: Brush;
   readonly surfaceBrush: SurfaceBrush;
   readonly points: PointEditor;
@@ -34,6 +36,7 @@ export class Hand {
     const actions = this.actions();
     this.brush = new Brush(viewer, actions);
     const { settings } = this.brush;
+    this.size = new BrushSize(viewer, settings, () => !this.active, () => host.changed());
     this.surfaceBrush = new SurfaceBrush(viewer, actions, () => settings.radius, (factor) => (settings.radius *= factor));
     this.points = new PointEditor(viewer, { ...actions, changed: () => host.changed() });
     this.paint = new Paint(viewer, () => this.brush.settings.radius, {
