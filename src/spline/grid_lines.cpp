@@ -33,24 +33,34 @@ struct Direction {
   std::vector<int> pieces;
 };
 
-/// Lines with the pieces in a window cut on, each into as many as the tolerance asks for.
-GridLines divided(const KnotVector& knots, const Direction& of, double lower, double upper, double tolerance) {
-  const GridLines coarse = divided(knots, of.pieces);
+/// Into how many parts the tolerance of a window cuts each piece between lines; 1 where it is outside.
+std::vector<int> parts_in_window(const GridLines& coarse, const Direction& of, double lower, double upper,
+                                 double tolerance) {
+  std::vector<int> parts;
+  std::size_t span = 0;
+  for (std::uint32_t k = 0; k + 1 < coarse.parameters.size(); ++k) {
+    if (span + 1 < coarse.knot_lines.size() && coarse.knot_lines[span + 1] == k) ++span;
+    const bool outside = coarse.parameters[k + 1] < lower || coarse.parameters[k] > upper;
+    const double in_span = of.pieces[span], chord = of.chords[span].drift / (in_span * in_span);
+    parts.push_back(outside ? 1 : static_cast<int>(std::clamp(std::ceil(std::sqrt(chord / tolerance)), 1.0, 1e6)));
+  }
+  return parts;
+}
+
+GridLines divided(const GridLines& coarse, const std::vector<int>& parts) {
   GridLines lines;
   std::size_t next = 0;  // knot line
   for (std::uint32_t k = 0; k < coarse.parameters.size(); ++k) {
-    const bool knot = next < coarse.knot_lines.size() && coarse.knot_lines[next] == k;
-    if (knot) lines.knot_lines.push_back(static_cast<std::uint32_t>(lines.parameters.size()));
-    if (knot) ++next;
-    lines.coarse.push_back(static_cast<std::uint32_t>(lines.parameters.size()));
+    const auto here = static_cast<std::uint32_t>(lines.parameters.size());
+    if (next < coarse.knot_lines.size() && coarse.knot_lines[next] == k) {
+      lines.knot_lines.push_back(here);
+      ++next;
+    }
+    lines.coarse.push_back(here);
     lines.parameters.push_back(coarse.parameters[k]);
-    if (k + 1 == coarse.parameters.size()) break;
+    if (k == parts.size()) break;
     const double from = coarse.parameters[k], to = coarse.parameters[k + 1];
-    if (to < lower || from > upper) continue;
-    const double in_span = of.pieces[next - 1];
-    const double chord = of.chords[next - 1].drift / (in_span * in_span);
-    const int count = static_cast<int>(std::clamp(std::ceil(std::sqrt(chord / tolerance)), 1.0, 1e6));
-    for (int j = 1; j < count; ++j) lines.parameters.push_back(from + (to - from) * j / count);
+    for (int j = 1; j < parts[k]; ++j) lines.parameters.push_back(from + (to - from) * j / parts[k]);
   }
   return lines;
 }
@@ -132,13 +142,18 @@ bool allowed(const ChordOptions& options, double rows, double columns) {
 std::array<GridLines, 2> with_window(const Surface& surface, const std::array<Direction, 2>& of,
                                      const ChordOptions& options) {
   const GridWindow& window = *options.window;
+  const std::array coarse = {divided(surface.knots(0), of[0].pieces), divided(surface.knots(1), of[1].pieces)};
   for (double tolerance = window.tolerance;; tolerance *= 2) {
-    std::array lines = {divided(surface.knots(0), of[0], window.lower[0], window.upper[0], tolerance),
-                        divided(surface.knots(1), of[1], window.lower[1], window.upper[1], tolerance)};
-    const auto count = [&](std::size_t d) { return static_cast<double>(lines[d].parameters.size()); };
-    const bool finer = count(0) > static_cast<double>(lines[0].coarse.size()) ||
-                       count(1) > static_cast<double>(lines[1].coarse.size());
-    if (allowed(options, count(0), count(1)) || !finer) return lines;
+    std::array<std::vector<int>, 2> parts;
+    std::array<double, 2> counts = {1, 1};
+    for (std::size_t d = 0; d < 2; ++d) {
+      parts[d] = parts_in_window(coarse[d], of[d], window.lower[d], window.upper[d], tolerance);
+      for (const int n : parts[d]) counts[d] += n;
+    }
+    const bool finer = counts[0] > static_cast<double>(coarse[0].parameters.size()) ||
+                       counts[1] > static_cast<double>(coarse[1].parameters.size());
+    if (allowed(options, counts[0], counts[1]) || !finer)
+      return {divided(coarse[0], parts[0]), divided(coarse[1], parts[1])};
   }
 }
 
