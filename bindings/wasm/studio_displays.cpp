@@ -27,6 +27,7 @@ Json of(const Display& d) {
           {"limits", d.limits ? Json(*d.limits) : Json()},
           {"tolerance", d.tolerance},
           {"compares", d.compares},
+          {"sees_model", d.sees_model},
           {"settings", std::move(settings)}};
 }
 

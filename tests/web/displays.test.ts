@@ -95,7 +95,7 @@ describe('the largest curvature', () => {
 
 describe('limits of the colours', () => {
   const display = (more: Partial<DisplayInfo>): DisplayInfo =>
-    ({ name: 'x', title: 'X', unit: 'length', signed: true, palette: 'diverging', help: '', limits: null, tolerance: '', compares: false, settings: [], ...more });
+    ({ name: 'x', title: 'X', unit: 'length', signed: true, palette: 'diverging', help: '', limits: null, tolerance: '', compares: false, sees_model: false, settings: [], ...more });
   const range = { lower: -9.9, upper: 9.9, least: -40, greatest: 3 };
 
   it('are those of the display, or round ones of the range', () => {

@@ -82,4 +82,13 @@ it('the thickness is the distance to the face behind, and the legend says so', a
   await colour('thickness');
   await settled(page);
   await expect.poll(async () => number((await ticks()).at(-1)!)).toBe(4);
+  // While something moves the colours are those before; at rest those of the new shape: all of it a millimetre higher.
+  const late = () => page.evaluate(() => (window as never as { studio: { frame: { late: boolean } } }).studio.frame.late);
+  expect(await late()).toBe(false);
+  await page.evaluate(() => (window as never as { studio: { execute(c: object[]): Promise<unknown> } }).studio.execute(
+    [{ do: 'release' }, { do: 'points', rows_u: [0, 1, 2, 3, 4], by: [0, 0, 1] }]));
+  expect(await late()).toBe(true);
+  expect(number((await ticks()).at(-1)!)).toBe(4);
+  await expect.poll(async () => number((await ticks()).at(-1)!)).toBe(5);
+  expect(await late()).toBe(false);
 });

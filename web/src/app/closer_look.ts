@@ -4,7 +4,10 @@ import type { Viewer } from '../view/viewer';
 
 const restTime = 250; // milliseconds that views stand still before their pictures become finer
 
-/** Draws what the views show from nearby as finely as that needs, once they have stood still for a moment. */
+/**
+ * Once the views have stood still for a moment: draws what they show from nearby as finely as that needs, and colours that take
+ * longer than a frame may.
+ */
 export class CloserLook {
   private timer = 0;
 
@@ -13,7 +16,7 @@ export class CloserLook {
     viewer.onDrawn.push(() => {
       clearTimeout(this.timer);
       this.timer = window.setTimeout(() => {
-        if (quiet() && this.wanted().some((wanted, k) => !serves(this.present(k), wanted))) ask();
+        if (quiet() && (viewer.frame?.late || this.wanted().some((wanted, k) => !serves(this.present(k), wanted)))) ask();
       }, restTime);
     });
   }

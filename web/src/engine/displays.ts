@@ -25,6 +25,8 @@ export interface DisplayInfo {
   tolerance: string;
   /** Compared with the shape as it was opened. */
   compares: boolean;
+  /** Looks at the whole model from every point, which takes longer than a frame may. */
+  sees_model: boolean;
   settings: DisplaySetting[];
 }
 
@@ -41,6 +43,9 @@ export interface DisplayChoice {
   display: string;
   settings?: Record<string, SettingValue>;
 }
+
+/** Stands for a value that is none (bindings/wasm/studio_picture.hpp). */
+export const noValue = -1e30;
 
 export const plain: DisplayChoice = { display: 'none' };
 

@@ -60,6 +60,8 @@ export interface Frame {
   pictures: Picture[];
   /** Of the colours of the pictures; null without any. */
   range: DisplayRange | null;
+  /** The colours are those of an earlier shape, or none yet: pictures that are asked for at rest have them. */
+  late: boolean;
   combs: Combs[];
   /** Of tools that are new or have changed shape since the previous frame, by name. */
   toolPictures: Record<string, ToolPicture>;

@@ -1,9 +1,9 @@
-import { plain } from './displays';
+import { type DisplayRange, noValue, plain } from './displays';
 import { Engine } from './engine';
 import { History } from './history';
 import wasmUrl from './knead_studio.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
-import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
+import { type Command, EngineError, type EngineErrorInfo, type Picture, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
 import { trimTree } from './trim_tree';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
@@ -98,6 +98,32 @@ function movedBy(engine: Engine, { selection, surfaces, tools, last }: SessionIn
     .reduce((most, x) => Math.max(most, Math.abs(x)), 0);
 }
 
+/** Names of the displays that take longer than a frame may, once asked for; and what one last gave. */
+let slowDisplays: Set<string> | null = null;
+let kept: { display: string; values: Float32Array[]; range: DisplayRange | null } | null = null;
+
+/** All surfaces, and where their colours end. While something moves, slow colours stay as they were, and are late. */
+function picturesOf(engine: Engine, state: SessionInfo): { pictures: Picture[]; range: DisplayRange | null; late: boolean } {
+  const { display, detail, opened } = settings;
+  slowDisplays ??= new Set(engine.displays().filter((d) => d.sees_model).map((d) => d.name));
+  const slow = slowDisplays.has(display.display);
+  const late = slow && !resting;
+  const pictures = state.surfaces.map((_, k) => engine.picture(k, detail, late ? plain : display, opened, resting ? settings.windows?.[k] : null));
+  if (!slow) return { pictures, range: engine.range(), late };
+  const asked = JSON.stringify(display);
+  if (!late) {
+    kept = { display: asked, values: pictures.map((p) => p.values.slice()), range: engine.range() };
+    return { pictures, range: kept.range, late };
+  }
+  const known = kept?.display === asked ? kept : null;
+  pictures.forEach((p, k) => {
+    const size = p.counts[0] * p.counts[1];
+    const before = known?.values[k];
+    p.values = before?.length === size ? before.slice() : new Float32Array(size).fill(noValue);
+  });
+  return { pictures, range: known?.range ?? null, late };
+}
+
 /** Sends the present state, or notes that it is due if the page has not drawn the one before. */
 function sendFrame(engine: Engine): void {
   if (!frameDrawn) {
@@ -107,8 +133,7 @@ function sendFrame(engine: Engine): void {
   frameDue = false;
   const start = performance.now();
   const state = history.state();
-  const pictures = state.surfaces.map((_, k) => engine.picture(k, settings.detail, settings.display, settings.opened, resting ? settings.windows?.[k] : null));
-  const range = engine.range();
+  const { pictures, range, late } = picturesOf(engine, state);
   const { combs: asked, sectionCombs = [] } = settings;
   const combs = state.selection.flatMap((k) => [
     ...(asked ? [engine.combs(k, asked.curves, asked.teeth)] : []),
@@ -121,7 +146,7 @@ function sendFrame(engine: Engine): void {
   shownSteps = state.steps;
   frameDrawn = false;
   const frame = {
-    state, pictures, range, combs, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
+    state, pictures, range, late, combs, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
   };
   post(
