@@ -40,10 +40,14 @@ Point stamped(const Brush& brush, const BrushPlace& place, const Point& normal, 
   return brush.height * stamp_rim(xi, eta, brush.core) * brush.pattern.at(xi, eta) * normal;
 }
 
+/// Of the radius: what is as near to it is outside, so that samples which lie exactly there are so on both sides of a
+/// mirror, however they are rounded. Profiles are below 1e-18 there.
+constexpr double rim = 1e-9;
+
 /// The profile across a crease, a cusp.
 double cusp(double distance, double radius) {
   const double s = 1 - distance / radius;
-  return s > 0 ? s * s : 0;
+  return s > rim ? s * s : 0;
 }
 
 bool is_sharp(BrushKind kind) { return kind == BrushKind::crease || kind == BrushKind::ridge; }
@@ -95,7 +99,7 @@ bool acts_about_one_place(BrushKind kind) {
 double brush_falloff(double distance, double radius, double core) {
   const double s = (distance / radius - core) / (1 - core);
   if (s <= 0) return 1;
-  if (s >= 1) return 0;
+  if (s >= 1 - rim) return 0;
   return 1 - s * s * s * (10 - s * (15 - 6 * s));
 }
 

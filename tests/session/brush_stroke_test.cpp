@@ -91,6 +91,21 @@ TEST(BrushStroke, IsRepeatedInAMirrorAndAroundAnAxis) {
   EXPECT_NEAR(on(shape(session), 100, 100).z(), 0, 1e-12);
 }
 
+// The end of the path is a radius from a point at which the brush is sampled.
+TEST(BrushStroke, IsRepeatedInAMirrorWhereItEndsAtASample) {
+  for (const char* kind : {"push", "crease"}) {
+    Session session = flat(43);
+    run(session, {brush(fmt::format(R"("kind":"{}","height":4,"radius":20,"mirror":[[100,0,0],[1,0,0]])", kind),
+                        {60, 70, 0}, {70, 130, 0})});
+    for (int i = 0; i <= 40; ++i) {
+      for (int j = 0; j <= 40; ++j) {
+        const Point p = on(shape(session), 2.5 * i, 5 * j), q = on(shape(session), 200 - 2.5 * i, 5 * j);
+        EXPECT_LT((Point(200 - p.x(), p.y(), p.z()) - q).norm(), 1e-9 * side) << kind;
+      }
+    }
+  }
+}
+
 TEST(BrushStroke, AKeptSymmetryIsKept) {
   Session session = flat(43, {R"({"do":"symmetry","mirror":"u"})"});
   run(session, {dab(R"("kind":"pull","height":4,"radius":20)", {60, 90, 0})});
