@@ -29,7 +29,7 @@ Point middle_of(const step::File& file) {
 ContextPicture context_picture(const step::File& file, const Point& origin) {
   ContextPicture picture;
   FaceMeshes context;
-  if (auto faces = context_faces(file)) context = *std::move(faces);
+  if (auto faces = context_faces(file, drawn_chord)) context = *std::move(faces);
   std::map<std::string, const step::OtherSurface*> below;  // of every face
   const auto others = step::other_surfaces(file);
   for (const step::OtherSurface& s : others) {

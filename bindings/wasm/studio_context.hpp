@@ -12,8 +12,9 @@
 
 namespace knead::studio {
 
-/// Of loops that are drawn (`trim_loops`): a circle of 10,000 pixels is drawn within one.
-inline constexpr double trim_chord = 1e-4;
+/// Of loops and faces that are drawn (`trim_loops`, `context_faces`), so that both have the same points along an edge:
+/// a circle of 10,000 pixels is drawn within one.
+inline constexpr double drawn_chord = 1e-4;
 
 /// The faces around the surfaces as triangles; points relative to the requested origin.
 struct ContextPicture {

@@ -7,7 +7,7 @@ namespace knead::studio {
 const std::vector<SurfaceTrim>& ShownParts::trims(const Document& document) {
   if (converted_ != document.converted()) forget();
   if (trims_) return trims_->surfaces;
-  auto found = trim_loops(*document.step_file(), trim_chord);
+  auto found = trim_loops(*document.step_file(), drawn_chord);
   trims_ = found ? *std::move(found) : TrimLoops();
   for (const SurfaceTrim& trim : trims_->surfaces) {
     auto& part = visible_.emplace_back();
