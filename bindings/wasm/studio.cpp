@@ -176,6 +176,12 @@ int with_surface(int surface, const Act& act) {
   return act(surfaces[static_cast<std::size_t>(surface)]);
 }
 
+int show_combs(Expected<CombPicture> combs) {
+  if (!combs) return fail(combs.error());
+  held().combs = *std::move(combs);
+  return answer(comb_json(held().combs));
+}
+
 }  // namespace
 
 /// The input is one command. With `join`, it becomes one entry of the history with the command before it.
@@ -283,27 +289,18 @@ KNEAD_EXPORT(knead_range) int knead_range() { return answer(range_json(held().pi
 /// pieces of every knot span: the text is `comb_json`, its buffers stay until the next call.
 KNEAD_EXPORT(knead_combs) int knead_combs(int surface, int along_u, int along_v, int teeth) {
   return with_surface(surface, [&](const SceneSurface& s) {
-    auto combs = comb_picture(*s.current, {{along_u, along_v}, teeth}, held().origin, visible_part(surface).get());
-    if (!combs) return fail(combs.error());
-    held().combs = *std::move(combs);
-    return answer(comb_json(held().combs));
+    return show_combs(
+        comb_picture(*s.current, {{along_u, along_v}, teeth}, held().origin, visible_part(surface).get()));
   });
 }
 
 /// The same of the curves in which the plane (x, y, z) · p = offset cuts it, in file units; (x, y, z) is of length 1.
 KNEAD_EXPORT(knead_section_combs)
 int knead_section_combs(int surface, double x, double y, double z, double offset) {
-  auto& session = held().session;
-  if (!session) return without_session();
-  const SessionState& state = session->state();
-  if (surface < 0 || surface >= static_cast<int>(state.surfaces.size())) {
-    return fail({ErrorKind::usage, "there is no such surface"});
-  }
-  auto combs = section_comb_picture(*state.surfaces[static_cast<std::size_t>(surface)].current, {{x, y, z}, offset},
-                                    held().origin, visible_part(surface).get());
-  if (!combs) return fail(combs.error());
-  held().combs = *std::move(combs);
-  return answer(comb_json(held().combs));
+  return with_surface(surface, [&](const SceneSurface& s) {
+    return show_combs(
+        section_comb_picture(*s.current, {{x, y, z}, offset}, held().origin, visible_part(surface).get()));
+  });
 }
 
 /// The shape of a tool in its own frame: the text is `tool_picture_json`, its buffers stay until the next call.

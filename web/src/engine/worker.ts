@@ -76,6 +76,8 @@ let source: { bytes: Uint8Array; name: string } | null = null;
 /** Begins another session; where that fails the one before goes on. */
 function begin(engine: Engine, next: typeof source, act: () => void): void {
   stopPlaying();
+  resting = false; // windows and colours are those of the document before
+  kept = null;
   const before = hasSession(engine) ? { snapshot: engine.snapshot(historyBytes), source, opened: history.opened, name: engine.state().name } : null;
   try {
     act();

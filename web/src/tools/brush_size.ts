@@ -14,8 +14,9 @@ export class BrushSize {
   /** `quiet`: no stroke is under way. */
   constructor(private readonly viewer: Viewer, private readonly settings: { radius: number }, quiet: () => boolean, changed: () => void) {
     viewer.onDrawn.push(() => {
+      if (this.chosen === 'length' || !quiet()) return;
       const now = this.length();
-      if (this.chosen === 'length' || now === this.last || !quiet()) return;
+      if (now === this.last) return;
       this.settings.radius *= now / this.last;
       this.last = now;
       changed();
