@@ -30,8 +30,29 @@ Json to_json(const step::AxisPlacement& p) {
   return {{"origin", to_json(p.origin)}, {"axis", to_json(p.axis)}, {"ref_direction", to_json(p.ref_direction)}};
 }
 
-Json to_json(const step::SurfaceEntity& s) {
-  const Surface& surface = s.surface;
+/// A surface of a file, of STEP or of another format.
+struct Row {
+  std::string id, name;
+  const Surface* surface;
+  std::array<bool, 2> closed = {};
+  bool trimmed = false;
+};
+
+std::vector<Row> rows_of(const Source& source) {
+  std::vector<Row> rows;
+  if (const step::File* file = source.step_file()) {
+    for (const step::SurfaceEntity& s : file->surfaces())
+      rows.push_back({s.id, s.name, &s.surface, s.closed, s.trimmed});
+  } else {
+    for (const SourceSurface& s : source.surfaces()) {
+      rows.push_back({s.id, s.name, s.surface.get(), closed_directions(*s.surface)});
+    }
+  }
+  return rows;
+}
+
+Json to_json(const Row& s) {
+  const Surface& surface = *s.surface;
   const BoundingBox box = bounding_box(surface);
   Json knots = Json::array();
   for (int d = 0; d < 2; ++d) {
@@ -61,21 +82,26 @@ Json to_json(const step::Instance& i) {
           {"frame", i.frame ? to_json(*i.frame) : Json()}};
 }
 
+std::vector<step::OtherSurface> others_of(const step::File* file) {
+  return file == nullptr ? std::vector<step::OtherSurface>() : step::other_surfaces(*file);
+}
+
 /// Of the file as a whole; of other formats than STEP the geometry is read as STEP.
 std::string unit_of(const Source& source) {
-  const step::File& file = *source.step_file();
-  if (source.format() == "STEP" || source.surfaces().empty()) return file.length_unit();
-  return source.surfaces().front().unit;
+  const step::File* file = source.step_file();
+  if (file != nullptr && (source.format() == "STEP" || source.surfaces().empty())) return file->length_unit();
+  return source.surfaces().empty() ? "unknown" : source.surfaces().front().unit;
 }
 
 void print_text(const Source& source) {
-  const step::File& file = *source.step_file();
+  const step::File* file = source.step_file();
   const bool step = source.format() == "STEP";
-  fmt::print("{}: {}{}, units {}, {}\n", file.name(), source.format(),
-             !step || file.schema().empty() ? "" : " " + printable(file.schema()), unit_of(source),
-             counted(file.surfaces().size(), "B-spline surface", "B-spline surfaces"));
-  for (const step::SurfaceEntity& s : file.surfaces()) {
-    const Surface& surface = s.surface;
+  const auto rows = rows_of(source);
+  fmt::print("{}: {}{}, units {}, {}\n", source.name(), source.format(),
+             !step || file->schema().empty() ? "" : " " + printable(file->schema()), unit_of(source),
+             counted(rows.size(), "B-spline surface", "B-spline surfaces"));
+  for (const Row& s : rows) {
+    const Surface& surface = *s.surface;
     const auto [m, n] = surface.net();
     const BoundingBox box = bounding_box(surface);
     std::string traits = surface.rational() ? "rational" : "polynomial";
@@ -89,7 +115,7 @@ void print_text(const Source& source) {
                box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
   }
   std::map<std::string, int> others;
-  for (const step::OtherSurface& s : step::other_surfaces(file)) ++others[s.form];
+  for (const step::OtherSurface& s : others_of(file)) ++others[s.form];
   if (!others.empty()) {
     std::string counts;
     for (const auto& [form, count] : others) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, form);
@@ -98,7 +124,7 @@ void print_text(const Source& source) {
   for (const UnreadableSurface& s : source.unreadable()) {
     fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
   }
-  print_parts(file);
+  if (file != nullptr) print_parts(*file);
   for (const std::string& remark : source.remarks()) fmt::print("  {}\n", printable(remark, 2000));
 }
 
@@ -108,23 +134,30 @@ Expected<void> run(const InfoArguments& options) {
   const auto source = open_source(*std::move(bytes), options.file);
   if (!source) return std::unexpected(source.error());
   const step::File* const file = (*source)->step_file();
+  if (options.faces && file == nullptr) {
+    return usage_error(fmt::format("a {} file has no faces", (*source)->format()), "--faces", "leave it out");
+  }
   if (!options.json) {
     print_text(**source);
     if (options.faces) print_faces(*file);
     return {};
   }
   Json others = Json::array();
-  for (const step::OtherSurface& s : step::other_surfaces(*file)) {
+  for (const step::OtherSurface& s : others_of(file)) {
     const auto made = step::exact_spline(*file, s.id);
-    others.push_back({{"id", s.id}, {"form", s.form}, {"faces", s.faces}, {"convertible", made.has_value()}});
-    if (!made) others.back()["reason"] = made.error().message();
+    const bool step = (*source)->format() == "STEP";
+    others.push_back({{"id", s.id}, {"form", s.form}, {"faces", s.faces}, {"convertible", step && made}});
+    if (!made || !step)
+      others.back()["reason"] = made ? "only faces of a STEP file are converted" : made.error().message();
   }
   Json surfaces = Json::array(), unreadable = Json::array(), instances = Json::array();
-  for (const step::SurfaceEntity& s : file->surfaces()) surfaces.push_back(to_json(s));
+  for (const Row& s : rows_of(**source)) surfaces.push_back(to_json(s));
   for (const UnreadableSurface& s : (*source)->unreadable()) {
     unreadable.push_back({{"id", s.id}, {"reason", s.reason.message()}});
   }
-  for (const step::Instance& i : file->instances()) instances.push_back(to_json(i));
+  if (file != nullptr) {
+    for (const step::Instance& i : file->instances()) instances.push_back(to_json(i));
+  }
   const Json info = {{"file", options.file},
                      {"format", (*source)->format()},
                      {"schema", (*source)->format() == "STEP" ? file->schema() : ""},
@@ -133,7 +166,7 @@ Expected<void> run(const InfoArguments& options) {
                      {"unreadable_surfaces", std::move(unreadable)},
                      {"other_surfaces", std::move(others)},
                      {"instances", std::move(instances)},
-                     {"assembly", parts_json(*file)},
+                     {"assembly", file != nullptr ? parts_json(*file) : Json()},
                      {"remarks", (*source)->remarks()}};
   fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));
   return {};

@@ -226,10 +226,23 @@ void print_summary(const SculptArguments& options, const Session& session, const
   }
 }
 
+/// The format of a new file that the output's name asks for: the input has another one, without faces that a new file
+/// would lose. Null: the output is the input, changed.
+const Format* other_format(const SculptArguments& options, const Document& document) {
+  if (document.source() == nullptr || document.step_file() != nullptr) return nullptr;
+  const auto wanted = format_of_name(options.output, FormatContent::surfaces);
+  return wanted && (*wanted)->name != document.source()->format() && (*wanted)->save != nullptr ? *wanted : nullptr;
+}
+
 /// The CAD file comes last: if it exists, everything requested has been written.
 Expected<void> write_results(const SculptArguments& options, const Session& session, const Outcome& o) {
-  auto bytes = session.save();
+  const Format* other = other_format(options, session.document());
+  auto bytes = other != nullptr ? session.save_as(*other) : session.save();
   if (!bytes) return std::unexpected(bytes.error());
+  const auto& surfaces = session.document().surfaces();
+  if (other != nullptr && !surfaces.empty() && surfaces.front().unit == "unknown") {
+    fmt::print("lengths are written as millimetres: {} does not say what they are\n", options.file);
+  }
   std::string picture;
   if (!options.picture.empty()) {
     const SessionState& state = session.state();
@@ -266,6 +279,7 @@ Expected<void> check_ending(const SculptArguments& options, const Document& docu
   const auto wanted = format_of_name(options.output, FormatContent::surfaces);
   const std::string_view written = document.source() != nullptr ? document.source()->format() : "STEP";
   if (wanted && (*wanted)->name == written) return {};
+  if (other_format(options, document) != nullptr) return {};
   std::string endings;
   for (const Format& format : formats()) {
     if (format.name != written) continue;
@@ -278,7 +292,7 @@ Expected<void> check_ending(const SculptArguments& options, const Document& docu
 }
 
 Expected<void> run(const SculptArguments& options) {
-  if (options.output.empty()) return usage_error("the name is empty", "--output", "name the STEP file to write");
+  if (options.output.empty()) return usage_error("the name is empty", "--output", "name the file to write");
   const NamedFile file{"FILE", options.file}, script{"--script", options.script}, output{"--output", options.output};
   // The surface may be sculpted in place: only --output may name the input file.
   if (auto possible = check_outputs({output}, {script}); !possible) return possible;

@@ -7,12 +7,18 @@ namespace knead::detail {
 /// One function per format, each in its own file. A new format is declared and listed here.
 [[nodiscard]] Format step_format();
 [[nodiscard]] Format iges_format();
+[[nodiscard]] Format brep_format();
+[[nodiscard]] Format g2_format();
+[[nodiscard]] Format gismo_format();
+[[nodiscard]] Format geopdes_format();
+[[nodiscard]] Format net_format();
 [[nodiscard]] Format stl_format();
 [[nodiscard]] Format obj_format();
 [[nodiscard]] Format ply_format();
 [[nodiscard]] Format gltf_format();
 
-inline constexpr Format (*format_list[])() = {step_format, iges_format, stl_format,
-                                              obj_format,  ply_format,  gltf_format};
+inline constexpr Format (*format_list[])() = {step_format,  iges_format,    brep_format, g2_format,
+                                              gismo_format, geopdes_format, net_format,  stl_format,
+                                              obj_format,   ply_format,     gltf_format};
 
 }  // namespace knead::detail

@@ -9,7 +9,6 @@
 
 #include "knead/spline/evaluate.hpp"
 #include "part21_text.hpp"
-#include "step_print.hpp"
 
 namespace knead::iges {
 namespace {
@@ -30,28 +29,6 @@ Point along(const std::vector<Point>& points, double t) {
 
 bool exceeds(const File& file, const StepRecords& records) {
   return records.text().size() / most_expansion > file.bytes().size() + least_size;
-}
-
-std::string list_of(const std::vector<int>& records) {
-  std::string text;
-  for (const int k : records) text += (text.empty() ? "(#" : ",#") + std::to_string(k);
-  return text + ")";
-}
-
-int StepRecords::point(const Point& p) {
-  put(next_, "CARTESIAN_POINT('',(" + format_real(p.x()) + "," + format_real(p.y()) + "," + format_real(p.z()) + "))");
-  return next_++;
-}
-
-int StepRecords::direction(const Point& d) {
-  return add("DIRECTION('',(" + format_real(d.x()) + "," + format_real(d.y()) + "," + format_real(d.z()) + "))");
-}
-
-int StepRecords::vertex(const Point& p) { return add(fmt::format("VERTEX_POINT('',#{})", point(p))); }
-
-int StepRecords::frame(const Point& origin, const Point& z, const Point& x) {
-  const int at = point(origin), axis = direction(z), reference = direction(x);
-  return add(fmt::format("AXIS2_PLACEMENT_3D('',#{},#{},#{})", at, axis, reference));
 }
 
 Expected<void> CurveReader::add(int number, const Eigen::Affine3d& outer, std::vector<Piece>& pieces) {
@@ -130,10 +107,8 @@ Expected<Piece> CurveReader::line(int number, const Eigen::Affine3d& move) {
   if (!v) return std::unexpected(v.error());
   const Point a = move * Point((*v)[0], (*v)[1], (*v)[2]), b = move * Point((*v)[3], (*v)[4], (*v)[5]);
   if (a == b) return file_.error(number, "it is a line without length");
-  const int from = records_.point(a),
-            vector = records_.add(fmt::format("VECTOR('',#{},1.)", records_.direction(b - a)));
   Piece piece;
-  piece.geometry = records_.add(fmt::format("LINE('',#{},#{})", from, vector));
+  piece.geometry = records_.line(a, b - a);
   piece.at = [a, b](double t) { return Point((1 - t) * a + t * b); };
   return piece;
 }
@@ -178,22 +153,8 @@ Expected<Piece> CurveReader::spline(int number, const Eigen::Affine3d& outer) {
     const Interval own{std::max((*limits)[0], domain.lower), std::min((*limits)[1], domain.upper)};
     if (own.length() > 0) domain = own;
   }
-  std::vector<int> list;
-  std::string weights;
-  for (Eigen::Index k = 0; k < curve->size(); ++k) {
-    list.push_back(records_.point(curve->control_points().row(k).transpose()));
-    if (!curve->rational()) continue;
-    weights += (k == 0 ? "" : ",") + format_real(curve->weights()[static_cast<std::size_t>(k)]);
-  }
-  const auto knots = step::print_knots(curve->knots(0), format_shortest_real);
-  const std::string own = fmt::format("{},{},.UNSPECIFIED.,.F.,.F.", curve->knots(0).degree(), list_of(list));
-  const std::string listed = knots.multiplicities + "," + knots.values + ",.UNSPECIFIED.";
   Piece piece;
-  piece.geometry =
-      records_.add(curve->rational() ? "(BOUNDED_CURVE()B_SPLINE_CURVE(" + own + ")B_SPLINE_CURVE_WITH_KNOTS(" +
-                                           listed + ")CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE((" +
-                                           weights + "))REPRESENTATION_ITEM(''))"
-                                     : "B_SPLINE_CURVE_WITH_KNOTS(''," + own + "," + listed + ")");
+  piece.geometry = records_.curve(*curve);
   piece.samples = std::min(samples_per_point * static_cast<int>(curve->size()), most_samples);
   piece.at = [curve, domain](double t) {
     const double u = std::clamp(domain.lower + t * domain.length(), domain.lower, domain.upper);

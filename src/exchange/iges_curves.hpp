@@ -4,28 +4,12 @@
 #include <string>
 
 #include "iges_geometry.hpp"
+#include "step_records.hpp"
 
 namespace knead::iges {
 
-/// Writes records of an exchange structure.
-class StepRecords {
- public:
-  explicit StepRecords(int first) : next_(first) {}
-  int add(const std::string& record) {
-    put(next_, record);
-    return next_++;
-  }
-  void put(int id, const std::string& record) { text_ += "#" + std::to_string(id) + "=" + record + ";\n"; }
-  int point(const Point& p);
-  int direction(const Point& d);
-  int vertex(const Point& p);
-  int frame(const Point& origin, const Point& z, const Point& x);
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-  int next_;
-};
+using step::list_of;
+using step::StepRecords;
 
 /// A curve that is not made of others.
 struct Piece {
@@ -64,8 +48,5 @@ class CurveReader {
 
 /// Whether the records take more than 64 times the file: entities that are used again and again are written each time.
 [[nodiscard]] bool exceeds(const File& file, const StepRecords& records);
-
-/// "(#1,#2)".
-[[nodiscard]] std::string list_of(const std::vector<int>& records);
 
 }  // namespace knead::iges

@@ -10,7 +10,6 @@
 #include "iges_curves.hpp"
 #include "knead/exchange/step_text.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "part21_text.hpp"
 #include "step_print.hpp"
 
 namespace knead::iges {
@@ -55,10 +54,7 @@ class ViewBuilder {
       static_cast<void>(step::print_context(
           unit, gap, [&](const std::string& record) { return fmt::format("#{}", records_.add(record)); }));
     }
-    view_.text =
-        "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'Knead','','');\n"
-        "FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n" +
-        records_.text() + "ENDSEC;\nEND-ISO-10303-21;\n";
+    view_.text = records_.exchange_structure();
     return std::move(view_);
   }
 
@@ -74,13 +70,7 @@ class ViewBuilder {
       view_.unreadable.push_back({fmt::format("#{}", number), std::move(surface.error())});
       return;
     }
-    Ids points;
-    for (Eigen::Index k = 0; k < surface->size(); ++k) {
-      points.push_back(records_.point(surface->control_points().row(k).transpose()));
-    }
-    records_.put(number, step::print_surface(
-                             *surface, encode_string(file_.find(number)->label),
-                             [&](int k) { return fmt::format("#{}", points[static_cast<std::size_t>(k)]); }, "\n"));
+    records_.surface(number, *surface, file_.find(number)->label);
     splines_.emplace(number, *std::move(surface));
   }
 

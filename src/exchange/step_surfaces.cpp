@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "knead/exchange/source.hpp"
 #include "knead/spline/basis.hpp"
 
 namespace knead::step {
@@ -184,13 +185,17 @@ double net_diagonal(const Points& points) {
   return points.rows() == 0 ? 0.0 : (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
+}  // namespace knead::step
+
+namespace knead {
+
 std::array<bool, 2> closed_directions(const Surface& surface) {
   constexpr double relative = 1e-9;
-  const double tolerance = relative * net_diagonal(surface.control_points());
+  const double tolerance = relative * step::net_diagonal(surface.control_points());
   std::array<bool, 2> closed = {false, false};
   for (int direction = 0; direction < 2; ++direction) {
-    const auto first = boundary_curve(surface, direction, 0);
-    const auto last = boundary_curve(surface, direction, 1);
+    const auto first = step::boundary_curve(surface, direction, 0);
+    const auto last = step::boundary_curve(surface, direction, 1);
     if (!first || !last) continue;
     bool same = (first->control_points() - last->control_points()).rowwise().norm().maxCoeff() <= tolerance;
     // Weights with a common factor describe the same curve.
@@ -217,4 +222,4 @@ std::array<bool, 2> closed_directions(const Surface& surface) {
   return closed;
 }
 
-}  // namespace knead::step
+}  // namespace knead

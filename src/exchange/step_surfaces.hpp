@@ -38,9 +38,6 @@ inline constexpr std::size_t attributes_of_b_spline_surface = 8;
 [[nodiscard]] std::optional<ImpliedKnots> implied_form(const Reader& reader, std::uint32_t instance);
 [[nodiscard]] const char* implied_keyword(ImpliedKnots form);
 
-/// `SurfaceEntity::closed`.
-[[nodiscard]] std::array<bool, 2> closed_directions(const Surface& surface);
-
 /// The boundary isocurve on which `direction` has its first (end = 0) or last (end = 1) parameter, over the knots of
 /// the other direction: the net is contracted by the basis at that parameter. Rational if the surface is; a control
 /// point whose weight becomes zero is placed at the origin with weight zero.

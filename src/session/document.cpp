@@ -1,5 +1,7 @@
 #include "knead/session/document.hpp"
 
+#include <fmt/format.h>
+
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 
@@ -49,12 +51,23 @@ Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces,
     for (const DocumentSurface& s : surfaces) present.push_back(s.surface);
     return source_->save(present, followed);
   }
+  return save_as(*find_format("step"), surfaces);
+}
+
+Expected<std::string> Document::save_as(const Format& format, std::span<const DocumentSurface> surfaces) const {
+  if (step_file() != nullptr) {
+    return input_error(fmt::format("a new file would lose the faces of this {} file", source_->format()), {},
+                       "write it in its own format");
+  }
+  if (format.save == nullptr)
+    return input_error(fmt::format("new {} files cannot be written", format.name), {}, "write STEP");
   std::vector<NamedSurface> made;
   for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});
   SaveOptions options;
   options.unit = surfaces.empty() ? unit_ : surfaces.front().unit;
   options.title = name_;
-  return save_surfaces(made, *find_format("step"), options);
+  if (options.unit == "unknown") options.unit = "mm";
+  return save_surfaces(made, format, options);
 }
 
 }  // namespace knead

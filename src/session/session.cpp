@@ -238,16 +238,29 @@ int Session::moved_control_points(int surface) const {
   return moved;
 }
 
-Expected<std::string> Session::save() const {
+namespace {
+
+std::vector<DocumentSurface> present_surfaces(const Session& session) {
   std::vector<DocumentSurface> surfaces;
+  const auto& scene = session.state().surfaces;
   const auto append = [&](const SceneSurface& s) { surfaces.push_back({s.id, s.name, s.unit, s.current}); };
-  if (document().is_fresh()) std::ranges::for_each(state().surfaces, append);
-  for (const DocumentSurface& s : document().surfaces()) {  // converted ones come last in the scene
-    append(*std::ranges::find(state().surfaces, s.id, &SceneSurface::id));
+  if (session.document().is_fresh()) std::ranges::for_each(scene, append);
+  for (const DocumentSurface& s : session.document().surfaces()) {  // converted ones come last in the scene
+    append(*std::ranges::find(scene, s.id, &SceneSurface::id));
   }
+  return surfaces;
+}
+
+}  // namespace
+
+Expected<std::string> Session::save() const {
   std::vector<std::string> followed;
   for (const FollowedEdge& edge : state().followed) followed.push_back(edge.id);
-  return document().save(surfaces, followed);
+  return document().save(present_surfaces(*this), followed);
+}
+
+Expected<std::string> Session::save_as(const Format& format) const {
+  return document().save_as(format, present_surfaces(*this));
 }
 
 }  // namespace knead

@@ -18,14 +18,7 @@ using testing::IgesBuilder;
 using testing::plate;
 using testing::shell;
 
-std::shared_ptr<const Source> open_or_die(const std::string& bytes) {
-  auto source = open_source(bytes, "test.igs");
-  if (!source) {
-    ADD_FAILURE() << source.error().message();
-    std::abort();
-  }
-  return *std::move(source);
-}
+std::shared_ptr<const Source> open_or_die(const std::string& bytes) { return testing::open_or_die(bytes, "test.igs"); }
 
 Error error_of(const std::string& bytes) {
   const auto source = open_source(bytes, "test.igs");

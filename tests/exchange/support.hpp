@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "knead/exchange/format.hpp"
 #include "knead/exchange/step_file.hpp"
 
 namespace knead::testing {
@@ -39,6 +40,15 @@ inline step::File parse_or_die(const std::string& bytes) {
     std::abort();
   }
   return *std::move(file);
+}
+
+inline std::shared_ptr<const Source> open_or_die(const std::string& bytes, const std::string& name) {
+  auto source = open_source(bytes, name);
+  if (!source) {
+    ADD_FAILURE() << source.error().message();
+    std::abort();
+  }
+  return *std::move(source);
 }
 
 /// Files of a folder with one of two endings, in order; none where there is no such folder.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,9 +20,15 @@ class File;
 struct SourceSurface {
   std::string id;    ///< what the file calls it: "#123" in STEP
   std::string name;  ///< its label
-  std::string unit;  ///< length unit of its coordinates
+  std::string unit;  ///< length unit of its coordinates; "unknown" where the file has none
   std::shared_ptr<const Surface> surface;
 };
+
+/// Geometrically closed in u, in v: S(a, ·) and S(b, ·) are the same curve. The two boundary isocurves are split at
+/// their ends into control points (and weights) by the basis at the first and last parameter; they are the same curve
+/// where these agree to 1e-9 of the net's bounding-box diagonal. A direction along which the whole net is collapsed is
+/// not closed.
+[[nodiscard]] std::array<bool, 2> closed_directions(const Surface& surface);
 
 /// A surface of a file that could not be made a `Surface`; the others are still usable.
 struct UnreadableSurface {

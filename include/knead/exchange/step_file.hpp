@@ -24,10 +24,7 @@ struct SurfaceEntity {
   /// the file's decimals, in the file's units and in the frame of the surface's own representation.
   Surface surface;
 
-  /// Geometrically closed in u, in v: S(a, ·) and S(b, ·) are the same curve. The two boundary isocurves are split at
-  /// their ends into control points (and weights) by the basis at the first and last parameter; they are the same curve
-  /// where these agree to 1e-9 of the net's bounding-box diagonal. A direction along which the whole net is collapsed
-  /// is not closed. The file's own u_closed and v_closed flags are often wrong and are ignored.
+  /// `closed_directions`; the file's own u_closed and v_closed flags are often wrong and are ignored.
   std::array<bool, 2> closed = {false, false};
 
   /// Some face on this surface covers only part of it: an edge of its bounds leaves the four boundary isocurves of the

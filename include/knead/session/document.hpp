@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "knead/exchange/format.hpp"
 #include "knead/exchange/source.hpp"
 #include "knead/exchange/step_file.hpp"
 
@@ -44,6 +45,9 @@ class Document {
   /// file with exactly these, in the unit of the first one. `followed`: as for `Source::save`.
   [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces,
                                            std::span<const std::string> followed = {}) const;
+  /// The bytes of a new file with these surfaces, whole. Errors (input): the format cannot be written; the opened file
+  /// has faces, which a new one would lose.
+  [[nodiscard]] Expected<std::string> save_as(const Format& format, std::span<const DocumentSurface> surfaces) const;
 
  private:
   Document() = default;

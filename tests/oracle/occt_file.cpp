@@ -1,7 +1,9 @@
-#include "oracle/occt_iges.hpp"
+#include "oracle/occt_file.hpp"
 
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom2d_Curve.hxx>
@@ -38,16 +40,28 @@ double gap_of(const TopoDS_Edge& edge, const TopoDS_Face& face) {
   return result;
 }
 
-}  // namespace
-
-std::optional<OcctIges> occt_read_iges(const std::filesystem::path& path) {
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
+std::optional<TopoDS_Shape> read_iges(const std::filesystem::path& path) {
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   IGESControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return std::nullopt;
   reader.TransferRoots();
-  const TopoDS_Shape shape = reader.OneShape();
-  OcctIges result;
+  return reader.OneShape();
+}
+
+std::optional<TopoDS_Shape> read_brep(const std::filesystem::path& path) {
+  TopoDS_Shape shape;
+  if (!BRepTools::Read(shape, path.c_str(), BRep_Builder())) return std::nullopt;
+  return shape;
+}
+
+}  // namespace
+
+std::optional<OcctFile> occt_read_file(const std::filesystem::path& path) {
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
+  const auto read = path.extension() == ".brep" ? read_brep(path) : read_iges(path);
+  if (!read) return std::nullopt;
+  const TopoDS_Shape& shape = *read;
+  OcctFile result;
   if (shape.IsNull()) return result;
   constexpr std::pair<const char*, TopAbs_ShapeEnum> kinds[] = {{"solids", TopAbs_SOLID}, {"shells", TopAbs_SHELL},
                                                                 {"faces", TopAbs_FACE},   {"wires", TopAbs_WIRE},

@@ -1,4 +1,4 @@
-// Surfaces of real IGES files are pressed in their visible middle, and Open CASCADE reads the result.
+// Surfaces of real IGES and .brep files are pressed in their visible middle, and Open CASCADE reads the result.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 #include "knead/exchange/model_mesh.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
-#include "oracle/occt_iges.hpp"
+#include "oracle/occt_file.hpp"
 #include "oracle/press.hpp"
 
 namespace knead::oracle {
@@ -34,13 +34,13 @@ Press anywhere(const std::string& id) {
   return result;
 }
 
-class IgesOracle : public ::testing::TestWithParam<fs::path> {
+class FormatOracle : public ::testing::TestWithParam<fs::path> {
  protected:
   void SetUp() override {
     auto source = open_source(*read_file(GetParam()), GetParam().string());
     ASSERT_TRUE(source) << source.error().message();
     source_ = *std::move(source);
-    before_ = occt_read_iges(GetParam());
+    before_ = occt_read_file(GetParam());
     ASSERT_TRUE(before_);
   }
 
@@ -56,10 +56,10 @@ class IgesOracle : public ::testing::TestWithParam<fs::path> {
   }
 
   std::shared_ptr<const Source> source_;
-  std::optional<OcctIges> before_;
+  std::optional<OcctFile> before_;
 };
 
-TEST_P(IgesOracle, FacesHaveTheAreaThatOpenCascadeFinds) {
+TEST_P(FormatOracle, FacesHaveTheAreaThatOpenCascadeFinds) {
   const auto model = model_faces(*source_->step_file());
   ASSERT_TRUE(model) << model.error().message();
   double area = 0;
@@ -68,24 +68,31 @@ TEST_P(IgesOracle, FacesHaveTheAreaThatOpenCascadeFinds) {
   if (model->skipped.empty()) {
     EXPECT_NEAR(area * scale * scale, before_->area, 0.005 * before_->area);
   } else {
-    // Of two surfaces of revolution whose bounds consist of several meridians and arcs.
-    EXPECT_EQ(GetParam().filename(), "shaft.iges");
-    EXPECT_EQ(model->skipped.size(), 2U);
+    // Two surfaces of revolution whose bounds consist of several meridians and arcs; a sphere without its pole.
+    const bool shaft = GetParam().filename() == "shaft.iges";
+    EXPECT_TRUE(shaft || GetParam().filename() == "Pump_TopCover.brep");
+    EXPECT_EQ(model->skipped.size(), shaft ? 2U : 1U);
     EXPECT_LT(area * scale * scale, before_->area);
   }
 }
 
-TEST_P(IgesOracle, APressLeavesTopologyAndGapsAsTheyWere) {
-  const fs::path out = fs::temp_directory_path() / ("knead-iges-" + std::to_string(getpid()) + ".igs");
+TEST_P(FormatOracle, APressLeavesTopologyAndGapsAsTheyWere) {
+  const fs::path out =
+      fs::temp_directory_path() / ("knead-format-" + std::to_string(getpid()) + GetParam().extension().string());
   for (const step::SurfaceEntity* s : chosen()) {
     SCOPED_TRACE(s->id);
     const auto pressed = s->faces > 0 ? press(*source_->step_file(), *s, "trim") : Expected<Press>(anywhere(s->id));
     ASSERT_TRUE(pressed) << pressed.error().message();
     Session session(Document::from(source_));
     const auto bytes = carried_out(session, pressed->script);
+    if (GetParam().filename() == "curvesToSurfaceContinuous.brep") {  // its shortest span is 5.5e-12 of its domain
+      ASSERT_FALSE(bytes);
+      EXPECT_EQ(bytes.error().kind, ErrorKind::numerical) << bytes.error().message();
+      continue;
+    }
     ASSERT_TRUE(bytes) << bytes.error().message();
     ASSERT_TRUE(write_file_atomically(out, *bytes));
-    const auto after = occt_read_iges(out);
+    const auto after = occt_read_file(out);
     ASSERT_TRUE(after);
     EXPECT_EQ(after->topology, before_->topology);
     EXPECT_LE(after->bad_faces, before_->bad_faces);
@@ -108,8 +115,13 @@ TEST_P(IgesOracle, APressLeavesTopologyAndGapsAsTheyWere) {
   fs::remove(out);
 }
 
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(IgesOracle);
-INSTANTIATE_TEST_SUITE_P(Files, IgesOracle, ::testing::ValuesIn(testing::iges_files_in(testing::collection())),
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(FormatOracle);
+std::vector<fs::path> files() {
+  auto all = testing::iges_files_in(testing::collection());
+  for (const auto& file : testing::files_in(testing::collection(), {".brep", ".brep"})) all.push_back(file);
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(Files, FormatOracle, ::testing::ValuesIn(files()),
                          [](const auto& instance) { return testing::test_name(instance.param.stem().string()); });
 
 }  // namespace

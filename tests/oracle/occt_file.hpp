@@ -8,8 +8,8 @@
 
 namespace knead::oracle {
 
-/// What Open CASCADE makes of an IGES file; lengths in mm.
-struct OcctIges {
+/// What Open CASCADE makes of an IGES file or one of its own; lengths in mm.
+struct OcctFile {
   std::map<std::string, int> topology;  ///< numbers of faces, edges, … by name
   int bad_faces = 0;                    ///< that BRepCheck finds fault with
   double area = 0;
@@ -19,6 +19,6 @@ struct OcctIges {
 };
 
 /// None if it cannot be read.
-[[nodiscard]] std::optional<OcctIges> occt_read_iges(const std::filesystem::path& path);
+[[nodiscard]] std::optional<OcctFile> occt_read_file(const std::filesystem::path& path);
 
 }  // namespace knead::oracle

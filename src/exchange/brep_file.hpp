@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "surface_text.hpp"
+
+namespace knead::brep {
+
+using detail::ListedSurface;
+using detail::TextRange;
+using detail::WordReader;
+
+/// A curve in space: 1 line, 2 circle, 3 ellipse, 4 parabola, 5 hyperbola, 6 Bézier, 7 B-spline, 8 a part of another,
+/// 9 an offset of another.
+struct BrepCurve {
+  int type = 0;
+  std::vector<double> numbers;             ///< of types 1 to 5 as the file lists them
+  std::optional<Curve> spline;             ///< of types 6 and 7, unless periodic
+  std::shared_ptr<const BrepCurve> basis;  ///< of types 8 and 9
+};
+
+/// A surface: 1 plane, 2 cylinder, 3 cone, 4 sphere, 5 torus, 6 extrusion, 7 revolution, 8 Bézier, 9 B-spline, 10 a
+/// part of another, 11 an offset of another.
+struct BrepSurface {
+  int type = 0;  ///< of what it is a part of, where it is one
+  std::vector<double> numbers;
+  std::shared_ptr<const BrepCurve> profile;
+  std::optional<Expected<ListedSurface>> spline;  ///< of types 8 and 9
+};
+
+enum class Shape { vertex, edge, wire, face, group };
+
+/// A use of a shape: '+', '-', 'i' or 'e', its index, and where it is put.
+struct Use {
+  char orientation = '+';
+  std::size_t shape = 0;
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+};
+
+struct BrepShape {
+  Shape kind = Shape::group;
+  Point point = Point::Zero();  ///< of a vertex
+  bool degenerated = false;     ///< of an edge
+  int geometry = 0;             ///< the curve of an edge, the surface of a face, from 1; 0: none
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();  ///< of the geometry
+  TextRange triangulation;  ///< the words that give a face its triangles; empty: it has none
+  std::vector<Use> uses;
+};
+
+/// A file of Open CASCADE's `BRepTools`, text, versions 1 to 3: everything but curves in parameters, polygons and
+/// triangulations, which are skipped. Shapes refer to earlier ones only.
+struct BrepFile {
+  std::vector<BrepCurve> curves;
+  std::vector<BrepSurface> surfaces;
+  std::vector<BrepShape> shapes;
+  std::vector<Use> roots;
+
+  /// Errors (input), with their line: what is not of this format, counts beyond the text, references to nothing.
+  [[nodiscard]] static Expected<BrepFile> parse(std::string_view bytes, std::string_view name);
+};
+
+}  // namespace knead::brep
