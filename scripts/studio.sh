@@ -21,4 +21,5 @@ fi
 inputs=(index.html package-lock.json vite.config.ts tsconfig.json src public ../samples/bonnet.step)
 if [ ! -f dist/index.html ] || [ -n "$(find "${inputs[@]}" -newer dist/index.html -print -quit)" ]; then
   npm run --silent build
+  node scripts/pack.mjs dist
 fi

@@ -1,5 +1,5 @@
 // Serves a directory of static files on the loopback address:  node serve.mjs [directory] [port]
-import { createReadStream, readFileSync, statSync } from 'node:fs';
+import { createReadStream, existsSync, readFileSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -10,14 +10,12 @@ const types = {
   '.svg': 'image/svg+xml', '.json': 'application/json', '.step': 'model/step',
 };
 
-/** How files go over the network to whom accepts it; of brotli a quality that takes about three times as long as gzip, once a file. */
+/** How files go over the network to whom accepts it: as the build has packed them (scripts/pack.mjs), or packed once a file. */
 const encodings = {
-  br: (bytes) => brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 7, [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } }),
-  gzip: gzipSync,
+  br: (file) => existsSync(`${file}.br`) ? readFileSync(`${file}.br`)
+    : brotliCompressSync(readFileSync(file), { params: { [constants.BROTLI_PARAM_QUALITY]: 5, [constants.BROTLI_PARAM_SIZE_HINT]: statSync(file).size } }),
+  gzip: (file) => gzipSync(readFileSync(file)),
 };
-
-/** The bytes of a file as browsers get them. */
-export const packedForBrowsers = encodings.br;
 
 /** What every answer says: other pages may not put the studio into a frame, and types are what is said. */
 const security = {
@@ -66,7 +64,7 @@ export function serve(directory, port = 0) {
     const encoding = Object.keys(encodings).find((name) => accepted.includes(name));
     if (encoding && /\.(js|css|html|wasm)$/.test(file)) {
       const key = `${encoding} ${version}`;
-      if (!packed.has(key)) packed.set(key, encodings[encoding](readFileSync(file)));
+      if (!packed.has(key)) packed.set(key, encodings[encoding](file));
       const bytes = packed.get(key);
       response.writeHead(200, { ...head, 'content-encoding': encoding, 'content-length': bytes.length }).end(bytes);
       return;

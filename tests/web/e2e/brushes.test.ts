@@ -56,7 +56,7 @@ async function penned(from: [number, number], to: [number, number], moves: numbe
 let savedPath = '';
 /** The surface in the file that the page saves, as the engine reads it: a grid of points. */
 async function saved(): Promise<Vector3[]> {
-  savedPath = await saveAs(studio.page, directory, 'STEP file');
+  savedPath = await saveAs(studio.page, directory, 'CAD file');
   return drawnBy(await engineOf(savedPath), 200);
 }
 

@@ -66,7 +66,7 @@ describe('saving', () => {
     await scene(page, 'Ball on a membrane');
     await page.keyboard.press('.');
     await settled(page);
-    await save(page, 'STEP file');
+    await save(page, 'CAD file');
     await expect.poll(() => page.locator('.notice.info').last().textContent()).toContain('tool still in contact');
   });
 

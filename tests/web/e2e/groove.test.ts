@@ -30,7 +30,7 @@ async function led(from: [number, number], to: [number, number], moves: number):
 
 /** The points of the surface in the file that the page saves, as the engine reads it. */
 async function saved(): Promise<Vector3[]> {
-  return drawnBy(await engineOf(await saveAs(studio.page, directory, 'STEP file')), 400);
+  return drawnBy(await engineOf(await saveAs(studio.page, directory, 'CAD file')), 400);
 }
 
 describe('a stroke in clay', () => {

@@ -1,4 +1,4 @@
-import { writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { commands, distance, openFile, positions, question, ready, root, scene, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
@@ -189,5 +189,24 @@ describe('opening something else', () => {
     expect(distance(await positions(page), shape)).toBe(0);
     await undo(1);
     expect(distance(await positions(page), shape)).toBeGreaterThan(1);
+  });
+});
+
+describe('a file of another program', () => {
+  it('opens, is sculpted and comes back as it was but for the numbers that moved', async () => {
+    const { page } = studio;
+    const line = (count: number) => Array.from({ length: count }, (_, k) => k * 10);
+    const knots = '6 4\n0 0 0 0 1 2 3 3 3 3';
+    const text = `200 1 0 0\n3 0\n${knots}\n${knots}\n${line(6).map((y) => line(6).map((x) => `${x} ${y} 0`).join('\n')).join('\n')}\n`;
+    await openFile(page, file('sheet.g2', text));
+    expect((await positions(page)).length).toBeGreaterThan(0);
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0]); // selects
+    await stroke(page, [0, 0], [10, 0]);
+    const path = await saveAs(page, directory, 'CAD file');
+    expect(path.endsWith('sheet-sculpted.g2')).toBe(true);
+    const saved = readFileSync(path, 'utf8');
+    expect(saved.startsWith(text.slice(0, text.indexOf('0 0 0\n10 0 0')))).toBe(true);
+    expect(saved).not.toBe(text);
   });
 });

@@ -77,7 +77,7 @@ describe('the studio', () => {
     expect(distance(before, after)).toBeGreaterThan(1);
     expect(after.every(Number.isFinite)).toBe(true);
     expect(Buffer.compare(seen, await picture())).not.toBe(0);
-    const saved = await save('STEP file');
+    const saved = await save('CAD file');
     // What is pressed goes on meeting its neighbours.
     await expect.poll(async () => (await page.locator('.notice').allTextContents()).join(' ')).toContain('All edges closed to 0.001 mm');
     const info = (file: string) => execFileSync(native, ['info', file], { encoding: 'utf8' }).replaceAll(file, '');

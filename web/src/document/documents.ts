@@ -1,6 +1,7 @@
 import type { Command } from '../engine/session_types';
 import { autosave, type Kept } from './autosave';
 import { loadContext } from './context';
+import { cadFormat, readFormats } from './formats';
 import type { Host } from './host';
 import { Keeper } from './keeper';
 import { type KneadDocument, readKnead, type Source } from './knead_file';
@@ -91,13 +92,13 @@ export class Documents {
         if (document.script) await this.openScript(document.commands, document.script, file.name);
         else if (await this.mayLeave()) await this.openDocument(document);
       });
-    } else if (/\.(stp|step|p21|igs|iges)$/i.test(file.name)) {
+    } else if (cadFormat(file.name)) {
       if (await this.mayLeave()) await this.openStep(await bytes(), file.name);
     } else if (/\.3dm$/i.test(file.name)) {
       if (await this.mayLeave()) await this.openRhino(await bytes(), file.name);
     } else {
       host.notify({ kind: 'error', text: `“${file.name}” is not a kind of file that the studio reads`,
-        remedy: 'open a STEP file (.step, .stp), an IGES file (.igs, .iges), a Rhino file (.3dm) or a Knead document (.knead)' });
+        remedy: `open ${readFormats}, a Rhino file (.3dm) or a Knead document (.knead)` });
     }
   }
 

@@ -2,6 +2,7 @@ import { fileFormats } from '../engine/generated';
 import type { MeshFormat } from '../engine/session_types';
 import { closedEdges } from './closed_edges';
 import type { Documents } from './documents';
+import { cadFormat } from './formats';
 import type { Host } from './host';
 import { writeKnead } from './knead_file';
 import { scriptOf } from './script';
@@ -17,10 +18,9 @@ export class Saving {
 
   step = () => this.work(async (stem) => {
     const { bytes, edges } = await this.host.client.save();
-    // An IGES file comes back as one.
     const { file } = this.documents;
-    const iges = file?.kind === 'step' ? /\.(igs|iges)$/i.exec(file.name) : null;
-    download(bytes, `${stem}-sculpted${iges ? iges[0] : '.step'}`, iges ? 'model/iges' : 'model/step');
+    const cad = file?.kind === 'step' ? cadFormat(file.name) : null; // it comes back as what it was
+    download(bytes, `${stem}-sculpted${cad?.ending ?? '.step'}`, cad?.format.media_type ?? 'model/step');
     return closedEdges(edges, this.host.state!.surfaces[0]?.unit ?? '');
   });
 

@@ -1,3 +1,4 @@
+import { readEndings } from '../document/formats';
 import type { Notice } from '../document/host';
 import { modes } from '../tools/modes';
 import type { App } from './app';
@@ -12,7 +13,7 @@ import { toggleTour } from './tour';
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome screen. */
 
 export function topBar(app: App): HTMLElement {
-  const picker = h('input', { type: 'file', accept: '.step,.stp,.p21,.igs,.iges,.3dm,.knead,.json', hidden: true, aria: { label: 'File to open' } });
+  const picker = h('input', { type: 'file', accept: readEndings.join(','), hidden: true, aria: { label: 'File to open' } });
   picker.addEventListener('change', () => {
     const file = picker.files?.[0];
     picker.value = '';

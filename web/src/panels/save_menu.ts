@@ -5,7 +5,7 @@ const meshFormats = fileFormats.filter((format) => format.content === 'triangles
 
 /** Name, description, action. */
 export const saveEntries = (app: App): [string, string, () => void][] => [
-  ['STEP file', 'the file as it was opened, STEP or IGES, with the sculpted surfaces in it', () => void app.saving.step()],
+  ['CAD file', 'the file as it was opened, with the sculpted surfaces in it; a new one is STEP', () => void app.saving.step()],
   ['Rhino file', '.3dm: the one that was opened with the sculpted surfaces in it, or a new one', () => void app.saving.rhino()],
   ['Knead document', 'where it began and every command, to go on later', () => void app.saving.knead()],
   ...meshFormats.map(({ id, name, holds }): [string, string, () => void] => [`Mesh, ${name}`, holds, () => void app.saving.mesh(id)]),

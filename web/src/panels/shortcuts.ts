@@ -13,7 +13,7 @@ export function shortcuts(app: App): [string, string][] {
     ['Shift-, Alt-wheel', 'size, depth of the brush'], ['Ctrl-drag', 'to the side size, upwards depth'], ['[ ]', 'size of the brush'],
     ['X Y Z N while dragging points', 'along an axis or the normal'], ['Ctrl-, Alt-click a point', 'its row along u, v'],
     ['M N K', 'move, turn, resize a tool'], ['Delete', 'take the tool away'], ['Esc', 'takes back what is under way'],
-    ['Space', 'play or pause'], ['.', 'one step'], ['R', 'run to rest'], ['Ctrl+Z, Shift: redo', 'undo'], ['Ctrl+S', 'save the STEP file'],
+    ['Space', 'play or pause'], ['.', 'one step'], ['R', 'run to rest'], ['Ctrl+Z, Shift: redo', 'undo'], ['Ctrl+S', 'save the CAD file'],
     ['O', 'open'], ['C, held', 'the shape as it was opened'], ['Z', 'zebra stripes'], ['L', 'basis functions and Gramians'], ['?', 'this list'],
   ];
 }
