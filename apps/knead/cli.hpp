@@ -16,6 +16,7 @@ using Action = std::function<Expected<void>()>;
 // Each declares its sub-command on `app` and returns its action.
 Action add_info(CLI::App& app);
 Action add_sculpt(CLI::App& app);
+Action add_analyse(CLI::App& app);
 Action add_commands(CLI::App& app);
 Action add_gramian(CLI::App& app);
 Action add_stiffness(CLI::App& app);

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -15,11 +13,13 @@
 #include "knead/base/printable.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
+#include "knead/scene/shell_fields.hpp"
 #include "knead/sculpt/describe_shape.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "outputs.hpp"
 #include "picture.hpp"
+#include "run_script.hpp"
 
 namespace knead::cli {
 namespace {
@@ -47,25 +47,6 @@ std::string in_words(const Shape& shape) {
   }
   return text;
 }
-
-/// "step 12 of 60" on standard error, when that is a terminal and the work has taken more than a second.
-class ProgressLine {
- public:
-  void show(int done, int total) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!terminal_ || now - start_ < std::chrono::seconds(1) || now - shown_ < std::chrono::milliseconds(100)) return;
-    shown_ = now;
-    fmt::print(stderr, "\rstep {} of {} ", done, total);
-    std::fflush(stderr);
-  }
-  ~ProgressLine() {
-    if (shown_ > start_) fmt::print(stderr, "\r\x1b[K");
-  }
-
- private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), shown_ = start_;
-};
 
 struct Outcome {
   double time = 0, energy_before = 0, energy_after = 0, residual = 0, largest_displacement = 0, gap = 0;
@@ -148,7 +129,7 @@ std::string report_json(const SessionState& state, const Outcome& o, const std::
   }
   text += "],\n\"notes\":[";
   for (std::size_t k = 0; k < state.notes.size(); ++k) text += (k == 0 ? "\n " : ",\n ") + json_string(state.notes[k]);
-  return text + "]" + probes + "}\n";
+  return text + "]" + modes_json(state) + probes + "}\n";
 }
 
 /// The readings of the scene's probes: the entries of each list.
@@ -162,13 +143,23 @@ Expected<std::string> probes_json(const SessionState& state) {
     if (!reading) return std::unexpected(reading.error());
     std::string& list = lists[probe.list];
     list += fmt::format(
-        R"({}{{"name":{},"surface":{},"at":[{},{}],"point":{},"displacement":{},"normal":{},"curvature":{}}})",
+        R"({}{{"name":{},"surface":{},"at":[{},{}],"point":{},"displacement":{},"normal":{},"curvature":{})",
         list.empty() ? "\n " : ",\n ", json_string(probe.name),
         json_string(state.surfaces[static_cast<std::size_t>(probe.surface)].id), json_number(probe.at[0]),
         json_number(probe.at[1]), vector(reading->point), vector(reading->displacement), vector(reading->normal),
         reading->curvature
             ? fmt::format("[{},{}]", json_number((*reading->curvature)[0]), json_number((*reading->curvature)[1]))
             : "null");
+    const auto shell = read_shell(state, probe.surface, probe.at);
+    if (!shell) return std::unexpected(shell.error());
+    if (*shell) {
+      const auto pair = [](const std::array<double, 2>& x) {
+        return fmt::format("[{},{}]", json_number(x[0]), json_number(x[1]));
+      };
+      list += fmt::format(R"(,"von_mises":{},"membrane":{},"moment":{},"bending_strain":{})", pair((*shell)->von_mises),
+                          pair((*shell)->membrane), pair((*shell)->moment), json_number((*shell)->bending_strain));
+    }
+    list += "}";
   }
   std::string text;
   for (const auto& [name, entries] : lists) text += fmt::format(",\n{}:[{}]", json_string(name), entries);
@@ -298,31 +289,15 @@ Expected<void> run(const SculptArguments& options) {
   if (auto possible = check_outputs({output}, {script}); !possible) return possible;
   const NamedFile report{"--report", options.report}, picture{"--picture", options.picture};
   if (auto possible = check_outputs({report, picture}, {file, script, output}); !possible) return possible;
-  if (options.fresh != options.file.empty()) {
-    return usage_error(options.fresh ? "both a file and --new are given" : "neither a file nor --new is given", "FILE",
-                       "name a STEP file, or give --new to start without one");
-  }
-  const auto text = read_file(options.script);
-  if (!text) return std::unexpected(text.error());
-  std::size_t before = 0;  // commands implied by the script's version
-  const auto commands = parse_script(*text, options.script, &before);
+  if (auto one = check_source(options.file, options.fresh); !one) return one;
+  const auto commands = read_script(options.script);
   if (!commands) return std::unexpected(commands.error());
-  auto document = options.fresh ? Document::fresh("sheet") : Document::open(options.file);
+  auto document = open_document(options.file, options.fresh);
   if (!document) return std::unexpected(document.error());
   if (auto possible = check_ending(options, *document); !possible) return possible;
 
   Session session(std::move(*document));
-  {
-    ProgressLine line;
-    for (std::size_t k = 0; k < commands->size(); ++k) {
-      auto done = session.execute((*commands)[k], [&line](int step, int total) { line.show(step, total); });
-      if (!done) {
-        Error error = k < before ? done.error() : done.error().within(fmt::format("commands[{}]", k - before));
-        error.file = options.script;
-        return std::unexpected(error);
-      }
-    }
-  }
+  if (auto done = execute(session, *commands); !done) return done;
   const Outcome outcome = outcome_of(session);
   print_summary(options, session, outcome);
   return write_results(options, session, outcome);
@@ -350,7 +325,7 @@ its fields with their defaults (`knead commands NAME` explains them):
 The report is {"steps": [{"time", "energy", "residual", "largest_displacement", "stretch", "bend", "kinetic", "contact",
 "gap", "constraint_violation", "converged", "limited", "note", and of shells "load_factor", "increments"}, ...], "time",
 "energy_before", "energy_after", "residual", "largest_displacement", "control_points_moved", "edges", "places", "seams",
-"notes"}: times in seconds, lengths in file units, gaps in sizes of the tool.
+"notes", and after modes and buckling "modes": [{"frequency", "residual"}], "buckling": [{"load_factor", "residual"}]}: times in seconds, lengths in file units, gaps in sizes of the tool.
 )" + std::string(exit_codes));
   return [options] { return run(*options); };
 }

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "rational_basis.hpp"
-#include "shell_point.hpp"
+#include "shell_law.hpp"
 #include "tensor_pattern.hpp"
 
 namespace knead {
@@ -28,11 +29,6 @@ Eigen::Matrix3Xd coordinates(const ShellElement& element, const Points& x) {
     result.col(static_cast<Eigen::Index>(r)) = x.row(element.nodes[r]).transpose();
   }
   return result;
-}
-
-Expected<double> positive(double value, const char* name) {
-  if (std::isfinite(value) && value > 0) return value;
-  return input_error(fmt::format("{} is not a {}", value, name), name, "use a finite number > 0");
 }
 
 /// The basis on the element whose Gauss points are [begin_d, begin_d + points_d) of the two tables.
@@ -80,16 +76,14 @@ struct HessianRows {
         membrane_left(2 * points, local),
         membrane_right(2 * points, local) {}
 
-  void set(Eigen::Index k, const ShellPoint& at, const Basis& basis, const ShellRest& rest, double thickness,
-           const Vector6& stress) {
+  void set(Eigen::Index k, const ShellPoint& at, const Basis& basis, const ShellRest& rest, const Vector6& stress) {
     const Eigen::Index local = basis.rows();
     const Eigen::MatrixX3d second = detail::covariant_second(at, basis);
     auto strain = left.middleRows(9 * k, 6);
     detail::strain_rows(at, basis, second, strain);
     const double half = rest.weight / 2;
-    const Eigen::Matrix3d stretch = half * thickness * rest.elastic, bend = stretch * (thickness * thickness / 12);
-    right.middleRows(9 * k, 3).noalias() = stretch * strain.topRows(3);
-    right.middleRows(9 * k + 3, 3).noalias() = bend * strain.bottomRows(3);
+    right.middleRows(9 * k, 3).noalias() = half * rest.membrane * strain.topRows(3);
+    right.middleRows(9 * k + 3, 3).noalias() = half * rest.bending * strain.bottomRows(3);
 
     const Eigen::Vector3d moment(stress[3], stress[4], 2 * stress[5]);
     const Eigen::RowVectorXd c = rest.weight * (second * moment).transpose();
@@ -140,7 +134,7 @@ SparseMatrix three_fold(const SparseMatrix& scalar) {
 }  // namespace
 
 struct ShellEnergy::Data {
-  ShellMaterial material;
+  detail::ShellLaw law;
   int size = 0;
   TensorPattern<2> pattern;
   std::vector<ShellElement> elements;
@@ -167,8 +161,8 @@ struct ShellEnergy::Data {
         return numerical_error("the rest shape has no normal at a Gauss point", fmt::format("point {}", rest.size()),
                                "remove folds and spans on which control points coincide");
       }
-      rest.push_back({weights[k] * at.area, at.metric, at.curvature,
-                      detail::plane_stress(at.inverse, material.young, material.poisson)});
+      const auto [membrane, bending] = law.stiffness(at);
+      rest.push_back({weights[k] * law.measure(at), weights[k] * at.area, at.metric, at.curvature, membrane, bending});
     }
     return {};
   }
@@ -191,22 +185,22 @@ struct ShellEnergy::Data {
   }
 };
 
-Expected<ShellMaterial> validated(const ShellMaterial& material) {
-  if (auto ok = positive(material.young, "young"); !ok) return std::unexpected(ok.error());
-  if (auto ok = positive(material.thickness, "thickness"); !ok) return std::unexpected(ok.error());
-  if (!(material.poisson > -1 && material.poisson <= 0.5)) {
-    return input_error(fmt::format("{} is not a Poisson's ratio", material.poisson), "poisson",
-                       "use a number > -1 and <= 0.5");
-  }
-  if (!std::isfinite(material.density) || material.density < 0) {
-    return input_error(fmt::format("{} is not a density", material.density), "density", "use a finite number >= 0");
-  }
-  return material;
-}
-
-Expected<ShellEnergy> ShellEnergy::create(const Surface& surface, const ShellMaterial& material, int gauss_points) {
+Expected<ShellEnergy> ShellEnergy::create(const Surface& rest, const ShellMaterial& material, int gauss_points) {
   if (auto ok = validated(material); !ok) return std::unexpected(ok.error());
   auto data = std::make_shared<Data>();
+  data->law.material = material;
+  return with_law(rest, std::move(data), gauss_points);
+}
+
+Expected<ShellEnergy> ShellEnergy::of_forms(const Surface& rest, const FundamentalMaterial& material,
+                                            int gauss_points) {
+  if (auto ok = validated_weights(material); !ok) return std::unexpected(ok.error());
+  auto data = std::make_shared<Data>();
+  data->law.material = material;
+  return with_law(rest, std::move(data), gauss_points);
+}
+
+Expected<ShellEnergy> ShellEnergy::with_law(const Surface& surface, std::shared_ptr<Data> data, int gauss_points) {
   std::array<BasisQuadrature, 2> quadrature;
   std::array<int, 2> points;
   for (std::size_t d = 0; d < 2; ++d) {
@@ -219,7 +213,6 @@ Expected<ShellEnergy> ShellEnergy::create(const Surface& surface, const ShellMat
     quadrature[d] = gauss_basis(knots, points[d], 2);
     data->pattern.degree[d] = knots.degree();
   }
-  data->material = material;
   data->size = surface.size();
   data->pattern.net = surface.net();
   const Points& x = surface.control_points();
@@ -251,7 +244,7 @@ ShellParts ShellEnergy::energy(const Points& x) const {
   ShellParts parts;
   data_->each_point(x, [&](const ShellElement&, Eigen::Index, const ShellRest& rest, const ShellPoint& at, auto) {
     const Vector6 strain = detail::shell_strain(at, rest.metric, rest.curvature);
-    const Vector6 stress = rest.stress(strain, data_->material.thickness);
+    const Vector6 stress = rest.stress(strain);
     parts.membrane += rest.weight / 2 * stress.head<3>().dot(strain.head<3>());
     parts.bending += rest.weight / 2 * stress.tail<3>().dot(strain.tail<3>());
   });
@@ -262,8 +255,7 @@ Points ShellEnergy::gradient(const Points& x) const {
   Points result = Points::Zero(x.rows(), 3);
   data_->each_point(
       x, [&](const ShellElement& element, Eigen::Index k, const ShellRest& rest, const ShellPoint& at, auto) {
-        const Vector6 s =
-            rest.weight * rest.stress(detail::shell_strain(at, rest.metric, rest.curvature), data_->material.thickness);
+        const Vector6 s = rest.weight * rest.stress(detail::shell_strain(at, rest.metric, rest.curvature));
         const Basis basis = basis_at(element, k);
         const Eigen::MatrixX3d second = detail::covariant_second(at, basis);
         Eigen::MatrixX3d force = basis.col(0) * (s[0] * at.tangent.col(0) + s[2] * at.tangent.col(1)).transpose();
@@ -290,7 +282,7 @@ ShellStress ShellEnergy::stress(const Points& x, const Points& d) const {
     for (Eigen::Index c = 0; c < 3; ++c) {
       strain += rows.middleCols(c * local.cols(), local.cols()) * local.row(c).transpose();
     }
-    result.col(index) = rest.stress(strain, data_->material.thickness);
+    result.col(index) = rest.stress(strain);
   });
   return result;
 }
@@ -301,7 +293,7 @@ SparseMatrix ShellEnergy::hessian(const Points& x, const ShellStress& stress) co
   HessianRows rows(any.value.cols(), any.value.rows());
   data_->each_point(x, [&](const ShellElement& element, Eigen::Index k, const ShellRest& rest, const ShellPoint& at,
                            Eigen::Index index) {
-    rows.set(k, at, basis_at(element, k), rest, data_->material.thickness, stress.col(index));
+    rows.set(k, at, basis_at(element, k), rest, stress.col(index));
     if (k + 1 == element.value.cols()) data_->add_block(element, rows.product(), matrix);
   });
   return matrix;
@@ -313,7 +305,7 @@ Points ShellEnergy::area_load(const Point& per_area) const {
   for (const ShellElement& element : data_->elements) {
     for (Eigen::Index k = 0; k < element.value.cols(); ++k, ++index) {
       for (std::size_t r = 0; r < element.nodes.size(); ++r) {
-        const double share = data_->rest[index].weight * element.value(static_cast<Eigen::Index>(r), k);
+        const double share = data_->rest[index].area * element.value(static_cast<Eigen::Index>(r), k);
         result.row(element.nodes[r]) += share * per_area.transpose();
       }
     }
@@ -323,17 +315,45 @@ Points ShellEnergy::area_load(const Point& per_area) const {
 
 double ShellEnergy::area() const {
   double sum = 0;
-  for (const ShellRest& rest : data_->rest) sum += rest.weight;
+  for (const ShellRest& rest : data_->rest) sum += rest.area;
   return sum;
 }
 
-double ShellEnergy::stretching_scale() const {
-  const ShellMaterial& m = data_->material;
-  return 0.5 * m.young * m.thickness / (1 - m.poisson * m.poisson) * area();
+SparseMatrix ShellEnergy::mass() const {
+  SparseMatrix matrix = data_->scalar;
+  std::fill(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), 0.0);
+  const double density = data_->law.mass();
+  std::size_t index = 0;
+  for (const ShellElement& element : data_->elements) {
+    const Eigen::Index points = element.value.cols();
+    Eigen::VectorXd weights(points);
+    for (Eigen::Index k = 0; k < points; ++k, ++index) weights[k] = density * data_->rest[index].area;
+    const Eigen::MatrixXd block = element.value * weights.asDiagonal() * element.value.transpose();
+    for (std::size_t r = 0; r < element.nodes.size(); ++r) {
+      for (std::size_t s = 0; s < element.nodes.size(); ++s) {
+        matrix.coeffRef(element.nodes[r], element.nodes[s]) +=
+            (block(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(s)) +
+             block(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(r))) /
+            2;
+      }
+    }
+  }
+  return matrix;
 }
 
-int ShellEnergy::size() const { return data_->size; }
+double ShellEnergy::stretching_scale() const {
+  if (const auto* m = std::get_if<ShellMaterial>(&data_->law.material)) {
+    return 0.5 * m->young * m->thickness / (1 - m->poisson * m->poisson) * area();
+  }
+  double sum = 0;
+  for (const ShellRest& rest : data_->rest) {
+    sum += rest.weight / 8 * rest.metric.dot(Eigen::Vector3d(1, 1, 4).asDiagonal() * rest.membrane * rest.metric);
+  }
+  return sum;
+}
 
-const ShellMaterial& ShellEnergy::material() const { return data_->material; }
+double ShellEnergy::mass_per_area() const { return data_->law.mass(); }
+
+int ShellEnergy::size() const { return data_->size; }
 
 }  // namespace knead

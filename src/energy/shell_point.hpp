@@ -10,14 +10,15 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// What the rest shape gives at one Gauss point.
 struct ShellRest {
-  double weight;  // of the quadrature, times the area element
+  double weight;  // of the quadrature, times the measure that the energy is integrated over
+  double area;    // of the quadrature, times the area element
   Eigen::Vector3d metric, curvature;
-  Eigen::Matrix3d elastic;
+  Eigen::Matrix3d membrane, bending;  // stress resultants per strain
 
-  [[nodiscard]] Vector6 stress(const Vector6& strain, double thickness) const {
+  [[nodiscard]] Vector6 stress(const Vector6& strain) const {
     Vector6 result;
-    result.head<3>() = thickness * elastic * strain.head<3>();
-    result.tail<3>() = thickness * thickness * thickness / 12 * elastic * strain.tail<3>();
+    result.head<3>() = membrane * strain.head<3>();
+    result.tail<3>() = bending * strain.tail<3>();
     return result;
   }
 };

@@ -93,6 +93,9 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& mode
       first += scene.surfaces[static_cast<std::size_t>(k)].current->size();
     }
     if (!selected || keeps_direction(f.kind)) continue;
+    if (f.kind == PointForceKind::moment) {
+      return input_error("a moment acts on shells only", f.name, R"(give {"do":"material","model":"shell"})");
+    }
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(f.surface)];
     const auto u = parameters_at(*s.current, *f.at);
     if (!u) return std::unexpected(u.error());

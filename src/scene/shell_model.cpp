@@ -27,8 +27,8 @@ Expected<void> check_scope(const Scene& scene, const SceneSurface& s) {
                        "use vector and gravity, and leave out pressure, wind and samples");
   }
   for (const SceneForce& f : scene.forces) {
-    if (!keeps_direction(f.kind)) {
-      return input_error("springs and volcanoes do not act on shells", f.name, "use kind dead or line");
+    if (!keeps_direction(f.kind) && f.kind != PointForceKind::moment) {
+      return input_error("springs and volcanoes do not act on shells", f.name, "use kind dead, line or moment");
     }
   }
   return {};
@@ -44,9 +44,8 @@ void append_held(const ConstraintList& list, const Points& displacement, std::ve
 }
 
 Expected<Points> load_on(const Scene& scene, const SceneSurface& s, const ShellEnergy& shell) {
-  const ShellMaterial& material = shell.material();
   const Point vector(scene.load.vector.data()), gravity(scene.load.gravity.data());
-  Points load = shell.area_load(material.density * material.thickness * gravity);
+  Points load = shell.area_load(shell.mass_per_area() * gravity);
   if (scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area) {
     load += shell.area_load(vector);
   } else {
@@ -55,7 +54,7 @@ Expected<Points> load_on(const Scene& scene, const SceneSurface& s, const ShellE
     load += *forces;
   }
   for (const SceneForce& f : scene.forces) {
-    if (f.surface != *scene.selected) continue;
+    if (f.surface != *scene.selected || f.kind == PointForceKind::moment) continue;
     const auto forces = dead_forces(s, f, 1);
     if (!forces) return std::unexpected(forces.error());
     load += *forces;
@@ -63,14 +62,27 @@ Expected<Points> load_on(const Scene& scene, const SceneSurface& s, const ShellE
   return load;
 }
 
+Expected<std::vector<EdgeMoment>> moments_on(const Scene& scene, const SceneSurface& s) {
+  std::vector<EdgeMoment> moments;
+  for (const SceneForce& f : scene.forces) {
+    if (f.surface != *scene.selected || f.kind != PointForceKind::moment) continue;
+    for (const SurfaceEdge edge : edges_of(*f.edge)) {
+      auto moment = EdgeMoment::create(*s.rest, edge_across(edge), edge_at_end(edge), *f.moment);
+      if (!moment) return std::unexpected(moment.error());
+      moments.push_back(std::move(*moment));
+    }
+  }
+  return moments;
+}
+
 }  // namespace
 
 Expected<ShellProblem> shell_problem(const Scene& scene) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(*scene.selected)];
   if (auto within = check_scope(scene, s); !within) return std::unexpected(within.error());
-  auto shell = ShellEnergy::create(*s.rest, *s.shell);
+  auto shell = s.shell ? ShellEnergy::create(*s.rest, *s.shell) : ShellEnergy::of_forms(*s.rest, *s.fundamental);
   if (!shell) return std::unexpected(shell.error());
-  ShellProblem problem{std::move(*shell), {}, {}, {}};
+  ShellProblem problem{std::move(*shell), {}, {}, {}, {}};
   SurfaceInput input = model_input(scene, scene.evolution).surfaces.front();
   input.rest = s.rest;
   auto list = constraints_of(input, problem.notes);
@@ -80,6 +92,9 @@ Expected<ShellProblem> shell_problem(const Scene& scene) {
   auto load = load_on(scene, s, problem.energy);
   if (!load) return std::unexpected(load.error());
   problem.load = std::move(*load);
+  auto moments = moments_on(scene, s);
+  if (!moments) return std::unexpected(moments.error());
+  problem.moments = std::move(*moments);
   return problem;
 }
 

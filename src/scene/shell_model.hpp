@@ -1,5 +1,6 @@
 #pragma once
 
+#include "knead/energy/edge_moment.hpp"
 #include "knead/energy/shell_energy.hpp"
 #include "knead/scene/scene.hpp"
 #include "knead/solve/linear_constraint.hpp"
@@ -11,6 +12,7 @@ struct ShellProblem {
   ShellEnergy energy;
   std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shape
   Points load;                                ///< forces on the control points, N × 3
+  std::vector<EdgeMoment> moments;            ///< which follow their edges
   std::vector<std::string> notes;
 };
 

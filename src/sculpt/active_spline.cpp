@@ -9,6 +9,8 @@
 
 #include "active_model.hpp"
 #include "knead/energy/field_assembler.hpp"
+#include "solve/coordinate_map.hpp"
+#include "solve/eigen_problem.hpp"
 
 namespace knead {
 namespace {
@@ -296,6 +298,12 @@ Points ActiveSpline<D>::fairing(const Points& control_points) const {
   // K annihilates constants.
   const Points centred = control_points.rowwise() - control_points.colwise().mean();
   return model_->inverse.solve(-(model_->stiffness * centred));
+}
+
+template <int D>
+Expected<std::vector<Eigenmode>> ActiveSpline<D>::modes(int count) const {
+  return mapped_vibration_modes(on_coordinates(model_->stiffness.assemble()), on_coordinates(model_->mass.assemble()),
+                                coordinate_map(model_->inverse.space()), count);
 }
 
 template <int D>

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "commands/brush.hpp"
+#include "commands/buckling.hpp"
 #include "commands/coarsen.hpp"
 #include "commands/convert.hpp"
 #include "commands/drag.hpp"
@@ -22,6 +23,7 @@
 #include "commands/mask.hpp"
 #include "commands/material.hpp"
 #include "commands/measure.hpp"
+#include "commands/modes.hpp"
 #include "commands/move.hpp"
 #include "commands/new.hpp"
 #include "commands/pin.hpp"
@@ -54,7 +56,8 @@ using CommandVariant =
                  ReleaseCommand, ToolCommand, EditToolCommand, RemoveCommand, MoveCommand, TurnCommand, ScaleCommand,
                  ForceCommand, LoadCommand, LimitCommand, EvolveCommand, StepCommand, StrokeCommand, BrushCommand,
                  MaskCommand, DragCommand, RelaxCommand, LatticeCommand, PointsCommand, WeightsCommand, KnotsCommand,
-                 RefineCommand, ElevateCommand, CoarsenCommand, MeasureCommand, UndoCommand, RedoCommand>;
+                 RefineCommand, ElevateCommand, CoarsenCommand, MeasureCommand, ModesCommand, BucklingCommand,
+                 UndoCommand, RedoCommand>;
 
 template <>
 const Type& type_of<CommandVariant>();

@@ -42,6 +42,8 @@ struct ReadingInfo {
   Fractions at = {0, 0};
   Vector3 point = {0, 0, 0}, displacement = {0, 0, 0}, normal = {0, 0, 0};
   std::optional<std::array<double, 2>> curvature;
+  std::optional<std::array<double, 2>> von_mises, membrane, moment;
+  std::optional<double> bending_strain;
 };
 void describe(ReadingInfo& r, Fields& fields);
 

@@ -25,4 +25,11 @@ Expected<void> check_steps(int steps, const char* field, int least, std::size_t 
                      field, fmt::format("a command may take {} in all", max_steps));
 }
 
+Expected<void> check_modes(int count) {
+  constexpr int most = 100;
+  if (count >= 1 && count <= most) return {};
+  return input_error(fmt::format("{} is not a number of modes to look for", count), "count",
+                     fmt::format("use 1 to {}", most));
+}
+
 }  // namespace knead

@@ -20,4 +20,7 @@ inline constexpr std::size_t max_json_depth = 64;      ///< lists and objects in
 /// An error about `field` if there are fewer than `least` steps at each of `places`, or more than `max_steps` in all.
 [[nodiscard]] Expected<void> check_steps(int steps, const char* field, int least = 1, std::size_t places = 1);
 
+/// An error about `count` if it is not a number of modes that can be sought: 1 to 100.
+[[nodiscard]] Expected<void> check_modes(int count);
+
 }  // namespace knead

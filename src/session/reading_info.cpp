@@ -2,6 +2,7 @@
 #include "info_values.hpp"
 #include "knead/exchange/face_point.hpp"
 #include "knead/scene/places.hpp"
+#include "knead/scene/shell_fields.hpp"
 #include "knead/session/session_info.hpp"
 
 namespace knead {
@@ -15,6 +16,10 @@ void describe(ReadingInfo& r, Fields& fields) {
   fields.add("displacement", r.displacement, {.help = "from the surface as opened", .unit = Unit::length});
   fields.add("normal", r.normal, {.help = "of length 1; zero where there is none"});
   fields.add("curvature", r.curvature, {.help = "the principal ones, the larger first; null where there is no normal"});
+  fields.add("von_mises", r.von_mises, {.help = "of shells: on the face that the normal leaves, and on the other"});
+  fields.add("membrane", r.membrane, {.help = "of shells: principal forces per length, the larger first"});
+  fields.add("moment", r.moment, {.help = "of shells: principal bending moments per length"});
+  fields.add("bending_strain", r.bending_strain, {.help = "of shells: the largest strain that bending adds"});
 }
 
 namespace {
@@ -22,13 +27,23 @@ namespace {
 Expected<ReadingInfo> reading_of(const Scene& scene, const Probe& probe) {
   const auto reading = read_probe(scene, probe);
   if (!reading) return std::unexpected(reading.error());
-  return ReadingInfo{probe.name,
-                     probe.surface,
-                     probe.at,
-                     array_of(reading->point),
-                     array_of(reading->displacement),
-                     array_of(reading->normal),
-                     reading->curvature};
+  ReadingInfo info;
+  info.name = probe.name;
+  info.surface = probe.surface;
+  info.at = probe.at;
+  info.point = array_of(reading->point);
+  info.displacement = array_of(reading->displacement);
+  info.normal = array_of(reading->normal);
+  info.curvature = reading->curvature;
+  const auto shell = read_shell(scene, probe.surface, probe.at);
+  if (!shell) return std::unexpected(shell.error());
+  if (*shell) {
+    info.von_mises = (*shell)->von_mises;
+    info.membrane = (*shell)->membrane;
+    info.moment = (*shell)->moment;
+    info.bending_strain = (*shell)->bending_strain;
+  }
+  return info;
 }
 
 }  // namespace

@@ -31,6 +31,15 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
+namespace {
+
+/// Whether a command reports on the session and leaves the history as it is.
+bool only_looks(const Command& command) {
+  return fields_of<ModesCommand>(command) != nullptr || fields_of<BucklingCommand>(command) != nullptr;
+}
+
+}  // namespace
+
 Expected<void> Session::execute(const Command& command, const Progress& progress) {
   if (fields_of<UndoCommand>(command)) {
     if (!can_undo()) return input_error("there is nothing to undo");
@@ -54,6 +63,10 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   const auto execute = [&](const auto& fields) { return executor.execute(fields); };
   if (auto done = std::visit(execute, meant.any().fields); !done) return done;
   if (auto closed = executor.check_followed(state()); !closed) return closed;
+  if (only_looks(meant) && !state().stroke && !state().brush) {
+    states_[position_] = std::move(next);
+    return {};
+  }
   states_.resize(position_ + 1);
   entries_.resize(position_);
   states_.push_back(std::move(next));

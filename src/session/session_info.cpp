@@ -22,6 +22,7 @@ struct SurfaceInfo {
   std::optional<double> mass, damping;
   std::optional<MaterialPreset> preset;
   std::optional<ShellMaterial> shell;
+  std::optional<FundamentalMaterial> fundamental;
   double plasticity = 0, yield = 0, locality = 0;
   LengthUnit lengths = LengthUnit::radii;
   RestMode rest = RestMode::shape;
@@ -40,6 +41,12 @@ static void describe(ShellMaterial& m, Fields& fields) {
   fields.add("density", m.density);
 }
 
+static void describe(FundamentalMaterial& m, Fields& fields) {
+  fields.name("fundamental info", "The weights of the fundamental forms, in the order 11, 12, 22.");
+  fields.add("w1", m.w1);
+  fields.add("w2", m.w2);
+}
+
 static void describe(SurfaceInfo& s, Fields& fields) {
   fields.name("surface info", "A surface of the session.");
   fields.add("id", s.id);
@@ -55,7 +62,8 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("mass", s.mass, {.help = "null where it varies"});
   fields.add("damping", s.damping, {.help = "null where it varies"});
   fields.add("preset", s.preset, {.help = "its named material, if it has one"});
-  fields.add("shell", s.shell, {.help = "null where the model is linear"});
+  fields.add("shell", s.shell, {.help = "null where the model is another one"});
+  fields.add("fundamental", s.fundamental, {.help = "likewise"});
   fields.add("plasticity", s.plasticity, {.help = "share of a displacement that strokes leave"});
   fields.add("yield", s.yield, {.help = "up to this displacement they leave nothing"});
   fields.add("locality", s.locality, {.help = "how far a dent is felt"});
@@ -143,6 +151,26 @@ static void describe(SeamInfo& s, Fields& fields) {
   fields.add("reason", s.reason, {.help = "why the continuity is not higher"});
 }
 
+struct VibrationInfo {
+  double frequency = 0, residual = 0;
+};
+
+static void describe(VibrationInfo& m, Fields& fields) {
+  fields.name("vibration info", "A free vibration of the structure.");
+  fields.add("frequency", m.frequency, {.help = "per unit of time; below 0 the structure is unstable"});
+  fields.add("residual", m.residual, {.help = "relative"});
+}
+
+struct BucklingInfo {
+  double load_factor = 0, residual = 0;
+};
+
+static void describe(BucklingInfo& m, Fields& fields) {
+  fields.name("buckling info", "A load at which a shell buckles.");
+  fields.add("load_factor", m.load_factor, {.help = "by which the present loads are multiplied"});
+  fields.add("residual", m.residual, {.help = "relative"});
+}
+
 // The commands that would restate them, hence with their names.
 static std::string_view tag_of(const std::variant<LoadCommand>*) { return "do"; }
 static std::string_view tag_of(const std::variant<EvolveCommand>*) { return "do"; }
@@ -164,6 +192,8 @@ struct SessionInfo {
   std::vector<std::string> notes;
   int steps = 0;
   std::optional<StepRecord> last;
+  std::vector<VibrationInfo> modes;
+  std::vector<BucklingInfo> buckling;
   bool undo = false, redo = false;
 };
 
@@ -187,6 +217,8 @@ static void describe(SessionInfo& s, Fields& fields) {
   fields.add("notes", s.notes);
   fields.add("steps", s.steps, {.help = "their number"});
   fields.add("last", s.last, {.help = "the last step"});
+  fields.add("modes", s.modes, {.help = "that the last command `modes` found, the lowest first"});
+  fields.add("buckling", s.buckling, {.help = "likewise of `buckling`"});
   fields.add("undo", s.undo);
   fields.add("redo", s.redo);
 }
@@ -229,6 +261,7 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
   info.damping = constant(s.material.damping);
   info.preset = preset_of(s);
   info.shell = s.shell;
+  info.fundamental = s.fundamental;
   info.plasticity = s.plastic.share;
   info.yield = s.plastic.yield;
   info.locality = s.plastic.locality;
@@ -289,6 +322,8 @@ std::string session_json(const Session& session) {
   info.notes = state.notes;
   info.steps = static_cast<int>(state.steps.size());
   if (!state.steps.empty()) info.last = state.steps.back();
+  for (const ModeRecord& mode : state.modes) info.modes.push_back({mode.value, mode.residual});
+  for (const ModeRecord& mode : state.buckling) info.buckling.push_back({mode.value, mode.residual});
   info.undo = session.can_undo();
   info.redo = session.can_redo();
   return json_of(info);

@@ -18,7 +18,7 @@ Expected<void> Executor::run_shell(const EvolutionPolicy& evolution) {
   const Points &rest = s.rest->control_points(), &present = s.current->control_points();
   if (!state.energy_before) state.energy_before = problem->energy.energy(present).sum();
   auto found = shell_equilibrium(problem->energy, rest, problem->constraints, problem->load,
-                                 {.increments = increments.value_or(1)});
+                                 {.increments = increments.value_or(1)}, problem->moments);
   if (!found) return std::unexpected(found.error());
   ActiveStep step;
   step.control_points = with_held_bits(*problem, rest, present, std::move(found->control_points));

@@ -11,13 +11,13 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-/// Of versions 1 to 7: without probes, open strokes and their results; without brushes, masks and edges that follow;
+/// Of versions 1 to 8: without probes, open strokes and their results; without brushes, masks and edges that follow;
 /// without their tangent planes; without converted surfaces, brushes that pass from surface to surface, and tools that
 /// touch what is visible only; without stamps, and strokes that are kept from folding; without pens and
-/// shells; the present one.
-constexpr std::array<std::string_view, 7> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
+/// shells; without fundamental forms and modes; the present one.
+constexpr std::array<std::string_view, 8> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
                                                     "Knead snapshot 4\n", "Knead snapshot 5\n", "Knead snapshot 6\n",
-                                                    "Knead snapshot 7\n"};
+                                                    "Knead snapshot 7\n", "Knead snapshot 8\n"};
 constexpr std::string_view magic = magics.back();
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.
@@ -63,7 +63,7 @@ struct Neighbour {
 void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
                followed, coupling, bend, stroke, brush] = static_cast<const Scene&>(state);
-  const auto& [steps, seam_reports, notes, energy_before] = static_cast<const SessionRecord&>(state);
+  const auto& [steps, seam_reports, notes, energy_before, modes, buckling] = static_cast<const SessionRecord&>(state);
   archive::optional(a, selected);
   list(a, together);
   std::vector<std::string> written;
@@ -109,6 +109,8 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   archive::optional(a, energy_before);
   const auto converted = state.document ? state.document->converted() : std::vector<std::string>();
   list(a, converted);
+  list(a, modes);
+  list(a, buckling);
 }
 
 /// Whether the shapes from before a stroke are on the nets of the selected surfaces; all of their control points.
@@ -164,7 +166,7 @@ void read_converted(Reader& a, const Document& opened, SessionState& state) {
 void read_state(Reader& a, const Document& opened, SessionState& state) {
   auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
          followed, coupling, bend, stroke, brush] = static_cast<Scene&>(state);
-  auto& [steps, seam_reports, notes, energy_before] = static_cast<SessionRecord&>(state);
+  auto& [steps, seam_reports, notes, energy_before, modes, buckling] = static_cast<SessionRecord&>(state);
   selected.reset();
   archive::optional(a, selected);
   list(a, together);
@@ -233,6 +235,12 @@ void read_state(Reader& a, const Document& opened, SessionState& state) {
   energy_before.reset();
   archive::optional(a, energy_before);
   read_converted(a, opened, state);
+  modes.clear();
+  buckling.clear();
+  if (a.version() > 7) {
+    list(a, modes, 20);
+    list(a, buckling, 20);
+  }
   for (int k : state.selection()) {
     if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
   }

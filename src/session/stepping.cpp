@@ -45,7 +45,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
                              int total) {
   auto selection = selected();
   if (!selection) return std::unexpected(selection.error());
-  if ((*selection)->shell) {
+  if ((*selection)->nonlinear()) {
     if (!more.empty()) return input_error("a shell is not dragged", "drag", "use a force of kind dead, and step");
     Expected<void> solved;
     for (int k = 0; k < count && solved; ++k) solved = run_shell(evolution);
@@ -57,7 +57,8 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
   }
   for (int index : state.together) {
     const SceneSurface& other = state.surfaces[static_cast<std::size_t>(index)];
-    if (other.shell) return input_error("shells are not coupled along seams", other.id, "select one surface alone");
+    if (other.nonlinear())
+      return input_error("shells are not coupled along seams", other.id, "select one surface alone");
   }
   if (state.permission == RefinePermission::automatic) {
     if (auto refined = refine_seams(); !refined) return refined;

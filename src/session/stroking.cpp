@@ -122,7 +122,7 @@ Points StrokeModel::control_points(const Points& x) const {
 Expected<void> Executor::begin_stroke(const std::string& name, double share) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
-  if ((*surface)->shell) {
+  if ((*surface)->nonlinear()) {
     return input_error("a shell has no contact with tools", "tool", R"(use {"do":"material","model":"linear"})");
   }
   const auto tool = find_tool(name);

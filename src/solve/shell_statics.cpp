@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
-#include "constraint_space.hpp"
+#include "coordinate_map.hpp"
 
 namespace knead {
 namespace {
@@ -22,28 +21,34 @@ FlatMap flattened(const Points& x) { return {x.data(), x.size()}; }
 
 Points points_of(const Eigen::VectorXd& x) { return Eigen::Map<const Points>(x.data(), x.size() / 3, 3); }
 
-/// T of the space over all 3N coordinates.
-SparseMatrix coordinate_map(const ConstraintSpace& space) {
-  std::vector<int> all(static_cast<std::size_t>(space.size()));
-  std::iota(all.begin(), all.end(), 0);
-  const int copies = space.coupled() ? 1 : 3;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const ConstraintSpace::Term& term : space.terms(all)) {
-    for (int c = 0; c < copies; ++c) {
-      entries.emplace_back(copies * term.row + c, copies * term.unknown + c, term.coefficient);
-    }
-  }
-  SparseMatrix map(3 * space.size(), copies * space.free_count());
-  map.setFromTriplets(entries.begin(), entries.end());
-  return map;
+/// Whether a rigid motion, or a mechanism, is left.
+bool singular(const Eigen::SimplicialLDLT<SparseMatrix>& factor) {
+  const Eigen::ArrayXd pivots = factor.vectorD().array().abs();
+  return factor.info() != Eigen::Success || pivots.minCoeff() <= 1e-15 * pivots.maxCoeff();
 }
+
+std::unexpected<Error> moves_freely() {
+  return numerical_error("the shell can move without strain", "constraints", "hold it so that no rigid motion is left");
+}
+
+/// Dead forces, and moments that follow their edges.
+struct Loads {
+  const Points& dead;
+  std::span<const EdgeMoment> moments;
+
+  [[nodiscard]] Points forces(const Points& x) const {
+    Points sum = dead;
+    for (const EdgeMoment& moment : moments) sum += moment.forces(x);
+    return sum;
+  }
+};
 
 /// Newton's iteration towards one load.
 class ShellNewton {
  public:
-  ShellNewton(const ShellEnergy& shell, const SparseMatrix& map, const Points& load, const ShellStaticsOptions& options,
+  ShellNewton(const ShellEnergy& shell, const SparseMatrix& map, const Loads& loads, const ShellStaticsOptions& options,
               double extent)
-      : shell_(shell), map_(map), load_(load), options_(options), extent_(extent) {}
+      : shell_(shell), map_(map), loads_(loads), options_(options), extent_(extent) {}
 
   struct Outcome {
     bool converged = false, singular = false;
@@ -55,20 +60,22 @@ class ShellNewton {
   Outcome iterate(Points& x, double factor) {
     Outcome outcome;
     ShellStress stress = shell_.stress(x);
-    double scale = factor * (map_.transpose() * flattened(load_)).norm();
+    double scale = factor * (map_.transpose() * flattened(loads_.forces(x))).norm();
     while (true) {
-      const Points imbalance = factor * load_ - shell_.gradient(x);
+      const Points imbalance = factor * loads_.forces(x) - shell_.gradient(x);
       const Eigen::VectorXd reduced = map_.transpose() * flattened(imbalance);
       if (scale == 0) scale = reduced.norm();
       outcome.residual = scale > 0 ? reduced.norm() / scale : 0;
       if (!std::isfinite(outcome.residual)) return outcome;
       outcome.converged = outcome.residual <= options_.tolerance;
       if (outcome.converged || outcome.iterations == options_.max_iterations) return outcome;
-      const SparseMatrix system = map_.transpose() * shell_.hessian(x, stress) * map_;
+      SparseMatrix tangent = shell_.hessian(x, stress);
+      for (const EdgeMoment& moment : loads_.moments) tangent -= factor * moment.stiffness(x);
+      const SparseMatrix system = map_.transpose() * tangent * map_;
       if (!analysed_) solver_.analyzePattern(system);
       analysed_ = true;
       solver_.factorize(system);
-      outcome.singular = solver_.info() != Eigen::Success || vanishing_pivot();
+      outcome.singular = singular(solver_);
       if (outcome.singular) return outcome;
       const Points d = points_of(map_ * solver_.solve(reduced));
       ++outcome.iterations;
@@ -83,14 +90,9 @@ class ShellNewton {
   }
 
  private:
-  [[nodiscard]] bool vanishing_pivot() const {
-    const Eigen::ArrayXd pivots = solver_.vectorD().array().abs();
-    return pivots.minCoeff() <= 1e-15 * pivots.maxCoeff();
-  }
-
   const ShellEnergy& shell_;
   const SparseMatrix& map_;
-  const Points& load_;
+  const Loads& loads_;
   const ShellStaticsOptions& options_;
   double extent_;
   bool analysed_ = false;
@@ -119,13 +121,14 @@ Expected<void> check(const ShellEnergy& shell, const Points& rest, const Points&
 
 Expected<ShellEquilibrium> shell_equilibrium(const ShellEnergy& shell, const Points& rest,
                                              std::span<const LinearConstraint> constraints, const Points& load,
-                                             const ShellStaticsOptions& options) {
+                                             const ShellStaticsOptions& options, std::span<const EdgeMoment> moments) {
   if (auto ok = check(shell, rest, load, options); !ok) return std::unexpected(ok.error());
   const auto space = ConstraintSpace::create(shell.size(), constraints);
   if (!space) return std::unexpected(space.error());
   const SparseMatrix map = coordinate_map(*space);
   const double extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
-  ShellNewton newton(shell, map, load, options, extent);
+  const Loads loads{load, moments};
+  ShellNewton newton(shell, map, loads, options, extent);
   ShellEquilibrium result;
   result.control_points = rest + space->feasible(Points::Zero(rest.rows(), 3));
   const double full = 1.0 / options.increments;
@@ -145,8 +148,7 @@ Expected<ShellEquilibrium> shell_equilibrium(const ShellEnergy& shell, const Poi
       continue;
     }
     if (outcome.singular && result.increments.empty() && outcome.iterations == 0) {
-      return numerical_error("the shell can move without strain", "constraints",
-                             "hold it so that no rigid motion is left");
+      return moves_freely();
     }
     part /= 2;
     if (part < full * std::exp2(-options.max_halvings - 0.5)) {
@@ -156,8 +158,21 @@ Expected<ShellEquilibrium> shell_equilibrium(const ShellEnergy& shell, const Poi
       break;
     }
   }
-  result.reactions = shell.gradient(result.control_points) - result.load_factor * load;
+  result.reactions = shell.gradient(result.control_points) - result.load_factor * loads.forces(result.control_points);
   return result;
+}
+
+Expected<Points> linear_displacement(const ShellEnergy& shell, const Points& rest,
+                                     std::span<const LinearConstraint> constraints, const Points& load) {
+  if (auto ok = check(shell, rest, load, {}); !ok) return std::unexpected(ok.error());
+  const auto space = ConstraintSpace::create(shell.size(), constraints);
+  if (!space) return std::unexpected(space.error());
+  const SparseMatrix map = coordinate_map(*space), stiffness = shell.hessian(rest);
+  const Points held = space->feasible(Points::Zero(rest.rows(), 3));
+  const Eigen::SimplicialLDLT<SparseMatrix> factor(SparseMatrix(map.transpose() * stiffness * map));
+  if (singular(factor)) return moves_freely();
+  const Eigen::VectorXd imbalance = flattened(load) - stiffness * flattened(held);
+  return held + points_of(map * factor.solve(Eigen::VectorXd(map.transpose() * imbalance)));
 }
 
 }  // namespace knead

@@ -114,6 +114,8 @@ const std::vector<std::string> all_commands = {
     R"({"do":"coarsen","tolerance":0.001})",
     R"({"do":"measure","name":"tip","surface":"#1","at":[0.25,1]})",
     R"({"do":"remove","measurement":"tip"})",
+    R"({"do":"modes","count":4})",
+    R"({"do":"buckling","count":2})",
     R"({"do":"undo"})",
     R"({"do":"redo"})"};
 

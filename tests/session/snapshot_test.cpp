@@ -124,10 +124,10 @@ std::string sealed(std::string snapshot, char version) {
 }
 
 /// What versions after the first have of a surface by default: along, share, yield, locality, in radii; the length of
-/// its mask; no shell.
+/// its mask; no shell, no fundamental forms.
 std::string plastic_of_surface() {
   const double one = 1;
-  std::string plastic(35, '\0');
+  std::string plastic(36, '\0');
   std::memcpy(&plastic[1], &one, sizeof one);
   plastic[25] = '\1';
   return plastic;
@@ -138,8 +138,8 @@ std::string in_version_1(std::string snapshot) {
   const std::string plastic = plastic_of_surface();
   // The count of probes, no open stroke, the count of edges that follow, the coupling of positions, no brush, the
   // coupling of tangent planes and how far these may open; counts of steps, seams and notes and a flag follow, and the
-  // count of converted surfaces.
-  snapshot.erase(snapshot.size() - 8);
+  // counts of converted surfaces and of modes of both kinds.
+  snapshot.erase(snapshot.size() - 24);
   snapshot.erase(snapshot.size() - 75, 42);
   snapshot.erase(snapshot.rfind(plastic), plastic.size());
   return sealed(std::move(snapshot), '1');
@@ -154,7 +154,7 @@ TEST(Snapshot, ReadsTheVersionBefore) {
   EXPECT_TRUE(same_state(restored->state(), session.state()));
 }
 
-// An open brush at one place of one surface without a mask. Version 6 had neither pens nor shells.
+// An open brush at one place of one surface without a mask. Version 6 had neither pens nor shells, nor modes.
 TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,10],"net":[12,12]})",
@@ -168,7 +168,8 @@ TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
   old.erase(pen + 40, 4);              // what pressure scales, after the shapes before and the masks
   const std::size_t surface = old.rfind(plastic_of_surface());
   ASSERT_NE(surface, std::string::npos);
-  old.erase(surface + plastic_of_surface().size() - 1, 1);
+  old.erase(surface + plastic_of_surface().size() - 2, 2);
+  old.erase(old.size() - 16);  // counts of modes
   const auto restored = Session::restore(Document::fresh("test"), sealed(old, '6'));
   ASSERT_TRUE(restored) << restored.error().message();
   ASSERT_TRUE(restored->state().brush);
@@ -179,7 +180,7 @@ TEST(Snapshot, RefusesBytesThatAreNotItsOwn) {
   Session session = on_sheet(rich);
   const std::string good = session.snapshot();
   EXPECT_FALSE(Session::restore(session.document(), ""));
-  EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot 8\n"));
+  EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot 9\n"));
   for (std::size_t size = 0; size < good.size(); size += 997) {
     EXPECT_FALSE(Session::restore(session.document(), std::string_view(good).substr(0, size))) << size;
   }

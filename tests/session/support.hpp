@@ -68,7 +68,8 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
     if (!same_bits(*s.rest, *t.rest)) return differs("rest " + s.id);
     if (!same_bits(*s.current, *t.current)) return differs("current " + s.id);
     if (!same_bits(s.velocity, t.velocity)) return differs("velocity " + s.id);
-    if (s.mode != t.mode || !(s.material == t.material) || s.shell != t.shell || !(s.plastic == t.plastic))
+    if (s.mode != t.mode || !(s.material == t.material) || s.shell != t.shell || s.fundamental != t.fundamental ||
+        !(s.plastic == t.plastic))
       return differs("material " + s.id);
     if (s.hold_rows != t.hold_rows || s.pins != t.pins) return differs("hold " + s.id);
     if (s.mask != t.mask) return differs("mask of " + s.id);
@@ -108,6 +109,13 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
       return differs("record of step " + std::to_string(k));
   }
   if (a.notes != b.notes || a.energy_before != b.energy_before) return differs("notes");
+  for (const auto list : {&SessionState::modes, &SessionState::buckling}) {
+    if (!std::ranges::equal(a.*list, b.*list, [](const ModeRecord& s, const ModeRecord& t) {
+          return s.value == t.value && s.residual == t.residual && same_bits(s.shape, t.shape);
+        })) {
+      return differs("modes");
+    }
+  }
   if (a.seam_reports.size() != b.seam_reports.size()) return differs("seam reports");
   return ::testing::AssertionSuccess();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "knead/energy/stiffness.hpp"
@@ -18,6 +19,17 @@ struct ShellMaterial {
 
 /// The error names the number.
 [[nodiscard]] Expected<ShellMaterial> validated(const ShellMaterial& material);
+
+/// The weights of `ShellEnergy` in the fundamental forms themselves, in the order 11, 12, 22.
+struct FundamentalMaterial {
+  std::array<double, 3> w1 = {1, 1, 1};  ///< of the first form: energy per length⁴ and measure of the domain, >= 0
+  std::array<double, 3> w2 = {1, 1, 1};  ///< of the second: energy per length² and measure, >= 0
+
+  friend bool operator==(const FundamentalMaterial&, const FundamentalMaterial&) = default;
+};
+
+/// The error names the weight.
+[[nodiscard]] Expected<FundamentalMaterial> validated_weights(const FundamentalMaterial& material);
 
 /// The parts of the energy, in units of force times length.
 struct ShellParts {
@@ -40,6 +52,11 @@ using ShellStress = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 /// not change under rigid motions. The unknowns are the control points x (N × 3, all rows those of the rest shape's
 /// net); in Hessians unknown 3 i + c is coordinate c of control point i. Lengths are those of the rest shape.
 ///
+/// The same integral without a material, over the parameter domain as it is, weighs the fundamental forms alone (thesis
+/// Eq. 3.42; Terzopoulos, Platt, Barr and Fleischer 1987):
+///
+///   W(S) = ∫ Σ_αβ w1_αβ (a_αβ − A_αβ)² + w2_αβ (b_αβ − B_αβ)² du dv.
+///
 /// Integrated by Gauss points on every span, the same for all parts: W, gradient and Hessian are consistent to
 /// rounding. p + 1 points per direction leave no zero-energy modes but the six rigid ones. Immutable, const is
 /// thread-safe.
@@ -50,12 +67,15 @@ class ShellEnergy {
   /// point, a rational denominator that is not positive (numerical).
   [[nodiscard]] static Expected<ShellEnergy> create(const Surface& rest, const ShellMaterial& material,
                                                     int gauss_points = 0);
+  /// The second integral. Errors: likewise.
+  [[nodiscard]] static Expected<ShellEnergy> of_forms(const Surface& rest, const FundamentalMaterial& material,
+                                                      int gauss_points = 0);
 
   /// W(x). Where S has no normal at a Gauss point this and all that follows is not finite. Cost: O(points p²).
   [[nodiscard]] ShellParts energy(const Points& x) const;
   /// ∂W/∂x, the internal forces: N × 3. Cost: O(points p²).
   [[nodiscard]] Points gradient(const Points& x) const;
-  /// The stress resultants t C:ε and t³/12 C:κ.
+  /// The stress resultants t C:ε and t³/12 C:κ; of the fundamental forms 8 w1 ε and 2 w2 κ (half of both for 12).
   [[nodiscard]] ShellStress stress(const Points& x) const;
   /// Those of the strains linearised about x: C:(ε(x) + ε'(x) d). Newton's method with them in the Hessian needs
   /// fewer iterations (Magisano, Leonetti and Garcea 2017).
@@ -68,15 +88,22 @@ class ShellEnergy {
 
   /// ∫ R_i dA · `per_area`: the forces on the control points of a load per area of the rest shape, N × 3.
   [[nodiscard]] Points area_load(const Point& per_area) const;
+  /// ∫ R_i R_j μ dA with μ = density · thickness (0 of the fundamental forms): N × N, the same for each coordinate,
+  /// with the pattern of a stiffness. The inertia of rotations, of the order of t², is neglected.
+  [[nodiscard]] SparseMatrix mass() const;
   [[nodiscard]] double area() const;
-  /// 0.5 E t / (1 − ν²) · area: the energy of a stretch of one, the scale that rounding is judged by.
+  /// 0.5 E t / (1 − ν²) · area, or ∫ Σ w1 A² du dv: the energy of a stretch of one, the scale that rounding is judged
+  /// by.
   [[nodiscard]] double stretching_scale() const;
 
   [[nodiscard]] int size() const;
-  [[nodiscard]] const ShellMaterial& material() const;
+  /// Density · thickness; 0 of the fundamental forms.
+  [[nodiscard]] double mass_per_area() const;
 
  private:
   struct Data;
+  [[nodiscard]] static Expected<ShellEnergy> with_law(const Surface& rest, std::shared_ptr<Data> data,
+                                                      int gauss_points);
   explicit ShellEnergy(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
 };

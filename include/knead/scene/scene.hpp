@@ -22,20 +22,21 @@ namespace knead {
 // What is being sculpted, as plain values: no commands, no files, no computed data.
 
 /// Springs and volcanoes pull a point towards a place or away from it; dead forces keep their direction, on a point or
-/// along an edge.
-enum class PointForceKind { spring, volcano, dead, line };
+/// along an edge; moments turn about an edge, wherever it goes.
+enum class PointForceKind { spring, volcano, dead, line, moment };
 
 /// A force on one point or one edge of a surface, acting until it is removed (thesis Eq. 4.24).
 struct SceneForce {
   std::string name = "force";
   int surface = 0;  ///< index into the scene's surfaces
   PointForceKind kind = PointForceKind::spring;
-  std::optional<Fractions> at = {};     ///< all but line
+  std::optional<Fractions> at = {};     ///< all but line and moment
   std::optional<Vector3> to = {};       ///< spring, volcano
   double strength = 10;                 ///< of these
   double core = 0.1;                    ///< volcano: within this distance it stops growing
   std::optional<Vector3> vector = {};   ///< dead: the force, line: per length of the rest shape
-  std::optional<EdgeChoice> edge = {};  ///< line
+  std::optional<EdgeChoice> edge = {};  ///< line, moment
+  std::optional<double> moment = {};    ///< per length of the rest shape; of shells
 
   friend bool operator==(const SceneForce&, const SceneForce&) = default;
 };
@@ -169,8 +170,9 @@ struct SceneSurface {
   Points velocity = {};  ///< of a dynamic evolution, a spline on the present net; empty: at rest
   RestMode mode = RestMode::shape;
   MaterialFieldOf<2> material = {};
-  std::optional<ShellMaterial> shell = {};  ///< instead of `material`: static steps are those of a shell
-  int hold_rows = 0;                        ///< outer rows of control points that do not move
+  std::optional<ShellMaterial> shell = {};              ///< instead of `material`: static steps are those of a shell
+  std::optional<FundamentalMaterial> fundamental = {};  ///< likewise, or of a surface that keeps its fundamental forms
+  int hold_rows = 0;                                    ///< outer rows of control points that do not move
   std::set<std::array<int, 2>> pins = {};
   std::vector<KeptConstraint> constraints = {};
   bool smooth_knot_lines = true, smooth_poles = true;
@@ -180,6 +182,9 @@ struct SceneSurface {
   std::vector<double> mask = {};
   /// The part of it that faces show, in fractions of its domain; null until first needed.
   std::shared_ptr<const VisibleRegion> visible = {};
+
+  /// Static steps are those of `ShellEnergy`.
+  [[nodiscard]] bool nonlinear() const { return shell || fundamental; }
 };
 
 /// Surfaces, what holds them and what acts on them.

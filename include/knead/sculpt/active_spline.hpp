@@ -10,6 +10,7 @@
 #include "knead/sculpt/domain_scaling.hpp"
 #include "knead/sculpt/tool.hpp"
 #include "knead/sculpt/visible_region.hpp"
+#include "knead/solve/eigenmodes.hpp"
 #include "knead/solve/linear_constraint.hpp"
 
 namespace knead {
@@ -186,6 +187,10 @@ class ActiveSpline {
   /// The displacement of one step of these control points as they relax without a rest shape, by A x = −K S: S + x
   /// minimises ½ S'ᵀ K S' + λ/2 |S' − S|² over all that the constraints allow. Cost: a back substitution.
   [[nodiscard]] Points fairing(const Points& control_points) const;
+
+  /// The `vibration_modes` of K and M on all that the constraints leave free, in normalised units; shapes are of all
+  /// patches. Errors: those of `vibration_modes`.
+  [[nodiscard]] Expected<std::vector<Eigenmode>> modes(int count) const;
 
   [[nodiscard]] const DomainScaling<D>& scaling(int patch = 0) const;
   [[nodiscard]] const ActiveSettings<D>& settings() const;

@@ -34,12 +34,21 @@ struct StepRecord {
   friend bool operator==(const StepRecord&, const StepRecord&) = default;
 };
 
+/// A mode that `modes` or `buckling` found: of the selected surfaces, their control points stacked.
+struct ModeRecord {
+  double value = 0;     ///< a frequency, or a factor of the load
+  double residual = 0;  ///< relative, see solve/eigenmodes.hpp
+  Points shape = {};    ///< displacements of the control points, of largest length 1
+};
+
 /// The record of a session so far.
 struct SessionRecord {
   std::vector<StepRecord> steps;
-  std::vector<SeamReport> seam_reports;  ///< of the model of the last step; patches are indices of surfaces
-  std::vector<std::string> notes;        ///< side effects of commands: refinements, lines kept smooth
-  std::optional<double> energy_before;   ///< energy before the first step
+  std::vector<SeamReport> seam_reports;   ///< of the model of the last step; patches are indices of surfaces
+  std::vector<std::string> notes;         ///< side effects of commands: refinements, lines kept smooth
+  std::optional<double> energy_before;    ///< energy before the first step
+  std::vector<ModeRecord> modes = {};     ///< of the last command `modes`, lowest first
+  std::vector<ModeRecord> buckling = {};  ///< of the last command `buckling`, likewise
 };
 
 /// The whole state at one moment. A value: undo restores an earlier one, bit for bit.

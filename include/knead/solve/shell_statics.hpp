@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "knead/energy/edge_moment.hpp"
 #include "knead/energy/shell_energy.hpp"
 #include "knead/solve/linear_constraint.hpp"
 
@@ -25,7 +26,7 @@ struct ShellIncrement {
   Points displacement;  ///< from the rest shape, N × 3
 };
 
-/// A shell under dead loads.
+/// A shell in equilibrium.
 struct ShellEquilibrium {
   Points control_points;
   Points reactions;        ///< what constraints exert on the control points, N × 3: internal forces less the load
@@ -42,12 +43,19 @@ struct ShellEquilibrium {
 ///
 /// \param constraints on the displacements of control points, in lengths of the rest shape.
 /// \param load forces on the control points, N × 3, that keep their directions.
+/// \param moments on edges, which follow them; increased with the load.
 /// Errors: constraints that contradict each other, a load of another size, options out of range (input); a structure
 /// that is free to move without strain (numerical). An increment that does not converge even when halved is no error:
 /// the result is then the last equilibrium, with `converged` false and a note. Cost: per iteration one Hessian and one
 /// sparse factorisation.
 [[nodiscard]] Expected<ShellEquilibrium> shell_equilibrium(const ShellEnergy& shell, const Points& rest,
                                                            std::span<const LinearConstraint> constraints,
-                                                           const Points& load, const ShellStaticsOptions& options = {});
+                                                           const Points& load, const ShellStaticsOptions& options = {},
+                                                           std::span<const EdgeMoment> moments = {});
+
+/// The displacement of the linear theory, the limit of small loads and small values of the constraints: K u = load on
+/// all that the constraints leave free, K the Hessian at rest. Errors: those above. Cost: one sparse factorisation.
+[[nodiscard]] Expected<Points> linear_displacement(const ShellEnergy& shell, const Points& rest,
+                                                   std::span<const LinearConstraint> constraints, const Points& load);
 
 }  // namespace knead

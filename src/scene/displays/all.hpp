@@ -13,6 +13,10 @@ Display draft_angle_display();
 Display thickness_display();
 Display gap_display();
 Display energy_display();
+Display von_mises_display();
+Display von_mises_outer_display();
+Display von_mises_inner_display();
+Display bending_strain_display();
 Display mask_display();
 
 /// In the order of menus.
@@ -24,6 +28,10 @@ inline constexpr std::array all_displays = {deviation_display,
                                             thickness_display,
                                             gap_display,
                                             energy_display,
+                                            von_mises_display,
+                                            von_mises_outer_display,
+                                            von_mises_inner_display,
+                                            bending_strain_display,
                                             mask_display};
 
 }  // namespace knead

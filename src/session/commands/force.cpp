@@ -14,7 +14,8 @@ std::span<const Choice> choices(PointForceKind) {
       {"spring", PointForceKind::spring, "draws the point to `to`"},
       {"volcano", PointForceKind::volcano, "drives it away from there"},
       {"dead", PointForceKind::dead, "`vector`, whatever the point does"},
-      {"line", PointForceKind::line, "`vector` per length of the rest shape, along `edge`"}};
+      {"line", PointForceKind::line, "`vector` per length of the rest shape, along `edge`"},
+      {"moment", PointForceKind::moment, "`moment` per length of the rest shape, about `edge`, following it"}};
   return list;
 }
 
@@ -22,7 +23,8 @@ void describe(ForceCommand& c, Fields& fields) {
   fields.name("force", "a force on one surface point or edge, until `remove`");
   fields.add("name", c.force.name, {.help = "what `remove` calls it"});
   fields.add("kind", c.force.kind);
-  fields.add("at", c.force.at, {.help = "`[s, t]`: the surface point, of all kinds but line", .unit = Unit::fraction});
+  fields.add("at", c.force.at,
+             {.help = "`[s, t]`: the surface point, of all kinds but line and moment", .unit = Unit::fraction});
   fields.add("to", c.force.to, {.help = "`[x, y, z]`: of springs and volcanoes", .unit = Unit::length});
   fields.add("strength", c.force.strength, {.help = "spring constant, or k of the volcano's k/r²"});
   fields.add("core", c.force.core,
@@ -31,22 +33,26 @@ void describe(ForceCommand& c, Fields& fields) {
       "vector", c.force.vector,
       {.help = "`[x, y, z]`: of a dead force, or of a line force per length; lengths and forces are those of the "
                "model, in `scaling` raw those of the file"});
-  fields.add("edge", c.force.edge, {.help = "of a line force"});
+  fields.add("edge", c.force.edge, {.help = "of a line force or a moment"});
+  fields.add("moment", c.force.moment,
+             {.help = "of shells: force times length per length, right-handed about the edge's direction"});
 }
 
 namespace {
 
 /// Whether the force has all that its kind needs, and nothing that it does not have.
 Expected<void> check_kind(const SceneForce& f) {
-  const bool line = f.kind == PointForceKind::line, dead = line || f.kind == PointForceKind::dead;
+  const bool moment = f.kind == PointForceKind::moment, edge = moment || f.kind == PointForceKind::line;
+  const bool vector = f.kind == PointForceKind::line || f.kind == PointForceKind::dead;
   const struct {
     const char* name;
     bool given, needed;
     const char* remedy;
-  } fields[] = {{"at", f.at.has_value(), !line, "give the surface point, as [0.5,0.5]"},
-                {"to", f.to.has_value(), !dead, "give the place, as [0,0,1]"},
-                {"vector", f.vector.has_value(), dead, "give the force, as [0,0,-1]"},
-                {"edge", f.edge.has_value(), line, "give the edge, as \"u1\""}};
+  } fields[] = {{"at", f.at.has_value(), !edge, "give the surface point, as [0.5,0.5]"},
+                {"to", f.to.has_value(), !vector && !moment, "give the place, as [0,0,1]"},
+                {"vector", f.vector.has_value(), vector, "give the force, as [0,0,-1]"},
+                {"edge", f.edge.has_value(), edge, "give the edge, as \"u1\""},
+                {"moment", f.moment.has_value(), moment, "give the moment per length, as 1"}};
   for (const auto& [name, given, needed, remedy] : fields) {
     if (given == needed) continue;
     const std::string_view kind = choices(PointForceKind{})[static_cast<std::size_t>(f.kind)].name;
@@ -55,6 +61,7 @@ Expected<void> check_kind(const SceneForce& f) {
   }
   if (f.vector && !point_of(*f.vector).allFinite())
     return input_error("a force is not finite", "vector", "use numbers");
+  if (f.moment && !std::isfinite(*f.moment)) return input_error("a moment is not finite", "moment", "use a number");
   return {};
 }
 

@@ -93,15 +93,21 @@ bool names_shell(const MaterialCommand& c) { return c.young || c.poisson || c.th
 
 bool names_something(const MaterialCommand& c) {
   return c.alpha || c.beta || c.mass || c.damping || c.coefficient || c.preset || c.plasticity || c.yield ||
-         c.locality || c.model || names_shell(c);
+         c.locality || c.model || names_shell(c) || c.w1 || c.w2;
 }
 
-/// The shell that a surface is after the command; none where its model is linear.
+/// The model that a surface has after the command.
+MaterialModel model_of(const MaterialCommand& c, const SceneSurface& s) {
+  return c.model.value_or(s.shell         ? MaterialModel::shell
+                          : s.fundamental ? MaterialModel::fundamental
+                                          : MaterialModel::linear);
+}
+
+/// The shell that a surface is after the command; none where it has another model.
 Expected<std::optional<ShellMaterial>> shell_of(const MaterialCommand& c, const SceneSurface& s) {
-  const bool shell = c.model ? *c.model == MaterialModel::shell : s.shell.has_value();
-  if (!shell) {
+  if (model_of(c, s) != MaterialModel::shell) {
     if (!names_shell(c)) return std::nullopt;
-    return input_error("the linear model has no Young's modulus, Poisson's ratio, thickness or density", "model",
+    return input_error("only shells have a Young's modulus, Poisson's ratio, thickness or density", "model",
                        R"(add "model":"shell", or use alpha, beta and mass)");
   }
   if (!s.shell && !(c.young && c.thickness)) {
@@ -114,6 +120,20 @@ Expected<std::optional<ShellMaterial>> shell_of(const MaterialCommand& c, const 
   if (c.thickness) next.thickness = *c.thickness;
   if (c.density) next.density = *c.density;
   auto checked = validated(next);
+  if (!checked) return std::unexpected(checked.error());
+  return *checked;
+}
+
+/// The weights of its fundamental forms after the command; none where it has another model.
+Expected<std::optional<FundamentalMaterial>> fundamental_of(const MaterialCommand& c, const SceneSurface& s) {
+  if (model_of(c, s) != MaterialModel::fundamental) {
+    if (!c.w1 && !c.w2) return std::nullopt;
+    return input_error("only fundamental forms have weights w1 and w2", "model", R"(add "model":"fundamental")");
+  }
+  FundamentalMaterial next = s.fundamental.value_or(FundamentalMaterial{});
+  if (c.w1) next.w1 = *c.w1;
+  if (c.w2) next.w2 = *c.w2;
+  auto checked = validated_weights(next);
   if (!checked) return std::unexpected(checked.error());
   return *checked;
 }
@@ -158,7 +178,8 @@ std::span<const Choice> choices(LengthUnit) {
 std::span<const Choice> choices(MaterialModel) {
   static constexpr Choice list[] = {
       {"linear", MaterialModel::linear, "the active model"},
-      {"shell", MaterialModel::shell, "Koiter's shell, for static steps ([shell.md](shell.md))"}};
+      {"shell", MaterialModel::shell, "Koiter's shell, for static steps ([shell.md](shell.md))"},
+      {"fundamental", MaterialModel::fundamental, "keeps both fundamental forms, for static steps (thesis Eq. 3.42)"}};
   return list;
 }
 
@@ -233,6 +254,10 @@ void describe(MaterialCommand& c, Fields& fields) {
   fields.add("thickness", c.thickness, {.help = "of a shell", .unit = Unit::length});
   fields.add("density", c.density,
              {.help = "of a shell: mass per volume, for `load` gravity", .fallback = "as it was, at first 0"});
+  fields.add("w1", c.w1,
+             {.help = "of `fundamental`: weights of the first form, 11, 12, 22; per du dv of the knots as they are",
+              .fallback = "as it was, at first 1"});
+  fields.add("w2", c.w2, {.help = "of the second form", .fallback = "as it was, at first 1"});
 }
 
 void read_as_version_1(MaterialCommand& c) {
@@ -268,7 +293,10 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
     if (auto checked = validated<2>(*next); !checked) return std::unexpected(checked.error());
     const auto shell = shell_of(c, s);
     if (!shell) return std::unexpected(shell.error());
+    const auto fundamental = fundamental_of(c, s);
+    if (!fundamental) return std::unexpected(fundamental.error());
     s.shell = *shell;
+    s.fundamental = *fundamental;
     s.material = std::move(*next);
     s.plastic = plastic_of(c, preset, s.plastic);
   }

@@ -7,8 +7,8 @@ namespace knead {
 /// Materials that there are by name.
 enum class MaterialPreset { clay, wax, rubber, sheet_metal, cloth, membrane };
 
-/// What resists: the linear active model, or a shell.
-enum class MaterialModel { linear, shell };
+/// What resists: the linear active model, a shell, or the fundamental forms of a surface.
+enum class MaterialModel { linear, shell, fundamental };
 
 /// What lengths of a material are counted in.
 enum class LengthUnit { radii, file };
@@ -45,6 +45,7 @@ struct MaterialCommand {
   std::optional<LengthUnit> lengths;  ///< default: radii
   std::optional<MaterialModel> model;
   std::optional<double> young, poisson, thickness, density;  ///< of a shell, in units of the file
+  std::optional<std::array<double, 3>> w1, w2;               ///< of the fundamental forms, in the order 11, 12, 22
 };
 
 template <>

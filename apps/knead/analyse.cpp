@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli.hpp"
+#include "knead/exchange/field_grid.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/scene/shell_fields.hpp"
+#include "outputs.hpp"
+#include "run_script.hpp"
+
+namespace knead::cli {
+namespace {
+
+struct AnalyseArguments {
+  std::string file, script, results, vtu;
+  bool fresh = false;
+  int samples = 41;
+};
+
+/// The shapes of modes on the control points of one selected surface, which begin at a row of theirs.
+std::vector<std::pair<std::string, Points>> shapes_on(const SessionState& state, Eigen::Index first,
+                                                      Eigen::Index count) {
+  std::vector<std::pair<std::string, Points>> shapes;
+  const auto append = [&](const char* name, const std::vector<ModeRecord>& modes) {
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      if (modes[k].shape.rows() < first + count) continue;  // of another selection, or another net
+      shapes.emplace_back(fmt::format("{}_{}", name, k + 1), modes[k].shape.middleRows(first, count));
+    }
+  };
+  append("mode", state.modes);
+  append("buckling", state.buckling);
+  return shapes;
+}
+
+Expected<std::vector<FieldGrid>> grids_of(const SessionState& state, int samples) {
+  std::vector<FieldGrid> grids;
+  Eigen::Index first = 0;
+  for (const int index : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    const Eigen::Index count = s.current->size();
+    auto grid = result_grid(s, samples, shapes_on(state, first, count));
+    if (!grid) return std::unexpected(grid.error().within(s.id));
+    grids.push_back(std::move(*grid));
+    first += count;
+  }
+  return grids;
+}
+
+std::string joined(const std::vector<double>& values) {
+  std::string text;
+  for (const double x : values) text += (text.empty() ? "" : ",") + json_number(x);
+  return "[" + text + "]";
+}
+
+Expected<std::string> results_json(const SessionState& state, std::span<const FieldGrid> grids) {
+  std::string text = "{\"surfaces\":[";
+  for (const FieldGrid& grid : grids) {
+    text += fmt::format("{}\n {{\"id\":{},\"counts\":[{},{}],\n  \"points\":{}", &grid == grids.data() ? "" : ",",
+                        nlohmann::json(grid.name).dump(), grid.counts[0], grid.counts[1],
+                        joined({grid.points.data(), grid.points.data() + grid.points.size()}));
+    for (const GridField& field : grid.fields) text += fmt::format(",\n  \"{}\":{}", field.name, joined(field.values));
+    text += "}";
+  }
+  text += "]";
+  const SceneSurface& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
+  if (s.nonlinear()) {
+    const auto reactions = hold_reactions(state);
+    if (!reactions) return std::unexpected(reactions.error());
+    text += ",\n\"reactions\":[";
+    for (const HoldReaction& r : *reactions) {
+      text += fmt::format("{}\n {{\"hold\":{},\"force\":{}}}", &r == reactions->data() ? "" : ",",
+                          nlohmann::json(r.hold).dump(), joined({r.force[0], r.force[1], r.force[2]}));
+    }
+    text += "]";
+  }
+  return text + modes_json(state) + "}\n";
+}
+
+void print_summary(const AnalyseArguments& options, const SessionState& state, std::span<const FieldGrid> grids) {
+  for (const FieldGrid& grid : grids) {
+    fmt::print("{}: surface {}\n", options.fresh ? options.script : options.file, grid.name);
+    for (const GridField& field : grid.fields) {
+      if (field.name != "von_mises") continue;
+      fmt::print("  von Mises stress up to {:.6g}\n", *std::ranges::max_element(field.values));
+    }
+  }
+  for (const ModeRecord& mode : state.modes) fmt::print("  frequency {:.6g}\n", mode.value);
+  for (const ModeRecord& mode : state.buckling) fmt::print("  buckles at {:.6g} times the load\n", mode.value);
+}
+
+Expected<void> run(const AnalyseArguments& options) {
+  const NamedFile file{"FILE", options.file}, script{"--script", options.script};
+  if (auto possible = check_outputs({{"--results", options.results}, {"--vtu", options.vtu}}, {file, script});
+      !possible) {
+    return possible;
+  }
+  if (auto one = check_source(options.file, options.fresh); !one) return one;
+  if (options.samples < 2 || options.samples > 1000) {
+    return usage_error(fmt::format("{} samples", options.samples), "--samples", "use 2 to 1000");
+  }
+  const auto commands = read_script(options.script);
+  if (!commands) return std::unexpected(commands.error());
+  auto document = open_document(options.file, options.fresh);
+  if (!document) return std::unexpected(document.error());
+  Session session(std::move(*document));
+  if (auto done = execute(session, *commands); !done) return done;
+  if (!session.state().selected) return input_error("no surface is selected", options.script, "select one");
+  const auto grids = grids_of(session.state(), options.samples);
+  if (!grids) return std::unexpected(grids.error());
+  const auto json = results_json(session.state(), *grids);
+  if (!json) return std::unexpected(json.error());
+  print_summary(options, session.state(), *grids);
+  if (!options.vtu.empty()) {
+    if (auto done = write_file_atomically(options.vtu, vtu_text(*grids)); !done) return done;
+    fmt::print("wrote {}\n", options.vtu);
+  }
+  if (auto done = write_file_atomically(options.results, *json); !done) return done;
+  fmt::print("wrote {}\n", options.results);
+  return {};
+}
+
+}  // namespace
+
+Action add_analyse(CLI::App& app) {
+  auto options = std::make_shared<AnalyseArguments>();
+  CLI::App* command =
+      app.add_subcommand("analyse", "run a script and write stresses, reactions, modes and buckling loads");
+  command->add_option("FILE", options->file, "CAD file to analyse; it is not changed")->type_name("");
+  command->add_flag("--new", options->fresh, "start without a FILE: the script makes surfaces with the command new");
+  command->add_option("--script", options->script, "JSON file with the commands, as for sculpt")->required();
+  command->add_option("--results", options->results, "JSON file for the results, see below")->required();
+  command->add_option("--vtu", options->vtu, "VTU file with the same fields, for ParaView");
+  command->add_option("--samples", options->samples, "points per direction of each surface")->capture_default_str();
+  command->footer(
+      R"(The results are {"surfaces": [{"id", "counts", "points", "displacement", and of shells "membrane", "moment", "von_mises",
+"bending_strain", and after modes and buckling "mode_1", ..., "buckling_1", ...}], "reactions": [{"hold", "force"}],
+"modes": [{"frequency", "residual"}], "buckling": [{"load_factor", "residual"}]} of the selected surfaces. Fields are lists
+of numbers, point after point, the last direction fastest: principal membrane forces and bending moments, von Mises stresses
+on both faces, the largest strain that bending adds, displacements from the rest shape. Units are those of the script.
+)" + std::string(exit_codes));
+  return [options] { return run(*options); };
+}
+
+}  // namespace knead::cli

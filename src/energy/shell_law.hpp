@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <variant>
+
+#include "knead/energy/shell_energy.hpp"
+#include "shell_point.hpp"
+
+namespace knead::detail {
+
+/// What an energy makes of the geometry of a rest shape: the measure per du dv, and stress resultants per strain.
+struct ShellLaw {
+  std::variant<ShellMaterial, FundamentalMaterial> material;
+
+  [[nodiscard]] double measure(const ShellPoint& rest) const {
+    return std::holds_alternative<ShellMaterial>(material) ? rest.area : 1;
+  }
+  /// The energy per measure is quadratic in ε and κ, written 11, 22, 2·12.
+  [[nodiscard]] std::array<Eigen::Matrix3d, 2> stiffness(const ShellPoint& rest) const {
+    if (const auto* shell = std::get_if<ShellMaterial>(&material)) {
+      const double t = shell->thickness;
+      const Eigen::Matrix3d elastic = plane_stress(rest.inverse, shell->young, shell->poisson);
+      return {t * elastic, t * t * t / 12 * elastic};
+    }
+    const auto& [w1, w2] = std::get<FundamentalMaterial>(material);
+    return {Eigen::Vector3d(8 * w1[0], 8 * w1[2], 4 * w1[1]).asDiagonal(),
+            Eigen::Vector3d(2 * w2[0], 2 * w2[2], w2[1]).asDiagonal()};
+  }
+  [[nodiscard]] double mass() const {
+    const auto* shell = std::get_if<ShellMaterial>(&material);
+    return shell != nullptr ? shell->density * shell->thickness : 0;
+  }
+};
+
+}  // namespace knead::detail

@@ -1,0 +1,60 @@
+#include "structural_modes.hpp"
+
+#include "knead/scene/model.hpp"
+#include "knead/solve/shell_statics.hpp"
+#include "shell_model.hpp"
+
+namespace knead {
+namespace {
+
+const SceneSurface& selected_surface_of(const Scene& scene) {
+  return scene.surfaces[static_cast<std::size_t>(*scene.selected)];
+}
+
+}  // namespace
+
+Expected<std::vector<Eigenmode>> natural_modes(const Scene& scene, int count) {
+  const SceneSurface& s = selected_surface_of(scene);
+  if (s.nonlinear()) {
+    const auto problem = shell_problem(scene);
+    if (!problem) return std::unexpected(problem.error());
+    const Points& x = s.current->control_points();
+    SparseMatrix stiffness = problem->energy.hessian(x);
+    for (const EdgeMoment& moment : problem->moments) stiffness -= moment.stiffness(x);
+    return vibration_modes(stiffness, on_coordinates(problem->energy.mass()), problem->constraints, count);
+  }
+  // Modes do not depend on how steps are made; a large lambda gives a model for anything that can be stepped.
+  EvolutionPolicy any;
+  any.lambda = 1e6;
+  const auto made = make_model(model_input(scene, any));
+  if (!made) return std::unexpected(made.error());
+  return made->model.modes(count);
+}
+
+Expected<std::vector<Eigenmode>> linear_buckling(const Scene& scene, int count) {
+  const SceneSurface& s = selected_surface_of(scene);
+  if (!s.nonlinear()) {
+    return input_error("the linear model does not buckle", "model",
+                       R"(give {"do":"material","model":"shell"} with young and thickness)");
+  }
+  const auto problem = shell_problem(scene);
+  if (!problem) return std::unexpected(problem.error());
+  const Points& rest = s.rest->control_points();
+  Points load = problem->load;
+  for (const EdgeMoment& moment : problem->moments) load += moment.forces(rest);
+  const auto displacement = linear_displacement(problem->energy, rest, problem->constraints, load);
+  if (!displacement) return std::unexpected(displacement.error());
+  if (displacement->isZero(0)) {
+    return input_error("nothing loads the shell", "load", "give a load or a force; factors are multiples of it");
+  }
+  const ShellStress none = ShellStress::Zero(6, problem->energy.stress(rest).cols());
+  const SparseMatrix stiffness = problem->energy.hessian(rest, none);
+  const SparseMatrix geometric = problem->energy.hessian(rest, problem->energy.stress(rest, *displacement)) - stiffness;
+  auto modes = buckling_modes(stiffness, geometric, problem->constraints, count);
+  if (modes && modes->empty()) {
+    return input_error("no multiple of the load buckles the shell", "load", "loads that only pull do not");
+  }
+  return modes;
+}
+
+}  // namespace knead

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "../command_fields.hpp"
+
+namespace knead {
+
+/// Finds the lowest factors of the present loads at which the selected shell buckles: `"buckling": [{"load_factor",
+/// "residual"}]` of the report. Changes nothing else: it is no part of the history.
+struct BucklingCommand {
+  int count = 3;
+};
+
+template <>
+Expected<void> Executor::execute(const BucklingCommand& c);
+void describe(BucklingCommand& c, Fields& fields);
+
+}  // namespace knead

@@ -1,0 +1,269 @@
+#include "knead/solve/eigenmodes.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+
+#include "coordinate_map.hpp"
+#include "eigen_problem.hpp"
+
+// Not Spectra: its headers throw, and the core is compiled without exceptions; and its Lanczos iterations have one
+// starting vector, which may miss copies of multiple eigenvalues, as those of square plates and round cans.
+
+namespace knead {
+namespace {
+
+constexpr double wanted_residual = 1e-10;
+constexpr Eigen::Index block_size = 8, most_vectors = 400;
+constexpr double relative_shift = 1e-9;
+constexpr double dependent = 1e-12;  // what a vector must keep of its length when others are subtracted from it
+
+/// Numbers in (−1, 1) of the 64-bit linear congruential sequence of Knuth's MMIX.
+class Sequence {
+ public:
+  double next() {
+    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<double>(static_cast<std::int64_t>(state_)) * 0x1p-63;
+  }
+
+ private:
+  std::uint64_t state_ = 1;
+};
+
+/// Which eigenvalues θ of the operator are sought: the largest magnitudes, or the largest above 0.
+enum class Wanted { largest, positive };
+
+struct RitzPairs {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+
+/// Block Lanczos for the operator A⁻¹ C, symmetric in the inner product of P.
+class Lanczos {
+ public:
+  Lanczos(const Eigen::SimplicialLDLT<SparseMatrix>& a, const SparseMatrix& c, const SparseMatrix& p)
+      : a_(a), c_(c), p_(p), most_(std::min(most_vectors, p.rows())), basis_(p.rows(), most_), t_(most_, most_) {
+    t_.setZero();
+  }
+
+  /// The wanted pairs that converged, best first, `count` at most.
+  RitzPairs find(Eigen::Index count, Wanted wanted) {
+    count = std::min(count, most_);
+    Eigen::MatrixXd next(p_.rows(), std::min(std::max(block_size, count / 2), most_));
+    for (double& x : next.reshaped()) x = sequence_.next();
+    orthonormalise(next);
+    while (true) {
+      const Eigen::Index first = size_, width = append(next);
+      next = a_.solve(Eigen::MatrixXd(c_ * basis_.middleCols(first, width)));
+      for (int pass = 0; pass < 2; ++pass) {  // twice is enough
+        const Eigen::MatrixXd h = basis_.leftCols(size_).transpose() * (p_ * next);
+        next.noalias() -= basis_.leftCols(size_) * h;
+        t_.block(0, first, size_, width) += h;
+      }
+      t_.block(first, 0, width, first) = t_.block(0, first, first, width).transpose();
+      const Eigen::MatrixXd r = orthonormalise(next);
+      const RitzPairs found = converged(count, wanted, r, first, width);
+      const bool exhausted = size_ == most_ || next.cols() == 0;
+      if (found.values.size() >= count || exhausted) return found;
+    }
+  }
+
+ private:
+  Eigen::Index append(const Eigen::MatrixXd& block) {
+    const Eigen::Index width = std::min(block.cols(), most_ - size_);
+    basis_.middleCols(size_, width) = block.leftCols(width);
+    size_ += width;
+    return width;
+  }
+
+  /// Replaces columns by orthonormal ones of the same span and returns R of the product; columns that depend on others
+  /// are left out.
+  Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& block) {
+    Eigen::MatrixXd r = Eigen::MatrixXd::Zero(block.cols(), block.cols());
+    Eigen::Index kept = 0;
+    double largest = 0;
+    for (Eigen::Index j = 0; j < block.cols(); ++j) {
+      Eigen::VectorXd x = block.col(j);
+      const double before = length(x);
+      largest = std::max(largest, before);
+      for (int pass = 0; pass < 2; ++pass) {
+        const Eigen::VectorXd h = block.leftCols(kept).transpose() * (p_ * x);
+        x.noalias() -= block.leftCols(kept) * h;
+        r.block(0, j, kept, 1) += h;
+      }
+      // Rounding leaves parts along the vectors before.
+      if (size_ > 0) x.noalias() -= basis_.leftCols(size_) * (basis_.leftCols(size_).transpose() * (p_ * x)).eval();
+      const double left = length(x);
+      if (!(left > dependent * largest) || left == 0) continue;
+      r(kept, j) = left;
+      block.col(kept++) = x / left;
+    }
+    block.conservativeResize(Eigen::NoChange, kept);
+    return r.topRows(kept).eval();
+  }
+
+  [[nodiscard]] double length(const Eigen::VectorXd& x) const { return std::sqrt(std::max(0.0, x.dot(p_ * x))); }
+
+  [[nodiscard]] RitzPairs converged(Eigen::Index count, Wanted wanted, const Eigen::MatrixXd& r, Eigen::Index first,
+                                    Eigen::Index width) const {
+    const Eigen::MatrixXd t = t_.topLeftCorner(size_, size_);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz((t + t.transpose()) / 2);
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(size_));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    const Eigen::VectorXd& theta = ritz.eigenvalues();
+    std::ranges::stable_sort(order, [&](Eigen::Index i, Eigen::Index j) {
+      return wanted == Wanted::positive ? theta[i] > theta[j] : std::abs(theta[i]) > std::abs(theta[j]);
+    });
+    const double largest = theta.cwiseAbs().maxCoeff();
+    std::vector<Eigen::Index> good;
+    for (const Eigen::Index i : order) {
+      if (static_cast<Eigen::Index>(good.size()) == count) break;
+      if (wanted == Wanted::positive && theta[i] <= dependent * largest) break;
+      const double error = r.rows() == 0 ? 0 : (r * ritz.eigenvectors().col(i).segment(first, width)).norm();
+      if (error > wanted_residual * std::abs(theta[i])) break;  // in order, so that none is skipped
+      good.push_back(i);
+    }
+    RitzPairs result;
+    result.values.resize(static_cast<Eigen::Index>(good.size()));
+    result.vectors.resize(basis_.rows(), result.values.size());
+    for (Eigen::Index k = 0; k < result.values.size(); ++k) {
+      const Eigen::Index i = good[static_cast<std::size_t>(k)];
+      result.values[k] = theta[i];
+      result.vectors.col(k) = basis_.leftCols(size_) * ritz.eigenvectors().col(i);
+    }
+    return result;
+  }
+
+  const Eigen::SimplicialLDLT<SparseMatrix>& a_;
+  const SparseMatrix &c_, &p_;
+  Eigen::Index most_, size_ = 0;
+  Eigen::MatrixXd basis_, t_;
+  Sequence sequence_;
+};
+
+/// The displacement x = T y, its longest row of length 1.
+Points shape_of(const SparseMatrix& map, const Eigen::VectorXd& y) {
+  const Eigen::VectorXd x = map * y;
+  Points shape = Eigen::Map<const Points>(x.data(), x.size() / 3, 3);
+  const double largest = shape.rowwise().norm().maxCoeff();
+  if (largest > 0) shape /= largest;
+  return shape;
+}
+
+Expected<void> check(const SparseMatrix& a, const SparseMatrix& b, const SparseMatrix& map, int count) {
+  if (count < 1) return input_error(fmt::format("{} is not a number of modes", count), "count", "use 1 or more");
+  if (a.rows() != b.rows() || a.rows() != map.rows()) {
+    return input_error("the matrices are of different sizes", "modes", "give 3 rows per control point");
+  }
+  if (map.cols() == 0) return input_error("everything is held", "modes", "leave something free to move");
+  return {};
+}
+
+Expected<SparseMatrix> map_of(Eigen::Index coordinates, std::span<const LinearConstraint> constraints) {
+  auto space = ConstraintSpace::create(static_cast<int>(coordinates / 3), constraints);
+  if (!space) return std::unexpected(space.error());
+  return coordinate_map(*space);
+}
+
+SparseMatrix restricted(const SparseMatrix& a, const SparseMatrix& map) { return map.transpose() * a * map; }
+
+double trace(const SparseMatrix& a) { return a.diagonal().sum(); }
+
+}  // namespace
+
+SparseMatrix coordinate_map(const ConstraintSpace& space) {
+  std::vector<int> all(static_cast<std::size_t>(space.size()));
+  std::iota(all.begin(), all.end(), 0);
+  const int copies = space.coupled() ? 1 : 3;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const ConstraintSpace::Term& term : space.terms(all)) {
+    for (int c = 0; c < copies; ++c) {
+      entries.emplace_back(copies * term.row + c, copies * term.unknown + c, term.coefficient);
+    }
+  }
+  SparseMatrix map(3 * space.size(), copies * space.free_count());
+  map.setFromTriplets(entries.begin(), entries.end());
+  return map;
+}
+
+SparseMatrix on_coordinates(const SparseMatrix& scalar) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(3 * scalar.nonZeros()));
+  for (int j = 0; j < scalar.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator it(scalar, j); it; ++it) {
+      for (int c = 0; c < 3; ++c) entries.emplace_back(3 * static_cast<int>(it.row()) + c, 3 * j + c, it.value());
+    }
+  }
+  SparseMatrix result(3 * scalar.rows(), 3 * scalar.cols());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+Expected<std::vector<Eigenmode>> mapped_vibration_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
+                                                        const SparseMatrix& map, int count) {
+  if (auto ok = check(stiffness, mass, map, count); !ok) return std::unexpected(ok.error());
+  const SparseMatrix k = restricted(stiffness, map), m = restricted(mass, map);
+  if (!(trace(m) > 0)) return input_error("there is no mass", "density", "give the material a density > 0");
+  const double shift = relative_shift * std::max(trace(k), 0.0) / trace(m);
+  const SparseMatrix shifted = k + shift * m;
+  Eigen::SimplicialLDLT<SparseMatrix> solver(shifted);
+  if (solver.info() != Eigen::Success) {
+    return numerical_error("the stiffness cannot be factored", "modes",
+                           "look for folds, and for a load that buckles it");
+  }
+  const auto wanted = std::min<Eigen::Index>(count, map.cols());
+  const RitzPairs pairs = Lanczos(solver, m, m).find(wanted, Wanted::largest);
+  if (pairs.values.size() < wanted) {
+    return numerical_error(fmt::format("{} of {} modes converged", pairs.values.size(), wanted), "count",
+                           "ask for fewer");
+  }
+  std::vector<Eigenmode> modes;
+  for (Eigen::Index i = 0; i < wanted; ++i) {
+    const Eigen::VectorXd y = pairs.vectors.col(i), ky = k * y, my = m * y;
+    const double value = y.dot(ky) / y.dot(my);
+    modes.push_back({value, (ky - value * my).norm() / (ky + shift * my).norm(), shape_of(map, y)});
+  }
+  std::ranges::stable_sort(modes, {}, &Eigenmode::value);
+  return modes;
+}
+
+Expected<std::vector<Eigenmode>> mapped_buckling_modes(const SparseMatrix& stiffness, const SparseMatrix& geometric,
+                                                       const SparseMatrix& map, int count) {
+  if (auto ok = check(stiffness, geometric, map, count); !ok) return std::unexpected(ok.error());
+  const SparseMatrix k = restricted(stiffness, map), g = -restricted(geometric, map);
+  Eigen::SimplicialLDLT<SparseMatrix> solver(k);
+  if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 1e-15 * solver.vectorD().maxCoeff())) {
+    return numerical_error("the structure moves without strain, or is unstable without its load", "buckling",
+                           "hold it so that no rigid motion is left");
+  }
+  const RitzPairs pairs = Lanczos(solver, g, k).find(std::min<Eigen::Index>(count, map.cols()), Wanted::positive);
+  std::vector<Eigenmode> modes;
+  for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
+    const Eigen::VectorXd y = pairs.vectors.col(i), ky = k * y, gy = g * y;
+    const double value = y.dot(ky) / y.dot(gy);
+    modes.push_back({value, (ky - value * gy).norm() / ky.norm(), shape_of(map, y)});
+  }
+  return modes;
+}
+
+Expected<std::vector<Eigenmode>> vibration_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
+                                                 std::span<const LinearConstraint> constraints, int count) {
+  const auto map = map_of(stiffness.rows(), constraints);
+  if (!map) return std::unexpected(map.error());
+  return mapped_vibration_modes(stiffness, mass, *map, count);
+}
+
+Expected<std::vector<Eigenmode>> buckling_modes(const SparseMatrix& stiffness, const SparseMatrix& geometric,
+                                                std::span<const LinearConstraint> constraints, int count) {
+  const auto map = map_of(stiffness.rows(), constraints);
+  if (!map) return std::unexpected(map.error());
+  return mapped_buckling_modes(stiffness, geometric, *map, count);
+}
+
+}  // namespace knead
