@@ -41,7 +41,7 @@ Expected<std::vector<double>> inner(const DisplayInput& input) {
 }
 
 Expected<std::vector<double>> bending(const DisplayInput& input) {
-  return of_shell(input, [](const ShellPointResults& r) { return r.bending_strain; });
+  return of_shell(input, [](const ShellPointResults& r) { return 100 * r.bending_strain; });
 }
 
 Display stress(std::string_view name, std::string_view title, std::string_view help,
@@ -63,19 +63,19 @@ Display von_mises_display() {
 }
 
 Display von_mises_outer_display() {
-  return stress("von_mises_outer", "Von Mises stress, outer face",
+  return stress("von_mises_outer", "Von Mises stress outside",
                 "Of shells: the stress on the face that the normal leaves.", outer);
 }
 
 Display von_mises_inner_display() {
-  return stress("von_mises_inner", "Von Mises stress, inner face",
+  return stress("von_mises_inner", "Von Mises stress inside",
                 "Of shells: the stress on the face that the normal enters.", inner);
 }
 
 Display bending_strain_display() {
   Display display = stress("bending_strain", "Bending strain",
                            "Of shells: half the thickness times the largest change of curvature.", bending);
-  display.unit = "";
+  display.unit = "%";
   return display;
 }
 
