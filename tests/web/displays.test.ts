@@ -17,11 +17,13 @@ async function session(...commands: Command[]): Promise<Engine> {
 }
 const values = (engine: Engine, display: string, settings?: Record<string, SettingValue>) => [...engine.picture(0, 20, { display, settings }).values];
 
+const ofShells = ['von_mises', 'von_mises_outer', 'von_mises_inner', 'bending_strain'];
+
 describe('displays', () => {
   it('are described: a name of their own, a title, a unit and a help each', async () => {
     const all = (await session()).displays();
     expect(new Set(all.map((d) => d.name)).size).toBe(all.length);
-    expect(all.map((d) => d.name)).toEqual(['deviation', 'mean', 'gaussian', 'largest', 'draft', 'thickness', 'gap', 'energy', 'mask']);
+    expect(all.map((d) => d.name)).toEqual(['deviation', 'mean', 'gaussian', 'largest', 'draft', 'thickness', 'gap', 'energy', ...ofShells, 'mask']);
     for (const d of all) {
       for (const text of [d.title, d.unit, d.help]) expect(text, d.name).not.toBe('');
       expect(d.palette, d.name).toBe(d.signed ? 'diverging' : 'rising');
@@ -38,7 +40,7 @@ describe('displays', () => {
       const { counts, values: found } = engine.picture(0, 20, { display: name });
       expect(found.length, name).toBe(counts[0] * counts[1]);
       expect(found.every(Number.isFinite), name).toBe(true);
-      if (name === 'thickness') { // there is nothing behind a sheet
+      if (name === 'thickness' || ofShells.includes(name)) { // there is nothing behind a sheet, and it is no shell
         expect(Math.max(...found), name).toBeLessThan(-1e20);
         continue;
       }
@@ -46,6 +48,16 @@ describe('displays', () => {
       expect(Math.max(...found.map(Math.abs)), name).toBeGreaterThan(0);
     }
     expect(engine.picture(0, 20).values.length).toBe(0);
+  });
+
+  it('of shells give the stresses of a strip that is bent by its end moment', async () => {
+    const engine = await session({ do: 'new', size: [10, 1], net: [12, 4] }, { do: 'edge', which: 'u0', hold: 'clamped' },
+      { do: 'material', model: 'shell', young: 1.2e6, thickness: 0.1 }, { do: 'evolve', mode: 'static' },
+      { do: 'force', kind: 'moment', edge: 'u1', moment: 1e-3 }, { do: 'step' });
+    for (const name of ofShells.slice(0, 3)) { // 6 m / t², as 32-bit numbers
+      for (const x of values(engine, name)) expect(x, name).toBeCloseTo(0.6, 4);
+    }
+    for (const x of values(engine, 'bending_strain')) expect(x).toBeCloseTo(0.6 / 1.2e4, 8); // in percent
   });
 
   it('that do not exist, and settings that a display does not have, are refused with the ones that exist', async () => {

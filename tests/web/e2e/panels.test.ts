@@ -49,7 +49,7 @@ describe('colours', () => {
     for (const name of names.slice(1)) {
       await menu.selectOption(name);
       await settled(page);
-      expect(await legend().locator('b').textContent(), name).toMatch(/^[A-Z][a-z ]+, \S+$/);
+      expect(await legend().locator('b').textContent(), name).toMatch(/^[A-Z][A-Za-z ]+, \S+$/);
       expect((await values()).every(Number.isFinite), name).toBe(true);
     }
     await menu.selectOption('deviation');

@@ -1,7 +1,8 @@
-import { type EvolveCommand, type LoadCommand, type MaterialCommand, materials } from '../engine/generated';
+import { type EvolveCommand, type LoadCommand, type MaterialCommand, materials, type SurfaceInfo } from '../engine/generated';
 import type { Command } from '../engine/session_types';
 import type { App } from './app';
 import { field, h, title, toggle } from './dom';
+import { modelFields, shellFields } from './model_fields';
 import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 import { energyChart } from './plot';
@@ -10,15 +11,18 @@ export function materialPanel(app: App): HTMLElement {
   const chosen = () => app.state?.surfaces[app.state.selection[0] ?? -1];
   return panel(app, 'Material', () => {
     const s = chosen();
-    return s ? [s.alpha, s.beta, s.mass, s.damping, s.preset, s.plasticity, s.yield, s.locality, s.lengths, s.rest, app.state!.evolve] : null;
+    return s ? [s.alpha, s.beta, s.mass, s.damping, s.preset, s.plasticity, s.yield, s.locality, s.lengths, s.rest, s.shell, s.fundamental, app.state!.evolve] : null;
   }, () => {
     const s = chosen();
     if (!s) return [note('Select a surface.')];
     const set = (change: Partial<MaterialCommand>) => app.offer([{ do: 'material', ...change }]);
     const one = (values: (number | null)[]) => (values[0] === values[2] ? values[0]! : null);
     const chosenMaterial = materials.find((m) => m.name === s.preset);
+    const shell = shellFields(app, s);
+    if (shell) return [...modelFields(app, s), ...shell, restRow(app, s)];
     const counted = s.lengths === 'radii' ? 'in radii of the tool' : 'in units of the file';
     return [
+      ...modelFields(app, s),
       row(...materials.map(({ name, help }) => toggle(title(name), name === s.preset, () => void app.execute([
         { do: 'material', preset: name },
         ...(app.state!.evolve.mode === 'static' ? [{ ...app.state!.evolve, mode: 'acm' } as const] : []),
@@ -32,14 +36,19 @@ export function materialPanel(app: App): HTMLElement {
       field('Bend β', numberInput('Bend', one(s.beta), (b) => set({ beta: [b, b, b] })), 'Resistance to bending (Eq. 4.8)'),
       field('Mass', numberInput('Mass', s.mass, (mass) => set({ mass })), 'Per area: for swinging, and for gravity'),
       field('Damping', numberInput('Damping', s.damping, (damping) => set({ damping })), 'Force per velocity and area: for swinging'),
-      row(
-        toggle('Keeps its shape', s.rest === 'shape', (on) => void app.execute([{ do: 'rest', mode: on ? 'shape' : 'none' }]),
-          'At rest in its own shape; otherwise, as in the thesis, it shrinks without forces'),
-        h('button', { class: 'button small', type: 'button', title: 'The present shape becomes the rest shape',
-          onclick: () => void app.execute([{ do: 'rest', mode: s.rest }]) }, 'Set as rest'),
-      ),
+      restRow(app, s),
     ];
   });
+}
+
+/** What the surface is at rest in. */
+function restRow(app: App, s: SurfaceInfo): HTMLElement {
+  return row(
+    toggle('Keeps its shape', s.rest === 'shape', (on) => void app.execute([{ do: 'rest', mode: on ? 'shape' : 'none' }]),
+      'At rest in its own shape; otherwise, as in the thesis, it shrinks without forces'),
+    h('button', { class: 'button small', type: 'button', title: 'The present shape becomes the rest shape',
+      onclick: () => void app.execute([{ do: 'rest', mode: s.rest }]) }, 'Set as rest'),
+  );
 }
 
 const button = (label: string, title: string, onclick: () => void) => h('button', { class: 'button small', type: 'button', title, onclick }, label);
