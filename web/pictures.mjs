@@ -89,6 +89,19 @@ await pause();
 await page.keyboard.press('f');
 await picture('studio-four-views');
 
+// The bonnet as a sheet of steel, held at its edges, under a load of 100 N.
+await theme('light');
+await scene('Bonnet');
+await page.evaluate(() => window.studio.execute([
+  { do: 'refine', region: [[0, 1], [0, 1]] },
+  { do: 'refine', region: [[0.1, 0.7], [0.2, 0.8]] },
+  { do: 'material', model: 'shell', young: 210000, poisson: 0.3, thickness: 0.8, density: 7.85e-9 },
+  { do: 'force', kind: 'dead', at: [0.4, 0.5], vector: [0, 0, -100] },
+  { do: 'evolve', mode: 'static' }]));
+await page.locator('select[aria-label="Colour by"]').selectOption('von_mises');
+await pause();
+await picture('analysis-stress');
+
 await theme('dark');
 await drawGallery(page, here('../docs/pictures/gallery'));
 
