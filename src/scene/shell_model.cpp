@@ -66,6 +66,12 @@ Expected<std::vector<EdgeMoment>> moments_on(const Scene& scene, const SceneSurf
   std::vector<EdgeMoment> moments;
   for (const SceneForce& f : scene.forces) {
     if (f.surface != *scene.selected || f.kind != PointForceKind::moment) continue;
+    if (std::ranges::any_of(s.constraints, [](const KeptConstraint& kept) {
+          return std::holds_alternative<MirrorSymmetry>(kept.constraint);
+        })) {
+      return input_error("a moment has no mirror image", f.name,
+                         "sculpt one half, with a symmetry of its edge, or release the mirror");
+    }
     for (const SurfaceEdge edge : edges_of(*f.edge)) {
       auto moment = EdgeMoment::create(*s.rest, edge_across(edge), edge_at_end(edge), *f.moment);
       if (!moment) return std::unexpected(moment.error());

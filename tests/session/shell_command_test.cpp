@@ -95,6 +95,17 @@ TEST(ShellCommand, IsUndoneAndInSnapshots) {
   EXPECT_TRUE(same_state(session.state(), before));
 }
 
+TEST(ShellCommand, RefusesMomentsWhereTheyHaveNoMeaning) {
+  Session session = bent_cantilever({R"({"do":"force","name":"turn","kind":"moment","edge":"u1","moment":1e-3})"});
+  EXPECT_EQ(refusal(session, R"({"do":"force","kind":"moment","edge":"u1","moment":1,"vector":[0,0,1]})").where,
+            "vector");
+  EXPECT_EQ(refusal(session, R"({"do":"force","kind":"moment","moment":1})").where, "edge");
+  run(session, {R"({"do":"step"})", R"({"do":"symmetry","mirror":"v"})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "turn");
+  run(session, {R"({"do":"undo"})", R"({"do":"material","model":"linear"})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "turn");
+}
+
 TEST(ShellCommand, NamesWhatIsWrong) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,1],"net":[8,4]})"});
