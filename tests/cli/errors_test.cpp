@@ -143,7 +143,7 @@ TEST(Errors, AnOutputWhoseNamePromisesAnotherFormatIsRefused) {
 
 TEST(Errors, WrongUsageIsNamed) {
   EXPECT_TRUE(fails_with(knead({}), 2, {"--help"}));
-  EXPECT_TRUE(fails_with(knead({"squash"}), 2, {"squash", "info, sculpt, commands, gramian, stiffness"}));
+  EXPECT_TRUE(fails_with(knead({"squash"}), 2, {"squash", "info, sculpt, analyse, commands, gramian, stiffness"}));
   EXPECT_TRUE(fails_with(knead({"info"}), 2, {"FILE", "knead info --help"}));
   EXPECT_TRUE(fails_with(knead({"info", bonnet(), "--colour"}), 2, {"--colour", "knead info --help"}));
   EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "--script", "x"}), 2, {"--output", "knead sculpt --help"}));
