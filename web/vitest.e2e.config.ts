@@ -8,7 +8,7 @@ import { BaseSequencer, type TestSpecification } from 'vitest/node';
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
 /** Begun first, so that the workers end together. */
-const longest = ['random', 'hand', 'documents', 'groove', 'studio'];
+const longest = ['brushes', 'studio', 'hand', 'groove', 'random', 'appearance', 'documents', 'analysis', 'across'];
 
 class LongestFirst extends BaseSequencer {
   override async sort(files: TestSpecification[]): Promise<TestSpecification[]> {

@@ -1,0 +1,272 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli.hpp"
+#include "knead/energy/stiffness.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/exchange/matrix_files.hpp"
+#include "knead/sculpt/loads.hpp"
+
+namespace knead::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MatricesArguments {
+  std::string file, surface, out, knots_u, knots_v, degree = "3,3";
+  std::string alpha = "1,0,1", beta = "0.01,0.01,0.01", load = "0,0,1", units = "raw";
+  double mass = 1, damping = 1;
+  int hold = 0;
+};
+
+constexpr std::array<const char*, 3> indices = {"11", "12", "22"};
+
+template <std::size_t N>
+Expected<std::array<double, N>> list(const std::string& text, const std::string& option) {
+  const auto numbers = parse_numbers(text, option);
+  if (!numbers) return std::unexpected(numbers.error());
+  if (numbers->size() != N) {
+    return usage_error(fmt::format("{} numbers do not fit", numbers->size()), option, fmt::format("write {}", N));
+  }
+  std::array<double, N> result{};
+  std::ranges::copy(*numbers, result.begin());
+  return result;
+}
+
+/// The surface of a file, or a flat one over its own parameters on the knots that are given.
+Expected<Surface> read_shape(const MatricesArguments& options, std::string& id) {
+  if (options.file.empty()) {
+    const auto degree = list<2>(options.degree, "--degree");
+    if (!degree) return std::unexpected(degree.error());
+    std::array<std::optional<KnotVector>, 2> knots;
+    for (std::size_t d = 0; d < 2; ++d) {
+      const std::string option = d == 0 ? "--knots-u" : "--knots-v";
+      auto values = parse_numbers(d == 0 ? options.knots_u : options.knots_v, option);
+      if (!values) return std::unexpected(values.error());
+      auto made = KnotVector::create(static_cast<int>((*degree)[d]), *std::move(values));
+      if (!made) return std::unexpected(made.error().within(option));
+      knots[d] = *std::move(made);
+    }
+    const int m = knots[0]->count(), n = knots[1]->count();
+    Points points(m * n, 3);
+    for (int k = 0; k < m * n; ++k) points.row(k) << knots[0]->greville(k / n), knots[1]->greville(k % n), 0;
+    return Surface::create({*knots[0], *knots[1]}, std::move(points));
+  }
+  auto bytes = read_file(options.file);
+  if (!bytes) return std::unexpected(std::move(bytes.error()));
+  const auto source = open_source(*std::move(bytes), options.file);
+  if (!source) return std::unexpected(source.error());
+  const auto& surfaces = (*source)->surfaces();
+  if (options.surface.empty() && surfaces.size() != 1) {
+    return usage_error(fmt::format("{} has {}", options.file, counted(surfaces.size(), "surface", "surfaces")),
+                       "--surface", "name one; `knead info` lists them");
+  }
+  for (const SourceSurface& s : surfaces) {
+    if (!options.surface.empty() && s.id != options.surface) continue;
+    id = s.id;
+    return *s.surface;
+  }
+  return input_error(fmt::format("there is no surface \"{}\"", options.surface), "--surface",
+                     "`knead info` lists those of the file");
+}
+
+/// Rows and columns of the unknowns that are free.
+SparseMatrix reduced(const SparseMatrix& matrix, const std::vector<std::int64_t>& free) {
+  if (static_cast<Eigen::Index>(free.size()) == matrix.rows()) return matrix;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<int> place(static_cast<std::size_t>(matrix.rows()), -1);
+  for (std::size_t k = 0; k < free.size(); ++k) place[static_cast<std::size_t>(free[k])] = static_cast<int>(k);
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (SparseMatrix::InnerIterator at(matrix, column); at; ++at) {
+      const int i = place[static_cast<std::size_t>(at.row())], j = place[static_cast<std::size_t>(column)];
+      if (i >= 0 && j >= 0) entries.emplace_back(i, j, at.value());
+    }
+  }
+  SparseMatrix result(static_cast<Eigen::Index>(free.size()), static_cast<Eigen::Index>(free.size()));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+/// Writes the files of a directory, and lists them.
+class Writer {
+ public:
+  explicit Writer(std::filesystem::path directory) : directory_(std::move(directory)) {}
+
+  Expected<void> file(const std::string& name, const Expected<std::string>& bytes) {
+    if (!bytes) return std::unexpected(bytes.error());
+    return write_file_atomically((directory_ / name).string(), *bytes);
+  }
+
+  Expected<void> matrix(const std::string& name, const std::string& formula, const SparseMatrix& matrix) {
+    if (auto done = file(name + ".mtx", matrix_market(matrix, true)); !done) return done;
+    if (auto done = file(name + ".npz", npz(matrix)); !done) return done;
+    written.push_back({{"name", name},
+                       {"formula", formula},
+                       {"files", {name + ".mtx", name + ".npz"}},
+                       {"rows", matrix.rows()},
+                       {"columns", matrix.cols()},
+                       {"entries", matrix.nonZeros()}});
+    return {};
+  }
+
+  Expected<void> array(const std::string& name, const std::string& formula, const Expected<std::string>& bytes) {
+    written.push_back({{"name", name}, {"formula", formula}, {"files", {name + ".npy"}}});
+    return file(name + ".npy", bytes);
+  }
+
+  Json written = Json::array();
+
+ private:
+  std::filesystem::path directory_;
+};
+
+struct Model {
+  Surface shape;
+  DomainScaling<2> scaling;
+  std::vector<std::int64_t> free;  // unknowns that are not held
+};
+
+Expected<void> write_operator(const Model& model, const std::string& name, const std::string& formula,
+                              const Energy<2>& energy, Writer& writer) {
+  const auto made = Stiffness<2>::create(model.shape, on_scaled_domain<2>(energy, model.scaling.factors));
+  if (!made) return std::unexpected(made.error());
+  return writer.matrix(name, formula, reduced(made->assemble(), model.free));
+}
+
+Expected<void> write_stiffness(const Model& model, const Material& material, Writer& writer) {
+  auto done = write_operator(model, "K", "the sum of the terms below, each times its coefficient",
+                             stretch_and_bend(material), writer);
+  constexpr std::array<const char*, 6> formulas = {"int R_i,s R_j,s",     "int R_i,s R_j,t + R_i,t R_j,s",
+                                                   "int R_i,t R_j,t",     "int R_i,ss R_j,ss",
+                                                   "2 int R_i,st R_j,st", "int R_i,tt R_j,tt"};
+  for (std::size_t k = 0; done && k < 6; ++k) {
+    Material one;
+    one.alpha = one.beta = {0, 0, 0};
+    (k < 3 ? one.alpha : one.beta)[k % 3] = 1;
+    done = write_operator(model, fmt::format("K_{}{}", k < 3 ? "alpha" : "beta", indices[k % 3]), formulas[k],
+                          stretch_and_bend(one), writer);
+  }
+  return done;
+}
+
+Expected<void> run(const MatricesArguments& options) {
+  if (options.file.empty() == (options.knots_u.empty() || options.knots_v.empty())) {
+    return usage_error("neither a file nor knots, or both, are given", "FILE",
+                       "name a CAD file, or give --degree, --knots-u and --knots-v");
+  }
+  if (options.units != "raw" && options.units != "normalised") {
+    return usage_error(fmt::format("\"{}\" is no kind of units", options.units), "--units", "write raw or normalised");
+  }
+  const auto alpha = list<3>(options.alpha, "--alpha"), beta = list<3>(options.beta, "--beta");
+  const auto load = list<3>(options.load, "--load");
+  if (!alpha || !beta || !load) return std::unexpected(!alpha ? alpha.error() : !beta ? beta.error() : load.error());
+  const auto material = validated({*alpha, *beta});
+  if (!material) return std::unexpected(material.error());
+  std::string id;
+  auto shape = read_shape(options, id);
+  if (!shape) return std::unexpected(shape.error());
+  const auto [m, n] = shape->net();
+  if (options.hold < 0 || 2 * options.hold >= std::min(m, n)) {
+    return usage_error(fmt::format("{} rows on each side leave nothing of {} x {}", options.hold, m, n), "--hold",
+                       "hold fewer");
+  }
+  Model model{*std::move(shape), {}, {}};
+  if (options.units == "normalised") {
+    const auto scaling = normalised_scaling<2>(model.shape);
+    if (!scaling) return std::unexpected(scaling.error());
+    model.scaling = *scaling;
+  }
+  for (int k = 0; k < m * n; ++k) {
+    const int i = k / n, j = k % n, h = options.hold;
+    if (i >= h && i < m - h && j >= h && j < n - h) model.free.push_back(k);
+  }
+  std::error_code problem;
+  std::filesystem::create_directories(options.out, problem);
+  if (problem) return input_error("the directory cannot be made: " + problem.message(), "--out", "name another one");
+
+  Writer writer(options.out);
+  if (auto done = write_stiffness(model, *material, writer); !done) return done;
+  if (auto done = write_operator(model, "M", "mass int R_i R_j", mass_energy<2>(options.mass), writer); !done)
+    return done;
+  if (auto done = write_operator(model, "D", "damping int R_i R_j", mass_energy<2>(options.damping), writer); !done) {
+    return done;
+  }
+  const Point force((*load)[0], (*load)[1], (*load)[2]);
+  const auto nodal = load_forces<2>(model.shape, model.scaling, [&](const std::array<double, 2>&) { return force; });
+  if (!nodal) return std::unexpected(nodal.error());
+  Points forces(static_cast<Eigen::Index>(model.free.size()), 3);
+  for (std::size_t k = 0; k < model.free.size(); ++k)
+    forces.row(static_cast<Eigen::Index>(k)) = nodal->row(model.free[k]);
+  if (auto done = writer.array("F", "load int R_i", npy(forces)); !done) return done;
+  if (auto done = writer.array("points", "control points", npy(model.shape.control_points() / model.scaling.length));
+      !done) {
+    return done;
+  }
+  if (auto done = writer.array("free", "unknowns of the rows, of all m n", npy(model.free)); !done) return done;
+
+  Json knots = Json::array();
+  for (int d = 0; d < 2; ++d) {
+    const auto values = model.shape.knots(d).knots();
+    knots.push_back(std::vector<double>(values.begin(), values.end()));
+  }
+  const auto weights = model.shape.weights();
+  const Json description = {
+      {"file", options.file},
+      {"surface", id},
+      {"degree", {model.shape.knots(0).degree(), model.shape.knots(1).degree()}},
+      {"net", {m, n}},
+      {"knots", std::move(knots)},
+      {"weights", std::vector<double>(weights.begin(), weights.end())},
+      {"ordering", "control point (i, j) of the net m x n is unknown i n + j, from 0; the same for x, y and z"},
+      {"units", options.units},
+      {"length", model.scaling.length},
+      {"factors", model.scaling.factors},
+      {"alpha", *alpha},
+      {"beta", *beta},
+      {"mass", options.mass},
+      {"damping", options.damping},
+      {"load", *load},
+      {"held_rows", options.hold},
+      {"unknowns", model.free.size()},
+      {"matrices", writer.written}};
+  if (auto done = writer.file("matrices.json", description.dump(1) + "\n"); !done) return done;
+  fmt::print("wrote {} matrices and arrays of {} unknowns to {}\n", writer.written.size(), model.free.size(),
+             options.out);
+  return {};
+}
+
+}  // namespace
+
+Action add_matrices(CLI::App& app) {
+  auto options = std::make_shared<MatricesArguments>();
+  CLI::App* command =
+      app.add_subcommand("matrices", "write stiffness, mass, damping and load of a surface for other programs");
+  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
+      ->type_name("");
+  command->add_option("--surface", options->surface, "its surface, such as #285; may be left out where there is one");
+  command->add_option("--degree", options->degree, "without a file: degrees of both directions (default 3,3)");
+  command->add_option("--knots-u", options->knots_u, "without a file: knots of the first direction");
+  command->add_option("--knots-v", options->knots_v, "without a file: knots of the second direction");
+  command->add_option("--out", options->out, "directory for the files; made if it is missing")->required();
+  command->add_option("--alpha", options->alpha, "stretch coefficients a11,a12,a22 (default 1,0,1)");
+  command->add_option("--beta", options->beta, "bend coefficients b11,b12,b22 (default 0.01,0.01,0.01)");
+  command->add_option("--mass", options->mass, "mass per measure of the domain (default 1)");
+  command->add_option("--damping", options->damping, "damping per measure of the domain (default 1)");
+  command->add_option("--load", options->load, "load per measure of the domain, x,y,z (default 0,0,1)");
+  command->add_option("--units", options->units, "raw, or normalised as in scripts (default raw)");
+  command->add_option("--hold", options->hold,
+                      "rows of control points held on each side, which are left out (default 0)");
+  command->footer(
+      "Each matrix is written as Matrix Market text (lower triangle) and as NumPy's .npz for scipy.sparse.load_npz,\n"
+      "F, the control points and the numbers of the free unknowns as .npy, all described in matrices.json.\n" +
+      std::string(exit_codes));
+  return [options] { return run(*options); };
+}
+
+}  // namespace knead::cli
