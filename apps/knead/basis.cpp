@@ -39,16 +39,31 @@ Expected<void> check(const BasisArguments& options, int count) {
   return {};
 }
 
-/// The jumps at knots of N^(order), or for order p + 1 the weights of its Dirac impulses, the jumps of order p.
+/// What the derivative of order p + 1 has at a knot: the weights of δ, δ′, … up to the last that is not 0. They are the
+/// jumps of orders p, p − 1, ….
+std::string impulses_json(const KnotJumps& at, int p) {
+  std::string text, rest;
+  for (int order = p; order >= 0; --order) {
+    const double jump = at.of_order(order, p);
+    rest += (text.empty() && rest.empty() ? "" : ",") + json_number(jump);
+    if (jump == 0) continue;
+    text += rest;
+    rest.clear();
+  }
+  return text;
+}
+
+/// The jumps at knots of N^(order), or for order p + 1 its impulses.
 std::string jumps_json(const KnotVector& knots, int index, int order) {
   const int p = knots.degree();
   const bool impulses = order == p + 1;
   std::string text;
   for (const KnotJumps& k : derivative_jumps(knots, index)) {
     const double jump = k.of_order(impulses ? p : order, p);
-    if (jump == 0) continue;
-    text += fmt::format("{}{{\"knot\":{},\"{}\":{}}}", text.empty() ? "" : ",", json_number(k.knot),
-                        impulses ? "weight" : "jump", json_number(jump));
+    const std::string all = impulses ? impulses_json(k, p) : std::string();
+    if (impulses ? all.empty() : jump == 0) continue;
+    text += fmt::format("{}{{\"knot\":{},\"{}\":{}{}}}", text.empty() ? "" : ",", json_number(k.knot),
+                        impulses ? "weight" : "jump", json_number(jump), impulses ? ",\"weights\":[" + all + "]" : "");
   }
   return fmt::format("\"{}\":[{}],", impulses ? "diracs" : "jumps", text);
 }
@@ -100,7 +115,9 @@ Action add_basis(CLI::App& app) {
   command->add_option("--format", options->format, "csv (default) or json")->check(CLI::IsMember({"csv", "json"}));
   command->footer(
       "At a knot the limit from the right is taken. JSON also lists where the derivative jumps; for the derivative of\n"
-      "order degree + 1, which is zero elsewhere, it lists the weights of the Dirac impulses.\n" +
+      "order degree + 1, which is zero elsewhere, it lists the weights of the Dirac impulses and, where a knot is "
+      "repeated,\n"
+      "of their derivatives.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };
 }

@@ -40,8 +40,39 @@ bool all_finite(const BandMatrix& matrix) {
 struct Result {
   std::string method;
   std::vector<NamedGramian> gramians;
-  std::optional<double> error_bound;  // of the rational method
+  std::optional<double> error_bound = {};  // of the rational method
+  std::optional<double> digits = {};       // that the analytic method has left
 };
+
+constexpr double few_digits = 8;
+
+/// Decimal digits of the largest entry in which two matrices agree, at most 17; below 0 where they differ by more.
+double common_digits(const BandMatrix& a, const BandMatrix& b) {
+  double largest = 0, difference = 0;
+  for (int i = 0; i < a.size(); ++i) {
+    for (int j = std::max(0, i - a.half_bandwidth()); j <= std::min(a.size() - 1, i + a.half_bandwidth()); ++j) {
+      largest = std::max(largest, std::abs(b(i, j)));
+      difference = std::max(difference, std::abs(a(i, j) - b(i, j)));
+    }
+  }
+  return difference == 0 ? 17 : std::min(17.0, -std::log10(difference / largest));
+}
+
+/// The analytic method cancels where knots are close; the recurrence, which loses no digits, says how much.
+Expected<void> estimate_digits(const KnotVector& knots, const std::vector<std::array<int, 2>>& orders, Result& result) {
+  if (result.method != name(GramianMethod::analytic)) return {};
+  for (std::size_t k = 0; k < orders.size(); ++k) {
+    const auto exact = gramian(knots, orders[k][0], orders[k][1], GramianMethod::recurrence);
+    if (!exact) return std::unexpected(exact.error());
+    result.digits = std::min(result.digits.value_or(17), common_digits(result.gramians[k].matrix, *exact));
+  }
+  if (*result.digits < few_digits) {
+    fmt::print(stderr,
+               "knead: warning: the method analytic has {} left on these knots; --method recurrence loses none\n",
+               *result.digits < 0.5 ? "no digits" : fmt::format("about {:.0f} digits", *result.digits));
+  }
+  return {};
+}
 
 /// Row i of the band: G(i, i − p) … G(i, i + p), zero outside the matrix.
 void print_json(int degree, const Result& result) {
@@ -49,6 +80,7 @@ void print_json(int degree, const Result& result) {
   const int count = gramians.front().matrix.size();
   fmt::print(R"({{"degree":{},"count":{},"method":"{}",)", degree, count, result.method);
   if (result.error_bound) fmt::print("\"error_bound\":{},", json_number(*result.error_bound));
+  if (result.digits) fmt::print("\"digits\":{:.1f},", *result.digits);
   fmt::print("\"gramians\":{{");
   for (std::size_t k = 0; k < gramians.size(); ++k) {
     fmt::print("{}\n \"{}\":{{\"band\":[", k == 0 ? "" : ",", gramians[k].term);
@@ -92,7 +124,7 @@ Expected<Result> compute(const GramianArguments& options, const KnotVector& knot
   const auto method = gramian_method(chosen);
   if (!method) return std::unexpected(method.error().within("--method"));
   const int a = options.a, b = options.b;  // 0, 0 if all terms are requested, which use one method
-  Result result{std::string(name(used_gramian_method(knots, a, b, *method))), {}, {}};
+  Result result{std::string(name(used_gramian_method(knots, a, b, *method))), {}};
   if (options.all) {
     auto set = knead::gramians(knots, *method);
     if (!set) return std::unexpected(set.error());
@@ -109,7 +141,7 @@ Expected<Result> compute(const GramianArguments& options, const KnotVector& knot
 Expected<Result> compute_rational(const GramianArguments& options, const KnotVector& knots) {
   const auto weights = parse_numbers(options.weights, "--rational-weights");
   if (!weights) return std::unexpected(weights.error());
-  Result result{options.method.empty() ? std::string(rational) : options.method, {}, {}};
+  Result result{options.method.empty() ? std::string(rational) : options.method, {}};
   if (result.method != rational && result.method != constant_denominator) {
     return usage_error(fmt::format("the method \"{}\" does not take weights", options.method), "--method",
                        fmt::format("use {} or {}", rational, constant_denominator));
@@ -133,13 +165,14 @@ Expected<Result> compute_rational(const GramianArguments& options, const KnotVec
 Expected<void> run(const GramianArguments& options) {
   const auto knots = options.knots.read();
   if (!knots) return std::unexpected(knots.error());
-  const auto result = options.weights.empty() ? compute(options, *knots) : compute_rational(options, *knots);
+  auto result = options.weights.empty() ? compute(options, *knots) : compute_rational(options, *knots);
   if (!result) return std::unexpected(result.error());
   for (const NamedGramian& g : result->gramians) {
     if (all_finite(g.matrix)) continue;
     return numerical_error(fmt::format("entries leave the range of double precision (method {})", result->method),
                            "Gramian " + g.term, "scale the knots nearer to 1");
   }
+  if (auto done = estimate_digits(*knots, orders(options), *result); !done) return done;
   if (options.format == "csv") {
     print_csv(options.knots.degree, *result);
   } else {

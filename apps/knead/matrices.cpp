@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "cli.hpp"
 #include "knead/energy/stiffness.hpp"
@@ -12,6 +11,7 @@
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/matrix_files.hpp"
 #include "knead/sculpt/loads.hpp"
+#include "plain_surface.hpp"
 
 namespace knead::cli {
 namespace {
@@ -19,7 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MatricesArguments {
-  std::string file, surface, out, knots_u, knots_v, degree = "3,3";
+  std::string file, surface, out, degree = "3";
+  PlainSurfaceOption knots;
   std::string alpha = "1,0,1", beta = "0.01,0.01,0.01", load = "0,0,1", units = "raw";
   double mass = 1, damping = 1;
   int hold = 0;
@@ -42,21 +43,9 @@ Expected<std::array<double, N>> list(const std::string& text, const std::string&
 /// The surface of a file, or a flat one over its own parameters on the knots that are given.
 Expected<Surface> read_shape(const MatricesArguments& options, std::string& id) {
   if (options.file.empty()) {
-    const auto degree = list<2>(options.degree, "--degree");
+    const auto degree = parse_pair(options.degree, "--degree", true);
     if (!degree) return std::unexpected(degree.error());
-    std::array<std::optional<KnotVector>, 2> knots;
-    for (std::size_t d = 0; d < 2; ++d) {
-      const std::string option = d == 0 ? "--knots-u" : "--knots-v";
-      auto values = parse_numbers(d == 0 ? options.knots_u : options.knots_v, option);
-      if (!values) return std::unexpected(values.error());
-      auto made = KnotVector::create(static_cast<int>((*degree)[d]), *std::move(values));
-      if (!made) return std::unexpected(made.error().within(option));
-      knots[d] = *std::move(made);
-    }
-    const int m = knots[0]->count(), n = knots[1]->count();
-    Points points(m * n, 3);
-    for (int k = 0; k < m * n; ++k) points.row(k) << knots[0]->greville(k / n), knots[1]->greville(k % n), 0;
-    return Surface::create({*knots[0], *knots[1]}, std::move(points));
+    return options.knots.read(*degree);
   }
   auto bytes = read_file(options.file);
   if (!bytes) return std::unexpected(std::move(bytes.error()));
@@ -156,7 +145,7 @@ Expected<void> write_stiffness(const Model& model, const Material& material, Wri
 }
 
 Expected<void> run(const MatricesArguments& options) {
-  if (options.file.empty() == (options.knots_u.empty() || options.knots_v.empty())) {
+  if (options.file.empty() == !options.knots.given()) {
     return usage_error("neither a file nor knots, or both, are given", "FILE",
                        "name a CAD file, or give --degree, --knots-u and --knots-v");
   }
@@ -250,9 +239,9 @@ Action add_matrices(CLI::App& app) {
   command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
       ->type_name("");
   command->add_option("--surface", options->surface, "its surface, such as #285; may be left out where there is one");
-  command->add_option("--degree", options->degree, "without a file: degrees of both directions (default 3,3)");
-  command->add_option("--knots-u", options->knots_u, "without a file: knots of the first direction");
-  command->add_option("--knots-v", options->knots_v, "without a file: knots of the second direction");
+  command->add_option("--degree", options->degree,
+                      "without a file: degree, or one per direction as in 3x2 (default 3)");
+  options->knots.add_to(*command, "without a file: ");
   command->add_option("--out", options->out, "directory for the files; made if it is missing")->required();
   command->add_option("--alpha", options->alpha, "stretch coefficients a11,a12,a22 (default 1,0,1)");
   command->add_option("--beta", options->beta, "bend coefficients b11,b12,b22 (default 0.01,0.01,0.01)");

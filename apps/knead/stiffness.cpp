@@ -2,42 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <memory>
 
 #include "cli.hpp"
+#include "plain_surface.hpp"
 
 namespace knead::cli {
 namespace {
 
 struct StiffnessArguments {
   std::string degree = "3", net, alpha = "1,0,1", beta = "0,0,0", method{name(default_gramian_method)};
+  PlainSurfaceOption knots;
   bool json = false;
 };
-
-/// "3" or "3x2": one whole number per direction.
-Expected<std::array<int, 2>> parse_pair(const std::string& text, const std::string& option, bool one_for_both) {
-  const auto wrong = [&] {
-    return usage_error(
-        fmt::format("\"{}\" does not fit", text), option,
-        one_for_both ? "write one whole number, or two as in 3x2" : "write two whole numbers as in 64x64");
-  };
-  std::array<int, 2> pair{};
-  const char *at = text.data(), *end = at + text.size();
-  for (std::size_t d = 0; d < 2; ++d) {
-    const auto [stop, code] = std::from_chars(at, end, pair[d]);
-    if (code != std::errc{}) return wrong();
-    if (d == 0 && stop == end && one_for_both) {
-      pair[1] = pair[0];
-      return pair;
-    }
-    if (d == 0 ? (stop == end || *stop != 'x') : stop != end) return wrong();
-    at = stop + 1;
-  }
-  return pair;
-}
 
 Expected<std::array<double, 3>> parse_triple(const std::string& text, const std::string& option) {
   auto numbers = parse_numbers(text, option);
@@ -48,11 +27,38 @@ Expected<std::array<double, 3>> parse_triple(const std::string& text, const std:
   return std::array<double, 3>{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
+Expected<void> check_size(const std::array<int, 2>& degree, const std::array<int, 2>& net, const std::string& option) {
+  const double entries = (1.0 + 2 * degree[0]) * net[0] * (1.0 + 2 * degree[1]) * net[1];
+  if (entries <= 1e9) return {};
+  return input_error(fmt::format("about {:.2g} entries are too many for this machine", entries), option,
+                     "use a smaller net");
+}
+
+/// On the knots that are given, or open uniform ones over [0, 1].
+Expected<Surface> shape_of(const StiffnessArguments& options, const std::array<int, 2>& degree) {
+  if (options.knots.given() != options.net.empty()) {
+    return usage_error("neither a net nor knots of both directions, or both, are given", "--net",
+                       "write --net as in 64x64, or --knots-u and --knots-v; knead stiffness --help explains them");
+  }
+  if (options.knots.given()) {
+    auto shape = options.knots.read(degree);
+    if (!shape) return shape;
+    if (auto fits = check_size(degree, shape->net(), "--knots-u"); !fits) return std::unexpected(fits.error());
+    return shape;
+  }
+  const auto net = parse_pair(options.net, "--net", false);
+  if (!net) return std::unexpected(net.error());
+  if (auto fits = check_size(degree, *net, "--net"); !fits) return std::unexpected(fits.error());
+  const auto u = KnotVector::clamped_uniform(degree[0], (*net)[0]);
+  if (!u) return std::unexpected(u.error().within("--net, first direction"));
+  const auto v = KnotVector::clamped_uniform(degree[1], (*net)[1]);
+  if (!v) return std::unexpected(v.error().within("--net, second direction"));
+  return Surface::create({*u, *v}, Points::Zero((*net)[0] * (*net)[1], 3));
+}
+
 Expected<void> run(const StiffnessArguments& options) {
   const auto degree = parse_pair(options.degree, "--degree", true);
   if (!degree) return std::unexpected(degree.error());
-  const auto net = parse_pair(options.net, "--net", false);
-  if (!net) return std::unexpected(net.error());
   const auto alpha = parse_triple(options.alpha, "--alpha");
   if (!alpha) return std::unexpected(alpha.error());
   const auto beta = parse_triple(options.beta, "--beta");
@@ -61,19 +67,12 @@ Expected<void> run(const StiffnessArguments& options) {
   if (!method) return std::unexpected(method.error().within("--method"));
   const auto material = validated({*alpha, *beta});
   if (!material) return std::unexpected(material.error());
-  const auto u = KnotVector::clamped_uniform((*degree)[0], (*net)[0]);
-  if (!u) return std::unexpected(u.error().within("--net, first direction"));
-  const auto v = KnotVector::clamped_uniform((*degree)[1], (*net)[1]);
-  if (!v) return std::unexpected(v.error().within("--net, second direction"));
-
-  const double entries = (1.0 + 2 * (*degree)[0]) * (*net)[0] * (1.0 + 2 * (*degree)[1]) * (*net)[1];
-  if (entries > 1e9) {
-    return input_error(fmt::format("about {:.2g} entries are too many for this machine", entries), "--net",
-                       "use a smaller net");
-  }
+  const auto shape = shape_of(options, *degree);
+  if (!shape) return std::unexpected(shape.error());
   const auto start = std::chrono::steady_clock::now();
-  const auto stiffness =
-      Stiffness<2>::create(std::array<KnotVector, 2>{*u, *v}, stretch_and_bend(*material), {*method, 0});
+  const auto stiffness = shape->rational()
+                             ? Stiffness<2>::create(*shape, stretch_and_bend(*material), {*method, 0})
+                             : Stiffness<2>::create(shape->knots(), stretch_and_bend(*material), {*method, 0});
   if (!stiffness) return std::unexpected(stiffness.error());
   const SparseMatrix matrix = stiffness->assemble();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -97,10 +96,11 @@ Expected<void> run(const StiffnessArguments& options) {
 
 Action add_stiffness(CLI::App& app) {
   auto options = std::make_shared<StiffnessArguments>();
-  CLI::App* command =
-      app.add_subcommand("stiffness", "assemble the stiffness matrix of a net on open uniform knots over [0,1]");
+  CLI::App* command = app.add_subcommand(
+      "stiffness", "assemble the stiffness matrix of a net on open uniform knots over [0,1], or on given knots");
   command->add_option("--degree", options->degree, "degree, or one per direction as in 3x2 (default 3)");
-  command->add_option("--net", options->net, "control points per direction, as in 64x64")->required();
+  command->add_option("--net", options->net, "control points per direction, as in 64x64");
+  options->knots.add_to(*command, "instead of --net: ");
   command->add_option("--alpha", options->alpha, "stretch coefficients a11,a12,a22 (default 1,0,1)");
   command->add_option("--beta", options->beta, "bend coefficients b11,b12,b22 (default 0,0,0)");
   command->add_option("--method", options->method, gramian_method_help());

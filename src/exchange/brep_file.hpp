@@ -32,6 +32,11 @@ struct BrepSurface {
   std::optional<Expected<ListedSurface>> spline;  ///< of types 8 and 9
 };
 
+/// The next curve of 2 or 3 dimensions, or surface. Errors (input), with their line: counts, degrees or numbers that
+/// cannot be those of one; more than 8 curves or surfaces within each other.
+[[nodiscard]] Expected<BrepCurve> read_brep_curve(WordReader& words, int dimension);
+[[nodiscard]] Expected<BrepSurface> read_brep_surface(WordReader& words);
+
 enum class Shape { vertex, edge, wire, face, group };
 
 /// A use of a shape: '+', '-', 'i' or 'e', its index, and where it is put.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "knead/exchange/file_io.hpp"
+#include "knead/exchange/source.hpp"
 #include "part21_text.hpp"
 #include "step_data.hpp"
 #include "step_entity.hpp"

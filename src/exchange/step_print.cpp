@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "knead/exchange/source.hpp"
 #include "part21_text.hpp"
 #include "step_surfaces.hpp"
 

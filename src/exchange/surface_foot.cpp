@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knead/exchange/source.hpp"
 #include "step_surfaces.hpp"
 
 namespace knead::step {

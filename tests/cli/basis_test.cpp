@@ -102,5 +102,14 @@ TEST(RationalGramianCommand, RefusesWeightsThatDoNotFit) {
   EXPECT_TRUE(fails_with(run(arc, {"--method", "gauss"}), 2, {"--method", "constant-denominator"}));
 }
 
+TEST(BasisCommand, ListsTheDerivativesOfImpulsesAtRepeatedKnots) {
+  // (1 − u)² on [0, 1): its third derivative is 2 δ − 2 δ′ + δ″ at 0 and −2 δ at 1.
+  const Json diracs = knead({"basis", "--degree", "2", "--knots", "0,0,0,1,1,1", "--derivative", "3", "--samples", "1",
+                             "--format", "json"})
+                          .json()
+                          .at("diracs");
+  EXPECT_EQ(diracs, Json::parse(R"([{"knot":0,"weight":2,"weights":[2,-2,1]},{"knot":1,"weight":-2,"weights":[-2]}])"));
+}
+
 }  // namespace
 }  // namespace knead::testing

@@ -175,5 +175,21 @@ TEST(GramianCommand, NumbersBeyondDoubleAreANumericalFailure) {
                          {"Gramian 22", "scale the knots"}));
 }
 
+TEST(GramianCommand, TheAnalyticMethodSaysHowManyDigitsAreLeft) {
+  const auto run = [](const std::string& knots) {
+    return knead({"gramian", "--degree", "3", "--knots", knots, "--all", "--method", "analytic"});
+  };
+  const Outcome even = run("0,1,2,3,4,5,6,7,8");
+  EXPECT_EQ(even.err, "");
+  EXPECT_GT(even.json().at("digits").get<double>(), 12);
+  const Outcome close = run("0,1,2,3,4,4.000000001,6,7,8");
+  EXPECT_EQ(close.code, 0);
+  EXPECT_LT(close.json().at("digits").get<double>(), 8);
+  EXPECT_NE(close.err.find("knead: warning: the method analytic has"), std::string::npos) << close.err;
+  EXPECT_FALSE(knead({"gramian", "--degree", "3", "--knots", "0,1,2,3,4,5,6,7,8", "--method", "recurrence"})
+                   .json()
+                   .contains("digits"));
+}
+
 }  // namespace
 }  // namespace knead::testing

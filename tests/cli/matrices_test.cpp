@@ -59,7 +59,7 @@ const std::string quadratic = "0,0,0,0.5,1,2,2,2", cubic = "0,0,0,0,1,1,1,1";
 
 TEST(Matrices, OfAPlainSpaceAreThoseOfTheTheory) {
   const Workshop shop;
-  ASSERT_EQ(knead({"matrices", "--degree", "2,3", "--knots-u", quadratic, "--knots-v", cubic, "--alpha", "2,0.5,1",
+  ASSERT_EQ(knead({"matrices", "--degree", "2x3", "--knots-u", quadratic, "--knots-v", cubic, "--alpha", "2,0.5,1",
                    "--beta", "0.1,0.2,0.3", "--mass", "3", "--load", "0,1,4", "--out", shop / "m"})
                 .code,
             0);

@@ -25,6 +25,25 @@ TEST(StiffnessCommand, TheTwoDirectionsMayDiffer) {
   EXPECT_NEAR(a.at("frobenius").get<double>(), b.at("frobenius").get<double>(), 1e-14 * 63);
 }
 
+TEST(StiffnessCommand, TakesKnotsAndWeights) {
+  const auto out = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"stiffness", "--degree", "2x1", "--beta", "0.1,0.2,0.3", "--json"});
+    return knead(arguments).json();
+  };
+  const std::string u = "0,0,0,0.5,1,1,1", v = "0,0,1,1", ones = "1,1,1,1,1,1,1,1";
+  const Json uniform = out({"--net", "4x2"}), given = out({"--knots-u", u, "--knots-v", v});
+  EXPECT_EQ(given.at("rows"), 8);
+  EXPECT_EQ(given.at("frobenius"), uniform.at("frobenius"));
+  const double norm = given.at("frobenius");
+  EXPECT_NEAR(out({"--knots-u", u, "--knots-v", v, "--weights", ones}).at("frobenius").get<double>(), norm,
+              1e-12 * norm);
+  const Json rational = out({"--knots-u", u, "--knots-v", v, "--weights", "1,1,0.5,0.5,1,1,2,1"});
+  EXPECT_GT(std::abs(rational.at("frobenius").get<double>() - norm), 0.01 * norm);
+  EXPECT_TRUE(fails_with(knead({"stiffness", "--knots-u", u}), 2, {"--net", "--knots-v"}));
+  EXPECT_TRUE(fails_with(knead({"stiffness", "--degree", "2x1", "--knots-u", u, "--knots-v", v, "--weights", "1,2"}), 3,
+                         {"weight"}));
+}
+
 TEST(StiffnessCommand, NegativeCoefficientsAreReadAsNumbers) {
   EXPECT_EQ(knead({"stiffness", "--net", "4x4", "--alpha", "1,-0.5,1", "--json"}).code, 0);
   EXPECT_TRUE(fails_with(knead({"stiffness", "--net", "4x4", "--alpha", "-1,0,1"}), 3, {"alpha11", "-1"}));

@@ -71,6 +71,12 @@ TEST(Brep, ARefinedSurfaceIsWrittenAnew) {
   EXPECT_EQ(visible_region(*again->step_file(), "#1")->edges.size(), 4U);
 }
 
+TEST(Brep, AParameterOfOnesAndZerosIsNoFlag) {
+  std::string text = square;
+  text.replace(text.find("1  4 0 0 1\n0"), 12, "1  4 0 0 1\n2  1 1 0 0 1000000\n0");
+  EXPECT_EQ(visible_region(*open_or_die(text)->step_file(), "#1")->edges.size(), 4U);
+}
+
 TEST(Brep, ErrorsNameTheLine) {
   const auto error = [](std::string_view from, std::string_view to) {
     std::string text = square;

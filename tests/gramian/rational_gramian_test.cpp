@@ -208,12 +208,13 @@ TEST(RationalGramian, of_a_surface_sums_to_its_parameter_area_whatever_the_weigh
   }
 }
 
-TEST(ConstantDenominatorGramian, errs_by_percents_on_a_circle) {
-  const Eigen::MatrixXd exact = quad_rational(circle_knots(), circle_weights(), 0, 0);
-  const Eigen::MatrixXd approximate = constant_denominator_gramian(circle_knots(), circle_weights(), 0, 0)->dense();
-  const double error = largest(approximate - exact) / largest(exact);
-  EXPECT_GT(error, 0.01);
-  EXPECT_LT(error, 0.2);
+TEST(ConstantDenominatorGramian, errs_by_a_fifth_to_a_half_on_a_circle) {
+  const std::array<double, 3> errors = {0.18, 0.48, 0.52};  // of the largest entry, by order
+  for (int a = 0; a < 3; ++a) {
+    const Eigen::MatrixXd exact = quad_rational(circle_knots(), circle_weights(), a, a);
+    const Eigen::MatrixXd approximate = constant_denominator_gramian(circle_knots(), circle_weights(), a, a)->dense();
+    EXPECT_NEAR(largest(approximate - exact) / largest(exact), errors[static_cast<std::size_t>(a)], 0.01) << a;
+  }
 }
 
 TEST(ConstantDenominatorGramian, is_exact_where_the_denominator_is_constant) {

@@ -42,8 +42,9 @@ struct RationalGramian {
     double tolerance);
 
 /// The thesis' approximation (§ 5.8): on each span the denominator is replaced by its value at the midpoint, so that
-/// the Gramian is a weighted polynomial one. The error is 1 to 3 % on circles and unbounded where weights differ much;
-/// it is provided under its own name for comparison and never used implicitly. Errors as above.
+/// the Gramian is a weighted polynomial one. On the knots of a circle the error is 18 % of the largest entry for orders
+/// 0, 48 % for 1 and 52 % for 2, and it is unbounded where weights differ much; it is provided under its own name for
+/// comparison and never used implicitly. Errors as above.
 [[nodiscard]] Expected<BandMatrix> constant_denominator_gramian(const KnotVector& knots,
                                                                 std::span<const double> weights, int a, int b);
 
