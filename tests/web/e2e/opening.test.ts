@@ -193,11 +193,16 @@ describe('opening something else', () => {
 });
 
 describe('a file of another program', () => {
+  /** A flat cubic one of GoTools, 6 × 6 control points. */
+  const sheet = (count: number) => {
+    const line = Array.from({ length: count }, (_, k) => k * 10);
+    const knots = '6 4\n0 0 0 0 1 2 3 3 3 3';
+    return `200 1 0 0\n3 0\n${knots}\n${knots}\n${line.flatMap((y) => line.map((x) => `${x} ${y} 0`)).join('\n')}\n`;
+  };
+
   it('opens, is sculpted and comes back as it was but for the numbers that moved', async () => {
     const { page } = studio;
-    const line = (count: number) => Array.from({ length: count }, (_, k) => k * 10);
-    const knots = '6 4\n0 0 0 0 1 2 3 3 3 3';
-    const text = `200 1 0 0\n3 0\n${knots}\n${knots}\n${line(6).map((y) => line(6).map((x) => `${x} ${y} 0`).join('\n')).join('\n')}\n`;
+    const text = sheet(6);
     await openFile(page, file('sheet.g2', text));
     expect((await positions(page)).length).toBeGreaterThan(0);
     await page.keyboard.press('b');
@@ -208,5 +213,42 @@ describe('a file of another program', () => {
     const saved = readFileSync(path, 'utf8');
     expect(saved.startsWith(text.slice(0, text.indexOf('0 0 0\n10 0 0')))).toBe(true);
     expect(saved).not.toBe(text);
+  });
+
+  it('is replaced where it lies, unless another program has changed it', async () => {
+    const { page } = studio;
+    const text = sheet(6);
+    // A file of the browser's own disk in the place of the dialog.
+    await page.evaluate(async (content) => {
+      const directory = await navigator.storage.getDirectory();
+      const handle = await directory.getFileHandle('here.g2', { create: true });
+      const writable = await handle.createWritable();
+      await writable.write(content);
+      await writable.close();
+      Object.assign(window, { showOpenFilePicker: async () => [handle], here: handle });
+    }, text);
+    const onDisk = () => page.evaluate(async () => (await (window as never as { here: FileSystemFileHandle }).here.getFile()).text());
+    const opened = () => page.evaluate(() => (window as never as { studio: { documents: { handled: number } } }).studio.documents.handled);
+    const before = await opened();
+    await page.locator('.top [aria-label^="Open"]').click();
+    await expect.poll(opened).toBe(before + 1);
+    await settled(page);
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0]); // selects
+    await stroke(page, [0, 0], [10, 0]);
+    await page.keyboard.press('Control+s');
+    await expect.poll(onDisk).not.toBe(text);
+    const saved = await onDisk();
+    expect(saved.startsWith(text.slice(0, text.indexOf('0 0 0\n10 0 0')))).toBe(true);
+
+    await page.evaluate(async () => {
+      const writable = await (window as never as { here: FileSystemFileHandle }).here.createWritable();
+      await writable.write('of another program');
+      await writable.close();
+    });
+    await page.keyboard.press('Control+s');
+    await expect.poll(() => question(page).isVisible()).toBe(true);
+    await page.keyboard.press('Escape');
+    expect(await onDisk()).toBe('of another program');
   });
 });

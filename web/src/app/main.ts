@@ -24,6 +24,7 @@ import { constraintsPanel, surfacesPanel, toolsPanel } from '../panels/panels_sc
 import { statusBar } from '../panels/plot';
 import { listenToQuestions } from '../panels/question';
 import { offerRecovery } from '../panels/recovery';
+import { droppedHandle } from '../document/disk';
 import { offerTour } from '../panels/tour';
 import { sectionHandle } from '../panels/section';
 import { viewsPanel } from '../panels/panel_views';
@@ -52,7 +53,8 @@ document.addEventListener('dragover', (event) => event.preventDefault());
 document.addEventListener('drop', (event) => {
   event.preventDefault();
   const file = event.dataTransfer?.files[0];
-  if (file) void app.documents.openFile(file);
+  const handle = droppedHandle(event.dataTransfer?.items[0]);
+  if (file) void handle.then((known) => app.documents.openFile(file, known));
 });
 
 // For tests and the curious.

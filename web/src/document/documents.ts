@@ -1,6 +1,7 @@
 import type { Command } from '../engine/session_types';
 import { autosave, type Kept } from './autosave';
 import { loadContext } from './context';
+import type { OnDisk } from './disk';
 import { cadFormat, readFormats } from './formats';
 import type { Host } from './host';
 import { Keeper } from './keeper';
@@ -27,6 +28,7 @@ export class Documents {
 
   /** Saves a Knead document; false where nothing was saved. */
   saveDocument: () => Promise<boolean> = () => Promise.resolve(false);
+  private disk: { source: Source; place: OnDisk } | null = null;
   private worked = false;
   private picked = false;
   /** What the session began with, once more. */
@@ -61,6 +63,14 @@ export class Documents {
     this.host.changed();
   }
 
+  /** The CAD file on the disk that is open, and may be replaced. */
+  get place(): OnDisk | null {
+    return this.disk && this.disk.source === this.file ? this.disk.place : null;
+  }
+  set place(place: OnDisk | null) {
+    this.disk = place && this.file ? { source: this.file, place } : null;
+  }
+
   /** All work is in a file. */
   saved(): void {
     this.worked = false;
@@ -77,8 +87,11 @@ export class Documents {
     return choice === 'save' ? this.saveDocument() : choice === 'open';
   }
 
-  async openFile(file: File): Promise<void> {
+  /** `handle`: the file on the disk, where the browser gives one. */
+  async openFile(file: File, handle: FileSystemFileHandle | null = null): Promise<void> {
+    const before = this.file;
     await this.read(file);
+    if (this.file !== before) this.disk = this.file?.kind === 'step' && handle ? { source: this.file, place: { file, handle } } : null;
     ++this.handled;
     this.host.changed();
   }

@@ -2,6 +2,7 @@ import { fileFormats } from '../engine/generated';
 import type { MeshFormat } from '../engine/session_types';
 import { closedEdges } from './closed_edges';
 import type { Documents } from './documents';
+import { changedSince, replaceFile } from './disk';
 import { cadFormat } from './formats';
 import type { Host } from './host';
 import { writeKnead } from './knead_file';
@@ -16,13 +17,42 @@ export class Saving {
     documents.saveDocument = async () => (await this.knead()) !== null;
   }
 
-  step = () => this.work(async (stem) => {
+  /** Where the file that was opened is known, into it; else as a download. */
+  cad = () => (this.documents.place ? this.inPlace() : this.step());
+
+  inPlace = async (): Promise<true | null> => {
+    const { host, documents } = this;
+    const place = documents.place!;
+    const { name } = place.file;
+    if (await changedSince(place)) {
+      const choice = await host.ask({
+        title: `Replace “${name}”?`,
+        text: 'Another program has changed it since it was opened; what it wrote would be lost.',
+        choices: [{ id: 'copy', label: 'Save a copy', about: 'as a download' }, { id: 'replace', label: 'Replace it' }],
+      });
+      if (choice !== 'replace') return choice === 'copy' ? this.step() : null;
+    }
+    return this.work(async () => {
+      const { bytes, edges } = await host.client.save();
+      documents.place = await replaceFile(place, bytes);
+      return [`Saved in “${name}”.`, closedEdges(edges, host.state!.surfaces[0]?.unit ?? '')].filter(Boolean).join(' ');
+    });
+  };
+
+  step = () => this.work(() => this.download());
+
+  private async download(): Promise<string | undefined> {
+    const stem = this.stem();
     const { bytes, edges } = await this.host.client.save();
     const { file } = this.documents;
     const cad = file?.kind === 'step' ? cadFormat(file.name) : null; // it comes back as what it was
     download(bytes, `${stem}-sculpted${cad?.ending ?? '.step'}`, cad?.format.media_type ?? 'model/step');
     return closedEdges(edges, this.host.state!.surfaces[0]?.unit ?? '');
-  });
+  }
+
+  private stem(): string {
+    return this.documents.name.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'surface';
+  }
 
   knead = () => this.work(async (stem) => {
     const { host } = this;
@@ -74,8 +104,7 @@ export class Saving {
   private async save(act: (stem: string) => Promise<string | undefined | void>, shape = true): Promise<true | null> {
     const { host } = this;
     return host.attempt(async () => {
-      const stem = this.documents.name.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'surface';
-      const said = await act(stem);
+      const said = await act(this.stem());
       const { tools, last } = host.state!;
       const touched = tools.length > 0 && last !== null && (last.gap > 0 || last.contact > 0);
       const contact = 'Saved with a tool still in contact: the shape is the one it holds.';

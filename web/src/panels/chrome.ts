@@ -1,3 +1,4 @@
+import { canPick, pickFile } from '../document/disk';
 import { readEndings } from '../document/formats';
 import type { Notice } from '../document/host';
 import { modes } from '../tools/modes';
@@ -6,7 +7,7 @@ import { h, icon, iconButton } from './dom';
 import { galleryMenu } from './gallery_menu';
 import { openLab } from './lab/door';
 import { recentMenu } from './recent_menu';
-import { saveEntries } from './save_menu';
+import { samePlace, saveEntries } from './save_menu';
 import { shortcuts } from './shortcuts';
 import { toggleTour } from './tour';
 
@@ -19,6 +20,13 @@ export function topBar(app: App): HTMLElement {
     picker.value = '';
     if (file) void app.documents.openFile(file);
   });
+  const open = () => {
+    if (!canPick()) return picker.click();
+    void app.attempt(async () => {
+      const picked = await pickFile();
+      if (picked) await app.documents.openFile(picked.file, picked.handle);
+    });
+  };
   const name = h('span', { class: 'document-name' });
   const unit = h('span', { class: 'document-unit', title: 'Unit of the document: lengths without a unit are in it' });
   const undo = iconButton('undo', 'Undo (Ctrl+Z)', () => void app.execute([{ do: 'undo' }]));
@@ -28,9 +36,10 @@ export function topBar(app: App): HTMLElement {
   const rest = iconButton('rest', 'Run to rest (R)', () => app.togglePlay(true));
   const four = iconButton('four', 'Four views or one (4)', () => app.setDisplay({ fourViews: !app.display.fourViews }));
   const save = menu('save', 'Save', 'Save', saveEntries(app));
+  const same = [...save.querySelectorAll<HTMLElement>('.menu-item')].find((item) => item.querySelector('b')?.textContent === samePlace)!;
   const bar = h('header', { class: 'top' },
     h('span', { class: 'brand' }, 'Knead'),
-    iconButton('open', 'Open a STEP, IGES, Rhino or Knead file (O)', () => picker.click(), 'Open'), galleryMenu(app), recentMenu(app), save, picker,
+    iconButton('open', 'Open a CAD, Rhino or Knead file (O)', open, 'Open'), galleryMenu(app), recentMenu(app), save, picker,
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
     h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
     ...foldable(
@@ -41,6 +50,7 @@ export function topBar(app: App): HTMLElement {
       iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app))));
   app.onChange.push(() => {
     const { state } = app;
+    same.hidden = !app.documents.place;
     undo.disabled = !state?.undo || app.playing();
     redo.disabled = !state?.redo || app.playing();
     const idle = !state || state.selection.length === 0;

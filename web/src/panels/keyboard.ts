@@ -28,7 +28,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
       if (!app.playing() && !app.hand.active && (again ? app.state?.redo : app.state?.undo)) void app.execute([{ do: again ? 'redo' : 'undo' }]);
       return true;
     }
-    if (key === 's') void app.saving.step();
+    if (key === 's') void app.saving.cad();
     return key === 's';
   }
   if (key === 'escape') {
@@ -77,7 +77,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
   else if (key === 'r' && ready) app.togglePlay(true);
   else if (key === 'f') event.shiftKey ? app.viewer.fitAll() : app.viewer.fitSelected();
   else if (key === 'c') app.compare(true);
-  else if (key === 'o') document.querySelector<HTMLInputElement>('input[type=file]')?.click();
+  else if (key === 'o') document.querySelector<HTMLElement>('.top [aria-label^="Open"]')?.click();
   else if (key === 'x') toggleSection(app);
   else if (key === 'z') app.setDisplay({ stripes: app.display.stripes === 'zebra' ? 'none' : 'zebra' });
   else if (key === 'l') void openLab(app);

@@ -3,8 +3,12 @@ import type { App } from './app';
 
 const meshFormats = fileFormats.filter((format) => format.content === 'triangles');
 
+/** The entry that is there while a file of the disk is open. */
+export const samePlace = 'Same file';
+
 /** Name, description, action. */
 export const saveEntries = (app: App): [string, string, () => void][] => [
+  [samePlace, 'the one that was opened, on the disk, with the sculpted surfaces in it', () => void app.saving.inPlace()],
   ['CAD file', 'the file as it was opened, with the sculpted surfaces in it; a new one is STEP', () => void app.saving.step()],
   ['Rhino file', '.3dm: the one that was opened with the sculpted surfaces in it, or a new one', () => void app.saving.rhino()],
   ['Knead document', 'where it began and every command, to go on later', () => void app.saving.knead()],
