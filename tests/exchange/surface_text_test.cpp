@@ -237,12 +237,16 @@ TEST(SurfaceTextFiles, OfTheCollectionHaveTheirSurfaces) {
   struct Expected {
     std::string file;
     std::size_t surfaces;
-    std::array<int, 2> degree, net;  // of the largest
+    std::array<int, 2> degree, net;  // of the first
   };
   const Expected expected[] = {{"egg.xml", 1, {2, 3}, {9, 20}},
                                {"teapot.xml", 32, {3, 3}, {4, 4}},
                                {"smesh.8.dat", 1, {3, 3}, {47, 45}},
-                               {"smesh.45.in.dat", 1, {3, 3}, {5, 18}}};
+                               {"smesh.45.in.dat", 1, {3, 3}, {5, 18}},
+                               {"curvesToSurfaceContinuous.brep", 1, {3, 3}, {298, 11}},
+                               {"Pump_TopCover.brep", 2, {2, 9}, {3, 50}},
+                               {"terrain.brep", 1, {3, 3}, {312, 323}},
+                               {"wing.brep", 4, {7, 1}, {8, 2}}};
   for (const auto& [name, count, degree, net] : expected) {
     const auto bytes = read_file(collection() / name);
     ASSERT_TRUE(bytes) << bytes.error().message();
