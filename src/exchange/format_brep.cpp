@@ -68,8 +68,10 @@ class BrepSource final : public Source {
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k] == surfaces_[k].surface) continue;
       const auto& listed = **file_.surfaces[listed_[k]].spline;
+      const std::size_t before = changes.size();
       auto done = add_changes(listed, *surfaces_[k].surface, *surfaces[k], print_brep, changes, back_[k]);
       if (!done) return std::unexpected(std::move(done.error()));
+      if (changes.size() == before) continue;
       for (const brep::BrepShape& face : file_.shapes) {  // its triangles are those of the surface before
         if (face.kind != brep::Shape::face || static_cast<std::size_t>(face.geometry) != listed_[k] + 1) continue;
         if (face.triangulation.end > face.triangulation.begin) changes.emplace_back(face.triangulation, std::string());
