@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "base/read_double.hpp"
 #include "iso8859.hpp"
-#include "read_double.hpp"
 
 namespace knead {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/counts.hpp"
+#include "base/read_double.hpp"
 #include "knead/base/printable.hpp"
-#include "read_double.hpp"
 
 namespace knead::detail {
 namespace {

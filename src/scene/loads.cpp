@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "dead_loads.hpp"
+#include "knead/scene/formula_field.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/sculpt/loads.hpp"
@@ -30,7 +33,9 @@ ActiveState active_state(const Scene& scene) {
   return result;
 }
 
-Expected<Surface> load_field(const Load& load, const Surface& surface) {
+namespace {
+
+Expected<Surface> samples_as_field(const Load& load, const Surface& surface) {
   Points samples(static_cast<Eigen::Index>(load.samples.size()), 3);
   for (std::size_t k = 0; k < load.samples.size(); ++k) {
     samples.row(static_cast<Eigen::Index>(k)) << load.samples[k][0], load.samples[k][1], load.samples[k][2];
@@ -38,6 +43,34 @@ Expected<Surface> load_field(const Load& load, const Surface& surface) {
   auto field = sampled_load<2>(surface, load.counts, std::move(samples));
   if (!field) return std::unexpected(field.error().within("samples"));
   return field;
+}
+
+/// One component of a load.
+Expected<Surface> formula_as_field(const Load& load, std::size_t component, const Surface& surface) {
+  const auto field = formula_field((*load.formula)[component], surface, load.tolerance);
+  if (!field) return std::unexpected(field.error().within(fmt::format("component {}", component)));
+  Points forces = Points::Zero(static_cast<Eigen::Index>(field->coefficients().size()), 3);
+  for (std::size_t k = 0; k < field->coefficients().size(); ++k) {
+    forces(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(component)) = field->coefficients()[k];
+  }
+  return Surface::create(field->knots(), std::move(forces));
+}
+
+}  // namespace
+
+Expected<std::vector<Surface>> load_fields(const Load& load, const Surface& surface) {
+  std::vector<Surface> fields;
+  if (!load.samples.empty()) {
+    auto field = samples_as_field(load, surface);
+    if (!field) return std::unexpected(field.error());
+    fields.push_back(std::move(*field));
+  }
+  for (std::size_t k = 0; load.formula && k < 3; ++k) {
+    auto field = formula_as_field(load, k, surface);
+    if (!field) return std::unexpected(field.error());
+    fields.push_back(std::move(*field));
+  }
+  return fields;
 }
 
 namespace {
@@ -50,13 +83,6 @@ Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(selection[patch])];
     const DomainScaling<2>& scaling = model.scaling(static_cast<int>(patch));
     auto rows = nodal.middleRows(model.rows()[patch], s.current->size());
-    if (!scene.load.samples.empty()) {
-      const auto field = load_field(scene.load, *s.reference);
-      if (!field) return std::unexpected(field.error());
-      const auto forces = load_forces<2>(*s.reference, scaling, *field);
-      if (!forces) return std::unexpected(forces.error());
-      rows += *forces;
-    }
     if (scene.load.per == LoadMeasure::area) {
       const auto forces = area_forces(*s.rest, scaling, Point(scene.load.vector.data()));
       if (!forces) return std::unexpected(forces.error());
@@ -74,7 +100,8 @@ Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
 
 }  // namespace
 
-Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& model) {
+Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_model) {
+  const ActiveSurface& model = scene_model.model;
   const auto vector = [](const Vector3& v) { return Point(v[0], v[1], v[2]); };
   ActiveLoads loads;
   if (scene.load.per != LoadMeasure::area) loads.force = vector(scene.load.vector);
@@ -83,6 +110,7 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& mode
   loads.wind = vector(scene.load.wind);
   auto nodal = dead_loads(scene, model);
   if (!nodal) return std::unexpected(nodal.error());
+  if (scene_model.varying_load.rows() > 0) *nodal += scene_model.varying_load;
   if ((nodal->array() != 0).any()) loads.nodal = std::move(*nodal);
   for (const SceneForce& f : scene.forces) {
     int first = 0;

@@ -8,6 +8,7 @@
 #include "knead/scene/mask.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/sculpt/edge_coupling.hpp"
+#include "knead/sculpt/loads.hpp"
 #include "smooth_seams.hpp"
 
 namespace knead {
@@ -103,6 +104,23 @@ Expected<void> keep_smooth(std::span<const Surface* const> patches, std::span<co
   return {};
 }
 
+/// The forces of the parts of the load that vary, which depend on the surfaces as they are opened.
+Expected<void> keep_varying_load(SceneModel& scene) {
+  if (!scene.input.varying) return {};
+  scene.varying_load = Points::Zero(scene.model.rows().back(), 3);
+  for (std::size_t patch = 0; patch < scene.input.surfaces.size(); ++patch) {
+    const Surface& reference = *scene.input.surfaces[patch].reference;
+    const auto fields = load_fields(*scene.input.varying, reference);
+    if (!fields) return std::unexpected(fields.error());
+    for (const Surface& field : *fields) {
+      const auto forces = load_forces<2>(reference, scene.model.scaling(static_cast<int>(patch)), field);
+      if (!forces) return std::unexpected(forces.error());
+      scene.varying_load.middleRows(scene.model.rows()[patch], reference.size()) += *forces;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches) {
@@ -133,6 +151,7 @@ ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
   input.seams = scene.seams;
   input.scaling = scene.scaling;
   input.evolution = evolution;
+  if (scene.load.varies()) input.varying = scene.load;
   input.detail = detail_of(scene.tools);
   input.followed = followed_inputs(scene);
   if (!input.followed.empty()) input.coupling = scene.coupling;
@@ -189,7 +208,9 @@ Expected<SceneModel> make_model(ModelInput input) {
   }
   auto model = ActiveSurface::create(std::move(patches), settings);
   if (!model) return std::unexpected(model.error());
-  return SceneModel{std::move(input), std::move(*model), std::move(reports), std::move(notes)};
+  SceneModel made{std::move(input), std::move(*model), std::move(reports), std::move(notes)};
+  if (auto loaded = keep_varying_load(made); !loaded) return std::unexpected(loaded.error());
+  return made;
 }
 
 }  // namespace knead

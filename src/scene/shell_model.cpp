@@ -22,9 +22,9 @@ Expected<void> check_scope(const Scene& scene, const SceneSurface& s) {
   if (s.mode == RestMode::none)
     return input_error("a shell needs a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
   const Load& load = scene.load;
-  if (load.pressure != 0 || load.wind != Vector3{0, 0, 0} || !load.samples.empty()) {
+  if (load.pressure != 0 || load.wind != Vector3{0, 0, 0} || load.varies()) {
     return input_error("on a shell only loads act that are constant and keep their direction", "load",
-                       "use vector and gravity, and leave out pressure, wind and samples");
+                       "use vector and gravity, and leave out pressure, wind, samples and formulas");
   }
   for (const SceneForce& f : scene.forces) {
     if (!keeps_direction(f.kind) && f.kind != PointForceKind::moment) {

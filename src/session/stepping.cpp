@@ -138,7 +138,7 @@ Expected<ActiveStep> Executor::one_step(const std::vector<PointForce>& more, dou
   const ActiveSurface& model = cache->model;
   const auto tools = tools_and_images(state);
   if (!tools) return std::unexpected(tools.error());
-  auto loads = active_loads(state, model);
+  auto loads = active_loads(state, *cache);
   if (!loads) return std::unexpected(loads.error());
   loads->points.insert(loads->points.end(), more.begin(), more.end());
   const ActiveState before = active_state(state);

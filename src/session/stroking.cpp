@@ -209,7 +209,7 @@ Expected<ActiveStep> Executor::press() {
     if (t.collides()) t.stiffness = std::min(std::max(t.stiffness, stroke.stiffness), max_tool_stiffness);
   }
   const ActiveSurface& model = stroke_cache->scene.model;
-  auto loads = active_loads(state, model);
+  auto loads = active_loads(state, stroke_cache->scene);
   if (!loads) return std::unexpected(loads.error());
   loads->points.clear();  // they are in balance with the shape as it was
   ActiveState from{stacked(stroke.before, &OpenStroke::Before::current),

@@ -1,6 +1,11 @@
 // Loads and coefficients by samples, mirrored tools, the force route and lattices as commands.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "knead/spline/evaluate.hpp"
 #include "sheet.hpp"
 
 namespace knead {
@@ -48,6 +53,87 @@ TEST(Command, ACoefficientBySamplesVariesAsTheySay) {
             "coefficient");
   EXPECT_EQ(refusal(stiff, R"({"do":"material","coefficient":"beta11","counts":[2,2],"samples":[1,1,-1,1]})").kind,
             ErrorKind::input);
+}
+
+/// What a coefficient is at fractions of the domain.
+double coefficient_at(const Coefficient<2>& c, double s, double t) {
+  const double u[] = {s}, v[] = {t};
+  const auto values = std::get<SplineField<2>>(c).on_grid({u, v});
+  EXPECT_TRUE(values);
+  return values ? values->front() : 0;
+}
+
+std::string by_formula(const std::string& coefficient, const std::string& formula, const std::string& more = "") {
+  return R"({"do":"material","coefficient":")" + coefficient + R"(","formula":")" + formula + "\"" + more + "}";
+}
+
+TEST(Command, ACoefficientByFormulaIsWhatItSaysToTheTolerance) {
+  Session session = fresh();
+  run(session, {sheet, by_formula("beta11", "1+4*exp(-40*((s-.5)^2+(t-.5)^2))", R"(,"tolerance":1e-6)"),
+                by_formula("alpha22", "1 + x^2 + 2*y")});
+  const MaterialFieldOf<2>& material = first(session).material;
+  const Surface& shape = *first(session).current;
+  double beta = 0, alpha = 0;
+  for (int i = 0; i <= 40; ++i) {
+    for (int j = 0; j <= 40; ++j) {
+      const double s = i / 40.0, t = j / 40.0;
+      const double swelling = 1 + 4 * std::exp(-40 * (std::pow(s - 0.5, 2) + std::pow(t - 0.5, 2)));
+      beta = std::max(beta, std::abs(coefficient_at(material.beta[0], s, t) - swelling));
+      const auto place = evaluate(shape, Parameters<2>{{s, t}});
+      ASSERT_TRUE(place);
+      const double x = place->points()(0, 0), y = place->points()(0, 1);
+      alpha = std::max(alpha, std::abs(coefficient_at(material.alpha[2], s, t) - (1 + x * x + 2 * y)));
+    }
+  }
+  EXPECT_LE(beta, 1e-6);
+  EXPECT_LE(alpha, 4e-6);  // 1e-6 of the largest value, 4
+  EXPECT_EQ(refusal(session, by_formula("beta11", "1 +")).where, "formula: character 4");
+  EXPECT_EQ(refusal(session, by_formula("beta11", "s - 0.5")).what, "the formula is -0.5 at s = 0, t = 0");
+  EXPECT_EQ(refusal(session, by_formula("beta11", "1/(s - 0.5)^2")).kind, ErrorKind::input);
+  EXPECT_EQ(refusal(session, R"({"do":"material","formula":"s"})").where, "coefficient");
+  EXPECT_EQ(refusal(session, by_formula("mass", "s", R"(,"tolerance":0)")).where, "tolerance");
+  EXPECT_EQ(refusal(session, R"({"do":"material","alpha":[1,0,1],"tolerance":1})").where, "tolerance");
+  run(session, {by_formula("alpha12", "-0.5*s")});  // which may be negative
+}
+
+TEST(Command, ALoadByFormulaIsTheLoadThatItSays) {
+  const std::string edge = R"({"do":"edge","hold":"position"})", solve = R"({"do":"evolve","mode":"static"})";
+  const auto shape_under = [&](const std::string& load) {
+    Session session = fresh();
+    run(session, {sheet, edge, load, solve});
+    return Points(first(session).current->control_points());
+  };
+  // A linear load is the same by samples and by formula, of fractions and of places.
+  const Points samples =
+      shape_under(R"({"do":"load","counts":[2,2],"samples":[[0,0,0],[0,0,0],[0,0,0.02],[0,0,0.02]]})");
+  for (const std::string formula : {"0.02*s", "0.02*x"}) {
+    const Points same = shape_under(R"({"do":"load","formula":["0","0",")" + formula + "\"]}");
+    EXPECT_GT(same.col(2).maxCoeff(), 1e-4);
+    EXPECT_LT((same - samples).cwiseAbs().maxCoeff(), 1e-12) << formula;
+  }
+  // Added to a constant one, and not polynomial: against a fine grid of samples.
+  std::string fine;
+  for (int k = 0; k < 201; ++k) {
+    const double force = 0.01 + 0.02 * std::sin(std::numbers::pi * k / 200);
+    for (int side = 0; side < 2; ++side) fine += fmt::format("{}[0,0,{:.17g}]", fine.empty() ? "" : ",", force);
+  }
+  const Points by_samples = shape_under(R"({"do":"load","counts":[201,2],"samples":[)" + fine + "]}");
+  const Points both =
+      shape_under(R"({"do":"load","vector":[0,0,0.01],"formula":["0","0","0.02*sin(pi*s) + 0"],"tolerance":1e-9})");
+  EXPECT_LT((both - by_samples).cwiseAbs().maxCoeff(), 5e-5 * both.col(2).maxCoeff());  // h² of the samples
+  Session session = fresh();
+  run(session, {sheet});
+  EXPECT_EQ(refusal(session, R"({"do":"load","formula":["0","0"]})").kind, ErrorKind::input);
+  EXPECT_EQ(refusal(session, R"({"do":"load","formula":["0","y +","0"]})").where, "component 1: formula: character 4");
+  EXPECT_EQ(refusal(session, R"({"do":"load","tolerance":1e-3})").where, "tolerance");
+}
+
+TEST(Command, WeightsOfFundamentalFormsMayBeOneNumber) {
+  Session session = fresh();
+  run(session, {sheet, R"({"do":"material","model":"fundamental","w1":2,"w2":[0.1,0.2,0.1]})"});
+  ASSERT_TRUE(first(session).fundamental);
+  EXPECT_EQ(first(session).fundamental->w1, (std::array<double, 3>{2, 2, 2}));
+  EXPECT_EQ(first(session).fundamental->w2, (std::array<double, 3>{0.1, 0.2, 0.1}));
 }
 
 TEST(Command, MirrorSymmetryMirrorsToolsAndForces) {

@@ -41,8 +41,9 @@ struct ModelInput {
   ScalingMode scaling = ScalingMode::normalised;
   EvolutionPolicy evolution;
   std::vector<FollowedInput> followed = {};
-  CouplingTolerance coupling = {};  ///< with followed edges: as `Scene::coupling`
-  double detail = 0;                ///< smallest tool dimension that forces must resolve, file units; 0: no tool
+  CouplingTolerance coupling = {};   ///< with followed edges: as `Scene::coupling`
+  std::optional<Load> varying = {};  ///< the load, if it varies, since its forces are kept
+  double detail = 0;                 ///< smallest tool dimension that forces must resolve, file units; 0: no tool
 
   friend bool operator==(const ModelInput&, const ModelInput&) = default;
 };
@@ -56,6 +57,7 @@ struct SceneModel {
   ActiveSurface model;
   std::vector<SeamReport> seams;   ///< patches are indices into `input.surfaces`
   std::vector<std::string> notes;  ///< lines that may bend, etc.
+  Points varying_load = {};        ///< forces of the load's samples and formulas on the control points; empty: none
 };
 
 /// Makes and factors the model. `input` has at least one surface.
@@ -71,10 +73,11 @@ struct SceneModel {
 
 /// Loads, point forces with their mirror images, and the limit of the scene. `model` is that of the selected surfaces.
 /// Errors (input): a force on a point that does not exist.
-[[nodiscard]] Expected<ActiveLoads> active_loads(const Scene& scene, const ActiveSurface& model);
+[[nodiscard]] Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& model);
 
-/// The sampled part of a load, over the domain of a surface.
-[[nodiscard]] Expected<Surface> load_field(const Load& load, const Surface& surface);
+/// The parts of a load that vary, forces per area over the domain of a surface: that of its samples, and one for each
+/// component by formula. Errors: those of `sampled_load` and `formula_field`.
+[[nodiscard]] Expected<std::vector<Surface>> load_fields(const Load& load, const Surface& surface);
 
 /// The constraints that one symmetry puts on a surface; terms are numbered by its own control points.
 [[nodiscard]] Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry& symmetry,

@@ -57,6 +57,12 @@ struct Load {
   /// Samples of a force per area on a grid over the domain, last direction fastest, linear in between.
   std::array<int, 2> counts = {0, 0};
   std::vector<Vector3> samples = {};  ///< empty: none
+  /// A force per area as three formulas (`formula_field`), to a tolerance.
+  std::optional<std::array<std::string, 3>> formula = {};
+  std::optional<double> tolerance = {};
+
+  /// Whether a part of it is not the same everywhere.
+  [[nodiscard]] bool varies() const { return !samples.empty() || formula; }
 
   friend bool operator==(const Load&, const Load&) = default;
 };

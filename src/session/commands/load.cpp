@@ -19,14 +19,28 @@ void describe(LoadCommand& c, Fields& fields) {
              {.help = "`[m, n]` samples of any load f(u, v) over the domain, its ends included"});
   fields.add("samples", c.load.samples,
              {.help = "m n forces `[x, y, z]` per area, along v first, linear in between; integrated exactly"});
+  fields.add("formula", c.load.formula,
+             {.help = "a force per area: a formula for each of x, y, z, of what `material` names; as cubic splines, "
+                      "integrated exactly"});
+  fields.add("tolerance", c.load.tolerance,
+             {.help = "of these splines, in forces per area",
+              .range = above(0),
+              .fallback = "1e-6 of the largest of a component"});
 }
 
 template <>
 Expected<void> Executor::execute(const LoadCommand& c) {
-  if (!c.load.samples.empty() || c.load.counts != std::array<int, 2>{0, 0}) {
+  if (c.load.samples.empty() && c.load.counts != std::array<int, 2>{0, 0}) {
+    return input_error("counts are given without samples", "samples", "give m n forces");
+  }
+  if (c.load.tolerance && !c.load.formula) {
+    return input_error("a tolerance is given without a formula", "tolerance", "leave it out");
+  }
+  if (auto checked = check_ranges(type_of<LoadCommand>(), &c); !checked) return checked;
+  if (c.load.varies()) {
     auto surface = selected();
     if (!surface) return std::unexpected(surface.error());
-    if (auto field = load_field(c.load, *(*surface)->reference); !field) return std::unexpected(field.error());
+    if (auto fields = load_fields(c.load, *(*surface)->reference); !fields) return std::unexpected(fields.error());
   }
   state.load = c.load;
   return {};

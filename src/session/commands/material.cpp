@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "knead/energy/paint.hpp"
+#include "knead/scene/formula_field.hpp"
 #include "knead/scene/places.hpp"
 
 namespace knead {
@@ -19,16 +20,29 @@ Coefficient<2>* coefficient_named(MaterialFieldOf<2>& material, const std::strin
   return nullptr;
 }
 
-/// One coefficient by samples over the whole domain.
-Expected<MaterialFieldOf<2>> sampled(const MaterialCommand& c, const SceneSurface& s) {
+/// A coefficient by samples or a formula over the whole domain.
+Expected<SplineField<2>> field_of(const MaterialCommand& c, const SceneSurface& s) {
+  if (c.formula) {
+    if (!c.samples.empty()) return input_error("there are samples and a formula", "formula", "give one of them");
+    std::optional<Interval> range;
+    if (*c.coefficient != "alpha12") range = Interval{0, std::numeric_limits<double>::infinity()};
+    return formula_field(*c.formula, *s.reference, c.tolerance, range);
+  }
   auto field = sampled_field<2>({s.reference->knots(0).domain(), s.reference->knots(1).domain()}, c.counts, c.samples);
   if (!field) return std::unexpected(field.error().within("samples"));
+  return field;
+}
+
+/// One coefficient alone, over the whole domain.
+Expected<MaterialFieldOf<2>> varied(const MaterialCommand& c, const SceneSurface& s) {
   MaterialFieldOf<2> next = s.material;
   Coefficient<2>* const place = coefficient_named(next, *c.coefficient);
   if (place == nullptr) {
     return input_error(fmt::format("\"{}\" is not a coefficient", *c.coefficient), "coefficient",
                        "use alpha11, alpha12, alpha22, beta11, beta12, beta22, mass or damping");
   }
+  auto field = field_of(c, s);
+  if (!field) return std::unexpected(field.error());
   *place = std::move(*field);
   return next;
 }
@@ -138,7 +152,13 @@ Expected<std::optional<FundamentalMaterial>> fundamental_of(const MaterialComman
   return *checked;
 }
 
-Expected<void> check_plastic(const MaterialCommand& c) {
+Expected<void> check_fields(const MaterialCommand& c) {
+  if (!c.coefficient && (c.formula || !c.samples.empty())) {
+    return input_error("of which coefficient is not said", "coefficient", R"(name it, as "coefficient":"beta11")");
+  }
+  if (c.tolerance && !c.formula) {
+    return input_error("a tolerance is given without a formula", "tolerance", "leave it out");
+  }
   if (c.preset && (c.region || c.coefficient)) {
     return input_error("a preset is for whole surfaces", "preset", "leave out region and coefficient");
   }
@@ -226,11 +246,17 @@ void describe(MaterialCommand& c, Fields& fields) {
               .fallback = "everywhere"});
   fields.add("falloff", c.falloff, {.help = "width of the border of the region, in fractions", .unit = Unit::fraction});
   fields.add("coefficient", c.coefficient,
-             {.help = "`alpha11` … `beta22`, `mass` or `damping`: only this one, by samples; `alpha` and `beta` are "
-                      "then ignored"});
+             {.help = "`alpha11` … `beta22`, `mass` or `damping`: only this one, by samples or a formula; `alpha` "
+                      "and `beta` are then ignored"});
   fields.add("counts", c.counts, {.help = "`[m, n]` samples over the domain, its ends included"});
   fields.add("samples", c.samples,
              {.help = "m n numbers, along v first, linear in between; all that is convex coefficient by coefficient"});
+  fields.add("formula", c.formula,
+             {.help = "of `s`, `t`, the fractions along u and v, and `x`, `y`, `z`, the place there, as "
+                      "`1 + 4*exp(-40*((s - 0.5)^2 + (t - 0.5)^2))`; as a cubic spline "
+                      "([materials-and-loads.md](materials-and-loads.md))"});
+  fields.add("tolerance", c.tolerance,
+             {.help = "of that spline", .range = above(0), .fallback = "1e-6 of the largest value"});
   fields.add("preset", c.preset,
              {.help = "of whole surfaces: coefficients, the lambda of `evolve` and what strokes leave, as "
                       "[clay.md](clay.md) lists them"});
@@ -256,8 +282,9 @@ void describe(MaterialCommand& c, Fields& fields) {
              {.help = "of a shell: mass per volume, for `load` gravity", .fallback = "as it was, at first 0"});
   fields.add("w1", c.w1,
              {.help = "of `fundamental`: weights of the first form, 11, 12, 22; per du dv of the knots as they are",
-              .fallback = "as it was, at first 1"});
-  fields.add("w2", c.w2, {.help = "of the second form", .fallback = "as it was, at first 1"});
+              .fallback = "as it was, at first 1",
+              .uniform = true});
+  fields.add("w2", c.w2, {.help = "of the second form", .fallback = "as it was, at first 1", .uniform = true});
 }
 
 void read_as_version_1(MaterialCommand& c) {
@@ -273,7 +300,7 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
     return input_error("no field is given", "alpha",
                        "give a preset, alpha, beta, mass, damping, plasticity, yield, locality, coefficient, or model");
   }
-  if (auto checked = check_plastic(given); !checked) return checked;
+  if (auto checked = check_fields(given); !checked) return checked;
   MaterialCommand c = given;
   const Preset* preset = nullptr;
   if (c.preset) {
@@ -288,7 +315,7 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
   if (auto material = validated(constants); !material) return std::unexpected(material.error());
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    auto next = c.coefficient ? sampled(c, s) : c.region ? painted(c, s) : everywhere(c, s);
+    auto next = c.coefficient ? varied(c, s) : c.region ? painted(c, s) : everywhere(c, s);
     if (!next) return std::unexpected(next.error());
     if (auto checked = validated<2>(*next); !checked) return std::unexpected(checked.error());
     const auto shell = shell_of(c, s);

@@ -38,7 +38,9 @@ struct MaterialCommand {
   /// One coefficient alone ("alpha11" … "beta22", "mass", "damping") by samples on a grid over the domain.
   std::optional<std::string> coefficient;
   std::array<int, 2> counts = {0, 0};
-  std::vector<double> samples;           ///< last direction fastest, linear in between
+  std::vector<double> samples;         ///< last direction fastest, linear in between
+  std::optional<std::string> formula;  ///< the same by a formula, to a tolerance
+  std::optional<double> tolerance;
   std::optional<MaterialPreset> preset;  ///< of whole surfaces
   /// What strokes leave; default: that of the preset, else as it was.
   std::optional<double> plasticity, yield, locality;
