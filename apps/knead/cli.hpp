@@ -24,6 +24,7 @@ Action add_basis(CLI::App& app);
 Action add_mesh(CLI::App& app);
 Action add_matrices(CLI::App& app);
 Action add_schema(CLI::App& app);
+Action add_snake(CLI::App& app);
 
 /// The end of every help text.
 inline constexpr std::string_view exit_codes =

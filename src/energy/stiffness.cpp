@@ -148,7 +148,7 @@ void Stiffness<D>::refresh(SparseMatrix& matrix) const {
     for (int k = 0; k < n; ++k) {
       const std::ptrdiff_t length = pattern.length(last, k);
       const double* from = band.data() + static_cast<std::ptrdiff_t>(k) * width + pattern.first(last, k) - k + p;
-      const bool past_the_end = to + count * length + spare > behind;
+      const bool past_the_end = behind - to < count * length + spare;
       if (past_the_end) end.resize(static_cast<std::size_t>(count * length + spare));
       kernels.write_runs(from, stride, weights.data(), static_cast<std::ptrdiff_t>(kinds), count, length,
                          past_the_end ? end.data() : to);

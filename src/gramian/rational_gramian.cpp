@@ -78,7 +78,8 @@ class SpanIntegrator {
       const double m = piece.bound(direction == 0 ? rho : 1, direction == 0 ? 1 : rho, a_, b_);
       if (!std::isfinite(m)) break;  // and on all larger ellipses
       const double at_zero = 0.5 * area * (64.0 / 15) * m / (1 - 1 / (rho * rho));
-      const int points = std::max(1, static_cast<int>(std::ceil(0.5 * std::log(at_zero / allowed) / std::log(rho))));
+      const double asked = std::ceil(0.5 * std::log(at_zero / allowed) / std::log(rho));  // of nothing −∞
+      const int points = static_cast<int>(std::clamp(asked, 1.0, 1e6));
       if (points < best.points) best = {points, at_zero * std::pow(rho, -2.0 * points)};
     }
     return best;

@@ -1,0 +1,189 @@
+#include "knead/image/snake.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli.hpp"
+#include "image_file.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/session/snake_script.hpp"
+#include "outputs.hpp"
+
+namespace knead::cli {
+namespace {
+
+struct SnakeArguments {
+  std::string image, script, output, mask;
+};
+
+/// Without a script: an ellipse as large as the image nearly, drawn together by the region term.
+SnakeScript default_script(const Image& image) {
+  SnakeScript script;
+  script.settings.units = 400;
+  script.settings.alpha = 1;
+  script.settings.beta = 300;
+  script.settings.gamma = 0.1;
+  script.settings.refine = 0.5;
+  script.settings.motion = 0.02;
+  SnakeStart start;
+  start.centre = {(image.width - 1) / 2.0, (image.height - 1) / 2.0};
+  start.radii = {0.45 * image.width, 0.45 * image.height};
+  script.snakes.push_back(start);
+  return script;
+}
+
+/// Files that a script names are beside it.
+std::string beside(const std::string& script, const std::string& file) {
+  return (std::filesystem::path(script).parent_path() / file).string();
+}
+
+Expected<SnakeScript> script_of(const SnakeArguments& options, const Image& image) {
+  if (options.script.empty()) return default_script(image);
+  const auto text = read_file(options.script);
+  if (!text) return std::unexpected(text.error());
+  auto script = parse_snake_script(*text);
+  if (script) return script;
+  Error error = script.error();
+  error.file = options.script;
+  return std::unexpected(error);
+}
+
+double area_of(const std::vector<std::array<double, 2>>& line) {
+  double twice = 0;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const auto &a = line[k], &b = line[(k + 1) % line.size()];
+    twice += a[0] * b[1] - a[1] * b[0];
+  }
+  return std::abs(twice) / 2;
+}
+
+std::string json_of(const std::vector<SnakeResult>& snakes, const SnakeArguments& options, const Image& image) {
+  std::string text = fmt::format("{{\"image\":{},\"width\":{},\"height\":{},\"snakes\":[",
+                                 nlohmann::json(options.image).dump(), image.width, image.height);
+  for (std::size_t k = 0; k < snakes.size(); ++k) {
+    const SnakeResult& s = snakes[k];
+    const KnotVector& knots = s.curve.knots()[0];
+    text += fmt::format(
+        "{}\n{{\"closed\":{},\"degree\":{},\"iterations\":{},\"converged\":{},\"crossings\":{},\"area\":{},",
+        k > 0 ? "," : "", s.closed, knots.degree(), s.iterations, s.converged, crossings(s),
+        json_number(s.closed ? area_of(polyline(s)) : 0));
+    std::string list;
+    for (const double x : knots.knots()) list += (list.empty() ? "" : ",") + json_number(x);
+    text += "\"knots\":[" + list + "],\"control_points\":[";
+    list.clear();
+    for (Eigen::Index i = 0; i < s.curve.size(); ++i) {
+      list += fmt::format("{}[{},{}]", list.empty() ? "" : ",", json_number(s.curve.control_points()(i, 0)),
+                          json_number(s.curve.control_points()(i, 1)));
+    }
+    text += list + "]}";
+  }
+  return text + "]}\n";
+}
+
+std::string csv_of(const std::vector<SnakeResult>& snakes) {
+  std::string text = "snake,x,y\n";
+  for (std::size_t k = 0; k < snakes.size(); ++k) {
+    for (const auto& [x, y] : polyline(snakes[k])) text += fmt::format("{},{:.17g},{:.17g}\n", k, x, y);
+  }
+  return text;
+}
+
+/// Pixels as units, so that it lies on the image.
+std::string svg_of(const std::vector<SnakeResult>& snakes, const Image& image) {
+  std::string text =
+      fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-0.5 -0.5 {} {}\" width=\"{}\" height=\"{}\">\n",
+                  image.width, image.height, image.width, image.height);
+  for (const SnakeResult& s : snakes) {
+    std::string points;
+    for (const auto& [x, y] : polyline(s)) points += fmt::format("{}{:.17g},{:.17g}", points.empty() ? "" : " ", x, y);
+    text += fmt::format("<{} points=\"{}\" fill=\"none\" stroke=\"#c0392b\" stroke-width=\"1\"/>\n",
+                        s.closed ? "polygon" : "polyline", points);
+  }
+  return text + "</svg>\n";
+}
+
+Expected<void> write_results(const std::vector<SnakeResult>& snakes, const SnakeArguments& options,
+                             const Image& image) {
+  if (!options.output.empty()) {
+    const std::string ending = std::filesystem::path(options.output).extension().string();
+    const std::string text = ending == ".csv"   ? csv_of(snakes)
+                             : ending == ".svg" ? svg_of(snakes, image)
+                                                : json_of(snakes, options, image);
+    if (auto done = write_file_atomically(options.output, text); !done) return done;
+  }
+  if (options.mask.empty()) return {};
+  Image all{image.width, image.height, std::vector<double>(image.values.size(), 0)};
+  for (const SnakeResult& s : snakes) {
+    const Image one = mask_of(s, image.width, image.height);
+    for (std::size_t k = 0; k < all.values.size(); ++k) all.values[k] = std::max(all.values[k], one.values[k]);
+  }
+  const auto bytes = png_of(all);
+  if (!bytes) return std::unexpected(bytes.error());
+  return write_file_atomically(options.mask, *bytes);
+}
+
+Expected<void> run(const SnakeArguments& options) {
+  const std::string ending = std::filesystem::path(options.output).extension().string();
+  if (!options.output.empty() && ending != ".json" && ending != ".csv" && ending != ".svg") {
+    return usage_error(fmt::format("\"{}\" is no kind of contour", ending), "--output", "name it .json, .csv or .svg");
+  }
+  if (auto checked = check_outputs({{"--output", options.output}, {"--mask", options.mask}},
+                                   {{"IMAGE", options.image}, {"--script", options.script}});
+      !checked) {
+    return checked;
+  }
+  const auto image = read_image(options.image);
+  if (!image) return std::unexpected(image.error());
+  const auto script = script_of(options, *image);
+  if (!script) return std::unexpected(script.error());
+  std::optional<Image> mask;
+  if (!script->mask.empty()) {
+    auto read = read_image(beside(options.script, script->mask));
+    if (!read) return std::unexpected(read.error());
+    mask = std::move(*read);
+  }
+  const auto potential = ImagePotential::create(*image, script->image, mask);
+  if (!potential) return std::unexpected(potential.error());
+  std::vector<Curve> starts;
+  std::vector<SnakeSettings> settings;
+  for (std::size_t k = 0; k < script->snakes.size(); ++k) {
+    settings.push_back(settings_of(*script, script->snakes[k]));
+    const auto points = points_of(script->snakes[k]);
+    auto curve = points ? curve_through(*points, settings.back()) : std::unexpected(points.error());
+    if (!curve) return std::unexpected(curve.error().within(fmt::format("snakes[{}]", k)));
+    starts.push_back(std::move(*curve));
+  }
+  const auto snakes = run_snakes(*potential, std::move(starts), settings);
+  if (!snakes) return std::unexpected(snakes.error());
+  for (std::size_t k = 0; k < snakes->size(); ++k) {
+    const SnakeResult& s = (*snakes)[k];
+    const int crossed = crossings(s);
+    fmt::print(
+        "snake {}: {} control points, {} iterations, {}{}\n", k, s.curve.size() - (s.closed ? settings[k].degree : 0),
+        s.iterations, s.converged ? "at rest" : "not at rest",
+        crossed > 0
+            ? fmt::format(", crosses itself at {}", counted(static_cast<std::size_t>(crossed), "place", "places"))
+            : "");
+  }
+  return write_results(*snakes, options, *image);
+}
+
+}  // namespace
+
+Action add_snake(CLI::App& app) {
+  auto options = std::make_shared<SnakeArguments>();
+  CLI::App* command = app.add_subcommand("snake", "find contours in an image by active B-spline curves");
+  command->add_option("IMAGE", options->image, "PNG or JPEG file")->required()->type_name("");
+  command->add_option("--script,-s", options->script,
+                      "JSON: energies, settings and where snakes start (default: one around nearly all of the image)");
+  command->add_option("--output,-o", options->output, "contours as curves (.json), points (.csv) or a drawing (.svg)");
+  command->add_option("--mask", options->mask, "PNG file for what is inside of closed contours, white on black");
+  command->footer("docs/snakes.md explains the energies and the fields of a script.\n" + std::string(exit_codes));
+  return [options] { return run(*options); };
+}
+
+}  // namespace knead::cli

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "knead/image/image_potential.hpp"
+#include "knead/spline/spline.hpp"
+
+namespace knead {
+
+/// A force of the user's hand on a snake (Kass, Witkin and Terzopoulos; thesis Fig. 2.24).
+struct SnakeSpring {
+  double at = 0;                  ///< which point of the snake: the fraction of its parameter, 0 to 1
+  std::array<double, 2> to = {};  ///< where it is drawn, pixels
+  double strength = 1;            ///< force per distance
+};
+struct SnakeVolcano {
+  std::array<double, 2> at = {};  ///< from where the snake is pushed away, pixels
+  double strength = 1;            ///< force at the radius; it falls with the square of the distance
+  double radius = 1;              ///< within which it grows no more, pixels
+};
+
+/// How a snake is made and moves. The energy is ½ ∫ α |v'|² + β |v''|² ds − ∫ Q(v) ds (thesis Eqs. 2.26 to 2.30, with
+/// the factor ½ of Kass, Witkin and Terzopoulos), s counted in `units`.
+struct SnakeSettings {
+  bool closed = true;
+  int degree = 3;
+  int control_points = 40;  ///< of a closed snake those that are different
+  double units = 0;         ///< length of the parameter s; 0: the length of the start in pixels
+  double alpha = 0.015, beta = 10;
+  double gamma = 0.001;  ///< viscosity: force per velocity, pixels per iteration
+  double band = 0;       ///< width of the outside that the region term compares with, pixels; 0: all of the image
+  /// Every so many iterations a closed snake that is driven along its normal, by regions or pressure, and has no
+  /// springs is spread evenly where it is stretched more than twice as much in some places as in others; 0: never.
+  int redistribute = 10;
+  double balloon = 0;     ///< pressure along the outward normal of a closed snake, force per length
+  bool hold_ends = true;  ///< of an open snake
+  double max_move = 1;    ///< pixels that a control point moves in an iteration at most: |d| becomes m tanh(|d| / m)
+  int max_iterations = 2500;
+  double motion =
+      0.1;            ///< ends when no control point is farther from one of ten earlier places, in |dx| + |dy|, pixels
+  double refine = 0;  ///< halves spans where a finer net would change the contour by more, pixels; 0: never
+  int max_control_points = 1000;  ///< up to which spans are halved
+  std::vector<SnakeSpring> springs = {};
+  std::vector<SnakeVolcano> volcanoes = {};
+};
+
+/// A contour in an image: a B-spline curve in the plane z = 0, x to the right and y down, in pixels.
+struct SnakeResult {
+  Curve curve;  ///< a closed one on unclamped knots, its first p control points repeated at the end
+  bool closed = true;
+  int iterations = 0;
+  bool converged = false;  ///< whether it came to rest before the iterations ended
+  double last_motion = 0;  ///< pixels
+};
+
+/// A curve near points in their order, by least squares over the chord length: what a snake starts from. Errors
+/// (input): fewer than three points (two of an open one), points that are not finite, the same point throughout; a
+/// degree outside 2 to 7, too few control points for it.
+[[nodiscard]] Expected<Curve> curve_through(std::span<const std::array<double, 2>> points,
+                                            const SnakeSettings& settings);
+
+/// Active contours in an image, several at once: each by implicit steps (γ M + α G11 + β G22) c⁺ = γ M c + F(c) on the
+/// exact Gramians of its basis, F by p + 2 Gauss points per span, until it rests. The matrix is factored once per net.
+///
+/// Several snakes do not see each other but for the region term, whose outside is outside of all. A snake does not
+/// change its topology: it neither splits nor merges nor crosses out parts of itself (`crossings` tells). When much
+/// of a snake turns back its viscosity doubles, and it halves again while it goes on, down to γ: steep edges, at which
+/// an explicit force overshoots, do not keep it from resting. Cost of an iteration: O(control points · p²) and the
+/// image's spline at each Gauss point. Errors: those of `curve_through`; settings outside their ranges (input); a
+/// matrix that is not positive definite (numerical).
+[[nodiscard]] Expected<std::vector<SnakeResult>> run_snakes(const ImagePotential& potential, std::vector<Curve> starts,
+                                                            const std::vector<SnakeSettings>& settings);
+
+/// Points of the contour, `per_span` for each span at equal parameters; of an open one with its end.
+[[nodiscard]] std::vector<std::array<double, 2>> polyline(const SnakeResult& snake, int per_span = 16);
+
+/// How often the polyline with 16 points per span crosses itself. Cost: O(points²).
+[[nodiscard]] int crossings(const SnakeResult& snake);
+
+/// 1 at pixels whose centres are inside a closed contour (even-odd rule, of its polyline with 16 points per span), else
+/// 0.
+[[nodiscard]] Image mask_of(const SnakeResult& snake, int width, int height);
+
+}  // namespace knead

@@ -1,0 +1,268 @@
+#include "knead/image/image.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace knead {
+namespace {
+
+/// The image filtered along x and then along y by an odd number of weights, the border repeated.
+Image convolved(const Image& image, const std::vector<double>& along_x, const std::vector<double>& along_y) {
+  Image half = image, whole = image;
+  const auto filter = [](const Image& from, Image& to, const std::vector<double>& weights, bool rows) {
+    const int reach = static_cast<int>(weights.size() / 2);
+    for (int y = 0; y < from.height; ++y) {
+      for (int x = 0; x < from.width; ++x) {
+        double sum = 0;
+        for (int k = -reach; k <= reach; ++k) {
+          const double w = weights[static_cast<std::size_t>(k + reach)];
+          sum += w * (rows ? from.at(std::clamp(x + k, 0, from.width - 1), y)
+                           : from.at(x, std::clamp(y + k, 0, from.height - 1)));
+        }
+        to.at(x, y) = sum;
+      }
+    }
+  };
+  filter(image, half, along_x, true);
+  filter(half, whole, along_y, false);
+  return whole;
+}
+
+/// Differences over two pixels, the border repeated.
+std::array<Image, 2> differences(const Image& image) {
+  return {convolved(image, {-0.5, 0, 0.5}, {1}), convolved(image, {1}, {-0.5, 0, 0.5})};
+}
+
+/// min_j (f_j + (i − j)²) for all i: the lower envelope of parabolas.
+void lower_envelope(const std::vector<double>& f, std::vector<double>& result) {
+  const auto n = static_cast<int>(f.size());
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<int> lowest;   // whose parabolas are lowest somewhere, from left to right
+  std::vector<double> from;  // where each begins to be
+  const auto at = [&](int k) { return f[static_cast<std::size_t>(k)]; };
+  for (int q = 0; q < n; ++q) {
+    if (at(q) == infinity) continue;
+    double start = -infinity;
+    while (!lowest.empty()) {
+      const int v = lowest.back();
+      start = ((at(q) + double(q) * q) - (at(v) + double(v) * v)) / (2.0 * (q - v));
+      if (start > from.back()) break;
+      lowest.pop_back();
+      from.pop_back();
+      start = -infinity;
+    }
+    lowest.push_back(q);
+    from.push_back(start);
+  }
+  result.assign(f.size(), infinity);
+  if (lowest.empty()) return;
+  std::size_t k = 0;
+  for (int i = 0; i < n; ++i) {
+    while (k + 1 < lowest.size() && from[k + 1] < i) ++k;
+    const double d = i - lowest[k];
+    result[static_cast<std::size_t>(i)] = d * d + at(lowest[k]);
+  }
+}
+
+/// Cubic spline coefficients of one line of samples with stride, mirrored at its ends: in place, by the recursive
+/// filter with the pole √3 − 2.
+void interpolate_line(double* line, std::size_t stride, int n) {
+  if (n == 1) return;
+  const double pole = std::sqrt(3.0) - 2;
+  const auto at = [&](int k) -> double& { return line[static_cast<std::size_t>(k) * stride]; };
+  // The first of the causal sums, exactly: the mirrored samples have the period 2n − 2.
+  double sum = at(0), power = pole, last = std::pow(pole, n - 1);
+  sum += last * at(n - 1);
+  double back = last * last / pole;  // pole^(2n − 3)
+  for (int k = 1; k < n - 1; ++k) {
+    sum += (power + back) * at(k);
+    power *= pole;
+    back /= pole;
+  }
+  at(0) = sum / (1 - last * last);
+  for (int k = 1; k < n; ++k) at(k) += pole * at(k - 1);
+  at(n - 1) = pole / (pole * pole - 1) * (pole * at(n - 2) + at(n - 1));
+  for (int k = n - 2; k >= 0; --k) at(k) = pole * (at(k + 1) - at(k));
+  for (int k = 0; k < n; ++k) at(k) *= 6;
+}
+
+void cubic_basis(double t, double* values, bool derivative) {
+  const double r = 1 - t;
+  if (derivative) {
+    values[0] = -r * r / 2;
+    values[1] = (3 * t - 4) * t / 2;
+    values[2] = (1 + 2 * t - 3 * t * t) / 2;
+    values[3] = t * t / 2;
+  } else {
+    values[0] = r * r * r / 6;
+    values[1] = (4 - 3 * t * t * (2 - t)) / 6;
+    values[2] = (4 - 3 * r * r * (2 - r)) / 6;
+    values[3] = t * t * t / 6;
+  }
+}
+
+}  // namespace
+
+Expected<void> check_image(const Image& image) {
+  if (image.width < 1 || image.height < 1) {
+    return input_error(fmt::format("{} x {} pixels are no image", image.width, image.height), "image");
+  }
+  const std::size_t asked = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  if (image.values.size() != asked) {
+    return input_error(fmt::format("{} x {} pixels have {} values", image.width, image.height, image.values.size()),
+                       "image", "give one per pixel");
+  }
+  for (std::size_t k = 0; k < asked; ++k) {
+    if (!std::isfinite(image.values[k])) return input_error("the value is not finite", fmt::format("pixel {}", k));
+  }
+  return {};
+}
+
+Image gaussian(const Image& image, double sigma) {
+  if (!(sigma > 0)) return image;
+  const int reach = static_cast<int>(4 * sigma + 0.5);
+  std::vector<double> weights(static_cast<std::size_t>(2 * reach + 1));
+  double total = 0;
+  for (int k = -reach; k <= reach; ++k) {
+    const double w = std::exp(-0.5 * k * k / (sigma * sigma));
+    weights[static_cast<std::size_t>(k + reach)] = w;
+    total += w;
+  }
+  for (double& w : weights) w /= total;
+  return convolved(image, weights, weights);
+}
+
+Image sobel(const Image& image) {
+  const Image h = convolved(image, {0.25, 0.5, 0.25}, {-0.5, 0, 0.5}),
+              v = convolved(image, {-0.5, 0, 0.5}, {0.25, 0.5, 0.25});
+  Image result = image;
+  for (std::size_t k = 0; k < result.values.size(); ++k) {
+    result.values[k] = std::sqrt((h.values[k] * h.values[k] + v.values[k] * v.values[k]) / 2);
+  }
+  return result;
+}
+
+Image distance_to(const Image& mask) {
+  Image result = mask;
+  for (double& x : result.values) x = x >= 0.5 ? 0 : std::numeric_limits<double>::infinity();
+  std::vector<double> line, squared;
+  for (int x = 0; x < mask.width; ++x) {
+    line.clear();
+    for (int y = 0; y < mask.height; ++y) line.push_back(result.at(x, y));
+    lower_envelope(line, squared);
+    for (int y = 0; y < mask.height; ++y) result.at(x, y) = squared[static_cast<std::size_t>(y)];
+  }
+  for (int y = 0; y < mask.height; ++y) {
+    line.clear();
+    for (int x = 0; x < mask.width; ++x) line.push_back(result.at(x, y));
+    lower_envelope(line, squared);
+    for (int x = 0; x < mask.width; ++x) result.at(x, y) = std::sqrt(squared[static_cast<std::size_t>(x)]);
+  }
+  return result;
+}
+
+Image termination(const Image& image) {
+  const auto [ix, iy] = differences(image);
+  const auto [ixx, ixy] = differences(ix);
+  const Image iyy = differences(iy)[1];
+  Image result = image;
+  double largest = 0;
+  for (std::size_t k = 0; k < image.values.size(); ++k) {
+    largest = std::max(largest, std::hypot(ix.values[k], iy.values[k]));
+  }
+  for (std::size_t k = 0; k < image.values.size(); ++k) {
+    const double x = ix.values[k], y = iy.values[k], slope = std::hypot(x, y);
+    result.values[k] =
+        slope > 1e-3 * largest
+            ? (iyy.values[k] * x * x - 2 * ixy.values[k] * x * y + ixx.values[k] * y * y) / (slope * slope * slope)
+            : 0;
+  }
+  return result;
+}
+
+std::array<Image, 2> gradient_vector_flow(const Image& edges, double mu, int iterations) {
+  Image scaled = edges;
+  const auto [low, high] = std::ranges::minmax_element(edges.values);
+  const double base = *low, range = *high - *low;
+  for (double& x : scaled.values) x = range > 0 ? (x - base) / range : 0;
+  const std::array<Image, 2> slope = differences(scaled);
+  std::array<Image, 2> flow = slope;
+  const double step = std::min(1.0, 1 / (4 * mu + 2));  // stable: step (4 μ + |∇f|²) <= 1 with |∇f|² <= 1/2
+  for (std::size_t d = 0; d < 2; ++d) {
+    Image next = flow[d];
+    for (int i = 0; i < iterations; ++i) {
+      for (int y = 0; y < edges.height; ++y) {
+        for (int x = 0; x < edges.width; ++x) {
+          const double here = flow[d].at(x, y), gx = slope[0].at(x, y), gy = slope[1].at(x, y);
+          const double around = flow[d].at(std::max(x - 1, 0), y) + flow[d].at(std::min(x + 1, edges.width - 1), y) +
+                                flow[d].at(x, std::max(y - 1, 0)) + flow[d].at(x, std::min(y + 1, edges.height - 1));
+          next.at(x, y) = here + step * (mu * (around - 4 * here) - (gx * gx + gy * gy) * (here - slope[d].at(x, y)));
+        }
+      }
+      std::swap(flow[d], next);
+    }
+  }
+  return flow;
+}
+
+ImageSpline::ImageSpline(const Image& image) : width_(image.width), height_(image.height) {
+  Image c = image;
+  for (int y = 0; y < height_; ++y) interpolate_line(&c.at(0, y), 1, width_);
+  for (int x = 0; x < width_; ++x) interpolate_line(&c.at(x, 0), static_cast<std::size_t>(width_), height_);
+  const auto mirrored = [](int k, int n) { return n == 1 ? 0 : k < 0 ? -k : k >= n ? 2 * n - 2 - k : k; };
+  coefficients_.reserve(static_cast<std::size_t>(width_ + 2) * static_cast<std::size_t>(height_ + 2));
+  for (int y = -1; y <= height_; ++y) {
+    for (int x = -1; x <= width_; ++x) coefficients_.push_back(c.at(mirrored(x, width_), mirrored(y, height_)));
+  }
+}
+
+double ImageSpline::sum(double x, double y, bool dx, bool dy) const {
+  const auto span = [](double u, int n) { return std::clamp(static_cast<int>(u), 0, std::max(n - 2, 0)); };
+  const double u = std::clamp(x, 0.0, width_ - 1.0), v = std::clamp(y, 0.0, height_ - 1.0);
+  const int i = span(u, width_), j = span(v, height_);
+  double bx[4], by[4];
+  cubic_basis(u - i, bx, dx);
+  cubic_basis(v - j, by, dy);
+  const int rows = std::min(4, height_ + 2 - j), columns = std::min(4, width_ + 2 - i);  // of an image of one pixel
+  double total = 0;
+  for (int b = 0; b < rows; ++b) {
+    const double* row = coefficients_.data() + static_cast<std::size_t>(j + b) * static_cast<std::size_t>(width_ + 2) +
+                        static_cast<std::size_t>(i);
+    double line = 0;
+    for (int a = 0; a < columns; ++a) line += bx[a] * row[a];
+    total += by[b] * line;
+  }
+  return total;
+}
+
+double ImageSpline::value(double x, double y) const { return sum(x, y, false, false); }
+
+std::array<double, 2> ImageSpline::gradient(double x, double y) const {
+  const bool in_x = x >= 0 && x <= width_ - 1.0, in_y = y >= 0 && y <= height_ - 1.0;
+  return {in_x ? sum(x, y, true, false) : 0, in_y ? sum(x, y, false, true) : 0};
+}
+
+Expected<SplineField<2>> ImageSpline::field() const {
+  std::vector<KnotVector> knots;
+  for (const int n : {width_, height_}) {
+    std::vector<double> values;
+    for (int k = -3; k < n + 3; ++k) values.push_back(k);
+    auto made = KnotVector::create(3, std::move(values));
+    if (!made) return std::unexpected(made.error());
+    knots.push_back(std::move(*made));
+  }
+  std::vector<double> by_x(coefficients_.size());  // the last direction, y, fastest
+  const auto w = static_cast<std::size_t>(width_ + 2), h = static_cast<std::size_t>(height_ + 2);
+  for (std::size_t y = 0; y < h; ++y) {
+    for (std::size_t x = 0; x < w; ++x) by_x[x * h + y] = coefficients_[y * w + x];
+  }
+  return SplineField<2>::create({knots[0], knots[1]}, std::move(by_x));
+}
+
+}  // namespace knead

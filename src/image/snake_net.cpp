@@ -1,0 +1,184 @@
+#include "snake_net.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "knead/gramian/gramian.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead {
+namespace {
+
+Expected<KnotVector> knots_between(std::span<const double> breaks, const SnakeSettings& settings) {
+  const int p = settings.degree, spans = static_cast<int>(breaks.size()) - 1;
+  const double length = breaks.back() - breaks.front();
+  std::vector<double> knots;
+  for (int k = -p; k <= spans + p; ++k) {
+    if (!settings.closed) {
+      knots.push_back(breaks[static_cast<std::size_t>(std::clamp(k, 0, spans))]);
+    } else {
+      const int turns = k < 0 ? -1 : k > spans ? 1 : 0;
+      knots.push_back(breaks[static_cast<std::size_t>(k - turns * spans)] + turns * length);
+    }
+  }
+  return KnotVector::create(p, std::move(knots));
+}
+
+}  // namespace
+
+Expected<SnakeNet> SnakeNet::create(std::span<const double> breaks, const SnakeSettings& settings, bool projection) {
+  auto knots = knots_between(breaks, settings);
+  if (!knots) return std::unexpected(knots.error());
+  const auto set = gramians(*knots);
+  if (!set) return std::unexpected(set.error());
+  const int n = knots->count(), p = knots->degree();
+  const int unknowns = settings.closed ? n - p : n;
+  const bool held = !settings.closed && (settings.hold_ends || projection);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i) {
+    for (int j = std::max(0, i - p); j <= std::min(n - 1, i + p); ++j) {
+      const double a = projection ? set->g00(i, j)
+                                  : settings.gamma * set->g00(i, j) + settings.alpha * set->g11(i, j) +
+                                        settings.beta * set->g22(i, j);
+      entries.emplace_back(i % unknowns, j % unknowns, a);
+    }
+  }
+  Points springs = Points::Zero(unknowns, 3);
+  for (const SnakeSpring& spring : settings.springs) {
+    if (projection) break;
+    const double s = std::lerp(breaks.front(), breaks.back(), spring.at);
+    const auto basis = tabulate_basis(*knots, std::span(&s, 1), 0);
+    if (!basis) return std::unexpected(basis.error());
+    for (int r = 0; r <= p; ++r) {
+      const int i = (basis->first[0] + r) % unknowns;
+      const double value = spring.strength * basis->row(0, 0)[r];
+      springs.row(i) += value * Eigen::RowVector3d(spring.to[0], spring.to[1], 0);
+      for (int q = 0; q <= p; ++q)
+        entries.emplace_back(i, (basis->first[0] + q) % unknowns, value * basis->row(0, 0)[q]);
+    }
+  }
+  SparseMatrix matrix(unknowns, unknowns), reduced(unknowns, unknowns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  if (held) {
+    const auto fixed = [&](int i) { return i == 0 || i == unknowns - 1; };
+    std::erase_if(entries, [&](const auto& e) { return fixed(e.row()) || fixed(e.col()); });
+    entries.emplace_back(0, 0, 1);
+    entries.emplace_back(unknowns - 1, unknowns - 1, 1);
+  }
+  reduced.setFromTriplets(entries.begin(), entries.end());
+  auto factor = SparseCholesky::factor(reduced);
+  if (!factor) return std::unexpected(factor.error().within("snake"));
+  BasisQuadrature quadrature = gauss_basis(*knots, p + 2, 1);
+  SnakeNet net(std::move(*knots), {breaks.begin(), breaks.end()}, std::move(*factor));
+  net.unknowns_ = unknowns;
+  net.held_ = held;
+  net.quadrature_ = std::move(quadrature);
+  net.matrix_ = std::move(matrix);
+  net.springs_ = std::move(springs);
+  return net;
+}
+
+Points SnakeNet::at_gauss(const Points& c, int derivative) const {
+  const BasisTable& basis = quadrature_.basis;
+  Points result = Points::Zero(basis.size(), 3);
+  for (int q = 0; q < basis.size(); ++q) {
+    const double* values = basis.row(q, derivative);
+    for (int r = 0; r <= basis.degree; ++r) {
+      result.row(q) += values[r] * c.row(unknown(basis.first[static_cast<std::size_t>(q)] + r));
+    }
+  }
+  return result;
+}
+
+Points SnakeNet::solve(const Points& f, const Points& c) const {
+  const BasisTable& basis = quadrature_.basis;
+  Points right = springs_;
+  for (int q = 0; q < basis.size(); ++q) {
+    const double* values = basis.row(q, 0);
+    const double weight = quadrature_.weights[static_cast<std::size_t>(q)];
+    for (int r = 0; r <= basis.degree; ++r) {
+      right.row(unknown(basis.first[static_cast<std::size_t>(q)] + r)) += weight * values[r] * f.row(q);
+    }
+  }
+  if (held_) {
+    for (const int fixed : {0, unknowns_ - 1}) {
+      for (SparseMatrix::InnerIterator it(matrix_, fixed); it; ++it) right.row(it.row()) -= it.value() * c.row(fixed);
+    }
+    for (const int fixed : {0, unknowns_ - 1}) right.row(fixed) = c.row(fixed);
+  }
+  return factor_.solve(right);
+}
+
+Expected<Curve> SnakeNet::curve(const Points& c) const {
+  Points all(knots_.count(), 3);
+  for (int i = 0; i < knots_.count(); ++i) all.row(i) = c.row(unknown(i));
+  return Curve::create({knots_}, std::move(all));
+}
+
+std::vector<double> breaks_of(const Curve& curve) {
+  const KnotVector& knots = curve.knots()[0];
+  std::vector<double> breaks;
+  for (const int span : knots.spans()) breaks.push_back(knots[span]);
+  breaks.push_back(knots.domain().upper);
+  return breaks;
+}
+
+Expected<Points> projected(const Curve& curve, std::span<const double> breaks, const SnakeSettings& settings) {
+  const auto net = SnakeNet::create(breaks, settings, true);
+  if (!net) return std::unexpected(net.error());
+  const auto& at = net->quadrature().parameters;
+  const auto places = evaluate(curve, Parameters<1>(Eigen::Map<const Eigen::VectorXd>(at.data(), std::ssize(at))));
+  if (!places) return std::unexpected(places.error());
+  Points ends = Points::Zero(net->unknowns(), 3);
+  ends.row(0) = curve.control_points().row(0);
+  ends.row(net->unknowns() - 1) = curve.control_points().row(curve.size() - 1);
+  return net->solve(places->points(), ends);
+}
+
+Expected<Points> fitted(std::vector<std::array<double, 2>> places, std::span<const double> breaks,
+                        const SnakeSettings& settings) {
+  if (settings.closed && places.front() != places.back()) places.push_back(places.front());
+  std::vector<double> chord = {0};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (!std::isfinite(places[k][0]) || !std::isfinite(places[k][1])) {
+      return input_error("the place is not finite", fmt::format("points[{}]", k));
+    }
+    if (k > 0) {
+      chord.push_back(chord.back() + std::hypot(places[k][0] - places[k - 1][0], places[k][1] - places[k - 1][1]));
+    }
+  }
+  const double length = chord.back(), units = breaks.back() - breaks.front();
+  if (!(length > 0) || !std::isfinite(length)) return input_error("all points are one", "points", "spread them");
+  const auto net = SnakeNet::create(breaks, settings, true);
+  if (!net) return std::unexpected(net.error());
+  const auto& at = net->quadrature().parameters;
+  Points targets = Points::Zero(std::ssize(at), 3);
+  std::size_t piece = 0;
+  for (std::size_t q = 0; q < at.size(); ++q) {
+    const double s = (at[q] - breaks.front()) / units * length;
+    while (piece + 2 < chord.size() && chord[piece + 1] < s) ++piece;
+    const double part = chord[piece + 1] - chord[piece], r = part > 0 ? (s - chord[piece]) / part : 0;
+    for (std::size_t d = 0; d < 2; ++d) {
+      targets(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(d)) =
+          std::lerp(places[piece][d], places[piece + 1][d], r);
+    }
+  }
+  Points ends = Points::Zero(net->unknowns(), 3);
+  ends.row(0) << places.front()[0], places.front()[1], 0;
+  ends.row(net->unknowns() - 1) << places.back()[0], places.back()[1], 0;
+  return net->solve(targets, ends);
+}
+
+double chord_length(std::span<const std::array<double, 2>> places, bool closed) {
+  double length = 0;
+  for (std::size_t k = closed ? 0 : 1; k < places.size(); ++k) {
+    const auto &a = places[(k + places.size() - 1) % places.size()], &b = places[k];
+    length += std::hypot(b[0] - a[0], b[1] - a[1]);
+  }
+  return length;
+}
+
+}  // namespace knead

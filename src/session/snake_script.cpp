@@ -1,0 +1,138 @@
+#include "knead/session/snake_script.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "described_json.hpp"
+
+namespace knead {
+
+std::span<const Choice> choices(SnakeShape) {
+  static constexpr Choice list[] = {{"ellipse", SnakeShape::ellipse, "closed, or a circle where the radii are equal"},
+                                    {"points", SnakeShape::points, "near these, in their order"}};
+  return list;
+}
+
+void describe(ImagePotentialSettings& s, Fields& fields) {
+  fields.name("image energy",
+              "what of the image attracts; positive weights draw to what is bright, has edges, is near");
+  fields.add("smoothing", s.smoothing, {.help = "σ of the Gaussian, pixels", .range = between(0, 100)});
+  fields.add("line", s.line, {.help = "weight of the intensity"});
+  fields.add("edge", s.edge, {.help = "weight of the gradient's magnitude"});
+  fields.add("termination", s.termination, {.help = "weight of the curvature of lines of equal grey"});
+  fields.add("flow", s.flow, {.help = "weight of the gradient vector flow"});
+  fields.add("flow_smoothness", s.flow_smoothness, {.help = "its μ", .range = at_least(0)});
+  fields.add("flow_iterations", s.flow_iterations, {.range = between(0, 100000)});
+  fields.add("region", s.region, {.help = "weight of the grey values inside and outside being like their means"});
+  fields.add("distance", s.distance, {.help = "weight of the nearness to the mask"});
+}
+
+void describe(SnakeSpring& s, Fields& fields) {
+  fields.name("spring", "draws a point of the snake");
+  fields.add("at", s.at, {.help = "of its parameter", .unit = Unit::fraction, .range = between(0, 1)});
+  fields.add("to", s.to, {.help = "where to, pixels", .presence = Presence::required});
+  fields.add("strength", s.strength, {.help = "force per distance", .range = at_least(0)});
+}
+
+void describe(SnakeVolcano& v, Fields& fields) {
+  fields.name("volcano", "pushes snakes away");
+  fields.add("at", v.at, {.help = "from where, pixels", .presence = Presence::required});
+  fields.add("strength", v.strength, {.help = "force at the radius; it falls with the square of the distance"});
+  fields.add("radius", v.radius, {.help = "within which it grows no more, pixels", .range = above(0)});
+}
+
+void describe(SnakeSettings& s, Fields& fields) {
+  fields.name("settings", "how snakes are made and move");
+  fields.add("degree", s.degree, {.range = between(2, 7)});
+  fields.add("control_points", s.control_points, {.help = "of each snake", .range = between(3, 100000)});
+  fields.add("units", s.units,
+             {.help = "length of the parameter s that `alpha` and `beta` count in",
+              .range = at_least(0),
+              .fallback = "the length of the start in pixels"});
+  fields.add("alpha", s.alpha, {.help = "stretch", .range = at_least(0)});
+  fields.add("beta", s.beta, {.help = "bend", .range = at_least(0)});
+  fields.add("gamma", s.gamma, {.help = "force per velocity, pixels per iteration", .range = above(0)});
+  fields.add("band", s.band,
+             {.help = "width of the outside that the region term compares with, pixels",
+              .range = at_least(0),
+              .fallback = "all of the image"});
+  fields.add(
+      "redistribute", s.redistribute,
+      {.help = "after so many iterations a closed snake driven along its normal that is stretched unevenly is spread "
+               "evenly; 0: never",
+       .range = at_least(0)});
+  fields.add("balloon", s.balloon, {.help = "pressure outwards, of closed snakes"});
+  fields.add("max_move", s.max_move, {.help = "pixels in an iteration", .range = above(0)});
+  fields.add("max_iterations", s.max_iterations, {.range = between(1, 1e7)});
+  fields.add("motion", s.motion,
+             {.help = "a snake rests when its control points are within this of one of ten earlier places, pixels",
+              .range = at_least(0)});
+  fields.add("refine", s.refine,
+             {.help = "halves spans where that changes the contour by more, pixels; 0: never", .range = at_least(0)});
+  fields.add("max_control_points", s.max_control_points, {.help = "up to which", .range = between(1, 100000)});
+  fields.add("volcanoes", s.volcanoes);
+}
+
+void describe(SnakeStart& s, Fields& fields) {
+  fields.name("snake", "where it starts");
+  fields.add("shape", s.shape);
+  fields.add("centre", s.centre,
+             {.help = "of an ellipse, pixels: x to the right, y down from the first pixel's centre"});
+  fields.add("radii", s.radii, {.help = "of an ellipse, pixels", .range = at_least(0), .uniform = true});
+  fields.add("angle", s.angle, {.help = "of its first radius, clockwise, degrees"});
+  fields.add("points", s.points, {.help = "`[[x, y], …]`"});
+  fields.add("closed", s.closed);
+  fields.add("hold_ends", s.hold_ends, {.help = "of an open one"});
+  fields.add("control_points", s.control_points, {.fallback = "those of `settings`"});
+  fields.add("springs", s.springs);
+}
+
+void describe(SnakeScript& s, Fields& fields) {
+  fields.name("snake script", "a run of `knead snake`");
+  fields.add("knead", s.version, {.help = "version of the script", .presence = Presence::required});
+  fields.add("image", s.image);
+  fields.add("mask", s.mask, {.help = "file of the mask that `distance` counts from"});
+  fields.add("settings", s.settings);
+  fields.add("snakes", s.snakes, {.presence = Presence::required});
+}
+
+Expected<SnakeScript> parse_snake_script(std::string_view text) {
+  const auto json = parse_json(text);
+  if (!json) return std::unexpected(json.error());
+  SnakeScript script;
+  if (auto read = read_record(*json, type_of<SnakeScript>(), &script); !read) return std::unexpected(read.error());
+  if (script.version != 2) {
+    return input_error(fmt::format("version {} is not known", script.version), "knead", "use 2");
+  }
+  if (script.snakes.empty()) return input_error("there is no snake", "snakes", R"(add {"radii":20,"centre":[50,50]})");
+  return script;
+}
+
+SnakeSettings settings_of(const SnakeScript& script, const SnakeStart& start) {
+  SnakeSettings settings = script.settings;
+  settings.closed = start.closed;
+  settings.hold_ends = start.hold_ends;
+  settings.springs = start.springs;
+  if (start.control_points) settings.control_points = *start.control_points;
+  return settings;
+}
+
+Expected<std::vector<std::array<double, 2>>> points_of(const SnakeStart& start) {
+  if (start.shape == SnakeShape::points) return start.points;
+  if (!(start.radii[0] > 0 && start.radii[1] > 0)) {
+    return input_error("the ellipse has no size", "radii", "give one or two numbers above 0");
+  }
+  constexpr int count = 400;
+  const double turned = start.angle * std::numbers::pi / 180, c = std::cos(turned), s = std::sin(turned);
+  std::vector<std::array<double, 2>> points;
+  for (int k = 0; k < count; ++k) {
+    const double t = 2 * std::numbers::pi * k / count;
+    const double a = start.radii[0] * std::cos(t), b = start.radii[1] * std::sin(t);
+    points.push_back({start.centre[0] + a * c - b * s, start.centre[1] + a * s + b * c});
+  }
+  return points;
+}
+
+}  // namespace knead
