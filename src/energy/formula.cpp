@@ -189,9 +189,10 @@ class FormulaParser {
   }
 
   Done arguments(int function) {
-    const auto& [name, count, value] = formula_functions[function];
-    const auto expected = [&, count = count, name = name] {
-      return wrong(fmt::format("{} takes {} argument{} in parentheses", name, count, count == 1 ? "" : "s"));
+    const int count = formula_functions[function].arguments;
+    const auto expected = [&] {
+      return wrong(fmt::format("{} takes {} argument{} in parentheses", formula_functions[function].name, count,
+                               count == 1 ? "" : "s"));
     };
     if (next() != '(') return expected();
     ++at_;
