@@ -128,14 +128,6 @@ TEST(Command, ALoadByFormulaIsTheLoadThatItSays) {
   EXPECT_EQ(refusal(session, R"({"do":"load","tolerance":1e-3})").where, "tolerance");
 }
 
-TEST(Command, WeightsOfFundamentalFormsMayBeOneNumber) {
-  Session session = fresh();
-  run(session, {sheet, R"({"do":"material","model":"fundamental","w1":2,"w2":[0.1,0.2,0.1]})"});
-  ASSERT_TRUE(first(session).fundamental);
-  EXPECT_EQ(first(session).fundamental->w1, (std::array<double, 3>{2, 2, 2}));
-  EXPECT_EQ(first(session).fundamental->w2, (std::array<double, 3>{0.1, 0.2, 0.1}));
-}
-
 TEST(Command, MirrorSymmetryMirrorsToolsAndForces) {
   Session mirrored = fresh(), both = fresh();
   const std::string hold = R"({"do":"edge","hold":"position"})";

@@ -282,9 +282,8 @@ void describe(MaterialCommand& c, Fields& fields) {
              {.help = "of a shell: mass per volume, for `load` gravity", .fallback = "as it was, at first 0"});
   fields.add("w1", c.w1,
              {.help = "of `fundamental`: weights of the first form, 11, 12, 22; per du dv of the knots as they are",
-              .fallback = "as it was, at first 1",
-              .uniform = true});
-  fields.add("w2", c.w2, {.help = "of the second form", .fallback = "as it was, at first 1", .uniform = true});
+              .fallback = "as it was, at first 1"});
+  fields.add("w2", c.w2, {.help = "of the second form", .fallback = "as it was, at first 1"});
 }
 
 void read_as_version_1(MaterialCommand& c) {
