@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages a goal needs, and only those that are missing.
-#   scripts/setup.sh build | test | sanitizers | bench | format | lint | wasm | studio | web
+#   scripts/setup.sh build | test | bench | format | lint | wasm | studio | web
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev libpng-dev libjpeg62-turbo-dev)
@@ -11,8 +11,6 @@ tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
 peers=(libocct-data-exchange-dev libsuitesparse-dev)
 # The library for WebAssembly, and node to run it.
 wasm=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc nodejs)
-# The sanitizers are clang's, which compiles with them in two thirds of GCC's time; so both compilers build the code.
-sanitizers=(clang-19 libclang-rt-19-dev llvm-19)
 # The studio is built by node's tools, whose versions are those of web/package-lock.json. Node from elsewhere brings npm.
 studio=("${wasm[@]}")
 command -v npm >/dev/null || studio+=(npm)
@@ -22,14 +20,13 @@ web=("${build[@]}" "${studio[@]}" chromium)
 case "${1:-}" in
   build) needed=("${build[@]}") ;;
   test) needed=("${build[@]}" "${tests[@]}") ;;
-  sanitizers) needed=("${build[@]}" "${tests[@]}" "${sanitizers[@]}") ;;
   bench) needed=("${build[@]}" libbenchmark-dev "${peers[@]}") ;;
   format) needed=(clang-format) ;;
   wasm) needed=("${build[@]}" "${wasm[@]}") ;;
   studio) needed=("${build[@]}" "${studio[@]}") ;;
   web) needed=("${web[@]}") ;;
   lint) needed=("${build[@]}" "${tests[@]}" clang-tidy-19) ;;
-  *) echo "usage: scripts/setup.sh build|test|sanitizers|bench|format|lint|wasm|studio|web" >&2; exit 2 ;;
+  *) echo "usage: scripts/setup.sh build|test|bench|format|lint|wasm|studio|web" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
