@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Installs the Debian packages a goal needs, and only those that are missing.
-#   scripts/setup.sh build | test | bench | format | lint | wasm | studio | web
+#   scripts/setup.sh build | test | sanitizers | bench | format | lint | wasm | studio | web
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev libpng-dev libjpeg62-turbo-dev)
 # The benchmarks are built with the tests, so that they keep compiling. OCCT is the oracle the tests compare STEP files
 # with; the product does not use it.
 tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
+# Address and undefined-behaviour sanitizers by a second compiler; llvm names the functions in their reports.
+sanitizers=(clang-19 libclang-rt-19-dev llvm-19)
 # What benchmarks measure beside the library.
 peers=(libocct-data-exchange-dev libsuitesparse-dev)
 # The library for WebAssembly, and node to run it.
@@ -20,13 +22,14 @@ web=("${build[@]}" "${studio[@]}" chromium)
 case "${1:-}" in
   build) needed=("${build[@]}") ;;
   test) needed=("${build[@]}" "${tests[@]}") ;;
+  sanitizers) needed=("${build[@]}" "${tests[@]}" "${sanitizers[@]}") ;;
   bench) needed=("${build[@]}" libbenchmark-dev "${peers[@]}") ;;
   format) needed=(clang-format) ;;
   wasm) needed=("${build[@]}" "${wasm[@]}") ;;
   studio) needed=("${build[@]}" "${studio[@]}") ;;
   web) needed=("${web[@]}") ;;
   lint) needed=("${build[@]}" "${tests[@]}" clang-tidy-19) ;;
-  *) echo "usage: scripts/setup.sh build|test|bench|format|lint|wasm|studio|web" >&2; exit 2 ;;
+  *) echo "usage: scripts/setup.sh build|test|sanitizers|bench|format|lint|wasm|studio|web" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -14,7 +14,7 @@ timed() {  # timed NAME COMMAND...
 }
 
 build() {
-  scripts/setup.sh test
+  if [ "$preset" = asan ]; then scripts/setup.sh sanitizers; else scripts/setup.sh test; fi
   scripts/configure.sh "$preset" KNEAD_BUILD_TESTS=ON
   cmake --build "build/$preset"
 }
