@@ -50,7 +50,7 @@ std::string in_words(const Shape& shape) {
 
 struct Outcome {
   double time = 0, energy_before = 0, energy_after = 0, residual = 0, largest_displacement = 0, gap = 0;
-  int moved = 0, surfaces = 0;
+  int moved = 0, surfaces = 0, bodies = 0;
   std::vector<RepeatedSurface> places;
 };
 
@@ -79,6 +79,13 @@ Outcome outcome_of(Session& session) {
     o.moved += moved;
     ++o.surfaces;
     o.largest_displacement = std::max(o.largest_displacement, session.largest_displacement(static_cast<int>(k)));
+  }
+  for (const SceneBody& body : state.bodies) {
+    const int moved = moved_control_points(body);
+    if (moved == 0) continue;
+    o.moved += moved;
+    ++o.bodies;
+    o.largest_displacement = std::max(o.largest_displacement, largest_displacement(body));
   }
   return o;
 }
@@ -166,10 +173,27 @@ Expected<std::string> probes_json(const SessionState& state) {
   return text;
 }
 
+void print_tools(const SessionState& state) {
+  for (const Tool& t : state.tools) {
+    const Point& c = t.shape.placement().position;
+    fmt::print("  tool {}: {} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", printable(t.name),
+               in_words(t.shape.shape()), c.x(), c.y(), c.z(),
+               t.collides() ? (t.mode == ToolMode::imprint ? "imprint" : "collision")
+                            : fmt::format("proximity within {:.4g}", t.range),
+               t.stiffness);
+  }
+}
+
 void print_summary(const SculptArguments& options, const Session& session, const Outcome& o) {
   const SessionState& state = session.state();
   const std::string& file = options.name();
-  if (!state.selected) {
+  if (state.body) {
+    const SceneBody& b = state.bodies[static_cast<std::size_t>(*state.body)];
+    fmt::print("{}: {} {}{}, lengths in {}\n", file, kind_of(b), b.id,
+               b.name.empty() ? "" : " \"" + printable(b.name) + "\"", b.unit);
+    fmt::print("  degree {}, net {}\n", fmt::join(degrees_of(b), " x "), fmt::join(net_of(b), " x "));
+    print_tools(state);
+  } else if (!state.selected) {
     fmt::print("{}: no surface selected\n", file);
   } else {
     for (int index : state.selection()) {
@@ -180,14 +204,7 @@ void print_summary(const SculptArguments& options, const Session& session, const
       fmt::print("  degree {} x {}, net {} x {}, {}\n", s.current->knots(0).degree(), s.current->knots(1).degree(), m,
                  n, s.current->rational() ? "rational" : "polynomial");
     }
-    for (const Tool& t : state.tools) {
-      const Point& c = t.shape.placement().position;
-      fmt::print("  tool {}: {} at ({:.6g}, {:.6g}, {:.6g}), {}, stiffness {:.4g}\n", printable(t.name),
-                 in_words(t.shape.shape()), c.x(), c.y(), c.z(),
-                 t.collides() ? (t.mode == ToolMode::imprint ? "imprint" : "collision")
-                              : fmt::format("proximity within {:.4g}", t.range),
-                 t.stiffness);
-    }
+    print_tools(state);
   }
   for (const std::string& note : state.notes) fmt::print("  {}\n", printable(note, 2000));
   print_edges(state);
@@ -258,7 +275,10 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
     fmt::print("wrote {}\n", options.picture);
   }
   if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
-  fmt::print("wrote {} ({} surface{} changed)\n", options.output, o.surfaces, o.surfaces == 1 ? "" : "s");
+  fmt::print("wrote {} ({} surface{}{} changed)\n", options.output, o.surfaces, o.surfaces == 1 ? "" : "s",
+             o.bodies == 0 ? ""
+                           : fmt::format(", {} curve{} or volume{}", o.bodies, o.bodies == 1 ? "" : "s",
+                                         o.bodies == 1 ? "" : "s"));
   return {};
 }
 

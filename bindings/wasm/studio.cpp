@@ -10,6 +10,7 @@
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
+#include "studio_bodies.hpp"
 #include "studio_combs.hpp"
 #include "studio_context.hpp"
 #include "studio_material.hpp"
@@ -31,6 +32,7 @@ struct Studio {
   Point origin = Point::Zero();
   PictureMaker pictures;
   CombPicture combs;
+  BodyPicture body;
   ContextPicture context;
   ToolPicture tool;
   MaterialSamples material;
@@ -89,8 +91,9 @@ int start(Document document) {
 /// sizes of the surface on, pictures are measured from its middle.
 void keep_origin_near(const SessionState& now) {
   constexpr double far = 100;
-  if (now.surfaces.empty()) return;
-  const Points& points = now.surfaces.front().current->control_points();
+  if (now.surfaces.empty() && now.bodies.empty()) return;
+  const Points& points =
+      now.surfaces.empty() ? control_points_of(now.bodies.front()) : now.surfaces.front().current->control_points();
   const Point lower = points.colwise().minCoeff().transpose(), upper = points.colwise().maxCoeff().transpose();
   const Point centre = (lower + upper) / 2;
   held().origin = centre.norm() > far * (upper - lower).norm() ? centre : Point(Point::Zero());
@@ -190,7 +193,8 @@ KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
   if (!session) return without_session();
   const auto command = parse_command(held().input);
   if (!command) return fail(command.error());
-  const bool first = session->document().is_fresh() && session->state().surfaces.empty();
+  const bool first =
+      session->document().is_fresh() && session->state().surfaces.empty() && session->state().bodies.empty();
   if (auto done = session->execute(*command); !done) return fail(done.error());
   if (first) keep_origin_near(session->state());
   if (join != 0) session->join();
@@ -301,6 +305,17 @@ int knead_section_combs(int surface, double x, double y, double z, double offset
     return show_combs(
         section_comb_picture(*s.current, {{x, y, z}, offset}, held().origin, visible_part(surface).get()));
   });
+}
+
+/// A curve or a volume: the text is `body_json`, its buffers stay until the next call.
+KNEAD_EXPORT(knead_body_picture) int knead_body_picture(int body) {
+  if (!held().session) return without_session();
+  const auto& bodies = held().session->state().bodies;
+  if (body < 0 || body >= static_cast<int>(bodies.size())) return fail({ErrorKind::usage, "there is no such body"});
+  auto picture = body_picture(bodies[static_cast<std::size_t>(body)], held().origin);
+  if (!picture) return fail(picture.error());
+  held().body = *std::move(picture);
+  return answer(body_json(held().body));
 }
 
 /// The shape of a tool in its own frame: the text is `tool_picture_json`, its buffers stay until the next call.

@@ -122,6 +122,9 @@ std::string format_json() {
 
 Expected<std::string> save_surfaces(std::span<const NamedSurface> surfaces, const Format& format,
                                     const SaveOptions& options) {
+  if (!options.curves.empty() && !format.writes_curves) {
+    return input_error(fmt::format("curves are not written to {}", format.name), {}, "write STEP");
+  }
   if (format.save != nullptr) return format.save(surfaces, options);
   const auto meshes = detail::meshes_of(surfaces, options);
   if (!meshes) return std::unexpected(meshes.error());

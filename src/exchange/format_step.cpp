@@ -72,7 +72,9 @@ Expected<std::string> save_step(std::span<const NamedSurface> surfaces, const Sa
   step::TextOptions text;
   if (!options.unit.empty()) text.unit = options.unit;
   text.product = options.title;
-  return step::text_of(made, text);
+  std::vector<step::NewCurve> curves;
+  for (const NamedCurve& c : options.curves) curves.push_back({c.name, c.curve});
+  return step::text_of(made, text, curves);
 }
 
 constexpr std::string_view step_endings[] = {".step", ".stp", ".p21"};
@@ -86,6 +88,7 @@ Format step_format() {
           .media_type = "model/step",
           .content = FormatContent::surfaces,
           .holds = "the surfaces themselves, and everything else of the file byte for byte",
+          .writes_curves = true,
           .recognises = recognises,
           .open = open,
           .save = save_step};

@@ -62,4 +62,24 @@ std::string print_surface(const Surface& surface, std::string_view label, const 
          ")SURFACE())";
 }
 
+std::string print_curve(const Curve& curve, std::string_view label, const std::function<std::string(int)>& point) {
+  const auto row = [&](const std::function<std::string(int)>& item) {
+    std::string text = "(";
+    for (int k = 0; k < curve.size(); ++k) text.append(k == 0 ? "" : ",").append(item(k));
+    return text + ")";
+  };
+  const PrintedKnots knots = print_knots(curve.knots(0), format_shortest_real);
+  const std::string name(label);
+  const Points& points = curve.control_points();
+  const bool closed = curve.knots(0).clamped() && points.row(0) == points.row(points.rows() - 1);
+  const auto own = std::to_string(curve.knots(0).degree()) + "," + row(point) + ",.UNSPECIFIED.," +
+                   (closed ? ".T." : ".F.") + ",.U.";
+  const auto listed = knots.multiplicities + "," + knots.values + ",.UNSPECIFIED.";
+  if (!curve.rational()) return "B_SPLINE_CURVE_WITH_KNOTS(" + name + "," + own + "," + listed + ")";
+  const auto weights = row([&](int k) { return format_shortest_real(curve.weights()[static_cast<std::size_t>(k)]); });
+  return "(BOUNDED_CURVE()B_SPLINE_CURVE(" + own + ")B_SPLINE_CURVE_WITH_KNOTS(" + listed +
+         ")CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE(" + weights + ")REPRESENTATION_ITEM(" + name +
+         "))";
+}
+
 }  // namespace knead::step

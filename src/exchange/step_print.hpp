@@ -32,6 +32,11 @@ struct PrintedKnots {
 [[nodiscard]] std::string print_surface(const Surface& surface, std::string_view label,
                                         const std::function<std::string(int)>& point, std::string_view line_break);
 
+/// The record of a B_SPLINE_CURVE_WITH_KNOTS without its name, likewise; it is closed if it is
+/// clamped and its first and last control points are the same.
+[[nodiscard]] std::string print_curve(const Curve& curve, std::string_view label,
+                                      const std::function<std::string(int)>& point);
+
 /// Adds a record and returns its name.
 using AddRecord = std::function<std::string(const std::string&)>;
 

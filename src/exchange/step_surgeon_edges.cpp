@@ -19,17 +19,17 @@ std::optional<std::uint32_t> curve_3d_of(const Reader& reader, std::uint32_t cur
 }  // namespace
 
 std::string Surgeon::curve_records(const Curve& curve, const std::string& name) {
-  std::string points, list;
+  std::string points;
+  std::vector<std::string> names;
   const Points& net = curve.control_points();
   for (Eigen::Index k = 0; k < net.rows(); ++k) {
     const std::string point = "#" + std::to_string(names_.next());
     const std::array<double, 3> place = {net(k, 0), net(k, 1), net(k, 2)};
     points += line_break() + print_point(point, place.data());
-    list += (k == 0 ? "" : ",") + point;
+    names.push_back(point);
   }
-  const auto knots = print_knots(curve.knots(0), format_shortest_real);
-  return points + line_break() + name + "=B_SPLINE_CURVE_WITH_KNOTS(''," + std::to_string(curve.knots(0).degree()) +
-         ",(" + list + "),.UNSPECIFIED.,.U.,.U.," + knots.multiplicities + "," + knots.values + ",.UNSPECIFIED.);";
+  return points + line_break() + name + "=" +
+         print_curve(curve, "''", [&](int k) { return names[static_cast<std::size_t>(k)]; }) + ";";
 }
 
 Expected<void> Surgeon::replace_curve(std::uint32_t edge, const Curve& curve) {

@@ -69,6 +69,15 @@ std::string add_surface(Records& records, const NewSurface& item) {
       surface, encode_string(item.name), [&](int k) { return names[static_cast<std::size_t>(k)]; }, "\n"));
 }
 
+std::string add_curve(Records& records, const NewCurve& item) {
+  std::vector<std::string> names;
+  for (Eigen::Index k = 0; k < item.curve.size(); ++k) {
+    names.push_back(records.add_point(item.curve.control_points().row(k).data()));
+  }
+  return records.add(
+      print_curve(item.curve, encode_string(item.name), [&](int k) { return names[static_cast<std::size_t>(k)]; }));
+}
+
 }  // namespace
 
 std::string print_context(std::string_view unit, double uncertainty, const AddRecord& add) {
@@ -84,18 +93,26 @@ std::string print_context(std::string_view unit, double uncertainty, const AddRe
 
 bool is_unit(std::string_view name) { return std::ranges::find(units, name, &Unit::name) != units.end(); }
 
-Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options) {
+Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options,
+                              std::span<const NewCurve> curves) {
   const auto unit = std::ranges::find(units, options.unit, &Unit::name);
   if (unit == units.end()) {
     return input_error("the unit " + options.unit + " is not known", {}, "use um, mm, cm, m, km, inch or foot");
   }
-  if (surfaces.empty()) return input_error("there is no surface to write");
+  if (surfaces.empty() && curves.empty()) return input_error("there is no surface to write");
+  const auto whole = [](const KnotVector& knots, const char* kind, std::size_t k) -> Expected<void> {
+    if (knots.max_interior_multiplicity() <= knots.degree()) return {};
+    return input_error(std::string("STEP knows no ") + kind + " that is torn along a knot",
+                       kind + (" " + std::to_string(k)),
+                       "keep knots inside the domain to a multiplicity of " + std::to_string(knots.degree()));
+  };
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     for (const auto& knots : surfaces[k].surface.knots()) {
-      if (knots.max_interior_multiplicity() <= knots.degree()) continue;
-      return input_error("STEP knows no surface that is torn along a knot", "surface " + std::to_string(k),
-                         "keep knots inside the domain to a multiplicity of " + std::to_string(knots.degree()));
+      if (auto can = whole(knots, "surface", k); !can) return std::unexpected(can.error());
     }
+  }
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    if (auto can = whole(curves[k].curve.knots(0), "curve", k); !can) return std::unexpected(can.error());
   }
 
   Records records;
@@ -117,9 +134,12 @@ Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOp
   const auto placement = records.add("AXIS2_PLACEMENT_3D(''," + origin + "," + axis + "," + direction + ")");
   std::string items;
   for (const auto& surface : surfaces) items += (items.empty() ? "" : ",") + add_surface(records, surface);
-  const auto set = records.add("GEOMETRIC_SET('',(" + items + "))");
-  const auto representation = records.add("GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION(" + product_name + ",(" +
-                                          placement + "," + set + ")," + context + ")");
+  for (const auto& curve : curves) items += (items.empty() ? "" : ",") + add_curve(records, curve);
+  const std::string set_kind = surfaces.empty() ? "GEOMETRIC_CURVE_SET" : "GEOMETRIC_SET";
+  const std::string kind = surfaces.empty() ? "WIREFRAME" : "SURFACE";
+  const auto set = records.add(set_kind + "('',(" + items + "))");
+  const auto representation = records.add("GEOMETRICALLY_BOUNDED_" + kind + "_SHAPE_REPRESENTATION(" + product_name +
+                                          ",(" + placement + "," + set + ")," + context + ")");
   records.add("SHAPE_DEFINITION_REPRESENTATION(" + shape + "," + representation + ")");
 
   return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME(" + encode_string(options.file_name) + "," +

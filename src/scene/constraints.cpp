@@ -20,22 +20,6 @@ constexpr double pole_flatness = 1e-6;
 constexpr double symmetry_tolerance = 1e-6;  // of the surface's size
 constexpr double symmetry_angle = 1e-3;
 
-/// Appends the conditions of `from` for these coordinates only. One on a single control point leaves its coordinate its
-/// bits, as a held flag does.
-void append_components(const ConstraintList& from, const Components& components, ConstraintList& to) {
-  const auto append = [&](LinearConstraint condition) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!components[c]) continue;
-      condition.normal = Point::Unit(static_cast<Eigen::Index>(c));
-      to.constraints.push_back(condition);
-    }
-  };
-  for (std::size_t k = 0; k < from.held.size(); ++k) {
-    if (from.held[k]) append({from.held_by[k], {{static_cast<int>(k), 1.0}}});
-  }
-  for (const LinearConstraint& condition : from.constraints) append(condition);
-}
-
 /// Appends the conditions of one constraint.
 struct Asked {
   const Surface& reference;
@@ -140,6 +124,20 @@ void hold_masked(const std::vector<bool>& masked, ConstraintList& list) {
 }
 
 }  // namespace
+
+void append_components(const ConstraintList& from, const Components& components, ConstraintList& to) {
+  const auto append = [&](LinearConstraint condition) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!components[c]) continue;
+      condition.normal = Point::Unit(static_cast<Eigen::Index>(c));
+      to.constraints.push_back(condition);
+    }
+  };
+  for (std::size_t k = 0; k < from.held.size(); ++k) {
+    if (from.held[k]) append({from.held_by[k], {{static_cast<int>(k), 1.0}}});
+  }
+  for (const LinearConstraint& condition : from.constraints) append(condition);
+}
 
 Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry& symmetry, ConstraintList& list) {
   const double size = bounding_box(reference).diagonal();

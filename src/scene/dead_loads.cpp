@@ -6,6 +6,7 @@
 #include "base/gauss_legendre.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/sculpt/loads.hpp"
+#include "knead/spline/basis_terms.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -35,7 +36,7 @@ Expected<Points> line_forces(const Surface& rest, SurfaceEdge edge, const Point&
       const auto tangents = tangents_at(rest, u);
       if (!tangents) return std::unexpected(tangents.error());
       const Point weighted = half * rule.weights[g] * (*tangents)[static_cast<std::size_t>(along)].norm() * per_length;
-      for (const auto& [row, value] : basis_terms(rest, u, 0)) forces.row(row) += value * weighted.transpose();
+      for (const auto& [row, value] : basis_terms<2>(rest, u, 0)) forces.row(row) += value * weighted.transpose();
     }
   }
   return forces;
@@ -58,10 +59,10 @@ SurfaceEdge image_of(SurfaceEdge edge, int direction) {
   return edge_across(edge) == direction ? static_cast<SurfaceEdge>(static_cast<int>(edge) ^ 1) : edge;
 }
 
-Expected<void> add_point_force(const Surface& rest, const Fractions& at, const Point& force, Points& to) {
-  const auto u = parameters_at(rest, at);
+Expected<void> add_point_force(const Surface& rest, std::span<const double> at, const Point& force, Points& to) {
+  const auto u = parameters_at<2>(rest, at);
   if (!u) return std::unexpected(u.error());
-  for (const auto& [row, value] : basis_terms(rest, *u, 0)) to.row(row) += value * force.transpose();
+  for (const auto& [row, value] : basis_terms<2>(rest, *u, 0)) to.row(row) += value * force.transpose();
   return {};
 }
 
@@ -99,7 +100,7 @@ Expected<Points> dead_forces(const SceneSurface& surface, const SceneForce& forc
       if (auto done = add_line_force(rest, other, image / length, forces); !done) return std::unexpected(done.error());
     }
     if (!force.at) continue;
-    Fractions at = *force.at;
+    std::vector<double> at = *force.at;
     double& along = at[static_cast<std::size_t>(symmetry->direction)];
     if (along == 0.5) continue;
     along = 1 - along;

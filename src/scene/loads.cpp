@@ -7,6 +7,7 @@
 #include "knead/scene/model.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/sculpt/loads.hpp"
+#include "knead/spline/basis_terms.hpp"
 
 namespace knead {
 
@@ -125,11 +126,11 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_m
       return input_error("a moment acts on shells only", f.name, R"(give {"do":"material","model":"shell"})");
     }
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(f.surface)];
-    const auto u = parameters_at(*s.current, *f.at);
+    const auto u = parameters_at<2>(*s.current, *f.at);
     if (!u) return std::unexpected(u.error());
     PointForce force;
     force.kind = f.kind == PointForceKind::spring ? PointForce::Kind::spring : PointForce::Kind::volcano;
-    force.terms = basis_terms(*s.current, *u, first);
+    force.terms = basis_terms<2>(*s.current, *u, first);
     force.to = vector(*f.to);
     force.strength = f.strength;
     force.core = f.core;
@@ -138,14 +139,14 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_m
       if (symmetry == nullptr) continue;
       const auto plane = plane_of(*symmetry, *s.reference);
       if (!plane) return std::unexpected(plane.error());
-      Fractions at = *f.at;
+      std::vector<double> at = *f.at;
       double& along = at[static_cast<std::size_t>(symmetry->direction)];
       if (along == 0.5) continue;
       along = 1 - along;
-      const auto there = parameters_at(*s.current, at);
+      const auto there = parameters_at<2>(*s.current, at);
       if (!there) return std::unexpected(there.error());
       PointForce image = force;
-      image.terms = basis_terms(*s.current, *there, first);
+      image.terms = basis_terms<2>(*s.current, *there, first);
       const Point n = plane->normal.normalized();
       image.to -= 2 * n.dot(image.to - plane->point) * n;
       loads.points.push_back(std::move(image));

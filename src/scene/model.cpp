@@ -18,16 +18,6 @@ constexpr CouplingTolerance smooth_tolerance{.position = 1e-3, .tangent = 1e-6};
 constexpr double exact_ratio = 1e-7;  // radians that derivatives at a seam may be off a fixed ratio
 constexpr SeamOptions along_edges{.rigid = false}, along_smooth_edges{.angle = exact_ratio, .rigid = false};
 
-double detail_of(const std::vector<Tool>& tools) {
-  double detail = 0;
-  for (const Tool& t : tools) {
-    double size = t.shape.size();
-    if (!t.collides()) size = std::min(size, t.range);
-    if (std::isfinite(size) && (detail == 0 || size < detail)) detail = size;
-  }
-  return detail;
-}
-
 bool varies(const MaterialFieldOf<2>& material) {
   const auto field = [](const Coefficient<2>& c) { return !std::holds_alternative<double>(c); };
   return std::ranges::any_of(material.alpha, field) || std::ranges::any_of(material.beta, field) ||
@@ -122,6 +112,16 @@ Expected<void> keep_varying_load(SceneModel& scene) {
 }
 
 }  // namespace
+
+double detail_of(const std::vector<Tool>& tools) {
+  double detail = 0;
+  for (const Tool& t : tools) {
+    double size = t.shape.size();
+    if (!t.collides()) size = std::min(size, t.range);
+    if (std::isfinite(size) && (detail == 0 || size < detail)) detail = size;
+  }
+  return detail;
+}
 
 Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches) {
   const double tolerance = policy.tolerance.value_or(suggested_seam_tolerance(patches));

@@ -89,6 +89,8 @@ template <class A>
 void pass(A& a, Of<A, SceneForce>& f) {
   command<ForceCommand>(a, f);
   pass(a, f.surface);
+  if (older_than(a, 9)) return;  // which had no bodies
+  pass(a, f.body);
 }
 
 template <class A>

@@ -54,8 +54,12 @@ std::string read_value(const Json& json, const Type& type, void* value, double f
     }
     case Kind::optional:
       type.resize(value, 1);
-      return read_value(json, *type.element, type.at(value, 0), factor);
+      return read_value(json, *type.element, type.at(value, 0), factor, uniform);
     case Kind::list:
+      if (uniform && json.is(Json::Kind::number)) {
+        type.resize(value, 1);
+        return read_value(json, *type.element, type.at(value, 0), factor);
+      }
       if (!json.is(Json::Kind::list)) return "a list";
       type.resize(value, json.list.size());
       for (std::size_t k = 0; k < json.list.size(); ++k) {
@@ -157,12 +161,17 @@ bool has_field(const Type& type, const void* record, std::string_view name) {
 
 // --- writing -------------------------------------------------------------------------------------------------------
 
-bool all_the_same(const Type& array, const void* value) {
-  for (std::size_t k = 1; k < array.length; ++k) {
-    if (*static_cast<const double*>(array.part(value, k)) != *static_cast<const double*>(array.part(value)))
-      return false;
+/// The number that stands for all in a uniform field: of an array whose numbers are the same, or a list of one. Null:
+/// there is none.
+const void* one_for_all(const Type& type, const void* value) {
+  const std::size_t count = type.count(value);
+  if (type.kind == Kind::optional) return count == 0 ? nullptr : one_for_all(*type.element, type.part(value));
+  if (type.kind == Kind::list) return count == 1 ? type.part(value) : nullptr;
+  for (std::size_t k = 1; k < count; ++k) {
+    if (*static_cast<const double*>(type.part(value, k)) != *static_cast<const double*>(type.part(value)))
+      return nullptr;
   }
-  return true;
+  return type.part(value);
 }
 
 class JsonWriter {
@@ -242,8 +251,9 @@ class JsonWriter {
       }
       if (absent_ == Absent::left_out && field.type->kind == Kind::optional && field.type->count(member) == 0) continue;
       name(field.name);
-      if (field.uniform && all_the_same(*field.type, member)) {
-        value(*field.type->element, field.type->part(member), field.factor);
+      const void* const one = field.uniform ? one_for_all(*field.type, member) : nullptr;
+      if (one != nullptr) {
+        value(field.type->innermost(), one, field.factor);
       } else {
         value(*field.type, member, field.factor);
       }

@@ -67,7 +67,7 @@ class Schema {
   /// With its description and default in front.
   std::string member(const Field& field, const Type& owner) {
     std::string schema = field.flat ? names(variant_names(*field.type)) : value(*field.type, &field);
-    if (field.uniform) schema = "{\"anyOf\":[" + value(*field.type->element, &field) + "," + schema + "]}";
+    if (field.uniform) schema = "{\"anyOf\":[" + value(field.type->innermost(), &field) + "," + schema + "]}";
     std::string about;
     if (!field.help.empty()) about += "\"description\":" + json_text(field.help) + ",";
     const Type& type = *field.type;

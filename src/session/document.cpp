@@ -44,17 +44,18 @@ Expected<Document> Document::with_splines(std::span<const std::string> surfaces)
   return document;
 }
 
-Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces,
-                                     std::span<const std::string> followed) const {
+Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, std::span<const std::string> followed,
+                                     std::span<const SceneBody> bodies) const {
   if (source_) {
     std::vector<std::shared_ptr<const Surface>> present;
     for (const DocumentSurface& s : surfaces) present.push_back(s.surface);
     return source_->save(present, followed);
   }
-  return save_as(*find_format("step"), surfaces);
+  return save_as(*find_format("step"), surfaces, bodies);
 }
 
-Expected<std::string> Document::save_as(const Format& format, std::span<const DocumentSurface> surfaces) const {
+Expected<std::string> Document::save_as(const Format& format, std::span<const DocumentSurface> surfaces,
+                                        std::span<const SceneBody> bodies) const {
   if (step_file() != nullptr) {
     return input_error(fmt::format("a new file would lose the faces of this {} file", source_->format()), {},
                        "write it in its own format");
@@ -64,7 +65,19 @@ Expected<std::string> Document::save_as(const Format& format, std::span<const Do
   std::vector<NamedSurface> made;
   for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});
   SaveOptions options;
-  options.unit = surfaces.empty() ? unit_ : surfaces.front().unit;
+  options.unit = !surfaces.empty() ? surfaces.front().unit : !bodies.empty() ? bodies.front().unit : unit_;
+  for (const SceneBody& body : bodies) {
+    if (const auto* curve = std::get_if<BodyShapes<1>>(&body.shapes)) {
+      options.curves.push_back({body.name, *curve->current});
+      continue;
+    }
+    auto sides = sides_of(*std::get<BodyShapes<3>>(body.shapes).current);
+    if (!sides) return std::unexpected(sides.error().within(body.id));
+    static constexpr const char* names[] = {"u0", "u1", "v0", "v1", "w0", "w1"};
+    for (std::size_t k = 0; k < sides->size(); ++k) {
+      made.push_back({fmt::format("{} {}", body.name, names[k]), std::move((*sides)[k])});
+    }
+  }
   options.title = name_;
   if (options.unit == "unknown") options.unit = "mm";
   return save_surfaces(made, format, options);

@@ -11,6 +11,11 @@ namespace knead {
 
 Expected<SceneSurface*> Executor::selected() {
   if (state.selected) return &state.surfaces[static_cast<std::size_t>(*state.selected)];
+  if (state.body) {
+    const SceneBody& b = *body();
+    return input_error(fmt::format("the {} {} is selected, and this acts on surfaces", kind_of(b), b.id), {},
+                       "select a surface first");
+  }
   if (document.is_fresh() && state.surfaces.empty()) {
     return input_error("there is no surface yet", {}, R"(make one first: {"do":"new","size":[1,1],"net":[8,8]})");
   }
@@ -82,6 +87,7 @@ Expected<Tool*> Executor::find_tool(const std::optional<std::string>& name) {
 }
 
 Expected<double> Executor::diagonal() {
+  if (state.body) return diagonal_of(*body());
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
   return bounding_box(*(*surface)->reference).diagonal();

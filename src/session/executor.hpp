@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "knead/scene/body_model.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/reshape.hpp"
 #include "knead/scene/trims.hpp"
@@ -41,6 +42,7 @@ struct Session::ModelCache {
   std::optional<SceneModel> model;
   std::optional<StrokeModel> stroke;
   std::optional<BrushRun> brush;
+  std::optional<AnyBodyModel> body;
 };
 
 /// Applies one command to a copy of the state, and has what commands share. Each command's file defines `execute` for
@@ -52,6 +54,7 @@ struct Executor {
   std::optional<SceneModel>& cache;
   std::optional<StrokeModel>& stroke_cache;
   std::optional<BrushRun>& brush_cache;
+  std::optional<AnyBodyModel>& body_cache;
   SessionState& state;
   const Session::Progress& progress;
   bool allow_held = false;             ///< a tool may touch what is held alone
@@ -76,6 +79,11 @@ struct Executor {
   Expected<void> keep(const Constraint& constraint);
   /// Whether a model can be made under the constraints there are.
   Expected<void> check_constraints();
+
+  /// The selected curve or volume; null if none is.
+  SceneBody* body();
+  /// `count` steps of it with the forces of the scene.
+  Expected<void> run_body(int count, const EvolutionPolicy& evolution);
 
   /// `count` steps with the forces of the scene and these.
   Expected<void> run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more = {},
@@ -141,6 +149,8 @@ struct Executor {
   Expected<void> refine_at_trims(SceneSurface& surface, const Fractions& at, double size);
 
  private:
+  template <int D>
+  Expected<void> step_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution);
   Expected<void> prepare_model(const EvolutionPolicy& evolution);
   Expected<void> refine_as(const std::vector<SeamRefinement>& refinements);
   Expected<ActiveStep> one_step(const std::vector<PointForce>& more, double& seconds);
@@ -209,6 +219,12 @@ struct Executor {
 
 inline constexpr double coarse = 0.5;      // spans longer than this share of a tool follow it less accurately
 inline constexpr int max_refinements = 5;  // of the net under a tool at one place, if refining is permitted
+
+/// The record of a step of what it says itself: neither the surface nor the displacement.
+[[nodiscard]] StepRecord record_of(const ActiveStep& step, double seconds, std::string note);
+
+/// The error of a step whose numbers are not finite.
+[[nodiscard]] std::unexpected<Error> beyond_numbers();
 
 /// The note on a step for the user: its own, or that the net is too coarse for a tool.
 [[nodiscard]] std::string note_of(const ActiveStep& step);

@@ -47,6 +47,27 @@ struct ReadingInfo {
 };
 void describe(ReadingInfo& r, Fields& fields);
 
+enum class BodyKind { curve, volume };
+std::span<const Choice> choices(BodyKind);
+
+struct BodyInfo {
+  std::string id, name, unit;
+  BodyKind kind = BodyKind::curve;
+  std::vector<int> degree, net;
+  bool rational = false;
+  Vector3 lower = {0, 0, 0}, upper = {0, 0, 0};
+  std::vector<double> alpha, beta;
+  double mass = 0, damping = 0;
+  int hold = 0;
+  std::vector<int> pins;
+  int holds = 0, moved = 0;
+  double displacement = 0;
+};
+void describe(BodyInfo& b, Fields& fields);
+
+/// Of the scene's curves and volumes.
+[[nodiscard]] std::vector<BodyInfo> bodies_of(const Scene& scene);
+
 /// Of the scene's measurements; those that cannot be read are left out.
 [[nodiscard]] std::vector<ReadingInfo> readings_of(const Scene& scene);
 

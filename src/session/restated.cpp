@@ -6,8 +6,8 @@
 namespace knead {
 namespace {
 
-/// All edges in the order of `SurfaceEdge`, after `EdgeChoice::all`.
-EdgeChoice choice_of(SurfaceEdge edge) { return static_cast<EdgeChoice>(static_cast<int>(edge) + 1); }
+/// All edges in the order of `SurfaceEdge`, after `SideChoice::all`.
+SideChoice choice_of(SurfaceEdge edge) { return static_cast<SideChoice>(static_cast<int>(edge) + 1); }
 
 std::optional<MirrorPlane> plane_given(const SymmetryCommand& c) {
   if (!c.point || !c.normal) return std::nullopt;
@@ -25,7 +25,7 @@ struct Restate {
     return make_command(hold);
   }
   Command operator()(const TrimEdgeHold& c) const {
-    return make_command(EdgeCommand{EdgeChoice::all,
+    return make_command(EdgeCommand{SideChoice::all,
                                     c.follow      ? EdgeCondition::follow
                                     : c.order < 0 ? EdgeCondition::free
                                                   : static_cast<EdgeCondition>(c.order),
@@ -33,7 +33,7 @@ struct Restate {
   }
   Command operator()(const PointPin& c) const {
     PinCommand pin;
-    pin.at = c.at;
+    pin.at = std::vector<double>(c.at.begin(), c.at.end());
     pin.to = c.to;
     pin.components = components_text(c.components);
     return make_command(pin);
@@ -68,10 +68,11 @@ std::optional<Constraint> constraint_of(const Command& command) {
       const bool follow = c->hold == EdgeCondition::follow;
       return TrimEdgeHold{*c->edge, follow || c->hold == EdgeCondition::free ? -1 : static_cast<int>(c->hold), follow};
     }
-    if (c->which == EdgeChoice::all || c->hold > EdgeCondition::curvature) return std::nullopt;
+    if (c->which == SideChoice::all || c->which > SideChoice::v1 || c->hold > EdgeCondition::curvature)
+      return std::nullopt;
     const auto components = components_of(c->components);
     if (!components) return std::nullopt;
-    return EdgeHold{edges_of(c->which).front(), static_cast<int>(c->hold), *components};
+    return EdgeHold{edges_of(edge_choice(c->which)).front(), static_cast<int>(c->hold), *components};
   }
   if (const auto* c = fields_of<HoldCommand>(command)) {
     const HoldMode mode = c->mode.value_or(HoldMode::rows);
@@ -79,10 +80,10 @@ std::optional<Constraint> constraint_of(const Command& command) {
     return TrimHolds{static_cast<int>(mode) - static_cast<int>(HoldMode::trim)};
   }
   if (const auto* c = fields_of<PinCommand>(command)) {
-    if (!c->at) return std::nullopt;
+    if (!c->at || c->at->size() != 2) return std::nullopt;
     const auto components = components_of(c->components);
     if (!components) return std::nullopt;
-    return PointPin{*c->at, c->to, *components};
+    return PointPin{{(*c->at)[0], (*c->at)[1]}, c->to, *components};
   }
   if (const auto* c = fields_of<FreezeCommand>(command)) return c->freeze;
   if (const auto* c = fields_of<KeepCommand>(command)) return c->keep;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "body_commands.hpp"
 #include "commands.hpp"
 #include "knead/exchange/face_edges.hpp"
 #include "knead/scene/trims.hpp"
@@ -55,12 +56,12 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   const Command meant = any.without ? make_command(*any.without) : command;
   auto next = std::make_shared<SessionState>(state());
   next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
-  Executor executor{document(), cache_->model, cache_->stroke, cache_->brush, *next, progress};
+  Executor executor{document(), cache_->model, cache_->stroke, cache_->brush, cache_->body, *next, progress};
   if (!fields_of<StrokeCommand>(command)) {
     if (auto lifted = executor.lift(); !lifted) return lifted;
   }
   if (!fields_of<BrushCommand>(command)) next->brush.reset();
-  const auto execute = [&](const auto& fields) { return executor.execute(fields); };
+  const auto execute = [&](const auto& fields) { return apply(executor, fields); };
   if (auto done = std::visit(execute, meant.any().fields); !done) return done;
   if (auto closed = executor.check_followed(state()); !closed) return closed;
   if (only_looks(meant) && !state().stroke && !state().brush) {
@@ -209,6 +210,7 @@ void Session::know_faces() {
 }
 
 Expected<double> Session::energy() {
+  if (state().body) return body_energy();
   if (!state().selected) return 0;
   const std::vector<int> selection = state().selection();
   const bool at_rest = std::ranges::all_of(selection, [this](int k) {
@@ -229,6 +231,20 @@ Expected<double> Session::energy() {
   const auto made = make_model(std::move(input));
   if (!made) return std::unexpected(made.error());
   return made->model.energy(active_state(state()));
+}
+
+Expected<double> Session::body_energy() const {
+  const SceneBody& body = state().bodies[static_cast<std::size_t>(*state().body)];
+  return std::visit(
+      [&]<int D>(const BodyShapes<D>& shapes) -> Expected<double> {
+        if (body.mode == RestMode::shape && shapes.current == shapes.rest) return 0;
+        EvolutionPolicy evolution;
+        evolution.lambda = 1e6;
+        const auto made = make_body_model<D>(body_input<D>(state(), body, evolution));
+        if (!made) return std::unexpected(made.error());
+        return made->model.energy(active_state(body));
+      },
+      body.shapes);
 }
 
 double Session::largest_displacement(int surface) const {
@@ -269,11 +285,11 @@ std::vector<DocumentSurface> present_surfaces(const Session& session) {
 Expected<std::string> Session::save() const {
   std::vector<std::string> followed;
   for (const FollowedEdge& edge : state().followed) followed.push_back(edge.id);
-  return document().save(present_surfaces(*this), followed);
+  return document().save(present_surfaces(*this), followed, state().bodies);
 }
 
 Expected<std::string> Session::save_as(const Format& format) const {
-  return document().save_as(format, present_surfaces(*this));
+  return document().save_as(format, present_surfaces(*this), state().bodies);
 }
 
 }  // namespace knead

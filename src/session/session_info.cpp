@@ -180,6 +180,8 @@ struct SessionInfo {
   bool fresh = false;
   std::vector<int> selection;
   std::vector<SurfaceInfo> surfaces;
+  std::vector<BodyInfo> bodies;
+  std::optional<int> body;
   std::vector<ToolInfo> tools;
   std::vector<CommandVariant> forces;
   std::variant<LoadCommand> load;
@@ -203,6 +205,8 @@ static void describe(SessionInfo& s, Fields& fields) {
   fields.add("fresh", s.fresh, {.help = "it began without a file"});
   fields.add("selection", s.selection, {.help = "numbers of the selected surfaces, the first one first"});
   fields.add("surfaces", s.surfaces);
+  fields.add("bodies", s.bodies, {.help = "curves and volumes"});
+  fields.add("body", s.body, {.help = "the number of the selected one, if no surface is selected"});
   fields.add("tools", s.tools);
   fields.add("forces", s.forces);
   fields.add("load", s.load);
@@ -308,6 +312,8 @@ std::string session_json(const Session& session) {
   info.fresh = session.document().is_fresh();
   info.selection = state.selection();
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) info.surfaces.push_back(info_of(session, k));
+  info.bodies = bodies_of(state);
+  info.body = state.body;
   for (const Tool& tool : state.tools) info.tools.push_back(info_of(tool));
   for (const SceneForce& force : state.forces) info.forces.emplace_back(ForceCommand{force});
   info.load = LoadCommand{state.load};

@@ -1,5 +1,5 @@
 // A session as bytes: all states of its history, with every number as it is.
-#include "archive_state.hpp"
+#include "archive_bodies.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {
@@ -11,13 +11,13 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-/// Of versions 1 to 8: without probes, open strokes and their results; without brushes, masks and edges that follow;
+/// Of versions 1 to 9: without probes, open strokes and their results; without brushes, masks and edges that follow;
 /// without their tangent planes; without converted surfaces, brushes that pass from surface to surface, and tools that
 /// touch what is visible only; without stamps, and strokes that are kept from folding; without pens and
-/// shells; without fundamental forms and modes; the present one.
-constexpr std::array<std::string_view, 8> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
+/// shells; without fundamental forms and modes; without curves and volumes; the present one.
+constexpr std::array<std::string_view, 9> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
                                                     "Knead snapshot 4\n", "Knead snapshot 5\n", "Knead snapshot 6\n",
-                                                    "Knead snapshot 7\n", "Knead snapshot 8\n"};
+                                                    "Knead snapshot 7\n", "Knead snapshot 8\n", "Knead snapshot 9\n"};
 constexpr std::string_view magic = magics.back();
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.
@@ -57,27 +57,49 @@ std::shared_ptr<const Surface> read_surface(Reader& a) {
 /// The part of a state that is not shared with the one before it: steps are appended, most surfaces stay.
 struct Neighbour {
   const std::vector<StepRecord>* steps = nullptr;
-  std::vector<std::string> surfaces;  // as bytes
+  std::vector<std::string> surfaces, bodies;  // as bytes
 };
 
-void write_state(Writer& a, const SessionState& state, Neighbour& before) {
-  const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-               followed, coupling, bend, stroke, brush] = static_cast<const Scene&>(state);
-  const auto& [steps, seam_reports, notes, energy_before, modes, buckling] = static_cast<const SessionRecord&>(state);
-  archive::optional(a, selected);
-  list(a, together);
+/// Writes those items that are not the same as before.
+template <class T>
+void write_changed(Writer& a, const std::vector<T>& items, std::vector<std::string>& before) {
   std::vector<std::string> written;
-  a.count(surfaces.size());
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+  a.count(items.size());
+  for (std::size_t k = 0; k < items.size(); ++k) {
     const std::string sofar = a.take();
-    pass(a, surfaces[k]);
+    pass(a, items[k]);
     written.push_back(a.take());
-    const bool same = k < before.surfaces.size() && before.surfaces[k] == written.back();
+    const bool same = k < before.size() && before[k] == written.back();
     a.bytes(sofar.data(), sofar.size());
     a.flag(same);
     if (!same) a.bytes(written.back().data(), written.back().size());
   }
-  before.surfaces = std::move(written);
+  before = std::move(written);
+}
+
+/// Reads those items that are not the same as before, and what `check` says of each.
+template <class T, class Check>
+void read_changed(Reader& a, std::vector<T>& items, const Check& check) {
+  const std::size_t known = items.size();
+  items.resize(a.length(1));
+  for (std::size_t k = 0; k < items.size() && !a.bad(); ++k) {
+    bool same = false;
+    a.flag(same);
+    if (same && k >= known) return a.fail();
+    if (same) continue;
+    items[k] = {};
+    pass(a, items[k]);
+    if (!a.bad() && !check(items[k])) a.fail();
+  }
+}
+
+void write_state(Writer& a, const SessionState& state, Neighbour& before) {
+  const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
+               followed, coupling, bend, stroke, brush, bodies, body] = static_cast<const Scene&>(state);
+  const auto& [steps, seam_reports, notes, energy_before, modes, buckling] = static_cast<const SessionRecord&>(state);
+  archive::optional(a, selected);
+  list(a, together);
+  write_changed(a, surfaces, before.surfaces);
   a.count(tools.size());
   for (const Tool& tool : tools) pass(a, tool);
   list(a, forces);
@@ -111,6 +133,8 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   list(a, converted);
   list(a, modes);
   list(a, buckling);
+  write_changed(a, bodies, before.bodies);
+  archive::optional(a, body);
 }
 
 /// Whether the shapes from before a stroke are on the nets of the selected surfaces; all of their control points.
@@ -165,27 +189,17 @@ void read_converted(Reader& a, const Document& opened, SessionState& state) {
 /// Reads a state into one that starts as a copy of the previous one.
 void read_state(Reader& a, const Document& opened, SessionState& state) {
   auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-         followed, coupling, bend, stroke, brush] = static_cast<Scene&>(state);
+         followed, coupling, bend, stroke, brush, bodies, body] = static_cast<Scene&>(state);
   auto& [steps, seam_reports, notes, energy_before, modes, buckling] = static_cast<SessionRecord&>(state);
   selected.reset();
   archive::optional(a, selected);
   list(a, together);
-  const std::size_t known = surfaces.size();
-  surfaces.resize(a.length(1));
-  for (std::size_t k = 0; k < surfaces.size() && !a.bad(); ++k) {
-    bool same = false;
-    a.flag(same);
-    if (same && k >= known) return a.fail();
-    if (same) continue;
-    surfaces[k] = {};
-    pass(a, surfaces[k]);
-    if (a.bad()) return;
-    const SceneSurface& s = surfaces[k];
-    if (!s.mask.empty() && s.mask.size() != static_cast<std::size_t>(s.current->size())) return a.fail();
-    for (const auto& other : {s.reference, s.rest}) {  // `opened` may differ once the basis was edited
-      if (other->net() != s.current->net()) return a.fail();
-    }
-  }
+  read_changed(a, surfaces, [](const SceneSurface& s) {
+    if (!s.mask.empty() && s.mask.size() != static_cast<std::size_t>(s.current->size())) return false;
+    // `opened` may differ once the basis was edited.
+    return s.reference->net() == s.current->net() && s.rest->net() == s.current->net();
+  });
+  if (a.bad()) return;
   tools.clear();
   for (std::size_t k = a.length(4); k > 0 && !a.bad(); --k) {
     if (auto tool = archive::read_tool(a)) tools.push_back(std::move(*tool));
@@ -241,6 +255,12 @@ void read_state(Reader& a, const Document& opened, SessionState& state) {
     list(a, modes, 20);
     list(a, buckling, 20);
   }
+  body.reset();
+  if (a.version() > 8) {
+    read_changed(a, bodies, archive::fits);
+    archive::optional(a, body);
+    if (body && (*body < 0 || *body >= static_cast<int>(bodies.size()) || selected)) a.fail();
+  }
   for (int k : state.selection()) {
     if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
   }
@@ -248,7 +268,8 @@ void read_state(Reader& a, const Document& opened, SessionState& state) {
   if (brush && !a.bad() && !fits(*brush, state)) a.fail();
   const auto known_surface = [&surfaces](int k) { return k >= 0 && k < static_cast<int>(surfaces.size()); };
   for (const SceneForce& f : forces) {
-    if (!known_surface(f.surface)) a.fail();
+    const bool on_body = f.body >= 0 && f.body < static_cast<int>(bodies.size()) && f.surface == -1;
+    if (!on_body && !(known_surface(f.surface) && f.body == -1)) a.fail();
   }
   for (const Probe& p : probes) {
     if (!known_surface(p.surface)) a.fail();
@@ -271,6 +292,9 @@ std::string Session::snapshot(std::size_t history_bytes) const {
         if (seen.try_emplace(shape.get(), true).second) bytes += size_of(*shape);
       }
       bytes += static_cast<std::size_t>(s.velocity.size()) * sizeof(double);
+    }
+    for (const SceneBody& b : states_[k]->bodies) {
+      bytes += 4 * static_cast<std::size_t>(control_points_of(b).size()) * sizeof(double);
     }
     if (k < position_ && bytes > history_bytes) break;
     first = std::min(first, k);

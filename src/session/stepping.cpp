@@ -24,12 +24,12 @@ bool nothing_moved(const Scene& scene, const ActiveStep& step) {
   return true;
 }
 
+}  // namespace
+
 std::unexpected<Error> beyond_numbers() {
   return numerical_error("the forces, or the energy, exceed what numbers can hold", {},
                          "use smaller loads and stiffnesses, or lengths nearer to 1");
 }
-
-}  // namespace
 
 std::string note_of(const ActiveStep& step) {
   constexpr double too_coarse = 1;  // spans longer than this share of a tool cannot follow it
@@ -168,9 +168,8 @@ Expected<void> Executor::take(const ActiveStep& step) {
   return {};
 }
 
-void Executor::record(const ActiveStep& step, double seconds, std::string note) {
+StepRecord record_of(const ActiveStep& step, double seconds, std::string note) {
   StepRecord record;
-  record.surface = *state.selected;
   record.time = seconds;
   record.energy = step.energy;
   record.stretch = step.stretch;
@@ -178,16 +177,22 @@ void Executor::record(const ActiveStep& step, double seconds, std::string note) 
   record.kinetic = step.kinetic;
   record.contact = step.contact;
   record.residual = step.residual;
-  for (int index : state.selection()) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
-    record.largest_displacement = std::max(record.largest_displacement, largest_distance(*s.current, *s.opened));
-  }
   record.gap = step.gap;
   record.violation = step.violation;
   record.iterations = step.iterations;
   record.converged = step.converged;
   record.limited = step.limited;
   record.note = std::move(note);
+  return record;
+}
+
+void Executor::record(const ActiveStep& step, double seconds, std::string note) {
+  StepRecord record = record_of(step, seconds, std::move(note));
+  record.surface = *state.selected;
+  for (int index : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+    record.largest_displacement = std::max(record.largest_displacement, largest_distance(*s.current, *s.opened));
+  }
   state.steps.push_back(std::move(record));
 }
 

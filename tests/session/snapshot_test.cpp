@@ -138,8 +138,8 @@ std::string in_version_1(std::string snapshot) {
   const std::string plastic = plastic_of_surface();
   // The count of probes, no open stroke, the count of edges that follow, the coupling of positions, no brush, the
   // coupling of tangent planes and how far these may open; counts of steps, seams and notes and a flag follow, and the
-  // counts of converted surfaces and of modes of both kinds.
-  snapshot.erase(snapshot.size() - 24);
+  // counts of converted surfaces, of modes of both kinds and of bodies, and that none is selected.
+  snapshot.erase(snapshot.size() - 33);
   snapshot.erase(snapshot.size() - 75, 42);
   snapshot.erase(snapshot.rfind(plastic), plastic.size());
   return sealed(std::move(snapshot), '1');
@@ -154,7 +154,8 @@ TEST(Snapshot, ReadsTheVersionBefore) {
   EXPECT_TRUE(same_state(restored->state(), session.state()));
 }
 
-// An open brush at one place of one surface without a mask. Version 6 had neither pens nor shells, nor modes.
+// An open brush at one place of one surface without a mask. Version 6 had neither pens nor shells, nor modes, nor
+// bodies.
 TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,10],"net":[12,12]})",
@@ -169,7 +170,7 @@ TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
   const std::size_t surface = old.rfind(plastic_of_surface());
   ASSERT_NE(surface, std::string::npos);
   old.erase(surface + plastic_of_surface().size() - 2, 2);
-  old.erase(old.size() - 16);  // counts of modes
+  old.erase(old.size() - 25);  // counts of modes and bodies, and that none is selected
   const auto restored = Session::restore(Document::fresh("test"), sealed(old, '6'));
   ASSERT_TRUE(restored) << restored.error().message();
   ASSERT_TRUE(restored->state().brush);

@@ -80,6 +80,15 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
       if (!same_bits(*s.constraints[c].where, *t.constraints[c].where)) return differs("a constraint's place");
     }
   }
+  if (a.body != b.body || a.bodies.size() != b.bodies.size()) return differs("bodies");
+  for (std::size_t k = 0; k < a.bodies.size(); ++k) {
+    const SceneBody &s = a.bodies[k], &t = b.bodies[k];
+    if (s.id != t.id || s.name != t.name || s.unit != t.unit) return differs("label of " + s.id);
+    if (!same_bits(control_points_of(s), control_points_of(t))) return differs("current " + s.id);
+    if (!same_bits(s.velocity, t.velocity) || s.mode != t.mode) return differs("velocity or mode of " + s.id);
+    if (s.mass != t.mass || s.damping != t.damping) return differs("material of " + s.id);
+    if (s.hold_rows != t.hold_rows || s.pins != t.pins || !(s.holds == t.holds)) return differs("hold of " + s.id);
+  }
   if (a.tools.size() != b.tools.size()) return differs("number of tools");
   for (std::size_t k = 0; k < a.tools.size(); ++k) {
     const Tool &s = a.tools[k], &t = b.tools[k];

@@ -90,7 +90,7 @@ struct About {
   std::string_view fallback = {};
   /// The written value is this times the member: 2 for a height stored as its half.
   double factor = 1;
-  /// An array of numbers that are mostly equal: a single number then stands for all.
+  /// An array of numbers that are mostly equal, or a list in which one number stands for all: it may be written alone.
   bool uniform = false;
 };
 

@@ -18,6 +18,12 @@ struct NamedSurface {
   Surface surface;
 };
 
+/// A curve to write.
+struct NamedCurve {
+  std::string name;  ///< UTF-8; may be empty
+  Curve curve;
+};
+
 /// Triangles to write, one mesh.
 struct NamedMesh {
   std::string name;                                     ///< UTF-8; may be empty
@@ -27,9 +33,10 @@ struct NamedMesh {
 
 /// How to write surfaces.
 struct SaveOptions {
-  int detail = 96;                 ///< for triangles: desired grid lines per direction and surface, 1 to 2000
-  std::string unit = {};           ///< of the coordinates, such as "mm"; empty: unknown
-  std::string title = "surfaces";  ///< the title in formats that have one
+  int detail = 96;                      ///< for triangles: desired grid lines per direction and surface, 1 to 2000
+  std::string unit = {};                ///< of the coordinates, such as "mm"; empty: unknown
+  std::string title = "surfaces";       ///< the title in formats that have one
+  std::vector<NamedCurve> curves = {};  ///< after the surfaces, in formats that hold curves
 };
 
 /// What a format stores of a surface.
@@ -46,6 +53,7 @@ struct Format {
   std::string_view media_type;                ///< "model/stl"
   FormatContent content = FormatContent::triangles;
   std::string_view holds;  ///< its content, for menus and tables
+  bool writes_curves = false;
   /// Whether bytes look like a file of this format, by how they begin. Null: it cannot be opened.
   bool (*recognises)(std::string_view bytes) = nullptr;
   /// Opens bytes; `name` stands for the file in errors. Null where `recognises` is.

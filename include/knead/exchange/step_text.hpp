@@ -15,6 +15,12 @@ struct NewSurface {
   Surface surface;   ///< coordinates in `TextOptions::unit`
 };
 
+/// A curve for a file that does not exist yet.
+struct NewCurve {
+  std::string name;  ///< its label, UTF-8
+  Curve curve;       ///< coordinates in `TextOptions::unit`
+};
+
 struct TextOptions {
   std::string unit = "mm";           ///< "um", "mm", "cm", "m", "km", "inch" or "foot"
   std::string product = "surfaces";  ///< name of the product and its representation, UTF-8
@@ -25,14 +31,16 @@ struct TextOptions {
 /// Whether `text_of` can write this length unit.
 [[nodiscard]] bool is_unit(std::string_view name);
 
-/// A STEP file (ISO 10303-21, AP214: AUTOMOTIVE_DESIGN) that contains these surfaces and nothing else.
+/// A STEP file (ISO 10303-21, AP214: AUTOMOTIVE_DESIGN) that contains these surfaces and curves and nothing else.
 ///
 /// One product with one GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION whose GEOMETRIC_SET lists the surfaces in
 /// order, each on its natural bounds, as B_SPLINE_SURFACE_WITH_KNOTS, with weights as a complex instance with
-/// RATIONAL_B_SPLINE_SURFACE. Coordinates have 17 significant digits, knots and weights the fewest that restore the
-/// same bits: `File::parse` reads the same surfaces bit for bit. The closed flags are those of `SurfaceEntity::closed`.
-/// Cost: linear in the number of control points.
-/// Errors (input): no surfaces; an unknown unit; a knot inside the domain repeated more often than the degree.
-[[nodiscard]] Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options = {});
+/// RATIONAL_B_SPLINE_SURFACE; then the curves likewise, as B_SPLINE_CURVE_WITH_KNOTS. Without surfaces it is a
+/// GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION with a GEOMETRIC_CURVE_SET. Coordinates have 17 significant
+/// digits, knots and weights the fewest that restore the same bits: `File::parse` reads the same surfaces bit for bit.
+/// The closed flags are those of `SurfaceEntity::closed`. Cost: linear in the number of control points. Errors (input):
+/// neither surfaces nor curves; an unknown unit; a knot inside the domain repeated more often than the degree.
+[[nodiscard]] Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options = {},
+                                            std::span<const NewCurve> curves = {});
 
 }  // namespace knead::step

@@ -48,6 +48,9 @@ struct ModelInput {
   friend bool operator==(const ModelInput&, const ModelInput&) = default;
 };
 
+/// The smallest dimension of these tools that forces must resolve; 0: none.
+[[nodiscard]] double detail_of(const std::vector<Tool>& tools);
+
 /// The input for the model of the selected surfaces under this evolution.
 [[nodiscard]] ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution);
 

@@ -1,10 +1,17 @@
 #pragma once
 
-#include <utility>
+#include <array>
+#include <span>
 
 #include "knead/scene/constraint.hpp"
 
 namespace knead {
+
+/// The parameters at fractions of the domain. Errors (input): not D numbers, one that is not from 0 to 1, named
+/// `where`.
+template <int D>
+[[nodiscard]] Expected<std::array<double, D>> parameters_at(const Spline<D>& spline, std::span<const double> at,
+                                                            const char* where = "at");
 
 /// (u, v) at fractions of the domain. Error (input): a number that is not from 0 to 1, named `where`.
 [[nodiscard]] Expected<std::array<double, 2>> parameters_at(const Surface& surface, const Fractions& at,
@@ -13,9 +20,5 @@ namespace knead {
 /// The intervals of u and v of a rectangle in fractions. Errors (input): a number that is not from 0 to 1, a side that
 /// decreases.
 [[nodiscard]] Expected<std::array<Interval, 2>> region_at(const Surface& surface, const FractionBox& region);
-
-/// R_ij(u, v) of all control points that affect a point, rows counted from `first`.
-[[nodiscard]] std::vector<std::pair<int, double>> basis_terms(const Surface& surface, const std::array<double, 2>& u,
-                                                              int first);
 
 }  // namespace knead

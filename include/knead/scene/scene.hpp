@@ -9,6 +9,7 @@
 
 #include "knead/energy/shell_energy.hpp"
 #include "knead/exchange/shared_edge.hpp"
+#include "knead/scene/body.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/brush.hpp"
@@ -25,18 +26,19 @@ namespace knead {
 /// along an edge; moments turn about an edge, wherever it goes.
 enum class PointForceKind { spring, volcano, dead, line, moment };
 
-/// A force on one point or one edge of a surface, acting until it is removed (thesis Eq. 4.24).
+/// A force on one point or one edge of a surface or body, acting until it is removed (thesis Eq. 4.24).
 struct SceneForce {
   std::string name = "force";
-  int surface = 0;  ///< index into the scene's surfaces
+  int surface = 0;  ///< index into the scene's surfaces; −1: it acts on a body
   PointForceKind kind = PointForceKind::spring;
-  std::optional<Fractions> at = {};     ///< all but line and moment
-  std::optional<Vector3> to = {};       ///< spring, volcano
-  double strength = 10;                 ///< of these
-  double core = 0.1;                    ///< volcano: within this distance it stops growing
-  std::optional<Vector3> vector = {};   ///< dead: the force, line: per length of the rest shape
-  std::optional<EdgeChoice> edge = {};  ///< line, moment
-  std::optional<double> moment = {};    ///< per length of the rest shape; of shells
+  std::optional<std::vector<double>> at = {};  ///< all but line and moment: a fraction for each direction
+  std::optional<Vector3> to = {};              ///< spring, volcano
+  double strength = 10;                        ///< of these
+  double core = 0.1;                           ///< volcano: within this distance it stops growing
+  std::optional<Vector3> vector = {};          ///< dead: the force, line: per length of the rest shape
+  std::optional<EdgeChoice> edge = {};         ///< line, moment
+  std::optional<double> moment = {};           ///< per length of the rest shape; of shells
+  int body = -1;                               ///< index into the scene's bodies; −1: it acts on a surface
 
   friend bool operator==(const SceneForce&, const SceneForce&) = default;
 };
@@ -193,7 +195,7 @@ struct SceneSurface {
   [[nodiscard]] bool nonlinear() const { return shell || fundamental; }
 };
 
-/// Surfaces, what holds them and what acts on them.
+/// Surfaces and bodies, what holds them and what acts on them.
 struct Scene {
   std::optional<int> selected = {};  ///< the surface that commands act on
   std::vector<int> together = {};    ///< the others selected with it
@@ -212,6 +214,8 @@ struct Scene {
   double bend = asked_angle;              ///< radians by which smooth ones among them may open, up to `accepted_angle`
   std::optional<OpenStroke> stroke = {};  ///< a tool that is down; every other command lifts it first
   std::optional<OpenBrush> brush = {};    ///< a stroke of a brush; every other command ends it
+  std::vector<SceneBody> bodies = {};     ///< curves and volumes
+  std::optional<int> body = {};           ///< the one that commands act on; then no surface is selected
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;

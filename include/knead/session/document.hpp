@@ -9,6 +9,7 @@
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/source.hpp"
 #include "knead/exchange/step_file.hpp"
+#include "knead/scene/body.hpp"
 
 namespace knead {
 
@@ -42,12 +43,16 @@ class Document {
   [[nodiscard]] const std::vector<std::string>& converted() const { return converted_; }
 
   /// The bytes of the file with these surfaces in place of the original ones (one each); for a fresh document, a STEP
-  /// file with exactly these, in the unit of the first one. `followed`: as for `Source::save`.
+  /// file with exactly these, in the unit of the first one, and with these curves and volumes. `followed`: as for
+  /// `Source::save`.
   [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces,
-                                           std::span<const std::string> followed = {}) const;
-  /// The bytes of a new file with these surfaces, whole. Errors (input): the format cannot be written; the opened file
-  /// has faces, which a new one would lose.
-  [[nodiscard]] Expected<std::string> save_as(const Format& format, std::span<const DocumentSurface> surfaces) const;
+                                           std::span<const std::string> followed = {},
+                                           std::span<const SceneBody> bodies = {}) const;
+  /// The bytes of a new file with these surfaces, whole, the curves, and the six sides of each volume as surfaces.
+  /// Errors (input): the format cannot be written, or holds no curves; the opened file has faces, which a new one would
+  /// lose; a volume whose ends are not clamped.
+  [[nodiscard]] Expected<std::string> save_as(const Format& format, std::span<const DocumentSurface> surfaces,
+                                              std::span<const SceneBody> bodies = {}) const;
 
  private:
   Document() = default;

@@ -16,7 +16,7 @@ namespace knead {
 
 /// The record of one step.
 struct StepRecord {
-  int surface = 0;    ///< index into the state's surfaces: the first one selected
+  int surface = 0;    ///< index into the state's surfaces: the first one selected; −1: of a body
   double time = 0;    ///< seconds
   double energy = 0;  ///< Σ Xᵀ K X after the step, normalised units: stretch + bend
   double stretch = 0, bend = 0, kinetic = 0, contact = 0;  ///< by term, see ActiveStep
@@ -86,7 +86,7 @@ class Session {
   [[nodiscard]] bool can_undo() const { return position_ > 0; }
   [[nodiscard]] bool can_redo() const { return position_ + 1 < states_.size(); }
 
-  /// Energy of the selected surfaces as they stand, normalised units; 0 without a selection.
+  /// Energy of the selected surfaces, or of the selected body, as they stand, normalised units; 0 without a selection.
   [[nodiscard]] Expected<double> energy();
   /// max |S − S_opened| of one surface, file units; accuracy as `largest_distance` (spline/extremum.hpp).
   [[nodiscard]] double largest_displacement(int surface) const;
@@ -113,6 +113,7 @@ class Session {
   [[nodiscard]] const Document& document_of(const SessionState& state) const {
     return state.document ? *state.document : document_;
   }
+  [[nodiscard]] Expected<double> body_energy() const;
   /// Restores the visible regions of surfaces whose edges are held, which a snapshot leaves to the document.
   void know_faces();
 

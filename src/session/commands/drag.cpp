@@ -7,6 +7,7 @@
 
 #include "../limits.hpp"
 #include "knead/scene/places.hpp"
+#include "knead/spline/basis_terms.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -47,7 +48,7 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, int first, c
       const double s = 1 - (*place - *centre).squaredNorm() / (radius * radius);
       if (s <= 0) continue;
       PointForce force;
-      force.terms = basis_terms(surface, {u, v}, first);
+      force.terms = basis_terms<2>(surface, {u, v}, first);
       force.to = *place;
       force.strength = s * s;
       total += force.strength;
@@ -56,7 +57,7 @@ Expected<std::vector<PointForce>> footprint(const Surface& surface, int first, c
   }
   if (forces.empty()) {  // smaller than the sample distance: a single point
     PointForce force;
-    force.terms = basis_terms(surface, *centre_at, first);
+    force.terms = basis_terms<2>(surface, *centre_at, first);
     force.to = *centre;
     forces.push_back(std::move(force));
     total = 1;

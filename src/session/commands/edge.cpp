@@ -59,6 +59,15 @@ std::span<const Choice> choices(EdgeChoice) {
   return list;
 }
 
+std::span<const Choice> choices(SideChoice) {
+  static constexpr Choice list[] = {
+      {"all", SideChoice::all}, {"u0", SideChoice::u0, "where u is least; of a curve, its beginning"},
+      {"u1", SideChoice::u1},   {"v0", SideChoice::v0},
+      {"v1", SideChoice::v1},   {"w0", SideChoice::w0, "of a volume"},
+      {"w1", SideChoice::w1}};
+  return list;
+}
+
 std::span<const Choice> choices(EdgeCondition) {
   static constexpr Choice list[] = {
       {"position", EdgeCondition::position},
@@ -74,7 +83,7 @@ void read_as_version_2(EdgeCommand& c) {
 }
 
 void describe(EdgeCommand& c, Fields& fields) {
-  fields.name("edge", "hold edges of the selected surfaces");
+  fields.name("edge", "hold edges of the selected surfaces, ends of a curve, or sides of a volume");
   fields.add("which", c.which);
   fields.add("hold", c.hold);
   fields.add("edge", c.edge,
@@ -99,7 +108,10 @@ Expected<void> Executor::execute(const EdgeCommand& c) {
                        R"(name an edge of a face, "which":"#456", or use "free")");
   }
   // One by one, so that they can be freed one by one.
-  const std::vector<SurfaceEdge> edges = edges_of(c.which);
+  if (c.which > SideChoice::v1) {
+    return input_error("a surface has no such edge", "which", "use u0, u1, v0, v1 or all");
+  }
+  const std::vector<SurfaceEdge> edges = edges_of(edge_choice(c.which));
   const int order = c.hold == EdgeCondition::position ? 0 : c.hold == EdgeCondition::clamped ? 1 : 2;
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];

@@ -5,15 +5,23 @@
 namespace knead {
 
 enum class EdgeCondition { position, clamped, curvature, free, follow };
+/// Sides of a domain: edges of a surface, the first ones in the order of `EdgeChoice`; ends of a curve; faces of a
+/// volume.
+enum class SideChoice { all, u0, u1, v0, v1, w0, w1 };
+
+/// The edges of a surface that a choice up to v1 stands for.
+[[nodiscard]] inline EdgeChoice edge_choice(SideChoice side) { return static_cast<EdgeChoice>(side); }
+
 /// Holds edges, with the first or the first two derivatives across them.
 struct EdgeCommand {
-  EdgeChoice which = EdgeChoice::all;
+  SideChoice which = SideChoice::all;
   EdgeCondition hold = EdgeCondition::position;
   std::optional<std::string> edge = {};        ///< of a face, by its id in the file, instead of `which`
   std::optional<std::string> components = {};  ///< "x", "yz", …; default: all
 };
 
 std::span<const Choice> choices(EdgeCondition);
+std::span<const Choice> choices(SideChoice);
 
 /// In version 2 an edge of a face that is freed follows its faces.
 void read_as_version_2(EdgeCommand& c);

@@ -59,7 +59,8 @@ Expected<void> Executor::execute(const EvolveCommand& c) {
                        "use a finite number > 0");
   }
   if (c.evolution.mode == Evolution::stationary) {
-    if (auto done = run(1, c.evolution); !done) return done;
+    auto done = body() != nullptr ? run_body(1, c.evolution) : run(1, c.evolution);
+    if (!done) return done;
   }
   state.evolution = c.evolution;
   return {};

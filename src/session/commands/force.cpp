@@ -20,11 +20,13 @@ std::span<const Choice> choices(PointForceKind) {
 }
 
 void describe(ForceCommand& c, Fields& fields) {
-  fields.name("force", "a force on one surface point or edge, until `remove`");
+  fields.name("force", "a force on one point or edge, until `remove`");
   fields.add("name", c.force.name, {.help = "what `remove` calls it"});
   fields.add("kind", c.force.kind);
   fields.add("at", c.force.at,
-             {.help = "`[s, t]`: the surface point, of all kinds but line and moment", .unit = Unit::fraction});
+             {.help = "`[s, t]`: the surface point, of a curve `[s]`, of a volume `[s, t, r]`; of all kinds but line "
+                      "and moment",
+              .unit = Unit::fraction});
   fields.add("to", c.force.to, {.help = "`[x, y, z]`: of springs and volcanoes", .unit = Unit::length});
   fields.add("strength", c.force.strength, {.help = "spring constant, or k of the volcano's k/r²"});
   fields.add("core", c.force.core,
@@ -67,29 +69,37 @@ Expected<void> check_kind(const SceneForce& f) {
 
 }  // namespace
 
+Expected<void> check_force(const SceneForce& force) {
+  if (auto complete = check_kind(force); !complete) return complete;
+  if (!(force.strength >= 0 && force.strength <= max_tool_stiffness)) {
+    return input_error(fmt::format("{} is not a strength", force.strength), "strength",
+                       fmt::format("use a number from 0 to {}", max_tool_stiffness));
+  }
+  if (std::isfinite(force.core) && force.core > 0) return {};
+  return input_error(fmt::format("{} is not a length", force.core), "core", "use a number > 0");
+}
+
+void put_force(Scene& scene, SceneForce force) {
+  const auto same = std::ranges::find(scene.forces, force.name, &SceneForce::name);
+  if (same != scene.forces.end()) {
+    *same = std::move(force);
+  } else {
+    scene.forces.push_back(std::move(force));
+  }
+}
+
 template <>
 Expected<void> Executor::execute(const ForceCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
-  if (auto complete = check_kind(c.force); !complete) return complete;
+  if (auto complete = check_force(c.force); !complete) return complete;
   if (c.force.at) {
-    if (auto u = parameters_at(*(*surface)->current, *c.force.at); !u) return std::unexpected(u.error());
-  }
-  if (!(c.force.strength >= 0 && c.force.strength <= max_tool_stiffness)) {
-    return input_error(fmt::format("{} is not a strength", c.force.strength), "strength",
-                       fmt::format("use a number from 0 to {}", max_tool_stiffness));
-  }
-  if (!(std::isfinite(c.force.core) && c.force.core > 0)) {
-    return input_error(fmt::format("{} is not a length", c.force.core), "core", "use a number > 0");
+    if (auto u = parameters_at<2>(*(*surface)->current, *c.force.at); !u) return std::unexpected(u.error());
   }
   SceneForce force = c.force;
   force.surface = *state.selected;
-  const auto same = std::ranges::find(state.forces, force.name, &SceneForce::name);
-  if (same != state.forces.end()) {
-    *same = std::move(force);
-  } else {
-    state.forces.push_back(std::move(force));
-  }
+  force.body = -1;
+  put_force(state, std::move(force));
   return {};
 }
 

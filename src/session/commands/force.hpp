@@ -11,6 +11,12 @@ struct ForceCommand {
 
 std::span<const Choice> choices(PointForceKind);
 
+/// Errors (input): a force lacks what its kind needs, has what its kind has not, or a number is out of range.
+[[nodiscard]] Expected<void> check_force(const SceneForce& force);
+
+/// Adds a force, or replaces the one of that name.
+void put_force(Scene& scene, SceneForce force);
+
 template <>
 Expected<void> Executor::execute(const ForceCommand& c);
 void describe(ForceCommand& c, Fields& fields);

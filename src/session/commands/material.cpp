@@ -103,6 +103,8 @@ const Preset presets[] = {
     {{{1, 0, 1}, {0, 0, 0}}, 1, {true, 0, 0, 0, true}},                                  // membrane
 };
 
+std::vector<double> list_of(const std::array<double, 3>& numbers) { return {numbers.begin(), numbers.end()}; }
+
 bool names_shell(const MaterialCommand& c) { return c.young || c.poisson || c.thickness || c.density; }
 
 bool names_something(const MaterialCommand& c) {
@@ -153,6 +155,10 @@ Expected<std::optional<FundamentalMaterial>> fundamental_of(const MaterialComman
 }
 
 Expected<void> check_fields(const MaterialCommand& c) {
+  for (const auto& [name, given] : {std::pair{"alpha", &c.alpha}, std::pair{"beta", &c.beta}}) {
+    if (!*given || (*given)->size() == 3) continue;
+    return input_error(fmt::format("{} numbers for a surface", (*given)->size()), name, "give [11, 12, 22]");
+  }
   if (!c.coefficient && (c.formula || !c.samples.empty())) {
     return input_error("of which coefficient is not said", "coefficient", R"(name it, as "coefficient":"beta11")");
   }
@@ -235,7 +241,10 @@ std::optional<MaterialPreset> preset_of(const SceneSurface& s) {
 
 void describe(MaterialCommand& c, Fields& fields) {
   fields.name("material", "resistance to stretching and bending, in the order 11, 12, 22; fields not given stay");
-  fields.add("alpha", c.alpha, {.help = "stretch; α11, α22 ≥ 0 and α12² ≤ α11 α22", .fallback = "as it was"});
+  fields.add(
+      "alpha", c.alpha,
+      {.help = "stretch; α11, α22 ≥ 0 and α12² ≤ α11 α22; of a curve `[11]`, of a volume `[11, 12, 13, 22, 23, 33]`",
+       .fallback = "as it was"});
   fields.add("beta", c.beta, {.help = "bend; none negative", .fallback = "as it was"});
   fields.add("mass", c.mass, {.help = "per area, for `evolve` dynamic and `load` gravity", .fallback = "as it was"});
   fields.add("damping", c.damping,
@@ -280,16 +289,22 @@ void describe(MaterialCommand& c, Fields& fields) {
   fields.add("thickness", c.thickness, {.help = "of a shell", .unit = Unit::length});
   fields.add("density", c.density,
              {.help = "of a shell: mass per volume, for `load` gravity", .fallback = "as it was, at first 0"});
-  fields.add("w1", c.w1,
-             {.help = "of `fundamental`: weights of the first form, 11, 12, 22; per du dv of the knots as they are",
-              .fallback = "as it was, at first 1"});
-  fields.add("w2", c.w2, {.help = "of the second form", .fallback = "as it was, at first 1"});
+  fields.add(
+      "w1", c.w1,
+      {.help = "of `fundamental`: weights of the first form, 11, 12, 22, or one number for all; per du dv of the "
+               "knots as they are",
+       .range = at_least(0),
+       .fallback = "as it was, at first 1",
+       .uniform = true});
+  fields.add(
+      "w2", c.w2,
+      {.help = "of the second form", .range = at_least(0), .fallback = "as it was, at first 1", .uniform = true});
 }
 
 void read_as_version_1(MaterialCommand& c) {
   if (names_something(c)) return;
-  c.alpha = Material{}.alpha;
-  c.beta = Material{}.beta;
+  c.alpha = list_of(Material{}.alpha);
+  c.beta = list_of(Material{}.beta);
 }
 
 template <>
@@ -304,13 +319,13 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
   const Preset* preset = nullptr;
   if (c.preset) {
     preset = &presets[static_cast<std::size_t>(*c.preset)];
-    if (!c.alpha) c.alpha = preset->material.alpha;
-    if (!c.beta) c.beta = preset->material.beta;
+    if (!c.alpha) c.alpha = list_of(preset->material.alpha);
+    if (!c.beta) c.beta = list_of(preset->material.beta);
     state.evolution.lambda = preset->lambda;
   }
   Material constants;
-  if (c.alpha) constants.alpha = *c.alpha;
-  if (c.beta) constants.beta = *c.beta;
+  if (c.alpha) std::ranges::copy(*c.alpha, constants.alpha.begin());
+  if (c.beta) std::ranges::copy(*c.beta, constants.beta.begin());
   if (auto material = validated(constants); !material) return std::unexpected(material.error());
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];

@@ -6,47 +6,25 @@
 #include <cmath>
 
 #include "../limits.hpp"
+#include "../new_body.hpp"
 #include "knead/exchange/step_text.hpp"
 #include "knead/spline/revolution.hpp"
 
 namespace knead {
 namespace {
 
-Expected<void> positive(double value, const char* where) {
-  if (std::isfinite(value) && value > 0) return {};
-  return input_error(fmt::format("{} is not a length", value), where, "use a number > 0");
-}
-
-/// The knots of one direction, as given, or clamped and uniform with `count` functions.
-Expected<KnotVector> knots_of(const NewCommand& c, std::size_t d, int count, const char* counted_by) {
-  const std::vector<double>& given = d == 0 ? c.knots_u : c.knots_v;
-  auto made = given.empty() ? KnotVector::clamped_uniform(c.degree[d], count) : KnotVector::create(c.degree[d], given);
-  if (!made) return std::unexpected(made.error().within(given.empty() ? counted_by : d == 0 ? "knots_u" : "knots_v"));
-  return made;
-}
-
-Expected<void> check_weights(const std::vector<double>& weights, int count) {
-  if (weights.empty()) return {};
-  if (static_cast<int>(weights.size()) != count) {
-    return input_error(fmt::format("{} weights for {} control points", weights.size(), count), "weights",
-                       "give one for each, or none");
-  }
-  const auto bad = std::ranges::find_if(weights, [](double w) { return !(std::isfinite(w) && w > 0); });
-  if (bad == weights.end()) return {};
-  return input_error(fmt::format("{} is not a weight", *bad), fmt::format("weights[{}]", bad - weights.begin()),
-                     "use finite numbers > 0");
-}
-
 /// A sheet in z = 0, or the control points as given.
 Expected<Surface> net_of(const NewCommand& c) {
   const bool explicit_points = !c.points.empty();
-  const std::array<double, 2> size = c.size.value_or(std::array<double, 2>{1, 1});
-  if (c.knots_u.empty() && c.knots_v.empty() && std::ranges::all_of(c.net, [](int n) { return n > 0; })) {
-    if (auto fits = check_net_size(c.net); !fits) return std::unexpected(fits.error());
+  std::vector<double> size = c.size.value_or(std::vector<double>{1});
+  size.resize(2, size.front());
+  const std::array<int, 2> net = {in_direction(c.net, 0), in_direction(c.net, 1)};
+  if (c.knots_u.empty() && c.knots_v.empty() && std::ranges::all_of(net, [](int n) { return n > 0; })) {
+    if (auto fits = check_net_size(net); !fits) return std::unexpected(fits.error());
   }
   std::vector<KnotVector> knots;
   for (std::size_t d = 0; d < 2; ++d) {
-    auto made = knots_of(c, d, c.net[d], "net");
+    auto made = knots_of(c, d, net[d], "net");
     if (!made) return std::unexpected(made.error());
     if (!explicit_points && !(std::isfinite(size[d]) && size[d] > 0)) {
       return input_error(fmt::format("{} is not a size", size[d]), "size", "use two numbers > 0");
@@ -93,8 +71,9 @@ Expected<Curve> profile_of(const NewCommand& c) {
   if (c.shape == "cylinder") {
     const double height = c.height.value_or(2 * radius);
     if (auto checked = positive(height, "height"); !checked) return std::unexpected(checked.error());
-    if (auto fits = check_net_size({9, std::max(c.net[1], 0)}); !fits) return std::unexpected(fits.error());
-    auto knots = knots_of(c, 1, c.net[1], "net");
+    const int rows = in_direction(c.net, 1);
+    if (auto fits = check_net_size({9, std::max(rows, 0)}); !fits) return std::unexpected(fits.error());
+    auto knots = knots_of(c, 1, rows, "net");
     if (!knots) return std::unexpected(knots.error());
     Points points(knots->count(), 3);
     const Interval v = knots->domain();
@@ -144,22 +123,16 @@ Expected<Surface> shape_of(const NewCommand& c) {
   static constexpr std::array<std::string_view, 5> shapes = {"plane", "cylinder", "sphere", "torus", "revolution"};
   if (std::ranges::find(shapes, c.shape) == shapes.end()) {
     return input_error(fmt::format("\"{}\" is not a shape", c.shape), "shape",
-                       "the shapes are: plane, cylinder, sphere, torus, revolution");
+                       "the shapes are: plane, cylinder, sphere, torus, revolution, curve, volume");
   }
+  if (c.knots_w) return input_error("surfaces have two directions", "knots_w", "leave it out");
+  if (auto counted = check_counts(c, 2); !counted) return std::unexpected(counted.error());
   if (c.shape == "plane") return net_of(c);
   if (!c.points.empty()) {
     return input_error(fmt::format("both points and the shape \"{}\" are given", c.shape), "points",
                        "leave one of them out");
   }
   return turned(c);
-}
-
-/// The surface with its origin at `position`; bits are unchanged where that is zero.
-Expected<Surface> placed(Surface surface, const Vector3& position) {
-  if (position == Vector3{0, 0, 0}) return surface;
-  Points points = surface.control_points();
-  points.rowwise() += Eigen::RowVector3d(position[0], position[1], position[2]);
-  return surface.with_control_points(std::move(points));
 }
 
 struct Measures {
@@ -170,7 +143,7 @@ struct Measures {
 }  // namespace
 
 void read_as_version_1(NewCommand& c) {
-  if (c.shape != "plane" && c.size == std::array<double, 2>{1, 1}) c.size.reset();
+  if (c.shape != "plane" && c.size == std::vector<double>{1, 1}) c.size.reset();
 }
 
 std::optional<Error> inapplicable(const NewCommand& c, std::string_view field) {
@@ -178,7 +151,9 @@ std::optional<Error> inapplicable(const NewCommand& c, std::string_view field) {
                                                {"cylinder", {"radius", "height"}},
                                                {"sphere", {"radius"}},
                                                {"torus", {"radius", "minor"}},
-                                               {"revolution", {"profile"}}};
+                                               {"revolution", {"profile"}},
+                                               {"curve", {"form", "size", "radius", "height", "turns"}},
+                                               {"volume", {"form", "size", "radius", "height"}}};
   if (field == "size" && !c.size) return std::nullopt;
   const auto has = [field](const Measures& m) { return std::ranges::find(m.fields, field) != m.fields.end(); };
   const auto own = std::ranges::find(shapes, c.shape, &Measures::shape);
@@ -187,19 +162,26 @@ std::optional<Error> inapplicable(const NewCommand& c, std::string_view field) {
 }
 
 void describe(NewCommand& c, Fields& fields) {
-  fields.name("new", "make a surface, in a document without a file, and select it");
+  fields.name("new", "make a surface, a curve or a volume, in a document without a file, and select it");
   fields.add("shape", c.shape,
              {.help = "`\"plane\"`: a flat sheet in z = 0 with a corner in the origin. `\"cylinder\"`: without its "
                       "ends, the lower one in z = 0. `\"sphere\"`: about the origin, v from pole to pole. `\"torus\"`: "
-                      "about the origin. `\"revolution\"` of a profile"});
+                      "about the origin. `\"revolution\"` of a profile. `\"curve\"`, `\"volume\"`: of a `form`"});
+  fields.add("form", c.form, {.help = "of a curve or a volume", .fallback = "`\"line\"`, `\"box\"`"});
   fields.add(
       "size", c.size,
-      {.help = "of a plane: width along x (u) and height along y (v)", .unit = Unit::length, .fallback = "`[1, 1]`"});
+      {.help = "of a plane: width along x (u) and height along y (v); of a line along x; of a box along x, y, z; "
+               "one number for all",
+       .unit = Unit::length,
+       .fallback = "`1`",
+       .uniform = true});
   fields.add("radius", c.radius,
-             {.help = "of cylinder and sphere; of a torus, to the middle of its tube",
+             {.help = "of cylinder, sphere, circle and helix; of a torus, to the middle of its tube",
               .unit = Unit::length,
               .fallback = "`0.5`"});
-  fields.add("height", c.height, {.help = "of a cylinder", .unit = Unit::length, .fallback = "twice the radius"});
+  fields.add("height", c.height,
+             {.help = "of a cylinder or a helix", .unit = Unit::length, .fallback = "twice the radius"});
+  fields.add("turns", c.turns, {.help = "of a helix", .range = above(0), .fallback = "`3`"});
   fields.add("minor", c.minor,
              {.help = "tube radius of a torus, less than `radius`",
               .unit = Unit::length,
@@ -207,16 +189,23 @@ void describe(NewCommand& c, Fields& fields) {
   fields.add("profile", c.profile,
              {.help = "of a revolution: `[[r, z], …]`, r ≥ 0, control points of a B-spline of degree `degree[1]`"});
   fields.add("degree", c.degree,
-             {.help = "in u and v; only v for cylinder and revolution; sphere and torus have degree 2"});
-  fields.add("net", c.net, {.help = "control points in u and v; only v for a cylinder"});
+             {.help = "in u and v, of a volume also w; one number for all; only v for the surfaces cylinder and "
+                      "revolution; what is round has degree 2 around",
+              .uniform = true});
+  fields.add("net", c.net,
+             {.help = "control points in each direction, likewise; of the surface cylinder only in v, of the volume at "
+                      "least 3 in u and v",
+              .uniform = true});
   fields.add("knots_u", c.knots_u,
              {.help = "knot vector of u, which determines the net; not for round shapes",
               .fallback = "clamped, uniform on [0, 1]"});
   fields.add("knots_v", c.knots_v,
              {.help = "knot vector of v; not for sphere and torus", .fallback = "clamped, uniform on [0, 1]"});
+  fields.add("knots_w", c.knots_w, {.help = "knot vector of w, of a volume", .fallback = "clamped, uniform on [0, 1]"});
   fields.add(
       "points", c.points,
-      {.help = "instead of a shape: all control points `[x, y, z]`, point (i, j) at place i n + j of a net m × n"});
+      {.help = "instead of a form: all control points `[x, y, z]`, point (i, j) at place i n + j of a net m × n, the "
+               "last direction fastest"});
   fields.add("weights", c.weights,
              {.help = "of a plane or points: one > 0 for each control point, in the same order; of a revolution: one "
                       "for each point of the profile",
@@ -234,14 +223,30 @@ Expected<void> Executor::execute(const NewCommand& c) {
     return input_error("surfaces can only be made in a document without a file", {},
                        "start with `knead sculpt --new`, without a FILE");
   }
-  const std::string present = state.surfaces.empty() ? document.unit() : state.surfaces.front().unit;
+  const bool first = state.surfaces.empty() && state.bodies.empty();
+  const std::string present = first                    ? document.unit()
+                              : state.surfaces.empty() ? state.bodies.front().unit
+                                                       : state.surfaces.front().unit;
   const std::string unit = c.unit.value_or(present);
   if (!step::is_unit(unit)) {
     return input_error(fmt::format("\"{}\" is not a unit", unit), "unit", "use um, mm, cm, m, km, inch or foot");
   }
-  if (unit != present && !state.surfaces.empty()) {
+  if (unit != present && !first) {
     return input_error(fmt::format("the surfaces of this document are in {}", present), "unit",
                        "give lengths in that unit: a file has one");
+  }
+  const std::string id = fmt::format("#{}", state.surfaces.size() + state.bodies.size() + 1);
+  state.together.clear();
+  if (makes_body(c)) {
+    auto body = new_body(c, state.notes);
+    if (!body) return std::unexpected(body.error());
+    body->id = id;
+    body->name = c.name.value_or(!c.points.empty() ? c.shape : body->name);
+    body->unit = unit;
+    state.bodies.push_back(*std::move(body));
+    state.body = static_cast<int>(state.bodies.size()) - 1;
+    state.selected.reset();
+    return {};
   }
   auto made = shape_of(c);
   if (!made) return std::unexpected(made.error());
@@ -249,13 +254,13 @@ Expected<void> Executor::execute(const NewCommand& c) {
   if (!at) return std::unexpected(at.error().within("position"));
   const auto surface = std::make_shared<const Surface>(*std::move(at));
   SceneSurface s;
-  s.id = fmt::format("#{}", state.surfaces.size() + 1);
+  s.id = id;
   s.name = c.name.value_or(!c.points.empty() ? "surface" : c.shape == "plane" ? "sheet" : c.shape);
   s.unit = unit;
   s.opened = s.reference = s.rest = s.current = surface;
   state.surfaces.push_back(std::move(s));
   state.selected = static_cast<int>(state.surfaces.size()) - 1;
-  state.together.clear();
+  state.body.reset();
   return {};
 }
 

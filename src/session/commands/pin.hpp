@@ -4,12 +4,12 @@
 
 namespace knead {
 
-/// Pins control points (i, j), or a surface point, in addition to those already pinned.
+/// Pins control points (i, j), or a point, in addition to those already pinned.
 struct PinCommand {
-  std::vector<std::array<int, 2>> control_points;
-  std::optional<Fractions> at;
-  std::optional<Vector3> to;                   ///< default: where it is
-  std::optional<std::string> components = {};  ///< of that point: "x", "yz", …; default: all
+  std::vector<std::vector<int>> control_points;  ///< indices in each direction
+  std::optional<std::vector<double>> at;         ///< a fraction for each direction
+  std::optional<Vector3> to;                     ///< default: where it is
+  std::optional<std::string> components = {};    ///< of that point: "x", "yz", …; default: all
 };
 
 template <>

@@ -123,7 +123,8 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   std::optional<SceneModel> model;  // the one used by steps is unchanged
   std::optional<StrokeModel> unused;
   std::optional<BrushRun> unused_run;
-  Executor own{document, model, unused, unused_run, trial, progress};
+  std::optional<AnyBodyModel> unused_body;
+  Executor own{document, model, unused, unused_run, unused_body, trial, progress};
   if (auto done = own.run(1, plate); !done) return done;
 
   for (int index : state.selection()) {

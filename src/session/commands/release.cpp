@@ -30,16 +30,23 @@ void describe(ReleaseCommand& c, Fields& fields) {
       {.help = "some of `hold`, `pins`, `edges`, `freeze`, `keep`, `symmetry`, `mask`", .fallback = "all of them"});
 }
 
-template <>
-Expected<void> Executor::execute(const ReleaseCommand& c) {
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+Expected<void> check_release(const ReleaseCommand& c) {
   const std::vector<std::string> what = c.what.value_or(std::vector<std::string>{});
   for (std::size_t k = 0; k < what.size(); ++k) {
     if (std::ranges::find(kinds, what[k]) != std::end(kinds)) continue;
     return input_error(fmt::format("\"{}\" cannot be released", what[k]), fmt::format("what[{}]", k),
                        "use hold, pins, edges, freeze, keep, symmetry or mask");
   }
-  const auto meant = [&](std::string_view kind) { return !c.what || std::ranges::find(what, kind) != what.end(); };
+  return {};
+}
+
+template <>
+Expected<void> Executor::execute(const ReleaseCommand& c) {
+  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  if (auto known = check_release(c); !known) return known;
+  const auto meant = [&](std::string_view kind) {
+    return !c.what || std::ranges::find(*c.what, kind) != c.what->end();
+  };
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
     if (meant("hold")) s.hold_rows = 0;

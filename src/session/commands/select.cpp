@@ -1,5 +1,7 @@
 #include "select.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "knead/sculpt/domain_scaling.hpp"
@@ -35,21 +37,42 @@ Expected<std::vector<int>> connected(std::vector<int> chosen, SessionState& stat
   return chosen;
 }
 
+Expected<void> select_body(const std::string& id, SessionState& state) {
+  std::string known;
+  for (std::size_t k = 0; k < state.bodies.size(); ++k) {
+    known += (known.empty() ? "" : ", ") + state.bodies[k].id;
+    if (state.bodies[k].id != id) continue;
+    state.body = static_cast<int>(k);
+    state.selected.reset();
+    state.together.clear();
+    return {};
+  }
+  return input_error(fmt::format("there is no curve or volume {}", id), "body",
+                     known.empty() ? R"(make one first: {"do":"new","shape":"curve"})" : "they are: " + known);
+}
+
 }  // namespace
 
 void describe(SelectCommand& c, Fields& fields) {
-  fields.name("select", "choose the surfaces that the following commands act on");
+  fields.name("select", "choose the surfaces, or the curve or volume, that the following commands act on");
   fields.add("surface", c.surface, {.help = "id as `knead info` lists it, `\"#123\"`; this or `surfaces`"});
   fields.add("surfaces", c.surfaces, {.help = "several of them"});
   fields.add("connected", c.connected,
              {.help = "also all surfaces that seams connect with these, directly or through others"});
+  fields.add("body", c.body, {.help = "id of a curve or a volume, instead; it is selected alone"});
 }
 
 template <>
 Expected<void> Executor::execute(const SelectCommand& c) {
+  if (c.body) {
+    if (c.surface || c.surfaces || c.connected) {
+      return input_error("both surfaces and a body are named", "body", "curves and volumes are selected alone");
+    }
+    return select_body(*c.body, state);
+  }
   std::vector<std::string> ids = c.surfaces.value_or(std::vector<std::string>{});
   if (c.surface) ids.insert(ids.begin(), *c.surface);
-  if (ids.empty()) return input_error("the field is missing", "surface", "give \"surface\" or \"surfaces\"");
+  if (ids.empty()) return input_error("the field is missing", "surface", "give \"surface\", \"surfaces\" or \"body\"");
   std::vector<int> chosen;
   for (const std::string& id : ids) {
     auto index = find_surface(id);
@@ -64,6 +87,7 @@ Expected<void> Executor::execute(const SelectCommand& c) {
     if (!all) return std::unexpected(all.error());
     chosen = std::move(*all);
   }
+  state.body.reset();
   state.selected = chosen.front();
   state.together.assign(chosen.begin() + 1, chosen.end());
   return {};

@@ -12,7 +12,7 @@ namespace knead {
 namespace {
 
 /// The tool's position, rotation and scale.
-Expected<Placement> placement_of(const ToolCommand& c, double unit, SceneSurface& surface, Executor& executor) {
+Expected<Placement> placement_of(const ToolCommand& c, double unit, Executor& executor) {
   Placement placement;
   if (c.axis && c.orientation) {
     return input_error("both axis and orientation are given", "orientation", "give one of them");
@@ -31,7 +31,9 @@ Expected<Placement> placement_of(const ToolCommand& c, double unit, SceneSurface
   if (c.position) {
     placement.position = unit * point_of(*c.position);
   } else if (c.at || c.middle.value_or(false)) {
-    const auto point = point_at(executor, surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
+    const auto surface = executor.selected();
+    if (!surface) return std::unexpected(surface.error());
+    const auto point = point_at(executor, **surface, {c.at.value_or(Fractions{0.5, 0.5}), c.middle.value_or(false)});
     if (!point) return std::unexpected(point.error());
     placement.position = *point;
   }
@@ -116,8 +118,9 @@ void describe(ToolCommand& c, Fields& fields) {
 
 template <>
 Expected<void> Executor::execute(const ToolCommand& c) {
-  auto surface = selected();
-  if (!surface) return std::unexpected(surface.error());
+  if (!state.body) {
+    if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  }
   const bool on_surface = c.at || c.middle.value_or(false);
   const bool own_place = c.shape == "surface" && !c.position && !on_surface;  // a surface stays in place
   if (!own_place && c.position.has_value() == on_surface) {
@@ -136,7 +139,7 @@ Expected<void> Executor::execute(const ToolCommand& c) {
   const double unit = c.relative ? length : 1;
   const auto shape = make_shape(c.shape, c.measures, unit, length, *this);
   if (!shape) return std::unexpected(shape.error());
-  const auto placement = placement_of(c, unit, **surface, *this);
+  const auto placement = placement_of(c, unit, *this);
   if (!placement) return std::unexpected(placement.error());
   auto placed = PlacedShape::create(*shape, *placement);
   if (!placed) {

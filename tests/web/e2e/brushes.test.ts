@@ -22,12 +22,13 @@ const bumps: Command[] = [
 
 async function begin(kind: string, more: Command[] = [], settings: Record<string, unknown> = {}): Promise<void> {
   const { page } = studio;
-  await page.evaluate(async ({ list, size, brush }) => {
-    const app = (window as never as { studio: Page }).studio;
-    await app.documents.startFresh('sheet', list);
-    app.hand.brush.settings.radius = size;
-    Object.assign(app.hand.surfaceBrush.settings, brush);
-  }, { list: [...sheet, ...more], size: radius, brush: { strength: 0.5, mirror: null, radial: 1, steady: 0, presses: 'depth', tilt: false, ...settings } });
+  await page.evaluate(async (list) => { await (window as never as { studio: Page }).studio.documents.startFresh('sheet', list); }, [...sheet, ...more]);
+  await settled(page); // the page gives a new document a radius of its own
+  await page.evaluate(({ size, brush }) => {
+    const { hand } = (window as never as { studio: Page }).studio;
+    hand.brush.settings.radius = size;
+    Object.assign(hand.surfaceBrush.settings, brush);
+  }, { size: radius, brush: { strength: 0.5, mirror: null, radial: 1, steady: 0, presses: 'depth', tilt: false, ...settings } });
   await settled(page);
   await page.keyboard.press('w');
   await choose(kind);

@@ -77,8 +77,9 @@ export class Studio implements App {
   /** Diagonal of the selected surfaces, or of all. */
   get diagonal(): number {
     const { state } = this;
-    if (!state || state.surfaces.length === 0) return 1;
-    const chosen = state.selection.length > 0 ? state.selection.map((k) => state.surfaces[k]!) : state.surfaces;
+    if (!state) return 1;
+    const chosen = state.body !== null ? [state.bodies[state.body]!]
+      : state.selection.length > 0 ? state.selection.map((k) => state.surfaces[k]!) : [...state.surfaces, ...state.bodies];
     const box = new THREE.Box3();
     for (const s of chosen) box.expandByPoint(new THREE.Vector3(...s.lower)).expandByPoint(new THREE.Vector3(...s.upper));
     return box.getSize(new THREE.Vector3()).length() || 1;

@@ -3,7 +3,7 @@ import type { Context, FaceEdge, Trim } from './context';
 import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } from './generated';
 import { type DisplayChoice, type DisplayInfo, type DisplayRange, plain } from './displays';
 import {
-  coefficients, type Combs, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture, type PictureWindow,
+  type BodyPicture, coefficients, type Combs, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture, type PictureWindow,
   type SectionPlane, type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture, type Vector3,
 } from './session_types';
 import { start } from './wasi';
@@ -30,6 +30,7 @@ interface Exports {
   knead_origin(axis: number): number;
   knead_displays(): number;
   knead_range(): number;
+  knead_body_picture(body: number): number;
   knead_combs(surface: number, alongU: number, alongV: number, teeth: number): number;
   knead_section_combs(surface: number, x: number, y: number, z: number, offset: number): number;
   knead_picture(surface: number, detail: number, opened: number, s0: number, t0: number, s1: number, t1: number, tolerance: number): number;
@@ -223,6 +224,13 @@ export class Engine {
     const { buffers, largest, at } = this.json(answer) as { buffers: BufferTable; largest: number; at: Combs['at'] };
     const { floats, flags } = this.buffers(buffers);
     return { places: floats('places'), vectors: floats('vectors'), joined: flags('joined'), largest, at };
+  }
+
+  /** A curve or a volume, by its place in the list of the state. */
+  bodyPicture(body: number): BodyPicture {
+    const { buffers } = this.json(this.wasm.knead_body_picture(body)) as { buffers: BufferTable };
+    const { floats } = this.buffers(buffers);
+    return { lines: floats('lines'), net: floats('net') };
   }
 
   /** The shape of a tool, by its place in the list of the state. */

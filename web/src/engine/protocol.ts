@@ -1,6 +1,6 @@
 import type { Context, Trim } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
-import type { Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SectionPlane, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
+import type { BodyPicture, Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SectionPlane, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
 
 /** How surfaces are drawn. */
 export interface PictureSettings {
@@ -63,6 +63,8 @@ export interface Frame {
   /** The colours are those of an earlier shape, or none yet: pictures that are asked for at rest have them. */
   late: boolean;
   combs: Combs[];
+  /** Curves and volumes, in the order of the state. */
+  bodies: BodyPicture[];
   /** Of tools that are new or have changed shape since the previous frame, by name. */
   toolPictures: Record<string, ToolPicture>;
   /** Steps from number `firstStep` on, for the plot. */

@@ -56,6 +56,12 @@ export interface Picture {
 /** Points p of the file with (x, y, z) · p = offset; (x, y, z) is of length 1. */
 export type SectionPlane = readonly [x: number, y: number, z: number, offset: number];
 
+/** A curve or a volume to draw (bindings/wasm/studio_bodies.hpp): ends of lines, relative to the session's origin. */
+export interface BodyPicture {
+  lines: Float32Array;
+  net: Float32Array;
+}
+
 /** Curvature combs of a surface (bindings/wasm/studio_combs.hpp); places relative to the session's origin. */
 export interface Combs {
   places: Float32Array;

@@ -141,6 +141,7 @@ function sendFrame(engine: Engine): void {
     ...(asked ? [engine.combs(k, asked.curves, asked.teeth)] : []),
     ...sectionCombs.map((plane) => engine.sectionCombs(k, plane)),
   ]);
+  const bodies = state.bodies.map((_, k) => engine.bodyPicture(k));
   const toolPictures = newToolPictures(engine, state.tools);
   if (state.steps < shownSteps) shownSteps = 0;
   const firstStep = Math.max(shownSteps, state.steps - 400);
@@ -148,7 +149,7 @@ function sendFrame(engine: Engine): void {
   shownSteps = state.steps;
   frameDrawn = false;
   const frame = {
-    state, pictures, range, late, combs, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
+    state, pictures, range, late, combs, bodies, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
   };
   post(
@@ -156,6 +157,7 @@ function sendFrame(engine: Engine): void {
     [
       ...pictures.flatMap((p) => [p.positions, p.normals, p.values, p.s, p.t, p.linesU, p.linesV, p.net, p.held]),
       ...combs.flatMap((c) => [c.places, c.vectors, c.joined]),
+      ...bodies.flatMap((b) => [b.lines, b.net]),
       ...Object.values(toolPictures).flatMap((p) => [p.positions, p.normals, p.indices]),
     ].map((a) => a.buffer as ArrayBuffer),
   );

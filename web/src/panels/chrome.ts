@@ -53,14 +53,14 @@ export function topBar(app: App): HTMLElement {
     same.hidden = !app.documents.place;
     undo.disabled = !state?.undo || app.playing();
     redo.disabled = !state?.redo || app.playing();
-    const idle = !state || state.selection.length === 0;
+    const idle = !state || (state.selection.length === 0 && state.body === null);
     play.disabled = rest.disabled = idle;
     step.disabled = idle || app.playing();
     play.replaceChildren(icon(app.playing() ? 'pause' : 'play'));
     play.classList.toggle('on', app.playing());
     four.classList.toggle('on', app.display.fourViews);
     name.textContent = state ? app.documents.name : '';
-    unit.textContent = state?.surfaces[0]?.unit ?? '';
+    unit.textContent = state?.surfaces[0]?.unit ?? state?.bodies[0]?.unit ?? '';
     document.title = state ? `${app.documents.name} – Knead studio` : 'Knead studio';
   });
   return bar;

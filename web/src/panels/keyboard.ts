@@ -56,7 +56,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
     app.hand.choose(mode[0]);
     return true;
   }
-  const ready = app.state !== null && app.state.selection.length > 0;
+  const ready = app.state !== null && (app.state.selection.length > 0 || app.state.body !== null);
   const gizmo = (kind: 'translate' | 'rotate' | 'scale') => {
     for (const v of app.viewer.viewports) v.gizmo.setMode(kind);
     app.changed();

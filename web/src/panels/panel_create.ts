@@ -7,8 +7,12 @@ import { field, h, select, toggle } from './dom';
 import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 
-const shapes = [['plane', 'Sheet'], ['cylinder', 'Cylinder'], ['sphere', 'Sphere'], ['torus', 'Torus'], ['revolution', 'Revolution'], ['points', 'Control points']] as const;
+const shapes = [['plane', 'Sheet'], ['cylinder', 'Cylinder'], ['sphere', 'Sphere'], ['torus', 'Torus'], ['revolution', 'Revolution'], ['points', 'Control points'],
+  ['line', 'Curve: line'], ['circle', 'Curve: circle'], ['helix', 'Curve: helix'], ['box', 'Volume: box'], ['solid', 'Volume: cylinder']] as const;
 type Shape = (typeof shapes)[number][0];
+/** The shapes that are curves or volumes. */
+const forms = { line: 'curve', circle: 'curve', helix: 'curve', box: 'volume', solid: 'volume' } as const;
+const isForm = (shape: Shape): shape is keyof typeof forms => shape in forms;
 const units = ['mm', 'cm', 'm', 'inch', 'foot'] as const;
 
 /** Numbers in a text, separated by spaces, commas or semicolons; null if one is not a number. */
@@ -45,6 +49,15 @@ interface Patch {
 export function newCommand(p: Patch): NewCommand | string {
   const command: NewCommand = { do: 'new', name: p.shape === 'points' ? 'patch' : p.shape === 'plane' ? 'sheet' : p.shape, unit: p.unit };
   if (p.position.some((x) => x !== 0)) command.position = p.position;
+  if (isForm(p.shape)) {
+    const kind = forms[p.shape], form = p.shape === 'solid' ? 'cylinder' : p.shape;
+    Object.assign(command, { shape: kind, form, name: form });
+    if (form === 'line' || form === 'box') command.size = [p.size[0]];
+    else command.radius = p.radius;
+    if (form === 'helix' || form === 'cylinder') command.height = p.height;
+    if (form !== 'circle') command.net = [kind === 'curve' ? 4 * p.net[0] : p.net[0]];
+    return command;
+  }
   if (p.shape === 'points') {
     const points = tuples<Vector3>(p.points, 3);
     if (!points) return 'the points are not lines of three numbers';
@@ -94,7 +107,8 @@ export function createPanel(app: App): HTMLElement {
       app.notify({ kind: 'error', text: command[0]!.toUpperCase() + command.slice(1), remedy: 'correct it in the panel “Create”' });
       return;
     }
-    const all: Command[] = [command, ...(patch.held && patch.shape === 'plane' ? [{ do: 'hold' as const, rows: Math.min(2, Math.floor((Math.min(...patch.net) - 2) / 2)) }] : []), ...clay];
+    const all: Command[] = [command, ...(patch.held && patch.shape === 'plane' ? [{ do: 'hold' as const, rows: Math.min(2, Math.floor((Math.min(...patch.net) - 2) / 2)) }] : []),
+      ...(isForm(patch.shape) ? [] : clay)];
     if (fresh) await app.documents.openScene(command.name!, all);
     else if (await app.execute(all)) app.viewer.fit();
   };
@@ -119,13 +133,15 @@ export function createPanel(app: App): HTMLElement {
         p.shape = shape;
         again();
       })),
+      p.shape === 'line' || p.shape === 'box' ? field('Length', number('Length to create', p.size[0], (v) => (p.size[0] = v))) : null,
       p.shape === 'plane' ? field('Size', row(number('Width', p.size[0], (v) => (p.size[0] = v)), number('Depth', p.size[1], (v) => (p.size[1] = v)))) : null,
-      ['cylinder', 'sphere', 'torus'].includes(p.shape) ? field('Radius', number('Radius to create', p.radius, (v) => (p.radius = v))) : null,
-      p.shape === 'cylinder' ? field('Height', number('Height to create', p.height, (v) => (p.height = v))) : null,
+      ['cylinder', 'sphere', 'torus', 'circle', 'helix', 'solid'].includes(p.shape) ? field('Radius', number('Radius to create', p.radius, (v) => (p.radius = v))) : null,
+      ['cylinder', 'helix', 'solid'].includes(p.shape) ? field('Height', number('Height to create', p.height, (v) => (p.height = v))) : null,
       p.shape === 'torus' ? field('Tube', number('Tube to create', p.minor, (v) => (p.minor = v))) : null,
       p.shape === 'revolution' ? field('Profile', list('Profile', p.profile, 'r z, a line each', (t) => (p.profile = t), 4), 'Control points (r, z), turned about z') : null,
       flat || p.shape === 'revolution' ? field('Degree', row(flat ? whole('Degree u', p.degree, 0, 1) : null, whole('Degree v', p.degree, 1, 1)), 'In u and v') : null,
       flat ? field('Net', row(whole('Net u', p.net, 0, 2), whole('Net v', p.net, 1, 2)), 'Control points in u and v') : null,
+      isForm(p.shape) && p.shape !== 'circle' ? field('Net', whole('Net u', p.net, 0, 4), 'Control points each way; of a curve four times as many') : null,
       p.shape === 'points' ? field('Points', list('Points', p.points, 'x y z, a line each, v running first', (t) => (p.points = t), 5)) : null,
       field('Position', row(...([0, 1, 2] as const).map((k) => number(`Position ${'xyz'[k]} to create`, p.position[k], (v) => (p.position[k] = v))))),
       field('Unit', select('Unit', units.map((u) => [u, u] as const), p.unit as (typeof units)[number], (unit) => {

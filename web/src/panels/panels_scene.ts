@@ -1,5 +1,5 @@
 import { format, parseLength } from '../document/units';
-import { type EditToolCommand, shapes } from '../engine/generated';
+import { type BodyInfo, type EditToolCommand, shapes } from '../engine/generated';
 import type { Command, ToolInfo, Vector3 } from '../engine/session_types';
 import { constraintInWords } from '../tools/held';
 import { tooFar, wayOf } from '../tools/tool_way';
@@ -11,13 +11,14 @@ import { note, panel, row } from './panel';
 /** Pieces of the way to a place that is typed. */
 const longestWay = 256;
 
-const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? 'mm';
+const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? app.state?.bodies[0]?.unit ?? 'mm';
 const length = (app: App) => (text: string) => parseLength(text, unitOf(app));
 
 export function surfacesPanel(app: App): HTMLElement {
-  return panel(app, 'Surfaces', (a) => [a.state?.surfaces.map((s) => [s.id, s.name, s.net, s.degree, s.moved > 0]), a.state?.selection], () => {
+  return panel(app, 'Surfaces', (a) => [a.state?.surfaces.map((s) => [s.id, s.name, s.net, s.degree, s.moved > 0]), a.state?.selection,
+    a.state?.bodies.map((b) => [b.id, b.name, b.net, b.moved > 0]), a.state?.body], () => {
     const { state } = app;
-    if (!state || state.surfaces.length === 0) return [note('Nothing to sculpt yet.')];
+    if (!state || state.surfaces.length + state.bodies.length === 0) return [note('Nothing to sculpt yet.')];
     return [
       h('ul', { class: 'list' }, ...state.surfaces.map((s, k) => {
         const on = state.selection.includes(k);
@@ -33,17 +34,25 @@ export function surfacesPanel(app: App): HTMLElement {
           aria: { pressed: String(on) } },
           h('span', {}, s.name || s.id),
           h('small', {}, `${s.degree.join('·')}  ${s.net.join(' × ')}${s.rational ? '  NURBS' : ''}${s.moved > 0 ? '  •' : ''}`)));
-      })),
+      }), ...state.bodies.map((b, k) => bodyItem(app, b, state.body === k))),
       row(
         h('button', { class: 'button small', type: 'button', title: 'Halve every span: the same shape on a finer net',
-          onclick: () => void app.execute([{ do: 'refine', region: [[0, 1], [0, 1]] }]) }, 'Refine'),
-        h('button', { class: 'button small', type: 'button', title: 'Raise the degree by one: the same shape',
+          onclick: () => void app.execute([state.body !== null ? { do: 'refine' } : { do: 'refine', region: [[0, 1], [0, 1]] }]) }, 'Refine'),
+        ...(state.body !== null ? [] : [h('button', { class: 'button small', type: 'button', title: 'Raise the degree by one: the same shape',
           onclick: () => void app.execute([{ do: 'elevate' }]) }, 'Elevate'),
         h('button', { class: 'button small', type: 'button', title: 'Select everything that seams connect with this surface',
-          onclick: () => void app.execute([{ do: 'select', surface: state.surfaces[state.selection[0] ?? 0]!.id, connected: true }]) }, 'Connected'),
+          onclick: () => void app.execute([{ do: 'select', surface: state.surfaces[state.selection[0] ?? 0]!.id, connected: true }]) }, 'Connected')]),
       ),
     ];
   });
+}
+
+/** A curve or a volume in the list of what can be sculpted. */
+function bodyItem(app: App, b: BodyInfo, on: boolean): HTMLElement {
+  return h('li', {}, h('button', { class: on ? 'item on' : 'item', type: 'button', onclick: () => void app.execute([{ do: 'select', body: b.id }]),
+    title: `A ${b.kind}, which is sculpted alone`, aria: { pressed: String(on) } },
+    h('span', {}, b.name || b.id),
+    h('small', {}, `${b.kind}  ${b.degree.join('·')}  ${b.net.join(' × ')}${b.rational ? '  NURBS' : ''}${b.moved > 0 ? '  •' : ''}`)));
 }
 
 /** The shapes with their titles. */

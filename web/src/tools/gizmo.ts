@@ -26,7 +26,7 @@ export function followGizmo(host: ToolHost, viewport: Viewport): void {
     const tool = host.viewer.selectedTool;
     if (!object || !tool) return [];
     const list: Command[] = [];
-    const steps = !host.playing() && host.state!.surfaces.length > 0 && host.state!.selection.length > 0;
+    const steps = !host.playing() && (host.state!.selection.length > 0 || host.state!.body !== null);
     const by = object.position.clone().sub(sent.position);
     if (by.lengthSq() > 0) {
       const size = host.state!.tools.find((t) => t.name === tool)?.size ?? null;

@@ -5,6 +5,7 @@ import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
 import { shown } from '../engine/trim_tree';
 import { type Bounds, boundsOf, seenBox } from './bounds';
+import { BodyView } from './body_view';
 import { CombView } from './comb_view';
 import { ContextView, type GreyHit } from './context_view';
 import { type Display, type Palette, palettes, type Theme } from './display';
@@ -53,6 +54,7 @@ export class Viewer {
   readonly context = new ContextView();
   private surroundings: Context | null = null;
   readonly combs = new CombView();
+  readonly bodies = new BodyView();
   /** A file was opened, and nothing in it has been chosen yet: what the session has selected is not what the user has. */
   waiting = false;
   private trims: Trim[] = [];
@@ -89,7 +91,7 @@ export class Viewer {
     this.element.append(this.renderer.domElement, windows);
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(0.4, -0.6, 1);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay, this.context.mesh, this.section.group, this.combs.group);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay, this.context.mesh, this.section.group, this.combs.group, this.bodies.group);
     this.section.onChange = () => this.redraw();
     new ResizeObserver(() => this.resize()).observe(this.element);
   }
@@ -103,7 +105,7 @@ export class Viewer {
   }
 
   get unit(): string {
-    return this.frame?.state.surfaces[0]?.unit ?? '';
+    return (this.frame?.state.surfaces[0] ?? this.frame?.state.bodies[0])?.unit ?? '';
   }
 
   /** The view alone, or, of four, the perspective one. */
@@ -142,6 +144,7 @@ export class Viewer {
     this.combs.restyle(this.display.combScale * this.bounds().radius, this.palette.comb);
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
+    this.bodies.show(frame.bodies, state.body, this.palette);
     this.showTools();
     this.section.forget();
     if (fresh) {
@@ -223,7 +226,7 @@ export class Viewer {
 
   /** Centre and radius of all surfaces. */
   bounds(): Bounds {
-    return boundsOf(this.surfaces.map(({ picture }) => picture && new THREE.Box3().setFromArray(picture.positions)));
+    return boundsOf([...this.surfaces.map(({ picture }) => picture && new THREE.Box3().setFromArray(picture.positions)), ...this.bodies.boxes()]);
   }
 
   /** Shows all surfaces. */
@@ -250,7 +253,7 @@ export class Viewer {
   }
 
   private boxes(): (THREE.Box3 | null)[] {
-    return [...this.surfaces.map((s, k) => seenBox(s.picture, this.trims[k] ?? null)), this.context.box()];
+    return [...this.surfaces.map((s, k) => seenBox(s.picture, this.trims[k] ?? null)), ...this.bodies.boxes(), this.context.box()];
   }
 
   /** Cuts through the middle of everything, and hides what is before that. */

@@ -1,0 +1,120 @@
+#include "studio_bodies.hpp"
+
+#include <algorithm>
+
+#include "buffers.hpp"
+#include "knead/spline/evaluate.hpp"
+
+namespace knead::studio {
+namespace {
+
+constexpr int curve_chords = 24, volume_chords = 6;
+constexpr std::size_t most_lines = 12;
+
+void append(std::vector<float>& to, const Point& place, const Point& origin) {
+  for (Eigen::Index d = 0; d < 3; ++d) to.push_back(static_cast<float>(place[d] - origin[d]));
+}
+
+/// Parameters along one direction, so many chords per span.
+std::vector<double> along(const KnotVector& knots, int chords) {
+  std::vector<double> places;
+  for (const int span : knots.spans()) {
+    for (int k = 0; k < chords; ++k) places.push_back(knots[span] + (knots[span + 1] - knots[span]) * k / chords);
+  }
+  places.push_back(knots.domain().upper);
+  return places;
+}
+
+/// The ends of the domain, and knots between them, not all where there are many.
+std::vector<double> lines_across(const KnotVector& knots) {
+  std::vector<double> inner;
+  for (const int span : knots.spans()) inner.push_back(knots[span]);
+  const std::size_t stride = inner.size() / most_lines + 1;
+  std::vector<double> places;
+  for (std::size_t k = 0; k < inner.size(); k += stride) places.push_back(inner[k]);
+  places.push_back(knots.domain().upper);
+  return places;
+}
+
+Expected<void> draw(const BodyShapes<1>& shapes, const Point& origin, BodyPicture& to) {
+  const Curve& curve = *shapes.current;
+  const std::vector<double> places = along(curve.knots(0), curve_chords);
+  const auto points = evaluate_grid<1>(curve, {std::span<const double>(places)});
+  if (!points) return std::unexpected(points.error());
+  for (Eigen::Index k = 0; k + 1 < points->points().rows(); ++k) {
+    append(to.lines, points->points().row(k).transpose(), origin);
+    append(to.lines, points->points().row(k + 1).transpose(), origin);
+  }
+  return {};
+}
+
+Expected<void> draw(const BodyShapes<3>& shapes, const Point& origin, BodyPicture& to) {
+  const Volume& volume = *shapes.current;
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::array<std::vector<double>, 3> places;
+    for (std::size_t e = 0; e < 3; ++e) {
+      places[e] = e == d ? along(volume.knots()[e], volume_chords) : lines_across(volume.knots()[e]);
+    }
+    const auto points = evaluate_grid<3>(volume, {places[0], places[1], places[2]});
+    if (!points) return std::unexpected(points.error());
+    const auto row = [&](std::array<std::size_t, 3> at) {
+      return points->points()
+          .row(static_cast<Eigen::Index>((at[0] * places[1].size() + at[1]) * places[2].size() + at[2]))
+          .transpose();
+    };
+    const std::size_t e = (d + 1) % 3, f = (d + 2) % 3;
+    for (std::size_t i = 0; i < places[e].size(); ++i) {
+      for (std::size_t j = 0; j < places[f].size(); ++j) {
+        const bool outside = i == 0 || j == 0 || i + 1 == places[e].size() || j + 1 == places[f].size();
+        for (std::size_t k = 0; outside && k + 1 < places[d].size(); ++k) {
+          std::array<std::size_t, 3> at{};
+          at[e] = i;
+          at[f] = j;
+          for (const std::size_t end : {k, k + 1}) {
+            at[d] = end;
+            append(to.lines, row(at), origin);
+          }
+        }
+      }
+    }
+  }
+  return {};
+}
+
+template <int D>
+void draw_net(const BodyShapes<D>& shapes, const Point& origin, std::vector<float>& to) {
+  const auto net = shapes.current->net();
+  const Points& points = shapes.current->control_points();
+  for (int k = 0; k < shapes.current->size(); ++k) {
+    std::array<int, D> at;
+    for (int d = D - 1, rest = k; d >= 0; --d) {
+      at[static_cast<std::size_t>(d)] = rest % net[static_cast<std::size_t>(d)];
+      rest /= net[static_cast<std::size_t>(d)];
+    }
+    int stride = 1;
+    for (std::size_t d = D; d-- > 0; stride *= net[d]) {
+      if (at[d] + 1 == net[d]) continue;
+      bool outside = D == 1;
+      for (std::size_t e = 0; e < D; ++e) outside = outside || (e != d && (at[e] == 0 || at[e] + 1 == net[e]));
+      if (!outside) continue;
+      append(to, points.row(k).transpose(), origin);
+      append(to, points.row(k + stride).transpose(), origin);
+    }
+  }
+}
+
+}  // namespace
+
+Expected<BodyPicture> body_picture(const SceneBody& body, const Point& origin) {
+  BodyPicture picture;
+  auto done = std::visit([&](const auto& shapes) { return draw(shapes, origin, picture); }, body.shapes);
+  if (!done) return std::unexpected(done.error());
+  std::visit([&](const auto& shapes) { draw_net(shapes, origin, picture.net); }, body.shapes);
+  return picture;
+}
+
+std::string body_json(const BodyPicture& picture) {
+  return "{\"buffers\":" + buffers_json({{"lines", picture.lines}, {"net", picture.net}}) + "}";
+}
+
+}  // namespace knead::studio

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "knead/scene/body.hpp"
+
+namespace knead::studio {
+
+/// A curve or a volume to draw; places relative to the requested origin, 3 numbers each.
+struct BodyPicture {
+  std::vector<float> lines;  ///< ends of chords: of a curve, or of the knot lines on the sides of a volume
+  std::vector<float> net;    ///< ends of the legs of the control polygon; of a volume those on its sides
+};
+
+/// 24 chords per span of a curve, 6 of a volume's knot lines, of which at most 12 per direction are drawn. Errors: a
+/// denominator that is not positive (numerical).
+[[nodiscard]] Expected<BodyPicture> body_picture(const SceneBody& body, const Point& origin);
+
+/// {"buffers": …}
+[[nodiscard]] std::string body_json(const BodyPicture& picture);
+
+}  // namespace knead::studio

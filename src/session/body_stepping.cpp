@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "executor.hpp"
+#include "knead/scene/body_model.hpp"
+
+namespace knead {
+namespace {
+
+template <int D>
+Expected<void> take_body(SceneBody& body, BodyShapes<D>& shapes, const ActiveStep& step, bool imprinting) {
+  auto moved = shapes.current->with_control_points(step.control_points);
+  if (!moved) return std::unexpected(moved.error());
+  if (moved->control_points() != shapes.current->control_points()) {
+    shapes.current = std::make_shared<const Spline<D>>(*std::move(moved));
+  }
+  body.velocity = step.velocity.rows() > 0 ? step.velocity : Points(0, 3);
+  if (imprinting) shapes.rest = shapes.current;
+  return {};
+}
+
+}  // namespace
+
+SceneBody* Executor::body() { return state.body ? &state.bodies[static_cast<std::size_t>(*state.body)] : nullptr; }
+
+template <int D>
+Expected<void> Executor::step_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution) {
+  SceneBody& b = *body();
+  BodyInput<D> input = body_input<D>(state, b, evolution);
+  const auto* known = body_cache ? std::get_if<BodyModel<D>>(&*body_cache) : nullptr;
+  if (known == nullptr || !(known->input == input)) {
+    body_cache.reset();
+    auto made = make_body_model<D>(std::move(input));
+    if (!made) return std::unexpected(made.error());
+    body_cache.emplace(*std::move(made));
+  }
+  const auto& [made_for, model, notes] = std::get<BodyModel<D>>(*body_cache);
+  const auto loads = body_loads(state, *state.body);
+  if (!loads) return std::unexpected(loads.error());
+  const ActiveState before = active_state(b);
+  if (!state.energy_before) state.energy_before = model.energy(before);
+  const auto start = std::chrono::steady_clock::now();
+  const auto step = model.step(before, state.tools, *loads);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!step) return std::unexpected(step.error());
+  if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
+  const bool imprinting =
+      step->gap > 0 && std::ranges::any_of(state.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
+  if (auto done = take_body(b, shapes, *step, imprinting); !done) return done;
+  StepRecord record = record_of(*step, seconds, note_of(*step));
+  record.surface = -1;
+  record.largest_displacement = largest_displacement(b);
+  state.steps.push_back(std::move(record));
+  for (const std::string& note : notes) {
+    if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
+  }
+  return {};
+}
+
+Expected<void> Executor::run_body(int count, const EvolutionPolicy& evolution) {
+  for (int k = 0; k < count; ++k) {
+    auto done = std::visit([&](auto& shapes) { return step_body(shapes, evolution); }, body()->shapes);
+    if (!done) return done;
+    if (progress) progress(k + 1, count);
+  }
+  return {};
+}
+
+}  // namespace knead
