@@ -1,6 +1,7 @@
-import { commands, distance, positions, scene, settled, stroke, studioOfFile } from './page';
+import { commands, directoryOfFile, distance, engineOf, positions, saveAs, scene, settled, stroke, studioOfFile } from './page';
 
 const studio = studioOfFile();
+const directory = directoryOfFile();
 
 describe('panels', () => {
   it('create a surface, and change its knots', async () => {
@@ -29,6 +30,56 @@ describe('panels', () => {
     await page.keyboard.press('Control+z');
     await settled(page);
     expect(distance(before, await positions(page))).toBe(0);
+  });
+});
+
+describe('a curve', () => {
+  /** The ends of the lines of the first curve or volume. */
+  const lines = (): Promise<number[]> => studio.page.evaluate(() =>
+    [...(window as never as { studio: { frame: { bodies: { lines: Float32Array }[] } } }).studio.frame.bodies[0]!.lines]);
+  /** How many pixels have nearly the colour of what is selected. */
+  const lit = (): Promise<number> => studio.page.evaluate(async () => {
+    const { viewer } = (window as never as { studio: { viewer: { picture(): Promise<Blob> } } }).studio;
+    const bitmap = await createImageBitmap(await viewer.picture());
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
+    canvas.drawImage(bitmap, 0, 0);
+    const { data } = canvas.getImageData(0, 0, bitmap.width, bitmap.height);
+    let count = 0;
+    for (let k = 0; k < data.length; k += 4) {
+      if (data[k + 1]! - data[k]! > 60 && data[k + 2]! - data[k]! > 50) ++count;
+    }
+    return count;
+  });
+
+  it('is created, drawn, chosen in the list, stepped and saved', async () => {
+    const { page } = studio;
+    const shape = page.locator('select[aria-label="Shape to create"]');
+    if (!(await shape.isVisible())) await page.locator('.panel[data-panel=Create] > summary').click();
+    await shape.selectOption('helix');
+    await page.locator('.panel[data-panel=Create] button', { hasText: 'Create' }).first().click();
+    await settled(page);
+    expect((await commands(page))[0]).toMatchObject({ do: 'new', shape: 'curve', form: 'helix' });
+    expect(await lit()).toBeGreaterThan(300);
+    await shape.selectOption('box');
+    await page.locator('.panel[data-panel=Create] button', { hasText: 'Add to this document' }).click();
+    await settled(page);
+    const row = page.locator('.panel[data-panel=Surfaces] .item', { hasText: 'helix' });
+    expect(await row.getAttribute('aria-pressed')).toBe('false');
+    await row.click();
+    await settled(page);
+    expect(await row.getAttribute('aria-pressed')).toBe('true');
+    const before = await lines();
+    await page.evaluate((list) => (window as never as { studio: { execute(c: unknown): Promise<unknown> } }).studio.execute(list), [
+      { do: 'edge' }, { do: 'force', kind: 'dead', at: [0.5], vector: [0, 0, 40] },
+    ]);
+    await page.keyboard.press('.');
+    await settled(page);
+    expect(distance(before, await lines())).toBeGreaterThan(1e-3);
+    await page.keyboard.press('Control+z');
+    await settled(page);
+    expect(distance(before, await lines())).toBe(0);
+    const engine = await engineOf(await saveAs(page, directory, 'CAD file'));
+    expect(engine.state().surfaces.length).toBe(6); // the sides of the box
   });
 });
 

@@ -50,9 +50,9 @@ export function surfacesPanel(app: App): HTMLElement {
 /** A curve or a volume in the list of what can be sculpted. */
 function bodyItem(app: App, b: BodyInfo, on: boolean): HTMLElement {
   return h('li', {}, h('button', { class: on ? 'item on' : 'item', type: 'button', onclick: () => void app.execute([{ do: 'select', body: b.id }]),
-    title: `A ${b.kind}, which is sculpted alone`, aria: { pressed: String(on) } },
+    title: `A ${b.rational ? 'rational ' : ''}${b.kind} of degree ${b.degree.join(' × ')}, which is sculpted alone`, aria: { pressed: String(on) } },
     h('span', {}, b.name || b.id),
-    h('small', {}, `${b.kind}  ${b.degree.join('·')}  ${b.net.join(' × ')}${b.rational ? '  NURBS' : ''}${b.moved > 0 ? '  •' : ''}`)));
+    h('small', {}, `${b.kind}  ${b.net.join(' × ')}${b.moved > 0 ? '  •' : ''}`)));
 }
 
 /** The shapes with their titles. */
