@@ -5,7 +5,10 @@ import { join } from 'node:path';
 const [width, height] = [264, 176]; // twice the size in the menu
 
 /** What is done to a scene before its picture: a ball pressed in, or steps. */
-const steps = { 'Drape': 34, 'Trampoline': 14, 'Ball on a membrane': 5 };
+const steps = {
+  'Drape': 34, 'Trampoline': 14, 'Ball on a membrane': 5, 'Fig. 6.9 a': 6, 'Fig. 6.9 b': 6, 'Fig. 6.10': 3, 'Fig. 6.11': 3, 'Fig. 6.11, coupled': 3,
+  'Fig. 6.12': 30, 'Fig. 6.13': 6, 'Fig. 6.14': 4, 'Fig. 6.15': 90,
+};
 const strokes = {
   'Clay sheet': [['b', [0.42, 0.52], [0.5, 0.46], [0.58, 0.5]]],
   'Fine clay sheet': [['b', [0.4, 0.5], [0.45, 0.45]], ['u', [0.55, 0.55], [0.62, 0.52]]],

@@ -12,16 +12,17 @@ const wasm = readFileSync(join(root, 'web/src/engine/knead_studio.wasm'));
 describe('the gallery', () => {
   it('has names of their own', () => expect(new Set(scenes.map((s) => s.name)).size).toBe(scenes.length));
 
-  it.each(scenes.filter((s) => s.commands))('$name: is made, and gives way under a ball', async ({ commands }) => {
+  it.each(scenes.filter((s) => s.commands))('$name: is made, and gives way', async ({ name, commands, file }) => {
     const engine = await Engine.load(wasm);
-    engine.fresh('scene');
+    if (file) engine.openStep(readFileSync(join(root, 'examples/figures/patches.step')), 'patches.step');
+    else engine.fresh('scene');
     for (const command of commands!) engine.execute(command);
     const { surfaces, selection, tools } = engine.state();
     expect(selection.length).toBeGreaterThan(0);
     const k = selection[0]!;
     for (const s of surfaces) expect(s.net[0] * s.net[1]).toBeLessThanOrEqual(64 * 64);
     const before = engine.controlPoints(k);
-    if (tools.length === 0) {
+    if (tools.length === 0 && !name.startsWith('Fig.')) {
       // A ball half sunk into the middle of the surface, from outside.
       const picture = engine.picture(k, 33);
       const [m, n] = picture.counts;
@@ -32,7 +33,7 @@ describe('the gallery', () => {
     }
     engine.execute({ do: 'step', count: 4 });
     const after = engine.controlPoints(k);
-    const size = Math.max(...after.map(Math.abs));
+    const size = Math.max(...before.map(Math.abs));
     expect(after.every(Number.isFinite)).toBe(true);
     const moved = after.reduce((most, x, i) => Math.max(most, Math.abs(x - before[i]!)), 0);
     expect(moved).toBeGreaterThan(1e-4 * size);

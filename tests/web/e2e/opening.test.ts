@@ -72,6 +72,18 @@ describe('undo', () => {
     expect(await commands(page)).toEqual(before);
   });
 
+  it('waits to be played where a scene is a figure of the thesis, of a file too', async () => {
+    const { page } = studio;
+    for (const [name, chosen] of [['Fig. 6.12', 1], ['Fig. 6.11', 4]] as const) {
+      await scene(page, name);
+      await expect.poll(() => page.locator('.panel[data-panel=Surfaces] .item.on').count()).toBe(chosen);
+      const before = await positions(page);
+      await page.keyboard.press('.');
+      await settled(page);
+      expect(distance(before, await positions(page))).toBeGreaterThan(1e-3);
+    }
+  });
+
   it('stops at the same place after a reload', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');

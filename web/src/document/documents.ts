@@ -135,23 +135,24 @@ export class Documents {
     this.work(commands);
   }
 
-  /** A ready scene: commands on an empty document, or a file of the page with its first surface chosen. False where the work before is to stay. */
+  /** A ready scene: commands on an empty document, or on a file of the page; without them its first surface is chosen. False where the work before is to stay. */
   async openScene(name: string, commands: Command[], fetchFile?: () => Promise<Uint8Array | null>): Promise<boolean> {
     if (!(await this.mayLeave())) return false;
     if (!fetchFile) return (await this.startFresh(name, commands)) !== null;
     const bytes = await fetchFile();
-    return bytes !== null && (await this.openStep(bytes, name, true)) !== null;
+    return bytes !== null && (await this.openStep(bytes, name, commands)) !== null;
   }
 
-  private async openStep(bytes: Uint8Array, name: string, chosen = false): Promise<true | null> {
+  private async openStep(bytes: Uint8Array, name: string, scene: Command[] | null = null): Promise<true | null> {
     const { host } = this;
     return host.attempt(async () => {
       await this.begin(name, { kind: 'step', name, bytes }, () => host.client.open(bytes, name));
-      if (!chosen) {
+      if (!scene) {
         await this.firstLook();
         return;
       }
-      await makeReady(host, 0, true);
+      if (scene.length > 0) await host.client.execute(scene, false, true);
+      else await makeReady(host, 0, true);
       this.pick();
       host.changed();
     });

@@ -1,16 +1,8 @@
 import bonnetUrl from '../../../samples/bonnet.step?url';
 import type { Command, Vector3 } from '../engine/session_types';
 import { clay } from './clay';
-
-/** A scene of the gallery: commands on an empty document, or a file served with the page. */
-export interface Scene {
-  name: string;
-  about: string;
-  /** Of the document. */
-  document: string;
-  commands?: Command[];
-  file?: string;
-}
+import { figureScenes } from './figures';
+import type { Scene } from './scene';
 
 const finer: Command = { do: 'refine', region: [[0, 1], [0, 1]] };
 
@@ -103,4 +95,5 @@ export const scenes: Scene[] = [
       { do: 'load', gravity: [0, 0, -3] },
     ],
   },
+  ...figureScenes,
 ];

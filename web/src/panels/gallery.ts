@@ -1,4 +1,5 @@
-import { type Scene, scenes } from '../document/scenes';
+import type { Scene } from '../document/scene';
+import { scenes } from '../document/scenes';
 import type { App } from './app';
 
 /** Drawn by scripts/studio_pictures.sh; fetched when the gallery is opened. */
