@@ -31,12 +31,17 @@ Report whole_report(const std::string& data) {
       "P. Moore's thesis, chapter 5, by this library; written by `make figures`. What differs, and why, is told in "
       "`docs/gramians/README.md` and `docs/gramians/error-analysis.md`.\n\n"
       "- [Basis functions: Figs. 5.1, 5.9, 5.21 to 5.25](#basis-functions-figs-51-59-521-to-525)\n"
+      "- [Curve, Gauss points and integration by parts: Figs. 4.2, 5.4, 5.12 to "
+      "5.20](#curve-gauss-points-and-integration-by-parts-figs-42-54-512-to-520)\n"
       "- [Cost: Figs. 5.31 to 5.41](#cost-figs-531-to-541)\n"
+      "- [Times: Figs. 5.42 to 5.45](#times-figs-542-to-545)\n"
       "- [Tables 5.3 to 5.20](#tables-53-to-520-the-methods-against-exact-values)\n"
       "- [Errors: Figs. 5.46 to 5.49](#errors-figs-546-to-549)\n"
       "- [Matrices: Figs. 5.50 to 5.57](#matrices-figs-550-to-557)\n");
   add_curves(report);
+  add_by_parts(report);
   add_counts(report);
+  add_times(report);
   add_tables(report, data);
   add_errors(report, data);
   add_matrices(report, data);

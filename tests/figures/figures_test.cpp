@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 
+#include "figures/by_parts.hpp"
 #include "figures/svg.hpp"
 #include "figures/tables.hpp"
 #include "figures/thesis_knots.hpp"
@@ -23,9 +24,11 @@ const Report& report() {
 }
 
 TEST(Figures, are_all_there_and_whole) {
-  for (const char* number : {"01",   "09_1", "09_2", "09_3", "09_4", "21", "22", "23", "24", "25", "31",     "32",
-                             "33",   "34",   "35",   "36",   "37",   "38", "39", "40", "41", "46", "47_g11", "47_g22",
-                             "48_a", "48_b", "48_c", "49",   "50",   "51", "52", "53", "54", "55", "56",     "57"}) {
+  for (const char* number :
+       {"01",   "04",   "12",   "13",   "15",   "17",   "19",   "14_1", "14_4", "16_3", "18_2", "20_3",   "42",
+        "43",   "44",   "45",   "09_1", "09_2", "09_3", "09_4", "21",   "22",   "23",   "24",   "25",     "31",
+        "32",   "33",   "34",   "35",   "36",   "37",   "38",   "39",   "40",   "41",   "46",   "47_g11", "47_g22",
+        "48_a", "48_b", "48_c", "49",   "50",   "51",   "52",   "53",   "54",   "55",   "56",   "57"}) {
     EXPECT_TRUE(report().pictures.contains("figure_5_" + std::string(number) + ".svg")) << number;
   }
   for (const auto& [name, text] : report().pictures) {
@@ -33,6 +36,25 @@ TEST(Figures, are_all_there_and_whole) {
     EXPECT_EQ(text.find("nan"), std::string::npos) << name;
     EXPECT_EQ(text.find("inf"), std::string::npos) << name;
     EXPECT_NE(report().page.find("](" + name + ")"), std::string::npos) << name << " is not on the page";
+  }
+}
+
+TEST(ByParts, keeps_the_integral_in_every_step) {
+  const KnotVector knots = *KnotVector::create(3, {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 6, 6, 6});
+  EXPECT_TRUE(report().pictures.contains("figure_4_02.svg"));
+  const GramianSet set = *gramians(knots);
+  for (const auto& [a, b, entry] :
+       {std::tuple{0, 0, set.g00(4, 4)}, {1, 1, set.g11(4, 4)}, {2, 2, set.g22(4, 4)}, {0, 1, 0.0}}) {
+    const auto steps = by_parts(knots, 4, a, b);
+    ASSERT_EQ(static_cast<int>(steps.size()), 4 - b);
+    double sign = 1;
+    for (std::size_t k = 0; k < steps.size(); ++k, sign = -sign) {
+      EXPECT_NEAR(sign * steps[k].whole, entry, 1e-14) << a << b << " step " << k;
+      EXPECT_NEAR(steps[k].whole, steps[k].boundary - steps[k].rest, 1e-13) << a << b << " step " << k;
+      if (k + 1 < steps.size()) {
+        EXPECT_EQ(steps[k].rest, steps[k + 1].whole);
+      }
+    }
   }
 }
 
