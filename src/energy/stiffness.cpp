@@ -114,7 +114,8 @@ void Stiffness<D>::refresh(SparseMatrix& matrix) const {
   const std::size_t kinds = factors_[last].size();
   // The factors of the last direction as full rows of 2p + 1 numbers, row j from column j − p on.
   const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(n) * width + spare;
-  std::vector<double> band(kinds * static_cast<std::size_t>(stride), 0.0);
+  // One row of zeros where the energy has no terms, so that there is something to point into.
+  std::vector<double> band(std::max<std::size_t>(kinds, 1) * static_cast<std::size_t>(stride), 0.0);
   for (std::size_t g = 0; g < kinds; ++g) {
     double* to = band.data() + static_cast<std::ptrdiff_t>(g) * stride;
     for (int i = 0; i < n; ++i) {

@@ -255,14 +255,24 @@ class BruteForce {
   std::vector<Sample> samples_;
 };
 
+/// Three numbers, drawn one after the other, the last coordinate first: compilers differ in the order in which they
+/// evaluate arguments.
+template <class Distribution>
+Point drawn(Distribution& numbers, std::mt19937_64& random) {
+  const double z = numbers(random), y = numbers(random), x = numbers(random);
+  return {x, y, z};
+}
+
 inline Placement random_placement(std::mt19937_64& random, bool unequal) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> factor(-0.7, 0.7), decade(-3, 3);
   Placement p;
-  p.rotation = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+  const Point vector = drawn(normal, random);
+  const double scalar = normal(random);
+  p.rotation = Eigen::Quaterniond(scalar, vector.x(), vector.y(), vector.z()).normalized();
   const double s = std::pow(10.0, decade(random));
   for (double& c : p.scale) c = unequal ? s * std::exp(factor(random)) : s;
-  p.position = s * Point(normal(random), normal(random), normal(random));
+  p.position = s * drawn(normal, random);
   return p;
 }
 

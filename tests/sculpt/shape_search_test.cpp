@@ -14,7 +14,8 @@ using testing::ShapeCase;
 /// Random points from the middle of the shape to a few sizes off.
 Point random_point(std::mt19937_64& random, const Posed& pose) {
   std::uniform_real_distribution<double> value(-1, 1), power(-0.5, 0.7);
-  return pose.out(std::pow(10.0, power(random)) * Point(value(random), value(random), value(random)));
+  const Point direction = testing::drawn(value, random);
+  return pose.out(std::pow(10.0, power(random)) * direction);
 }
 
 double extent(const Posed& pose) {
@@ -149,12 +150,12 @@ TEST(ShapeSearch, FarAwayNearbyOnTheAxesAndAtTheMiddle) {
       std::vector<Point> points = {Point::Zero()};
       for (int axis = 0; axis < 3; ++axis) {
         for (double at : {-2.0, -0.1, 0.05, 0.5, 3.0, 1000.0}) points.push_back(at * Point::Unit(axis));
-        Point plane(normal(random), normal(random), normal(random));
+        Point plane = testing::drawn(normal, random);
         plane[axis] = 0;
         points.push_back(plane);
         points.push_back(plane + 1e-9 * Point::Unit(axis));
       }
-      points.push_back(1000 * Point(normal(random), normal(random), normal(random)));
+      points.push_back(1000 * testing::drawn(normal, random));
       for (const Point& x : points) {
         const Nearest found = placed->nearest(x);
         EXPECT_LE(std::abs(found.distance), brute.distance(x) + 1e-10 + 1e-15 * x.norm()) << c.name << x.transpose();

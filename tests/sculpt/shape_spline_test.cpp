@@ -80,7 +80,9 @@ TEST(ShapeSpline, DistanceIsThatOfBruteForce) {
       const double size = pose.placement.scale[0] + pose.placement.scale[1];
       int uncertified = 0;
       for (int i = 0; i < 40; ++i) {
-        const Point x = pose.out(Point(value(random), value(random), 0.5 * value(random)));
+        Point inside = testing::drawn(value, random);
+        inside.z() *= 0.5;
+        const Point x = pose.out(inside);
         const Nearest found = placed->nearest(x);
         uncertified += found.converged ? 0 : 1;
         EXPECT_NEAR(std::abs(found.distance), brute.distance(x, 20), 1e-10 * size) << "knots " << k << rational;

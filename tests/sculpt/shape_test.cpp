@@ -150,8 +150,7 @@ TEST(Shape, BatchIsTheSingleCallAndTheBoxHoldsTheShape) {
     const BoundingBox box = shape.bounding_box();
     Points x(20, 3);
     for (Eigen::Index k = 0; k < x.rows(); ++k) {
-      x.row(k) =
-          p.position.transpose() + 2 * p.scale[0] * Eigen::RowVector3d(normal(random), normal(random), normal(random));
+      x.row(k) = p.position.transpose() + 2 * p.scale[0] * testing::drawn(normal, random).transpose();
     }
     const NearestPoints batch = shape.nearest_points(x);
     for (Eigen::Index k = 0; k < x.rows(); ++k) {

@@ -40,7 +40,8 @@ TEST_P(Scenario, RunsAsItSays) {
       if (HasFatalFailure()) return;
     } else if (step.contains("refused")) {
       const Json before = Json::parse(studio::state_json(session));
-      EXPECT_EQ(testing::refusal(session, step.at("refused").dump()).where, step.at("where").get<std::string>()) << step;
+      EXPECT_EQ(testing::refusal(session, step.at("refused").dump()).where, step.at("where").get<std::string>())
+          << step;
       EXPECT_EQ(Json::parse(studio::state_json(session)), before) << step;
     } else {
       const Json value = Json::parse(studio::state_json(session)).at(Json::json_pointer(step.at("expect")));
