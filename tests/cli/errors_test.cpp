@@ -38,7 +38,7 @@ TEST(Errors, AScriptThatIsNoScript) {
 }
 
 TEST(Errors, AnUnknownCommandOrFieldListsTheKnownOnes) {
-  EXPECT_TRUE(refused(Json{command("squash")}, 3,
+  EXPECT_TRUE(refused(Json::array({command("squash")}), 3,
                       {"commands[0]", "squash", "new", "select", "material", "rest", "hold", "pin", "tool", "move",
                        "step", "undo", "redo"}));
   EXPECT_TRUE(
@@ -51,9 +51,9 @@ TEST(Errors, AWrongValueIsNamedWithItsPlaceAndRemedy) {
     fields["at"] = {0.5, 0.5};
     return Json{skin, command("tool", std::move(fields))};
   };
-  EXPECT_TRUE(refused(Json{command("step")}, 3, {"commands[0]", "#285"}));
-  EXPECT_TRUE(refused(Json{command("select", {{"surface", "#1"}})}, 3, {"#1", "#285", "#1044"}));
-  EXPECT_TRUE(refused(Json{command("select")}, 3, {"commands[0]", "surface", "missing"}));
+  EXPECT_TRUE(refused(Json::array({command("step")}), 3, {"commands[0]", "#285"}));
+  EXPECT_TRUE(refused(Json::array({command("select", {{"surface", "#1"}})}), 3, {"#1", "#285", "#1044"}));
+  EXPECT_TRUE(refused(Json::array({command("select")}), 3, {"commands[0]", "surface", "missing"}));
   EXPECT_TRUE(refused(Json{skin, command("hold", {{"rows", -1}})}, 3, {"commands[1]", "rows", "0 or more"}));
   EXPECT_TRUE(refused(Json{skin, command("hold", {{"rows", 1.5}})}, 3, {"commands[1].rows", "whole"}));
   EXPECT_TRUE(refused(Json{skin, command("pin", {{"control_points", {{0, 0}, {14, 0}}}})}, 3,
@@ -67,7 +67,7 @@ TEST(Errors, AWrongValueIsNamedWithItsPlaceAndRemedy) {
   EXPECT_TRUE(refused(Json{skin, command("move", {{"by", {0, 0, 1}}})}, 3, {"commands[1]", "tool"}));
   EXPECT_TRUE(refused(Json{skin, command("material", {{"alpha", {1, 2, 1}}})}, 3, {"commands[1]", "alpha12"}));
   EXPECT_TRUE(refused(Json{skin, command("step", {{"lambda", -1}})}, 3, {"commands[1]", "lambda", ">= 0"}));
-  EXPECT_TRUE(refused(Json{command("undo")}, 3, {"commands[0]", "nothing to undo"}));
+  EXPECT_TRUE(refused(Json::array({command("undo")}), 3, {"commands[0]", "nothing to undo"}));
 }
 
 TEST(Errors, ASingularStepIsANumericalFailure) {

@@ -9,7 +9,9 @@ work_dir=$(realpath -m "$2")
 shift 2
 rm -rf "$work_dir"
 cmake --install "$build_dir" --prefix "$work_dir/prefix" >/dev/null
-cmake -S "$source_dir" -B "$work_dir/build" -G Ninja -DCMAKE_PREFIX_PATH="$work_dir/prefix" -DCMAKE_BUILD_TYPE=Release \
+# By the compiler of the build: a library with one compiler's sanitizers does not link by another.
+compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build_dir/CMakeCache.txt")
+cmake -S "$source_dir" -B "$work_dir/build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$work_dir/prefix" -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_CXX_FLAGS="$*" >/dev/null
 cmake --build "$work_dir/build"
 "$work_dir/build/consumer"
