@@ -107,9 +107,8 @@ void add_curve(Report& report) {
   Chart chart("Fig. 4.2: a cubic B-spline curve", "x", "y");
   chart.line("curve", curve);
   chart.line("control points", Points(polygon.begin(), polygon.end()), {.dashed = true, .markers = true});
-  report.picture(
-      "figure_4_02.svg", chart.svg(),
-      "Fig. 4.2: a cubic B-spline curve on U and its control points; the thesis does not print its function.");
+  report.picture("figure_4_02.svg", chart.svg(),
+                 "Fig. 4.2: a cubic B-spline curve on U and its control points; the thesis does not print its own.");
 }
 
 void add_gauss_points(Report& report) {
