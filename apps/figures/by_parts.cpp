@@ -6,6 +6,7 @@
 
 #include "figures/figures.hpp"
 #include "figures/svg.hpp"
+#include "figures/thesis_knots.hpp"
 #include "knead/spline/basis.hpp"
 #include "knead/spline/basis_integral.hpp"
 #include "knead/spline/jumps.hpp"
@@ -15,11 +16,6 @@ namespace {
 
 constexpr int chords = 40;   // per span
 constexpr int function = 4;  // of the thesis' example
-
-const KnotVector& sample_knots() {
-  static const KnotVector knots = *KnotVector::create(3, {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 6, 6, 6});
-  return knots;
-}
 
 /// Over the support of N₄, 1 to 5, both limits at every knot.
 template <class F>
@@ -43,11 +39,11 @@ constexpr Term parts_of_integrals[] = {
 
 void add_term(Report& report, const Term& t) {
   const auto product = [&](double u, Side side) {
-    return std::pair(u, basis_function(sample_knots(), function, t.a, u, side) *
-                            basis_function(sample_knots(), function, t.b, u, side));
+    return std::pair(u, basis_function(example_knots(), function, t.a, u, side) *
+                            basis_function(example_knots(), function, t.b, u, side));
   };
   Points integral;
-  const BasisQuadrature rule = gauss_basis(sample_knots(), 4, 2);
+  const BasisQuadrature rule = gauss_basis(example_knots(), 4, 2);
   for (const auto& [u, value] : over_support(product)) {
     double sum = 0;  // by Gauss' rule on every part of a span up to u
     for (int span = 1; span < 5 && span < u; ++span) {
@@ -64,14 +60,14 @@ void add_term(Report& report, const Term& t) {
   Chart chart(fmt::format("Fig. 5.{}: the product of {}, and its integral", t.first, t.name), "u", "");
   chart.line("product", over_support(product));
   chart.line("integral up to u", integral);
-  const auto steps = by_parts(sample_knots(), function, t.a, t.b);
+  const auto steps = by_parts(example_knots(), function, t.a, t.b);
   report.picture(fmt::format("figure_5_{}.svg", t.first), chart.svg(),
                  fmt::format("Fig. 5.{}: {} = {:.15g}.", t.first, t.name, steps[0].whole));
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const int m = static_cast<int>(k);
     const auto place = [&](double u, Side side) {
-      return std::pair(basis_function(sample_knots(), function, t.b + m, u, side),
-                       integrated(sample_knots(), function, t.a, m + 1, u, side));
+      return std::pair(basis_function(example_knots(), function, t.b + m, u, side),
+                       integrated(example_knots(), function, t.a, m + 1, u, side));
     };
     const int order = m + 1 - t.a;  // of the integral; below 0 a derivative
     const std::string other = order == 1   ? std::string("integral of N₄")
@@ -92,12 +88,12 @@ void add_curve(Report& report) {
   const std::array<std::pair<double, double>, 9> polygon = {
       {{0, 0}, {1, 3}, {3, 4}, {4, 1}, {6, 0}, {8, 2}, {7, 5}, {10, 6}, {12, 3}}};
   Points curve;
-  for (const int span : sample_knots().spans()) {
+  for (const int span : example_knots().spans()) {
     for (int k = 0; k <= chords; ++k) {
-      const double u = sample_knots()[span] + static_cast<double>(k) / chords;
+      const double u = example_knots()[span] + static_cast<double>(k) / chords;
       std::pair<double, double> at = {0, 0};
-      for (int i = 0; i < sample_knots().count(); ++i) {
-        const double n = basis_function(sample_knots(), i, 0, u, k == chords ? Side::left : Side::right);
+      for (int i = 0; i < example_knots().count(); ++i) {
+        const double n = basis_function(example_knots(), i, 0, u, k == chords ? Side::left : Side::right);
         at.first += n * polygon[static_cast<std::size_t>(i)].first;
         at.second += n * polygon[static_cast<std::size_t>(i)].second;
       }
@@ -113,12 +109,12 @@ void add_curve(Report& report) {
 
 void add_gauss_points(Report& report) {
   const auto square = [](double u, Side side) {
-    const double n = basis_function(sample_knots(), function, 0, u, side);
+    const double n = basis_function(example_knots(), function, 0, u, side);
     return std::pair(u, n * n);
   };
   Chart chart("Fig. 5.4: Gauss points of ∫ N₄ N₄", "u", "N₄ N₄");
   chart.line("N₄ N₄", over_support(square));
-  const BasisQuadrature rule = gauss_basis(sample_knots(), 4, 0);
+  const BasisQuadrature rule = gauss_basis(example_knots(), 4, 0);
   Points points;
   double sum = 0;
   for (std::size_t k = 0; k < rule.parameters.size(); ++k) {
@@ -137,7 +133,7 @@ void add_gauss_points(Report& report) {
 
 void add_areas(Report& report) {
   const auto place = [](double u) {
-    return std::pair(basis_function(sample_knots(), function, 0, u), basis_integral(sample_knots(), function, 1, u));
+    return std::pair(basis_function(example_knots(), function, 0, u), basis_integral(example_knots(), function, 1, u));
   };
   constexpr double end = 3;  // where N₄ is largest
   Points curve;

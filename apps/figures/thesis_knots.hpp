@@ -16,4 +16,10 @@ inline KnotVector thesis_knots(int degree, int r, double scale = 1, int last = 1
   return *KnotVector::create(degree, std::move(knots));
 }
 
+/// The thesis' example U = {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 6, 6, 6}, cubic.
+inline const KnotVector& example_knots() {
+  static const KnotVector knots = *KnotVector::create(3, {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 6, 6, 6});
+  return knots;
+}
+
 }  // namespace knead::figures

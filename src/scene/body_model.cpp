@@ -8,6 +8,7 @@
 #include "knead/scene/model.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/spline/basis_terms.hpp"
+#include "scene_settings.hpp"
 
 namespace knead {
 namespace {
@@ -88,13 +89,7 @@ Expected<void> append_forces(const Scene& scene, int index, const BodyShapes<D>&
       }
       continue;
     }
-    PointForce force;
-    force.kind = f.kind == PointForceKind::spring ? PointForce::Kind::spring : PointForce::Kind::volcano;
-    force.terms = std::move(terms);
-    force.to = Point(f.to->data());
-    force.strength = f.strength;
-    force.core = f.core;
-    loads.points.push_back(std::move(force));
+    loads.points.push_back(point_force(f, std::move(terms)));
   }
   return {};
 }
@@ -129,14 +124,7 @@ Expected<BodyModel<D>> make_body_model(BodyInput<D> input) {
   settings.mass = input.mass;
   settings.damping = input.damping;
   settings.rest = input.mode;
-  settings.evolution = input.evolution.mode;
-  settings.weight = input.evolution.weight;
-  settings.lambda = input.evolution.lambda;
-  settings.time_step = input.evolution.time_step;
-  settings.route = input.evolution.route;
-  settings.accuracy = input.evolution.accuracy;
-  settings.raw = input.scaling == ScalingMode::raw;
-  settings.detail = input.detail;
+  set_evolution(input.evolution, input.scaling, input.detail, settings);
   if (std::ranges::any_of(list->held, [](bool held) { return held; })) settings.held = std::move(list->held);
   settings.constraints = std::move(list->constraints);
   auto model = ActiveSpline<D>::create(*input.reference, settings);

@@ -8,6 +8,7 @@
 #include "knead/scene/places.hpp"
 #include "knead/sculpt/loads.hpp"
 #include "knead/spline/basis_terms.hpp"
+#include "scene_settings.hpp"
 
 namespace knead {
 
@@ -128,12 +129,7 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_m
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(f.surface)];
     const auto u = parameters_at<2>(*s.current, *f.at);
     if (!u) return std::unexpected(u.error());
-    PointForce force;
-    force.kind = f.kind == PointForceKind::spring ? PointForce::Kind::spring : PointForce::Kind::volcano;
-    force.terms = basis_terms<2>(*s.current, *u, first);
-    force.to = vector(*f.to);
-    force.strength = f.strength;
-    force.core = f.core;
+    PointForce force = point_force(f, basis_terms<2>(*s.current, *u, first));
     for (const KeptConstraint& kept : s.constraints) {  // and its mirror images
       const auto* symmetry = std::get_if<MirrorSymmetry>(&kept.constraint);
       if (symmetry == nullptr) continue;

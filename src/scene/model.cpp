@@ -9,6 +9,7 @@
 #include "knead/scene/trims.hpp"
 #include "knead/sculpt/edge_coupling.hpp"
 #include "knead/sculpt/loads.hpp"
+#include "scene_settings.hpp"
 #include "smooth_seams.hpp"
 
 namespace knead {
@@ -123,6 +124,12 @@ double detail_of(const std::vector<Tool>& tools) {
   return detail;
 }
 
+EvolutionPolicy trial_evolution() {
+  EvolutionPolicy evolution;
+  evolution.lambda = 1e6;
+  return evolution;
+}
+
 Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches) {
   const double tolerance = policy.tolerance.value_or(suggested_seam_tolerance(patches));
   if (tolerance == 0) return FoundSeams{};  // surfaces that collapse to one point
@@ -195,14 +202,7 @@ Expected<SceneModel> make_model(ModelInput input) {
   }
   set_material(input.surfaces, settings);
   settings.rest = input.surfaces.front().mode;
-  settings.evolution = input.evolution.mode;
-  settings.weight = input.evolution.weight;
-  settings.lambda = input.evolution.lambda;
-  settings.time_step = input.evolution.time_step;
-  settings.route = input.evolution.route;
-  settings.accuracy = input.evolution.accuracy;
-  settings.raw = input.scaling == ScalingMode::raw;
-  settings.detail = input.detail;
+  set_evolution(input.evolution, input.scaling, input.detail, settings);
   if (std::ranges::any_of(input.surfaces, [](const SurfaceInput& s) { return s.touched != nullptr; })) {
     for (const SurfaceInput& s : input.surfaces) settings.visible.push_back(s.touched);
   }

@@ -5,28 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constraint_rows.hpp"
 #include "knead/spline/basis.hpp"
 #include "knead/spline/basis_terms.hpp"
 
 namespace knead {
 namespace {
 
-using BasisTerms = std::vector<std::pair<int, double>>;
-
-/// Appends Σ c X = value with coefficients of at most 1; a single control point that stays is held.
-void append_row(ConstraintList& to, const std::string& name, BasisTerms row) {
-  double largest = 0;
-  for (const auto& term : row) largest = std::max(largest, std::abs(term.second));
-  if (largest == 0) return;
-  std::erase_if(row, [](const auto& term) { return term.second == 0; });
-  if (row.size() == 1) return to.hold(row[0].first, name);
-  for (auto& term : row) term.second /= largest;
-  to.constraints.push_back({name, std::move(row)});
-}
+using detail::append;
+using detail::Terms;
 
 /// One side of a curve at a parameter: R_i and R_i' there, and the curve's own point and derivative.
 struct CurveSide {
-  BasisTerms values, slopes;
+  Terms values, slopes;
   Point point = Point::Zero(), tangent = Point::Zero();
 };
 
@@ -57,9 +48,9 @@ Expected<CurveSide> side_at(const Curve& curve, double u, Side from) {
 }
 
 /// a − factor b, terms of one control point added up.
-BasisTerms difference(BasisTerms a, const BasisTerms& b, double factor) {
+Terms difference(Terms a, const Terms& b, double factor) {
   for (const auto& [row, value] : b) {
-    const auto same = std::ranges::find(a, row, &BasisTerms::value_type::first);
+    const auto same = std::ranges::find(a, row, &Terms::value_type::first);
     if (same != a.end()) {
       same->second -= factor * value;
     } else {
@@ -73,13 +64,13 @@ BasisTerms difference(BasisTerms a, const BasisTerms& b, double factor) {
 SmoothKnot::State couple(const CurveSide& before, const CurveSide& after, bool torn_basis, int degree, double size,
                          const SmoothOptions& options, const std::string& name, ConstraintList& to) {
   if ((after.point - before.point).norm() > options.gap * size) return SmoothKnot::State::torn;
-  if (torn_basis) append_row(to, name, difference(after.values, before.values, 1));
+  if (torn_basis) append(to, name, difference(after.values, before.values, 1));
   const double there = after.tangent.norm(), here = before.tangent.norm();
   if (degree < 2 || !(there > 0 && here > 0)) return SmoothKnot::State::crease;
   const double angle =
       std::atan2(before.tangent.cross(after.tangent).norm() / there, before.tangent.dot(after.tangent) / there);
   if (!(angle <= options.angle)) return SmoothKnot::State::crease;
-  append_row(to, name, difference(after.slopes, before.slopes, there / here));
+  append(to, name, difference(after.slopes, before.slopes, there / here));
   return SmoothKnot::State::coupled;
 }
 
@@ -111,13 +102,13 @@ Expected<void> hold_side(const Spline<D>& rest, DomainSide side, int order, Cons
         to.hold(first + stride * (side.upper ? n - 1 - k : k), name);
         continue;
       }
-      BasisTerms row;
+      Terms row;
       for (int r = 0; r <= p; ++r) {
         const int at = first + stride * (span - p + r);
         const double weight = rest.rational() ? rest.weights()[static_cast<std::size_t>(at)] : 1;
         row.emplace_back(at, weight * derivatives[static_cast<std::size_t>(k * (p + 1) + r)]);
       }
-      append_row(to, name, std::move(row));
+      append(to, name, std::move(row));
     }
   }
   return {};
@@ -127,12 +118,12 @@ template <int D>
 Expected<void> pin_place(const Spline<D>& rest, const std::array<double, D>& u, const std::optional<Point>& place,
                          ConstraintList& to) {
   std::string name = fmt::format("pin at ({})", fmt::join(u, ", "));
-  BasisTerms row = basis_terms<D>(rest, u);
+  Terms row = basis_terms<D>(rest, u);
   if (!std::ranges::all_of(row, [](const auto& term) { return std::isfinite(term.second); })) {
     return numerical_error("the denominator is not positive", name);
   }
   if (!place) {
-    append_row(to, name, std::move(row));
+    append(to, name, std::move(row));
     return {};
   }
   if (!place->allFinite()) return input_error("the place is not finite", name);

@@ -20,12 +20,10 @@ std::unexpected<Error> of_surfaces(const SceneBody& body, const char* field, con
 
 /// Whether a model can be made under the constraints there are.
 Expected<void> check(Executor& executor) {
-  EvolutionPolicy evolution;  // a large lambda gives a model for anything that can step
-  evolution.lambda = 1e6;
   const SceneBody& body = *executor.body();
   return std::visit(
       [&]<int D>(const BodyShapes<D>&) -> Expected<void> {
-        const auto model = make_body_model<D>(body_input<D>(executor.state, body, evolution));
+        const auto model = make_body_model<D>(body_input<D>(executor.state, body, trial_evolution()));
         return model ? Expected<void>() : std::unexpected(model.error());
       },
       body.shapes);

@@ -105,10 +105,8 @@ Expected<void> Executor::keep(const Constraint& constraint) {
 Expected<void> Executor::check_constraints() {
   if (auto known = know_trims(); !known) return known;
   if (auto known = know_followed(); !known) return known;
-  // What cannot be made is refused now, not at the next step. A large lambda gives a model for anything that can step.
-  EvolutionPolicy evolution;
-  evolution.lambda = 1e6;
-  auto model = make_model(model_input(state, evolution));
+  // What cannot be made is refused now, not at the next step.
+  auto model = make_model(model_input(state, trial_evolution()));
   if (!model) return std::unexpected(model.error());
   return {};
 }

@@ -19,6 +19,12 @@ constexpr std::size_t directions_of_volume = 3;
 
 std::string_view name_of(BodyForm form) { return choices(BodyForm{})[static_cast<std::size_t>(form)].name; }
 
+Expected<void> check_size(double control_points) {
+  if (control_points <= static_cast<double>(max_net_size)) return {};
+  return input_error(fmt::format("more than {} control points are asked for", max_net_size), "net",
+                     "give a smaller net");
+}
+
 /// Knots of all directions. Errors: too many control points in all (input).
 template <std::size_t D>
 Expected<std::vector<KnotVector>> all_knots(const NewCommand& c) {
@@ -26,10 +32,7 @@ Expected<std::vector<KnotVector>> all_knots(const NewCommand& c) {
   double size = 1;
   for (std::size_t d = 0; d < D; ++d) {
     size *= std::max(in_direction(c.net, d), 1);
-    if (size > static_cast<double>(max_net_size)) {
-      return input_error(fmt::format("more than {} control points are asked for", max_net_size), "net",
-                         "give a smaller net");
-    }
+    if (auto fits = check_size(size); !fits) return std::unexpected(fits.error());
     auto made = knots_of(c, d, in_direction(c.net, d), "net");
     if (!made) return std::unexpected(made.error());
     knots.push_back(*std::move(made));
@@ -136,10 +139,7 @@ Expected<Volume> cylinder(const NewCommand& c, double radius) {
   constexpr double half_root = std::numbers::sqrt2 / 2;
   const auto across = KnotVector::clamped_uniform(2, 3);
   const int n = along->count();
-  if (static_cast<double>(n) > static_cast<double>(max_net_size) / 9) {
-    return input_error(fmt::format("more than {} control points are asked for", max_net_size), "net",
-                       "give a smaller net");
-  }
+  if (auto fits = check_size(9.0 * n); !fits) return std::unexpected(fits.error());
   Points points(static_cast<Eigen::Index>(9) * n, 3);
   std::vector<double> weights;
   for (int i = 0; i < 3; ++i) {
@@ -161,10 +161,7 @@ Expected<Volume> cylinder(const NewCommand& c, double radius) {
     if (spans < 1) {
       return input_error(fmt::format("{} control points across", in_direction(c.net, d)), "net", "use 3 or more");
     }
-    if (static_cast<double>(spans + 2) * (spans + 2) * n > static_cast<double>(max_net_size)) {
-      return input_error(fmt::format("more than {} control points are asked for", max_net_size), "net",
-                         "give a smaller net");
-    }
+    if (auto fits = check_size((spans + 2.0) * (spans + 2.0) * n); !fits) return std::unexpected(fits.error());
     for (int k = 1; k < spans; ++k) inserted[d].push_back(static_cast<double>(k) / spans);
   }
   return insert_knots<3>(*disc, inserted);
@@ -177,10 +174,7 @@ Expected<Volume> volume_of(const NewCommand& c, BodyForm form) {
   const auto knots = all_knots<directions_of_volume>(c);
   if (!knots) return std::unexpected(knots.error());
   const int l = (*knots)[0].count(), m = (*knots)[1].count(), n = (*knots)[2].count();
-  if (static_cast<double>(l) * m * n > static_cast<double>(max_net_size)) {
-    return input_error(fmt::format("more than {} control points are asked for", max_net_size), "net",
-                       "give a smaller net");
-  }
+  if (auto fits = check_size(1.0 * l * m * n); !fits) return std::unexpected(fits.error());
   const int count = l * m * n;
   if (!c.points.empty()) {
     auto points = given_points(c, count);

@@ -218,7 +218,6 @@ Expected<double> Session::energy() {
     return s.mode == RestMode::shape && s.current == s.rest;
   });
   if (at_rest) return 0;  // even if no model can be made
-  // The energy does not depend on how steps are made; a large lambda gives a model for anything that can be stepped.
   ModelInput input = model_input(state(), state().evolution);
   if (cache_->model) {
     ModelInput same = cache_->model->input;
@@ -226,8 +225,7 @@ Expected<double> Session::energy() {
     same.detail = input.detail;
     if (same == input) return cache_->model->model.energy(active_state(state()));
   }
-  input.evolution = {};
-  input.evolution.lambda = 1e6;
+  input.evolution = trial_evolution();
   const auto made = make_model(std::move(input));
   if (!made) return std::unexpected(made.error());
   return made->model.energy(active_state(state()));
@@ -238,9 +236,7 @@ Expected<double> Session::body_energy() const {
   return std::visit(
       [&]<int D>(const BodyShapes<D>& shapes) -> Expected<double> {
         if (body.mode == RestMode::shape && shapes.current == shapes.rest) return 0;
-        EvolutionPolicy evolution;
-        evolution.lambda = 1e6;
-        const auto made = make_body_model<D>(body_input<D>(state(), body, evolution));
+        const auto made = make_body_model<D>(body_input<D>(state(), body, trial_evolution()));
         if (!made) return std::unexpected(made.error());
         return made->model.energy(active_state(body));
       },

@@ -51,6 +51,10 @@ struct ModelInput {
 /// The smallest dimension of these tools that forces must resolve; 0: none.
 [[nodiscard]] double detail_of(const std::vector<Tool>& tools);
 
+/// A large λ, which gives a model of anything that can step: for checks, and for energies, which do not depend on how
+/// steps are made.
+[[nodiscard]] EvolutionPolicy trial_evolution();
+
 /// The input for the model of the selected surfaces under this evolution.
 [[nodiscard]] ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution);
 

@@ -9,6 +9,7 @@ import { Client } from '../engine/client';
 import type { Context, Trim } from '../engine/context';
 import { plain } from '../engine/displays';
 import type { Frame, PictureSettings } from '../engine/protocol';
+import { selected } from '../engine/session_state';
 import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
 import type { App } from '../panels/app';
 import { Hand } from '../tools/hand';
@@ -78,10 +79,9 @@ export class Studio implements App {
   get diagonal(): number {
     const { state } = this;
     if (!state) return 1;
-    const chosen = state.body !== null ? [state.bodies[state.body]!]
-      : state.selection.length > 0 ? state.selection.map((k) => state.surfaces[k]!) : [...state.surfaces, ...state.bodies];
+    const chosen = selected(state);
     const box = new THREE.Box3();
-    for (const s of chosen) box.expandByPoint(new THREE.Vector3(...s.lower)).expandByPoint(new THREE.Vector3(...s.upper));
+    for (const s of chosen.length > 0 ? chosen : [...state.surfaces, ...state.bodies]) box.expandByPoint(new THREE.Vector3(...s.lower)).expandByPoint(new THREE.Vector3(...s.upper));
     return box.getSize(new THREE.Vector3()).length() || 1;
   }
 

@@ -1,6 +1,7 @@
 import { canPick, pickFile } from '../document/disk';
 import { readEndings } from '../document/formats';
 import type { Notice } from '../document/host';
+import { selected, unitOf } from '../engine/session_state';
 import { modes } from '../tools/modes';
 import type { App } from './app';
 import { h, icon, iconButton } from './dom';
@@ -53,14 +54,14 @@ export function topBar(app: App): HTMLElement {
     same.hidden = !app.documents.place;
     undo.disabled = !state?.undo || app.playing();
     redo.disabled = !state?.redo || app.playing();
-    const idle = !state || (state.selection.length === 0 && state.body === null);
+    const idle = !state || selected(state).length === 0;
     play.disabled = rest.disabled = idle;
     step.disabled = idle || app.playing();
     play.replaceChildren(icon(app.playing() ? 'pause' : 'play'));
     play.classList.toggle('on', app.playing());
     four.classList.toggle('on', app.display.fourViews);
     name.textContent = state ? app.documents.name : '';
-    unit.textContent = state?.surfaces[0]?.unit ?? state?.bodies[0]?.unit ?? '';
+    unit.textContent = unitOf(state, '');
     document.title = state ? `${app.documents.name} – Knead studio` : 'Knead studio';
   });
   return bar;

@@ -1,3 +1,4 @@
+import { selected } from '../engine/session_state';
 import { modes } from '../tools/modes';
 import type { Side } from '../view/directions';
 import type { App } from './app';
@@ -56,7 +57,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
     app.hand.choose(mode[0]);
     return true;
   }
-  const ready = app.state !== null && (app.state.selection.length > 0 || app.state.body !== null);
+  const ready = app.state !== null && selected(app.state).length > 0;
   const gizmo = (kind: 'translate' | 'rotate' | 'scale') => {
     for (const v of app.viewer.viewports) v.gizmo.setMode(kind);
     app.changed();

@@ -1,4 +1,5 @@
 import { format, parseLength } from '../document/units';
+import { unitOf } from '../engine/session_state';
 import type { Display } from '../view/display';
 import type { App } from './app';
 import { field, select, slider } from './dom';
@@ -9,7 +10,7 @@ const axes = [['none', 'None'], ['x', 'Across x'], ['y', 'Across y'], ['z', 'Acr
 
 /** Lines that are drawn over surfaces to judge their shape. */
 export function analysisPanel(app: App): HTMLElement {
-  const unit = () => app.state?.surfaces[0]?.unit ?? 'mm';
+  const unit = () => unitOf(app.state);
   const spacing = () => (app.display.sections === 'none' ? 0 : app.viewer.sectionSpacing);
   return panel(app, 'Analysis', (a) => [a.display.sections, spacing(), unit(), a.display.combs, a.viewer.combs.largest], () => {
     const { sections, sectionSpacing } = app.display;

@@ -1,5 +1,6 @@
 import { parseLength } from '../document/units';
 import type { MaskCommand } from '../engine/generated';
+import { unitOf } from '../engine/session_state';
 import { heightsOf } from '../tools/stamp_image';
 import { brushKinds } from '../tools/surface_brush';
 import type { App } from './app';
@@ -82,7 +83,7 @@ function showMask(app: App): void {
 function repeatFields(app: App): (Node | null)[] {
   const { surfaceBrush } = app.hand;
   const { settings } = surfaceBrush;
-  const unit = app.state?.surfaces[0]?.unit ?? 'mm';
+  const unit = unitOf(app.state);
   const set = (change: Partial<typeof settings>) => {
     Object.assign(settings, change);
     app.changed();

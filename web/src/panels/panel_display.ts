@@ -1,5 +1,6 @@
 import { format, parseLength, parseNumber } from '../document/units';
 import { type DisplayInfo, type DisplaySetting, unitIn } from '../engine/displays';
+import { unitOf } from '../engine/session_state';
 import { conventionNames, conventionText } from '../view/conventions';
 import type { Display } from '../view/display';
 import { lookNames } from '../view/looks';
@@ -10,7 +11,7 @@ import { numberInput } from './number_input';
 import { note, panel, row } from './panel';
 
 export function displayPanel(app: App): HTMLElement {
-  return panel(app, 'Display', (a) => [{ ...a.display, limits: a.display.colour ? a.display.limits.map(format) : [] }, unitOf(a), a.client.displays.length], () => {
+  return panel(app, 'Display', (a) => [{ ...a.display, limits: a.display.colour ? a.display.limits.map(format) : [] }, unitOf(a.state), a.client.displays.length], () => {
     const d = app.display;
     const chip = (name: keyof Display, label: string, tip?: string) =>
       toggle(label, d[name] as boolean, (on) => app.setDisplay({ [name]: on }), tip);
@@ -45,8 +46,6 @@ function lookField(app: App): HTMLElement {
     'Zebra: reflection stripes; kinks show curvature that jumps (Z). Highlight lines: where normals point at straight lamps, whatever the view');
 }
 
-const unitOf = (app: App): string => app.state?.surfaces[0]?.unit ?? 'mm';
-
 /** How stripes are turned, and how far they are apart. */
 function stripeFields(app: App): (Node | null)[] {
   const { stripes, stripeAngle, stripeSpacing } = app.display;
@@ -73,7 +72,7 @@ function colourFields(app: App): (Node | null)[] {
 /** One number if the colours are symmetric, otherwise two. */
 function limitFields(app: App, colour: DisplayInfo): HTMLElement {
   const { limits: [lower, upper], autoLimits } = app.display;
-  const parse = (text: string) => (colour.unit === 'length' ? parseLength(text, unitOf(app)) : parseNumber(text));
+  const parse = (text: string) => (colour.unit === 'length' ? parseLength(text, unitOf(app.state)) : parseNumber(text));
   const number = (label: string, value: number, limits: (x: number) => [number, number]) =>
     numberInput(label, value, (x) => app.setDisplay(x === 0 ? {} : { limits: limits(Math.abs(x)), autoLimits: false }), parse);
   const inputs = colour.limits
@@ -90,7 +89,7 @@ function settingField(app: App, colour: DisplayInfo, setting: DisplaySetting): H
   const value = own[setting.name] ?? setting.value;
   const set = (to: number | number[]) =>
     app.setDisplay({ colourSettings: { ...app.display.colourSettings, [colour.name]: { ...own, [setting.name]: to } } });
-  const title = setting.unit ? `${setting.title}, ${unitIn(setting.unit, unitOf(app))}` : setting.title;
+  const title = setting.unit ? `${setting.title}, ${unitIn(setting.unit, unitOf(app.state))}` : setting.title;
   const inputs = typeof value === 'number' ? [numberInput(setting.title, value, set)]
     : value.map((x, k) => numberInput(`${setting.title} ${'xyz'[k]}`, x, (y) => set(value.map((z, l) => (l === k ? y : z)))));
   const element = field(title, row(...inputs), setting.help);

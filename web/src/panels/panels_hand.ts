@@ -2,6 +2,7 @@ import * as THREE from 'three';
 
 import { format, parseLength } from '../document/units';
 import { materials, type PointsCommand } from '../engine/generated';
+import { unitOf } from '../engine/session_state';
 import type { SizeUnit } from '../tools/brush_size';
 import { brushModes, paintModes } from '../tools/modes';
 import type { App } from './app';
@@ -13,8 +14,7 @@ import { shapeTitles } from './panels_scene';
 
 /** What the pointer does: a panel for brushes and paint, one for control points. */
 
-const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? 'mm';
-const length = (app: App) => (text: string) => parseLength(text, unitOf(app));
+const length = (app: App) => (text: string) => parseLength(text, unitOf(app.state));
 const small = (label: string, title: string, onclick: () => void) => h('button', { class: 'button small', type: 'button', title, onclick }, label);
 
 /** A field of several numbers. */
@@ -25,7 +25,7 @@ function wide(label: string, control: HTMLElement, tip?: string): HTMLElement {
 }
 
 export function brushPanel(app: App): HTMLElement {
-  const key = (a: App) => [a.hand.mode, a.hand.brush.settings, a.hand.size.unit, a.hand.surfaceBrush.settings, a.state?.surfaces.map((s) => s.masked), a.hand.paint.settings, a.hand.placing, unitOf(a), a.state?.surfaces.map((s) => s.id)];
+  const key = (a: App) => [a.hand.mode, a.hand.brush.settings, a.hand.size.unit, a.hand.surfaceBrush.settings, a.state?.surfaces.map((s) => s.masked), a.hand.paint.settings, a.hand.placing, unitOf(a.state), a.state?.surfaces.map((s) => s.id)];
   return panel(app, 'Brush', key, () => {
     const { mode } = app.hand;
     const brush = brushModes.includes(mode);
@@ -54,7 +54,7 @@ function radiusField(app: App): HTMLElement {
       size.value = v;
       return app.changed();
     }, size.unit === 'length' ? length(app) : undefined),
-    select<SizeUnit>('Unit of the brush radius', [['length', unitOf(app)], ['screen', 'px'], ['face', '%']], size.unit, (unit) => {
+    select<SizeUnit>('Unit of the brush radius', [['length', unitOf(app.state)], ['screen', 'px'], ['face', '%']], size.unit, (unit) => {
       size.unit = unit;
       app.changed();
     }),
@@ -118,7 +118,7 @@ function materialFields(app: App): (Node | null)[] {
 
 /** Control points: which are chosen, their positions, the displacement, their weights. */
 export function pointsPanel(app: App): HTMLElement {
-  const key = (a: App) => [[...a.hand.points.chosen], a.hand.points.lock, a.hand.points.net, a.changes, unitOf(a)];
+  const key = (a: App) => [[...a.hand.points.chosen], a.hand.points.lock, a.hand.points.net, a.changes, unitOf(a.state)];
   return panel(app, 'Control points', key, () => {
     const { points } = app.hand;
     const [m, n] = points.net;

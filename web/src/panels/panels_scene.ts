@@ -1,5 +1,6 @@
 import { format, parseLength } from '../document/units';
 import { type BodyInfo, type EditToolCommand, shapes } from '../engine/generated';
+import { unitOf } from '../engine/session_state';
 import type { Command, ToolInfo, Vector3 } from '../engine/session_types';
 import { constraintInWords } from '../tools/held';
 import { tooFar, wayOf } from '../tools/tool_way';
@@ -11,8 +12,7 @@ import { note, panel, row } from './panel';
 /** Pieces of the way to a place that is typed. */
 const longestWay = 256;
 
-const unitOf = (app: App) => app.state?.surfaces[0]?.unit ?? app.state?.bodies[0]?.unit ?? 'mm';
-const length = (app: App) => (text: string) => parseLength(text, unitOf(app));
+const length = (app: App) => (text: string) => parseLength(text, unitOf(app.state));
 
 export function surfacesPanel(app: App): HTMLElement {
   return panel(app, 'Surfaces', (a) => [a.state?.surfaces.map((s) => [s.id, s.name, s.net, s.degree, s.moved > 0]), a.state?.selection,

@@ -1,5 +1,6 @@
 import { format } from '../document/units';
 import type { StepInfo } from '../engine/session_types';
+import { selected, unitOf } from '../engine/session_state';
 import type { App } from './app';
 import { h } from './dom';
 
@@ -23,8 +24,7 @@ export function statusBar(app: App): HTMLElement {
     const last = state?.last;
     const cells: [string, string, string][] = [];
     if (frame) {
-      const chosen = state!.body !== null ? [state!.bodies[state!.body]!] : state!.selection.map((k) => state!.surfaces[k]!);
-      const points = chosen.reduce((sum, { net }) => sum + net.reduce((n, count) => n * count, 1), 0);
+      const points = selected(state!).reduce((sum, { net }) => sum + net.reduce((n, count) => n * count, 1), 0);
       cells.push(['points', String(points), 'Control points of what is selected']);
       cells.push(['unknowns', String(3 * points), 'Degrees of freedom: three for each control point; what is held is among them']);
       if (last) {
@@ -33,7 +33,7 @@ export function statusBar(app: App): HTMLElement {
         cells.push(['energy', format(last.energy), 'Stretch and bend energy']);
         cells.push(['residual', format(last.residual), 'Imbalance of forces: 0 at rest']);
       }
-      if (last || frame.moved > 0) cells.push(['moved', `${format(frame.moved)} ${(state!.surfaces[0] ?? state!.bodies[0])?.unit ?? ''}`, 'Largest distance from the surface as opened']);
+      if (last || frame.moved > 0) cells.push(['moved', `${format(frame.moved)} ${unitOf(state, '')}`, 'Largest distance from the surface as opened']);
       cells.push(['frame', `${(frame.computeTime + frame.pictureTime).toFixed(1)} ms`, 'Commands, evaluation and transfer in the worker']);
       if (app.framesPerSecond > 0) cells.push(['fps', app.framesPerSecond.toFixed(0), 'Frames per second']);
     }

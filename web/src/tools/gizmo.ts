@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 
 import type { Command } from '../engine/session_types';
+import { selected } from '../engine/session_state';
 import type { Viewport } from '../view/viewport';
 import type { ToolHost } from './host';
 import { wayOf } from './tool_way';
@@ -26,7 +27,7 @@ export function followGizmo(host: ToolHost, viewport: Viewport): void {
     const tool = host.viewer.selectedTool;
     if (!object || !tool) return [];
     const list: Command[] = [];
-    const steps = !host.playing() && (host.state!.selection.length > 0 || host.state!.body !== null);
+    const steps = !host.playing() && selected(host.state!).length > 0;
     const by = object.position.clone().sub(sent.position);
     if (by.lengthSq() > 0) {
       const size = host.state!.tools.find((t) => t.name === tool)?.size ?? null;

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "knead/scene/scene.hpp"
+
+namespace knead {
+
+// What models of surfaces and of bodies take from a scene alike.
+
+/// How steps are made. `detail`: `detail_of` its tools.
+template <int D>
+void set_evolution(const EvolutionPolicy& evolution, ScalingMode scaling, double detail, ActiveSettings<D>& settings) {
+  settings.evolution = evolution.mode;
+  settings.weight = evolution.weight;
+  settings.lambda = evolution.lambda;
+  settings.time_step = evolution.time_step;
+  settings.route = evolution.route;
+  settings.accuracy = evolution.accuracy;
+  settings.raw = scaling == ScalingMode::raw;
+  settings.detail = detail;
+}
+
+/// A spring or a volcano on the point Σ R X of these terms.
+inline PointForce point_force(const SceneForce& f, std::vector<std::pair<int, double>> terms) {
+  PointForce force;
+  force.kind = f.kind == PointForceKind::spring ? PointForce::Kind::spring : PointForce::Kind::volcano;
+  force.terms = std::move(terms);
+  force.to = Point(f.to->data());
+  force.strength = f.strength;
+  force.core = f.core;
+  return force;
+}
+
+}  // namespace knead
