@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "knead/exchange/matrix_files.hpp"
 #include "knead/sculpt/loads.hpp"
 #include "plain_surface.hpp"
+#include "rational_option.hpp"
 
 namespace knead::cli {
 namespace {
@@ -24,6 +26,7 @@ struct MatricesArguments {
   std::string alpha = "1,0,1", beta = "0.01,0.01,0.01", load = "0,0,1", units = "raw";
   double mass = 1, damping = 1;
   int hold = 0;
+  RationalOption rational;
 };
 
 constexpr std::array<const char*, 3> indices = {"11", "12", "22"};
@@ -92,7 +95,8 @@ class Writer {
     return write_file_atomically((directory_ / name).string(), *bytes);
   }
 
-  Expected<void> matrix(const std::string& name, const std::string& formula, const SparseMatrix& matrix) {
+  Expected<void> matrix(const std::string& name, const std::string& formula, const SparseMatrix& matrix,
+                        double error_bound) {
     if (auto done = file(name + ".mtx", matrix_market(matrix, true)); !done) return done;
     if (auto done = file(name + ".npz", npz(matrix)); !done) return done;
     written.push_back({{"name", name},
@@ -100,7 +104,8 @@ class Writer {
                        {"files", {name + ".mtx", name + ".npz"}},
                        {"rows", matrix.rows()},
                        {"columns", matrix.cols()},
-                       {"entries", matrix.nonZeros()}});
+                       {"entries", matrix.nonZeros()},
+                       {"error_bound", std::isfinite(error_bound) ? Json(error_bound) : Json()}});
     return {};
   }
 
@@ -118,14 +123,16 @@ class Writer {
 struct Model {
   Surface shape;
   DomainScaling<2> scaling;
+  StiffnessOptions options;
   std::vector<std::int64_t> free;  // unknowns that are not held
 };
 
 Expected<void> write_operator(const Model& model, const std::string& name, const std::string& formula,
                               const Energy<2>& energy, Writer& writer) {
-  const auto made = Stiffness<2>::create(model.shape, on_scaled_domain<2>(energy, model.scaling.factors));
+  const auto made =
+      Stiffness<2>::create(model.shape, on_scaled_domain<2>(energy, model.scaling.factors), model.options);
   if (!made) return std::unexpected(made.error());
-  return writer.matrix(name, formula, reduced(made->assemble(), model.free));
+  return writer.matrix(name, formula, reduced(made->assemble(), model.free), made->error_bound());
 }
 
 Expected<void> write_stiffness(const Model& model, const Material& material, Writer& writer) {
@@ -165,7 +172,9 @@ Expected<void> run(const MatricesArguments& options) {
     return usage_error(fmt::format("{} rows on each side leave nothing of {} x {}", options.hold, m, n), "--hold",
                        "hold fewer");
   }
-  Model model{*std::move(shape), {}, {}};
+  const auto settings = options.rational.read();
+  if (!settings) return std::unexpected(settings.error());
+  Model model{*std::move(shape), {}, *settings, {}};
   if (options.units == "normalised") {
     const auto scaling = normalised_scaling<2>(model.shape);
     if (!scaling) return std::unexpected(scaling.error());
@@ -249,6 +258,7 @@ Action add_matrices(CLI::App& app) {
   command->add_option("--damping", options->damping, "damping per measure of the domain (default 1)");
   command->add_option("--load", options->load, "load per measure of the domain, x,y,z (default 0,0,1)");
   command->add_option("--units", options->units, "raw, or normalised as in scripts (default raw)");
+  options->rational.add_to(*command);
   command->add_option("--hold", options->hold,
                       "rows of control points held on each side, which are left out (default 0)");
   command->footer(

@@ -117,6 +117,7 @@ std::string report_json(const SessionState& state, const Outcome& o, const std::
       text += fmt::format(",\"load_factor\":{},\"increments\":[{}]", json_number(*s.load_factor),
                           fmt::join(s.increments, ","));
     }
+    if (s.energy_error) text += fmt::format(",\"energy_error\":{}", json_number(*s.energy_error));
     if (!s.note.empty()) text += ",\"note\":" + json_string(s.note);
     text += "}";
   }
@@ -343,8 +344,8 @@ its fields with their defaults (`knead commands NAME` explains them):
 )" + command_help() +
       R"(
 The report is {"steps": [{"time", "energy", "residual", "largest_displacement", "stretch", "bend", "kinetic", "contact",
-"gap", "constraint_violation", "converged", "limited", "note", and of shells "load_factor", "increments"}, ...], "time",
-"energy_before", "energy_after", "residual", "largest_displacement", "control_points_moved", "edges", "places", "seams",
+"gap", "constraint_violation", "converged", "limited", "note", of shells "load_factor", "increments", of rational shapes
+"energy_error"}, ...], "time", "energy_before", "energy_after", "residual", "largest_displacement", "control_points_moved", "edges", "places", "seams",
 "notes", and after modes and buckling "modes": [{"frequency", "residual"}], "buckling": [{"load_factor", "residual"}]}: times in
 seconds, lengths in file units, gaps in sizes of the tool.
 )" + std::string(exit_codes));

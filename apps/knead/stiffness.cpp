@@ -8,6 +8,7 @@
 
 #include "cli.hpp"
 #include "plain_surface.hpp"
+#include "rational_option.hpp"
 
 namespace knead::cli {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 struct StiffnessArguments {
   std::string degree = "3", net, alpha = "1,0,1", beta = "0,0,0", method{name(default_gramian_method)};
   PlainSurfaceOption knots;
+  RationalOption rational;
   bool json = false;
 };
 
@@ -69,10 +71,11 @@ Expected<void> run(const StiffnessArguments& options) {
   if (!material) return std::unexpected(material.error());
   const auto shape = shape_of(options, *degree);
   if (!shape) return std::unexpected(shape.error());
+  auto settings = options.rational.read();
+  if (!settings) return std::unexpected(settings.error());
+  settings->method = *method;
   const auto start = std::chrono::steady_clock::now();
-  const auto stiffness = shape->rational()
-                             ? Stiffness<2>::create(*shape, stretch_and_bend(*material), {*method, 0})
-                             : Stiffness<2>::create(shape->knots(), stretch_and_bend(*material), {*method, 0});
+  const auto stiffness = Stiffness<2>::create(*shape, stretch_and_bend(*material), *settings);
   if (!stiffness) return std::unexpected(stiffness.error());
   const SparseMatrix matrix = stiffness->assemble();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -82,12 +85,14 @@ Expected<void> run(const StiffnessArguments& options) {
                            "use smaller coefficients");
   }
   if (options.json) {
-    fmt::print(R"({{"rows":{},"nnz":{},"frobenius":{},"seconds":{}}})"
+    fmt::print(R"({{"rows":{},"nnz":{},"frobenius":{},"seconds":{},"error_bound":{}}})"
                "\n",
-               matrix.rows(), matrix.nonZeros(), json_number(norm), json_number(seconds));
+               matrix.rows(), matrix.nonZeros(), json_number(norm), json_number(seconds),
+               json_number(stiffness->error_bound()));
   } else {
     fmt::print("{} rows, {} entries, Frobenius norm {:.12g}, assembled in {:.3g} s\n", matrix.rows(), matrix.nonZeros(),
                norm, seconds);
+    if (shape->rational()) fmt::print("{}\n", RationalOption::describe(stiffness->error_bound()));
   }
   return {};
 }
@@ -104,6 +109,7 @@ Action add_stiffness(CLI::App& app) {
   command->add_option("--alpha", options->alpha, "stretch coefficients a11,a12,a22 (default 1,0,1)");
   command->add_option("--beta", options->beta, "bend coefficients b11,b12,b22 (default 0,0,0)");
   command->add_option("--method", options->method, gramian_method_help());
+  options->rational.add_to(*command);
   command->add_flag("--json", options->json, "print JSON");
   command->footer(std::string(exit_codes));
   return [options] { return run(*options); };

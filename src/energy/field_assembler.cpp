@@ -105,8 +105,13 @@ void FieldAssembler<D>::drop_unused() {
 }
 
 template <int D>
-Expected<SparseMatrix> FieldAssembler<D>::assemble_kept(const FieldEnergy<D>& energy) {
-  if (spline_.rational()) return assemble_rational<D>(spline_, energy, options_.rational_gauss_points);
+Expected<SparseMatrix> FieldAssembler<D>::assemble_kept(const FieldEnergy<D>& energy, double& error_bound) {
+  if (spline_.rational()) {
+    auto made = assemble_rational<D>(spline_, energy, options_);
+    if (!made) return std::unexpected(made.error());
+    error_bound = std::max(error_bound, made->error_bound);
+    return std::move(made->matrix);
+  }
   Energy<D> constant;
   for (const FieldTerm<D>& term : energy) {
     if (const double* c = std::get_if<double>(&term.coefficient))
@@ -145,7 +150,8 @@ Expected<SparseMatrix> FieldAssembler<D>::assemble_kept(const FieldEnergy<D>& en
 template <int D>
 Expected<SparseMatrix> FieldAssembler<D>::assemble(const FieldEnergy<D>& energy) {
   begin();
-  auto result = assemble_kept(energy);
+  double error_bound = 0;
+  auto result = assemble_kept(energy, error_bound);
   drop_unused();
   return result;
 }
@@ -162,7 +168,7 @@ Expected<FieldMatrices<D>> FieldAssembler<D>::assemble(const MaterialFieldOf<D>&
       {weighted_mass_energy<D>(material.damping), &result.damping},
   };
   for (const auto& [energy, matrix] : parts) {
-    auto made = assemble_kept(on_scaled_domain<D>(energy, factors));
+    auto made = assemble_kept(on_scaled_domain<D>(energy, factors), result.error_bound);
     if (!made) return std::unexpected(made.error());
     *matrix = std::move(*made);
   }

@@ -4,34 +4,21 @@
 #include <cmath>
 #include <vector>
 
-#include "knead/spline/evaluate.hpp"
+#include "spline/quotient_rule.hpp"
 
 namespace knead {
 
 /// The rational basis R_i = w_i N_i / Σ w N and its partial derivatives on one element, by the quotient rule: with
-/// A_i = w_i N_i and W = Σ A, ∂^a R = (∂^a A − Σ_{0 < b <= a} binom(a, b) ∂^b W ∂^{a−b} R) / W.
+/// A_i = w_i N_i and W = Σ A (see `detail::QuotientRule`).
 template <int D>
 class RationalBasis {
  public:
   RationalBasis(const Spline<D>& spline, int order)
-      : spline_(spline), indices_(multi_indices<D>(order)), net_(spline.net()) {
+      : spline_(spline), indices_(multi_indices<D>(order)), rule_(order), net_(spline.net()) {
     local_ = 1;
     for (std::size_t d = 0; d < D; ++d) {
       width_[d] = spline.knots()[d].degree() + 1;
       local_ *= width_[d];
-    }
-    for (std::size_t k = 0; k < indices_.size(); ++k) {
-      for (std::size_t l = 1; l <= k; ++l) {
-        MultiIndex<D> rest{};
-        double factor = 1;
-        bool below = true;
-        for (std::size_t d = 0; d < D; ++d) {
-          rest[d] = indices_[k][d] - indices_[l][d];
-          below = below && rest[d] >= 0;
-          for (int i = 1; below && i <= indices_[l][d]; ++i) factor = factor * (rest[d] + i) / i;
-        }
-        if (below) lower_.push_back({k, l, static_cast<std::size_t>(multi_index_position<D>(rest)), factor});
-      }
     }
   }
 
@@ -69,11 +56,10 @@ class RationalBasis {
     if (!(sums[0] > 0)) {
       return numerical_error("the rational denominator is not positive", "stiffness", "use positive weights");
     }
-    std::size_t at = 0;
     for (std::size_t k = 0; k < indices_.size(); ++k) {
       auto column = out[k].col(point);
-      for (; at < lower_.size() && lower_[at].k == k; ++at) {
-        column -= (lower_[at].factor * sums[lower_[at].l]) * out[lower_[at].rest].col(point);
+      for (const auto& term : rule_.terms(k)) {
+        column -= (term.factor * sums[term.denominator]) * out[term.rest].col(point);
       }
       column /= sums[0];
     }
@@ -81,14 +67,9 @@ class RationalBasis {
   }
 
  private:
-  struct Lower {
-    std::size_t k, l, rest;
-    double factor;
-  };
-
   const Spline<D>& spline_;
   std::vector<MultiIndex<D>> indices_;
-  std::vector<Lower> lower_;
+  detail::QuotientRule<D> rule_;
   std::array<int, D> net_, width_{};
   int local_ = 1;
 };

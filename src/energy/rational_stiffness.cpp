@@ -1,249 +1,273 @@
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "base/gauss_legendre.hpp"
-#include "rational_basis.hpp"
+#include "gramian/rational_elements.hpp"
+#include "gramian/rational_rule.hpp"
+#include "rational_element.hpp"
 #include "tensor_pattern.hpp"
 
 namespace knead {
 namespace {
 
-/// Which element (span in every direction) each Gauss point of a direction belongs to: runs of equal `first`.
-std::vector<std::pair<int, int>> element_runs(const BasisTable& table) {
-  std::vector<std::pair<int, int>> runs;
-  for (int k = 0; k < table.size();) {
-    int end = k + 1;
-    while (end < table.size() &&
-           table.first[static_cast<std::size_t>(end)] == table.first[static_cast<std::size_t>(k)]) {
-      ++end;
-    }
-    runs.emplace_back(k, end);
-    k = end;
-  }
-  return runs;
-}
+using detail::RationalPiece;
 
-/// Gauss points on the spans of one direction, cut at `breaks` (ascending, may lie anywhere).
-Expected<BasisQuadrature> gauss_basis_between(const KnotVector& knots, const std::vector<double>& breaks, int points,
-                                              int order) {
-  const GaussRule rule = gauss_legendre(points);
-  BasisQuadrature result;
-  for (const int span : knots.spans()) {
-    double lower = knots[span];
-    for (auto next = std::ranges::upper_bound(breaks, lower); lower < knots[span + 1]; ++next) {
-      const double upper = next == breaks.end() ? knots[span + 1] : std::min(*next, knots[span + 1]);
-      const double half = (upper - lower) / 2, middle = lower + half;
-      for (std::size_t g = 0; g < rule.abscissae.size(); ++g) {
-        // Strictly inside, so that the span to the right is the intended one; a piece of a single ulp has no interior.
-        const double u = std::clamp(middle + half * rule.abscissae[g], lower, std::nextafter(upper, lower));
-        result.parameters.push_back(u);
-        result.weights.push_back(half * rule.weights[g]);
+/// K, element by element.
+template <int D>
+class RationalAssembly {
+ public:
+  RationalAssembly(const Spline<D>& spline, const FieldEnergy<D>& energy, const StiffnessOptions& options)
+      : spline_(spline),
+        options_(options),
+        coefficients_(energy),
+        elements_(knots_of(spline), spline.weights(), breaks_of(coefficients_)) {
+    pattern_.net = spline.net();
+    for (std::size_t d = 0; d < D; ++d) pattern_.degree[d] = spline.knots()[d].degree();
+  }
+
+  [[nodiscard]] Expected<RationalStiffness> run() {
+    RationalStiffness result{pattern_.allocate(), std::numeric_limits<double>::infinity()};
+    const bool certified = options_.rational_gauss_points == 0 && options_.denominator == RationalDenominator::exact;
+    if (!certified) {
+      if (auto done = sum_up(result.matrix, false); !done) return std::unexpected(done.error());
+      return result;
+    }
+    if (auto done = estimate_sizes(); !done) return std::unexpected(done.error());
+    // The sizes by few points may have been too large for the tolerance to be kept; those of this pass are not.
+    for (int pass = 0; pass < 4 && !(result.error_bound <= options_.rational_tolerance); ++pass) {
+      if (auto done = sum_up(result.matrix, true); !done) return std::unexpected(done.error());
+      result.error_bound = 0;
+      for (Eigen::Index i = 0; i < size_.size(); ++i) {
+        if (errors_[i] > 0) result.error_bound = std::max(result.error_bound, errors_[i] / diagonal_[i]);
       }
-      lower = upper;
-      if (next == breaks.end()) break;
+      size_ = diagonal_;
+    }
+    return result;
+  }
+
+ private:
+  static std::array<const KnotVector*, D> knots_of(const Spline<D>& spline) {
+    std::array<const KnotVector*, D> knots;
+    for (std::size_t d = 0; d < D; ++d) knots[d] = &spline.knots()[d];
+    return knots;
+  }
+
+  static std::array<std::vector<double>, D> breaks_of(const RationalCoefficients<D>& coefficients) {
+    std::array<std::vector<double>, D> breaks;
+    for (const auto& varying : coefficients.varying()) {
+      for (std::size_t d = 0; d < D; ++d) {
+        const auto knots = varying.field->knots()[d].knots();
+        breaks[d].insert(breaks[d].end(), knots.begin(), knots.end());
+      }
+    }
+    return breaks;
+  }
+
+  /// visit(piece) for every element, until one fails.
+  template <class Visit>
+  [[nodiscard]] Expected<void> for_elements(const Visit& visit) {
+    Expected<void> done;
+    elements_.for_each([&](const RationalPiece<D>& piece) {
+      coefficients_.enter(piece.axes());
+      done = visit(piece);
+      return done.has_value();
+    });
+    return done;
+  }
+
+  /// The diagonal of K for |C|, roughly: what errors are relative to.
+  [[nodiscard]] Expected<void> estimate_sizes() {
+    size_ = Eigen::VectorXd::Zero(spline_.size());
+    RationalElement<D> sums(coefficients_, functions());
+    return for_elements([&](const RationalPiece<D>& piece) -> Expected<void> {
+      std::array<int, D> points;
+      for (std::size_t d = 0; d < D; ++d) points[d] = pattern_.degree[d] + 2;
+      sums.clear();
+      if (auto done = sums.add(piece, points, false); !done) return done;
+      for (std::size_t r = 0; r < functions(); ++r)
+        size_[elements_.rows()[r]] += sums.diagonal()[static_cast<Eigen::Index>(r)];
+      return {};
+    });
+  }
+
+  [[nodiscard]] Expected<void> sum_up(SparseMatrix& matrix, bool certified) {
+    std::fill(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), 0.0);
+    diagonal_ = errors_ = Eigen::VectorXd::Zero(spline_.size());
+    RationalElement<D> sums(coefficients_, functions());
+    detail::RationalRule<D> rule(RationalPiece<D>::orders_up_to(coefficients_.order()), limits());
+    return for_elements([&](const RationalPiece<D>& piece) -> Expected<void> {
+      sums.clear();
+      auto done = certified ? integrate(piece, rule, sums) : integrate_by_count(piece, sums);
+      if (done) add(sums, matrix);
+      return done;
+    });
+  }
+
+  [[nodiscard]] detail::RationalLimits limits() const {
+    double usual = 1;
+    int most = D == 3 ? 16 : 24;
+    for (const int degree : pattern_.degree) {
+      usual *= degree + 8;
+      most = std::max(most, degree + 8);
+    }
+    return {.most_points = most, .all_points = 8 * elements_.count() * usual + 3e8 / static_cast<double>(functions())};
+  }
+
+  [[nodiscard]] Expected<void> integrate(const RationalPiece<D>& piece, detail::RationalRule<D>& rule,
+                                         RationalElement<D>& sums) {
+    // An entry sums as many spans as there are functions on one; a part of a span has its share.
+    const double allowed =
+        options_.rational_tolerance / static_cast<double>(functions()) * detail::RationalElements<D>::share(piece);
+    Expected<void> done;
+    double error = 0;
+    const bool kept = rule.integrate(
+        piece, allowed, [&](const double* bounds, std::size_t d, double rho) { return size(bounds, d, rho); },
+        [&](const RationalPiece<D>& part, const std::array<int, D>& points, double part_error) {
+          error += part_error;
+          done = sums.add(part, points, true);
+          return done.has_value();
+        });
+    if (!done) return done;
+    if (!kept) return too_uneven();
+    for (const int row : elements_.rows()) errors_[row] += error * size_[row];
+    return {};
+  }
+
+  /// With as many points as the options say, or the thesis' denominator (§ 5.8), whose products are polynomials.
+  [[nodiscard]] Expected<void> integrate_by_count(const RationalPiece<D>& piece, RationalElement<D>& sums) {
+    std::array<int, D> points;
+    double constant = 0;
+    const bool exact = options_.denominator == RationalDenominator::exact;
+    for (std::size_t d = 0; d < D; ++d) {
+      int field = 0;
+      for (const auto& v : coefficients_.varying()) field = std::max(field, v.field->knots()[d].degree());
+      const int own = exact ? options_.rational_gauss_points : pattern_.degree[d] + 1;
+      points[d] = std::min(own + (field + 1) / 2, max_rational_gauss_points);
+    }
+    if (!exact) {
+      constant = piece.middle_denominator();
+      if (!(constant > 0)) {
+        return numerical_error("the rational denominator is not positive", "stiffness", "use positive weights");
+      }
+    }
+    return sums.add(piece, points, true, constant);
+  }
+
+  /// The integrand's bound, relative to the sizes of its two functions. With r_a = Σ_b |C_ab|, by Cauchy's inequality
+  /// Σ |C_ab| x_a y_b <= √(Σ r_a x_a²) √(Σ r_a y_a²).
+  [[nodiscard]] double size(const double* bounds, std::size_t direction, double rho) {
+    coefficients_.row_sums(direction, rho, row_sums_);
+    double largest = 0;
+    for (std::size_t r = 0; r < functions(); ++r) {
+      double square = 0;
+      for (std::size_t a = 0; a < coefficients_.used().size(); ++a) {
+        const double bound = bounds[coefficients_.used()[a] * functions() + r];
+        square += row_sums_[static_cast<Eigen::Index>(a)] * bound * bound;
+      }
+      if (square > 0) largest = std::max(largest, square / size_[elements_.rows()[r]]);
+    }
+    return largest;
+  }
+
+  [[nodiscard]] Expected<void> too_uneven() const {
+    const auto [least, most] = std::ranges::minmax(elements_.weights());
+    return numerical_error(
+        fmt::format(
+            "the weights of one element, {} to {}, differ so much that its energy cannot be integrated to {} of "
+            "the diagonal",
+            least, most, options_.rational_tolerance),
+        "stiffness", "use weights that differ less, or a larger tolerance");
+  }
+
+  void add(const RationalElement<D>& sums, SparseMatrix& matrix) {
+    for (std::size_t r = 0; r < functions(); ++r) {
+      diagonal_[elements_.rows()[r]] += sums.diagonal()[static_cast<Eigen::Index>(r)];
+      for (std::size_t c = 0; c <= r; ++c) {
+        const double value = sums.block()(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
+        entry(matrix, r, c) += value;
+        if (c < r) entry(matrix, c, r) += value;
+      }
     }
   }
-  auto table = tabulate_basis(knots, result.parameters, order);
-  if (!table) return std::unexpected(table.error());
-  result.basis = std::move(*table);
-  return result;
-}
 
-template <int D, class Term>
-int highest_order(const std::vector<Term>& energy) {
-  int order = 0;
-  for (const Term& term : energy) {
+  [[nodiscard]] std::size_t functions() const { return elements_.functions(); }
+
+  [[nodiscard]] double& entry(SparseMatrix& matrix, std::size_t r, std::size_t c) const {
+    return matrix.valuePtr()[matrix.outerIndexPtr()[elements_.rows()[r]] +
+                             pattern_.offset(elements_.indices()[r], elements_.indices()[c])];
+  }
+
+  const Spline<D>& spline_;
+  const StiffnessOptions& options_;
+  RationalCoefficients<D> coefficients_;
+  TensorPattern<D> pattern_;
+  detail::RationalElements<D> elements_;
+  Eigen::VectorXd size_;      ///< what the errors of a row are relative to
+  Eigen::VectorXd diagonal_;  ///< of K for |C|
+  Eigen::VectorXd errors_;    ///< bounds of the errors of the diagonal
+  Eigen::VectorXd row_sums_;
+};
+
+template <int D>
+Expected<void> check(const Spline<D>& spline, const FieldEnergy<D>& energy, const StiffnessOptions& options) {
+  if (!(options.rational_tolerance > 0)) {
+    return usage_error(fmt::format("the tolerance {} is not positive", options.rational_tolerance), {},
+                       "use a fraction such as 1e-10");
+  }
+  if (options.rational_gauss_points < 0 || options.rational_gauss_points > max_rational_gauss_points) {
+    return usage_error(fmt::format("{} Gauss points are not available", options.rational_gauss_points), {},
+                       fmt::format("use 1 to {}, or 0 for as many as the tolerance needs", max_rational_gauss_points));
+  }
+  for (const FieldTerm<D>& term : energy) {
     int a = 0, b = 0;
     for (std::size_t d = 0; d < D; ++d) {
       a += term.a[d];
       b += term.b[d];
     }
-    order = std::max({order, a, b});
-  }
-  return order;
-}
-
-/// K by the points of `quadrature`, element by element. varying[t] multiplies the coefficient of term t at every point
-/// of the grid, last direction fastest; empty: one.
-template <int D>
-class ElementAssembly {
- public:
-  ElementAssembly(const Spline<D>& spline, const Energy<D>& energy, int order,
-                  const std::array<BasisQuadrature, D>& quadrature, const std::vector<std::vector<double>>& varying)
-      : energy_(energy),
-        quadrature_(quadrature),
-        varying_(varying),
-        rational_(spline, order),
-        basis_(multi_indices<D>(order).size()) {
-    pattern_.net = spline.net();
-    for (std::size_t d = 0; d < D; ++d) {
-      pattern_.degree[d] = spline.knots()[d].degree();
-      runs_[d] = element_runs(quadrature[d].basis);
-      local_ *= pattern_.degree[d] + 1;
+    if (std::max(a, b) > detail::rational_order) {
+      return usage_error(fmt::format("an energy term of order {} is not available", std::max(a, b)), {},
+                         "use total orders 0 to 2 for rational shapes");
     }
-  }
-
-  Expected<SparseMatrix> run() {
-    SparseMatrix matrix = pattern_.allocate();
-    std::fill(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), 0.0);
-    std::array<std::size_t, D> element{};
-    do {
-      if (auto ok = evaluate(element); !ok) return std::unexpected(ok.error());
-      add(element_matrix(), matrix);
-    } while (advance(element));
-    return matrix;
-  }
-
- private:
-  using Dense = Eigen::MatrixXd;
-
-  /// The last direction fastest; false after the last element.
-  [[nodiscard]] bool advance(std::array<std::size_t, D>& element) const {
-    for (std::size_t d = D; d-- > 0;) {
-      if (++element[d] < runs_[d].size()) return true;
-      element[d] = 0;
-    }
-    return false;
-  }
-
-  /// Basis, weight and position of every point of the element.
-  Expected<void> evaluate(const std::array<std::size_t, D>& element) {
-    std::array<int, D> points;
-    int total = 1;
-    for (std::size_t d = 0; d < D; ++d) {
-      points[d] = runs_[d][element[d]].second - runs_[d][element[d]].first;
-      first_[d] = quadrature_[d].basis.first[static_cast<std::size_t>(runs_[d][element[d]].first)];
-      total *= points[d];
-    }
-    for (Dense& b : basis_) b.resize(local_, total);
-    weight_.resize(total);
-    place_.assign(static_cast<std::size_t>(total), 0);
-    for (int k = 0; k < total; ++k) {
-      std::array<const double*, D> rows;
-      double w = 1;
-      std::size_t stride = 1;
-      for (std::size_t d = D, rest = static_cast<std::size_t>(k); d-- > 0;) {
-        const int at = runs_[d][element[d]].first + static_cast<int>(rest % static_cast<std::size_t>(points[d]));
-        rest /= static_cast<std::size_t>(points[d]);
-        rows[d] = quadrature_[d].basis.row(at, 0);
-        w *= quadrature_[d].weights[static_cast<std::size_t>(at)];
-        place_[static_cast<std::size_t>(k)] += static_cast<std::size_t>(at) * stride;
-        stride *= quadrature_[d].weights.size();
-      }
-      weight_(k) = w;
-      if (auto ok = rational_.evaluate(first_, rows, k, basis_); !ok) return std::unexpected(ok.error());
-    }
-    return {};
-  }
-
-  [[nodiscard]] Dense element_matrix() const {
-    Dense block = Dense::Zero(local_, local_);
-    for (std::size_t t = 0; t < energy_.size(); ++t) {
-      const EnergyTerm<D>& term = energy_[t];
-      const Dense& a = basis_[static_cast<std::size_t>(multi_index_position<D>(term.a))];
-      const Dense& b = basis_[static_cast<std::size_t>(multi_index_position<D>(term.b))];
-      Eigen::VectorXd scaled = term.coefficient * weight_;
-      for (std::size_t k = 0; k < place_.size() && !varying_[t].empty(); ++k) {
-        scaled[static_cast<Eigen::Index>(k)] *= varying_[t][place_[k]];
-      }
-      block.noalias() += (a * scaled.asDiagonal()) * b.transpose();
-    }
-    // The two terms of a symmetric pair are rounded separately; the mean of both halves is symmetric to the last bit.
-    return 0.5 * (block + block.transpose());
-  }
-
-  void add(const Dense& block, SparseMatrix& matrix) const {
-    for (int r = 0; r < local_; ++r) {
-      const std::array<int, D> i = rational_.global(first_, r);
-      int row = 0;
-      for (std::size_t d = 0; d < D; ++d) row = row * pattern_.net[d] + i[d];
-      double* to = matrix.valuePtr() + matrix.outerIndexPtr()[row];
-      for (int c = 0; c < local_; ++c) to[pattern_.offset(i, rational_.global(first_, c))] += block(r, c);
-    }
-  }
-
-  const Energy<D>& energy_;
-  const std::array<BasisQuadrature, D>& quadrature_;
-  const std::vector<std::vector<double>>& varying_;
-  TensorPattern<D> pattern_;
-  std::array<std::vector<std::pair<int, int>>, D> runs_;  // of Gauss points, element after element
-  int local_ = 1;                                         // basis functions on an element
-  RationalBasis<D> rational_;
-  // Of the element:
-  std::array<int, D> first_;
-  std::vector<Dense> basis_;  // basis[a](local function, point)
-  Eigen::VectorXd weight_;
-  std::vector<std::size_t> place_;  // in the whole grid
-};
-
-}  // namespace
-
-template <int D>
-Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D>& energy, int gauss_points) {
-  const int order = highest_order<D>(energy);
-  std::array<BasisQuadrature, D> quadrature;
-  for (std::size_t d = 0; d < D; ++d) {
-    const int points = gauss_points > 0 ? gauss_points : spline.knots()[d].degree() + 8;
-    quadrature[d] = gauss_basis(spline.knots()[d], points, order);
-  }
-  return ElementAssembly<D>(spline, energy, order, quadrature, std::vector<std::vector<double>>(energy.size())).run();
-}
-
-template <int D>
-Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const FieldEnergy<D>& energy, int gauss_points) {
-  std::array<std::vector<double>, D> breaks;
-  std::array<int, D> degree{};
-  Energy<D> constant;
-  bool any = false;
-  for (const FieldTerm<D>& term : energy) {
-    const double* c = std::get_if<double>(&term.coefficient);
-    constant.push_back({c ? term.factor * *c : term.factor, term.a, term.b});
-    if (c) continue;
-    any = true;
-    for (std::size_t d = 0; d < D; ++d) {
-      const KnotVector& knots = std::get<SplineField<D>>(term.coefficient).knots()[d];
-      const Interval own = spline.knots()[d].domain(), other = knots.domain();
+    const auto* field = std::get_if<SplineField<D>>(&term.coefficient);
+    for (std::size_t d = 0; d < D && field != nullptr; ++d) {
+      const Interval own = spline.knots()[d].domain(), other = field->knots()[d].domain();
       if (own.lower != other.lower || own.upper != other.upper) {
         return input_error(
             fmt::format("the domains [{}, {}] and [{}, {}] differ", own.lower, own.upper, other.lower, other.upper), {},
             "give a field over the domain of the spline");
       }
-      breaks[d].insert(breaks[d].end(), knots.knots().begin(), knots.knots().end());
-      degree[d] = std::max(degree[d], knots.degree());
     }
   }
-  if (!any) return assemble_rational<D>(spline, constant, gauss_points);
-  const int order = highest_order<D>(energy);
-  std::array<BasisQuadrature, D> quadrature;
-  for (std::size_t d = 0; d < D; ++d) {
-    std::ranges::sort(breaks[d]);
-    breaks[d].erase(std::unique(breaks[d].begin(), breaks[d].end()), breaks[d].end());
-    const int points = gauss_points > 0 ? gauss_points : spline.knots()[d].degree() + 8 + (degree[d] + 1) / 2;
-    auto made = gauss_basis_between(spline.knots()[d], breaks[d], points, order);
-    if (!made) return std::unexpected(made.error());
-    quadrature[d] = std::move(*made);
-  }
-  std::array<std::span<const double>, D> parameters;
-  for (std::size_t d = 0; d < D; ++d) parameters[d] = quadrature[d].parameters;
-  std::vector<std::vector<double>> varying(energy.size());
-  for (std::size_t t = 0; t < energy.size(); ++t) {
-    const auto* field = std::get_if<SplineField<D>>(&energy[t].coefficient);
-    if (field == nullptr) continue;
-    auto values = field->on_grid(parameters);
-    if (!values) return std::unexpected(values.error());
-    varying[t] = std::move(*values);
-  }
-  return ElementAssembly<D>(spline, constant, order, quadrature, varying).run();
+  return {};
 }
 
-template Expected<SparseMatrix> assemble_rational<1>(const Spline<1>&, const Energy<1>&, int);
-template Expected<SparseMatrix> assemble_rational<2>(const Spline<2>&, const Energy<2>&, int);
-template Expected<SparseMatrix> assemble_rational<3>(const Spline<3>&, const Energy<3>&, int);
-template Expected<SparseMatrix> assemble_rational<1>(const Spline<1>&, const FieldEnergy<1>&, int);
-template Expected<SparseMatrix> assemble_rational<2>(const Spline<2>&, const FieldEnergy<2>&, int);
-template Expected<SparseMatrix> assemble_rational<3>(const Spline<3>&, const FieldEnergy<3>&, int);
+}  // namespace
+
+template <int D>
+Expected<RationalStiffness> assemble_rational(const Spline<D>& spline, const FieldEnergy<D>& energy,
+                                              const StiffnessOptions& options) {
+  if (auto good = check<D>(spline, energy, options); !good) return std::unexpected(good.error());
+  return RationalAssembly<D>(spline, energy, options).run();
+}
+
+template <int D>
+Expected<RationalStiffness> assemble_rational(const Spline<D>& spline, const Energy<D>& energy,
+                                              const StiffnessOptions& options) {
+  FieldEnergy<D> constant;
+  for (const EnergyTerm<D>& term : energy) constant.push_back({1, term.coefficient, term.a, term.b});
+  return assemble_rational<D>(spline, constant, options);
+}
+
+#define KNEAD_INSTANTIATE(D)                                                                         \
+  template Expected<RationalStiffness> assemble_rational<D>(const Spline<D>&, const FieldEnergy<D>&, \
+                                                            const StiffnessOptions&);                \
+  template Expected<RationalStiffness> assemble_rational<D>(const Spline<D>&, const Energy<D>&,      \
+                                                            const StiffnessOptions&);
+KNEAD_INSTANTIATE(1)
+KNEAD_INSTANTIATE(2)
+KNEAD_INSTANTIATE(3)
+#undef KNEAD_INSTANTIATE
 
 }  // namespace knead

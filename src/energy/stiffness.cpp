@@ -71,19 +71,20 @@ Expected<Stiffness<D>> Stiffness<D>::create(const Spline<D>& spline, const Energ
                                             const StiffnessOptions& options) {
   if (!spline.rational()) return create(spline.knots(), energy, options);
   if (auto checked = check_orders<D>(energy); !checked) return std::unexpected(checked.error());
-  auto matrix = assemble_rational<D>(spline, energy, options.rational_gauss_points);
+  auto matrix = assemble_rational<D>(spline, energy, options);
   if (!matrix) return std::unexpected(matrix.error());
-  return of_matrix(spline, std::move(*matrix));
+  return of_matrix(spline, std::move(matrix->matrix), matrix->error_bound);
 }
 
 template <int D>
-Stiffness<D> Stiffness<D>::of_matrix(const Spline<D>& spline, SparseMatrix matrix) {
+Stiffness<D> Stiffness<D>::of_matrix(const Spline<D>& spline, SparseMatrix matrix, double error_bound) {
   assert(matrix.rows() == spline.size() && matrix.cols() == spline.size());
   Stiffness result;
   result.net_ = spline.net();
   result.degree_ = degrees<D>(spline.knots());
   result.size_ = spline.size();
   result.assembled_ = std::make_shared<const SparseMatrix>(std::move(matrix));
+  result.error_bound_ = error_bound;
   return result;
 }
 

@@ -95,14 +95,19 @@ struct TensorPattern {
   }
 };
 
-/// K of a rational spline by Gauss points on the rational basis, all entries of the tensor pattern stored.
-template <int D>
-[[nodiscard]] Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const Energy<D>& energy,
-                                                       int gauss_points);
+/// K of a rational spline, all entries of the tensor pattern stored.
+struct RationalStiffness {
+  SparseMatrix matrix;
+  double error_bound;  ///< as `Stiffness::error_bound`
+};
 
-/// The same with varying coefficients: they are evaluated at the Gauss points, and spans are cut at their knots.
+/// As `StiffnessOptions` say. Errors: orders or options (usage), a field over another domain (input), a denominator
+/// that is not positive or weights that differ too much for the tolerance (numerical).
 template <int D>
-[[nodiscard]] Expected<SparseMatrix> assemble_rational(const Spline<D>& spline, const FieldEnergy<D>& energy,
-                                                       int gauss_points);
+[[nodiscard]] Expected<RationalStiffness> assemble_rational(const Spline<D>& spline, const Energy<D>& energy,
+                                                            const StiffnessOptions& options);
+template <int D>
+[[nodiscard]] Expected<RationalStiffness> assemble_rational(const Spline<D>& spline, const FieldEnergy<D>& energy,
+                                                            const StiffnessOptions& options);
 
 }  // namespace knead

@@ -18,6 +18,7 @@ void set_evolution(const EvolutionPolicy& evolution, ScalingMode scaling, double
   settings.time_step = evolution.time_step;
   settings.route = evolution.route;
   settings.accuracy = evolution.accuracy;
+  settings.energy_tolerance = evolution.energy_tolerance;
   settings.raw = scaling == ScalingMode::raw;
   settings.detail = detail;
 }

@@ -29,6 +29,7 @@ struct ActiveSpline<D>::Model {
   double extent;  // diagonal of the control points, in units of `length`
   Points rest;
   NetOperator<D> stretch, bend, stiffness, weight, mass, damping, a;
+  std::optional<double> energy_error;  // of rational patches
   ConstrainedCholesky inverse;
 
   /// The origin of X.

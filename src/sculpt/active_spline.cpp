@@ -96,6 +96,7 @@ struct Assembly {
   std::vector<ToolLoad<D>> loads;
   std::vector<GrevilleForce<D>> greville;  // for the analytic route
   NetOperator<D> stretch, bend, stiffness, weight, mass, damping;
+  std::optional<double> energy_error;  // of rational patches
 
   explicit Assembly(int size) : stretch(size), bend(size), stiffness(size), weight(size), mass(size), damping(size) {}
 };
@@ -108,9 +109,14 @@ Expected<void> add_operators(const Spline<D>& patch, std::size_t k, int first, c
   auto weight = Stiffness<D>::create(patch, on_scaled_domain<D>(mass_energy<D>(), scaling.factors), options);
   if (!weight) return std::unexpected(weight.error());
   to.weight.add(first, 1, *weight);
+  const auto err = [&](double bound) {
+    if (patch.rational()) to.energy_error = std::max(to.energy_error.value_or(0), bound);
+  };
+  err(weight->error_bound());
   if (!settings.fields.empty()) {
     auto matrices = FieldAssembler<D>(patch, options).assemble(settings.fields[k], scaling.factors);
     if (!matrices) return std::unexpected(matrices.error());
+    err(matrices->error_bound);
     to.stiffness.add(first, 1, Stiffness<D>::of_matrix(patch, matrices->stretch + matrices->bend));
     to.stretch.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->stretch)));
     to.bend.add(first, 1, Stiffness<D>::of_matrix(patch, std::move(matrices->bend)));
@@ -125,6 +131,7 @@ Expected<void> add_operators(const Spline<D>& patch, std::size_t k, int first, c
   auto stretch = create(stretching), bend = create(bending);
   if (!stretch) return std::unexpected(stretch.error());
   if (!bend) return std::unexpected(bend.error());
+  err(std::max(stretch->error_bound(), bend->error_bound()));
   if (patch.rational()) {  // both are assembled
     to.stiffness.add(first, 1, Stiffness<D>::of_matrix(patch, stretch->assemble() + bend->assemble()));
   } else {
@@ -161,7 +168,7 @@ Expected<void> assemble_forces(const Spline<D>& patch, std::size_t k, const Acti
 
 template <int D>
 Expected<Assembly<D>> assemble(const std::vector<Spline<D>>& patches, const ActiveSettings<D>& settings) {
-  const StiffnessOptions options{settings.method, 0};
+  const StiffnessOptions options{.method = settings.method, .rational_tolerance = settings.energy_tolerance};
   int size = 0;
   for (const Spline<D>& patch : patches) size += patch.size();
   Assembly<D> result(size);
@@ -268,7 +275,7 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
             std::move(assembly->loads), std::move(assembly->greville), length, rest.centre, rest.diagonal / length,
             std::move(rest.points), std::move(assembly->stretch), std::move(assembly->bend),
             std::move(assembly->stiffness), std::move(assembly->weight), std::move(assembly->mass),
-            std::move(assembly->damping), std::move(a), std::move(*inverse)}));
+            std::move(assembly->damping), std::move(a), assembly->energy_error, std::move(*inverse)}));
 }
 
 template <int D>

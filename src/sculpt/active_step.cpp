@@ -72,6 +72,7 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   result.gap = contact.entry;
   if (contact.entered >= 0) result.gap_tool = tools[static_cast<std::size_t>(contact.entered)].name;
   result.coarseness = contact.coarseness;
+  result.energy_error = energy_error;
   const auto [worst, off] = space.worst(x);
   result.violation = length * off;
   if (off > missed_constraint * std::max(extent, 1.0)) {

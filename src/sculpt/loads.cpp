@@ -9,6 +9,7 @@
 #include "knead/energy/spline_field.hpp"
 #include "knead/gramian/triple_gramian.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "rational_load.hpp"
 
 namespace knead {
 namespace {
@@ -72,8 +73,9 @@ Expected<Points> integrate(const Spline<D>& shape, const std::array<BasisTable, 
   return result;
 }
 
+/// A load with weights of its own.
 template <int D>
-Expected<Points> rational_load(const Spline<D>& shape, const Spline<D>& load) {
+Expected<Points> weighted_load(const Spline<D>& shape, const Spline<D>& load) {
   std::array<BasisTable, D> own, other;
   std::array<std::vector<double>, D> weights;
   std::array<const BasisTable*, D> pointers;
@@ -124,7 +126,7 @@ Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& sca
     }
   }
   if (shape.rational() || load.rational()) {
-    auto result = rational_load<D>(shape, load);
+    auto result = load.rational() ? weighted_load<D>(shape, load) : detail::rational_load<D>(shape, load);
     if (result) *result *= volume<D>(scaling);
     return result;
   }

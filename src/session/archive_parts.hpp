@@ -126,7 +126,7 @@ void pass(A& a, Of<A, ModeRecord>& m) {
 template <class A>
 void pass(A& a, Of<A, StepRecord>& s) {
   auto& [surface, time, energy, stretch, bend, kinetic, contact, residual, largest_displacement, gap, violation,
-         iterations, converged, limited, note, load_factor, increments] = s;
+         iterations, converged, limited, note, load_factor, increments, energy_error] = s;
   pass(a, surface);
   for (auto* x :
        {&time, &energy, &stretch, &bend, &kinetic, &contact, &residual, &largest_displacement, &gap, &violation}) {
@@ -139,10 +139,13 @@ void pass(A& a, Of<A, StepRecord>& s) {
   if constexpr (!A::writing) {
     load_factor.reset();
     increments.clear();
+    energy_error.reset();
     if (a.version() < 7) return;  // which had no shells
   }
   optional(a, load_factor);
   list(a, increments);
+  if (older_than(a, 9)) return;  // which knew no error
+  optional(a, energy_error);
 }
 
 }  // namespace knead::archive

@@ -128,6 +128,9 @@ static void describe(StepRecord& s, Fields& fields) {
   fields.add("note", s.note, {.help = "what went wrong, and the remedy"});
   fields.add("load_factor", s.load_factor, {.help = "of a shell: the share of the load that is balanced"});
   fields.add("increments", s.increments, {.help = "of a shell: Newton iterations of each part of the load"});
+  fields.add(
+      "energy_error", s.energy_error,
+      {.help = "of rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal"});
 }
 
 std::span<const Choice> choices(SeamContinuity) {

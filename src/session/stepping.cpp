@@ -182,6 +182,7 @@ StepRecord record_of(const ActiveStep& step, double seconds, std::string note) {
   record.iterations = step.iterations;
   record.converged = step.converged;
   record.limited = step.limited;
+  record.energy_error = step.energy_error;
   record.note = std::move(note);
   return record;
 }

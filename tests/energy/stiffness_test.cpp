@@ -41,7 +41,7 @@ TEST(Stiffness, HasTheCheckValuesOfThePublishedComparison) {
   const auto knots = *KnotVector::clamped_uniform(3, 128);
   for (GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic, default_gramian_method}) {
     const auto k =
-        Stiffness<2>::create({knots, knots}, stretch_and_bend({{1, 0.3, 0.5}, {1e-3, 2e-3, 5e-4}}), {method, 0});
+        Stiffness<2>::create({knots, knots}, stretch_and_bend({{1, 0.3, 0.5}, {1e-3, 2e-3, 5e-4}}), {.method = method});
     ASSERT_TRUE(k);
     const SparseMatrix matrix = k->assemble();
     EXPECT_EQ(matrix.nonZeros(), 781456);
@@ -216,7 +216,7 @@ TEST(Stiffness, EnergyOfAPolynomialIsItsIntegral) {
   const double expected = m.alpha[0] * (4 * su + sv) + 2 * m.alpha[1] * uv + m.alpha[2] * (su + 4 * sv) +
                           m.beta[0] * 4 * one + 2 * m.beta[1] * one + m.beta[2] * 4 * one;
   for (GramianMethod method : {GramianMethod::gauss, GramianMethod::analytic, default_gramian_method}) {
-    const auto k = Stiffness<2>::create({u, v}, stretch_and_bend(m), {method, 0});
+    const auto k = Stiffness<2>::create({u, v}, stretch_and_bend(m), {.method = method});
     EXPECT_NEAR(k->energy(x), expected, 1e-12 * expected);
   }
 }

@@ -8,12 +8,10 @@
 #include "knead/gramian/gramian.hpp"
 #include "support/knot_families.hpp"
 #include "support/numbers.hpp"
-#include "support/quad_gramian.hpp"
+#include "support/quad_rational.hpp"
 
 namespace knead {
 namespace {
-
-using testing::Quad;
 
 /// The circle (or, scaled, the ellipse) of four quadratic arcs: weights 1 and cos 45°.
 const KnotVector& circle_knots() {
@@ -34,55 +32,8 @@ std::vector<double> half_circle_weights() {
   return {1, w, 1, w, 1};
 }
 
-/// ∫ R_i^(a) R_j^(b) in quadruple precision: each span in parts that halve towards both ends, where the
-/// poles come near, 24 points each.
-Eigen::MatrixXd quad_rational(const KnotVector& knots, const std::vector<double>& weights, int a, int b) {
-  const int p = knots.degree(), n = knots.count();
-  static const testing::QuadRule rule = testing::quad_rule(24);
-  std::vector<Quad> sums(static_cast<std::size_t>(n * n), Quad(0));
-  std::vector<Quad> cuts{0, 1};
-  for (int k = 1; k <= 28; ++k) {
-    const Quad x = Quad(std::ldexp(0.5, -k + 1));
-    cuts.push_back(x);
-    if (k > 1) cuts.push_back(1 - x);
-  }
-  std::sort(cuts.begin(), cuts.end());
-  for (const int s : knots.spans()) {
-    const Quad lower = knots[s], h = Quad(knots[s + 1]) - lower;
-    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
-      for (std::size_t g = 0; g < rule.t.size(); ++g) {
-        const Quad part = cuts[c + 1] - cuts[c], u = lower + h * (cuts[c] + part * rule.t[g]);
-        std::vector<Quad> d[3];
-        Quad w[3] = {};
-        for (int order = 0; order < 3; ++order) {
-          d[order] = testing::quad_span_basis(knots, p, order, s, u);
-          for (int r = 0; r <= p; ++r) {
-            d[order][static_cast<std::size_t>(r)] *= weights[static_cast<std::size_t>(s - p + r)];
-            w[order] += d[order][static_cast<std::size_t>(r)];
-          }
-        }
-        const auto rational = [&](int order, int r) {
-          const auto k = static_cast<std::size_t>(r);
-          const Quad r0 = d[0][k] / w[0], r1 = (d[1][k] - w[1] * r0) / w[0];
-          return order == 0 ? r0 : order == 1 ? r1 : (d[2][k] - 2 * w[1] * r1 - w[2] * r0) / w[0];
-        };
-        for (int i = 0; i <= p; ++i) {
-          const Quad factor = h * part * rule.weight[g] * rational(a, i);
-          for (int j = 0; j <= p; ++j) {
-            sums[static_cast<std::size_t>((s - p + i) * n + s - p + j)] += factor * rational(b, j);
-          }
-        }
-      }
-    }
-  }
-  Eigen::MatrixXd result(n, n);
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) result(i, j) = static_cast<double>(sums[static_cast<std::size_t>(i * n + j)]);
-  }
-  return result;
-}
-
 using testing::largest;
+using testing::quad_rational;
 
 /// What rounding may add to the bound: to each entry 1e-13 of the size of its functions.
 double rounding(const Eigen::MatrixXd& aa, const Eigen::MatrixXd& bb) {
@@ -153,6 +104,52 @@ TEST(RationalGramian, keeps_its_bound_for_weights_from_1e_minus_3_to_1e3) {
 TEST(RationalGramian, halves_spans_where_the_denominator_varies_much) {
   const KnotVector knots = testing::clamped_knots(3, {0, 1});
   EXPECT_GT(rational_gramian(knots, std::vector<double>{1e-3, 1e3, 1e-3, 1e3}, 0, 0, 1e-10)->pieces, 1);
+}
+
+TEST(ClosedFormGramian, of_a_circle_has_logarithms_and_arctangents_and_no_span_that_is_integrated) {
+  for (const auto& [a, b] : {std::pair{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}}) {
+    const auto made = closed_form_rational_gramian(circle_knots(), circle_weights(), a, b, 1e-10);
+    ASSERT_TRUE(made) << made.error().message();
+    EXPECT_EQ(made->closed, 4) << a << b;
+    EXPECT_EQ(made->integrated, 0);
+    const Eigen::MatrixXd exact = quad_rational(circle_knots(), circle_weights(), a, b);
+    EXPECT_LE(largest(made->matrix.dense() - exact), 1e-14 * largest(exact)) << a << b;
+  }
+}
+
+TEST(ClosedFormGramian, is_left_where_it_cancels) {
+  int closed = 0, integrated = 0;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    const int p = 1 + static_cast<int>(seed % 5);
+    std::vector<double> lengths(static_cast<std::size_t>(1 + seed % 3));
+    for (double& length : lengths) length = 0.3 + uniform();
+    const KnotVector knots = testing::clamped_knots(p, testing::breaks_of(lengths));
+    std::vector<double> weights(static_cast<std::size_t>(knots.count()));
+    // From nearly equal ones, whose roots are far away, to factors of a thousand.
+    const double decades = std::pow(10, -6 + 6.5 * static_cast<double>(seed) / 23);
+    for (double& weight : weights) weight = std::pow(10, decades * (2 * uniform() - 1));
+    const int order = seed % 4 == 3 ? 2 : 0;
+    const auto made = closed_form_rational_gramian(knots, weights, order, order, 1e-10);
+    ASSERT_TRUE(made) << made.error().message();
+    closed += made->closed;
+    integrated += made->integrated;
+    const Eigen::MatrixXd exact = quad_rational(knots, weights, order, order);
+    EXPECT_LE(largest(made->matrix.dense() - exact), 1e-10 * largest(exact));
+  }
+  EXPECT_GT(closed, 10);
+  EXPECT_GT(integrated, 10);
+}
+
+TEST(ClosedFormGramian, with_equal_weights_is_the_polynomial_one) {
+  const KnotVector knots = testing::clamped_knots(3, {0, 1, 1.5, 4}, {0, 1, 2, 0});
+  const std::vector<double> weights(static_cast<std::size_t>(knots.count()), 0.7);
+  const auto made = closed_form_rational_gramian(knots, weights, 1, 1, 1e-12);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->closed, 3);
+  EXPECT_LE(largest(made->matrix.dense() - gramian(knots, 1, 1)->dense()), 1e-13 * largest(made->matrix.dense()));
 }
 
 /// Surfaces of revolution: their weights are products, so their functions are products and their Gramians Kronecker

@@ -18,7 +18,7 @@ using testing::largest;
 
 template <int D>
 GrevilleForce<D> route(const Spline<D>& s, const DomainScaling<D>& units, int points = 0) {
-  auto made = GrevilleForce<D>::create(s, units, {GramianMethod::gauss, points});
+  auto made = GrevilleForce<D>::create(s, units, {.method = GramianMethod::gauss, .rational_gauss_points = points});
   if (!made) ADD_FAILURE() << made.error().message();
   return std::move(*made);
 }

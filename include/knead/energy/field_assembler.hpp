@@ -13,6 +13,7 @@ namespace knead {
 template <int D>
 struct FieldMatrices {
   SparseMatrix stretch, bend, mass, damping;
+  double error_bound = 0;  ///< the largest of the four (`Stiffness::error_bound`)
 };
 
 /// Assembles energies with varying coefficients on one spline, repeatedly as the coefficients are painted.
@@ -22,9 +23,7 @@ struct FieldMatrices {
 ///   K[(i, j), (i', j')] += factor · Σ_l (Σ_k c_kl T_u[k, i, i']) T_v[l, j, j'].
 /// The triple Gramians depend on the knots alone and are kept from one call to the next (those of knots not used in the
 /// last call are dropped). Constant coefficients are handled as in `Stiffness`, bit for bit where nothing varies.
-/// Rational splines: by Gauss points on the rational basis with the field evaluated at the points, the spans
-/// cut at the field's knots; `StiffnessOptions::rational_gauss_points`, 0 meaning p + 8 + (q + 1)/2 with q the field's
-/// largest degree.
+/// Rational splines: as `Stiffness`, with the field at the points and in the bound, the spans cut at its knots.
 ///
 /// The result is symmetric to the last bit and linear in every coefficient up to rounding; it is positive semidefinite
 /// (up to rounding) for coefficients that `validated` accepts. Cost with net n per direction, D = 2: per term about n²
@@ -35,8 +34,7 @@ class FieldAssembler {
   explicit FieldAssembler(Spline<D> spline, StiffnessOptions options = {})
       : spline_(std::move(spline)), options_(options) {}
 
-  /// The matrix of one energy. Errors: a field over another domain (input), orders above 2 (usage), a rational
-  /// denominator that is not positive (numerical).
+  /// The matrix of one energy. Errors: a field over another domain (input), and those of `Stiffness::create`.
   [[nodiscard]] Expected<SparseMatrix> assemble(const FieldEnergy<D>& energy);
 
   /// All four of a material on the domain scaled by `factors` (`DomainScaling::factors`). The material is not checked.
@@ -52,7 +50,7 @@ class FieldAssembler {
     std::shared_ptr<const TripleGramian> triple;
     bool used;
   };
-  [[nodiscard]] Expected<SparseMatrix> assemble_kept(const FieldEnergy<D>& energy);
+  [[nodiscard]] Expected<SparseMatrix> assemble_kept(const FieldEnergy<D>& energy, double& error_bound);
   [[nodiscard]] Expected<const TripleGramian*> triple(std::size_t direction, const KnotVector& knots, int a, int b);
   void begin();
   void drop_unused();

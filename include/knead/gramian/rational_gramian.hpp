@@ -41,6 +41,25 @@ struct RationalGramian {
     const std::array<KnotVector, 2>& knots, std::span<const double> weights, std::array<int, 2> a, std::array<int, 2> b,
     double tolerance);
 
+/// A Gramian of rational functions by antiderivatives.
+struct ClosedFormGramian {
+  BandMatrix matrix;
+  int closed = 0;              ///< spans by antiderivatives
+  int integrated = 0;          ///< spans by `rational_gramian`'s rules, since antiderivatives cancel there
+  double estimated_error = 0;  ///< of an entry, on the spans by antiderivatives
+};
+
+/// G^ab_ij of a curve in closed form: on a span R_i^(a) R_j^(b) = P/W^m, m = a + b + 2, whose partial fractions over
+/// the roots z of W have the antiderivatives log(x − z), that is a logarithm and an arctangent, and powers.
+///
+/// Computed in extended precision (long double). The fractions grow and cancel where roots are far away or close
+/// together, which is the usual case: weights that are nearly equal. What is lost is estimated by repeating the span in
+/// double precision; where that exceeds the tolerance, a fraction as in `rational_gramian`, the span is integrated as
+/// there. For comparison: slower than `rational_gramian`, and its error is an estimate, not a bound. Errors as there.
+[[nodiscard]] Expected<ClosedFormGramian> closed_form_rational_gramian(const KnotVector& knots,
+                                                                       std::span<const double> weights, int a, int b,
+                                                                       double tolerance);
+
 /// The thesis' approximation (§ 5.8): on each span the denominator is replaced by its value at the midpoint, so that
 /// the Gramian is a weighted polynomial one. On the knots of a circle the error is 18 % of the largest entry for orders
 /// 0, 48 % for 1 and 52 % for 2, and it is unbounded where weights differ much; it is provided under its own name for

@@ -77,6 +77,7 @@ struct EvolutionPolicy {
   StepWeight weight = StepWeight::mass;
   ForceRoute route = ForceRoute::gauss;
   StepAccuracy accuracy = StepAccuracy::exact;
+  double energy_tolerance = default_rational_tolerance;
 
   friend bool operator==(const EvolutionPolicy&, const EvolutionPolicy&) = default;
 };

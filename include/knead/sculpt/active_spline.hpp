@@ -72,6 +72,7 @@ struct ActiveSettings {
   bool raw = false;  ///< no normalisation: the equations are taken on the knots as they are
   GramianMethod method = default_gramian_method;
   StepAccuracy accuracy = StepAccuracy::exact;
+  double energy_tolerance = default_rational_tolerance;  ///< of rational patches, see `StiffnessOptions`
 
   friend bool operator==(const ActiveSettings&, const ActiveSettings&) = default;
 };
@@ -129,6 +130,9 @@ struct ActiveStep {
   std::string gap_tool;   ///< its name
   double coarseness = 0;  ///< longest span in contact with a tool, in sizes of that tool
   double violation = 0;   ///< of the constraints, file units
+  /// With rational patches: the largest error of an entry of stretch, bend or mass, relative to its diagonal
+  /// (`Stiffness::error_bound`).
+  std::optional<double> energy_error = {};
   bool limited = false;   ///< the limit restrains some point
   int iterations = 0;     ///< Newton iterations
   int solves = 0;         ///< back substitutions with the factored matrix

@@ -19,9 +19,10 @@ using LoadFunction = std::function<Point(const std::array<double, D>&)>;
 /// f.
 ///
 /// Polynomial shape and polynomial load: F = Π factors (M_0 ⊗ … ⊗ M_{D−1}) f with the `mixed_gramian`s M_d of both
-/// bases; exact up to rounding. Where one of them is rational: by max(p, q) + 8 Gauss points per piece of the common
+/// bases; exact up to rounding. A rational shape and a polynomial load: to 1e-10 of max |f| ∫ R_i, by Gauss points as
+/// an error bound asks for them (`Stiffness`). A rational load: by max(p, q) + 8 Gauss points per piece of the common
 /// knots, about 1e-9 for the weights of circles, less accurate for weights that differ by factors of ten within a span.
-/// Errors: domains that differ (input); a denominator that is not positive (numerical).
+/// Errors: domains that differ (input); a denominator that is not positive, weights that differ too much (numerical).
 template <int D>
 [[nodiscard]] Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& scaling,
                                            const Spline<D>& load);

@@ -26,10 +26,11 @@ struct StepRecord {
   double violation = 0;  ///< of the constraints, file units
   int iterations = 0;
   bool converged = true;
-  bool limited = false;                    ///< the limit restrains some point
-  std::string note;                        ///< what went wrong, and what would help
-  std::optional<double> load_factor = {};  ///< of a shell: the share of the load that is balanced
-  std::vector<int> increments = {};        ///< of a shell: Newton iterations of each part of the load
+  bool limited = false;                     ///< the limit restrains some point
+  std::string note;                         ///< what went wrong, and what would help
+  std::optional<double> load_factor = {};   ///< of a shell: the share of the load that is balanced
+  std::vector<int> increments = {};         ///< of a shell: Newton iterations of each part of the load
+  std::optional<double> energy_error = {};  ///< of rational shapes, see ActiveStep
 
   friend bool operator==(const StepRecord&, const StepRecord&) = default;
 };

@@ -46,6 +46,9 @@ void describe(EvolveCommand& c, Fields& fields) {
   fields.add("weight", c.evolution.weight, {.help = "acm: the weights of a step"});
   fields.add("route", c.evolution.route, {.help = "how tool forces are integrated"});
   fields.add("accuracy", c.evolution.accuracy, {.help = "how exactly steps in contact are solved"});
+  fields.add(
+      "energy_tolerance", c.evolution.energy_tolerance,
+      {.help = "rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal"});
 }
 
 template <>
@@ -57,6 +60,10 @@ Expected<void> Executor::execute(const EvolveCommand& c) {
   if (!(std::isfinite(c.evolution.time_step) && c.evolution.time_step > 0)) {
     return input_error(fmt::format("{} is not a time step", c.evolution.time_step), "time_step",
                        "use a finite number > 0");
+  }
+  if (!(c.evolution.energy_tolerance >= 1e-14 && c.evolution.energy_tolerance <= 0.1)) {
+    return input_error(fmt::format("{} is not a tolerance of energies", c.evolution.energy_tolerance),
+                       "energy_tolerance", "use a number from 1e-14 to 0.1");
   }
   if (c.evolution.mode == Evolution::stationary) {
     auto done = body() != nullptr ? run_body(1, c.evolution) : run(1, c.evolution);

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rational_elements.hpp"
+#include "rational_rule.hpp"
+
+namespace knead::detail {
+
+/// ∂^a R_I ∂^b R_J at Gauss points, summed over the pairs of functions of a piece.
+template <int D>
+class PairSums {
+ public:
+  PairSums(MultiIndex<D> a, MultiIndex<D> b, std::size_t functions)
+      : a_(static_cast<std::size_t>(multi_index_position<D>(a)) * functions),
+        b_(static_cast<std::size_t>(multi_index_position<D>(b)) * functions),
+        functions_(functions),
+        sums_(functions * functions) {}
+
+  void clear() { std::ranges::fill(sums_, 0.0); }
+  [[nodiscard]] double operator()(std::size_t i, std::size_t j) const { return sums_[i * functions_ + j]; }
+
+  /// Adds the rule with these points. False: the denominator is not positive.
+  [[nodiscard]] bool add_rule(const RationalPiece<D>& piece, const std::array<int, D>& points) {
+    RationalLine<D> line{{}, {}};
+    for (std::size_t d = 0; d < D; ++d) {
+      points_[d].tabulate(piece.axis(d), points[d], d + 1 == D);
+      line.points[d] = &points_[d];
+    }
+    values_.resize(RationalPiece<D>::orders * functions_ * line.size());
+    for (;;) {
+      if (!piece.evaluate(line, RationalPiece<D>::orders, values_.data())) return false;
+      add_line(line);
+      if (!line.next()) return true;
+    }
+  }
+
+ private:
+  void add_line(const RationalLine<D>& line) {
+    const std::size_t n = line.size();
+    const double outer = line.outer_weight();
+    for (std::size_t i = 0; i < functions_; ++i) {
+      const double* f = values_.data() + (a_ + i) * n;
+      for (std::size_t j = 0; j < functions_; ++j) {
+        const double* s = values_.data() + (b_ + j) * n;
+        double sum = 0;
+        for (std::size_t g = 0; g < n; ++g) sum += line.points[D - 1]->weights[g] * f[g] * s[g];
+        sums_[i * functions_ + j] += outer * sum;
+      }
+    }
+  }
+
+  std::size_t a_, b_, functions_;
+  std::array<RationalPoints, D> points_;
+  std::vector<double> values_, sums_;
+};
+
+/// The rule that keeps the error of every pair within a bound.
+template <int D>
+class PairRule {
+ public:
+  PairRule(MultiIndex<D> a, MultiIndex<D> b, std::size_t functions)
+      : a_(a), b_(b), functions_(functions), rule_(RationalPiece<D>::orders), sums_(a, b, functions) {}
+
+  /// The sums over one element. False: no halving gave the denominator a positive bound.
+  [[nodiscard]] bool integrate(const RationalPiece<D>& piece, double allowed) {
+    sums_.clear();
+    error_ = 0;
+    return rule_.integrate(
+        piece, allowed,
+        [&](const double* bounds, std::size_t, double) { return largest(bounds, a_) * largest(bounds, b_); },
+        [&](const RationalPiece<D>& part, const std::array<int, D>& points, double error) {
+          error_ += error;
+          return sums_.add_rule(part, points);
+        });
+  }
+  [[nodiscard]] const PairSums<D>& sums() const { return sums_; }
+  [[nodiscard]] double error() const { return error_; }
+  [[nodiscard]] int pieces() const { return rule_.pieces(); }
+  [[nodiscard]] int largest_points() const { return rule_.largest_points(); }
+
+ private:
+  [[nodiscard]] double largest(const double* bounds, MultiIndex<D> order) const {
+    const double* from = bounds + static_cast<std::size_t>(multi_index_position<D>(order)) * functions_;
+    return *std::max_element(from, from + functions_);
+  }
+
+  MultiIndex<D> a_, b_;
+  std::size_t functions_;
+  RationalRule<D> rule_;
+  PairSums<D> sums_;
+  double error_ = 0;
+};
+
+/// G^oo_II of all functions, to a thousandth of the largest or so. `count`: how many functions.
+template <int D>
+[[nodiscard]] std::vector<double> diagonal_of_pairs(RationalElements<D>& elements, std::size_t count,
+                                                    MultiIndex<D> order) {
+  std::vector<double> diagonal(count, 0.0);
+  const auto add = [&](const PairSums<D>& local) {
+    for (std::size_t k = 0; k < elements.functions(); ++k) {
+      diagonal[static_cast<std::size_t>(elements.rows()[k])] += local(k, k);
+    }
+  };
+  PairSums<D> local(order, order, elements.functions());
+  elements.for_each([&](const RationalPiece<D>& piece) {
+    std::array<int, D> points;
+    for (std::size_t d = 0; d < D; ++d) points[d] = std::max(8, piece.axis(d).degree() + 2);
+    local.clear();
+    if (!local.add_rule(piece, points)) return false;
+    add(local);
+    return true;
+  });
+  // A few points see nothing of a peak between them.
+  const double rough = *std::ranges::max_element(diagonal);
+  if (!(rough > 0)) return diagonal;
+  std::ranges::fill(diagonal, 0.0);
+  PairRule<D> rule(order, order, elements.functions());
+  elements.for_each([&](const RationalPiece<D>& piece) {
+    if (!rule.integrate(piece, 1e-3 * rough / static_cast<double>(elements.functions()))) return false;
+    add(rule.sums());
+    return true;
+  });
+  return diagonal;
+}
+
+/// max_I √(G^aa_II G^bb_II): the size to which a tolerance is relative.
+template <int D>
+[[nodiscard]] double size_of_pairs(RationalElements<D>& elements, std::size_t count, MultiIndex<D> a, MultiIndex<D> b) {
+  const std::vector<double> first = diagonal_of_pairs<D>(elements, count, a),
+                            second = a == b ? first : diagonal_of_pairs<D>(elements, count, b);
+  double largest = 0;
+  for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, std::sqrt(first[k] * second[k]));
+  return largest;
+}
+
+/// Errors of the public functions.
+[[nodiscard]] Expected<void> check_rational(std::span<const double> weights, int count, std::array<int, 2> a,
+                                            std::array<int, 2> b, double tolerance);
+[[nodiscard]] std::unexpected<Error> no_lower_bound();
+
+}  // namespace knead::detail
