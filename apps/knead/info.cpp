@@ -73,6 +73,17 @@ Json to_json(const Row& s) {
           {"bounding_box", {to_json(box.lower), to_json(box.upper)}}};
 }
 
+Json to_json(const SourceCurve& c) {
+  const KnotVector& knots = c.curve->knots(0);
+  return {{"id", c.id},
+          {"name", c.name},
+          {"degree", knots.degree()},
+          {"control_points", c.curve->size()},
+          {"rational", c.curve->rational()},
+          {"clamped", knots.clamped()},
+          {"knots", std::vector<double>(knots.knots().begin(), knots.knots().end())}};
+}
+
 Json to_json(const step::Instance& i) {
   return {{"id", i.id},
           {"name", i.name},
@@ -114,6 +125,12 @@ void print_text(const Source& source) {
     fmt::print("           from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.lower.x(), box.lower.y(),
                box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
   }
+  for (const SourceCurve& c : source.curves()) {
+    fmt::print("  {:<8} {}curve of degree {}, {}, {}\n", c.id, c.name.empty() ? "" : "\"" + printable(c.name) + "\", ",
+               c.curve->knots(0).degree(),
+               counted(static_cast<std::size_t>(c.curve->size()), "control point", "control points"),
+               c.curve->rational() ? "rational" : "polynomial");
+  }
   std::map<std::string, int> others;
   for (const step::OtherSurface& s : others_of(file)) ++others[s.form];
   if (!others.empty()) {
@@ -152,6 +169,8 @@ Expected<void> run(const InfoArguments& options) {
   }
   Json surfaces = Json::array(), unreadable = Json::array(), instances = Json::array();
   for (const Row& s : rows_of(**source)) surfaces.push_back(to_json(s));
+  Json curves = Json::array();
+  for (const SourceCurve& c : (*source)->curves()) curves.push_back(to_json(c));
   for (const UnreadableSurface& s : (*source)->unreadable()) {
     unreadable.push_back({{"id", s.id}, {"reason", s.reason.message()}});
   }
@@ -165,6 +184,7 @@ Expected<void> run(const InfoArguments& options) {
                      {"surfaces", std::move(surfaces)},
                      {"unreadable_surfaces", std::move(unreadable)},
                      {"other_surfaces", std::move(others)},
+                     {"curves", std::move(curves)},
                      {"instances", std::move(instances)},
                      {"assembly", file != nullptr ? parts_json(*file) : Json()},
                      {"remarks", (*source)->remarks()}};

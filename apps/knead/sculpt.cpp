@@ -345,7 +345,8 @@ its fields with their defaults (`knead commands NAME` explains them):
       R"(
 The report is {"steps": [{"time", "energy", "residual", "largest_displacement", "stretch", "bend", "kinetic", "contact",
 "gap", "constraint_violation", "converged", "limited", "note", of shells "load_factor", "increments", of rational shapes
-"energy_error"}, ...], "time", "energy_before", "energy_after", "residual", "largest_displacement", "control_points_moved", "edges", "places", "seams",
+"energy_error"}, ...], "time",
+"energy_before", "energy_after", "residual", "largest_displacement", "control_points_moved", "edges", "places", "seams",
 "notes", and after modes and buckling "modes": [{"frequency", "residual"}], "buckling": [{"load_factor", "residual"}]}: times in
 seconds, lengths in file units, gaps in sizes of the tool.
 )" + std::string(exit_codes));

@@ -72,6 +72,11 @@ Expected<const Format*> format_of_name(std::string_view file_name, FormatContent
       "use a name that ends in " + list_of_endings(content));
 }
 
+const std::vector<SourceCurve>& Source::curves() const {
+  static const std::vector<SourceCurve> none;
+  return none;
+}
+
 Expected<std::shared_ptr<const Source>> Source::with_splines(std::span<const std::string> /*surfaces*/) const {
   return input_error("only faces of a STEP file can be converted", name());
 }

@@ -60,7 +60,8 @@ class BrepSource final : public Source {
   bool moves_edges() const override { return false; }
 
   Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
-                             std::span<const std::string> followed) const override {
+                             std::span<const std::string> followed,
+                             std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
     if (!followed.empty()) {
       return input_error("edges of a .brep file cannot follow", followed.front(), "hold them, or set them free");
     }

@@ -47,7 +47,8 @@ class IgesSource final : public Source {
   }
 
   Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
-                             std::span<const std::string> followed) const override {
+                             std::span<const std::string> followed,
+                             std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
     if (!followed.empty()) {
       return input_error("edges of an IGES file cannot follow", followed.front(), "hold them, or set them free");
     }

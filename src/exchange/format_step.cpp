@@ -12,16 +12,25 @@ namespace {
 class StepSource final : public Source {
  public:
   /// \param known surfaces that keep their objects
-  explicit StepSource(step::File file, std::span<const SourceSurface> known = {}) : file_(std::move(file)) {
+  explicit StepSource(step::File file, std::span<const SourceSurface> known = {},
+                      std::span<const SourceCurve> known_curves = {})
+      : file_(std::move(file)) {
     for (const step::SurfaceEntity& s : file_.surfaces()) {
       const auto same = std::ranges::find(known, s.id, &SourceSurface::id);
       surfaces_.push_back(
           {s.id, s.name, s.unit, same == known.end() ? std::make_shared<const Surface>(s.surface) : same->surface});
     }
+    for (const step::CurveEntity& c : file_.curves()) {
+      const auto same = std::ranges::find(known_curves, c.id, &SourceCurve::id);
+      curves_.push_back(
+          {c.id, c.name, c.unit, same == known_curves.end() ? std::make_shared<const Curve>(c.curve) : same->curve});
+    }
   }
 
   const std::string& name() const override { return file_.name(); }
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
+  const std::vector<SourceCurve>& curves() const override { return curves_; }
+  bool is_bound_curve(const std::string& id) const override { return file_.is_bound_curve(id); }
   const std::vector<UnreadableSurface>& unreadable() const override { return file_.unreadable_surfaces(); }
   std::string_view format() const override { return "STEP"; }
   const step::File* step_file() const override { return &file_; }
@@ -35,23 +44,29 @@ class StepSource final : public Source {
   Expected<std::shared_ptr<const Source>> with_splines(std::span<const std::string> surfaces) const override {
     auto file = step::with_splines(file_, surfaces);
     if (!file) return std::unexpected(std::move(file.error()));
-    return std::make_shared<const StepSource>(*std::move(file), surfaces_);
+    return std::make_shared<const StepSource>(*std::move(file), surfaces_, curves_);
   }
 
   Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
-                             std::span<const std::string> followed) const override {
+                             std::span<const std::string> followed,
+                             std::span<const std::shared_ptr<const Curve>> curves) const override {
     std::vector<step::Replacement> replacements;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k] != surfaces_[k].surface) replacements.push_back({surfaces_[k].id, *surfaces[k]});
     }
     const auto moved = step::moved_edges(file_, replacements, followed);
     if (!moved) return std::unexpected(moved.error());
-    return file_.with_surfaces(replacements, *moved);
+    std::vector<step::CurveReplacement> replaced;
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+      if (curves[k] != curves_[k].curve) replaced.push_back({curves_[k].id, *curves[k]});
+    }
+    return file_.with_surfaces(replacements, *moved, replaced);
   }
 
  private:
   step::File file_;
   std::vector<SourceSurface> surfaces_;
+  std::vector<SourceCurve> curves_;
 };
 
 /// The first token of an exchange structure, after white space, comments and a byte order mark.

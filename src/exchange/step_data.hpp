@@ -21,6 +21,9 @@ struct File::Data {
   std::vector<std::vector<std::uint32_t>> control_point_refs;  // for each: the values that refer to its control points
   std::unordered_map<std::string, std::size_t> surface_index;  // by id
   std::vector<UnreadableSurface> unreadable;
+  std::vector<CurveEntity> curves;
+  std::vector<std::uint32_t> curve_instances;                // of each of `curves`
+  std::vector<std::vector<std::uint32_t>> curve_point_refs;  // likewise
   std::vector<Instance> instances;
   std::vector<LengthUnit> units;
 };

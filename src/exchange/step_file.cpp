@@ -1,12 +1,14 @@
 #include "knead/exchange/step_file.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/source.hpp"
 #include "part21_text.hpp"
 #include "step_data.hpp"
 #include "step_entity.hpp"
+#include "step_free_curves.hpp"
 #include "step_instances.hpp"
 #include "step_surfaces.hpp"
 #include "step_trimming.hpp"
@@ -69,17 +71,27 @@ Expected<File> File::parse(std::string bytes, std::string name) {
   const bool one_unit = std::all_of(contexts.begin(), contexts.end(), [&](const UnitContext& context) {
     return context.unit.name == contexts.front().unit.name;
   });
+  // What is not reached from any representation still has the file's unit if there is only one.
+  const auto unit_in = [&](int context) {
+    if (context >= 0) return contexts[static_cast<std::size_t>(context)].unit.name;
+    return !contexts.empty() && one_unit ? contexts.front().unit.name : std::string("unknown");
+  };
   for (std::size_t k = 0; k < read.size(); ++k) {
     const auto id = "#" + std::to_string(data->records.instance(read[k].instance).id);
     const auto closed = closed_directions(read[k].surface);
-    // A surface not reached from any representation still has the file's unit if there is only one.
-    std::string unit = "unknown";
-    if (context_of[k] >= 0) unit = contexts[static_cast<std::size_t>(context_of[k])].unit.name;
-    if (context_of[k] < 0 && !contexts.empty() && one_unit) unit = contexts.front().unit.name;
     data->surface_index.emplace(id, k);
     data->control_point_refs.push_back(std::move(read[k].references));
-    data->surfaces.push_back({id, reader.item_name(read[k].instance), std::move(unit), std::move(read[k].surface),
-                              closed, uses[k].trimmed, uses[k].faces});
+    data->surfaces.push_back({id, reader.item_name(read[k].instance), unit_in(context_of[k]),
+                              std::move(read[k].surface), closed, uses[k].trimmed, uses[k].faces});
+  }
+  std::vector<ReadCurve> curves = free_curves(reader);
+  for (const ReadCurve& c : curves) data->curve_instances.push_back(c.instance);
+  const auto context_of_curve = contexts_of(reader, contexts, data->curve_instances);
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    data->curve_point_refs.push_back(std::move(curves[k].references));
+    data->curves.push_back({"#" + std::to_string(data->records.instance(curves[k].instance).id),
+                            reader.item_name(curves[k].instance), unit_in(context_of_curve[k]),
+                            std::move(curves[k].curve)});
   }
   data->instances = read_instances(reader);
   return File(std::move(data));
@@ -90,6 +102,7 @@ const std::string& File::bytes() const { return data_->records.bytes(); }
 const std::string& File::schema() const { return data_->schema; }
 const std::vector<SurfaceEntity>& File::surfaces() const { return data_->surfaces; }
 const std::vector<UnreadableSurface>& File::unreadable_surfaces() const { return data_->unreadable; }
+const std::vector<CurveEntity>& File::curves() const { return data_->curves; }
 const std::vector<Instance>& File::instances() const { return data_->instances; }
 const std::vector<LengthUnit>& File::length_units() const { return data_->units; }
 
@@ -120,6 +133,15 @@ std::vector<Error> File::warnings() const {
                       name()});
   }
   return result;
+}
+
+bool File::is_bound_curve(const std::string& id) const {
+  std::uint64_t number = 0;
+  const char* const end = id.data() + id.size();
+  if (id.size() < 2 || id[0] != '#' || std::from_chars(id.data() + 1, end, number).ptr != end) return false;
+  const auto instance = data_->records.find(number);
+  return instance && is_b_spline_curve(Reader(data_->records), *instance) &&
+         std::ranges::find(data_->curve_instances, *instance) == data_->curve_instances.end();
 }
 
 const SurfaceEntity* File::find_surface(const std::string& id) const {

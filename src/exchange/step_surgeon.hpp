@@ -34,6 +34,10 @@ class Surgeon {
   [[nodiscard]] Expected<void> replace_surface(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
                                                const Surface& before, const Surface& after);
 
+  /// Writes the record of a free curve anew, under its name and label. \param refs as for `move_points`
+  [[nodiscard]] Expected<void> replace_net(std::uint32_t instance, const std::vector<std::uint32_t>& refs,
+                                           const Curve& before, const Curve& after);
+
   /// Gives an EDGE_CURVE another curve in space; its PCURVEs stay.
   [[nodiscard]] Expected<void> replace_curve(std::uint32_t edge, const Curve& curve);
 

@@ -53,6 +53,21 @@ Expected<void> Surgeon::replace_curve(std::uint32_t edge, const Curve& curve) {
   return {};
 }
 
+Expected<void> Surgeon::replace_net(std::uint32_t instance, const std::vector<std::uint32_t>& refs, const Curve& before,
+                                    const Curve& after) {
+  const auto label = reader_.attributes(instance, "REPRESENTATION_ITEM", 0, 1);
+  const auto own = file_.instance(instance).complex ? label : file_.children(file_.instance(instance).first);
+  if (own.empty()) return reader_.error(instance, "it has no label");
+  std::string inserted;
+  const auto names = point_names(refs, before.control_points(), after.control_points(), inserted);
+  if (!names) return std::unexpected(names.error());
+  changes_.push_back({file_.instance(instance).record, print_curve(after, file_.text(own[0]), [&](int k) {
+                        return (*names)[static_cast<std::size_t>(k)];
+                      })});
+  if (!inserted.empty()) insert(file_.instance(instance).bytes.end, std::move(inserted));
+  return {};
+}
+
 Expected<void> Surgeon::move_vertex(std::uint32_t vertex, const Point& place) {
   const auto own = reader_.attributes(vertex, "VERTEX_POINT", 1, 1);
   const std::uint32_t geometry = own.empty() ? no_instance : reader_.reference(own[0]).value_or(no_instance);

@@ -2,6 +2,7 @@
 #include <unordered_map>
 
 #include "knead/exchange/step_file.hpp"
+#include "step_curves.hpp"
 #include "step_data.hpp"
 #include "step_surfaces.hpp"
 #include "step_surgeon.hpp"
@@ -103,9 +104,64 @@ Expected<void> write_edges(const File::Data& data, const MovedEdges& moved, Surg
   return {};
 }
 
+bool same_curve(const Curve& a, const Curve& b) {
+  return a.knots() == b.knots() && same_bits(a.control_points(), b.control_points()) &&
+         same_bits(a.weights(), b.weights());
+}
+
+/// By the index of the curve in the file; empty where nothing changes.
+using WantedCurves = std::unordered_map<std::size_t, const Curve*>;
+
+Expected<WantedCurves> write_curves(const File::Data& data, std::span<const CurveReplacement> curves,
+                                    Surgeon& surgeon) {
+  WantedCurves wanted;
+  const auto wrong = [&](const std::string& id, std::string what, std::string remedy) {
+    return std::unexpected(Error{ErrorKind::input, std::move(what), id, std::move(remedy), data.records.name()});
+  };
+  for (const auto& [id, after] : curves) {
+    const auto found = std::ranges::find(data.curves, id, &CurveEntity::id);
+    if (found == data.curves.end()) {
+      return wrong(id, "no free B-spline curve has this name", "name one of those that `info` lists");
+    }
+    const auto k = static_cast<std::size_t>(found - data.curves.begin());
+    const Curve& before = found->curve;
+    if (same_curve(before, after)) continue;
+    if (!wanted.emplace(k, &after).second) return wrong(id, "edited twice", "give one edit per curve");
+    const KnotVector& knots = after.knots(0);
+    if (knots != before.knots(0) && knots.max_interior_multiplicity() > knots.degree()) {
+      return wrong(id, "STEP knows no curve that is torn along a knot",
+                   "keep knots inside the domain to a multiplicity of " + std::to_string(knots.degree()));
+    }
+    const auto instance = data.curve_instances[k];
+    const auto& refs = data.curve_point_refs[k];
+    const bool same_net = before.knots() == after.knots() && same_bits(before.weights(), after.weights());
+    auto done = same_net ? surgeon.move_points(instance, refs, before.control_points(), after.control_points())
+                         : surgeon.replace_net(instance, refs, before, after);
+    if (!done) return std::unexpected(std::move(done.error()));
+  }
+  return wanted;
+}
+
+// Reads the curves again: each must be as requested, or as before.
+Expected<void> check_curves(const std::string& bytes, const File::Data& before, const WantedCurves& wanted) {
+  const auto parsed = Part21File::parse(bytes, before.records.name());
+  if (!parsed) return std::unexpected(parsed.error());
+  const Reader reader(*parsed);
+  for (std::size_t k = 0; k < before.curves.size(); ++k) {
+    const auto instance = parsed->find(before.records.instance(before.curve_instances[k]).id);
+    const auto read = instance ? read_b_spline_curve(reader, *instance) : Expected<Curve>(std::unexpected(Error{}));
+    const auto found = wanted.find(k);
+    if (read && same_curve(*read, found == wanted.end() ? before.curves[k].curve : *found->second)) continue;
+    return std::unexpected(Error{ErrorKind::numerical, "internal: the written file does not read back as it should",
+                                 before.curves[k].id, "please report this file", before.records.name(), 0});
+  }
+  return {};
+}
+
 }  // namespace
 
-Expected<std::string> File::with_surfaces(std::span<const Replacement> replacements, const MovedEdges& moved) const {
+Expected<std::string> File::with_surfaces(std::span<const Replacement> replacements, const MovedEdges& moved,
+                                          std::span<const CurveReplacement> curves) const {
   const auto& data = *data_;
   std::unordered_map<std::size_t, const Surface*> wanted;
   Surgeon surgeon(data.records);
@@ -131,10 +187,14 @@ Expected<std::string> File::with_surfaces(std::span<const Replacement> replaceme
                          : surgeon.replace_surface(instance, refs, before, after);
     if (!done) return std::unexpected(std::move(done.error()));
   }
-  if (!changed && moved.edges.empty() && moved.vertices.empty()) return bytes();
+  const auto wanted_curves = write_curves(data, curves, surgeon);
+  if (!wanted_curves) return std::unexpected(wanted_curves.error());
+  if (!changed && wanted_curves->empty() && moved.edges.empty() && moved.vertices.empty()) return bytes();
   if (auto done = write_edges(data, moved, surgeon); !done) return std::unexpected(std::move(done.error()));
   auto result = surgeon.result();
   if (auto checked = check(result, data, wanted); !checked) return std::unexpected(std::move(checked.error()));
+  if (data.curves.empty()) return result;
+  if (auto checked = check_curves(result, data, *wanted_curves); !checked) return std::unexpected(checked.error());
   return result;
 }
 

@@ -26,7 +26,8 @@ class TextSource final : public Source {
   const std::vector<UnreadableSurface>& unreadable() const override { return text_.unreadable; }
 
   Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
-                             std::span<const std::string> followed) const override {
+                             std::span<const std::string> followed,
+                             std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
     if (!followed.empty()) return input_error("this file has no edges that could follow", followed.front());
     TextChanges changes;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {

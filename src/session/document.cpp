@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 
@@ -34,6 +36,11 @@ const std::vector<DocumentSurface>& Document::surfaces() const {
   return source_ ? source_->surfaces() : none;
 }
 
+const std::vector<SourceCurve>& Document::curves() const {
+  static const std::vector<SourceCurve> none;
+  return source_ ? source_->curves() : none;
+}
+
 Expected<Document> Document::with_splines(std::span<const std::string> surfaces) const {
   if (!source_) return input_error("only faces of a STEP file can be converted", name_);
   auto source = source_->with_splines(surfaces);
@@ -49,7 +56,13 @@ Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, 
   if (source_) {
     std::vector<std::shared_ptr<const Surface>> present;
     for (const DocumentSurface& s : surfaces) present.push_back(s.surface);
-    return source_->save(present, followed);
+    std::vector<std::shared_ptr<const Curve>> curves;
+    for (const SourceCurve& c : source_->curves()) {
+      const auto body = std::ranges::find(bodies, c.id, &SceneBody::id);
+      const auto* shapes = body == bodies.end() ? nullptr : std::get_if<BodyShapes<1>>(&body->shapes);
+      curves.push_back(shapes != nullptr ? shapes->current : c.curve);
+    }
+    return source_->save(present, followed, curves);
   }
   return save_as(*find_format("step"), surfaces, bodies);
 }

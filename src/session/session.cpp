@@ -24,7 +24,16 @@ Session::Session(Document document) : document_(std::move(document)), cache_(std
     surface.opened = surface.reference = surface.rest = surface.current = s.surface;
     state->surfaces.push_back(std::move(surface));
   }
+  for (const SourceCurve& c : document_.curves()) {
+    SceneBody body;
+    body.id = c.id;
+    body.name = c.name;
+    body.unit = c.unit;
+    body.shapes = BodyShapes<1>{.opened = c.curve, .reference = c.curve, .rest = c.curve, .current = c.curve};
+    state->bodies.push_back(std::move(body));
+  }
   if (state->surfaces.size() == 1) state->selected = 0;
+  if (state->surfaces.empty() && state->bodies.size() == 1) state->body = 0;
   states_.push_back(std::move(state));
 }
 

@@ -44,6 +44,32 @@ TEST(StiffnessCommand, TakesKnotsAndWeights) {
                          {"weight"}));
 }
 
+TEST(StiffnessCommand, OfAWeightedNetKeepsATolerance) {
+  const auto run = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"stiffness", "--degree", "2", "--knots-u", "0,0,0,1,1,1", "--knots-v",
+                                         "0,0,0,1,1,1", "--beta", "1,1,1"});
+    return knead(arguments);
+  };
+  const std::string weights = "1,0.1,2,5,10,0.3,1,1,4";
+  const Json usual = run({"--weights", weights, "--json"}).json(),
+             coarse = run({"--weights", weights, "--tolerance", "1e-4", "--json"}).json();
+  EXPECT_LE(usual.at("error_bound").get<double>(), 1e-10);
+  EXPECT_LE(coarse.at("error_bound").get<double>(), 1e-4);
+  EXPECT_GT(coarse.at("error_bound").get<double>(), usual.at("error_bound").get<double>());
+  const double norm = usual.at("frobenius");
+  EXPECT_NEAR(coarse.at("frobenius").get<double>(), norm, 1e-3 * norm);
+  EXPECT_NE(run({"--weights", weights}).out.find("no entry errs by more than"), std::string::npos);
+  // The thesis' approximation has no bound, and needs one here.
+  const Json constant = run({"--weights", weights, "--denominator", "constant", "--json"}).json();
+  EXPECT_TRUE(constant.at("error_bound").is_null());
+  EXPECT_GT(std::abs(constant.at("frobenius").get<double>() - norm), 0.5 * norm);
+  EXPECT_EQ(knead({"stiffness", "--net", "4x4", "--json"}).json().at("error_bound"), 0);
+
+  EXPECT_TRUE(fails_with(run({"--weights", "1,1e-40,2,5,1e40,0.3,1,1,4"}), 4, {"1e-40 to 1e+40", "larger tolerance"}));
+  EXPECT_TRUE(fails_with(run({"--tolerance", "0"}), 2, {"--tolerance", "0"}));
+  EXPECT_TRUE(fails_with(run({"--denominator", "some"}), 2, {"--denominator", "some", "constant"}));
+}
+
 TEST(StiffnessCommand, NegativeCoefficientsAreReadAsNumbers) {
   EXPECT_EQ(knead({"stiffness", "--net", "4x4", "--alpha", "1,-0.5,1", "--json"}).code, 0);
   EXPECT_TRUE(fails_with(knead({"stiffness", "--net", "4x4", "--alpha", "-1,0,1"}), 3, {"alpha11", "-1"}));

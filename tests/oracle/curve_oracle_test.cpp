@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "oracle/occt_curves.hpp"
 #include "session/support.hpp"
@@ -52,6 +53,23 @@ TEST(CurveOracle, ReadsCurvesAloneToTheBit) {
   Session session = fresh();
   run(session, three_curves);
   const OcctCurves read = read_saved(session, "curves.step");
+  expect_its_curves(session, read);
+  EXPECT_EQ(read.faces, 0);
+}
+
+TEST(CurveOracle, ReadsAFileWhoseCurvesWereSculptedWhereTheyStand) {
+  Session made = fresh();
+  run(made, three_curves);
+  auto source = open_source(*made.save(), "curves.step");
+  ASSERT_TRUE(source);
+  Session session(Document::from(*std::move(source)));
+  ASSERT_EQ(session.state().bodies.size(), 3U);
+  for (const SceneBody& b : std::vector<SceneBody>(session.state().bodies)) {
+    run(session, {R"({"do":"select","body":")" + b.id + R"("})", R"({"do":"edge","which":"u0","hold":"position"})",
+                  R"({"do":"force","at":[0.6],"to":[1,1,8],"strength":30})", R"({"do":"step","count":2})"});
+  }
+  run(session, {R"({"do":"refine"})"});
+  const OcctCurves read = read_saved(session, "sculpted_curves.step");
   expect_its_curves(session, read);
   EXPECT_EQ(read.faces, 0);
 }

@@ -217,6 +217,29 @@ TEST(Command, InteractiveStepsAreRecordedAndRepeated) {
   EXPECT_EQ(first(again).current->control_points(), b);
 }
 
+TEST(Command, StepsOfRationalShapesSayHowExactTheirEnergyIs) {
+  const std::string patch =
+      R"({"do":"new","degree":[2,2],"net":[3,3],"points":[[0,0,0],[0,5,0],[0,10,0],[5,0,0],[5,5,3],[5,10,0],[10,0,0],[10,5,0],[10,10,0]],"weights":[1,0.1,2,5,10,0.3,1,1,4]})";
+  Session session = fresh();
+  run(session, {patch, R"({"do":"step"})", R"({"do":"evolve","energy_tolerance":1e-5})", R"({"do":"step"})"});
+  const auto& steps = session.state().steps;
+  ASSERT_EQ(steps.size(), 2U);
+  ASSERT_TRUE(steps[0].energy_error && steps[1].energy_error);
+  EXPECT_LE(*steps[0].energy_error, default_rational_tolerance);
+  EXPECT_LE(*steps[1].energy_error, 1e-5);
+  EXPECT_GT(*steps[1].energy_error, *steps[0].energy_error);
+  const auto restored = Session::restore(session.document(), session.snapshot());
+  ASSERT_TRUE(restored);
+  EXPECT_EQ(restored->state().steps, steps);
+  EXPECT_EQ(restored->state().evolution.energy_tolerance, 1e-5);
+  for (const std::string wrong : {"0", "-1", "1"}) {
+    EXPECT_EQ(refusal(session, R"({"do":"evolve","energy_tolerance":)" + wrong + "}").where, "energy_tolerance");
+  }
+  // Without weights there is nothing to say.
+  Session plain = on_sheet({R"({"do":"step"})"});
+  EXPECT_FALSE(plain.state().steps.back().energy_error);
+}
+
 TEST(Command, StaticIsTheBalanceAndDynamicSwings) {
   Session still = on_sheet({lift, R"({"do":"evolve","mode":"static"})"});
   EXPECT_LT(still.state().steps.back().residual, 1e-8);

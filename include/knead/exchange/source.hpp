@@ -24,6 +24,12 @@ struct SourceSurface {
   std::shared_ptr<const Surface> surface;
 };
 
+/// A curve of a file that stands for itself, as read.
+struct SourceCurve {
+  std::string id, name, unit;
+  std::shared_ptr<const Curve> curve;
+};
+
 /// Geometrically closed in u, in v: S(a, ·) and S(b, ·) are the same curve. The two boundary isocurves are split at
 /// their ends into control points (and weights) by the basis at the first and last parameter; they are the same curve
 /// where these agree to 1e-9 of the net's bounding-box diagonal. A direction along which the whole net is collapsed is
@@ -50,11 +56,17 @@ class Source {
   /// In the order of the file.
   [[nodiscard]] virtual const std::vector<SourceSurface>& surfaces() const = 0;
   [[nodiscard]] virtual const std::vector<UnreadableSurface>& unreadable() const = 0;
+  /// Curves that stand for themselves, in the order of the file; formats that are not read for them have none.
+  [[nodiscard]] virtual const std::vector<SourceCurve>& curves() const;
+  /// Whether this is a curve of the file that something else is made of, such as an edge, and so is not free.
+  [[nodiscard]] virtual bool is_bound_curve(const std::string& /*id*/) const { return false; }
   /// The bytes of the file with these surfaces, one for each of `surfaces()` in order, in place of the original ones. A
   /// surface that is the original (the same object) keeps its bytes. `followed`: edges of faces that are written anew
-  /// where these surfaces have moved them, by id; formats without faces have none.
+  /// where these surfaces have moved them, by id; formats without faces have none. `curves`: likewise one for each of
+  /// `curves()`; empty: they stay.
   [[nodiscard]] virtual Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
-                                                   std::span<const std::string> followed = {}) const = 0;
+                                                   std::span<const std::string> followed = {},
+                                                   std::span<const std::shared_ptr<const Curve>> curves = {}) const = 0;
   /// The same file with surfaces of other forms, given by their ids or those of faces on them, as B-spline surfaces;
   /// its other surfaces stay the same objects. Errors (input): one cannot be converted; the format has no others.
   [[nodiscard]] virtual Expected<std::shared_ptr<const Source>> with_splines(

@@ -38,6 +38,12 @@ struct SurfaceEntity {
   int faces = 0;  ///< faces of the file that lie on it
 };
 
+/// One B-spline curve in space that stands for itself: no edge, surface or trimmed curve uses it.
+struct CurveEntity {
+  std::string id, name, unit;  ///< as those of a `SurfaceEntity`
+  Curve curve;
+};
+
 /// AXIS2_PLACEMENT_3D as the file gives it: directions are not normalised; an omitted axis is (0, 0, 1) and an omitted
 /// reference direction (1, 0, 0), or (0, 1, 0) where the axis is along x (ISO 10303-42, first_proj_axis).
 struct AxisPlacement {
@@ -76,6 +82,12 @@ struct Edit {
 struct Replacement {
   std::string id;  ///< "#123"
   Surface surface;
+};
+
+/// Another curve in place of a free one.
+struct CurveReplacement {
+  std::string id;  ///< "#123"
+  Curve curve;
 };
 
 /// Another curve in space for an EDGE_CURVE, through the same parameters as the one it replaces, in its direction.
@@ -117,6 +129,10 @@ class File {
   /// In the order of the file.
   [[nodiscard]] const std::vector<SurfaceEntity>& surfaces() const;
   [[nodiscard]] const std::vector<UnreadableSurface>& unreadable_surfaces() const;
+  /// The free ones, in the order of the file; those that cannot be read are left out.
+  [[nodiscard]] const std::vector<CurveEntity>& curves() const;
+  /// Whether this is a B-spline curve that is not free.
+  [[nodiscard]] bool is_bound_curve(const std::string& id) const;
   [[nodiscard]] const std::vector<Instance>& instances() const;
   /// One per context that assigns a length unit, in the order of the file.
   [[nodiscard]] const std::vector<LengthUnit>& length_units() const;
@@ -155,8 +171,12 @@ class File {
   /// A SURFACE_CURVE (or subtype) stays, with its PCURVEs, and refers to the new curve: in place if only this edge uses
   /// it, else as a copy under a new name. The old curve's records stay. The point of a vertex is treated as a control
   /// point is. Further errors (input): an edge or vertex that is not in the file.
+  ///
+  /// `curves`: of a free curve on the same net only moved coordinates differ; with another net its record is written
+  /// anew under its name and label. Further errors (input): a curve that is not free, or torn along a knot.
   [[nodiscard]] Expected<std::string> with_surfaces(std::span<const Replacement> replacements,
-                                                    const MovedEdges& moved = {}) const;
+                                                    const MovedEdges& moved = {},
+                                                    std::span<const CurveReplacement> curves = {}) const;
 
   struct Data;  ///< private to the exchange room
   [[nodiscard]] const Data& data() const { return *data_; }

@@ -31,6 +31,8 @@ class Document {
   /// Length unit of a fresh document, unless the first surface made in it has another.
   [[nodiscard]] const std::string& unit() const { return unit_; }
   [[nodiscard]] const std::vector<DocumentSurface>& surfaces() const;
+  /// The curves of the file that stand for themselves.
+  [[nodiscard]] const std::vector<SourceCurve>& curves() const;
   /// The opened file; null in a fresh document.
   [[nodiscard]] const Source* source() const { return source_.get(); }
   /// The same as a STEP file, for what only STEP has: faces and their trimming. Null for other formats.
@@ -42,9 +44,9 @@ class Document {
   /// What has been converted since it was opened, in order.
   [[nodiscard]] const std::vector<std::string>& converted() const { return converted_; }
 
-  /// The bytes of the file with these surfaces in place of the original ones (one each); for a fresh document, a STEP
-  /// file with exactly these, in the unit of the first one, and with these curves and volumes. `followed`: as for
-  /// `Source::save`.
+  /// The bytes of the file with these surfaces in place of the original ones (one each), and with those of the bodies
+  /// that are its `curves`; for a fresh document, a STEP file with exactly these surfaces, in the unit of the first
+  /// one, and with these curves and volumes. `followed`: as for `Source::save`.
   [[nodiscard]] Expected<std::string> save(std::span<const DocumentSurface> surfaces,
                                            std::span<const std::string> followed = {},
                                            std::span<const SceneBody> bodies = {}) const;

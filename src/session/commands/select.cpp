@@ -37,7 +37,7 @@ Expected<std::vector<int>> connected(std::vector<int> chosen, SessionState& stat
   return chosen;
 }
 
-Expected<void> select_body(const std::string& id, SessionState& state) {
+Expected<void> select_body(const std::string& id, const Document& document, SessionState& state) {
   std::string known;
   for (std::size_t k = 0; k < state.bodies.size(); ++k) {
     known += (known.empty() ? "" : ", ") + state.bodies[k].id;
@@ -47,8 +47,17 @@ Expected<void> select_body(const std::string& id, SessionState& state) {
     state.together.clear();
     return {};
   }
-  return input_error(fmt::format("there is no curve or volume {}", id), "body",
-                     known.empty() ? R"(make one first: {"do":"new","shape":"curve"})" : "they are: " + known);
+  if (document.source() != nullptr && document.source()->is_bound_curve(id)) {
+    return input_error(
+        fmt::format("edges or surfaces of the file are made of the curve {}, so it cannot be moved alone", id), "body",
+        "select a surface; edges between faces follow where they are asked to");
+  }
+  std::string remedy = "they are: " + known;
+  if (known.empty()) {
+    remedy = document.is_fresh() ? R"(make one first: {"do":"new","shape":"curve"})"
+                                 : "the file has no B-spline curves that stand for themselves";
+  }
+  return input_error(fmt::format("there is no curve or volume {}", id), "body", remedy);
 }
 
 }  // namespace
@@ -59,7 +68,8 @@ void describe(SelectCommand& c, Fields& fields) {
   fields.add("surfaces", c.surfaces, {.help = "several of them"});
   fields.add("connected", c.connected,
              {.help = "also all surfaces that seams connect with these, directly or through others"});
-  fields.add("body", c.body, {.help = "id of a curve or a volume, instead; it is selected alone"});
+  fields.add("body", c.body,
+             {.help = "id of a curve or a volume, instead; it is selected alone. Those of a file are its free curves"});
 }
 
 template <>
@@ -68,7 +78,7 @@ Expected<void> Executor::execute(const SelectCommand& c) {
     if (c.surface || c.surfaces || c.connected) {
       return input_error("both surfaces and a body are named", "body", "curves and volumes are selected alone");
     }
-    return select_body(*c.body, state);
+    return select_body(*c.body, document, state);
   }
   std::vector<std::string> ids = c.surfaces.value_or(std::vector<std::string>{});
   if (c.surface) ids.insert(ids.begin(), *c.surface);
