@@ -123,7 +123,8 @@ KNEAD_EXPORT(knead_open) int knead_open(std::size_t name_size) {
   auto source = open_source(std::move(bytes), std::move(name));
   if (!source) return fail(source.error());
   const step::File* file = (*source)->step_file();
-  if ((*source)->surfaces().empty() && (file == nullptr || step::other_surfaces(*file).empty())) {
+  const bool nothing = (*source)->surfaces().empty() && (*source)->curves().empty();
+  if (nothing && (file == nullptr || step::other_surfaces(*file).empty())) {
     const auto& unreadable = (*source)->unreadable();
     if (!unreadable.empty()) return fail(unreadable.front().reason);
     return fail({ErrorKind::input,

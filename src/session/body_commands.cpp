@@ -156,8 +156,8 @@ Expected<void> on_body(Executor& executor, const RestCommand& c) {
 Expected<void> on_body(Executor& executor, const HoldCommand& c) {
   SceneBody& body = *executor.body();
   const HoldMode mode = c.mode.value_or(HoldMode::rows);
-  if (mode != HoldMode::rows && mode != HoldMode::free) return of_surfaces(body, "faces", R"(use "mode":"rows")");
   if (c.all.value_or(false)) return executor.execute(c);  // of all surfaces
+  if (mode != HoldMode::rows && mode != HoldMode::free) return of_surfaces(body, "faces", R"(use "mode":"rows")");
   if (c.rows < 0) return input_error(fmt::format("{} rows cannot be held", c.rows), "rows", "use 0 or more");
   body.hold_rows = mode == HoldMode::rows ? c.rows : 0;
   return check(executor);

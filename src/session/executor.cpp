@@ -19,6 +19,10 @@ Expected<SceneSurface*> Executor::selected() {
   if (document.is_fresh() && state.surfaces.empty()) {
     return input_error("there is no surface yet", {}, R"(make one first: {"do":"new","size":[1,1],"net":[8,8]})");
   }
+  if (state.surfaces.empty() && !state.bodies.empty()) {
+    return input_error("the file has no B-spline surface", document.name(),
+                       fmt::format(R"(select one of its curves: {{"do":"select","body":"{}"}})", state.bodies[0].id));
+  }
   if (state.surfaces.empty()) {
     const auto others = document.step_file() == nullptr ? std::vector<step::OtherSurface>()
                                                         : step::other_surfaces(*document.step_file());

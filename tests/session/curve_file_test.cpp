@@ -126,6 +126,18 @@ TEST(CurveFile, SurfacesAndCurvesAreSavedTogetherAndUndone) {
   EXPECT_EQ(*session.save(), bytes);
 }
 
+TEST(CurveFile, OfOneCurveAloneHasItSelected) {
+  Session made = fresh();
+  run(made, {R"({"do":"new","shape":"curve","form":"circle","radius":3})"});
+  Session session(document_of(*made.save()));
+  EXPECT_EQ(session.state().body, 0);
+  // As scripts begin: the edges of all faces are held, of which there are none.
+  run(session, {R"({"do":"hold","mode":"trim","all":true})", R"({"do":"tool","radius":1,"position":[2.6,0,0]})",
+                R"({"do":"step","count":4})"});
+  EXPECT_GT(largest_displacement(session.state().bodies[0]), 0.1);
+  EXPECT_NE(*session.save(), *made.save());
+}
+
 TEST(CurveFile, CurvesOfEdgesAreNotFree) {
   const auto document = Document::open(KNEAD_SOURCE_DIR "/samples/bonnet.step");
   ASSERT_TRUE(document) << document.error().message();

@@ -214,6 +214,26 @@ describe('the session in WebAssembly', () => {
     }
   });
 
+  it('opens files of curves alone, and writes them back where they stand', async () => {
+    const made = await load();
+    made.fresh('curves');
+    made.execute({ do: 'new', shape: 'curve', form: 'circle', radius: 3 });
+    made.execute({ do: 'new', shape: 'curve', size: 5, net: 8, name: 'rail' });
+    const bytes = made.save();
+    const engine = await load();
+    engine.openStep(bytes, 'curves.step');
+    expect(engine.state().surfaces).toHaveLength(0);
+    expect(engine.state().bodies.map((b) => [b.name, b.moved])).toEqual([['circle', 0], ['rail', 0]]);
+    expect(engine.save()).toEqual(bytes);
+    expect(engine.bodyPicture(1).lines.length).toBeGreaterThan(6);
+    engine.execute({ do: 'select', body: engine.state().bodies[1]!.id });
+    engine.execute({ do: 'points', which: [3], by: [0, 0, 1] });
+    const again = await load();
+    again.openStep(engine.save(), 'curves.step');
+    expect(Array.from(again.bodyPicture(1).net)).toEqual(Array.from(engine.bodyPicture(1).net));
+    expect(() => engine.execute({ do: 'points', rows_u: [0], by: [0, 0, 1] })).toThrow(EngineError);
+  });
+
   it('measures pictures from the middle of a first surface that is far away', async () => {
     const engine = await load();
     engine.fresh('far');

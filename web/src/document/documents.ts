@@ -283,8 +283,11 @@ export class Documents {
   /** A single surface is made ready to sculpt; among several the user chooses. */
   private async firstLook(): Promise<void> {
     const { host } = this;
-    const surfaces = host.state!.surfaces;
-    if (surfaces.length === 0) {
+    const { surfaces, bodies, body } = host.state!;
+    if (surfaces.length === 0 && bodies.length > 0) {
+      const text = `${bodies.length} curves and no spline surface: choose a curve in the list of surfaces.`;
+      host.notify({ kind: 'info', text: body === null ? text : 'The file’s only curve is selected: put a tool beside it, and step.' });
+    } else if (surfaces.length === 0) {
       host.notify({ kind: 'info', text: 'None of the faces is a spline surface yet: click one to make it one.' });
     } else if (surfaces.length === 1) {
       await makeReady(host, 0, true);
