@@ -2,7 +2,7 @@
 # The work is done by CMake presets (CMakePresets.json) and the scripts in scripts/.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run studio test test-studio asan noexcept wasm format format-check lint check-long bench bench-studio figures examples clean
+.PHONY: help setup build run studio test test-studio asan noexcept wasm format format-check lint check-long bench bench-compare instructions bench-studio figures examples clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -48,6 +48,12 @@ check-long: ## The checks that take longer than CI should
 
 bench: ## Build and run the benchmarks
 	@scripts/bench.sh
+
+bench-compare: ## Fail where this commit is slower than BASE=<commit>
+	@scripts/bench_compare.sh "$(BASE)" $(if $(FILTER),"$(FILTER)")
+
+instructions: ## Count the instructions of key kernels, fail where they differ from bench/instructions.json
+	@scripts/instructions.sh
 
 bench-studio: ## Time the studio's steps, in node and in headless Chromium
 	@scripts/bench_studio.sh

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages a goal needs, and only those that are missing.
-#   scripts/setup.sh build | test | sanitizers | bench | format | lint | wasm | studio | web
+#   scripts/setup.sh build | test | sanitizers | bench | instructions | format | lint | wasm | studio | web
 set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev libpng-dev libjpeg62-turbo-dev)
@@ -24,12 +24,13 @@ case "${1:-}" in
   test) needed=("${build[@]}" "${tests[@]}") ;;
   sanitizers) needed=("${build[@]}" "${tests[@]}" "${sanitizers[@]}") ;;
   bench) needed=("${build[@]}" libbenchmark-dev "${peers[@]}") ;;
+  instructions) needed=("${build[@]}" libbenchmark-dev valgrind) ;;
   format) needed=(clang-format) ;;
   wasm) needed=("${build[@]}" "${wasm[@]}") ;;
   studio) needed=("${build[@]}" "${studio[@]}") ;;
   web) needed=("${web[@]}") ;;
   lint) needed=("${build[@]}" "${tests[@]}" clang-tidy-19) ;;
-  *) echo "usage: scripts/setup.sh build|test|sanitizers|bench|format|lint|wasm|studio|web" >&2; exit 2 ;;
+  *) echo "usage: scripts/setup.sh build|test|sanitizers|bench|instructions|format|lint|wasm|studio|web" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -18,6 +18,7 @@
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "outputs.hpp"
+#include "parts.hpp"
 #include "picture.hpp"
 #include "run_script.hpp"
 

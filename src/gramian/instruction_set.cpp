@@ -1,5 +1,7 @@
 #include "knead/gramian/instruction_set.hpp"
 
+#include <cstdlib>
+
 #include "simd/kernels.hpp"
 #include "simd/select.hpp"
 
@@ -45,6 +47,18 @@ std::vector<InstructionSet> find_available() {
   return sets;
 }
 
+InstructionSet find_best() {
+  const std::vector<InstructionSet>& sets = available_instruction_sets();
+#ifndef __wasm__  // a module has no environment, and one set
+  if (const char* wanted = std::getenv("KNEAD_INSTRUCTION_SET")) {
+    for (const InstructionSet set : sets) {
+      if (name(set) == wanted) return set;
+    }
+  }
+#endif
+  return sets.back();
+}
+
 }  // namespace
 
 std::string_view name(InstructionSet set) {
@@ -66,7 +80,10 @@ const std::vector<InstructionSet>& available_instruction_sets() {
   return sets;
 }
 
-InstructionSet best_instruction_set() { return available_instruction_sets().back(); }
+InstructionSet best_instruction_set() {
+  static const InstructionSet best = find_best();
+  return best;
+}
 
 const detail::GramianKernels& detail::kernels_of(InstructionSet set) {
   const GramianKernels* kernels = compiled(set);

@@ -19,7 +19,8 @@ enum class InstructionSet {
 /// Those that this build contains and this machine can run, slowest first; never empty.
 [[nodiscard]] const std::vector<InstructionSet>& available_instruction_sets();
 
-/// The fastest available one; the default.
+/// The default of all kernels: the fastest available one, or the available one that the environment variable
+/// KNEAD_INSTRUCTION_SET names when it is first asked for. For measurements: results do not depend on it.
 [[nodiscard]] InstructionSet best_instruction_set();
 
 }  // namespace knead
