@@ -239,7 +239,7 @@ NetOperator<D> step_operator(const ActiveSettings<D>& settings, const Assembly<D
 
 /// A⁻¹ on the free unknowns.
 template <int D>
-Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space, const ActiveSettings<D>& settings) {
+Expected<ConstrainedCholesky> factor(SparseMatrix&& a, ConstraintSpace space, const ActiveSettings<D>& settings) {
   const bool undamped =
       settings.evolution == Evolution::stationary || (settings.evolution == Evolution::acm && settings.lambda == 0);
   // Such a displacement costs no energy: there would be no equilibrium.
@@ -247,7 +247,7 @@ Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace spac
     return numerical_error("nothing holds the model in place, so it has no position of balance", "evolve",
                            "hold an edge or pin points, or use another mode or a positive lambda");
   }
-  auto inverse = ConstrainedCholesky::factor(a, std::move(space));
+  auto inverse = ConstrainedCholesky::factor(std::move(a), std::move(space));
   if (inverse || !undamped || inverse.error().kind != ErrorKind::numerical) return inverse;
   Error error = inverse.error();
   error.remedy =

@@ -45,8 +45,15 @@ class NetOperator {
     SparseMatrix sum(size_, size_);
     if (std::ranges::all_of(blocks_, [this](const Block& b) { return b.stiffness.size() == size_; })) {
       for (const Block& block : blocks_) {
-        const SparseMatrix part = block.stiffness.assemble();
-        sum = sum.nonZeros() == 0 ? SparseMatrix(block.factor * part) : SparseMatrix(sum + block.factor * part);
+        SparseMatrix part = block.stiffness.assemble();
+        if (sum.nonZeros() == 0) {
+          part.coeffs() *= block.factor;
+          sum.swap(part);
+        } else if (same_pattern(sum, part)) {
+          sum.coeffs() += block.factor * part.coeffs();
+        } else {
+          sum = SparseMatrix(sum + block.factor * part);
+        }
       }
     } else {
       std::vector<Eigen::Triplet<double>> entries;
@@ -54,9 +61,9 @@ class NetOperator {
       sum.setFromTriplets(entries.begin(), entries.end());
     }
     if (identity_ == 0) return sum;
-    SparseMatrix identity(size_, size_);
-    identity.setIdentity();
-    return sum + identity_ * identity;
+    if (sum.nonZeros() == 0) sum.setIdentity(), sum.coeffs().setZero();
+    sum.diagonal() += Eigen::VectorXd::Constant(size_, identity_);
+    return sum;
   }
 
  private:
@@ -65,6 +72,12 @@ class NetOperator {
     double factor;
     Stiffness<D> stiffness;
   };
+
+  static bool same_pattern(const SparseMatrix& a, const SparseMatrix& b) {
+    return a.nonZeros() == b.nonZeros() &&
+           std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1, b.outerIndexPtr()) &&
+           std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
+  }
 
   static void append(const Block& block, std::vector<Eigen::Triplet<double>>& entries) {
     const SparseMatrix part = block.stiffness.assemble();

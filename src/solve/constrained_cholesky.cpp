@@ -5,12 +5,13 @@
 namespace knead {
 namespace {
 
-/// Solves for a known smooth displacement, which an ill-conditioned matrix reproduces worst, since the energy hardly
-/// resists it. This also detects a singular matrix that passed the factorisation by rounding.
-Expected<void> check_digits(const SparseMatrix& reduced, const SparseCholesky& cholesky) {
+/// A known smooth displacement, which an ill-conditioned matrix reproduces worst, since the energy hardly resists it.
+Points known_displacement(Eigen::Index rows) { return Points::Ones(rows, 3); }
+
+/// Solves for it. This also detects a singular matrix that passed the factorisation by rounding.
+Expected<void> check_digits(const SparseCholesky& cholesky, const Points& forces) {
   constexpr double tolerance = 1e-3;
-  const Points known = Points::Ones(reduced.rows(), 3);
-  const double error = (cholesky.solve(Points(reduced * known)) - known).cwiseAbs().maxCoeff();
+  const double error = (cholesky.solve(forces) - known_displacement(forces.rows())).cwiseAbs().maxCoeff();
   if (error <= tolerance) return {};
   return numerical_error(
       fmt::format("the system matrix is too close to singular (a known solution is missed by {:.1e})", error),
@@ -19,16 +20,22 @@ Expected<void> check_digits(const SparseMatrix& reduced, const SparseCholesky& c
 
 }  // namespace
 
-Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a, ConstraintSpace space) {
+Expected<ConstrainedCholesky> ConstrainedCholesky::factor(SparseMatrix&& a, ConstraintSpace space) {
   std::optional<SparseCholesky> cholesky;
   if (space.free_count() > 0) {
-    const SparseMatrix reduced = space.restrict(a);
-    auto factored = SparseCholesky::factor(reduced);
+    SparseMatrix reduced = space.restrict(a);
+    SparseMatrix().swap(a);
+    const Points forces = reduced * known_displacement(reduced.rows());
+    auto factored = SparseCholesky::factor(std::move(reduced));
     if (!factored) return std::unexpected(factored.error());
-    if (auto checked = check_digits(reduced, *factored); !checked) return std::unexpected(checked.error());
+    if (auto checked = check_digits(*factored, forces); !checked) return std::unexpected(checked.error());
     cholesky = std::move(*factored);
   }
   return ConstrainedCholesky(std::move(space), std::move(cholesky));
+}
+
+Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a, ConstraintSpace space) {
+  return factor(SparseMatrix(a), std::move(space));
 }
 
 ConstrainedCholesky::Part ConstrainedCholesky::part(std::vector<int> points) const {

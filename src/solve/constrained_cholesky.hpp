@@ -14,6 +14,8 @@ class ConstrainedCholesky {
   /// Factors Tᵀ A T and checks that solving for a known displacement, the same at every independent unknown, reproduces
   /// it to 1e-3. Errors (numerical): not positive definite, or too close to singular for the check.
   [[nodiscard]] static Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space);
+  /// The same where A is needed no longer: it is emptied before the factor is made.
+  [[nodiscard]] static Expected<ConstrainedCholesky> factor(SparseMatrix&& a, ConstraintSpace space);
 
   /// The X = T y that solves Tᵀ A X = Tᵀ B, for B of N × 3. Cost: O(nonzeros of the factor).
   [[nodiscard]] Points solve(const Points& b) const;

@@ -297,10 +297,33 @@ Points ConstraintSpace::lumped(const Points& b) const {
   return result;
 }
 
+namespace {
+
+/// The rows and columns of some unknowns, ascending.
+SparseMatrix selected(const SparseMatrix& a, const std::vector<int>& unknowns) {
+  std::vector<int> place(static_cast<std::size_t>(a.rows()), -1);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) place[static_cast<std::size_t>(unknowns[k])] = static_cast<int>(k);
+  const auto size = static_cast<Eigen::Index>(unknowns.size());
+  SparseMatrix result(size, size);
+  result.reserve(a.nonZeros());
+  for (Eigen::Index k = 0; k < size; ++k) {
+    result.startVec(k);
+    for (SparseMatrix::InnerIterator it(a, unknowns[static_cast<std::size_t>(k)]); it; ++it) {
+      const int row = place[static_cast<std::size_t>(it.row())];
+      if (row >= 0) result.insertBack(row, k) = it.value();
+    }
+  }
+  result.finalize();
+  return result;
+}
+
+}  // namespace
+
 SparseMatrix ConstraintSpace::restrict(const SparseMatrix& a) const {
   assert(a.rows() == size_ && a.cols() == size_);
   const int copies = coupled_ ? 3 : 1;
   if (free_count() == copies * size_ && !coupled_) return a;
+  if (!coupled_ && rows_.nonZeros() == 0) return selected(a, free_);
   SparseMatrix full = a;
   if (coupled_) {  // A ⊗ I
     std::vector<Eigen::Triplet<double>> entries;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,9 +23,13 @@ class Panels {
   static constexpr int widest = 4;
 
   Panels() = default;
-  /// \param lower L, columns sorted, diagonal first and not zero.
+  /// The L of A = L Lᵀ, made in place: each panel takes from A's entries the products of those before it that reach it,
+  /// so that L is stored once and A beside it.
+  /// \param lower the lower triangle of A, in the order in which it is to be factored, columns in any order of rows
   /// \param set the fastest instruction set to use; all give the same bits.
-  explicit Panels(const SparseMatrix& lower, InstructionSet set = best_instruction_set());
+  /// None: A is not positive definite or not finite.
+  [[nodiscard]] static std::optional<Panels> factor(const SparseMatrix& lower,
+                                                    InstructionSet set = best_instruction_set());
 
   /// The panels involved if the right side is zero except in these rows and the solution is needed only there,
   /// ascending.
@@ -48,17 +55,23 @@ class Panels {
   struct Panel {
     int first, width;  // columns
     int row, rows;     // of those below, in rows_
-    int value;         // in values_: the triangle row by row with 1 / L_jj on its diagonal, then the rows below
+    double* value;     // the triangle row by row with 1 / L_jj on its diagonal, then the rows below
   };
 
-  /// Copies the columns of a panel.
-  void fill(const Panel& panel, const SparseMatrix& lower);
+  class Making;
+  /// Divides L into panels, which have no values yet.
+  void divide(const SparseMatrix& lower);
+  /// Memory for them, zero.
+  void allocate();
+  [[nodiscard]] std::span<const int> below(const Panel& panel) const {
+    return std::span(rows_).subspan(static_cast<std::size_t>(panel.row), static_cast<std::size_t>(panel.rows));
+  }
 
   const detail::PanelKernels* kernels_ = nullptr;
   std::vector<Panel> panels_;
   std::vector<int> all_, panel_of_;  // 0, 1, … and the panel of every column
   std::vector<int> rows_;
-  std::vector<double> values_;
+  std::vector<std::unique_ptr<double[]>> values_;  // in pieces, which fit where what they are made of has been
 };
 
 }  // namespace knead

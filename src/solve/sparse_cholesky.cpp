@@ -1,7 +1,6 @@
 #include "knead/solve/sparse_cholesky.hpp"
 
-#include <Eigen/SparseCholesky>
-#include <cmath>
+#include <Eigen/OrderingMethods>
 #include <cstdint>
 
 #include "panels.hpp"
@@ -13,22 +12,30 @@ struct SparseCholesky::Factor {
   Eigen::VectorXi order;  // order[i] = position of unknown i in the reordered system
 };
 
-Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) {
-  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower> llt;
-  llt.compute(a);
-  const auto not_positive = [] {
+Expected<SparseCholesky> SparseCholesky::factor(SparseMatrix&& a) {
+  using Order = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+  Order inverse;
+  {
+    const SparseMatrix whole = a.selfadjointView<Eigen::Lower>();
+    Eigen::AMDOrdering<int>()(whole, inverse);
+  }
+  const Order order = inverse.inverse();
+  SparseMatrix lower(a.rows(), a.cols());
+  lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(order);
+  const auto size = static_cast<int>(a.rows());
+  SparseMatrix().swap(a);
+  auto panels = Panels::factor(lower);
+  if (!panels) {
     return numerical_error("the system matrix is not positive definite", "Cholesky factorisation",
                            "hold more control points, or use a larger lambda or positive material coefficients");
-  };
-  if (llt.info() != Eigen::Success) return not_positive();
-  const SparseMatrix& lower = llt.matrixL().nestedExpression();  // not copied: it is the largest thing there is
-  // A NaN passes the sign test of the factorisation and shows in L.
-  if (!Eigen::Map<const Eigen::ArrayXd>(lower.valuePtr(), lower.nonZeros()).isFinite().all()) return not_positive();
+  }
   auto factor = std::make_shared<Factor>();
-  factor->order = llt.permutationP().indices();
-  factor->panels = Panels(lower);
-  return SparseCholesky(std::move(factor), static_cast<int>(a.rows()));
+  factor->order = order.indices();
+  factor->panels = std::move(*panels);
+  return SparseCholesky(std::move(factor), size);
 }
+
+Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) { return factor(SparseMatrix(a)); }
 
 namespace {
 

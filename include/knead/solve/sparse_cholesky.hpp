@@ -13,6 +13,8 @@ class SparseCholesky {
  public:
   /// Uses the lower triangle of A. Error (numerical): A is not positive definite or not finite.
   [[nodiscard]] static Expected<SparseCholesky> factor(const SparseMatrix& a);
+  /// The same where A is needed no longer: it is emptied before L is made, which takes several times its memory.
+  [[nodiscard]] static Expected<SparseCholesky> factor(SparseMatrix&& a);
 
   /// X with A X = B, three columns at once. Cost: O(nonzeros of L). const and thread-safe.
   [[nodiscard]] Points solve(const Points& b) const;
