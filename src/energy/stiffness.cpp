@@ -147,15 +147,18 @@ void Stiffness<D>::refresh(SparseMatrix& matrix) const {
         weights[column * kinds + static_cast<std::size_t>(term.factor[last])] += product;
       }
     }
-    for (int k = 0; k < n; ++k) {
-      const std::ptrdiff_t length = pattern.length(last, k);
+    for (int k = 0; k < n;) {
+      // Away from the ends all rows are alike.
+      const int alike = k == p && n > 2 * p ? n - 2 * p : 1;
+      const std::ptrdiff_t length = pattern.length(last, k), values = alike * count * length;
       const double* from = band.data() + static_cast<std::ptrdiff_t>(k) * width + pattern.first(last, k) - k + p;
-      const bool past_the_end = behind - to < count * length + spare;
-      if (past_the_end) end.resize(static_cast<std::size_t>(count * length + spare));
-      kernels.write_runs(from, stride, weights.data(), static_cast<std::ptrdiff_t>(kinds), count, length,
+      const bool past_the_end = behind - to < values + spare;
+      if (past_the_end) end.resize(static_cast<std::size_t>(values + spare));
+      kernels.write_runs(from, stride, width, alike, weights.data(), static_cast<std::ptrdiff_t>(kinds), count, length,
                          past_the_end ? end.data() : to);
-      if (past_the_end) std::copy_n(end.data(), count * length, to);
-      to += count * length;
+      if (past_the_end) std::copy_n(end.data(), values, to);
+      to += values;
+      k += alike;
     }
   }
 }

@@ -50,55 +50,79 @@ class TensorProduct {
 
   /// \param p the degree of the last direction.
   TensorProduct(std::span<const int> net, int p)
-      : kernels_(detail::tensor_kernels()), net_(net), margin_(coordinates * p) {
+      : kernels_(detail::tensor_kernels()), net_(net), margin_(in_vectors(coordinates * p)) {
     std::ptrdiff_t slab = coordinates;
     inner_.resize(net.size());
     for (std::size_t d = net.size(); d-- > 0;) {
       inner_[d] = slab;
       slab *= net[d];
     }
-    padded_.resize(static_cast<std::size_t>(coordinates * net.back() + 2 * margin_), 0.0);
+    line_ = in_vectors(coordinates * net.back() + 2 * margin_);
+    padded_.resize(static_cast<std::size_t>(line_), 0.0);
   }
 
   /// y += the product of one slab x of direction d by the nodes of that direction.
   void add(std::size_t d, const std::vector<Node>& nodes, const double* x, double* y) {
     if (d + 1 == net_.size()) {
-      std::copy_n(x, coordinates * net_[d], line());
-      return add_line(nodes.front().band.front(), y);
+      std::copy_n(x, coordinates * net_[d], padded_.data() + margin_);
+      return add_lines(nodes.front().band.front(), padded_.data(), 1, y);
     }
+    if (d + 2 == net_.size()) return add_by_lines(nodes, d, x, y);
     const std::ptrdiff_t inner = inner_[d];
-    const bool makes_lines = d + 2 == net_.size();
-    Aligned slab(static_cast<std::size_t>(makes_lines ? 0 : inner));
-    double* const combined = makes_lines ? line() : slab.data();
+    Aligned slab(static_cast<std::size_t>(inner));
     std::vector<double> factors;
     for (int i = 0; i < net_[d]; ++i) {
       for (const Node& node : nodes) {
         const int p = node.matrix->half_bandwidth(), first = std::max(0, i - p), end = std::min(net_[d], i + p + 1);
         factors.clear();
         for (int j = first; j < end; ++j) factors.push_back((*node.matrix)(i, j));
-        kernels_.combine(x + first * inner, inner, factors.data(), end - first, inner, combined);
-        if (makes_lines) {
-          add_line(node.next.front().band.front(), y + i * inner);
-        } else {
-          add(d + 1, node.next, combined, y + i * inner);
-        }
+        kernels_.combine(x + first * inner, inner, factors.data(), 1, end - first, inner, slab.data(), 0);
+        add(d + 1, node.next, slab.data(), y + i * inner);
       }
     }
   }
 
  private:
-  /// The points of one line of the last direction, with zeros before and behind.
-  double* line() { return padded_.data() + margin_; }
-  void add_line(const PointBand& band, double* y) {
-    kernels_.add_band(band.diagonals.data(), band.length, 2 * band.half_bandwidth + 1, coordinates, padded_.data(),
-                      band.length, y);
+  /// Rounded up, so that what follows is as aligned as what goes before.
+  static std::ptrdiff_t in_vectors(std::ptrdiff_t count) { return (count + 7) / 8 * 8; }
+
+  /// The same for the last direction but one, some lines at a time: each is combined by all nodes at once, and each
+  /// node's band is read once for all of them.
+  void add_by_lines(const std::vector<Node>& nodes, std::size_t d, const double* x, double* y) {
+    constexpr auto most = static_cast<int>(detail::TensorKernels::lines_at_once);
+    const std::ptrdiff_t inner = inner_[d], node_stride = most * line_;
+    const auto kinds = static_cast<std::ptrdiff_t>(nodes.size());
+    padded_.resize(std::max(padded_.size(), static_cast<std::size_t>(kinds * node_stride)), 0.0);
+    const int p = nodes.front().matrix->half_bandwidth();
+    std::vector<double> factors;
+    for (int begin = 0; begin < net_[d]; begin += most) {
+      const int lines = std::min(most, net_[d] - begin);
+      for (int i = begin; i < begin + lines; ++i) {
+        const int first = std::max(0, i - p), end = std::min(net_[d], i + p + 1);
+        factors.clear();
+        for (int j = first; j < end; ++j) {
+          for (const Node& node : nodes) factors.push_back((*node.matrix)(i, j));
+        }
+        kernels_.combine(x + first * inner, inner, factors.data(), kinds, end - first, inner,
+                         padded_.data() + (i - begin) * line_ + margin_, node_stride);
+      }
+      for (std::ptrdiff_t g = 0; g < kinds; ++g) {
+        add_lines(nodes[static_cast<std::size_t>(g)].next.front().band.front(), padded_.data() + g * node_stride, lines,
+                  y + begin * inner);
+      }
+    }
+  }
+  /// Of lines with zeros before and behind.
+  void add_lines(const PointBand& band, const double* x, int lines, double* y) {
+    kernels_.add_band(band.diagonals.data(), band.length, 2 * band.half_bandwidth + 1, coordinates, band.length,
+                      x + margin_ - coordinates * band.half_bandwidth, line_, lines, y, band.length);
   }
 
   const detail::TensorKernels& kernels_;
   std::span<const int> net_;
   std::vector<std::ptrdiff_t> inner_;  // numbers per index of a direction
-  std::ptrdiff_t margin_;
-  Aligned padded_;
+  std::ptrdiff_t margin_, line_;       // zeros before and behind the points of a line, and all of it
+  Aligned padded_;                     // lines
 };
 
 }  // namespace

@@ -101,29 +101,41 @@ TEST(Stiffness, SymmetricProductsGatherRows) {
 }
 
 TEST(TensorKernels, GiveTheSameBitsByEveryInstructionSet) {
-  constexpr std::ptrdiff_t length = 77, count = 5, spare = detail::TensorKernels::spare;
-  const Eigen::VectorXd x = Eigen::VectorXd::Random(count * (length + 3)), f = Eigen::VectorXd::Random(count * length);
+  constexpr std::ptrdiff_t length = 77, count = 5, spare = detail::TensorKernels::spare, most = 7;
+  const Eigen::VectorXd x = Eigen::VectorXd::Random(most * (count + 1) * (length + 3)),
+                        f = Eigen::VectorXd::Random(count * length);
   const auto& reference = detail::tensor_kernels(InstructionSet::vector128);
   for (const InstructionSet set : available_instruction_sets()) {
     const auto& kernels = detail::tensor_kernels(set);
-    Eigen::VectorXd expected = Eigen::VectorXd::Zero(length), y = expected;
-    reference.combine(x.data(), length, f.data(), count, length, expected.data());
-    kernels.combine(x.data(), length, f.data(), count, length, y.data());
-    EXPECT_EQ(y, expected) << name(set);
-    reference.add_band(f.data(), length, count, 3, x.data(), length, expected.data());
-    kernels.add_band(f.data(), length, count, 3, x.data(), length, y.data());
-    EXPECT_EQ(y, expected) << name(set);
+    for (std::ptrdiff_t lines = 1; lines <= most; ++lines) {
+      constexpr std::ptrdiff_t apart = length + 2;
+      Eigen::VectorXd expected = Eigen::VectorXd::Zero(most * apart), y = expected;
+      reference.combine(x.data(), length, f.data(), lines, count, length, expected.data(), apart);
+      kernels.combine(x.data(), length, f.data(), lines, count, length, y.data(), apart);
+      EXPECT_EQ(y, expected) << name(set) << lines;
+      double sum = 0, more = expected[(lines - 1) * apart + 70];
+      for (std::ptrdiff_t k = 0; k < count; ++k) sum += f[k * lines + lines - 1] * x[k * length + 70];
+      EXPECT_EQ(more, sum);
+      reference.add_band(f.data(), length, count, 3, length, x.data(), apart, lines, expected.data(), apart);
+      kernels.add_band(f.data(), length, count, 3, length, x.data(), apart, lines, y.data(), apart);
+      EXPECT_EQ(y, expected) << name(set) << lines;
+      for (std::ptrdiff_t k = 0; k < count; ++k) more += f[k * length + 70] * x[(lines - 1) * apart + 70 + 3 * k];
+      EXPECT_EQ(expected[(lines - 1) * apart + 70], more);
+      EXPECT_EQ(expected[lines * apart - 1], 0);  // nothing between lines
+    }
     for (const std::ptrdiff_t run : {1, 3, 7, 11, 15, 41}) {
       for (const std::ptrdiff_t kinds : {1, 3, 5, 7}) {
-        const std::ptrdiff_t columns = 4;
-        Eigen::VectorXd runs = Eigen::VectorXd::Zero(columns * run + spare), written = runs;
-        reference.write_runs(x.data(), 45, f.data(), kinds, columns, run, runs.data());
-        kernels.write_runs(x.data(), 45, f.data(), kinds, columns, run, written.data());
-        EXPECT_EQ(written.head(columns * run), runs.head(columns * run)) << name(set) << run << kinds;
-        for (std::ptrdiff_t c = 0; c < run; ++c) {
-          double sum = 0;
-          for (std::ptrdiff_t g = 0; g < kinds; ++g) sum += f[3 * kinds + g] * x[g * 45 + c];
-          EXPECT_EQ(runs[3 * run + c], sum);
+        const std::ptrdiff_t columns = 4, rows = 3, values = rows * columns * run;
+        Eigen::VectorXd runs = Eigen::VectorXd::Zero(values + spare), written = runs;
+        reference.write_runs(x.data(), 45, 7, rows, f.data(), kinds, columns, run, runs.data());
+        kernels.write_runs(x.data(), 45, 7, rows, f.data(), kinds, columns, run, written.data());
+        EXPECT_EQ(written.head(values), runs.head(values)) << name(set) << run << kinds;
+        for (std::ptrdiff_t row = 0; row < rows; ++row) {
+          for (std::ptrdiff_t c = 0; c < run; ++c) {
+            double sum = 0;
+            for (std::ptrdiff_t g = 0; g < kinds; ++g) sum += f[3 * kinds + g] * x[g * 45 + 7 * row + c];
+            EXPECT_EQ(runs[(columns * row + 3) * run + c], sum);
+          }
         }
       }
     }

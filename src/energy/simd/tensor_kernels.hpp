@@ -9,16 +9,22 @@ namespace knead::detail {
 /// The inner loops of tensor products of band matrices, compiled for one instruction set. All give the same bits: the
 /// same operations in the same order, nothing fused.
 struct TensorKernels {
-  /// y[m] = Σ_k factors[k] x[k · stride + m], 0 <= m < length.
-  void (*combine)(const double* x, std::ptrdiff_t stride, const double* factors, std::ptrdiff_t count,
-                  std::ptrdiff_t length, double* y);
-  /// y[m] += Σ_k diagonals[k · stride + m] x[m + k · shift], 0 <= m < length.
+  /// y[g · y_stride + m] = Σ_k factors[k · kinds + g] x[k · stride + m], 0 <= m < length, 0 <= g < kinds: x is read
+  /// once for three kinds.
+  void (*combine)(const double* x, std::ptrdiff_t stride, const double* factors, std::ptrdiff_t kinds,
+                  std::ptrdiff_t count, std::ptrdiff_t length, double* y, std::ptrdiff_t y_stride);
+  /// y[l · y_stride + m] += Σ_k diagonals[k · stride + m] x[l · x_stride + m + k · shift], 0 <= m < length,
+  /// 0 <= l < lines: the diagonals are read once for `lines_at_once` lines.
   void (*add_band)(const double* diagonals, std::ptrdiff_t stride, std::ptrdiff_t count, std::ptrdiff_t shift,
-                   const double* x, std::ptrdiff_t length, double* y);
-  /// For every column of `columns`: to[c] = Σ_g weights[g] band[g · stride + c], 0 <= c < length; the next column's
-  /// weights are `kinds` further, its values follow. Writes up to `spare` values too many after the last column.
-  void (*write_runs)(const double* band, std::ptrdiff_t stride, const double* weights, std::ptrdiff_t kinds,
-                     std::ptrdiff_t columns, std::ptrdiff_t length, double* to);
+                   std::ptrdiff_t length, const double* x, std::ptrdiff_t x_stride, std::ptrdiff_t lines, double* y,
+                   std::ptrdiff_t y_stride);
+  static constexpr std::ptrdiff_t lines_at_once = 4;
+  /// For every row of `rows` and in it every column of `columns`: to[c] = Σ_g weights[g] band[g · stride + c],
+  /// 0 <= c < length; the next column's weights are `kinds` further, the next row has the same and its band is `step`
+  /// further; values follow each other. Writes up to `spare` values too many after the last column.
+  void (*write_runs)(const double* band, std::ptrdiff_t stride, std::ptrdiff_t step, std::ptrdiff_t rows,
+                     const double* weights, std::ptrdiff_t kinds, std::ptrdiff_t columns, std::ptrdiff_t length,
+                     double* to);
   static constexpr std::ptrdiff_t spare = 8;  ///< `band` is read as far beyond a run, too
 };
 
