@@ -1,5 +1,7 @@
-// Evaluation beside Open CASCADE's adaptor with its cache, by knead's evaluator that the caller keeps: a bicubic net of
-// 32 × 32 on 500 × 500 points, one thread.
+// Evaluation beside Open CASCADE, one thread, a bicubic net of 32 × 32: 500 × 500 points beside its adaptor with its
+// cache, by knead's evaluator that the caller keeps; scattered points beside the faster of adaptor and surface; closest
+// points beside its projection, prepared once as ours is.
+#include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <TColStd_Array1OfInteger.hxx>
@@ -9,7 +11,9 @@
 #include <array>
 #include <cstdlib>
 #include <gp_Vec.hxx>
+#include <random>
 
+#include "knead/spline/closest_point.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "medians.hpp"
 #include "sample_surface.hpp"
@@ -109,9 +113,83 @@ void evaluation(benchmark::State& state, bool rational, int order) {
   if ((reference[0] - result.derivatives[0]).cwiseAbs().maxCoeff() > 1e-10) std::abort();
 }
 
+/// Where neighbours in the list are none on the surface. Points, with `order` 1 first derivatives, too.
+void scattered(benchmark::State& state, bool rational, int order) {
+  constexpr int count = 20000;
+  const Surface surface = bench::sample_surface(rational);
+  const Handle(Geom_BSplineSurface) theirs = in_occt(surface);
+  const GeomAdaptor_Surface adaptor(theirs);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> anywhere(0, 1);
+  Parameters<2> at(count, 2);
+  for (int i = 0; i < count; ++i) at.row(i) << anywhere(random), anywhere(random);
+  Points reference(count, 3);
+  gp_Pnt p;
+  gp_Vec du, dv;
+  const auto run = [&](const auto& evaluator) {
+    for (Eigen::Index i = 0; i < count; ++i) {
+      order == 0 ? evaluator.D0(at(i, 0), at(i, 1), p) : evaluator.D1(at(i, 0), at(i, 1), p, du, dv);
+      reference.row(i) << p.X(), p.Y(), p.Z();
+      benchmark::DoNotOptimize(dv);
+    }
+  };
+  const bool cached = bench::milliseconds_of([&] { run(adaptor); }) < bench::milliseconds_of([&] { run(*theirs); });
+  Evaluation<2> result;
+  bench::beside(
+      state,
+      [&] {
+        result = std::move(*evaluate<2>(surface, at, order));
+        benchmark::DoNotOptimize(result.derivatives.back().data());
+      },
+      [&] { cached ? run(adaptor) : run(*theirs); }, bench::Ratio::times_faster);
+  if ((reference - result.points()).cwiseAbs().maxCoeff() > 1e-10) std::abort();
+}
+
+/// Of points up to a tenth of the size away.
+void closest(benchmark::State& state, bool rational) {
+  constexpr int count = 100;
+  const Surface surface = bench::sample_surface(rational);
+  const auto search = ClosestPointSearch<2>::create(surface);
+  if (!search) std::abort();
+  GeomAPI_ProjectPointOnSurf projection;
+  projection.Init(in_occt(surface), 0, 1, 0, 1, 1e-10, Extrema_ExtAlgo_Grad);
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> anywhere(0, 1);
+  std::vector<Point> from;
+  for (int i = 0; i < count; ++i) {
+    const Point on = *evaluate_point<2>(surface, {anywhere(random), anywhere(random)});
+    from.push_back(on + Point(anywhere(random) - 0.5, anywhere(random) - 0.5, 6 * anywhere(random) - 3));
+  }
+  std::vector<double> ours(count), theirs(count);
+  bench::beside(
+      state,
+      [&] {
+        for (std::size_t i = 0; i < count; ++i) ours[i] = search->nearest(from[i]).distance;
+      },
+      [&] {
+        for (std::size_t i = 0; i < count; ++i) {
+          projection.Perform(gp_Pnt(from[i].x(), from[i].y(), from[i].z()));
+          theirs[i] = projection.NbPoints() > 0 ? projection.LowerDistance() : 1e300;
+        }
+      },
+      bench::Ratio::times_faster);
+  int nearer = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (ours[i] > theirs[i] + 1e-9) std::abort();
+    if (theirs[i] > ours[i] + 1e-6) ++nearer;
+  }
+  state.counters["missed_by_occt"] = nearer;
+}
+
 BENCHMARK_CAPTURE(evaluation, points, false, 0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(evaluation, d1_normal, false, 1)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(evaluation, rational_points, true, 0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(evaluation, rational_d1_normal, true, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scattered, points, false, 0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scattered, d1, false, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scattered, rational_points, true, 0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scattered, rational_d1, true, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(closest, points, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(closest, rational, true)->Unit(benchmark::kMillisecond);
 
 }  // namespace

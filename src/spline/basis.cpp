@@ -15,23 +15,51 @@ constexpr int max_order = max_degree + 1;
 
 /// The triangle of A2.3: ndu[j][r], r <= j, holds N_{s-j+r,j}(u); ndu[r][j], r < j, the knot difference used to compute
 /// it.
-void fill_triangle(const KnotVector& knots, int span, double u, double ndu[max_order][max_order]) {
-  const int p = knots.degree();
+/// `Fixed` is the degree if known at compile time, else −1 and `p` is it.
+template <int Fixed>
+void fill_triangle(const double* knots, int p, double u, double ndu[max_order][max_order]) {
+  if constexpr (Fixed >= 0) p = Fixed;
   double left[max_order], right[max_order];
   ndu[0][0] = 1;
   for (int j = 1; j <= p; ++j) {
-    left[j] = u - knots[span + 1 - j];
-    right[j] = knots[span + j] - u;
+    left[j] = u - knots[1 - j];
+    right[j] = knots[j] - u;
     double saved = 0;
     for (int r = 0; r < j; ++r) {
       // Positive: the difference of two knots on either side of a span of positive length.
-      const double difference = knots[span + r + 1] - knots[span + 1 - j + r];
+      const double difference = knots[r + 1] - knots[1 - j + r];
       ndu[r][j] = difference;
       const double quotient = ndu[j - 1][r] / difference;
       ndu[j][r] = saved + right[r + 1] * quotient;
       saved = left[j - r] * quotient;
     }
     ndu[j][j] = saved;
+  }
+}
+
+void fill_triangle(const KnotVector& knots, int span, double u, double ndu[max_order][max_order]) {
+  const double* const here = knots.knots().data() + span;
+  const int p = knots.degree();
+  switch (p) {
+    case 2:
+      return fill_triangle<2>(here, p, u, ndu);
+    case 3:
+      return fill_triangle<3>(here, p, u, ndu);
+    default:
+      return fill_triangle<-1>(here, p, u, ndu);
+  }
+}
+
+/// N'_{s-p+r,p}, r = 0 … p: what A2.3 computes for k = 1, every reciprocal once instead of twice.
+void first_derivatives(int p, const double ndu[max_order][max_order], double* out) {
+  double before = 0;
+  for (int r = 0; r <= p; ++r) {
+    double d = before;
+    if (r < p) {
+      before = 1 / ndu[r][p] * ndu[p - 1][r];
+      d -= before;
+    }
+    out[r] = p * d;
   }
 }
 
@@ -52,6 +80,7 @@ void basis_derivatives(const KnotVector& knots, int span, double u, int order, d
   std::fill(out + width, out + static_cast<std::ptrdiff_t>(width) * (order + 1), 0.0);
 
   const int highest = std::min(order, p);
+  if (highest == 1) return first_derivatives(p, ndu, out + width);
   double a[2][max_order];
   for (int r = 0; r <= p; ++r) {
     int s1 = 0, s2 = 1;
