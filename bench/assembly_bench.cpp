@@ -16,14 +16,13 @@ namespace {
 
 using namespace knead;
 
-Stiffness<2> stiffness(int net) {
-  const KnotVector k = *KnotVector::clamped_uniform(3, net);
+Stiffness<2> stiffness(int net, int degree = 3) {
+  const KnotVector k = *KnotVector::clamped_uniform(degree, net);
   return *Stiffness<2>::create({k, k}, stretch_and_bend<2>({{1, 0.3, 0.5}, {1e-3, 2e-3, 5e-4}}));
 }
 
 /// The values of a matrix that is kept, as after a change of material.
-void assembly_over_write(benchmark::State& state) {
-  const Stiffness<2> k = stiffness(static_cast<int>(state.range(0)));
+void refresh_over_write(benchmark::State& state, const Stiffness<2>& k) {
   SparseMatrix kept = k.assemble();
   std::vector<char> bytes(static_cast<std::size_t>(kept.nonZeros()) * sizeof(double));
   int value = 0;
@@ -40,6 +39,13 @@ void assembly_over_write(benchmark::State& state) {
         benchmark::ClobberMemory();
       },
       bench::Ratio::over_reference);
+}
+
+void assembly_over_write(benchmark::State& state) {
+  refresh_over_write(state, stiffness(static_cast<int>(state.range(0))));
+}
+void assembly_of_degree(benchmark::State& state) {
+  refresh_over_write(state, stiffness(256, static_cast<int>(state.range(0))));
 }
 
 /// A new matrix with its pattern, beside new memory of its size.
@@ -93,6 +99,7 @@ void rational_over_points(benchmark::State& state) {
 }
 
 BENCHMARK(assembly_over_write)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(assembly_of_degree)->Arg(2)->Arg(5)->Unit(benchmark::kMillisecond);
 BENCHMARK(new_assembly_over_write)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(apply_beside_product)->Arg(128)->Unit(benchmark::kMillisecond);
 BENCHMARK(rational_over_points)->ArgsProduct({{2, 3, 5}, {0, 1}})->Unit(benchmark::kMillisecond);

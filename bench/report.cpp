@@ -33,6 +33,8 @@ constexpr Source sources[] = {
     {"memory.json", "contact/256", "memory_mb", "memory_mb_256"},
     {"assembly.json", "assembly_over_write/128", "ratio", "assembly_over_write_128"},
     {"assembly.json", "assembly_over_write/256", "ratio", "assembly_over_write_256"},
+    {"assembly.json", "assembly_of_degree/2", "ratio", "assembly_over_write_256_p2"},
+    {"assembly.json", "assembly_of_degree/5", "ratio", "assembly_over_write_256_p5"},
     {"assembly.json", "apply_beside_product/128", "ratio", "apply_vs_csr_128"},
     {"occt.json", "evaluation/points", "ratio", "evaluation_points_vs_occt"},
     {"occt.json", "evaluation/d1_normal", "ratio", "evaluation_d1_normal_vs_occt"},
