@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -68,9 +69,44 @@ struct SnakeResult {
 /// change its topology: it neither splits nor merges nor crosses out parts of itself (`crossings` tells). When much
 /// of a snake turns back its viscosity doubles, and it halves again while it goes on, down to γ: steep edges, at which
 /// an explicit force overshoots, do not keep it from resting. Cost of an iteration: O(control points · p²) and the
-/// image's spline at each Gauss point. Errors: those of `curve_through`; settings outside their ranges (input); a
-/// matrix that is not positive definite (numerical).
-[[nodiscard]] Expected<std::vector<SnakeResult>> run_snakes(const ImagePotential& potential, std::vector<Curve> starts,
+/// image's spline at each Gauss point.
+///
+/// They run a few iterations at a time; between, they can be looked at, and drawn by hand.
+class Snakes {
+ public:
+  /// From curves of `curve_through`, each with its settings. Errors: settings outside their ranges, other knots
+  /// (input); a matrix that is not positive definite (numerical).
+  [[nodiscard]] static Expected<Snakes> create(const ImagePotential& potential, const std::vector<Curve>& starts,
+                                               const std::vector<SnakeSettings>& settings);
+  Snakes(Snakes&&) noexcept;
+  Snakes& operator=(Snakes&&) noexcept;
+  ~Snakes();
+
+  [[nodiscard]] int count() const;
+  /// Whether all rest, on nets that follow the image, or have made their iterations.
+  [[nodiscard]] bool ended() const;
+  /// Makes so many iterations, fewer if all end: how many. In one, each snake that has not ended makes a step.
+  [[nodiscard]] Expected<int> advance(int iterations);
+
+  /// Where it is. While a finer net is tried it stays where it was.
+  [[nodiscard]] Expected<SnakeResult> result(int snake) const;
+  [[nodiscard]] const SnakeSettings& settings(int snake) const;
+  /// Other settings, say springs that follow the pointer, for a snake where it is: it wakes, and counts its iterations
+  /// anew. `control_points` and `units` are those of its net. Errors: those of `create`; there is no such snake
+  /// (input).
+  [[nodiscard]] Expected<void> change(int snake, const SnakeSettings& settings);
+  /// The same from another curve.
+  [[nodiscard]] Expected<void> replace(int snake, const Curve& curve, const SnakeSettings& settings);
+
+ private:
+  struct State;
+  explicit Snakes(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// `Snakes` from their starts until all have ended. Errors: theirs.
+[[nodiscard]] Expected<std::vector<SnakeResult>> run_snakes(const ImagePotential& potential,
+                                                            const std::vector<Curve>& starts,
                                                             const std::vector<SnakeSettings>& settings);
 
 /// Points of the contour, `per_span` for each span at equal parameters; of an open one with its end.

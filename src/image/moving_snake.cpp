@@ -1,0 +1,176 @@
+#include "moving_snake.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace knead {
+namespace {
+
+constexpr int history = 10;  // earlier places that the motion is compared with
+constexpr int highest_level = 40, patience = 20;
+constexpr double most_uneven = 2;
+
+}  // namespace
+
+Inside MovingSnake::inside(const ImagePotential& image) const {
+  Inside sum;
+  if (!settings.closed) return sum;
+  const Points v = net.at_gauss(c, 0), t = net.at_gauss(c, 1);
+  for (Eigen::Index q = 0; q < v.rows(); ++q) {
+    const double w = net.quadrature().weights[static_cast<std::size_t>(q)];
+    sum.area += w * (v(q, 0) * t(q, 1) - v(q, 1) * t(q, 0)) / 2;
+    if (image.settings().region != 0) sum.intensity += w * t(q, 1) * image.intensity_to_the_left(v(q, 0), v(q, 1));
+  }
+  return sum;
+}
+
+Inside MovingSnake::around(const ImagePotential& image, const Inside& own) const {
+  const Points v = net.at_gauss(c, 0), t = net.at_gauss(c, 1);
+  const double side = std::copysign(settings.band, own.area);
+  const auto place = [&](Eigen::Index q) {
+    const Eigen::Vector2d along = t.row(q).head<2>().normalized();
+    return Eigen::Vector2d(v(q, 0) + side * along[1], v(q, 1) - side * along[0]);
+  };
+  Inside sum{-own.area, -own.intensity};
+  Eigen::Vector2d a = place(v.rows() - 1);
+  double left = image.intensity_to_the_left(a[0], a[1]);
+  for (Eigen::Index q = 0; q < v.rows(); ++q) {
+    const Eigen::Vector2d b = place(q);
+    const double there = image.intensity_to_the_left(b[0], b[1]);
+    sum.area += (a[0] * b[1] - a[1] * b[0]) / 2;
+    sum.intensity += (left + there) / 2 * (b[1] - a[1]);
+    a = b;
+    left = there;
+  }
+  return sum;
+}
+
+bool MovingSnake::uneven() const {
+  const Eigen::VectorXd speed = net.at_gauss(c, 1).rowwise().norm();
+  return speed.maxCoeff() > most_uneven * speed.minCoeff();
+}
+
+Expected<void> MovingSnake::spread() {
+  const auto curve = net.curve(c);
+  if (!curve) return std::unexpected(curve.error());
+  auto even = fitted(polyline({*curve, true}, 8), net.breaks(), settings);
+  if (!even) return std::unexpected(even.error());
+  c = std::move(*even);
+  return {};
+}
+
+Points MovingSnake::forces(const ImagePotential& image, double side, const std::optional<Means>& means) const {
+  const Points v = net.at_gauss(c, 0), t = net.at_gauss(c, 1);
+  Points f = viscosity() * v;
+  for (Eigen::Index q = 0; q < v.rows(); ++q) {
+    const double x = v(q, 0), y = v(q, 1);
+    const auto external = image.force(x, y);
+    Eigen::Vector2d force(external[0], external[1]);
+    double pressure = settings.balloon;
+    if (means) {
+      const double grey = image.intensity(x, y), in = grey - means->inside, out = grey - means->outside;
+      pressure += image.settings().region * (out * out - in * in);
+    }
+    if (settings.closed) force += side * pressure * Eigen::Vector2d(t(q, 1), -t(q, 0));
+    for (const SnakeVolcano& volcano : settings.volcanoes) {
+      const Eigen::Vector2d away(x - volcano.at[0], y - volcano.at[1]);
+      const double distance = away.norm(), share = volcano.radius / std::max(distance, volcano.radius);
+      if (distance > 0) force += volcano.strength * share * share * away / distance;
+    }
+    f.row(q).head<2>() += force.transpose();
+  }
+  return f;
+}
+
+Expected<void> MovingSnake::step(const ImagePotential& image, double side, const std::optional<Means>& means) {
+  const Points next = net.solve(forces(image, side, means), c);
+  Points move = next - c;
+  for (Eigen::Index k = 0; k < move.rows(); ++k) {
+    const double length = move.row(k).norm();
+    if (length > 0) move.row(k) *= settings.max_move * std::tanh(length / settings.max_move) / length;
+  }
+  c += move;
+  ++iterations;
+  if (static_cast<int>(before.size()) == history) {
+    motion = std::numeric_limits<double>::infinity();
+    for (const Points& earlier : before) motion = std::min(motion, (c - earlier).cwiseAbs().rowwise().sum().maxCoeff());
+    motion *= std::ldexp(1, level);
+    resting = motion < settings.motion;
+    before.clear();
+  } else {
+    before.push_back(c);
+  }
+  if (auto done = steady(move); !done) return done;
+  const bool normal = image.settings().region != 0 || settings.balloon != 0;
+  const bool may = normal && settings.closed && settings.springs.empty() && settings.redistribute > 0;
+  const bool spreads = may && !resting && iterations % settings.redistribute == 0 && uneven();
+  return spreads ? spread() : Expected<void>{};
+}
+
+Expected<void> MovingSnake::steady(const Points& move) {
+  double onwards = 0, all = 0;  // how much of the motion goes on as before
+  if (last.rows() == move.rows()) {
+    const Eigen::VectorXd along = move.cwiseProduct(last).rowwise().sum();
+    onwards = along.sum();
+    all = along.cwiseAbs().sum();
+  }
+  const bool turned = onwards<0.5 * all, straight = onwards> 0.9 * all;
+  last = move;
+  steadily = straight ? steadily + 1 : 0;
+  int next = level;
+  if (turned && level < highest_level) ++next;
+  if (steadily >= patience && level > 0) --next, steadily = 0;
+  if (next == level) return {};
+  level = next;
+  SnakeSettings slower = settings;
+  slower.gamma = viscosity();
+  auto made = SnakeNet::create(net.breaks(), slower);
+  if (!made) return std::unexpected(made.error());
+  net = std::move(*made);
+  return {};
+}
+
+Expected<MovingSnake> moved_to(const MovingSnake& snake, std::span<const double> breaks) {
+  const auto curve = snake.net.curve(snake.c);
+  if (!curve) return std::unexpected(curve.error());
+  auto c = projected(*curve, breaks, snake.settings);
+  if (!c) return std::unexpected(c.error());
+  auto net = SnakeNet::create(breaks, snake.settings);
+  if (!net) return std::unexpected(net.error());
+  return MovingSnake{snake.settings, std::move(*net), std::move(*c), {}, snake.iterations};
+}
+
+std::vector<double> halved(const std::vector<double>& breaks, const std::vector<bool>& marked) {
+  std::vector<double> result;
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    result.push_back(breaks[k]);
+    if (marked[k]) result.push_back(std::midpoint(breaks[k], breaks[k + 1]));
+  }
+  result.push_back(breaks.back());
+  return result;
+}
+
+std::vector<bool> spans_that_differ(const MovingSnake& coarse, const MovingSnake& fine) {
+  const auto& at = coarse.net.quadrature().parameters;
+  std::vector<bool> marked(coarse.net.breaks().size() - 1, false);
+  const auto basis = tabulate_basis(fine.net.knots(), at, 0);
+  if (!basis) return marked;
+  const Points v = coarse.net.at_gauss(coarse.c, 0), t = coarse.net.at_gauss(coarse.c, 1);
+  const auto per_span = static_cast<std::size_t>(coarse.net.points_per_span());
+  for (std::size_t q = 0; q < at.size(); ++q) {
+    Eigen::RowVector3d there = Eigen::RowVector3d::Zero();
+    const int first = basis->first[q];
+    for (int r = 0; r <= basis->degree; ++r) {
+      there += basis->row(static_cast<int>(q), 0)[r] * fine.c.row((first + r) % fine.net.unknowns());
+    }
+    const auto row = static_cast<Eigen::Index>(q);
+    const Eigen::RowVector2d d = (there - v.row(row)).head<2>(), along = t.row(row).head<2>();
+    const double across = std::abs(d[0] * along[1] - d[1] * along[0]) / std::max(along.norm(), 1e-300);
+    if (across > coarse.settings.refine) marked[q / per_span] = true;
+  }
+  return marked;
+}
+
+}  // namespace knead

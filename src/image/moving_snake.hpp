@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "knead/image/image_potential.hpp"
+#include "knead/image/snake.hpp"
+#include "snake_net.hpp"
+
+namespace knead {
+
+/// Errors (input): settings outside their ranges.
+[[nodiscard]] Expected<void> check_settings(const SnakeSettings& settings);
+
+/// Σ over the area inside by Green's theorem.
+struct Inside {
+  double area = 0, intensity = 0;  ///< signed: positive where the normal (y', −x') points outwards
+};
+
+/// Grey values on both sides.
+struct Means {
+  double inside = 0, outside = 0;
+};
+
+/// One snake on its way.
+struct MovingSnake {
+  SnakeSettings settings;
+  SnakeNet net;
+  Points c;  ///< its unknowns
+  std::deque<Points> before = {};
+  int iterations = 0;
+  bool resting = false;
+  double motion = 0;
+  int level = 0;  ///< the viscosity is γ 2^level
+  int steadily = 0;
+  Points last = {};  ///< the last move
+
+  [[nodiscard]] Inside inside(const ImagePotential& image) const;
+  /// The same of the band around it: of the polygon of points that far outside, less its own.
+  [[nodiscard]] Inside around(const ImagePotential& image, const Inside& own) const;
+
+  /// An iteration; `side` is 1 where the normal (y', −x') points outwards, else −1.
+  [[nodiscard]] Expected<void> step(const ImagePotential& image, double side, const std::optional<Means>& means);
+
+  [[nodiscard]] bool ended() const { return resting || iterations >= settings.max_iterations; }
+
+ private:
+  /// Whether it is stretched more than twice as much in some places as in others.
+  [[nodiscard]] bool uneven() const;
+  /// Spreads it evenly along itself.
+  [[nodiscard]] Expected<void> spread();
+  /// γ v and the forces of the image, of pressure and of volcanoes at the Gauss points.
+  [[nodiscard]] Points forces(const ImagePotential& image, double side, const std::optional<Means>& means) const;
+  /// Doubles the viscosity when the snake turns back, and halves it again, down to what is asked, while it goes on.
+  [[nodiscard]] Expected<void> steady(const Points& move);
+  [[nodiscard]] double viscosity() const { return std::ldexp(settings.gamma, level); }
+};
+
+/// The same snake on the net of these spans, with its iterations.
+[[nodiscard]] Expected<MovingSnake> moved_to(const MovingSnake& snake, std::span<const double> breaks);
+
+/// Breaks with those spans halved.
+[[nodiscard]] std::vector<double> halved(const std::vector<double>& breaks, const std::vector<bool>& marked);
+
+/// Spans in which the contour is elsewhere, across itself, on a net of half the spans.
+[[nodiscard]] std::vector<bool> spans_that_differ(const MovingSnake& coarse, const MovingSnake& fine);
+
+}  // namespace knead

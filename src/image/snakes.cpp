@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "knead/image/snake.hpp"
+#include "moving_snake.hpp"
+
+namespace knead {
+namespace {
+
+bool all_ended(const std::vector<MovingSnake>& snakes) { return std::ranges::all_of(snakes, &MovingSnake::ended); }
+
+/// An iteration of those that have not ended.
+Expected<void> step_all(const ImagePotential& image, std::vector<MovingSnake>& snakes) {
+  std::vector<Inside> insides;
+  double area = 0, intensity = 0;
+  for (const MovingSnake& s : snakes) {
+    insides.push_back(s.inside(image));
+    const double side = std::copysign(1, insides.back().area);
+    area += std::abs(insides.back().area);
+    intensity += side * insides.back().intensity;
+  }
+  const double left = double(image.width()) * double(image.height()) - area;
+  const double outside = left >= 1 ? (image.total_intensity() - intensity) / left : 0;
+  for (std::size_t k = 0; k < snakes.size(); ++k) {
+    if (snakes[k].ended()) continue;
+    std::optional<Means> means;
+    if (image.settings().region != 0 && std::abs(insides[k].area) >= 1) {
+      means = Means{insides[k].intensity / insides[k].area, outside};
+      if (snakes[k].settings.band > 0) {
+        const Inside band = snakes[k].around(image, insides[k]);
+        if (std::abs(band.area) >= 1) means->outside = band.intensity / band.area;
+      }
+    }
+    if (auto done = snakes[k].step(image, std::copysign(1, insides[k].area), means); !done) return done;
+  }
+  return {};
+}
+
+bool may_refine(const MovingSnake& s) {
+  return s.settings.refine > 0 && s.iterations < s.settings.max_iterations &&
+         s.net.unknowns() <= s.settings.max_control_points;
+}
+
+}  // namespace
+
+struct Snakes::State {
+  ImagePotential image;
+  std::vector<MovingSnake> snakes;
+  /// While a finer net is tried: the same snakes, those that may be refined on half the spans.
+  std::vector<MovingSnake> fine = {};
+
+  [[nodiscard]] bool ended() const {
+    return fine.empty() && all_ended(snakes) && std::ranges::none_of(snakes, may_refine);
+  }
+
+  /// Until an iteration is made or all is done.
+  Expected<void> advance() {
+    while (!ended()) {
+      std::vector<MovingSnake>& moving = fine.empty() ? snakes : fine;
+      if (!all_ended(moving)) return step_all(image, moving);
+      if (auto done = fine.empty() ? try_finer() : adopt(); !done) return done;
+    }
+    return {};
+  }
+
+  Expected<void> try_finer() {
+    for (const MovingSnake& s : snakes) {
+      const auto& breaks = s.net.breaks();
+      const bool may = may_refine(s);
+      auto moved = moved_to(s, may ? halved(breaks, std::vector<bool>(breaks.size() - 1, true)) : breaks);
+      if (!moved) return std::unexpected(moved.error());
+      moved->resting = !may;
+      fine.push_back(std::move(*moved));
+    }
+    return {};
+  }
+
+  /// Halves those spans in which the finer net made a difference.
+  Expected<void> adopt() {
+    for (std::size_t k = 0; k < snakes.size(); ++k) {
+      MovingSnake& s = snakes[k];
+      if (fine[k].net.unknowns() == s.net.unknowns()) continue;
+      const std::vector<bool> marked = spans_that_differ(s, fine[k]);
+      const auto more = std::ranges::count(marked, true);
+      const int spent = fine[k].iterations;
+      if (more > 0 && s.net.unknowns() + more <= s.settings.max_control_points) {
+        auto moved = moved_to(s, halved(s.net.breaks(), marked));
+        if (!moved) return std::unexpected(moved.error());
+        s = std::move(*moved);
+      } else {
+        s.settings.refine = 0;  // it follows the image
+      }
+      s.iterations = spent;
+    }
+    fine.clear();
+    return {};
+  }
+};
+
+namespace {
+
+Expected<MovingSnake> snake_on(const Curve& start, const SnakeSettings& settings) {
+  if (auto checked = check_settings(settings); !checked) return std::unexpected(checked.error());
+  auto net = SnakeNet::create(breaks_of(start), settings);
+  if (!net) return std::unexpected(net.error());
+  if (!std::ranges::equal(net->knots().knots(), start.knots()[0].knots())) {
+    return input_error("its knots are not those of a snake", "", "use curve_through");
+  }
+  Points c = net->unknowns_of(start);
+  return MovingSnake{settings, std::move(*net), std::move(c)};
+}
+
+}  // namespace
+
+Snakes::Snakes(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Snakes::Snakes(Snakes&&) noexcept = default;
+Snakes& Snakes::operator=(Snakes&&) noexcept = default;
+Snakes::~Snakes() = default;
+
+Expected<Snakes> Snakes::create(const ImagePotential& potential, const std::vector<Curve>& starts,
+                                const std::vector<SnakeSettings>& settings) {
+  if (starts.size() != settings.size()) return input_error("every snake needs its settings", "snakes");
+  std::vector<MovingSnake> snakes;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    auto snake = snake_on(starts[k], settings[k]);
+    if (!snake) return std::unexpected(snake.error().within(fmt::format("snakes[{}]", k)));
+    snakes.push_back(std::move(*snake));
+  }
+  return Snakes(std::make_unique<State>(potential, std::move(snakes)));
+}
+
+int Snakes::count() const { return static_cast<int>(std::ssize(state_->snakes)); }
+
+bool Snakes::ended() const { return state_->ended(); }
+
+Expected<int> Snakes::advance(int iterations) {
+  int made = 0;
+  for (; made < iterations && !state_->ended(); ++made) {
+    if (auto done = state_->advance(); !done) return std::unexpected(done.error());
+  }
+  return made;
+}
+
+Expected<SnakeResult> Snakes::result(int snake) const {
+  if (snake < 0 || snake >= count()) return input_error(fmt::format("there is no snake {}", snake), "snakes");
+  const MovingSnake& s = state_->snakes[static_cast<std::size_t>(snake)];
+  auto curve = s.net.curve(s.c);
+  if (!curve) return std::unexpected(curve.error());
+  return SnakeResult{std::move(*curve), s.settings.closed, s.iterations, s.resting, s.motion};
+}
+
+const SnakeSettings& Snakes::settings(int snake) const {
+  return state_->snakes[static_cast<std::size_t>(snake)].settings;
+}
+
+Expected<void> Snakes::change(int snake, const SnakeSettings& settings) {
+  const auto now = result(snake);
+  if (!now) return std::unexpected(now.error());
+  return replace(snake, now->curve, settings);
+}
+
+Expected<void> Snakes::replace(int snake, const Curve& curve, const SnakeSettings& settings) {
+  if (snake < 0 || snake >= count()) return input_error(fmt::format("there is no snake {}", snake), "snakes");
+  auto anew = snake_on(curve, settings);
+  if (!anew) return std::unexpected(anew.error().within(fmt::format("snakes[{}]", snake)));
+  state_->snakes[static_cast<std::size_t>(snake)] = std::move(*anew);
+  state_->fine.clear();  // what was tried was beside another
+  return {};
+}
+
+Expected<std::vector<SnakeResult>> run_snakes(const ImagePotential& potential, const std::vector<Curve>& starts,
+                                              const std::vector<SnakeSettings>& settings) {
+  auto snakes = Snakes::create(potential, starts, settings);
+  if (!snakes) return std::unexpected(snakes.error());
+  while (!snakes->ended()) {
+    if (auto done = snakes->advance(100); !done) return std::unexpected(done.error());
+  }
+  std::vector<SnakeResult> results;
+  for (int k = 0; k < snakes->count(); ++k) {
+    auto result = snakes->result(k);
+    if (!result) return std::unexpected(result.error());
+    results.push_back(std::move(*result));
+  }
+  return results;
+}
+
+}  // namespace knead
