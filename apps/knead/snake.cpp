@@ -150,9 +150,11 @@ Expected<void> run(const SnakeArguments& options) {
   if (!potential) return std::unexpected(potential.error());
   std::vector<Curve> starts;
   std::vector<SnakeSettings> settings;
-  for (std::size_t k = 0; k < script->snakes.size(); ++k) {
-    settings.push_back(settings_of(*script, script->snakes[k]));
-    const auto points = points_of(script->snakes[k]);
+  const auto places = starts_of(*script, *image);
+  if (!places) return std::unexpected(places.error());
+  for (std::size_t k = 0; k < places->size(); ++k) {
+    settings.push_back(settings_of(*script, (*places)[k]));
+    const auto points = points_of((*places)[k]);
     auto curve = points ? curve_through(*points, settings.back()) : std::unexpected(points.error());
     if (!curve) return std::unexpected(curve.error().within(fmt::format("snakes[{}]", k)));
     starts.push_back(std::move(*curve));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contour_rows.hpp"
 #include "knead/image/snake.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "snake_net.hpp"
@@ -58,20 +59,9 @@ Image mask_of(const SnakeResult& snake, int width, int height) {
   Image mask{width, height, std::vector<double>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0)};
   const std::vector<Place> line = polyline(snake);
   if (!snake.closed) return mask;
-  std::vector<double> at;
-  for (int y = 0; y < height; ++y) {
-    at.clear();
-    for (std::size_t k = 0; k < line.size(); ++k) {
-      const Place &a = line[k], &b = line[(k + 1) % line.size()];
-      if ((a[1] <= y) == (b[1] <= y)) continue;
-      at.push_back(a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
-    }
-    std::ranges::sort(at);
-    for (std::size_t k = 0; k + 1 < at.size(); k += 2) {
-      const double from = std::max(0.0, std::ceil(at[k])), to = std::min(width - 1.0, at[k + 1]);
-      for (int x = static_cast<int>(from); x <= to; ++x) mask.at(x, y) = 1;
-    }
-  }
+  for_rows_inside(line, width, height, [&mask](int y, int from, int to) {
+    for (int x = from; x <= to; ++x) mask.at(x, y) = 1;
+  });
   return mask;
 }
 

@@ -1,9 +1,13 @@
 #include "moving_snake.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "region_term.hpp"
 
 namespace knead {
 namespace {
@@ -26,25 +30,20 @@ Inside MovingSnake::inside(const ImagePotential& image) const {
   return sum;
 }
 
-Inside MovingSnake::around(const ImagePotential& image, const Inside& own) const {
-  const Points v = net.at_gauss(c, 0), t = net.at_gauss(c, 1);
-  const double side = std::copysign(settings.band, own.area);
-  const auto place = [&](Eigen::Index q) {
-    const Eigen::Vector2d along = t.row(q).head<2>().normalized();
-    return Eigen::Vector2d(v(q, 0) + side * along[1], v(q, 1) - side * along[0]);
-  };
-  Inside sum{-own.area, -own.intensity};
-  Eigen::Vector2d a = place(v.rows() - 1);
-  double left = image.intensity_to_the_left(a[0], a[1]);
-  for (Eigen::Index q = 0; q < v.rows(); ++q) {
-    const Eigen::Vector2d b = place(q);
-    const double there = image.intensity_to_the_left(b[0], b[1]);
-    sum.area += (a[0] * b[1] - a[1] * b[0]) / 2;
-    sum.intensity += (left + there) / 2 * (b[1] - a[1]);
-    a = b;
-    left = there;
-  }
-  return sum;
+std::array<Eigen::RowVector3d, 2> MovingSnake::end_tangents() const {
+  const KnotVector& knots = net.knots();
+  const int p = knots.degree();
+  const auto n = c.rows();
+  const double first = knots[p + 1] - knots[p], final = knots[knots.count()] - knots[knots.count() - 1];
+  return {p * (c.row(1) - c.row(0)) / first, p * (c.row(n - 1) - c.row(n - 2)) / final};
+}
+
+std::array<Eigen::RowVector3d, 2> MovingSnake::pulls() const {
+  std::array<Eigen::RowVector3d, 2> pulls = {Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero()};
+  if (end_pull[0] == 0 && end_pull[1] == 0) return pulls;
+  const auto tangents = end_tangents();
+  for (std::size_t e = 0; e < 2; ++e) pulls[e] = (e == 0 ? -1 : 1) * end_pull[e] * tangents[e].normalized();
+  return pulls;
 }
 
 bool MovingSnake::uneven() const {
@@ -61,7 +60,7 @@ Expected<void> MovingSnake::spread() {
   return {};
 }
 
-Points MovingSnake::forces(const ImagePotential& image, double side, const std::optional<Means>& means) const {
+Points MovingSnake::forces(const ImagePotential& image, double side, const std::optional<Sides>& sides) const {
   const Points v = net.at_gauss(c, 0), t = net.at_gauss(c, 1);
   Points f = viscosity() * v;
   for (Eigen::Index q = 0; q < v.rows(); ++q) {
@@ -69,9 +68,10 @@ Points MovingSnake::forces(const ImagePotential& image, double side, const std::
     const auto external = image.force(x, y);
     Eigen::Vector2d force(external[0], external[1]);
     double pressure = settings.balloon;
-    if (means) {
-      const double grey = image.intensity(x, y), in = grey - means->inside, out = grey - means->outside;
-      pressure += image.settings().region * (out * out - in * in);
+    if (sides) {
+      const bool relative = image.settings().relative_region;
+      pressure += image.settings().region *
+                  region_pressure(*sides, static_cast<std::size_t>(q), image.intensity(x, y), relative);
     }
     if (settings.closed) force += side * pressure * Eigen::Vector2d(t(q, 1), -t(q, 0));
     for (const SnakeVolcano& volcano : settings.volcanoes) {
@@ -84,8 +84,8 @@ Points MovingSnake::forces(const ImagePotential& image, double side, const std::
   return f;
 }
 
-Expected<void> MovingSnake::step(const ImagePotential& image, double side, const std::optional<Means>& means) {
-  const Points next = net.solve(forces(image, side, means), c);
+Expected<void> MovingSnake::step(const ImagePotential& image, double side, const std::optional<Sides>& sides) {
+  const Points next = net.solve(forces(image, side, sides), c, pulls());
   Points move = next - c;
   for (Eigen::Index k = 0; k < move.rows(); ++k) {
     const double length = move.row(k).norm();
@@ -132,6 +132,24 @@ Expected<void> MovingSnake::steady(const Points& move) {
   return {};
 }
 
+Expected<MovingSnake> snake_on(const Curve& start, const SnakeSettings& settings) {
+  if (auto checked = check_settings(settings); !checked) return std::unexpected(checked.error());
+  auto net = SnakeNet::create(breaks_of(start), settings);
+  if (!net) return std::unexpected(net.error());
+  if (!std::ranges::equal(net->knots().knots(), start.knots()[0].knots())) {
+    return input_error("its knots are not those of a snake", "", "use curve_through");
+  }
+  Points c = net->unknowns_of(start);
+  MovingSnake snake{settings, std::move(*net), std::move(c)};
+  if (!settings.closed && !settings.hold_ends && settings.end_tension > 0) {
+    const auto tangents = snake.end_tangents();
+    for (std::size_t e = 0; e < 2; ++e) {
+      snake.end_pull[e] = settings.end_tension * settings.alpha * tangents[e].norm();
+    }
+  }
+  return snake;
+}
+
 Expected<MovingSnake> moved_to(const MovingSnake& snake, std::span<const double> breaks) {
   const auto curve = snake.net.curve(snake.c);
   if (!curve) return std::unexpected(curve.error());
@@ -139,7 +157,9 @@ Expected<MovingSnake> moved_to(const MovingSnake& snake, std::span<const double>
   if (!c) return std::unexpected(c.error());
   auto net = SnakeNet::create(breaks, snake.settings);
   if (!net) return std::unexpected(net.error());
-  return MovingSnake{snake.settings, std::move(*net), std::move(*c), {}, snake.iterations};
+  MovingSnake moved{snake.settings, std::move(*net), std::move(*c), {}, snake.iterations};
+  moved.end_pull = snake.end_pull;
+  return moved;
 }
 
 std::vector<double> halved(const std::vector<double>& breaks, const std::vector<bool>& marked) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <deque>
 #include <optional>
@@ -20,9 +21,11 @@ struct Inside {
   double area = 0, intensity = 0;  ///< signed: positive where the normal (y', −x') points outwards
 };
 
-/// Grey values on both sides.
-struct Means {
-  double inside = 0, outside = 0;
+/// Grey values on both sides of a closed snake.
+struct Sides {
+  double inside = 0;                 ///< the mean
+  std::vector<double> outside = {};  ///< what counts as outside at each Gauss point
+  std::vector<char> beyond = {};     ///< whether Gauss points are in other snakes or beyond the image; empty: none
 };
 
 /// One snake on its way.
@@ -36,28 +39,34 @@ struct MovingSnake {
   double motion = 0;
   int level = 0;  ///< the viscosity is γ 2^level
   int steadily = 0;
-  Points last = {};  ///< the last move
+  Points last = {};                     ///< the last move
+  std::array<double, 2> end_pull = {};  ///< forces that draw free ends outwards
 
   [[nodiscard]] Inside inside(const ImagePotential& image) const;
-  /// The same of the band around it: of the polygon of points that far outside, less its own.
-  [[nodiscard]] Inside around(const ImagePotential& image, const Inside& own) const;
-
   /// An iteration; `side` is 1 where the normal (y', −x') points outwards, else −1.
-  [[nodiscard]] Expected<void> step(const ImagePotential& image, double side, const std::optional<Means>& means);
+  [[nodiscard]] Expected<void> step(const ImagePotential& image, double side, const std::optional<Sides>& sides);
+
+  /// v' at both ends of an open one.
+  [[nodiscard]] std::array<Eigen::RowVector3d, 2> end_tangents() const;
 
   [[nodiscard]] bool ended() const { return resting || iterations >= settings.max_iterations; }
 
  private:
+  /// What draws the ends of an open one outwards.
+  [[nodiscard]] std::array<Eigen::RowVector3d, 2> pulls() const;
   /// Whether it is stretched more than twice as much in some places as in others.
   [[nodiscard]] bool uneven() const;
   /// Spreads it evenly along itself.
   [[nodiscard]] Expected<void> spread();
   /// γ v and the forces of the image, of pressure and of volcanoes at the Gauss points.
-  [[nodiscard]] Points forces(const ImagePotential& image, double side, const std::optional<Means>& means) const;
+  [[nodiscard]] Points forces(const ImagePotential& image, double side, const std::optional<Sides>& sides) const;
   /// Doubles the viscosity when the snake turns back, and halves it again, down to what is asked, while it goes on.
   [[nodiscard]] Expected<void> steady(const Points& move);
   [[nodiscard]] double viscosity() const { return std::ldexp(settings.gamma, level); }
 };
+
+/// A snake that starts here. Errors (input): settings outside their ranges, other knots than those of `curve_through`.
+[[nodiscard]] Expected<MovingSnake> snake_on(const Curve& start, const SnakeSettings& settings);
 
 /// The same snake on the net of these spans, with its iterations.
 [[nodiscard]] Expected<MovingSnake> moved_to(const MovingSnake& snake, std::span<const double> breaks);

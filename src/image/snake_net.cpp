@@ -93,9 +93,11 @@ Points SnakeNet::at_gauss(const Points& c, int derivative) const {
   return result;
 }
 
-Points SnakeNet::solve(const Points& f, const Points& c) const {
+Points SnakeNet::solve(const Points& f, const Points& c, const std::array<Eigen::RowVector3d, 2>& ends) const {
   const BasisTable& basis = quadrature_.basis;
   Points right = springs_;
+  right.row(0) += ends[0];
+  right.row(unknowns_ - 1) += ends[1];
   for (int q = 0; q < basis.size(); ++q) {
     const double* values = basis.row(q, 0);
     const double weight = quadrature_.weights[static_cast<std::size_t>(q)];

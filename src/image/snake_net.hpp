@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,11 @@ class SnakeNet {
 
   /// The places (derivative 0) or tangents (1) at the Gauss points.
   [[nodiscard]] Points at_gauss(const Points& c, int derivative) const;
-  /// The c⁺ of (A + springs) c⁺ = ∫ N f ds + springs, f one row per Gauss point; held unknowns as in `c`.
-  [[nodiscard]] Points solve(const Points& f, const Points& c) const;
+  /// The c⁺ of (A + springs) c⁺ = ∫ N f ds + springs + forces on the ends, f one row per Gauss point; held unknowns as
+  /// in `c`.
+  [[nodiscard]] Points solve(const Points& f, const Points& c,
+                             const std::array<Eigen::RowVector3d, 2>& ends = {Eigen::RowVector3d::Zero(),
+                                                                              Eigen::RowVector3d::Zero()}) const;
   /// The contour with all its control points.
   [[nodiscard]] Expected<Curve> curve(const Points& c) const;
   /// The unknowns of a curve on these knots.

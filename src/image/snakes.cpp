@@ -7,6 +7,7 @@
 
 #include "knead/image/snake.hpp"
 #include "moving_snake.hpp"
+#include "region_term.hpp"
 
 namespace knead {
 namespace {
@@ -16,26 +17,11 @@ bool all_ended(const std::vector<MovingSnake>& snakes) { return std::ranges::all
 /// An iteration of those that have not ended.
 Expected<void> step_all(const ImagePotential& image, std::vector<MovingSnake>& snakes) {
   std::vector<Inside> insides;
-  double area = 0, intensity = 0;
-  for (const MovingSnake& s : snakes) {
-    insides.push_back(s.inside(image));
-    const double side = std::copysign(1, insides.back().area);
-    area += std::abs(insides.back().area);
-    intensity += side * insides.back().intensity;
-  }
-  const double left = double(image.width()) * double(image.height()) - area;
-  const double outside = left >= 1 ? (image.total_intensity() - intensity) / left : 0;
+  for (const MovingSnake& s : snakes) insides.push_back(s.inside(image));
+  const auto sides = sides_of(image, snakes, insides);
   for (std::size_t k = 0; k < snakes.size(); ++k) {
     if (snakes[k].ended()) continue;
-    std::optional<Means> means;
-    if (image.settings().region != 0 && std::abs(insides[k].area) >= 1) {
-      means = Means{insides[k].intensity / insides[k].area, outside};
-      if (snakes[k].settings.band > 0) {
-        const Inside band = snakes[k].around(image, insides[k]);
-        if (std::abs(band.area) >= 1) means->outside = band.intensity / band.area;
-      }
-    }
-    if (auto done = snakes[k].step(image, std::copysign(1, insides[k].area), means); !done) return done;
+    if (auto done = snakes[k].step(image, std::copysign(1, insides[k].area), sides[k]); !done) return done;
   }
   return {};
 }
@@ -100,21 +86,6 @@ struct Snakes::State {
     return {};
   }
 };
-
-namespace {
-
-Expected<MovingSnake> snake_on(const Curve& start, const SnakeSettings& settings) {
-  if (auto checked = check_settings(settings); !checked) return std::unexpected(checked.error());
-  auto net = SnakeNet::create(breaks_of(start), settings);
-  if (!net) return std::unexpected(net.error());
-  if (!std::ranges::equal(net->knots().knots(), start.knots()[0].knots())) {
-    return input_error("its knots are not those of a snake", "", "use curve_through");
-  }
-  Points c = net->unknowns_of(start);
-  return MovingSnake{settings, std::move(*net), std::move(c)};
-}
-
-}  // namespace
 
 Snakes::Snakes(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Snakes::Snakes(Snakes&&) noexcept = default;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -26,6 +27,9 @@ void describe(ImagePotentialSettings& s, Fields& fields) {
   fields.add("flow_smoothness", s.flow_smoothness, {.help = "its μ", .range = at_least(0)});
   fields.add("flow_iterations", s.flow_iterations, {.range = between(0, 100000)});
   fields.add("region", s.region, {.help = "weight of the grey values inside and outside being like their means"});
+  fields.add("relative_region", s.relative_region,
+             {.help = "the region term in units of the difference of the means, at most 1: the same force for what is "
+                      "pale and what is bright"});
   fields.add("distance", s.distance, {.help = "weight of the nearness to the mask"});
 }
 
@@ -58,12 +62,20 @@ void describe(SnakeSettings& s, Fields& fields) {
              {.help = "width of the outside that the region term compares with, pixels",
               .range = at_least(0),
               .fallback = "all of the image"});
+  fields.add("local", s.local,
+             {.help = "share of that outside that each place takes along its own normal alone, its darkest grey value",
+              .unit = Unit::fraction,
+              .range = between(0, 1)});
   fields.add(
       "redistribute", s.redistribute,
       {.help = "after so many iterations a closed snake driven along its normal that is stretched unevenly is spread "
                "evenly; 0: never",
        .range = at_least(0)});
   fields.add("balloon", s.balloon, {.help = "pressure outwards, of closed snakes"});
+  fields.add("end_tension", s.end_tension,
+             {.help = "share of the stretch at the start that pulls free ends outwards; 0: they are drawn in, 1: the "
+                      "length is kept",
+              .range = at_least(0)});
   fields.add("max_move", s.max_move, {.help = "pixels in an iteration", .range = above(0)});
   fields.add("max_iterations", s.max_iterations, {.range = between(1, 1e7)});
   fields.add("motion", s.motion,
@@ -89,13 +101,22 @@ void describe(SnakeStart& s, Fields& fields) {
   fields.add("springs", s.springs);
 }
 
+void describe(BlobSearch& b, Fields& fields) {
+  fields.name("blobs", "a closed snake for each blob that is found, from a circle in it");
+  fields.add("radii", b.settings.radii, {.help = "least and largest, pixels", .range = above(0)});
+  fields.add("contrast", b.settings.contrast, {.help = "least, white being 1", .range = at_least(0)});
+  fields.add("dark", b.settings.dark, {.help = "darker than what is around them"});
+  fields.add("start", b.start, {.help = "radius of the circle for one of the blob", .range = above(0)});
+}
+
 void describe(SnakeScript& s, Fields& fields) {
   fields.name("snake script", "a run of `knead snake`");
   fields.add("knead", s.version, {.help = "version of the script", .presence = Presence::required});
   fields.add("image", s.image);
   fields.add("mask", s.mask, {.help = "file of the mask that `distance` counts from"});
   fields.add("settings", s.settings);
-  fields.add("snakes", s.snakes, {.presence = Presence::required});
+  fields.add("blobs", s.blobs);
+  fields.add("snakes", s.snakes, {.fallback = "those of `blobs`"});
 }
 
 Expected<SnakeScript> parse_snake_script(std::string_view text) {
@@ -106,8 +127,24 @@ Expected<SnakeScript> parse_snake_script(std::string_view text) {
   if (script.version != 2) {
     return input_error(fmt::format("version {} is not known", script.version), "knead", "use 2");
   }
-  if (script.snakes.empty()) return input_error("there is no snake", "snakes", R"(add {"radii":20,"centre":[50,50]})");
+  if (script.snakes.empty() && !script.blobs)
+    return input_error("there is no snake", "snakes", R"(add {"radii":20,"centre":[50,50]})");
   return script;
+}
+
+Expected<std::vector<SnakeStart>> starts_of(const SnakeScript& script, const Image& image) {
+  std::vector<SnakeStart> starts = script.snakes;
+  if (!script.blobs) return starts;
+  const auto blobs = find_blobs(image, script.blobs->settings);
+  if (!blobs) return std::unexpected(blobs.error().within("blobs"));
+  for (const Blob& blob : *blobs) {
+    const double radius = std::min({script.blobs->start * blob.radius, image.width / 2.0, image.height / 2.0});
+    const double x = std::clamp(blob.x, radius, std::max(radius, image.width - 1 - radius));
+    const double y = std::clamp(blob.y, radius, std::max(radius, image.height - 1 - radius));
+    starts.push_back({.centre = {x, y}, .radii = {radius, radius}});
+  }
+  if (starts.empty()) return input_error("none is found", "blobs", "lower the contrast, or other radii");
+  return starts;
 }
 
 SnakeSettings settings_of(const SnakeScript& script, const SnakeStart& start) {

@@ -296,6 +296,60 @@ TEST(Contour, KnowsWhereItCrossesItselfAndWhatIsInside) {
   EXPECT_EQ(mask.at(50, 61), 0);
 }
 
+TEST(Snake, FreeEndsObeyTheNaturalConditionsOfTheEnergy) {
+  // A line of length L without bend: γ x' = α x'' with x' = 0 at free ends has the solution
+  // x(0, t) = L / 2 − Σ 4 L / (k π)² exp(−α (k π / L)² t / γ) over odd k, with implicit steps instead of the
+  // exponential.
+  const Image black{200, 100, std::vector<double>(20000, 0)};
+  const auto image = ImagePotential::create(black);
+  ASSERT_TRUE(image);
+  const double length = 100, alpha = 2, gamma = 0.1;
+  const int steps = 40;
+  SnakeSettings settings{.closed = false,
+                         .control_points = 60,
+                         .alpha = alpha,
+                         .beta = 0,
+                         .gamma = gamma,
+                         .hold_ends = false,
+                         .max_move = 1e6,
+                         .max_iterations = steps,
+                         .motion = 0};
+  const std::vector<std::array<double, 2>> line = {{50, 50}, {150, 50}};
+  const auto snake = run(*image, line, settings);
+  ASSERT_TRUE(snake) << snake.error().message();
+  double end = length / 2;
+  for (int k = 1; k < 2000; k += 2) {
+    end -= 4 * length / std::pow(k * pi, 2) * std::pow(1 + alpha * std::pow(k * pi / length, 2) / gamma, -steps);
+  }
+  EXPECT_GT(end, 20);
+  EXPECT_NEAR(polyline(*snake).front()[0] - 50, end, 1e-3);
+  EXPECT_NEAR(150 - polyline(*snake).back()[0], end, 1e-3);
+  // with the tension of the start at its ends it is at rest
+  settings.end_tension = 1;
+  settings.beta = 3;
+  const auto kept = run(*image, line, settings);
+  ASSERT_TRUE(kept) << kept.error().message();
+  EXPECT_NEAR(polyline(*kept).front()[0], 50, 1e-8);
+  EXPECT_NEAR(polyline(*kept).back()[0], 150, 1e-8);
+}
+
+TEST(Snake, PaleDiscsAreFoundBesideBrightOnesWithinABand) {
+  // A disc of a tenth of its neighbour's contrast, two pixels away from it, from circles of half the size.
+  Image two = blurred_disc(128, 40, 64, 20, 1);
+  const Image other = blurred_disc(128, 82, 64, 20, 1);
+  for (std::size_t k = 0; k < two.values.size(); ++k) two.values[k] = 0.1 * two.values[k] + other.values[k];
+  const auto image = ImagePotential::create(two, {.smoothing = 0, .edge = 0, .region = 1, .relative_region = true});
+  ASSERT_TRUE(image);
+  const SnakeSettings settings{
+      .control_points = 12, .units = 100, .alpha = 0.02, .beta = 1, .gamma = 1, .band = 10, .motion = 1e-2};
+  const std::vector<Curve> starts = {*curve_through(circle(40, 64, 10), settings),
+                                     *curve_through(circle(82, 64, 10), settings)};
+  const auto snakes = run_snakes(*image, starts, {settings, settings});
+  ASSERT_TRUE(snakes) << snakes.error().message();
+  EXPECT_NEAR(radii((*snakes)[0], 40, 64).mean, 20, 0.5);
+  EXPECT_NEAR(radii((*snakes)[1], 82, 64).mean, 20, 0.5);
+}
+
 TEST(Snake, RefusesWhatMakesNoSense) {
   const auto image = ImagePotential::create(blurred_disc(32, 16, 16, 8, 1));
   ASSERT_TRUE(image);

@@ -17,7 +17,10 @@ struct ImagePotentialSettings {
   double flow = 0;               ///< weight of the gradient vector flow of the gradient's magnitude, directions only
   double flow_smoothness = 0.2;  ///< its μ
   int flow_iterations = 200;
-  double region = 0;    ///< weight of the region term: grey values inside and outside like their means
+  double region = 0;  ///< weight of the region term: grey values inside and outside like their means
+  /// Divides the region term by (μ_in − μ_out)² and limits it to ±1: the same force for what is pale and what is
+  /// bright.
+  bool relative_region = false;
   double distance = 0;  ///< weight of the nearness to the mask
 };
 

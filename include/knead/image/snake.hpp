@@ -31,13 +31,23 @@ struct SnakeSettings {
   double units = 0;         ///< length of the parameter s; 0: the length of the start in pixels
   double alpha = 0.015, beta = 10;
   double gamma = 0.001;  ///< viscosity: force per velocity, pixels per iteration
-  double band = 0;       ///< width of the outside that the region term compares with, pixels; 0: all of the image
+  /// Width of the outside that the region term compares with, pixels: the median of what is so near the snake and in no
+  /// other. The insides of others and what is beyond the image push it back. 0: all of the image, by its mean.
+  double band = 0;
+  /// Share of the outside, with a band, that is taken along the normal of each place alone: the darkest grey value on
+  /// the way outwards to the end of the band or the next snake (the brightest, where the inside is darker than the
+  /// band). A snake does not flow through a bridge between two bright places that is darker than both.
+  double local = 0.5;
   /// Every so many iterations a closed snake that is driven along its normal, by regions or pressure, and has no
   /// springs is spread evenly where it is stretched more than twice as much in some places as in others; 0: never.
   int redistribute = 10;
   double balloon = 0;     ///< pressure along the outward normal of a closed snake, force per length
   bool hold_ends = true;  ///< of an open snake
-  double max_move = 1;    ///< pixels that a control point moves in an iteration at most: |d| becomes m tanh(|d| / m)
+  /// Free ends are pulled outwards along the snake by this share of the stretch at the start, α |v'|. With 0 they obey
+  /// the natural conditions of the energy, v'' = 0 and β v''' = α v', and an open snake contracts; with 1 it keeps its
+  /// length but for what the image does.
+  double end_tension = 0;
+  double max_move = 1;  ///< pixels that a control point moves in an iteration at most: |d| becomes m tanh(|d| / m)
   int max_iterations = 2500;
   double motion =
       0.1;            ///< ends when no control point is farther from one of ten earlier places, in |dx| + |dy|, pixels

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "knead/base/describe.hpp"
+#include "knead/image/blobs.hpp"
 #include "knead/image/snake.hpp"
 
 namespace knead {
@@ -27,12 +28,19 @@ struct SnakeStart {
   std::vector<SnakeSpring> springs = {};
 };
 
+/// Snakes where blobs are found in the image.
+struct BlobSearch {
+  BlobSettings settings = {};
+  double start = 0.5;  ///< radius of the circle that a snake starts from for one of its blob
+};
+
 /// A run of `knead snake`: the energies, what all snakes have in common, and where each starts.
 struct SnakeScript {
   int version = 2;
   ImagePotentialSettings image = {.smoothing = 1, .edge = 0, .region = 1};
   std::string mask = {};  ///< file of the mask that `distance` counts from
   SnakeSettings settings = {};
+  std::optional<BlobSearch> blobs = {};
   std::vector<SnakeStart> snakes = {};
 };
 
@@ -41,11 +49,16 @@ void describe(SnakeSpring& s, Fields& fields);
 void describe(SnakeVolcano& v, Fields& fields);
 void describe(SnakeSettings& s, Fields& fields);
 void describe(SnakeStart& s, Fields& fields);
+void describe(BlobSearch& b, Fields& fields);
 void describe(SnakeScript& s, Fields& fields);
 
 /// Errors (input): JSON that is none, with its place; a field that is unknown, of the wrong type or out of range; a
 /// version other than 2; no snakes.
 [[nodiscard]] Expected<SnakeScript> parse_snake_script(std::string_view json);
+
+/// Its snakes, and then those of the blobs in the image, from circles moved into the image where they are beyond.
+/// Errors (input): those of `find_blobs`; there are none.
+[[nodiscard]] Expected<std::vector<SnakeStart>> starts_of(const SnakeScript& script, const Image& image);
 
 /// The settings of one of its snakes, and the points that it starts from. Errors (input): an ellipse without positive
 /// radii, too few points.
