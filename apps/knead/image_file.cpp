@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
@@ -16,7 +17,17 @@ namespace knead::cli {
 namespace {
 
 constexpr double most_pixels = 1 << 28;
-constexpr double red = 0.2125, green = 0.7154, blue = 0.0721;
+
+/// Shares of red, green and blue.
+std::array<double, 3> weights(ImageChannel channel) {
+  switch (channel) {
+    case ImageChannel::red: return {1, 0, 0};
+    case ImageChannel::green: return {0, 1, 0};
+    case ImageChannel::blue: return {0, 0, 1};
+    case ImageChannel::grey: break;
+  }
+  return {0.2125, 0.7154, 0.0721};
+}
 
 /// Decoded pixels, whole numbers from 0 to `white`, channels together.
 struct Pixels {
@@ -118,7 +129,8 @@ void decode_jpeg(std::string_view bytes, Pixels& pixels) {
   jpeg_destroy_decompress(&state);
 }
 
-Image grey(const Pixels& pixels) {
+Image grey(const Pixels& pixels, ImageChannel channel) {
+  const auto [red, green, blue] = weights(channel);
   Image image{static_cast<int>(pixels.width), static_cast<int>(pixels.height), {}};
   const std::size_t count = std::size_t{pixels.width} * pixels.height;
   image.values.reserve(count);
@@ -138,7 +150,7 @@ Image grey(const Pixels& pixels) {
 
 }  // namespace
 
-Expected<Image> read_image(const std::string& path) {
+Expected<Image> read_image(const std::string& path, ImageChannel channel) {
   const auto bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
   Pixels pixels;
@@ -151,7 +163,7 @@ Expected<Image> read_image(const std::string& path) {
   } else {
     pixels.failure = "it is neither PNG nor JPEG";
   }
-  if (pixels.failure.empty()) return grey(pixels);
+  if (pixels.failure.empty()) return grey(pixels, channel);
   Error error{ErrorKind::input, "the image cannot be read: " + pixels.failure, {}, "save it as PNG or JPEG again"};
   error.file = path;
   return std::unexpected(error);

@@ -41,8 +41,7 @@ std::string beside(const std::string& script, const std::string& file) {
   return (std::filesystem::path(script).parent_path() / file).string();
 }
 
-Expected<SnakeScript> script_of(const SnakeArguments& options, const Image& image) {
-  if (options.script.empty()) return default_script(image);
+Expected<SnakeScript> script_in(const SnakeArguments& options) {
   const auto text = read_file(options.script);
   if (!text) return std::unexpected(text.error());
   auto script = parse_snake_script(*text);
@@ -136,10 +135,12 @@ Expected<void> run(const SnakeArguments& options) {
       !checked) {
     return checked;
   }
-  const auto image = read_image(options.image);
-  if (!image) return std::unexpected(image.error());
-  const auto script = script_of(options, *image);
+  Expected<SnakeScript> script;
+  if (!options.script.empty()) script = script_in(options);
   if (!script) return std::unexpected(script.error());
+  const auto image = read_image(options.image, script->channel);
+  if (!image) return std::unexpected(image.error());
+  if (options.script.empty()) script = default_script(*image);
   std::optional<Image> mask;
   if (!script->mask.empty()) {
     auto read = read_image(beside(options.script, script->mask));

@@ -10,6 +10,14 @@
 
 namespace knead {
 
+std::span<const Choice> choices(ImageChannel) {
+  static constexpr Choice list[] = {{"grey", ImageChannel::grey, "0.2125 red + 0.7154 green + 0.0721 blue"},
+                                    {"red", ImageChannel::red},
+                                    {"green", ImageChannel::green},
+                                    {"blue", ImageChannel::blue}};
+  return list;
+}
+
 std::span<const Choice> choices(SnakeShape) {
   static constexpr Choice list[] = {{"ellipse", SnakeShape::ellipse, "closed, or a circle where the radii are equal"},
                                     {"points", SnakeShape::points, "near these, in their order"}};
@@ -112,6 +120,7 @@ void describe(BlobSearch& b, Fields& fields) {
 void describe(SnakeScript& s, Fields& fields) {
   fields.name("snake script", "a run of `knead snake`");
   fields.add("knead", s.version, {.help = "version of the script", .presence = Presence::required});
+  fields.add("channel", s.channel, {.help = "what of a colour image counts"});
   fields.add("image", s.image);
   fields.add("mask", s.mask, {.help = "file of the mask that `distance` counts from"});
   fields.add("settings", s.settings);

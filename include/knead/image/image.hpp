@@ -25,6 +25,9 @@ struct Image {
   }
 };
 
+/// What of a colour image its grey values are: the luma of Rec. 709, or one of its colours.
+enum class ImageChannel { grey, red, green, blue };
+
 /// Errors (input): no pixels, a wrong number of values, a value that is not finite.
 [[nodiscard]] Expected<void> check_image(const Image& image);
 

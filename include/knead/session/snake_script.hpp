@@ -13,6 +13,8 @@
 
 namespace knead {
 
+std::span<const Choice> choices(ImageChannel);
+
 /// What a snake starts from, places in pixels.
 enum class SnakeShape { ellipse, points };
 std::span<const Choice> choices(SnakeShape);
@@ -37,6 +39,7 @@ struct BlobSearch {
 /// A run of `knead snake`: the energies, what all snakes have in common, and where each starts.
 struct SnakeScript {
   int version = 2;
+  ImageChannel channel = ImageChannel::grey;
   ImagePotentialSettings image = {.smoothing = 1, .edge = 0, .region = 1};
   std::string mask = {};  ///< file of the mask that `distance` counts from
   SnakeSettings settings = {};
