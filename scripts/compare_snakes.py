@@ -3,12 +3,14 @@
 
     scripts/compare_snakes.py [--knead build/release/knead] [--images ../shared/data/images] [--runs 5]
 
-prints for each example of scikit-image the medians of the times, taken in turns, their ratio and how far the contours are
-apart; then how well morphological contours and snakes agree with silhouettes. Needs Debian's python3-skimage.
+prints for each example of scikit-image the medians of the processor times (so that other programs do not count), taken in
+turns, their ratio and how far the contours are apart; then how well morphological contours and snakes agree with silhouettes. Needs Debian's python3-skimage.
 """
 import argparse
 import json
+import os
 import pathlib
+import resource
 import statistics
 import subprocess
 import sys
@@ -21,6 +23,7 @@ arguments.add_argument("--knead", default=HERE / "build/release/knead", type=pat
 arguments.add_argument("--images", default=HERE.parent / "shared/data/images", type=pathlib.Path)
 arguments.add_argument("--runs", default=5, type=int)
 options = arguments.parse_args()
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # processor time counts all threads
 try:
     import numpy as np
     import skimage
@@ -33,15 +36,20 @@ for path in (options.knead, options.images):
         sys.exit(f"{path} is not there: nothing is compared")
 
 
+def children_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def run_knead(image, script, directory, mask=False):
-    """Seconds of the whole program, what it printed, and the contour, or the mask, that it wrote."""
+    """Processor seconds of the whole program, what it printed, and the contour, or the mask, that it wrote."""
     (directory / "script.json").write_text(json.dumps({"knead": 2, **script}))
     written = directory / ("mask.png" if mask else "contour.csv")
     command = [options.knead, "snake", options.images / image, "--script", directory / "script.json",
                "--mask" if mask else "--output", written]
-    begin = time.perf_counter()
+    begin = children_seconds()
     done = subprocess.run(command, capture_output=True, text=True, check=True)
-    seconds = time.perf_counter() - begin
+    seconds = children_seconds() - begin
     result = io.imread(written) > 127 if mask else np.loadtxt(written, delimiter=",", skiprows=1)[:, 1:]
     return seconds, done.stdout, result
 
@@ -84,10 +92,10 @@ def compare(name, file, smoothing, start, closed, ends, energy, stiffness, contr
     }
     theirs, ours = [], []
     for _ in range(options.runs):
-        begin = time.perf_counter()
+        begin = time.process_time()
         smooth = filters.gaussian(image, smoothing, preserve_range=False)
         snake = segmentation.active_contour(smooth, start[:, ::-1], boundary_condition=ends, **stiffness, **energy)
-        theirs.append(time.perf_counter() - begin)
+        theirs.append(time.process_time() - begin)
         seconds, _, contour = run_knead(file, script, directory)
         ours.append(seconds)
     snake = snake[:, ::-1]
@@ -133,8 +141,8 @@ def silhouettes(directory):
 
 
 with tempfile.TemporaryDirectory() as temporary:
-    print(f"scikit-image {skimage.__version__}: seconds for smoothing and snake, its image decoded and in memory;")
-    print(f"knead: seconds of the whole program, from the file to the contour's; medians of {options.runs} runs in turns")
+    print(f"scikit-image {skimage.__version__}: processor seconds for smoothing and snake, the image decoded and in memory;")
+    print(f"knead: those of the whole program, from the file to the contour's; medians of {options.runs} runs in turns")
     print(f"{'':22}{'points':>8}{'control points':>16}{'scikit-image':>14}{'knead':>9}{'ratio':>8}{'apart (px)':>12}")
     for example in examples:
         for control_points in (50, len(example[3])):

@@ -70,26 +70,37 @@ void lower_envelope(const std::vector<double>& f, std::vector<double>& result) {
   }
 }
 
-/// Cubic spline coefficients of one line of samples with stride, mirrored at its ends: in place, by the recursive
-/// filter with the pole √3 − 2.
-void interpolate_line(double* line, std::size_t stride, int n) {
+/// Cubic spline coefficients of `count` lines side by side, element k of line i at [k * stride + i], mirrored at their
+/// ends: in place, by the recursive filter with the pole √3 − 2.
+void interpolate_lines(double* lines, std::size_t count, std::size_t stride, int n) {
   if (n == 1) return;
   const double pole = std::sqrt(3.0) - 2;
-  const auto at = [&](int k) -> double& { return line[static_cast<std::size_t>(k) * stride]; };
+  const auto line = [&](int k) { return lines + static_cast<std::size_t>(k) * stride; };
   // The first of the causal sums, exactly: the mirrored samples have the period 2n − 2.
-  double sum = at(0), power = pole, last = std::pow(pole, n - 1);
-  sum += last * at(n - 1);
-  double back = last * last / pole;  // pole^(2n − 3)
+  const double last = std::pow(pole, n - 1);
+  std::vector<double> sums(line(0), line(0) + count);
+  const auto add = [&](int k, double weight) {
+    for (std::size_t i = 0; i < count; ++i) sums[i] += weight * line(k)[i];
+  };
+  add(n - 1, last);
   for (int k = 1; k < n - 1; ++k) {
-    sum += (power + back) * at(k);
-    power *= pole;
-    back /= pole;
+    const double weight = std::pow(pole, k) + std::pow(pole, 2 * n - 2 - k);
+    if (std::abs(weight) < 1e-40) break;  // of the values, far below rounding
+    add(k, weight);
   }
-  at(0) = sum / (1 - last * last);
-  for (int k = 1; k < n; ++k) at(k) += pole * at(k - 1);
-  at(n - 1) = pole / (pole * pole - 1) * (pole * at(n - 2) + at(n - 1));
-  for (int k = n - 2; k >= 0; --k) at(k) = pole * (at(k + 1) - at(k));
-  for (int k = 0; k < n; ++k) at(k) *= 6;
+  for (std::size_t i = 0; i < count; ++i) line(0)[i] = sums[i] / (1 - last * last);
+  for (int k = 1; k < n; ++k) {
+    for (std::size_t i = 0; i < count; ++i) line(k)[i] += pole * line(k - 1)[i];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    line(n - 1)[i] = pole / (pole * pole - 1) * (pole * line(n - 2)[i] + line(n - 1)[i]);
+  }
+  for (int k = n - 2; k >= 0; --k) {
+    for (std::size_t i = 0; i < count; ++i) line(k)[i] = pole * (line(k + 1)[i] - line(k)[i]);
+  }
+  for (int k = 0; k < n; ++k) {
+    for (std::size_t i = 0; i < count; ++i) line(k)[i] *= 6;
+  }
 }
 
 void cubic_basis(double t, double* values, bool derivative) {
@@ -213,8 +224,9 @@ std::array<Image, 2> gradient_vector_flow(const Image& edges, double mu, int ite
 
 ImageSpline::ImageSpline(const Image& image) : width_(image.width), height_(image.height) {
   Image c = image;
-  for (int y = 0; y < height_; ++y) interpolate_line(&c.at(0, y), 1, width_);
-  for (int x = 0; x < width_; ++x) interpolate_line(&c.at(x, 0), static_cast<std::size_t>(width_), height_);
+  for (int y = 0; y < height_; ++y) interpolate_lines(&c.at(0, y), 1, 1, width_);
+  const auto columns = static_cast<std::size_t>(width_);
+  interpolate_lines(c.values.data(), columns, columns, height_);
   const auto mirrored = [](int k, int n) { return n == 1 ? 0 : k < 0 ? -k : k >= n ? 2 * n - 2 - k : k; };
   coefficients_.reserve(static_cast<std::size_t>(width_ + 2) * static_cast<std::size_t>(height_ + 2));
   for (int y = -1; y <= height_; ++y) {
@@ -222,30 +234,52 @@ ImageSpline::ImageSpline(const Image& image) : width_(image.width), height_(imag
   }
 }
 
-double ImageSpline::sum(double x, double y, bool dx, bool dy) const {
-  const auto span = [](double u, int n) { return std::clamp(static_cast<int>(u), 0, std::max(n - 2, 0)); };
-  const double u = std::clamp(x, 0.0, width_ - 1.0), v = std::clamp(y, 0.0, height_ - 1.0);
-  const int i = span(u, width_), j = span(v, height_);
-  double bx[4], by[4];
-  cubic_basis(u - i, bx, dx);
-  cubic_basis(v - j, by, dy);
-  const int rows = std::min(4, height_ + 2 - j), columns = std::min(4, width_ + 2 - i);  // of an image of one pixel
-  double total = 0;
+namespace {
+
+/// Σ of 4 × 4 coefficients from there, fewer of an image of one pixel, with weights along and across the rows.
+template <std::size_t Sums>
+std::array<double, Sums> weighted(const std::vector<double>& coefficients, std::array<int, 2> size,
+                                  std::array<int, 2> from, const std::array<const double*, Sums>& along,
+                                  const std::array<const double*, Sums>& across) {
+  const int rows = std::min(4, size[1] - from[1]), columns = std::min(4, size[0] - from[0]);
+  std::array<double, Sums> totals{};
   for (int b = 0; b < rows; ++b) {
-    const double* row = coefficients_.data() + static_cast<std::size_t>(j + b) * static_cast<std::size_t>(width_ + 2) +
-                        static_cast<std::size_t>(i);
-    double line = 0;
-    for (int a = 0; a < columns; ++a) line += bx[a] * row[a];
-    total += by[b] * line;
+    const double* row =
+        coefficients.data() + static_cast<std::size_t>(from[1] + b) * static_cast<std::size_t>(size[0]) + from[0];
+    for (std::size_t s = 0; s < Sums; ++s) {
+      double line = 0;
+      for (int a = 0; a < columns; ++a) line += along[s][a] * row[a];
+      totals[s] += across[s][b] * line;
+    }
   }
-  return total;
+  return totals;
 }
 
-double ImageSpline::value(double x, double y) const { return sum(x, y, false, false); }
+int span_at(double u, int n) { return std::clamp(static_cast<int>(u), 0, std::max(n - 2, 0)); }
+
+}  // namespace
+
+double ImageSpline::value(double x, double y) const {
+  const double u = std::clamp(x, 0.0, width_ - 1.0), v = std::clamp(y, 0.0, height_ - 1.0);
+  const int i = span_at(u, width_), j = span_at(v, height_);
+  double bx[4], by[4];
+  cubic_basis(u - i, bx, false);
+  cubic_basis(v - j, by, false);
+  return weighted<1>(coefficients_, {width_ + 2, height_ + 2}, {i, j}, {bx}, {by})[0];
+}
 
 std::array<double, 2> ImageSpline::gradient(double x, double y) const {
-  const bool in_x = x >= 0 && x <= width_ - 1.0, in_y = y >= 0 && y <= height_ - 1.0;
-  return {in_x ? sum(x, y, true, false) : 0, in_y ? sum(x, y, false, true) : 0};
+  const double u = std::clamp(x, 0.0, width_ - 1.0), v = std::clamp(y, 0.0, height_ - 1.0);
+  const int i = span_at(u, width_), j = span_at(v, height_);
+  double bx[4], by[4], dx[4], dy[4];
+  cubic_basis(u - i, bx, false);
+  cubic_basis(v - j, by, false);
+  cubic_basis(u - i, dx, true);
+  cubic_basis(v - j, dy, true);
+  auto slope = weighted<2>(coefficients_, {width_ + 2, height_ + 2}, {i, j}, {dx, bx}, {by, dy});
+  if (x < 0 || x > width_ - 1.0) slope[0] = 0;
+  if (y < 0 || y > height_ - 1.0) slope[1] = 0;
+  return slope;
 }
 
 Expected<SplineField<2>> ImageSpline::field() const {

@@ -124,12 +124,7 @@ Expected<void> MovingSnake::steady(const Points& move) {
   if (steadily >= patience && level > 0) --next, steadily = 0;
   if (next == level) return {};
   level = next;
-  SnakeSettings slower = settings;
-  slower.gamma = viscosity();
-  auto made = SnakeNet::create(net.breaks(), slower);
-  if (!made) return std::unexpected(made.error());
-  net = std::move(*made);
-  return {};
+  return net.set_viscosity(viscosity());
 }
 
 Expected<MovingSnake> snake_on(const Curve& start, const SnakeSettings& settings) {

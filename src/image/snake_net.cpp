@@ -36,14 +36,13 @@ Expected<SnakeNet> SnakeNet::create(std::span<const double> breaks, const SnakeS
   if (!set) return std::unexpected(set.error());
   const int n = knots->count(), p = knots->degree();
   const int unknowns = settings.closed ? n - p : n;
-  const bool held = !settings.closed && (settings.hold_ends || projection);
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Eigen::Triplet<double>> entries, mass;
   for (int i = 0; i < n; ++i) {
     for (int j = std::max(0, i - p); j <= std::min(n - 1, i + p); ++j) {
-      const double a = projection ? set->g00(i, j)
-                                  : settings.gamma * set->g00(i, j) + settings.alpha * set->g11(i, j) +
-                                        settings.beta * set->g22(i, j);
-      entries.emplace_back(i % unknowns, j % unknowns, a);
+      mass.emplace_back(i % unknowns, j % unknowns, set->g00(i, j));
+      if (projection) continue;
+      entries.emplace_back(i % unknowns, j % unknowns,
+                           settings.alpha * set->g11(i, j) + settings.beta * set->g22(i, j));
     }
   }
   Points springs = Points::Zero(unknowns, 3);
@@ -60,25 +59,34 @@ Expected<SnakeNet> SnakeNet::create(std::span<const double> breaks, const SnakeS
         entries.emplace_back(i, (basis->first[0] + q) % unknowns, value * basis->row(0, 0)[q]);
     }
   }
-  SparseMatrix matrix(unknowns, unknowns), reduced(unknowns, unknowns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  if (held) {
-    const auto fixed = [&](int i) { return i == 0 || i == unknowns - 1; };
-    std::erase_if(entries, [&](const auto& e) { return fixed(e.row()) || fixed(e.col()); });
-    entries.emplace_back(0, 0, 1);
-    entries.emplace_back(unknowns - 1, unknowns - 1, 1);
+  BasisQuadrature quadrature = gauss_basis(*knots, p + 2, 1);
+  SnakeNet net(std::move(*knots), {breaks.begin(), breaks.end()});
+  net.unknowns_ = unknowns;
+  net.held_ = !settings.closed && (settings.hold_ends || projection);
+  net.quadrature_ = std::move(quadrature);
+  net.mass_.resize(unknowns, unknowns);
+  net.mass_.setFromTriplets(mass.begin(), mass.end());
+  net.stiffness_.resize(unknowns, unknowns);
+  net.stiffness_.setFromTriplets(entries.begin(), entries.end());
+  net.springs_ = std::move(springs);
+  if (auto factored = net.set_viscosity(projection ? 1 : settings.gamma); !factored) {
+    return std::unexpected(factored.error());
   }
-  reduced.setFromTriplets(entries.begin(), entries.end());
+  return net;
+}
+
+Expected<void> SnakeNet::set_viscosity(double gamma) {
+  matrix_ = gamma * mass_ + stiffness_;
+  SparseMatrix reduced = matrix_;
+  if (held_) {
+    const auto fixed = [this](Eigen::Index i) { return i == 0 || i == unknowns_ - 1; };
+    reduced.prune([&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!fixed(i) && !fixed(j)); });
+    for (const int i : {0, unknowns_ - 1}) reduced.coeffRef(i, i) = 1;
+  }
   auto factor = SparseCholesky::factor(reduced);
   if (!factor) return std::unexpected(factor.error().within("snake"));
-  BasisQuadrature quadrature = gauss_basis(*knots, p + 2, 1);
-  SnakeNet net(std::move(*knots), {breaks.begin(), breaks.end()}, std::move(*factor));
-  net.unknowns_ = unknowns;
-  net.held_ = held;
-  net.quadrature_ = std::move(quadrature);
-  net.matrix_ = std::move(matrix);
-  net.springs_ = std::move(springs);
-  return net;
+  factor_ = std::move(*factor);
+  return {};
 }
 
 Points SnakeNet::at_gauss(const Points& c, int derivative) const {
@@ -111,7 +119,7 @@ Points SnakeNet::solve(const Points& f, const Points& c, const std::array<Eigen:
     }
     for (const int fixed : {0, unknowns_ - 1}) right.row(fixed) = c.row(fixed);
   }
-  return factor_.solve(right);
+  return factor_->solve(right);
 }
 
 Expected<Curve> SnakeNet::curve(const Points& c) const {

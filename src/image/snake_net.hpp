@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,9 @@ class SnakeNet {
   /// first and the last unknown keep their places. Errors: those of the factorisation.
   [[nodiscard]] static Expected<SnakeNet> create(std::span<const double> breaks, const SnakeSettings& settings,
                                                  bool projection = false);
+
+  /// Factors for another viscosity than that of the settings. Errors: those of the factorisation.
+  [[nodiscard]] Expected<void> set_viscosity(double gamma);
 
   [[nodiscard]] const KnotVector& knots() const { return knots_; }
   [[nodiscard]] const std::vector<double>& breaks() const { return breaks_; }
@@ -38,8 +42,7 @@ class SnakeNet {
   [[nodiscard]] Points unknowns_of(const Curve& curve) const { return curve.control_points().topRows(unknowns_); }
 
  private:
-  SnakeNet(KnotVector knots, std::vector<double> breaks, SparseCholesky factor)
-      : knots_(std::move(knots)), breaks_(std::move(breaks)), factor_(std::move(factor)) {}
+  SnakeNet(KnotVector knots, std::vector<double> breaks) : knots_(std::move(knots)), breaks_(std::move(breaks)) {}
   [[nodiscard]] int unknown(int function) const { return function % unknowns_; }
 
   KnotVector knots_;
@@ -47,9 +50,10 @@ class SnakeNet {
   int unknowns_ = 0;
   bool held_ = false;
   BasisQuadrature quadrature_ = {};
-  SparseMatrix matrix_ = {};  ///< before the ends are held
+  SparseMatrix mass_ = {}, stiffness_ = {};  ///< springs are stiff
+  SparseMatrix matrix_ = {};                 ///< before the ends are held
   Points springs_ = {};       ///< what springs add to the right side
-  SparseCholesky factor_;
+  std::optional<SparseCholesky> factor_ = {};
 };
 
 /// The places where the spans of a curve meet, its domain's ends included.

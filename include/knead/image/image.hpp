@@ -70,9 +70,6 @@ class ImageSpline {
   [[nodiscard]] Expected<SplineField<2>> field() const;
 
  private:
-  /// Σ over 4 × 4 coefficients with the basis or its derivative in either direction.
-  [[nodiscard]] double sum(double x, double y, bool dx, bool dy) const;
-
   int width_, height_;
   std::vector<double> coefficients_;  ///< (width + 2) × (height + 2), one beyond each border
 };

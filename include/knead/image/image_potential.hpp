@@ -51,7 +51,7 @@ class ImagePotential {
   /// The smoothed intensity.
   [[nodiscard]] double intensity(double x, double y) const;
   /// ∫ I dx from the left border to x at height y: by Green's theorem its integral along a closed contour, dy, is the
-  /// sum of the intensity inside.
+  /// sum of the intensity inside. Where the region term has no weight, 0.
   [[nodiscard]] double intensity_to_the_left(double x, double y) const;
   /// Of the smoothed image over its pixels.
   [[nodiscard]] double total_intensity() const;
