@@ -21,10 +21,14 @@ constexpr double most_pixels = 1 << 28;
 /// Shares of red, green and blue.
 std::array<double, 3> weights(ImageChannel channel) {
   switch (channel) {
-    case ImageChannel::red: return {1, 0, 0};
-    case ImageChannel::green: return {0, 1, 0};
-    case ImageChannel::blue: return {0, 0, 1};
-    case ImageChannel::grey: break;
+    case ImageChannel::red:
+      return {1, 0, 0};
+    case ImageChannel::green:
+      return {0, 1, 0};
+    case ImageChannel::blue:
+      return {0, 0, 1};
+    case ImageChannel::grey:
+      break;
   }
   return {0.2125, 0.7154, 0.0721};
 }

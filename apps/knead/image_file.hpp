@@ -7,8 +7,8 @@
 namespace knead::cli {
 
 /// A PNG (grey, colour or palette, 8 or 16 bits) or JPEG file as grey values from 0 to 1: colours are weighted 0.2125,
-/// 0.7154, 0.0721 (Rec. 709), or one of them is taken; what is transparent is put over white. Errors (input): not such a
-/// file, damaged, or of more than 2^28 pixels.
+/// 0.7154, 0.0721 (Rec. 709), or one of them is taken; what is transparent is put over white. Errors (input): not such
+/// a file, damaged, or of more than 2^28 pixels.
 [[nodiscard]] Expected<Image> read_image(const std::string& path, ImageChannel channel = ImageChannel::grey);
 
 /// The image as bytes of an 8-bit grey PNG, values clamped to [0, 1].

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -147,8 +148,10 @@ Expected<void> run(const SnakeArguments& options) {
     if (!read) return std::unexpected(read.error());
     mask = std::move(*read);
   }
+  const std::clock_t begin = std::clock();
   const auto potential = ImagePotential::create(*image, script->image, mask);
   if (!potential) return std::unexpected(potential.error());
+  const std::clock_t made = std::clock();
   std::vector<Curve> starts;
   std::vector<SnakeSettings> settings;
   const auto places = starts_of(*script, *image);
@@ -162,6 +165,9 @@ Expected<void> run(const SnakeArguments& options) {
   }
   const auto snakes = run_snakes(*potential, std::move(starts), settings);
   if (!snakes) return std::unexpected(snakes.error());
+  const auto seconds = [](std::clock_t ticks) { return double(ticks) / CLOCKS_PER_SEC; };
+  fmt::print("{:.4f} s for the energy of the image, {:.4f} s for the contours\n", seconds(made - begin),
+             seconds(std::clock() - made));
   for (std::size_t k = 0; k < snakes->size(); ++k) {
     const SnakeResult& s = (*snakes)[k];
     const int crossed = crossings(s);

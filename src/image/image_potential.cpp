@@ -103,7 +103,7 @@ Expected<ImagePotential> ImagePotential::create(const Image& image, const ImageP
     if (!distance) return std::unexpected(distance.error());
     add(*distance, -settings.distance);
   }
-  Fields fields{settings,      image.width, image.height, ImageSpline(smooth), ImageSpline(q)};
+  Fields fields{settings, image.width, image.height, ImageSpline(smooth), ImageSpline(q)};
   if (settings.region != 0) fields.to_the_left.emplace(sums_to_the_left(smooth));
   for (const double x : smooth.values) fields.total += x;
   if (settings.flow != 0) {
@@ -126,9 +126,9 @@ std::array<double, 2> ImagePotential::force(double x, double y) const {
 }
 
 double ImagePotential::intensity(double x, double y) const { return fields_->intensity.value(x, y); }
-double ImagePotential::intensity_to_the_left(double x, double y) const { 
+double ImagePotential::intensity_to_the_left(double x, double y) const {
   return fields_->to_the_left ? fields_->to_the_left->value(x, y) : 0;
- }
+}
 double ImagePotential::total_intensity() const { return fields_->total; }
 
 }  // namespace knead

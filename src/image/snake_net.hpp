@@ -52,7 +52,7 @@ class SnakeNet {
   BasisQuadrature quadrature_ = {};
   SparseMatrix mass_ = {}, stiffness_ = {};  ///< springs are stiff
   SparseMatrix matrix_ = {};                 ///< before the ends are held
-  Points springs_ = {};       ///< what springs add to the right side
+  Points springs_ = {};                      ///< what springs add to the right side
   std::optional<SparseCholesky> factor_ = {};
 };
 

@@ -66,6 +66,18 @@ TEST_F(SnakeCommand, RunsAScriptAndWritesPointsAndDrawings) {
   EXPECT_NE(contents(file("contour.svg")).find("<polygon points="), std::string::npos);
 }
 
+TEST_F(SnakeCommand, StartsAtBlobs) {
+  std::ofstream(file("script.json"))
+      << R"({"knead":2,"channel":"red","image":{"relative_region":true},)"
+      << R"("settings":{"control_points":12,"alpha":0.1,"beta":5,"gamma":1,"units":100,"band":8},)"
+      << R"("blobs":{"radii":[10,30],"contrast":0.2}})";
+  const Outcome out = knead({"snake", file("disc.png"), "--script", file("script.json"), "-o", file("contour.json")});
+  ASSERT_EQ(out.code, 0) << out.err;
+  const Json json = Json::parse(contents(file("contour.json")));
+  ASSERT_EQ(json.at("snakes").size(), 1U);
+  EXPECT_NEAR(json.at("snakes").at(0).at("area").get<double>(), 3.14159265 * 400, 25);
+}
+
 TEST_F(SnakeCommand, SaysWhatIsWrong) {
   EXPECT_TRUE(fails_with(knead({"snake", file("none.png")}), 3, {"none.png"}));
   EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "-o", file("contour.txt")}), 2, {".csv"}));
@@ -73,6 +85,8 @@ TEST_F(SnakeCommand, SaysWhatIsWrong) {
   EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--script", file("bad.json")}), 3, {"radii"}));
   std::ofstream(file("empty.json")) << R"({"knead":2,"snakes":[]})";
   EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--script", file("empty.json")}), 3, {"no snake"}));
+  std::ofstream(file("none.json")) << R"({"knead":2,"blobs":{"contrast":2}})";
+  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--script", file("none.json")}), 3, {"blobs", "contrast"}));
   std::ofstream(file("text.png")) << "no image";
   EXPECT_TRUE(fails_with(knead({"snake", file("text.png")}), 3, {"PNG"}));
 }

@@ -239,8 +239,7 @@ TEST_F(RealImage, TheCoinsAreThoseOfMorphologicalContours) {
   ASSERT_TRUE(potential && starts);
   std::vector<Curve> curves;
   for (const SnakeStart& start : *starts) curves.push_back(*curve_through(*points_of(start), script->settings));
-  const auto snakes =
-      run_snakes(*potential, curves, std::vector<SnakeSettings>(curves.size(), script->settings));
+  const auto snakes = run_snakes(*potential, curves, std::vector<SnakeSettings>(curves.size(), script->settings));
   ASSERT_TRUE(snakes) << snakes.error().message();
   Image all = image;
   std::ranges::fill(all.values, 0);
