@@ -55,9 +55,9 @@ class Cover {
 };
 
 /// Grey values with weights.
-using Samples = std::vector<std::pair<double, double>>;
+using GreySamples = std::vector<std::pair<double, double>>;
 
-std::optional<double> median(Samples samples) {
+std::optional<double> median(GreySamples samples) {
   std::ranges::sort(samples);
   double all = 0, below = 0;
   for (const auto& [grey, weight] : samples) all += weight;
@@ -72,7 +72,7 @@ std::optional<double> median(Samples samples) {
 void look_around(const ImagePotential& image, const MovingSnake& snake, double side, const Cover& cover, int own,
                  Sides& sides) {
   const Points v = snake.net.at_gauss(snake.c, 0), t = snake.net.at_gauss(snake.c, 1);
-  Samples band;
+  GreySamples band;
   std::vector<std::array<double, 2>> least_and_most;  // on the way outwards from each point
   for (Eigen::Index q = 0; q < v.rows(); ++q) {
     const double length = snake.net.quadrature().weights[static_cast<std::size_t>(q)] * t.row(q).norm();

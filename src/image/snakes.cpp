@@ -131,7 +131,13 @@ const SnakeSettings& Snakes::settings(int snake) const {
 Expected<void> Snakes::change(int snake, const SnakeSettings& settings) {
   const auto now = result(snake);
   if (!now) return std::unexpected(now.error());
-  return replace(snake, now->curve, settings);
+  const MovingSnake& before = state_->snakes[static_cast<std::size_t>(snake)];
+  const double share = before.settings.end_tension * before.settings.alpha;
+  auto pull = before.end_pull;  // of where it started, not of where it is
+  for (double& p : pull) p *= share > 0 ? settings.end_tension * settings.alpha / share : 0;
+  if (auto done = replace(snake, now->curve, settings); !done) return done;
+  if (share > 0) state_->snakes[static_cast<std::size_t>(snake)].end_pull = pull;
+  return {};
 }
 
 Expected<void> Snakes::replace(int snake, const Curve& curve, const SnakeSettings& settings) {

@@ -99,6 +99,27 @@ TEST(Termination, IsTheCurvatureOfCircles) {
   EXPECT_NEAR(curvature.at(42, 46), 1 / 20.0, 1e-12);
 }
 
+TEST(ImagePotential, DrawsToCornersByTheirCurvature) {
+  Image square{60, 60, std::vector<double>(3600, 0)};
+  for (int y = 20; y < 40; ++y) {
+    for (int x = 20; x < 40; ++x) square.at(x, y) = 1;
+  }
+  const auto potential = ImagePotential::create(square, {.smoothing = 2, .edge = 0, .termination = -1});
+  ASSERT_TRUE(potential);
+  double most = 0, x = 0, y = 0;  // the weight is negative: lines of equal grey around what is bright curve that way
+  for (int j = 15; j < 45; ++j) {
+    for (int i = 15; i < 45; ++i) {
+      if (potential->value(i, j) <= most) continue;
+      most = potential->value(i, j);
+      x = i;
+      y = j;
+    }
+  }
+  EXPECT_GT(most, 0.1);
+  EXPECT_LT(std::abs(potential->value(19.5, 30)), 0.1 * most);      // the middle of a side
+  EXPECT_LE(std::abs(std::abs(x - 29.5) - std::abs(y - 29.5)), 1);  // on a diagonal
+}
+
 TEST(GradientVectorFlow, PointsToAnEdgeFromFarAway) {
   const Image edge = made(101, 21, [](int x, int) { return std::exp(-(x - 20) * (x - 20) / 4.0); });
   const auto flow = gradient_vector_flow(edge, 0.2, 3000);
