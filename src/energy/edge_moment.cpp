@@ -62,12 +62,13 @@ struct EdgeMoment::Data {
   std::vector<Gauss> points;
 };
 
-Expected<EdgeMoment> EdgeMoment::create(const Surface& rest, int across, bool at_end, double per_length) {
+Expected<EdgeMoment> EdgeMoment::create(const Surface& rest, int across, bool at_end, double per_length, int first_row,
+                                        int size) {
   if (!std::isfinite(per_length)) return input_error("a moment is not finite", "moment", "use a finite number");
   auto data = std::make_shared<Data>();
   const int along = 1 - across;
   data->along = along;
-  data->size = rest.size();
+  data->size = size > 0 ? size : rest.size();
   const auto weighted = rest.rational()
                             ? Expected<Surface>(rest)
                             : Surface::create(rest.knots(), rest.control_points(),
@@ -92,13 +93,17 @@ Expected<EdgeMoment> EdgeMoment::create(const Surface& rest, int across, bool at
     Data::Gauss point;
     for (int r = 0; r < local; ++r) {
       const auto i = functions.global(first, r);
-      point.nodes.push_back(i[0] * rest.net()[1] + i[1]);
+      point.nodes.push_back(first_row + i[0] * rest.net()[1] + i[1]);
     }
     point.gradient.resize(local, 2);
     point.gradient << values[static_cast<std::size_t>(multi_index_position<2>({1, 0}))],
         values[static_cast<std::size_t>(multi_index_position<2>({0, 1}))];
-    point.weight = per_length * quadrature.weights[static_cast<std::size_t>(k)] *
-                   point.tangents(rest.control_points()).col(along).norm();
+    Tangents at_rest = Tangents::Zero();
+    for (std::size_t r = 0; r < point.nodes.size(); ++r) {
+      at_rest += rest.control_points().row(point.nodes[r] - first_row).transpose() *
+                 point.gradient.row(static_cast<Eigen::Index>(r));
+    }
+    point.weight = per_length * quadrature.weights[static_cast<std::size_t>(k)] * at_rest.col(along).norm();
     data->points.push_back(std::move(point));
   }
   return EdgeMoment(std::move(data));

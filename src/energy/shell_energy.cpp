@@ -139,6 +139,7 @@ struct ShellEnergy::Data {
   TensorPattern<2> pattern;
   std::vector<ShellElement> elements;
   std::vector<ShellRest> rest;  // element after element
+  std::vector<double> measure;  // of the parameters, of the same points
   SparseMatrix scalar, zero;
 
   /// Calls visit(element, point of the element, its rest, local geometry, index over all points).
@@ -162,6 +163,7 @@ struct ShellEnergy::Data {
                                "remove folds and spans on which control points coincide");
       }
       const auto [membrane, bending] = law.stiffness(at);
+      measure.push_back(weights[k]);
       rest.push_back({weights[k] * law.measure(at), weights[k] * at.area, at.metric, at.curvature, membrane, bending});
     }
     return {};
@@ -313,6 +315,21 @@ Points ShellEnergy::area_load(const Point& per_area) const {
   return result;
 }
 
+Points ShellEnergy::normal_load(const Points& x, const Points& velocity, double pressure, const Point& wind) const {
+  Points result = Points::Zero(data_->size, 3);
+  data_->each_point(
+      x, [&](const ShellElement& element, Eigen::Index k, const ShellRest&, const ShellPoint& at, Eigen::Index index) {
+        const auto basis = element.value.col(k);
+        const Point moving = coordinates(element, velocity) * basis;
+        const double measure = data_->measure[static_cast<std::size_t>(index)];
+        const Point force = measure * at.area * (pressure + at.normal.dot(wind - moving)) * at.normal;
+        for (std::size_t r = 0; r < element.nodes.size(); ++r) {
+          result.row(element.nodes[r]) += basis[static_cast<Eigen::Index>(r)] * force.transpose();
+        }
+      });
+  return result;
+}
+
 double ShellEnergy::area() const {
   double sum = 0;
   for (const ShellRest& rest : data_->rest) sum += rest.area;
@@ -350,6 +367,22 @@ double ShellEnergy::stretching_scale() const {
     sum += rest.weight / 8 * rest.metric.dot(Eigen::Vector3d(1, 1, 4).asDiagonal() * rest.membrane * rest.metric);
   }
   return sum;
+}
+
+double ShellEnergy::bending_stiffness() const {
+  if (const auto* m = std::get_if<ShellMaterial>(&data_->law.material)) {
+    return m->young * m->thickness * m->thickness * m->thickness / (12 * (1 - m->poisson * m->poisson));
+  }
+  double sum = 0;
+  for (const ShellRest& rest : data_->rest) {
+    sum += rest.weight * rest.metric.dot(Eigen::Vector3d(1, 1, 4).asDiagonal() * rest.bending * rest.metric);
+  }
+  return sum / area();
+}
+
+double ShellEnergy::effective_thickness() const {
+  if (const auto* m = std::get_if<ShellMaterial>(&data_->law.material)) return m->thickness;
+  return std::sqrt(12 * bending_stiffness() * area() / (2 * stretching_scale()));
 }
 
 double ShellEnergy::mass_per_area() const { return data_->law.mass(); }

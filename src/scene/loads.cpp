@@ -102,18 +102,8 @@ Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
 
 }  // namespace
 
-Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_model) {
-  const ActiveSurface& model = scene_model.model;
-  const auto vector = [](const Vector3& v) { return Point(v[0], v[1], v[2]); };
-  ActiveLoads loads;
-  if (scene.load.per != LoadMeasure::area) loads.force = vector(scene.load.vector);
-  loads.gravity = vector(scene.load.gravity);
-  loads.pressure = scene.load.pressure;
-  loads.wind = vector(scene.load.wind);
-  auto nodal = dead_loads(scene, model);
-  if (!nodal) return std::unexpected(nodal.error());
-  if (scene_model.varying_load.rows() > 0) *nodal += scene_model.varying_load;
-  if ((nodal->array() != 0).any()) loads.nodal = std::move(*nodal);
+Expected<std::vector<PointForce>> active_point_forces(const Scene& scene) {
+  std::vector<PointForce> points;
   for (const SceneForce& f : scene.forces) {
     int first = 0;
     bool selected = false;
@@ -122,10 +112,7 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_m
       if (selected) break;
       first += scene.surfaces[static_cast<std::size_t>(k)].current->size();
     }
-    if (!selected || keeps_direction(f.kind)) continue;
-    if (f.kind == PointForceKind::moment) {
-      return input_error("a moment acts on shells only", f.name, R"(give {"do":"material","model":"shell"})");
-    }
+    if (!selected || (f.kind != PointForceKind::spring && f.kind != PointForceKind::volcano)) continue;
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(f.surface)];
     const auto u = parameters_at<2>(*s.current, *f.at);
     if (!u) return std::unexpected(u.error());
@@ -145,21 +132,49 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_m
       image.terms = basis_terms<2>(*s.current, *there, first);
       const Point n = plane->normal.normalized();
       image.to -= 2 * n.dot(image.to - plane->point) * n;
-      loads.points.push_back(std::move(image));
+      points.push_back(std::move(image));
     }
-    loads.points.push_back(std::move(force));
+    points.push_back(std::move(force));
   }
+  return points;
+}
+
+Points opened_points(const Scene& scene) {
+  Eigen::Index size = 0, at = 0;
+  for (int k : scene.selection()) size += scene.surfaces[static_cast<std::size_t>(k)].opened->size();
+  Points original(size, 3);
+  for (int k : scene.selection()) {
+    const Points& opened = scene.surfaces[static_cast<std::size_t>(k)].opened->control_points();
+    original.middleRows(at, opened.rows()) = opened;
+    at += opened.rows();
+  }
+  return original;
+}
+
+Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_model) {
+  const ActiveSurface& model = scene_model.model;
+  const auto vector = [](const Vector3& v) { return Point(v[0], v[1], v[2]); };
+  ActiveLoads loads;
+  if (scene.load.per != LoadMeasure::area) loads.force = vector(scene.load.vector);
+  loads.gravity = vector(scene.load.gravity);
+  loads.pressure = scene.load.pressure;
+  loads.wind = vector(scene.load.wind);
+  auto nodal = dead_loads(scene, model);
+  if (!nodal) return std::unexpected(nodal.error());
+  if (scene_model.varying_load.rows() > 0) *nodal += scene_model.varying_load;
+  if ((nodal->array() != 0).any()) loads.nodal = std::move(*nodal);
+  for (const SceneForce& f : scene.forces) {
+    const std::vector<int> selection = scene.selection();
+    if (f.kind == PointForceKind::moment && std::ranges::find(selection, f.surface) != selection.end()) {
+      return input_error("a moment acts on shells only", f.name, R"(give {"do":"material","model":"shell"})");
+    }
+  }
+  auto points = active_point_forces(scene);
+  if (!points) return std::unexpected(points.error());
+  loads.points = std::move(*points);
   if (scene.limit) {
     loads.limit = *scene.limit;
-    Eigen::Index size = 0;
-    for (int k : scene.selection()) size += scene.surfaces[static_cast<std::size_t>(k)].opened->size();
-    loads.original.resize(size, 3);
-    Eigen::Index at = 0;
-    for (int k : scene.selection()) {
-      const Points& opened = scene.surfaces[static_cast<std::size_t>(k)].opened->control_points();
-      loads.original.middleRows(at, opened.rows()) = opened;
-      at += opened.rows();
-    }
+    loads.original = opened_points(scene);
   }
   return loads;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "constraints.hpp"
+#include "joined_surfaces.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/scene/mask.hpp"
 #include "knead/scene/trims.hpp"
@@ -42,10 +43,10 @@ void set_material(const std::vector<SurfaceInput>& surfaces, ActiveSettings<2>& 
   settings.damping = std::get<double>(material.damping);
 }
 
-/// Appends the constraints of every surface; returns the first row of each, and the end.
-Expected<std::vector<int>> hold_surfaces(const std::vector<SurfaceInput>& surfaces, ActiveSettings<2>& settings,
-                                         std::vector<std::string>& notes) {
-  std::vector<int> rows = {0};
+/// Appends the constraints of every surface, and the rows.
+Expected<void> hold_surfaces(const std::vector<SurfaceInput>& surfaces, JoinedSurfaces& joined) {
+  auto& [rows, settings, held_by, seams, notes] = joined;
+  rows = {0};
   for (const SurfaceInput& s : surfaces) {
     if (s.mode != surfaces.front().mode) {
       return input_error("surfaces that are selected together have different rest modes", "rest",
@@ -54,6 +55,9 @@ Expected<std::vector<int>> hold_surfaces(const std::vector<SurfaceInput>& surfac
     auto list = constraints_of(s, notes);
     if (!list) return std::unexpected(list.error());
     settings.held.insert(settings.held.end(), list->held.begin(), list->held.end());
+    for (std::string& name : list->held_by) {
+      held_by.push_back(surfaces.size() > 1 && !name.empty() ? s.id + ": " + name : std::move(name));
+    }
     for (LinearConstraint& c : list->constraints) {
       for (auto& term : c.terms) term.first += rows.back();
       if (surfaces.size() > 1) c.name = s.id + ": " + c.name;
@@ -62,7 +66,7 @@ Expected<std::vector<int>> hold_surfaces(const std::vector<SurfaceInput>& surfac
     rows.push_back(rows.back() + s.reference->size());
   }
   if (std::ranges::none_of(settings.held, [](bool f) { return f; })) settings.held.clear();
-  return rows;
+  return {};
 }
 
 /// Appends the conditions that keep faces together along the edges that follow them.
@@ -165,18 +169,13 @@ ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
   return input;
 }
 
-Expected<SceneModel> make_model(ModelInput input) {
-  ActiveSettings<2> settings;
-  std::vector<std::string> notes;
-  const auto rows = hold_surfaces(input.surfaces, settings, notes);
-  if (!rows) return std::unexpected(rows.error());
-  std::vector<Surface> patches;
+Expected<JoinedSurfaces> join_surfaces(const ModelInput& input) {
+  JoinedSurfaces joined;
+  ActiveSettings<2>& settings = joined.settings;
+  if (auto held = hold_surfaces(input.surfaces, joined); !held) return std::unexpected(held.error());
   std::vector<const Surface*> pointers;
-  for (const SurfaceInput& s : input.surfaces) {
-    patches.push_back(*s.reference);
-    pointers.push_back(s.reference.get());
-  }
-  std::vector<SeamReport> reports;
+  for (const SurfaceInput& s : input.surfaces) pointers.push_back(s.reference.get());
+  std::vector<SeamReport>& reports = joined.seams;
   if (input.seams.couple) {
     const auto found = seams_between(input.seams, pointers);
     if (!found) return std::unexpected(found.error());
@@ -188,27 +187,36 @@ Expected<SceneModel> make_model(ModelInput input) {
         const auto edge = followed_at(input.followed, s);
         return options.rigid ? edge == nullptr : edge != nullptr && is_smooth(*edge) == (options.angle == exact_ratio);
       });
-      auto coupled = couple_seams(pointers, *rows, seams, options);
+      auto coupled = couple_seams(pointers, joined.rows, seams, options);
       if (!coupled) return std::unexpected(coupled.error());
       settings.constraints.insert(settings.constraints.end(), coupled->constraints.begin(), coupled->constraints.end());
       reports.insert(reports.end(), coupled->reports.begin(), coupled->reports.end());
     }
   }
   if (input.seams.smooth) {
-    if (auto kept = keep_smooth(pointers, *rows, reports, settings); !kept) return std::unexpected(kept.error());
+    if (auto kept = keep_smooth(pointers, joined.rows, reports, settings); !kept) return std::unexpected(kept.error());
   }
-  if (auto coupled = couple_followed(input, pointers, *rows, settings); !coupled) {
+  if (auto coupled = couple_followed(input, pointers, joined.rows, settings); !coupled) {
     return std::unexpected(coupled.error());
   }
-  set_material(input.surfaces, settings);
-  settings.rest = input.surfaces.front().mode;
-  set_evolution(input.evolution, input.scaling, input.detail, settings);
   if (std::ranges::any_of(input.surfaces, [](const SurfaceInput& s) { return s.touched != nullptr; })) {
     for (const SurfaceInput& s : input.surfaces) settings.visible.push_back(s.touched);
   }
+  return joined;
+}
+
+Expected<SceneModel> make_model(ModelInput input) {
+  auto joined = join_surfaces(input);
+  if (!joined) return std::unexpected(joined.error());
+  ActiveSettings<2>& settings = joined->settings;
+  std::vector<Surface> patches;
+  for (const SurfaceInput& s : input.surfaces) patches.push_back(*s.reference);
+  set_material(input.surfaces, settings);
+  settings.rest = input.surfaces.front().mode;
+  set_evolution(input.evolution, input.scaling, input.detail, settings);
   auto model = ActiveSurface::create(std::move(patches), settings);
   if (!model) return std::unexpected(model.error());
-  SceneModel made{std::move(input), std::move(*model), std::move(reports), std::move(notes)};
+  SceneModel made{std::move(input), std::move(*model), std::move(joined->seams), std::move(joined->notes)};
   if (auto loaded = keep_varying_load(made); !loaded) return std::unexpected(loaded.error());
   return made;
 }

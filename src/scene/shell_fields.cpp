@@ -81,8 +81,8 @@ Expected<FieldGrid> result_grid(const SceneSurface& s, int samples,
 Expected<std::vector<HoldReaction>> hold_reactions(const Scene& scene) {
   const auto problem = shell_problem(scene);
   if (!problem) return std::unexpected(problem.error());
-  const Points& x = scene.surfaces[static_cast<std::size_t>(*scene.selected)].current->control_points();
-  Points reactions = problem->energy.gradient(x) - problem->load;
+  const Points& x = problem->present;
+  Points reactions = problem->structure.gradient(x) - problem->load;
   for (const EdgeMoment& moment : problem->moments) reactions -= moment.forces(x);
   std::vector<HoldReaction> holds;
   std::vector<bool> counted(static_cast<std::size_t>(x.rows()), false);

@@ -5,45 +5,37 @@
 
 #include "constraints.hpp"
 #include "dead_loads.hpp"
+#include "joined_surfaces.hpp"
 #include "knead/sculpt/loads.hpp"
 
 namespace knead {
 namespace {
 
 Expected<void> check_scope(const Scene& scene, const SceneSurface& s) {
-  if (!scene.together.empty()) {
-    return input_error("shells are not coupled along seams", "select", "select one surface alone");
+  if (!s.nonlinear()) {
+    return input_error("it is no shell, but is selected with shells", s.id, "give all of them the same kind of model");
   }
-  if (!scene.tools.empty()) {
-    return input_error("a shell has no contact with tools", "tool",
-                       R"(remove them, or use {"do":"material","model":"linear"})");
-  }
-  if (scene.limit) return input_error("a shell has no limit", "limit", R"(end it: {"do":"limit"})");
   if (s.mode == RestMode::none)
     return input_error("a shell needs a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
-  const Load& load = scene.load;
-  if (load.pressure != 0 || load.wind != Vector3{0, 0, 0} || load.varies()) {
-    return input_error("on a shell only loads act that are constant and keep their direction", "load",
-                       "use vector and gravity, and leave out pressure, wind, samples and formulas");
-  }
-  for (const SceneForce& f : scene.forces) {
-    if (!keeps_direction(f.kind) && f.kind != PointForceKind::moment) {
-      return input_error("springs and volcanoes do not act on shells", f.name, "use kind dead, line or moment");
-    }
+  if (scene.load.varies()) {
+    return input_error("on a shell no load acts that varies over it", "load",
+                       "use vector, gravity, pressure and wind, and leave out samples and formulas");
   }
   return {};
 }
 
 /// Control points that do not move, as conditions.
-void append_held(const ConstraintList& list, const Points& displacement, std::vector<LinearConstraint>& to) {
-  for (std::size_t k = 0; k < list.held.size(); ++k) {
-    if (!list.held[k]) continue;
+void append_held(const JoinedSurfaces& joined, const Points& displacement, std::vector<LinearConstraint>& to) {
+  for (std::size_t k = 0; k < joined.settings.held.size(); ++k) {
+    if (!joined.settings.held[k]) continue;
     const int row = static_cast<int>(k);
-    to.push_back({list.held_by[k], {{row, 1.0}}, displacement.row(row).transpose()});
+    to.push_back({joined.held_by[k], {{row, 1.0}}, displacement.row(row).transpose()});
   }
 }
 
-Expected<Points> load_on(const Scene& scene, const SceneSurface& s, const ShellEnergy& shell) {
+/// On the surface of this index.
+Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& shell) {
+  const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   const Point vector(scene.load.vector.data()), gravity(scene.load.gravity.data());
   Points load = shell.area_load(shell.mass_per_area() * gravity);
   if (scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area) {
@@ -54,7 +46,7 @@ Expected<Points> load_on(const Scene& scene, const SceneSurface& s, const ShellE
     load += *forces;
   }
   for (const SceneForce& f : scene.forces) {
-    if (f.surface != *scene.selected || f.kind == PointForceKind::moment) continue;
+    if (f.surface != surface || !keeps_direction(f.kind)) continue;
     const auto forces = dead_forces(s, f, 1);
     if (!forces) return std::unexpected(forces.error());
     load += *forces;
@@ -62,10 +54,10 @@ Expected<Points> load_on(const Scene& scene, const SceneSurface& s, const ShellE
   return load;
 }
 
-Expected<std::vector<EdgeMoment>> moments_on(const Scene& scene, const SceneSurface& s) {
-  std::vector<EdgeMoment> moments;
+Expected<void> append_moments(const Scene& scene, int surface, int first, int size, std::vector<EdgeMoment>& moments) {
+  const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   for (const SceneForce& f : scene.forces) {
-    if (f.surface != *scene.selected || f.kind != PointForceKind::moment) continue;
+    if (f.surface != surface || f.kind != PointForceKind::moment) continue;
     if (std::ranges::any_of(s.constraints, [](const KeptConstraint& kept) {
           return std::holds_alternative<MirrorSymmetry>(kept.constraint);
         })) {
@@ -73,38 +65,154 @@ Expected<std::vector<EdgeMoment>> moments_on(const Scene& scene, const SceneSurf
                          "sculpt one half, with a symmetry of its edge, or release the mirror");
     }
     for (const SurfaceEdge edge : edges_of(*f.edge)) {
-      auto moment = EdgeMoment::create(*s.rest, edge_across(edge), edge_at_end(edge), *f.moment);
+      auto moment = EdgeMoment::create(*s.rest, edge_across(edge), edge_at_end(edge), *f.moment, first, size);
       if (!moment) return std::unexpected(moment.error());
       moments.push_back(std::move(*moment));
     }
   }
-  return moments;
+  return {};
+}
+
+/// What keeps the angle at a seam that constraints join in position only; none where it cannot have one.
+Expected<std::optional<ShellCrease>> crease_at(const SeamReport& report, std::span<const SceneSurface* const> surfaces,
+                                               std::span<const ShellEnergy> shells, std::span<const int> rows) {
+  // A moment that bends the shell to a radius of ten thicknesses opens the seam by a ten-thousandth.
+  constexpr double stiffening = 1000;
+  const Seam& seam = report.seam;
+  if (report.continuity != SeamContinuity::c0 || report.rigid || seam.kind != SeamKind::whole) return std::nullopt;
+  const auto side = [&](const PatchEdge& edge) {
+    const auto k = static_cast<std::size_t>(edge.patch);
+    return CreaseSide{surfaces[k]->rest.get(), rows[k], edge_across(edge.edge), edge_at_end(edge.edge)};
+  };
+  const auto stiffness = [&](const PatchEdge& edge) {
+    const ShellEnergy& shell = shells[static_cast<std::size_t>(edge.patch)];
+    return shell.bending_stiffness() / shell.effective_thickness();
+  };
+  auto crease = ShellCrease::create(side(seam.a), side(seam.b), seam.reversed,
+                                    stiffening * std::max(stiffness(seam.a), stiffness(seam.b)));
+  if (!crease) return std::unexpected(crease.error());
+  return std::optional(std::move(*crease));
+}
+
+Expected<ShellEnergy> energy_of(const SceneSurface& s) {
+  return s.shell ? ShellEnergy::create(*s.rest, *s.shell) : ShellEnergy::of_forms(*s.rest, *s.fundamental);
+}
+
+/// The input of the models of linear surfaces, for what holds shells: in places of the rest shape.
+ModelInput held_input(const Scene& scene, const EvolutionPolicy& evolution) {
+  ModelInput input = model_input(scene, evolution);
+  const std::vector<int> selection = scene.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    input.surfaces[k].rest = scene.surfaces[static_cast<std::size_t>(selection[k])].rest;
+  }
+  return input;
 }
 
 }  // namespace
 
 Expected<ShellProblem> shell_problem(const Scene& scene) {
-  const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(*scene.selected)];
-  if (auto within = check_scope(scene, s); !within) return std::unexpected(within.error());
-  auto shell = s.shell ? ShellEnergy::create(*s.rest, *s.shell) : ShellEnergy::of_forms(*s.rest, *s.fundamental);
-  if (!shell) return std::unexpected(shell.error());
-  ShellProblem problem{std::move(*shell), {}, {}, {}, {}};
-  SurfaceInput input = model_input(scene, scene.evolution).surfaces.front();
-  input.rest = s.rest;
-  auto list = constraints_of(input, problem.notes);
-  if (!list) return std::unexpected(list.error());
-  append_held(*list, s.current->control_points() - s.rest->control_points(), problem.constraints);
-  problem.constraints.insert(problem.constraints.end(), list->constraints.begin(), list->constraints.end());
-  auto load = load_on(scene, s, problem.energy);
-  if (!load) return std::unexpected(load.error());
-  problem.load = std::move(*load);
-  auto moments = moments_on(scene, s);
-  if (!moments) return std::unexpected(moments.error());
-  problem.moments = std::move(*moments);
-  return problem;
+  const std::vector<int> selection = scene.selection();
+  auto joined = join_surfaces(held_input(scene, scene.evolution));
+  if (!joined) return std::unexpected(joined.error());
+  const std::vector<int>& rows = joined->rows;
+  std::vector<ShellEnergy> shells;
+  std::vector<const SceneSurface*> surfaces;
+  Points rest(rows.back(), 3), present(rows.back(), 3), load(rows.back(), 3);
+  std::vector<EdgeMoment> moments;
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(selection[k])];
+    if (auto within = check_scope(scene, s); !within) return std::unexpected(within.error());
+    auto shell = energy_of(s);
+    if (!shell) return std::unexpected(shell.error());
+    const auto forces = load_on(scene, selection[k], *shell);
+    if (!forces) return std::unexpected(forces.error());
+    const int first = rows[k], n = rows[k + 1] - first;
+    rest.middleRows(first, n) = s.rest->control_points();
+    present.middleRows(first, n) = s.current->control_points();
+    load.middleRows(first, n) = *forces;
+    if (auto ok = append_moments(scene, selection[k], first, rows.back(), moments); !ok) {
+      return std::unexpected(ok.error());
+    }
+    shells.push_back(std::move(*shell));
+    surfaces.push_back(&s);
+  }
+  std::vector<ShellCrease> creases;
+  for (const SeamReport& report : joined->seams) {
+    auto crease = crease_at(report, surfaces, shells, rows);
+    if (!crease) return std::unexpected(crease.error());
+    if (*crease) creases.push_back(std::move(**crease));
+  }
+  std::vector<LinearConstraint> constraints;
+  append_held(*joined, present - rest, constraints);
+  constraints.insert(constraints.end(), joined->settings.constraints.begin(), joined->settings.constraints.end());
+  return ShellProblem{selection,
+                      ShellStructure(std::move(shells), std::move(creases)),
+                      std::move(rest),
+                      std::move(present),
+                      std::move(constraints),
+                      std::move(load),
+                      std::move(moments),
+                      std::move(joined->seams),
+                      std::move(joined->notes)};
 }
 
-Points with_held_bits(const ShellProblem& problem, const Points& rest, const Points& present, Points solved) {
+bool touches_shell(const Scene& scene) {
+  const std::vector<int> selection = scene.selection();
+  return !scene.tools.empty() || scene.limit || scene.load.pressure != 0 || scene.load.wind != Vector3{0, 0, 0} ||
+         std::ranges::any_of(scene.forces, [&](const SceneForce& f) {
+           return (f.kind == PointForceKind::spring || f.kind == PointForceKind::volcano) &&
+                  std::ranges::find(selection, f.surface) != selection.end();
+         });
+}
+
+ShellInput shell_input(const Scene& scene, const EvolutionPolicy& evolution) {
+  ShellInput input{held_input(scene, evolution), {}, {}};
+  for (const int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    input.shells.push_back(s.shell);
+    input.fundamental.push_back(s.fundamental);
+  }
+  return input;
+}
+
+Expected<ShellModel> make_shell_model(const Scene& scene, const ShellProblem& problem, ShellInput input) {
+  const auto joined = join_surfaces(input.model);
+  if (!joined) return std::unexpected(joined.error());
+  const EvolutionPolicy& evolution = input.model.evolution;
+  const SceneSurface& first = scene.surfaces[static_cast<std::size_t>(problem.surfaces.front())];
+  const auto *mass = std::get_if<double>(&first.material.mass), *damping = std::get_if<double>(&first.material.damping);
+  ActiveShellSettings settings{.evolution = evolution.mode,
+                               .lambda = evolution.lambda,
+                               .time_step = evolution.time_step,
+                               .damping = mass != nullptr && damping != nullptr && *mass > 0 ? *damping / *mass : 0,
+                               .held = joined->settings.held,
+                               .constraints = joined->settings.constraints,
+                               .visible = joined->settings.visible,
+                               .detail = input.model.detail,
+                               .accuracy = evolution.accuracy};
+  std::vector<Surface> patches;
+  for (const int k : problem.surfaces) patches.push_back(*scene.surfaces[static_cast<std::size_t>(k)].rest);
+  auto model = ActiveShell::create(std::move(patches), problem.structure, std::move(settings));
+  if (!model) return std::unexpected(model.error());
+  return ShellModel{std::move(input), std::move(*model)};
+}
+
+Expected<ActiveShellLoads> shell_loads(const Scene& scene, const ShellProblem& problem, double share) {
+  auto acting = active_point_forces(scene);
+  if (!acting) return std::unexpected(acting.error());
+  ActiveShellLoads loads{.nodal = share * problem.load,
+                         .moments = problem.moments,
+                         .pressure = share * scene.load.pressure,
+                         .wind = Point(scene.load.wind.data()),
+                         .points = std::move(*acting)};
+  if (scene.limit) {
+    loads.limit = *scene.limit;
+    loads.original = opened_points(scene);
+  }
+  return loads;
+}
+
+Points with_held_bits(const ShellProblem& problem, Points solved) {
   constexpr double rounding = 1e-15;
   for (const LinearConstraint& c : problem.constraints) {
     if (c.terms.size() != 1) continue;
@@ -112,7 +220,8 @@ Points with_held_bits(const ShellProblem& problem, const Points& rest, const Poi
     for (Eigen::Index k = 0; k < 3; ++k) {
       if (c.normal && (*c.normal)[k] == 0) continue;
       double& x = solved(row, k);
-      if (std::abs(x - present(row, k)) <= rounding * (std::abs(x) + std::abs(rest(row, k)))) x = present(row, k);
+      const double was = problem.present(row, k);
+      if (std::abs(x - was) <= rounding * (std::abs(x) + std::abs(problem.rest(row, k)))) x = was;
     }
   }
   return solved;

@@ -1,27 +1,55 @@
 #pragma once
 
 #include "knead/energy/edge_moment.hpp"
-#include "knead/energy/shell_energy.hpp"
-#include "knead/scene/scene.hpp"
+#include "knead/energy/shell_structure.hpp"
+#include "knead/scene/model.hpp"
+#include "knead/sculpt/active_shell.hpp"
 #include "knead/solve/linear_constraint.hpp"
 
 namespace knead {
 
-/// The static problem of the selected surface as a shell (docs/shell.md), in units of the file.
+/// The selected surfaces as shells (docs/shell.md), in units of the file. Rows are control points, surface after
+/// surface.
 struct ShellProblem {
-  ShellEnergy energy;
-  std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shape
-  Points load;                                ///< forces on the control points, N × 3
+  std::vector<int> surfaces;  ///< the selection
+  ShellStructure structure;
+  Points rest, present;
+  std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shapes, held points among them
+  Points load;                                ///< forces on the control points that keep their direction
   std::vector<EdgeMoment> moments;            ///< which follow their edges
+  std::vector<SeamReport> seams;
   std::vector<std::string> notes;
 };
 
-/// Errors (input): several selected surfaces, tools, springs and volcanoes, a limit, a rest mode or a load that shells
-/// do not have; numbers of the material; those of `constraints_of` and `ShellEnergy::create`.
+/// Errors (input): surfaces that are no shells among shells, a rest mode or a load that shells do not have; numbers of
+/// the material; those of `join_surfaces` and `ShellEnergy::create`.
 [[nodiscard]] Expected<ShellProblem> shell_problem(const Scene& scene);
 
+/// Whether something acts whose forces are not known before the shape is: tools, springs and volcanoes, pressure, wind,
+/// a limit.
+[[nodiscard]] bool touches_shell(const Scene& scene);
+
+/// Everything an `ActiveShell` of the selected surfaces depends on.
+struct ShellInput {
+  ModelInput model;
+  std::vector<std::optional<ShellMaterial>> shells;
+  std::vector<std::optional<FundamentalMaterial>> fundamental;
+
+  friend bool operator==(const ShellInput&, const ShellInput&) = default;
+};
+[[nodiscard]] ShellInput shell_input(const Scene& scene, const EvolutionPolicy& evolution);
+
+/// The selected surfaces as shells that tools press.
+struct ShellModel {
+  ShellInput input;
+  ActiveShell model;
+};
+[[nodiscard]] Expected<ShellModel> make_shell_model(const Scene& scene, const ShellProblem& problem, ShellInput input);
+
+/// What acts on it but tools: `share` of the load, all of the rest. Errors: those of `active_loads`.
+[[nodiscard]] Expected<ActiveShellLoads> shell_loads(const Scene& scene, const ShellProblem& problem, double share);
+
 /// `solved` with the bits of `present` in coordinates that a condition holds at the present place, to rounding.
-[[nodiscard]] Points with_held_bits(const ShellProblem& problem, const Points& rest, const Points& present,
-                                    Points solved);
+[[nodiscard]] Points with_held_bits(const ShellProblem& problem, Points solved);
 
 }  // namespace knead

@@ -18,10 +18,10 @@ Expected<std::vector<Eigenmode>> natural_modes(const Scene& scene, int count) {
   if (s.nonlinear()) {
     const auto problem = shell_problem(scene);
     if (!problem) return std::unexpected(problem.error());
-    const Points& x = s.current->control_points();
-    SparseMatrix stiffness = problem->energy.hessian(x);
+    const Points& x = problem->present;
+    SparseMatrix stiffness = problem->structure.hessian(x);
     for (const EdgeMoment& moment : problem->moments) stiffness -= moment.stiffness(x);
-    return vibration_modes(stiffness, on_coordinates(problem->energy.mass()), problem->constraints, count);
+    return vibration_modes(stiffness, on_coordinates(problem->structure.mass()), problem->constraints, count);
   }
   // Modes do not depend on how steps are made; a large lambda gives a model for anything that can be stepped.
   EvolutionPolicy any;
@@ -39,17 +39,17 @@ Expected<std::vector<Eigenmode>> linear_buckling(const Scene& scene, int count) 
   }
   const auto problem = shell_problem(scene);
   if (!problem) return std::unexpected(problem.error());
-  const Points& rest = s.rest->control_points();
+  const Points& rest = problem->rest;
   Points load = problem->load;
   for (const EdgeMoment& moment : problem->moments) load += moment.forces(rest);
-  const auto displacement = linear_displacement(problem->energy, rest, problem->constraints, load);
+  const auto displacement = linear_displacement(problem->structure, rest, problem->constraints, load);
   if (!displacement) return std::unexpected(displacement.error());
   if (displacement->isZero(0)) {
     return input_error("nothing loads the shell", "load", "give a load or a force; factors are multiples of it");
   }
-  const ShellStress none = ShellStress::Zero(6, problem->energy.stress(rest).cols());
-  const SparseMatrix stiffness = problem->energy.hessian(rest, none);
-  const SparseMatrix geometric = problem->energy.hessian(rest, problem->energy.stress(rest, *displacement)) - stiffness;
+  const SparseMatrix stiffness = problem->structure.material_hessian(rest);
+  const SparseMatrix geometric =
+      problem->structure.hessian(rest, problem->structure.stress(rest, *displacement)) - stiffness;
   auto modes = buckling_modes(stiffness, geometric, problem->constraints, count);
   if (modes && modes->empty()) {
     return input_error("no multiple of the load buckles the shell", "load", "loads that only pull do not");

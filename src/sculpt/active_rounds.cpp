@@ -1,19 +1,12 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "active_run.hpp"
-#include "largest_displacement.hpp"
 
 namespace knead {
 namespace {
 
-constexpr double limit_stiffness = 1e8;
-constexpr double limit_tolerance = 1e-6;
-constexpr int max_limit_rounds = 12;
-constexpr int max_rigid_rounds = 16;
 constexpr int max_route_passes = 60;
 constexpr double route_tolerance = 1e-9;
 
@@ -30,90 +23,11 @@ PotentialState ActiveSpline<D>::Run::descend(const StepProblem& step) {
   return std::move(reached);
 }
 
-template <int D>
-typename ActiveSpline<D>::Run::Entries ActiveSpline<D>::Run::entries(const Points& x) const {
-  Entries found{std::vector<double>(potential.tool_count(), 0.0)};
-  for (std::size_t t = 0; t < potential.tool_count(); ++t) {
-    if (!is_rigid(t)) continue;
-    const double entry = potential.deepest_entry(t, x) / potential.size(t);
-    found.of_tool[t] = entry;
-    if (entry > found.deepest) {
-      found.deepest = entry;
-      found.deepest_tool = static_cast<int>(t);
-    }
-  }
-  return found;
-}
-
-/// Stiffens the rigid tool that is penetrated at Gauss points, and starts contact further out for those penetrated in
-/// between. False if that tool is at its maximum stiffness: one more round will show what remains.
-template <int D>
-bool ActiveSpline<D>::Run::keep_out(const Entries& found, const PotentialState& at_gauss_points) {
-  bool harder = true;
-  for (std::size_t t = 0; t < found.of_tool.size(); ++t) {
-    const double entry = found.of_tool[t];
-    if (entry <= rigid_gap) continue;
-    if (at_gauss_points.entry <= rigid_gap || static_cast<int>(t) != at_gauss_points.entered) {
-      potential.set_offset(t, potential.offset(t) + (entry - 0.5 * rigid_gap) * potential.size(t));
-    } else if (potential.stiffness(t) < max_tool_stiffness) {
-      potential.set_stiffness(t, std::min(10 * potential.stiffness(t), max_tool_stiffness));
-    } else {
-      harder = false;
-    }
-  }
-  return harder;
-}
-
-template <int D>
-void ActiveSpline<D>::Run::tell_entered(const Entries& found) {
-  for (std::size_t t = 0; t < found.of_tool.size(); ++t) {
-    if (found.of_tool[t] <= rigid_gap) continue;
-    summary.converged = false;
-    note = fmt::format(
-        "tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net cannot give way",
-        potential.tool(t).name, found.of_tool[t]);
-  }
-}
-
-/// The minimum without penetration of rigid tools, at and between Gauss points, in at most `max_rigid_rounds` rounds.
-template <int D>
-PotentialState ActiveSpline<D>::Run::touch_rigid(const StepProblem& step) {
-  for (int rounds_left = max_rigid_rounds;;) {
-    PotentialState reached = descend(step);
-    if (!summary.finite) return {};
-    const Entries found = entries(step.start + y);
-    const bool over = found.deepest <= rigid_gap || rounds_left == 0;
-    if (over) {
-      tell_entered(found);
-      const bool rigid_deepest = reached.entered >= 0 && is_rigid(static_cast<std::size_t>(reached.entered));
-      if (rigid_deepest || found.deepest > reached.entry) {
-        reached.entry = found.deepest;
-        reached.entered = found.deepest_tool;
-      }
-      return reached;
-    }
-    rounds_left = keep_out(found, reached) ? rounds_left - 1 : 0;
-  }
-}
-
-/// The same under the limit, which is enforced at Gauss points and tightened until it holds between them too.
+/// The minimum under rigid tools and the limit.
 template <int D>
 PotentialState ActiveSpline<D>::Run::keep_within_limit(const StepProblem& step) {
-  if (!(limit > 0)) return touch_rigid(step);
-  double inner = limit * (1 - 0.5 * limit_tolerance);
-  for (int round = 0;; ++round) {
-    potential.limit(limit_origin, inner, limit_stiffness);
-    PotentialState reached = touch_rigid(step);
-    if (!summary.finite || !reached.limited) return reached;
-    const double largest = largest_displacement<D>(m.patches, m.rows, step.start + y - limit_origin);
-    if (largest <= limit * (1 + limit_tolerance)) return reached;
-    if (round == max_limit_rounds) {
-      summary.converged = false;
-      note = "the limit is exceeded between the points where it is kept; refine the net";
-      return reached;
-    }
-    inner -= largest - limit;
-  }
+  return rounds.run(
+      limit, limit_origin, [&] { return descend(step); }, [&] { return Points(step.start + y); });
 }
 
 /// F_analytic − F_Gauss of the tools at x.

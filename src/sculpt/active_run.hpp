@@ -5,6 +5,7 @@
 
 #include "active_model.hpp"
 #include "contact_newton.hpp"
+#include "contact_rounds.hpp"
 #include "patch_potential.hpp"
 
 namespace knead {
@@ -21,20 +22,8 @@ struct ActiveSpline<D>::Run {
   [[nodiscard]] Expected<ActiveStep> accept();
 
  private:
-  /// How far rigid tools are penetrated, anywhere, in their sizes.
-  struct Entries {
-    std::vector<double> of_tool;  // 0 for tools that are not rigid
-    double deepest = 0;
-    int deepest_tool = -1;
-  };
-
-  [[nodiscard]] bool is_rigid(std::size_t t) const { return potential.tool(t).rigid && potential.tool(t).collides(); }
   void balance_dynamic();
   [[nodiscard]] PotentialState descend(const StepProblem& step);
-  [[nodiscard]] Entries entries(const Points& x) const;
-  [[nodiscard]] bool keep_out(const Entries& found, const PotentialState& contact);
-  void tell_entered(const Entries& found);
-  [[nodiscard]] PotentialState touch_rigid(const StepProblem& step);
   [[nodiscard]] PotentialState keep_within_limit(const StepProblem& step);
   [[nodiscard]] Points greville_correction(const Points& x) const;
   [[nodiscard]] PotentialState settle(const StepProblem& step);
@@ -56,6 +45,7 @@ struct ActiveSpline<D>::Run {
   PotentialState contact;
   ContactSummary summary = {0, 0, true, true};
   std::string note;
+  ContactRounds<D> rounds;
 };
 
 }  // namespace knead

@@ -9,8 +9,7 @@
 namespace knead {
 namespace {
 
-constexpr double run_away = 1e4;  // a step longer than this many model sizes is refused
-constexpr double first_rigid_stiffness = 1e6;
+constexpr double run_away = 1e4;            // a step longer than this many model sizes is refused
 constexpr double developed_slip = 1e-4;     // friction is fully developed at this displacement, in lengths of the model
 constexpr double missed_constraint = 1e-9;  // of the size of the model
 
@@ -99,7 +98,8 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
               (file_origin.rowwise() - m.centre.transpose()) / m.length + before,
               0},
       potential(m.loads, m.rows, scaled),
-      limit(given_loads.limit / m.length) {
+      limit(given_loads.limit / m.length),
+      rounds(potential, m.patches, m.rows, summary, note) {
   const Points kx0 = m.stiffness * before;
   if (state.balanced) external = kx0;
   problem.b = external - kx0;
@@ -120,9 +120,7 @@ void ActiveSpline<D>::Run::touch() {
     point.core /= m.length;
     potential.add(std::move(point));
   }
-  for (std::size_t t = 0; t < tools.size(); ++t) {
-    if (is_rigid(t)) potential.set_stiffness(t, std::max(tools[t].stiffness, first_rigid_stiffness));
-  }
+  rounds.begin();
 }
 
 template <int D>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -38,8 +40,7 @@ double largest_of(const Spline<D>& field) {
 
 /// The largest |S − S_original| over all patches, for control points that differ by `displacement`.
 template <int D>
-double largest_displacement(const std::vector<Spline<D>>& patches, const std::vector<int>& rows,
-                            const Points& displacement) {
+double largest_displacement(std::span<const Spline<D>> patches, std::span<const int> rows, const Points& displacement) {
   double largest = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const auto field = patches[k].with_control_points(displacement.middleRows(rows[k], rows[k + 1] - rows[k]));

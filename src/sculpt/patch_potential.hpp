@@ -85,6 +85,21 @@ class PatchPotential final : public Potential {
     }
   }
 
+  void append_hessian(const PotentialState& state, std::vector<Eigen::Triplet<double>>& entries) const override {
+    const std::span<const ContactPoint> all(state.contacts);
+    for (std::size_t k = 0; k < all.size();) {
+      std::size_t end = k + 1;
+      while (end < all.size() && all[end].patch == all[k].patch) ++end;
+      if (all[k].patch >= 0) {
+        const auto patch = static_cast<std::size_t>(all[k].patch);
+        loads_[patch].append_hessian(all.subspan(k, end - k), rows_[patch], entries);
+      } else {
+        for (; k < end; ++k) append_point(all[k], entries);
+      }
+      k = end;
+    }
+  }
+
   void mark(const PotentialState& state, std::vector<char>& marks) const override {
     for (const ContactPoint& c : state.contacts) {
       if (c.patch < 0) {
@@ -126,6 +141,17 @@ class PatchPotential final : public Potential {
     Point sum = Point::Zero();
     for (const auto& [row, r] : force.terms) sum += r * x.row(row).transpose();
     return sum;
+  }
+
+  void append_point(const ContactPoint& contact, std::vector<Eigen::Triplet<double>>& entries) const {
+    const auto& terms = points_[static_cast<std::size_t>(contact.at[0])].terms;
+    for (const auto& [row, r] : terms) {
+      for (const auto& [column, s] : terms) {
+        for (int c = 0; c < 3; ++c) {
+          for (int e = 0; e < 3; ++e) entries.emplace_back(3 * row + c, 3 * column + e, r * s * contact.hessian(c, e));
+        }
+      }
+    }
   }
 
   void add_point(std::size_t k, const Points& x, PotentialState& state) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <array>
 #include <vector>
 
@@ -46,6 +47,8 @@ class Potential {
   /// Adds H v to `out`: the Hessian at `state` applied to N × 3 directions, both used only where contacts act. It may
   /// be indefinite.
   virtual void apply_hessian(const PotentialState& state, const Points& v, Points& out) const = 0;
+  /// Appends the entries of that Hessian, unknown 3 i + c being coordinate c of control point i.
+  virtual void append_hessian(const PotentialState& state, std::vector<Eigen::Triplet<double>>& entries) const = 0;
   /// Sets marks[i] where a contact of `state` acts on control point i: elsewhere force and Hessian are zero.
   virtual void mark(const PotentialState& state, std::vector<char>& marks) const = 0;
   /// Marks the neighbours of marked control points in their nets too.

@@ -170,6 +170,43 @@ void ToolLoad<D>::apply_hessian(const ContactPoint& contact, int first, const Po
 }
 
 template <int D>
+void ToolLoad<D>::append_hessian(std::span<const ContactPoint> contacts, int first,
+                                 std::vector<Eigen::Triplet<double>>& entries) const {
+  std::vector<int> rows, last;
+  std::vector<double> basis;
+  Eigen::MatrixXd block;
+  const auto flush = [&] {
+    for (Eigen::Index i = 0; i < block.rows(); ++i) {
+      for (Eigen::Index j = 0; j < block.cols(); ++j) {
+        entries.emplace_back(3 * last[static_cast<std::size_t>(i / 3)] + static_cast<int>(i % 3),
+                             3 * last[static_cast<std::size_t>(j / 3)] + static_cast<int>(j % 3), block(i, j));
+      }
+    }
+  };
+  for (const ContactPoint& contact : contacts) {
+    rows.clear();
+    basis.clear();
+    for_each_function(contact.at, contact.part, [&](int row, double n) {
+      rows.push_back(first + row);
+      basis.push_back(n);
+    });
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    if (rows != last) {
+      flush();
+      last = rows;
+      block = Eigen::MatrixXd::Zero(3 * count, 3 * count);
+    }
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Eigen::Matrix3d half = contact.factor * basis[static_cast<std::size_t>(i)] * contact.hessian;
+      for (Eigen::Index j = 0; j < count; ++j) {
+        block.block<3, 3>(3 * i, 3 * j) += basis[static_cast<std::size_t>(j)] * half;
+      }
+    }
+  }
+  flush();
+}
+
+template <int D>
 void ToolLoad<D>::mark(const ContactPoint& contact, int first, std::vector<char>& marks) const {
   for_each_function(contact.at, contact.part,
                     [&](int row, double) { marks[static_cast<std::size_t>(first + row)] = 1; });

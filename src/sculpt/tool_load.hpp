@@ -82,6 +82,11 @@ class ToolLoad {
   /// Adds the Hessian at one contact point of this patch, applied to v, to `out`.
   void apply_hessian(const ContactPoint& contact, int first, const Points& v, Points& out) const;
 
+  /// Appends what that Hessian adds to the matrix of all coordinates, for contact points of this patch; those of one
+  /// element after another give one block.
+  void append_hessian(std::span<const ContactPoint> contacts, int first,
+                      std::vector<Eigen::Triplet<double>>& entries) const;
+
   /// Sets the marks of the control points that a contact point of this patch depends on.
   void mark(const ContactPoint& contact, int first, std::vector<char>& marks) const;
 

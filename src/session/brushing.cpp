@@ -293,7 +293,7 @@ Expected<void> Executor::show_brush(const Points& displacement) {
     }
   }
   if (auto sound = check_folds(); !sound) return sound;
-  note_model(stroke_cache->scene);
+  note_model(stroke_cache->scene.seams, stroke_cache->scene.notes);
   return {};
 }
 

@@ -41,14 +41,14 @@ Expected<Kink> kink_along(std::span<const Surface* const> shapes, const CoupledE
 }  // namespace
 
 /// Says which seams were smooth and are not any more, why, and what keeps them so.
-void Executor::note_creases(const SceneModel& model) {
+void Executor::note_creases(const std::vector<SeamReport>& seams) {
   std::vector<const Surface*> shapes, references;
   const std::vector<int> selection = state.selection();
   for (int k : selection) {
     shapes.push_back(state.surfaces[static_cast<std::size_t>(k)].current.get());
     references.push_back(state.surfaces[static_cast<std::size_t>(k)].reference.get());
   }
-  for (const SeamReport& report : model.seams) {
+  for (const SeamReport& report : seams) {
     if (!may_crease(report)) continue;
     const auto name = [&](const PatchEdge& side) {
       const auto index = static_cast<std::size_t>(selection[static_cast<std::size_t>(side.patch)]);

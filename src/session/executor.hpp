@@ -9,6 +9,7 @@
 #include "knead/scene/trims.hpp"
 #include "knead/sculpt/greville_values.hpp"
 #include "knead/session/session.hpp"
+#include "scene/shell_model.hpp"
 
 namespace knead {
 
@@ -43,6 +44,7 @@ struct Session::ModelCache {
   std::optional<StrokeModel> stroke;
   std::optional<BrushRun> brush;
   std::optional<AnyBodyModel> body;
+  std::optional<ShellModel> shell;
 };
 
 /// Applies one command to a copy of the state, and has what commands share. Each command's file defines `execute` for
@@ -55,10 +57,13 @@ struct Executor {
   std::optional<StrokeModel>& stroke_cache;
   std::optional<BrushRun>& brush_cache;
   std::optional<AnyBodyModel>& body_cache;
+  std::optional<ShellModel>& shell_cache;
   SessionState& state;
   const Session::Progress& progress;
   bool allow_held = false;             ///< a tool may touch what is held alone
   std::optional<int> increments = {};  ///< of the load of a shell
+  std::vector<SeamReport> shell_seams = {};
+  std::vector<std::string> shell_notes = {};
 
   template <class C>
   Expected<void> execute(const C& command);
@@ -88,9 +93,8 @@ struct Executor {
   /// `count` steps with the forces of the scene and these.
   Expected<void> run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more = {},
                      int done = 0, int total = 0);
-  /// One static step of the selected surface as a shell, from its rest shape. Errors: those of `shell_problem` and
-  /// `shell_equilibrium`; another mode (input).
-  Expected<void> run_shell(const EvolutionPolicy& evolution);
+  /// Whether a selected surface is a shell.
+  [[nodiscard]] bool shells() const;
   /// Share `plasticity` of the displacement becomes rest shape.
   Expected<void> yield(double plasticity);
 
@@ -151,7 +155,13 @@ struct Executor {
  private:
   template <int D>
   Expected<void> step_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution);
+  Expected<void> know_what_holds();
   Expected<void> prepare_model(const EvolutionPolicy& evolution);
+  Expected<ActiveStep> one_shell_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
+                                      double& seconds);
+  Expected<ActiveStep> load_shell(const ShellProblem& problem);
+  Expected<ActiveStep> press_shell(const ShellProblem& problem, const EvolutionPolicy& evolution,
+                                   const std::vector<PointForce>& more);
   Expected<void> refine_as(const std::vector<SeamRefinement>& refinements);
   Expected<ActiveStep> one_step(const std::vector<PointForce>& more, double& seconds);
   Expected<void> take(const ActiveStep& step);
@@ -180,8 +190,8 @@ struct Executor {
   /// Refines the faces at edges that follow: what is under a tool on one side, on the others too.
   Expected<void> refine_followed(const SceneSurface& touched, const TrimContact& contact, double size);
   void record(const ActiveStep& step, double seconds, std::string note);
-  void note_model(const SceneModel& model);
-  void note_creases(const SceneModel& model);
+  void note_model(const std::vector<SeamReport>& seams, const std::vector<std::string>& notes);
+  void note_creases(const std::vector<SeamReport>& seams);
   /// Whether the surfaces of which edges of faces are held have not folded: their normals point to the same side as at
   /// rest, at four points per span. Error (numerical): where they do not.
   Expected<void> check_folds();

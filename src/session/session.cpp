@@ -65,7 +65,8 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   const Command meant = any.without ? make_command(*any.without) : command;
   auto next = std::make_shared<SessionState>(state());
   next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
-  Executor executor{document(), cache_->model, cache_->stroke, cache_->brush, cache_->body, *next, progress};
+  Executor executor{document(),   cache_->model, cache_->stroke, cache_->brush,
+                    cache_->body, cache_->shell, *next,          progress};
   if (!fields_of<StrokeCommand>(command)) {
     if (auto lifted = executor.lift(); !lifted) return lifted;
   }
@@ -227,6 +228,11 @@ Expected<double> Session::energy() {
     return s.mode == RestMode::shape && s.current == s.rest;
   });
   if (at_rest) return 0;  // even if no model can be made
+  if (state().surfaces[static_cast<std::size_t>(*state().selected)].nonlinear()) {
+    const auto problem = shell_problem(state());
+    if (!problem) return std::unexpected(problem.error());
+    return problem->structure.energy(problem->present).sum();
+  }
   ModelInput input = model_input(state(), state().evolution);
   if (cache_->model) {
     ModelInput same = cache_->model->input;

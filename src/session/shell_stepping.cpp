@@ -3,46 +3,84 @@
 
 #include "executor.hpp"
 #include "knead/solve/shell_statics.hpp"
-#include "scene/shell_model.hpp"
 
 namespace knead {
 
-Expected<void> Executor::run_shell(const EvolutionPolicy& evolution) {
-  if (evolution.mode != Evolution::stationary) {
-    return input_error("a shell has static steps only", "evolve", R"(use {"do":"evolve","mode":"static"})");
-  }
-  SceneSurface& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
+bool Executor::shells() const {
+  return std::ranges::any_of(state.selection(),
+                             [&](int k) { return state.surfaces[static_cast<std::size_t>(k)].nonlinear(); });
+}
+
+Expected<ActiveStep> Executor::one_shell_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
+                                              double& seconds) {
   const auto start = std::chrono::steady_clock::now();
-  const auto problem = shell_problem(state);
+  auto problem = shell_problem(state);
   if (!problem) return std::unexpected(problem.error());
-  const Points &rest = s.rest->control_points(), &present = s.current->control_points();
-  if (!state.energy_before) state.energy_before = problem->energy.energy(present).sum();
-  auto found = shell_equilibrium(problem->energy, rest, problem->constraints, problem->load,
-                                 {.increments = increments.value_or(1)}, problem->moments);
+  if (!state.energy_before) state.energy_before = problem->structure.energy(problem->present).sum();
+  auto step = evolution.mode == Evolution::stationary && more.empty() && !touches_shell(state)
+                  ? load_shell(*problem)
+                  : press_shell(*problem, evolution, more);
+  if (!step) return step;
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  shell_seams = std::move(problem->seams);
+  shell_notes = std::move(problem->notes);
+  return step;
+}
+
+/// Equilibrium under dead loads and moments, which need not be stable, from the rest shape.
+Expected<ActiveStep> Executor::load_shell(const ShellProblem& problem) {
+  auto found = shell_equilibrium(problem.structure, problem.rest, problem.constraints, problem.load,
+                                 {.increments = increments.value_or(1)}, problem.moments);
   if (!found) return std::unexpected(found.error());
   ActiveStep step;
-  step.control_points = with_held_bits(*problem, rest, present, std::move(found->control_points));
-  const ShellParts energy = problem->energy.energy(step.control_points);
+  step.control_points = with_held_bits(problem, std::move(found->control_points));
+  const ShellParts energy = problem.structure.energy(step.control_points);
   step.stretch = energy.membrane;
   step.bend = energy.bending;
   step.energy = energy.sum();
   step.converged = found->converged;
-  std::vector<int> iterations;
+  step.note = found->note;
+  step.load_factor = found->load_factor;
   for (const ShellIncrement& part : found->increments) {
-    iterations.push_back(part.iterations);
+    step.increments.push_back(part.iterations);
     step.iterations += part.iterations;
     step.residual = part.residual;
   }
-  if (auto taken = take(step); !taken) return taken;
-  if (auto sound = check_folds(); !sound) return sound;
-  record(step, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), found->note);
-  state.steps.back().load_factor = found->load_factor;
-  state.steps.back().increments = std::move(iterations);
-  state.seam_reports.clear();
-  for (const std::string& note : problem->notes) {
-    if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
+  return step;
+}
+
+/// A step under tools, or in time.
+Expected<ActiveStep> Executor::press_shell(const ShellProblem& problem, const EvolutionPolicy& evolution,
+                                           const std::vector<PointForce>& more) {
+  ShellInput input = shell_input(state, evolution);
+  if (!shell_cache || !(shell_cache->input == input)) {
+    shell_cache.reset();
+    auto made = make_shell_model(state, problem, std::move(input));
+    if (!made) return std::unexpected(made.error());
+    shell_cache = std::move(*made);
   }
-  return {};
+  const auto tools = tools_and_images(state);
+  if (!tools) return std::unexpected(tools.error());
+  const int parts = evolution.mode == Evolution::stationary ? increments.value_or(1) : 1;
+  ActiveState from = active_state(state);
+  ActiveStep step;
+  std::vector<int> iterations;
+  for (int part = 1; part <= parts; ++part) {
+    auto loads = shell_loads(state, problem, static_cast<double>(part) / parts);
+    if (!loads) return std::unexpected(loads.error());
+    loads->points.insert(loads->points.end(), more.begin(), more.end());
+    auto taken = shell_cache->model.step(from, *tools, *loads);
+    if (!taken) return taken;
+    iterations.push_back(taken->iterations);
+    from.control_points = taken->control_points;
+    step = std::move(*taken);
+  }
+  step.control_points = with_held_bits(problem, std::move(step.control_points));
+  if (evolution.mode == Evolution::stationary) {
+    step.load_factor = 1;
+    step.increments = std::move(iterations);
+  }
+  return step;
 }
 
 }  // namespace knead

@@ -45,20 +45,10 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
                              int total) {
   auto selection = selected();
   if (!selection) return std::unexpected(selection.error());
-  if ((*selection)->nonlinear()) {
-    if (!more.empty()) return input_error("a shell is not dragged", "drag", "use a force of kind dead, and step");
-    Expected<void> solved;
-    for (int k = 0; k < count && solved; ++k) solved = run_shell(evolution);
-    return solved;
-  }
-  if (increments) {
+  const bool shell = shells();
+  if (increments && !shell) {
     return input_error("only the load of a shell is increased in parts", "increments",
                        R"(leave it out, or give {"do":"material","model":"shell"} with young and thickness)");
-  }
-  for (int index : state.together) {
-    const SceneSurface& other = state.surfaces[static_cast<std::size_t>(index)];
-    if (other.nonlinear())
-      return input_error("shells are not coupled along seams", other.id, "select one surface alone");
   }
   if (state.permission == RefinePermission::automatic) {
     if (auto refined = refine_seams(); !refined) return refined;
@@ -68,9 +58,9 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
   int refinements = 0, stepped = 0;
   std::optional<Attempts> tried;
   while (stepped < count) {
-    if (auto made = prepare_model(evolution); !made) return made;
+    if (auto made = shell ? know_what_holds() : prepare_model(evolution); !made) return made;
     double seconds = 0;
-    const auto step = one_step(more, seconds);
+    const auto step = shell ? one_shell_step(evolution, more, seconds) : one_step(more, seconds);
     if (!step) return std::unexpected(step.error());
     if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
     if (step->coarseness > coarse && state.permission == RefinePermission::automatic && refinements < max_refinements &&
@@ -103,7 +93,8 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     ++stepped;
     if (progress) progress(done + stepped, total > 0 ? total : count);
   }
-  if (stepped > 0) note_model(*cache);
+  if (stepped > 0 && shell) note_model(shell_seams, shell_notes);
+  if (stepped > 0 && !shell) note_model(cache->seams, cache->notes);
   return {};
 }
 
@@ -122,9 +113,13 @@ Expected<void> Executor::check_limit() const {
   return {};
 }
 
-Expected<void> Executor::prepare_model(const EvolutionPolicy& evolution) {
+Expected<void> Executor::know_what_holds() {
   if (auto known = know_trims(); !known) return known;
-  if (auto known = know_followed(); !known) return known;
+  return know_followed();
+}
+
+Expected<void> Executor::prepare_model(const EvolutionPolicy& evolution) {
+  if (auto known = know_what_holds(); !known) return known;
   ModelInput input = model_input(state, evolution);
   if (cache && cache->input == input) return {};
   cache.reset();
@@ -183,6 +178,8 @@ StepRecord record_of(const ActiveStep& step, double seconds, std::string note) {
   record.converged = step.converged;
   record.limited = step.limited;
   record.energy_error = step.energy_error;
+  record.load_factor = step.load_factor;
+  record.increments = step.increments;
   record.note = std::move(note);
   return record;
 }
@@ -197,18 +194,18 @@ void Executor::record(const ActiveStep& step, double seconds, std::string note) 
   state.steps.push_back(std::move(record));
 }
 
-void Executor::note_model(const SceneModel& model) {
-  state.seam_reports = model.seams;
+void Executor::note_model(const std::vector<SeamReport>& seams, const std::vector<std::string>& notes) {
+  state.seam_reports = seams;
   const std::vector<int> selection = state.selection();
   for (SeamReport& report : state.seam_reports) {
     for (PatchEdge* edge : {&report.seam.a, &report.seam.b}) {
       edge->patch = selection[static_cast<std::size_t>(edge->patch)];
     }
   }
-  for (const std::string& note : model.notes) {
+  for (const std::string& note : notes) {
     if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
   }
-  note_creases(model);
+  note_creases(seams);
 }
 
 Expected<void> Executor::yield(double plasticity) {

@@ -123,7 +123,8 @@ Expected<void> Executor::begin_stroke(const std::string& name, double share) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
   if ((*surface)->nonlinear()) {
-    return input_error("a shell has no contact with tools", "tool", R"(use {"do":"material","model":"linear"})");
+    return input_error("strokes act on the linear model", "stroke",
+                       R"(press shells by move and step, or use {"do":"material","model":"linear"})");
   }
   const auto tool = find_tool(name);
   if (!tool) return std::unexpected(tool.error());
@@ -314,7 +315,7 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
   const auto shallower = keep_unfolded();
   if (!shallower) return std::unexpected(shallower.error());
   if (!shallower->empty()) note = *shallower;
-  note_model(stroke_cache->scene);
+  note_model(stroke_cache->scene.seams, stroke_cache->scene.notes);
   last.iterations = iterations;
   last.converged = converged;
   record(last, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), std::move(note));

@@ -46,8 +46,8 @@ struct Loads {
 /// Newton's iteration towards one load.
 class ShellNewton {
  public:
-  ShellNewton(const ShellEnergy& shell, const SparseMatrix& map, const Loads& loads, const ShellStaticsOptions& options,
-              double extent)
+  ShellNewton(const ShellStructure& shell, const SparseMatrix& map, const Loads& loads,
+              const ShellStaticsOptions& options, double extent)
       : shell_(shell), map_(map), loads_(loads), options_(options), extent_(extent) {}
 
   struct Outcome {
@@ -59,7 +59,7 @@ class ShellNewton {
   /// Moves x to the equilibrium under `factor` times the load, or says that it was not reached.
   Outcome iterate(Points& x, double factor) {
     Outcome outcome;
-    ShellStress stress = shell_.stress(x);
+    ShellStructure::Stress stress = shell_.stress(x);
     double scale = factor * (map_.transpose() * flattened(loads_.forces(x))).norm();
     while (true) {
       const Points imbalance = factor * loads_.forces(x) - shell_.gradient(x);
@@ -90,7 +90,7 @@ class ShellNewton {
   }
 
  private:
-  const ShellEnergy& shell_;
+  const ShellStructure& shell_;
   const SparseMatrix& map_;
   const Loads& loads_;
   const ShellStaticsOptions& options_;
@@ -99,7 +99,7 @@ class ShellNewton {
   Eigen::SimplicialLDLT<SparseMatrix> solver_;
 };
 
-Expected<void> check(const ShellEnergy& shell, const Points& rest, const Points& load,
+Expected<void> check(const ShellStructure& shell, const Points& rest, const Points& load,
                      const ShellStaticsOptions& options) {
   if (rest.rows() != shell.size() || load.rows() != shell.size()) {
     return input_error(
@@ -119,7 +119,7 @@ Expected<void> check(const ShellEnergy& shell, const Points& rest, const Points&
 
 }  // namespace
 
-Expected<ShellEquilibrium> shell_equilibrium(const ShellEnergy& shell, const Points& rest,
+Expected<ShellEquilibrium> shell_equilibrium(const ShellStructure& shell, const Points& rest,
                                              std::span<const LinearConstraint> constraints, const Points& load,
                                              const ShellStaticsOptions& options, std::span<const EdgeMoment> moments) {
   if (auto ok = check(shell, rest, load, options); !ok) return std::unexpected(ok.error());
@@ -162,7 +162,7 @@ Expected<ShellEquilibrium> shell_equilibrium(const ShellEnergy& shell, const Poi
   return result;
 }
 
-Expected<Points> linear_displacement(const ShellEnergy& shell, const Points& rest,
+Expected<Points> linear_displacement(const ShellStructure& shell, const Points& rest,
                                      std::span<const LinearConstraint> constraints, const Points& load) {
   if (auto ok = check(shell, rest, load, {}); !ok) return std::unexpected(ok.error());
   const auto space = ConstraintSpace::create(shell.size(), constraints);

@@ -114,17 +114,17 @@ TEST(ShellCommand, NamesWhatIsWrong) {
   EXPECT_FALSE(refusal(session, R"({"do":"material","model":"shell","young":-1,"thickness":1})").what.empty());
   EXPECT_EQ(refusal(session, R"({"do":"step","increments":2})").where, "increments");
   run(session, {R"({"do":"material","model":"shell","young":1,"thickness":1})"});
-  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "evolve");
   run(session, {R"({"do":"load","vector":[0,0,1]})"});
   EXPECT_EQ(refusal(session, R"({"do":"evolve","mode":"static"})").kind, ErrorKind::numerical);  // nothing holds it
   run(session, {R"({"do":"load"})", R"({"do":"edge","hold":"clamped"})", R"({"do":"evolve","mode":"static"})"});
   EXPECT_EQ(refusal(session, R"({"do":"step","increments":0})").where, "increments");
-  run(session, {R"({"do":"force","name":"s","at":[0.5,0.5],"to":[0,0,1]})"});
-  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "s");
-  run(session, {R"({"do":"remove","tool":"s"})", R"({"do":"load","pressure":1})"});
+  run(session, {R"({"do":"load","formula":["0","0","s"]})"});
   EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "load");
-  run(session, {R"({"do":"load"})", R"({"do":"tool","name":"ball","radius":2,"position":[5,0.5,9]})"});
-  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "tool");
+  run(session, {R"({"do":"load"})", R"({"do":"evolve","mode":"dynamic"})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "density");
+  run(session, {R"({"do":"new","size":[10,1],"net":[8,4]})", R"({"do":"select","surfaces":["#1","#2"]})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "#2");  // which is no shell
+  run(session, {R"({"do":"select","surface":"#1"})", R"({"do":"evolve","mode":"acm"})"});
   run(session, {R"({"do":"material","model":"linear"})", R"({"do":"step"})"});
 }
 

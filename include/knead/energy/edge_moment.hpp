@@ -17,7 +17,9 @@ class EdgeMoment {
  public:
   /// The edge on which parameter `across` (0: u, 1: v) is at the start or the end of its domain. Errors: a moment that
   /// is not finite (input); a rational denominator that is not positive (numerical).
-  [[nodiscard]] static Expected<EdgeMoment> create(const Surface& rest, int across, bool at_end, double per_length);
+  /// \param first row of the surface's first control point among all `size` (0: those of the surface alone).
+  [[nodiscard]] static Expected<EdgeMoment> create(const Surface& rest, int across, bool at_end, double per_length,
+                                                   int first = 0, int size = 0);
 
   /// The forces F on the control points x, N × 3.
   [[nodiscard]] Points forces(const Points& x) const;

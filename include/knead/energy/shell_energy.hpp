@@ -88,6 +88,9 @@ class ShellEnergy {
 
   /// ∫ R_i dA · `per_area`: the forces on the control points of a load per area of the rest shape, N × 3.
   [[nodiscard]] Points area_load(const Point& per_area) const;
+  /// ∫ R_i (pressure n + (n·(wind − v)) n) dA over the present shape x, n the unit normal S_u × S_v, v the velocity
+  /// with control points `velocity`: N × 3.
+  [[nodiscard]] Points normal_load(const Points& x, const Points& velocity, double pressure, const Point& wind) const;
   /// ∫ R_i R_j μ dA with μ = density · thickness (0 of the fundamental forms): N × N, the same for each coordinate,
   /// with the pattern of a stiffness. The inertia of rotations, of the order of t², is neglected.
   [[nodiscard]] SparseMatrix mass() const;
@@ -95,6 +98,11 @@ class ShellEnergy {
   /// 0.5 E t / (1 − ν²) · area, or ∫ Σ w1 A² du dv: the energy of a stretch of one, the scale that rounding is judged
   /// by.
   [[nodiscard]] double stretching_scale() const;
+
+  /// E t³/(12 (1 − ν²)); of the fundamental forms 2 ∫ Σ w2 A² du dv over the area, the same for a curvature of one.
+  [[nodiscard]] double bending_stiffness() const;
+  /// t, or that of the shell with the same ratio of bending to stretching.
+  [[nodiscard]] double effective_thickness() const;
 
   [[nodiscard]] int size() const;
   /// Density · thickness; 0 of the fundamental forms.

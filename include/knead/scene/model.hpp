@@ -82,6 +82,12 @@ struct SceneModel {
 /// Errors (input): a force on a point that does not exist.
 [[nodiscard]] Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& model);
 
+/// Its springs and volcanoes alone, on the control points of the selected surfaces, stacked. Errors: likewise.
+[[nodiscard]] Expected<std::vector<PointForce>> active_point_forces(const Scene& scene);
+
+/// The control points of the selected surfaces as opened, stacked.
+[[nodiscard]] Points opened_points(const Scene& scene);
+
 /// The parts of a load that vary, forces per area over the domain of a surface: that of its samples, and one for each
 /// component by formula. Errors: those of `sampled_load` and `formula_field`.
 [[nodiscard]] Expected<std::vector<Surface>> load_fields(const Load& load, const Surface& surface);

@@ -179,7 +179,7 @@ struct SceneSurface {
   Points velocity = {};  ///< of a dynamic evolution, a spline on the present net; empty: at rest
   RestMode mode = RestMode::shape;
   MaterialFieldOf<2> material = {};
-  std::optional<ShellMaterial> shell = {};              ///< instead of `material`: static steps are those of a shell
+  std::optional<ShellMaterial> shell = {};              ///< instead of `material`: steps are those of a shell
   std::optional<FundamentalMaterial> fundamental = {};  ///< likewise, or of a surface that keeps its fundamental forms
   int hold_rows = 0;                                    ///< outer rows of control points that do not move
   std::set<std::array<int, 2>> pins = {};
@@ -192,7 +192,7 @@ struct SceneSurface {
   /// The part of it that faces show, in fractions of its domain; null until first needed.
   std::shared_ptr<const VisibleRegion> visible = {};
 
-  /// Static steps are those of `ShellEnergy`.
+  /// Steps are those of `ShellEnergy`.
   [[nodiscard]] bool nonlinear() const { return shell || fundamental; }
 };
 

@@ -138,6 +138,9 @@ struct ActiveStep {
   int solves = 0;         ///< back substitutions with the factored matrix
   bool converged = true;  ///< the step's minimum was reached, and the gap of rigid tools met
   std::string note;       ///< why not, and what would help
+  /// Of shells that are loaded in parts: the share of the load that is balanced, and Newton's iterations of each part.
+  std::optional<double> load_factor = {};
+  std::vector<int> increments = {};
 };
 
 /// A spline that resists stretch and bend, deformed by tools: the active model of thesis chapters 4 and 5, for curves,

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "knead/energy/edge_moment.hpp"
-#include "knead/energy/shell_energy.hpp"
+#include "knead/energy/shell_structure.hpp"
 #include "knead/solve/linear_constraint.hpp"
 
 namespace knead {
@@ -48,14 +48,14 @@ struct ShellEquilibrium {
 /// that is free to move without strain (numerical). An increment that does not converge even when halved is no error:
 /// the result is then the last equilibrium, with `converged` false and a note. Cost: per iteration one Hessian and one
 /// sparse factorisation.
-[[nodiscard]] Expected<ShellEquilibrium> shell_equilibrium(const ShellEnergy& shell, const Points& rest,
+[[nodiscard]] Expected<ShellEquilibrium> shell_equilibrium(const ShellStructure& shell, const Points& rest,
                                                            std::span<const LinearConstraint> constraints,
                                                            const Points& load, const ShellStaticsOptions& options = {},
                                                            std::span<const EdgeMoment> moments = {});
 
 /// The displacement of the linear theory, the limit of small loads and small values of the constraints: K u = load on
 /// all that the constraints leave free, K the Hessian at rest. Errors: those above. Cost: one sparse factorisation.
-[[nodiscard]] Expected<Points> linear_displacement(const ShellEnergy& shell, const Points& rest,
+[[nodiscard]] Expected<Points> linear_displacement(const ShellStructure& shell, const Points& rest,
                                                    std::span<const LinearConstraint> constraints, const Points& load);
 
 }  // namespace knead

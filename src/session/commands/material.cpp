@@ -204,8 +204,8 @@ std::span<const Choice> choices(LengthUnit) {
 std::span<const Choice> choices(MaterialModel) {
   static constexpr Choice list[] = {
       {"linear", MaterialModel::linear, "the active model"},
-      {"shell", MaterialModel::shell, "Koiter's shell, for static steps ([shell.md](shell.md))"},
-      {"fundamental", MaterialModel::fundamental, "keeps both fundamental forms, for static steps (thesis Eq. 3.42)"}};
+      {"shell", MaterialModel::shell, "Koiter's shell ([shell.md](shell.md))"},
+      {"fundamental", MaterialModel::fundamental, "keeps both fundamental forms (thesis Eq. 3.42)"}};
   return list;
 }
 

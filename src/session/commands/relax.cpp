@@ -124,7 +124,8 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   std::optional<StrokeModel> unused;
   std::optional<BrushRun> unused_run;
   std::optional<AnyBodyModel> unused_body;
-  Executor own{document, model, unused, unused_run, unused_body, trial, progress};
+  std::optional<ShellModel> unused_shell;
+  Executor own{document, model, unused, unused_run, unused_body, unused_shell, trial, progress};
   if (auto done = own.run(1, plate); !done) return done;
 
   for (int index : state.selection()) {

@@ -4,11 +4,11 @@ import { field, toggle } from './dom';
 import { numberInput } from './number_input';
 import { note, row } from './panel';
 
-/** What resists in a surface: the linear model of sculpting, or one that static steps solve whatever the turns. */
+/** What resists in a surface: the linear model of sculpting, or one that follows any turns. */
 const models = [
   ['linear', 'Linear', 'The model of sculpting: fast, for small turns; a large one counts as stretch'],
-  ['shell', 'Shell', 'A sheet of real material and thickness (Koiter): forces, stresses, modes; static steps'],
-  ['fundamental', 'Forms', 'Keeps lengths and curvatures as they were (both fundamental forms), without a material; static steps'],
+  ['shell', 'Shell', 'A sheet of real material and thickness (Koiter): forces, stresses, modes'],
+  ['fundamental', 'Forms', 'Keeps lengths and curvatures as they were (both fundamental forms), without a material'],
 ] as const;
 
 const modelOf = (s: SurfaceInfo) => (s.shell ? 'shell' : s.fundamental ? 'fundamental' : 'linear');

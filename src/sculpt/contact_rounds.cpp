@@ -1,0 +1,119 @@
+#include "contact_rounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "largest_displacement.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double first_rigid_stiffness = 1e6;
+constexpr double limit_stiffness = 1e8;
+constexpr double limit_tolerance = 1e-6;
+constexpr int max_limit_rounds = 12;
+constexpr int max_rigid_rounds = 16;
+
+}  // namespace
+
+template <int D>
+void ContactRounds<D>::begin() {
+  for (std::size_t t = 0; t < potential_.tool_count(); ++t) {
+    if (is_rigid(t)) potential_.set_stiffness(t, std::max(potential_.tool(t).stiffness, first_rigid_stiffness));
+  }
+}
+
+template <int D>
+typename ContactRounds<D>::Entries ContactRounds<D>::entries(const Points& x) const {
+  Entries found{std::vector<double>(potential_.tool_count(), 0.0)};
+  for (std::size_t t = 0; t < potential_.tool_count(); ++t) {
+    if (!is_rigid(t)) continue;
+    const double entry = potential_.deepest_entry(t, x) / potential_.size(t);
+    found.of_tool[t] = entry;
+    if (entry > found.deepest) {
+      found.deepest = entry;
+      found.deepest_tool = static_cast<int>(t);
+    }
+  }
+  return found;
+}
+
+/// Stiffens the rigid tool that is penetrated at Gauss points, and starts contact further out for those penetrated in
+/// between. False if that tool is at its maximum stiffness: one more round will show what remains.
+template <int D>
+bool ContactRounds<D>::keep_out(const Entries& found, const PotentialState& at_gauss_points) {
+  bool harder = true;
+  for (std::size_t t = 0; t < found.of_tool.size(); ++t) {
+    const double entry = found.of_tool[t];
+    if (entry <= rigid_gap) continue;
+    if (at_gauss_points.entry <= rigid_gap || static_cast<int>(t) != at_gauss_points.entered) {
+      potential_.set_offset(t, potential_.offset(t) + (entry - 0.5 * rigid_gap) * potential_.size(t));
+    } else if (potential_.stiffness(t) < max_tool_stiffness) {
+      potential_.set_stiffness(t, std::min(10 * potential_.stiffness(t), max_tool_stiffness));
+    } else {
+      harder = false;
+    }
+  }
+  return harder;
+}
+
+template <int D>
+void ContactRounds<D>::tell_entered(const Entries& found) {
+  for (std::size_t t = 0; t < found.of_tool.size(); ++t) {
+    if (found.of_tool[t] <= rigid_gap) continue;
+    summary_.converged = false;
+    note_ = fmt::format(
+        "tool {} stays entered by {:.2g} of its size: what is held lies inside it, or the net cannot give way",
+        potential_.tool(t).name, found.of_tool[t]);
+  }
+}
+
+/// The minimum without penetration of rigid tools, at and between Gauss points, in at most `max_rigid_rounds` rounds.
+template <int D>
+PotentialState ContactRounds<D>::touch_rigid(const Descend& descend, const Place& place) {
+  for (int rounds_left = max_rigid_rounds;;) {
+    PotentialState reached = descend();
+    if (!summary_.finite) return {};
+    const Entries found = entries(place());
+    const bool over = found.deepest <= rigid_gap || rounds_left == 0;
+    if (over) {
+      tell_entered(found);
+      const bool rigid_deepest = reached.entered >= 0 && is_rigid(static_cast<std::size_t>(reached.entered));
+      if (rigid_deepest || found.deepest > reached.entry) {
+        reached.entry = found.deepest;
+        reached.entered = found.deepest_tool;
+      }
+      return reached;
+    }
+    rounds_left = keep_out(found, reached) ? rounds_left - 1 : 0;
+  }
+}
+
+/// The same under the limit, which is enforced at Gauss points and tightened until it holds between them too.
+template <int D>
+PotentialState ContactRounds<D>::run(double limit, const Points& limit_origin, const Descend& descend,
+                                     const Place& place) {
+  if (!(limit > 0)) return touch_rigid(descend, place);
+  double inner = limit * (1 - 0.5 * limit_tolerance);
+  for (int round = 0;; ++round) {
+    potential_.limit(limit_origin, inner, limit_stiffness);
+    PotentialState reached = touch_rigid(descend, place);
+    if (!summary_.finite || !reached.limited) return reached;
+    const double largest = largest_displacement<D>(patches_, rows_, place() - limit_origin);
+    if (largest <= limit * (1 + limit_tolerance)) return reached;
+    if (round == max_limit_rounds) {
+      summary_.converged = false;
+      note_ = "the limit is exceeded between the points where it is kept; refine the net";
+      return reached;
+    }
+    inner -= largest - limit;
+  }
+}
+
+template class ContactRounds<1>;
+template class ContactRounds<2>;
+template class ContactRounds<3>;
+
+}  // namespace knead
