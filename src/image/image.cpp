@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "lines.hpp"
+
 namespace knead {
 namespace {
 
@@ -46,85 +48,6 @@ std::array<Image, 2> differences(const Image& image) {
   return {convolved(image, {-0.5, 0, 0.5}, {1}), convolved(image, {1}, {-0.5, 0, 0.5})};
 }
 
-/// min_j (f_j + (i − j)²) for all i: the lower envelope of parabolas.
-void lower_envelope(const std::vector<double>& f, std::vector<double>& result) {
-  const auto n = static_cast<int>(f.size());
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<int> lowest;   // whose parabolas are lowest somewhere, from left to right
-  std::vector<double> from;  // where each begins to be
-  const auto at = [&](int k) { return f[static_cast<std::size_t>(k)]; };
-  for (int q = 0; q < n; ++q) {
-    if (at(q) == infinity) continue;
-    double start = -infinity;
-    while (!lowest.empty()) {
-      const int v = lowest.back();
-      start = ((at(q) + double(q) * q) - (at(v) + double(v) * v)) / (2.0 * (q - v));
-      if (start > from.back()) break;
-      lowest.pop_back();
-      from.pop_back();
-      start = -infinity;
-    }
-    lowest.push_back(q);
-    from.push_back(start);
-  }
-  result.assign(f.size(), infinity);
-  if (lowest.empty()) return;
-  std::size_t k = 0;
-  for (int i = 0; i < n; ++i) {
-    while (k + 1 < lowest.size() && from[k + 1] < i) ++k;
-    const double d = i - lowest[k];
-    result[static_cast<std::size_t>(i)] = d * d + at(lowest[k]);
-  }
-}
-
-/// Cubic spline coefficients of `count` lines side by side, element k of line i at [k * stride + i], mirrored at their
-/// ends: in place, by the recursive filter with the pole √3 − 2.
-void interpolate_lines(double* lines, std::size_t count, std::size_t stride, int n) {
-  if (n == 1) return;
-  const double pole = std::sqrt(3.0) - 2;
-  const auto line = [&](int k) { return lines + static_cast<std::size_t>(k) * stride; };
-  // The first of the causal sums, exactly: the mirrored samples have the period 2n − 2.
-  const double last = std::pow(pole, n - 1);
-  std::vector<double> sums(line(0), line(0) + count);
-  const auto add = [&](int k, double weight) {
-    for (std::size_t i = 0; i < count; ++i) sums[i] += weight * line(k)[i];
-  };
-  add(n - 1, last);
-  for (int k = 1; k < n - 1; ++k) {
-    const double weight = std::pow(pole, k) + std::pow(pole, 2 * n - 2 - k);
-    if (std::abs(weight) < 1e-40) break;  // of the values, far below rounding
-    add(k, weight);
-  }
-  for (std::size_t i = 0; i < count; ++i) line(0)[i] = sums[i] / (1 - last * last);
-  for (int k = 1; k < n; ++k) {
-    for (std::size_t i = 0; i < count; ++i) line(k)[i] += pole * line(k - 1)[i];
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    line(n - 1)[i] = pole / (pole * pole - 1) * (pole * line(n - 2)[i] + line(n - 1)[i]);
-  }
-  for (int k = n - 2; k >= 0; --k) {
-    for (std::size_t i = 0; i < count; ++i) line(k)[i] = pole * (line(k + 1)[i] - line(k)[i]);
-  }
-  for (int k = 0; k < n; ++k) {
-    for (std::size_t i = 0; i < count; ++i) line(k)[i] *= 6;
-  }
-}
-
-void cubic_basis(double t, double* values, bool derivative) {
-  const double r = 1 - t;
-  if (derivative) {
-    values[0] = -r * r / 2;
-    values[1] = (3 * t - 4) * t / 2;
-    values[2] = (1 + 2 * t - 3 * t * t) / 2;
-    values[3] = t * t / 2;
-  } else {
-    values[0] = r * r * r / 6;
-    values[1] = (4 - 3 * t * t * (2 - t)) / 6;
-    values[2] = (4 - 3 * r * r * (2 - r)) / 6;
-    values[3] = t * t * t / 6;
-  }
-}
-
 }  // namespace
 
 Expected<void> check_image(const Image& image) {
@@ -144,15 +67,7 @@ Expected<void> check_image(const Image& image) {
 
 Image gaussian(const Image& image, double sigma) {
   if (!(sigma > 0)) return image;
-  const int reach = static_cast<int>(4 * sigma + 0.5);
-  std::vector<double> weights(static_cast<std::size_t>(2 * reach + 1));
-  double total = 0;
-  for (int k = -reach; k <= reach; ++k) {
-    const double w = std::exp(-0.5 * k * k / (sigma * sigma));
-    weights[static_cast<std::size_t>(k + reach)] = w;
-    total += w;
-  }
-  for (double& w : weights) w /= total;
+  const std::vector<double> weights = detail::gaussian_weights(sigma);
   return convolved(image, weights, weights);
 }
 
@@ -173,13 +88,13 @@ Image distance_to(const Image& mask) {
   for (int x = 0; x < mask.width; ++x) {
     line.clear();
     for (int y = 0; y < mask.height; ++y) line.push_back(result.at(x, y));
-    lower_envelope(line, squared);
+    detail::lower_envelope(line, squared);
     for (int y = 0; y < mask.height; ++y) result.at(x, y) = squared[static_cast<std::size_t>(y)];
   }
   for (int y = 0; y < mask.height; ++y) {
     line.clear();
     for (int x = 0; x < mask.width; ++x) line.push_back(result.at(x, y));
-    lower_envelope(line, squared);
+    detail::lower_envelope(line, squared);
     for (int x = 0; x < mask.width; ++x) result.at(x, y) = std::sqrt(squared[static_cast<std::size_t>(x)]);
   }
   return result;
@@ -231,9 +146,9 @@ std::array<Image, 2> gradient_vector_flow(const Image& edges, double mu, int ite
 
 ImageSpline::ImageSpline(const Image& image) : width_(image.width), height_(image.height) {
   Image c = image;
-  for (int y = 0; y < height_; ++y) interpolate_lines(&c.at(0, y), 1, 1, width_);
+  for (int y = 0; y < height_; ++y) detail::interpolate_lines(&c.at(0, y), 1, 1, width_);
   const auto columns = static_cast<std::size_t>(width_);
-  interpolate_lines(c.values.data(), columns, columns, height_);
+  detail::interpolate_lines(c.values.data(), columns, columns, height_);
   const auto mirrored = [](int k, int n) { return n == 1 ? 0 : k < 0 ? -k : k >= n ? 2 * n - 2 - k : k; };
   coefficients_.reserve(static_cast<std::size_t>(width_ + 2) * static_cast<std::size_t>(height_ + 2));
   for (int y = -1; y <= height_; ++y) {
@@ -270,8 +185,8 @@ double ImageSpline::value(double x, double y) const {
   const double u = std::clamp(x, 0.0, width_ - 1.0), v = std::clamp(y, 0.0, height_ - 1.0);
   const int i = span_at(u, width_), j = span_at(v, height_);
   double bx[4], by[4];
-  cubic_basis(u - i, bx, false);
-  cubic_basis(v - j, by, false);
+  detail::cubic_basis(u - i, bx, false);
+  detail::cubic_basis(v - j, by, false);
   return weighted<1>(coefficients_, {width_ + 2, height_ + 2}, {i, j}, {bx}, {by})[0];
 }
 
@@ -279,10 +194,10 @@ std::array<double, 2> ImageSpline::gradient(double x, double y) const {
   const double u = std::clamp(x, 0.0, width_ - 1.0), v = std::clamp(y, 0.0, height_ - 1.0);
   const int i = span_at(u, width_), j = span_at(v, height_);
   double bx[4], by[4], dx[4], dy[4];
-  cubic_basis(u - i, bx, false);
-  cubic_basis(v - j, by, false);
-  cubic_basis(u - i, dx, true);
-  cubic_basis(v - j, dy, true);
+  detail::cubic_basis(u - i, bx, false);
+  detail::cubic_basis(v - j, by, false);
+  detail::cubic_basis(u - i, dx, true);
+  detail::cubic_basis(v - j, dy, true);
   auto slope = weighted<2>(coefficients_, {width_ + 2, height_ + 2}, {i, j}, {dx, bx}, {by, dy});
   if (x < 0 || x > width_ - 1.0) slope[0] = 0;
   if (y < 0 || y > height_ - 1.0) slope[1] = 0;

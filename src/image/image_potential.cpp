@@ -19,9 +19,7 @@ struct ImagePotential::Fields {
   double total = 0;
 };
 
-namespace {
-
-Expected<void> check_settings(const ImagePotentialSettings& s) {
+Expected<void> check_potential_settings(const ImagePotentialSettings& s) {
   const struct {
     const char* name;
     double value;
@@ -45,6 +43,8 @@ Expected<void> check_settings(const ImagePotentialSettings& s) {
   }
   return {};
 }
+
+namespace {
 
 /// Sums along rows by the trapezoidal rule, from their left end.
 Image sums_to_the_left(const Image& image) {
@@ -87,7 +87,7 @@ Expected<Image> nearness(const Image& image, const std::optional<Image>& mask) {
 Expected<ImagePotential> ImagePotential::create(const Image& image, const ImagePotentialSettings& settings,
                                                 const std::optional<Image>& mask) {
   if (auto checked = check_image(image); !checked) return std::unexpected(checked.error());
-  if (auto checked = check_settings(settings); !checked) return std::unexpected(checked.error());
+  if (auto checked = check_potential_settings(settings); !checked) return std::unexpected(checked.error());
   const Image smooth = gaussian(image, settings.smoothing);
   Image q = smooth;
   for (double& x : q.values) x *= settings.line;

@@ -24,6 +24,9 @@ struct ImagePotentialSettings {
   double distance = 0;  ///< weight of the nearness to the mask
 };
 
+/// Errors (input): weights that are no numbers; negative smoothing, μ or iterations; too much of them.
+[[nodiscard]] Expected<void> check_potential_settings(const ImagePotentialSettings& settings);
+
 /// The external energy of snakes in one image: −P of thesis Eqs. 2.28 to 2.30 as a C2 function, and forces that are no
 /// gradient.
 ///

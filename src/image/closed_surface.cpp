@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "knead/image/surface_snake.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "surface_checks.hpp"
+#include "surface_net.hpp"
+
+namespace knead {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int fewest_from_pole_to_pole = 6;
+
+Expected<void> check_start(const SurfaceStart& start) {
+  const bool torus = start.form == SurfaceForm::torus;
+  for (std::size_t d = 0; d < (torus ? 2U : 3U); ++d) {
+    if (!(start.radii[d] > 0 && start.radii[d] <= 1e9)) {
+      return input_error("the surface has no size", "radii", "give radii above 0");
+    }
+  }
+  if (torus && start.radii[1] >= start.radii[0]) {
+    return input_error(fmt::format("the tube of {} closes the ring of {}", start.radii[1], start.radii[0]), "radii",
+                       "give the ring's first, then the tube's, which is less");
+  }
+  if (!start.centre.allFinite()) return input_error("the centre is not finite", "centre");
+  if (!start.axis.allFinite() || !(start.axis.norm() > 0)) {
+    return input_error("the axis has no direction", "axis", "use [0, 0, 1]");
+  }
+  return {};
+}
+
+/// A place of the start, at fractions of a turn around u and v (of half a turn from pole to pole).
+Point place_of(const SurfaceStart& start, const Eigen::Quaterniond& turn, double u, double v) {
+  const double a = 2 * pi * u;
+  Point at;
+  if (start.form == SurfaceForm::torus) {
+    const double b = 2 * pi * v, out = start.radii[0] + start.radii[1] * std::cos(b);
+    at = {out * std::cos(a), out * std::sin(a), start.radii[1] * std::sin(b)};
+  } else {
+    const double b = pi * v;
+    at = {start.radii[0] * std::sin(b) * std::cos(a), start.radii[1] * std::sin(b) * std::sin(a),
+          -start.radii[2] * std::cos(b)};
+  }
+  return start.centre + turn * at;
+}
+
+SurfaceSpace space_for(const SurfaceStart& start, const SurfaceSnakeSettings& settings) {
+  const bool torus = start.form == SurfaceForm::torus;
+  const double mean = torus ? start.radii[0] : (start.radii[0] + start.radii[1] + start.radii[2]) / 3;
+  const double around = settings.units > 0 ? settings.units : 2 * pi * mean;
+  return {start.form,
+          settings.degree,
+          settings.control_points,
+          {around, torus ? around * start.radii[1] / start.radii[0] : around / 2}};
+}
+
+}  // namespace
+
+Expected<void> check_surface_settings(const SurfaceSnakeSettings& s) {
+  const double fewest = s.degree + 1.0;
+  const struct {
+    const char* name;
+    double value, least, most;
+  } numbers[] = {{"degree", double(s.degree), 2, 7},
+                 {"control_points", double(s.control_points[0]), fewest, 1000},
+                 {"control_points", double(s.control_points[1]), fewest, 1000},
+                 {"units", s.units, 0, 1e9},
+                 {"alpha", s.alpha, 0, 1e12},
+                 {"beta", s.beta, 0, 1e12},
+                 {"gamma", s.gamma, 1e-12, 1e12},
+                 {"band", s.band, 0, 1e6},
+                 {"redistribute", double(s.redistribute), 0, 1e7},
+                 {"balloon", s.balloon, -1e12, 1e12},
+                 {"max_move", s.max_move, 1e-6, 1e6},
+                 {"max_iterations", double(s.max_iterations), 1, 1e7},
+                 {"motion", s.motion, 0, 1e6},
+                 {"refine", s.refine, 0, 1e6},
+                 {"max_control_points", double(s.max_control_points), 1, 100000}};
+  for (const auto& [name, value, least, most] : numbers) {
+    if (value >= least && value <= most) continue;
+    return input_error(fmt::format("{} is out of range", value), name, fmt::format("use {} to {}", least, most));
+  }
+  for (const SurfaceSpring& spring : s.springs) {
+    const auto beyond = [](double at) { return !(at >= 0 && at <= 1); };
+    if (beyond(spring.at[0]) || beyond(spring.at[1])) {
+      return input_error("it is beyond the surface", "springs", "use at 0 to 1");
+    }
+    if (!spring.to.allFinite()) return input_error("the place is not finite", "springs");
+    if (!(spring.strength >= 0)) return input_error("the strength is negative", "springs", "use 0 or more");
+  }
+  for (const SurfaceVolcano& volcano : s.volcanoes) {
+    if (!volcano.at.allFinite() || !std::isfinite(volcano.strength)) {
+      return input_error("it is not finite", "volcanoes");
+    }
+    if (!(volcano.radius > 0)) return input_error("the radius is not positive", "volcanoes", "use more than 0");
+  }
+  return {};
+}
+
+Expected<ClosedSurface> closed_surface(const SurfaceStart& start, const SurfaceSnakeSettings& settings) {
+  if (auto checked = check_surface_settings(settings); !checked) return std::unexpected(checked.error());
+  if (auto checked = check_start(start); !checked) return std::unexpected(checked.error());
+  if (start.form == SurfaceForm::sphere && settings.control_points[1] < fewest_from_pole_to_pole) {
+    return input_error(fmt::format("{} from pole to pole are too few", settings.control_points[1]), "control_points",
+                       fmt::format("use {} or more", fewest_from_pole_to_pole));
+  }
+  const SurfaceSpace space = space_for(start, settings);
+  const auto net = SurfaceNet::create(space, 0, 0);
+  if (!net) return std::unexpected(net.error());
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(Point::UnitZ(), start.axis);
+  const auto &u = net->quadrature(0).parameters, &v = net->quadrature(1).parameters;
+  Points places(std::ssize(u) * std::ssize(v), 3);
+  Eigen::Index k = 0;
+  for (const double a : u) {
+    for (const double b : v) places.row(k++) = place_of(start, turn, a / space.lengths[0], b / space.lengths[1]);
+  }
+  const auto c = projected(space, places);
+  if (!c) return std::unexpected(c.error());
+  return net->surface(*c);
+}
+
+SurfaceMeasure measure(const ClosedSurface& snake) {
+  std::array<BasisQuadrature, 2> q;
+  for (std::size_t d = 0; d < 2; ++d) {
+    const KnotVector& knots = snake.surface.knots()[d];
+    q[d] = gauss_basis(knots, knots.degree() + 3, 1);
+  }
+  SurfaceMeasure sum;
+  const auto at = evaluate_grid<2>(snake.surface, std::array<const BasisTable*, 2>{&q[0].basis, &q[1].basis}, 1);
+  if (!at) return sum;  // only rational surfaces can fail
+  Eigen::Index k = 0;
+  for (const double a : q[0].weights) {
+    for (const double b : q[1].weights) {
+      const Eigen::RowVector3d normal = at->derivatives[1].row(k).cross(at->derivatives[2].row(k));
+      sum.area += a * b * normal.norm();
+      sum.volume += a * b * at->points().row(k).dot(normal) / 3;
+      ++k;
+    }
+  }
+  return sum;
+}
+
+}  // namespace knead
