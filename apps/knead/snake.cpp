@@ -13,13 +13,10 @@
 #include "knead/exchange/file_io.hpp"
 #include "knead/session/snake_script.hpp"
 #include "outputs.hpp"
+#include "volume_snake.hpp"
 
 namespace knead::cli {
 namespace {
-
-struct SnakeArguments {
-  std::string image, script, output, mask;
-};
 
 /// Without a script: an ellipse as large as the image nearly, drawn together by the region term.
 SnakeScript default_script(const Image& image) {
@@ -35,11 +32,6 @@ SnakeScript default_script(const Image& image) {
   start.radii = {0.45 * image.width, 0.45 * image.height};
   script.snakes.push_back(start);
   return script;
-}
-
-/// Files that a script names are beside it.
-std::string beside(const std::string& script, const std::string& file) {
-  return (std::filesystem::path(script).parent_path() / file).string();
 }
 
 Expected<SnakeScript> script_in(const SnakeArguments& options) {
@@ -127,6 +119,7 @@ Expected<void> write_results(const std::vector<SnakeResult>& snakes, const Snake
 }
 
 Expected<void> run(const SnakeArguments& options) {
+  if (is_volume_file(options.image)) return run_volume_snake(options);
   const std::string ending = std::filesystem::path(options.output).extension().string();
   if (!options.output.empty() && ending != ".json" && ending != ".csv" && ending != ".svg") {
     return usage_error(fmt::format("\"{}\" is no kind of contour", ending), "--output", "name it .json, .csv or .svg");
@@ -185,13 +178,17 @@ Expected<void> run(const SnakeArguments& options) {
 
 Action add_snake(CLI::App& app) {
   auto options = std::make_shared<SnakeArguments>();
-  CLI::App* command = app.add_subcommand("snake", "find contours in an image by active B-spline curves");
-  command->add_option("IMAGE", options->image, "PNG or JPEG file")->required()->type_name("");
+  CLI::App* command =
+      app.add_subcommand("snake", "find contours in an image, or surfaces in a volume, by active B-splines");
+  command->add_option("IMAGE", options->image, "PNG or JPEG file; or a volume (raw NRRD)")->required()->type_name("");
   command->add_option("--script,-s", options->script,
                       "JSON: energies, settings and where snakes start (default: one around nearly all of the image)");
-  command->add_option("--output,-o", options->output, "contours as curves (.json), points (.csv) or a drawing (.svg)");
-  command->add_option("--mask", options->mask, "PNG file for what is inside of closed contours, white on black");
-  command->footer("docs/snakes.md explains the energies and the fields of a script.\n" + std::string(exit_codes));
+  command->add_option("--output,-o", options->output,
+                      "contours: .json, .csv or .svg; surfaces: .step, .json or triangles (.stl, .obj)");
+  command->add_option("--mask", options->mask,
+                      "PNG file for what is inside of closed contours, white on black; NRRD file in volumes");
+  command->footer("docs/snakes.md and docs/voxels.md explain the energies and the fields of a script.\n" +
+                  std::string(exit_codes));
   return [options] { return run(*options); };
 }
 
