@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "format_list.hpp"
@@ -66,6 +67,28 @@ struct Buffer {
   }
 };
 
+/// One material per colour. Colours of CAD files are taken for sRGB, which screens show; glTF's are linear.
+struct Materials {
+  Json list = Json::array();
+
+  std::size_t of(const std::optional<Colour>& colour) {
+    const auto [found, fresh] = known_.try_emplace(colour, list.size());
+    if (!fresh) return found->second;
+    Json surface = {{"metallicFactor", 0}, {"roughnessFactor", 0.6}};
+    std::string name = "surface";
+    if (colour) {
+      const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+      surface["baseColorFactor"] = {linear((*colour)[0]), linear((*colour)[1]), linear((*colour)[2]), 1};
+      name = fmt::format("colour {:.3g} {:.3g} {:.3g}", (*colour)[0], (*colour)[1], (*colour)[2]);
+    }
+    list.push_back({{"name", name}, {"doubleSided", true}, {"pbrMetallicRoughness", surface}});
+    return found->second;
+  }
+
+ private:
+  std::map<std::optional<Colour>, std::size_t> known_;
+};
+
 void append_chunk(std::string& to, std::uint32_t type, std::string content, char padding) {
   content.resize((content.size() + 3) / 4 * 4, padding);
   append(to, static_cast<std::uint32_t>(content.size()));
@@ -75,6 +98,7 @@ void append_chunk(std::string& to, std::uint32_t type, std::string content, char
 
 Expected<std::string> save_gltf(std::span<const NamedMesh> all, const SaveOptions& options) {
   Buffer buffer;
+  Materials materials;
   Json meshes = Json::array(), nodes = Json::array(), children = Json::array();
   for (const NamedMesh& mesh : all) {
     if (mesh.triangles.empty()) continue;  // accessors must not be empty
@@ -85,10 +109,11 @@ Expected<std::string> save_gltf(std::span<const NamedMesh> all, const SaveOption
     }
     const int positions = buffer.vectors(mesh.points), normals = buffer.vectors(unit),
               indices = buffer.indices(mesh.triangles);
-    meshes.push_back(
-        {{"name", mesh.name},
-         {"primitives",
-          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}, {"material", 0}}}}});
+    meshes.push_back({{"name", mesh.name},
+                      {"primitives",
+                       {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+                         {"indices", indices},
+                         {"material", materials.of(mesh.colour)}}}}});
     children.push_back(meshes.size());
     nodes.push_back({{"name", mesh.name}, {"mesh", meshes.size() - 1}});
   }
@@ -105,10 +130,7 @@ Expected<std::string> save_gltf(std::span<const NamedMesh> all, const SaveOption
                          {"scenes", {{{"nodes", {0}}}}},
                          {"nodes", nodes},
                          {"meshes", meshes},
-                         {"materials",
-                          {{{"name", "surface"},
-                            {"doubleSided", true},
-                            {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.6}}}}}},
+                         {"materials", materials.list},
                          {"accessors", buffer.accessors},
                          {"bufferViews", buffer.views},
                          {"buffers", {{{"byteLength", buffer.bytes.size()}}}}};

@@ -6,6 +6,7 @@
 #include "foreign_format.hpp"
 #include "format_list.hpp"
 #include "iges_step.hpp"
+#include "iges_text.hpp"
 #include "iges_writer.hpp"
 #include "knead/exchange/step_file.hpp"
 
@@ -87,8 +88,10 @@ Format iges_format() {
           .media_type = "model/iges",
           .content = FormatContent::surfaces,
           .holds = "the surfaces themselves, and everything else of an opened file byte for byte",
+          .writes_curves = true,
           .recognises = is_iges,
-          .open = open_iges};
+          .open = open_iges,
+          .save = iges::text_of};
 }
 
 }  // namespace knead::detail

@@ -12,13 +12,14 @@ namespace knead::detail {
 [[nodiscard]] Format gismo_format();
 [[nodiscard]] Format geopdes_format();
 [[nodiscard]] Format net_format();
+[[nodiscard]] Format json_net_format();
 [[nodiscard]] Format stl_format();
 [[nodiscard]] Format obj_format();
 [[nodiscard]] Format ply_format();
 [[nodiscard]] Format gltf_format();
 
 inline constexpr Format (*format_list[])() = {step_format,  iges_format,    brep_format, g2_format,
-                                              gismo_format, geopdes_format, net_format,  stl_format,
-                                              obj_format,   ply_format,     gltf_format};
+                                              gismo_format, geopdes_format, net_format,  json_net_format,
+                                              stl_format,   obj_format,     ply_format,  gltf_format};
 
 }  // namespace knead::detail

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "format_list.hpp"
 #include "surface_text.hpp"
@@ -15,6 +16,7 @@ Expected<KnotVector> plain_knots(int count) { return KnotVector::clamped_uniform
 struct NetReader {
   std::string_view text, file;
   ListedSurface surface;
+  std::optional<Error> undivided = {};  ///< points alone: nothing says how many make a row
 
   Expected<void> read() {
     std::vector<std::size_t> rows = {0};  // points of each
@@ -68,9 +70,9 @@ struct NetReader {
     const std::size_t points = surface.coordinates.size() / 3;
     if (points == 0) return std::unexpected(words.error(0, "this file has no control points"));
     if (rows.size() < 2 || rows.front() < 2) {
-      return std::unexpected(words.error(0,
-                                         fmt::format("{} control points, but how many make a row is not said", points),
-                                         "put an empty line after each row, or each row in one line with semicolons"));
+      undivided = words.error(0, fmt::format("{} control points, but how many make a row is not said", points),
+                              "put an empty line after each row, or each row in one line with semicolons");
+      return {};
     }
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (rows[k] == rows.front()) continue;
@@ -120,6 +122,10 @@ Expected<std::shared_ptr<const Source>> open_net(std::string bytes, std::string 
   file.print = print_net_rows;
   NetReader net{file.bytes, file.name, {}};
   if (auto read = net.read(); !read) return std::unexpected(read.error());
+  if (net.undivided) {
+    file.unreadable.push_back({"#1", *std::move(net.undivided)});
+    return source_of(std::move(file));
+  }
   file.remarks = {
       "it has points alone: degrees and knots are Knead's, clamped and uniform, cubic where there are enough"};
   file.add("#1", {}, std::move(net.surface));

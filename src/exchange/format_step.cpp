@@ -1,10 +1,13 @@
 #include <algorithm>
+#include <map>
 
 #include "format_list.hpp"
+#include "knead/base/printable.hpp"
 #include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/exchange/step_text.hpp"
 #include "moved_edge.hpp"
+#include "step_data.hpp"
 
 namespace knead::detail {
 namespace {
@@ -38,6 +41,7 @@ class StepSource final : public Source {
   std::vector<std::string> remarks() const override {
     std::vector<std::string> result;
     for (const Error& warning : file_.warnings()) result.push_back("warning: " + warning.message());
+    if (auto triangles = tessellated(); !triangles.empty()) result.push_back(std::move(triangles));
     return result;
   }
 
@@ -64,6 +68,22 @@ class StepSource final : public Source {
   }
 
  private:
+  /// Triangles and polylines that the file holds beside or instead of exact geometry (ISO 10303-42, tessellated items).
+  [[nodiscard]] std::string tessellated() const {
+    std::map<std::string, std::size_t> counts;
+    const Part21File& records = file_.data().records;
+    for (const Part21Instance& instance : records.instances()) {
+      if (instance.complex || instance.first == instance.last) continue;
+      const std::string_view kind = records.keyword(instance.first);
+      if (kind.starts_with("TESSELLATED_") || kind.find("TRIANGULATED_") != std::string_view::npos)
+        ++counts[std::string(kind)];
+    }
+    std::string text;
+    for (const auto& [kind, count] : counts)
+      text += (text.empty() ? "" : ", ") + std::to_string(count) + " x " + printable(kind);
+    return text.empty() ? text : text + ": triangles and polylines, which are neither shown nor changed";
+  }
+
   step::File file_;
   std::vector<SourceSurface> surfaces_;
   std::vector<SourceCurve> curves_;
@@ -83,10 +103,17 @@ Expected<std::shared_ptr<const Source>> open(std::string bytes, std::string name
 
 Expected<std::string> save_step(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   std::vector<step::NewSurface> made;
-  for (const NamedSurface& s : surfaces) made.push_back({s.name, s.surface});
+  for (const NamedSurface& s : surfaces) made.push_back({s.name, s.surface, s.colour});
   step::TextOptions text;
   if (!options.unit.empty()) text.unit = options.unit;
   text.product = options.title;
+  text.faces = options.faces;
+  if (options.schema == "ap242") {
+    text.schema = step::Schema::ap242;
+  } else if (options.schema != "ap214") {
+    return input_error("\"" + printable(options.schema) + "\" is not a schema of new STEP files", {},
+                       "use ap214 or ap242");
+  }
   std::vector<step::NewCurve> curves;
   for (const NamedCurve& c : options.curves) curves.push_back({c.name, c.curve});
   return step::text_of(made, text, curves);

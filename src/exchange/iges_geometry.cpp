@@ -151,10 +151,11 @@ Expected<Eigen::Affine3d> transform_of(const File& file, int number) {
 Expected<Surface> read_surface(const File& file, int number, const Eigen::Affine3d& outer) {
   const auto parameters = file.parameters(number);
   if (!parameters) return std::unexpected(parameters.error());
-  const auto at = surface_layout(file, number, *parameters);
-  if (!at) return std::unexpected(at.error());
   const auto move = with_matrices(file, number, outer);
   if (!move) return std::unexpected(move.error());
+  if (file.find(number)->type == 114) return read_power_surface(file, number, *move);
+  const auto at = surface_layout(file, number, *parameters);
+  if (!at) return std::unexpected(at.error());
   auto u = knots_of(file, number, *parameters, *at, 0), v = knots_of(file, number, *parameters, *at, 1);
   if (!u || !v) return std::unexpected(!u ? u.error() : v.error());
   const auto n = at->points - at->weights;

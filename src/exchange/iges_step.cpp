@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "iges_curves.hpp"
+#include "iges_subfigures.hpp"
 #include "knead/exchange/step_text.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "step_print.hpp"
@@ -18,6 +19,7 @@ namespace {
 using Ids = std::vector<int>;
 constexpr std::size_t most_compared = 4000;  // pieces of one loop among which seams are sought
 
+bool is_spline(int type) { return type == 128 || type == 114; }
 bool is_face(int type) { return type == 143 || type == 144 || type == 510; }
 
 /// The surface of a face: the first pointer of 144 and 510, the second of 143.
@@ -42,18 +44,21 @@ class ViewBuilder {
       if (own && !own->matrix().isIdentity(0)) outer_.try_emplace(surface_of(file_, number), *own);
     }
     for (std::size_t k = 0; k < file_.entities().size(); ++k) {
-      if (file_.entities()[k].type == 128) add_spline(File::number(k));
+      if (is_spline(file_.entities()[k].type)) add_spline(File::number(k));
     }
     for (const int face : faces) {
       if (exceeds(file_, records_)) break;  // what is left is not known: its surfaces count as whole
       add_face(face);
     }
     const std::string& unit = file_.global().unit;
+    std::string context = "$";
     if (step::is_unit(unit)) {
       const double gap = file_.global().resolution > 0 ? file_.global().resolution : 1e-7;
-      static_cast<void>(step::print_context(
-          unit, gap, [&](const std::string& record) { return fmt::format("#{}", records_.add(record)); }));
+      context = step::print_context(
+          unit, gap, [&](const std::string& record) { return fmt::format("#{}", records_.add(record)); });
     }
+    for (const auto& [number, surface] : splines_) shown_.insert(number);
+    add_subfigures(file_, shown_, context, records_);
     view_.text = records_.exchange_structure();
     return std::move(view_);
   }
@@ -106,6 +111,7 @@ class ViewBuilder {
       if (loop != 0) bounds.push_back(records_.add(fmt::format("FACE_BOUND('',#{},.T.)", loop)));
     }
     const int below = splines_.contains(surface) ? surface : other_surface(surface);
+    if (!bounds.empty()) shown_.insert(number);
     if (!bounds.empty()) records_.put(number, fmt::format("ADVANCED_FACE('',{},#{},.T.)", list_of(bounds), below));
   }
 
@@ -320,7 +326,7 @@ class ViewBuilder {
   StepView view_;
   std::map<int, Eigen::Affine3d> outer_;
   std::unordered_map<int, Surface> splines_;
-  std::set<int> surfaces_, named_;
+  std::set<int> surfaces_, named_, shown_;
   std::map<std::pair<int, int>, int> shared_vertices_, shared_edges_;
   std::map<int, std::vector<double>> vertex_lists_;
   std::map<int, Ids> edge_lists_;

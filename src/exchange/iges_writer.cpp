@@ -9,6 +9,7 @@
 
 #include "iges_geometry.hpp"
 #include "iges_step.hpp"
+#include "iges_text.hpp"
 #include "part21_text.hpp"
 
 namespace knead::iges {
@@ -82,25 +83,27 @@ Expected<std::vector<std::string>> values_of(const File& file, const Replacement
   return result;
 }
 
-/// Free-format text in pieces of 64 columns; only strings are divided.
-std::vector<std::string> wrapped(const std::vector<std::string>& values, const Global& global,
-                                 const std::string& rest) {
-  std::vector<std::string> lines(1);
-  const auto put = [&](std::string token) {
-    if (lines.back().size() + token.size() > data_columns && !lines.back().empty()) lines.emplace_back();
-    while (token.size() > data_columns) {
-      lines.back() = token.substr(0, data_columns);
-      token.erase(0, data_columns);
-      lines.emplace_back();
-    }
-    lines.back() += token;
-  };
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    put(values[k] + (k + 1 < values.size() ? global.separator : global.terminator));
+/// The parameters that make a parametric spline surface (114) a B-spline surface (128), with what others add to them.
+Expected<std::vector<std::string>> spline_values(const File& file, const Replacement& r, const Parameters& parameters) {
+  const auto outer = outer_transform(file, r.number);
+  const auto own = transform_of(file, r.number);
+  if (!outer || !own) return std::unexpected(!outer ? outer.error() : own.error());
+  const Eigen::Affine3d move = *outer * *own, back = move.inverse();
+  Points points = r.surface.control_points();
+  if (!move.matrix().isIdentity(0)) {
+    for (Eigen::Index k = 0; k < points.rows(); ++k)
+      points.row(k) = (back * Point(points.row(k).transpose())).transpose();
   }
-  const auto last = rest.find_last_not_of(" \t\r");
-  if (last != std::string::npos) put(rest.substr(0, last + 1));
-  return lines;
+  const auto moved = r.surface.with_control_points(points);
+  if (!moved) return std::unexpected(moved.error());
+  std::vector<std::string> values = surface_values(*moved);
+  values.insert(values.begin(), "128");
+  // Behind all patches: pointers to associativities and properties.
+  const auto m = integer(parameters.values[3]).value_or(0), n = integer(parameters.values[4]).value_or(0);
+  const std::size_t end = 7 + static_cast<std::size_t>(m + n) +
+                          std::size_t{48} * static_cast<std::size_t>(m + 1) * static_cast<std::size_t>(n + 1);
+  for (std::size_t k = end; k < parameters.values.size(); ++k) values.push_back(parameters.values[k]);
+  return values;
 }
 
 /// Replaces spans of a file.
@@ -110,16 +113,20 @@ class Surgeon {
 
   Expected<void> replace(const Replacement& r) {
     const Entity* entity = file_.find(r.number);
-    if (entity == nullptr || entity->type != 128) return file_.error(r.number, "it is no B-spline surface");
+    const bool power = entity != nullptr && entity->type == 114;
+    if (entity == nullptr || (entity->type != 128 && !power)) {
+      return file_.error(r.number, "it is no B-spline surface");
+    }
     const auto parameters = file_.parameters(r.number);
     if (!parameters) return std::unexpected(parameters.error());
-    const auto values = values_of(file_, r, *parameters);
+    const auto values = power ? spline_values(file_, r, *parameters) : values_of(file_, r, *parameters);
     if (!values) return std::unexpected(values.error());
     if (*values == parameters->values) return {};
     const auto first = static_cast<std::size_t>(entity->first);
     const auto count = static_cast<std::size_t>(parameters->lines);
     const std::vector<std::string> lines = wrapped(*values, file_.global(), parameters->rest);
     changes_[first] = {count, lines};
+    if (power) splines_.push_back(r.number);
     const auto stated = static_cast<std::size_t>(std::max(entity->lines, 0));
     // Comments may follow; a count that was wrong becomes right.
     const std::size_t comments = stated > count ? stated - count : 0;
@@ -202,6 +209,11 @@ class Surgeon {
       if (entity.first >= 0 && moved != moved_.end() && moved->second != moved->first + 1) {
         put_field(records[2 * k], 1, static_cast<long long>(moved->second));
       }
+      if (std::ranges::find(splines_, File::number(k)) != splines_.end()) {
+        put_field(records[2 * k], 0, 128);
+        put_field(records[2 * k + 1], 0, 128);
+        put_field(records[2 * k + 1], 4, 0);
+      }
       const auto count = counts_.find(File::number(k));
       if (count != counts_.end()) put_field(records[2 * k + 1], 3, static_cast<long long>(count->second));
     }
@@ -225,6 +237,7 @@ class Surgeon {
   const File& file_;
   std::map<std::size_t, Change> changes_;     // by first record
   std::map<int, std::size_t> counts_;         // new counts of the directory
+  std::vector<int> splines_;                  // entities 114 that become 128
   std::map<std::size_t, std::size_t> moved_;  // the new number of each record that is kept or begins an entity
   std::map<std::size_t, Edit> edits_;         // by first byte
   std::size_t written_ = 0;
@@ -265,6 +278,26 @@ Expected<void> check(const File& before, const std::string& bytes, std::span<con
 }
 
 }  // namespace
+
+std::vector<std::string> wrapped(const std::vector<std::string>& values, const Global& global,
+                                 const std::string& rest) {
+  std::vector<std::string> lines(1);
+  const auto put = [&](std::string token) {
+    if (lines.back().size() + token.size() > data_columns && !lines.back().empty()) lines.emplace_back();
+    while (token.size() > data_columns) {
+      lines.back() = token.substr(0, data_columns);
+      token.erase(0, data_columns);
+      lines.emplace_back();
+    }
+    lines.back() += token;
+  };
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    put(values[k] + (k + 1 < values.size() ? global.separator : global.terminator));
+  }
+  const auto last = rest.find_last_not_of(" \t\r");
+  if (last != std::string::npos) put(rest.substr(0, last + 1));
+  return lines;
+}
 
 Expected<std::string> with_surfaces(const File& file, std::span<const Replacement> replacements) {
   if (replacements.empty()) return file.bytes();

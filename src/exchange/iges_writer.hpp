@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "iges_file.hpp"
 #include "knead/spline/spline.hpp"
@@ -23,5 +24,9 @@ struct Replacement {
 /// and the parameters of all other entities. Errors: unknown numbers (input); the check fails (numerical). Cost: linear
 /// in the file.
 [[nodiscard]] Expected<std::string> with_surfaces(const File& file, std::span<const Replacement> replacements);
+
+/// Parameters in records of 64 columns, and what follows the terminator.
+[[nodiscard]] std::vector<std::string> wrapped(const std::vector<std::string>& values, const Global& global,
+                                               const std::string& rest);
 
 }  // namespace knead::iges

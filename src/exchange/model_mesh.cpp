@@ -11,6 +11,7 @@
 
 #include "face_tessellator.hpp"
 #include "knead/exchange/assembly.hpp"
+#include "knead/exchange/face_colours.hpp"
 #include "knead/spline/grid_lines.hpp"
 #include "step_surfaces.hpp"
 #include "surface_mesh.hpp"
@@ -218,11 +219,15 @@ Expected<ModelFile> save_model(const step::File& file, const Format& format, dou
   }
   ModelFile result{{}, model->faces.size(), 0, open_sides(model->faces), model->skipped, assembly->warnings};
   options.unit = assembly->unit == "unknown" ? "" : assembly->unit;
+  const auto colours = face_colours(file);
   std::vector<NamedMesh> meshes;
   for (const FaceMesh& face : model->faces) {
     const SurfaceEntity* entity = file.find_surface(face.surface);
     NamedMesh& mesh = meshes.emplace_back();
     mesh.name = entity != nullptr && !entity->name.empty() ? entity->name : face.id;
+    auto colour = colours.find(face.id);
+    if (colour == colours.end()) colour = colours.find(face.surface);
+    if (colour != colours.end()) mesh.colour = colour->second;
     const auto count = static_cast<Eigen::Index>(face.points.size());
     mesh.points.resize(count, 3);
     mesh.normals.resize(count, 3);

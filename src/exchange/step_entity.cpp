@@ -1,7 +1,9 @@
 #include "step_entity.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "part21_text.hpp"
 
@@ -90,7 +92,56 @@ Expected<std::array<std::uint32_t, 3>> Reader::coordinate_values(std::uint32_t i
   return std::array<std::uint32_t, 3>{coordinates[0], coordinates[1], coordinates[2]};
 }
 
+/// Radians per unit of plane angles, of all contexts that have units.
+Expected<double> Reader::angle_unit(std::uint32_t instance) const {
+  if (angle_units_.empty()) {
+    for (std::uint32_t k = 0; k < file_->instances().size(); ++k) {
+      const auto context = attributes(k, "GLOBAL_UNIT_ASSIGNED_CONTEXT", 0, 1);
+      if (!file_->instance(k).complex || context.empty()) continue;
+      for (const std::uint32_t unit : references(context[0])) {
+        if (!is(unit, "PLANE_ANGLE_UNIT")) continue;
+        double radians = 1;
+        if (const auto own = attributes(unit, "CONVERSION_BASED_UNIT", 1, 2); !own.empty()) {
+          const auto measure = reference(own[1]);
+          const auto value = measure ? attributes(*measure, "MEASURE_WITH_UNIT", 0, 2) : std::vector<std::uint32_t>();
+          if (value.empty() || file_->value(value[0]).kind != Part21Kind::typed) continue;
+          const auto inner = file_->children(value[0]);
+          radians = inner.empty() ? 0 : real(inner[0]).value_or(0);
+        }
+        if (radians > 0 && std::ranges::find(angle_units_, radians) == angle_units_.end())
+          angle_units_.push_back(radians);
+      }
+    }
+    if (angle_units_.empty()) angle_units_.push_back(1);
+  }
+  if (angle_units_.size() == 1) return angle_units_.front();
+  return error(instance, "its angles may be in several units", "write its coordinates as x, y, z");
+}
+
+/// CYLINDRICAL_POINT(name, *, r, theta, z) and SPHERICAL_POINT(name, *, r, theta, phi): the coordinates are derived.
+Expected<Point> Reader::curved_point(std::uint32_t instance) const {
+  const bool cylindrical = is(instance, "CYLINDRICAL_POINT");
+  const auto own = attributes(instance, cylindrical ? "CYLINDRICAL_POINT" : "SPHERICAL_POINT", 2, 3);
+  if (own.empty()) return error(instance, "it has no three coordinates");
+  std::array<double, 3> v{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto value = real(own[k]);
+    if (!value) return error(instance, "coordinate " + std::to_string(k) + " is not a number a double can hold");
+    v[k] = *value;
+  }
+  const auto unit = angle_unit(instance);
+  if (!unit) return std::unexpected(unit.error());
+  const double theta = v[1] * *unit;
+  if (cylindrical) return Point(v[0] * std::cos(theta), v[0] * std::sin(theta), v[2]);
+  const double phi = v[2] * *unit;  // theta from the z axis, phi around it
+  return Point(v[0] * std::sin(theta) * std::cos(phi), v[0] * std::sin(theta) * std::sin(phi), v[0] * std::cos(theta));
+}
+
 Expected<Point> Reader::point(std::uint32_t instance) const {
+  if (is(instance, "CYLINDRICAL_POINT") || is(instance, "SPHERICAL_POINT")) return curved_point(instance);
+  if (is(instance, "POLAR_POINT")) {
+    return error(instance, "a point of a plane where one in space is needed", "write its coordinates as x, y, z");
+  }
   const auto values = coordinate_values(instance);
   if (!values) return std::unexpected(values.error());
   Point result;

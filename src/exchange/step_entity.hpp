@@ -57,6 +57,9 @@ class Reader {
 
   /// The values of the coordinates of a CARTESIAN_POINT with three of them.
   [[nodiscard]] Expected<std::array<std::uint32_t, 3>> coordinate_values(std::uint32_t instance) const;
+  /// Of a CARTESIAN_POINT, CYLINDRICAL_POINT or SPHERICAL_POINT (ISO 10303-42); angles are in the unit of the contexts.
+  /// Errors (input): another entity, a POLAR_POINT, which lies in a plane; numbers that are none; contexts with several
+  /// units of angles where one is needed.
   [[nodiscard]] Expected<Point> point(std::uint32_t instance) const;
   [[nodiscard]] std::optional<Point> direction(std::uint32_t instance) const;
 
@@ -64,7 +67,11 @@ class Reader {
   [[nodiscard]] std::unexpected<Error> error(std::uint32_t instance, std::string what, std::string remedy = {}) const;
 
  private:
+  [[nodiscard]] Expected<Point> curved_point(std::uint32_t instance) const;
+  [[nodiscard]] Expected<double> angle_unit(std::uint32_t instance) const;
+
   const Part21File* file_;
+  mutable std::vector<double> angle_units_;  ///< of the contexts, in radians; found when first needed
 };
 
 }  // namespace knead::step

@@ -104,8 +104,9 @@ Expected<void> Surgeon::move(std::uint32_t point, const std::vector<Eigen::Index
   }
   if (moved.empty()) return {};
   const auto coordinates = reader_.coordinate_values(point);
-  if (!coordinates) return std::unexpected(coordinates.error());
-  const bool used_elsewhere = file_.instance(point).uses > rows.size();
+  if (!coordinates && !is_curved(point)) return std::unexpected(coordinates.error());
+  // A point by angles stays as it is: what has moved gets records of its own.
+  const bool used_elsewhere = !coordinates || file_.instance(point).uses > rows.size();
   std::size_t first_new = 0;
   if (!used_elsewhere && !some_stay) {
     auto own = rewritten(*coordinates, old_points, rows.front(), new_points, moved.front().front());
@@ -115,7 +116,9 @@ Expected<void> Surgeon::move(std::uint32_t point, const std::vector<Eigen::Index
   for (std::size_t g = first_new; g < moved.size(); ++g) {
     const auto name = "#" + std::to_string(names_.next());
     inserted += line_break() +
-                copy_of(point, name, rewritten(*coordinates, old_points, rows.front(), new_points, moved[g].front()));
+                (coordinates ? copy_of(point, name,
+                                       rewritten(*coordinates, old_points, rows.front(), new_points, moved[g].front()))
+                             : print_point(name, new_points.row(moved[g].front()).data()));
     for (const auto row : moved[g]) change(refs[static_cast<std::size_t>(row)], name);
   }
   return {};
@@ -212,7 +215,7 @@ Expected<std::vector<std::string>> Surgeon::point_names(const std::vector<std::u
     auto& name = created[bits_of(new_points, row)];
     if (name.empty()) {
       const auto free = [&](std::uint32_t record) {
-        return !needed.contains(record) && file_.instance(record).uses == occurrences[record];
+        return !needed.contains(record) && file_.instance(record).uses == occurrences[record] && !is_curved(record);
       };
       while (at < refs.size() && !free(file_.value(refs[at]).target)) ++at;
       if (at < refs.size()) {

@@ -56,6 +56,10 @@ class Surgeon {
   [[nodiscard]] std::string result();
 
  private:
+  /// A point by angles, which has no coordinates to rewrite.
+  [[nodiscard]] bool is_curved(std::uint32_t point) const {
+    return reader_.is(point, "CYLINDRICAL_POINT") || reader_.is(point, "SPHERICAL_POINT");
+  }
   // Bytes [range) become `text`; where ranges are empty the text is inserted.
   struct Change {
     ByteRange range;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "part21_text.hpp"
+#include "step_new_faces.hpp"
 #include "step_print.hpp"
 
 namespace knead::step {
@@ -23,6 +24,18 @@ constexpr std::array<Unit, 7> units = {{{"mm", ".MILLI."},
                                         {"km", ".KILO."},
                                         {"inch", "", 25.4, "INCH"},
                                         {"foot", "", 304.8, "FOOT"}}};
+
+struct Protocol {
+  std::string_view schema, name, application;
+  int year;
+};
+
+/// By `Schema`.
+constexpr std::array<Protocol, 2> protocols = {
+    {{"AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }", "automotive_design",
+      "core data for automotive mechanical design processes", 2000},
+     {"AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF { 1 0 10303 442 1 1 4 }",
+      "ap242_managed_model_based_3d_engineering", "managed model based 3d engineering", 2014}}};
 
 // The DATA section, record by record.
 class Records {
@@ -67,6 +80,12 @@ std::string add_surface(Records& records, const NewSurface& item) {
   }
   return records.add(print_surface(
       surface, encode_string(item.name), [&](int k) { return names[static_cast<std::size_t>(k)]; }, "\n"));
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  return text;
 }
 
 std::string add_curve(Records& records, const NewCurve& item) {
@@ -117,8 +136,10 @@ Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOp
 
   Records records;
   const auto product_name = encode_string(options.product);
-  const auto application = records.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
-  records.add("APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000," + application + ")");
+  const Protocol& protocol = protocols[static_cast<std::size_t>(options.schema)];
+  const auto application = records.add("APPLICATION_CONTEXT('" + std::string(protocol.application) + "')");
+  records.add("APPLICATION_PROTOCOL_DEFINITION('international standard','" + std::string(protocol.name) + "'," +
+              std::to_string(protocol.year) + "," + application + ")");
   const auto product_context = records.add("PRODUCT_CONTEXT(''," + application + ",'mechanical')");
   const auto product = records.add("PRODUCT(" + product_name + "," + product_name + ",'',(" + product_context + "))");
   records.add("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(" + product + "))");
@@ -132,20 +153,37 @@ Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOp
   const auto axis = records.add("DIRECTION('',(0.,0.,1.))");
   const auto direction = records.add("DIRECTION('',(1.,0.,0.))");
   const auto placement = records.add("AXIS2_PLACEMENT_3D(''," + origin + "," + axis + "," + direction + ")");
+  const auto add = [&](const std::string& record) { return records.add(record); };
+  std::vector<std::string> names;
+  for (const auto& surface : surfaces) names.push_back(add_surface(records, surface));
+  const auto represent = [&](const char* kind, const std::string& item) {
+    return records.add(std::string(kind) + "(" + product_name + ",(" + placement + "," + item + ")," + context + ")");
+  };
+  std::string first;
+  if (options.faces && !surfaces.empty()) {
+    auto faces = add_faces(surfaces, names, add);
+    if (!faces) return std::unexpected(std::move(faces.error()));
+    first = represent("MANIFOLD_SURFACE_SHAPE_REPRESENTATION", faces->model);
+    names = std::move(faces->faces);
+  }
   std::string items;
-  for (const auto& surface : surfaces) items += (items.empty() ? "" : ",") + add_surface(records, surface);
+  if (!options.faces) items = joined(names);
   for (const auto& curve : curves) items += (items.empty() ? "" : ",") + add_curve(records, curve);
-  const std::string set_kind = surfaces.empty() ? "GEOMETRIC_CURVE_SET" : "GEOMETRIC_SET";
-  const std::string kind = surfaces.empty() ? "WIREFRAME" : "SURFACE";
-  const auto set = records.add(set_kind + "('',(" + items + "))");
-  const auto representation = records.add("GEOMETRICALLY_BOUNDED_" + kind + "_SHAPE_REPRESENTATION(" + product_name +
-                                          ",(" + placement + "," + set + ")," + context + ")");
-  records.add("SHAPE_DEFINITION_REPRESENTATION(" + shape + "," + representation + ")");
+  if (!items.empty()) {
+    const bool wires = surfaces.empty() || options.faces;
+    const auto set = records.add((wires ? "GEOMETRIC_CURVE_SET('',(" : "GEOMETRIC_SET('',(") + items + "))");
+    const auto second = represent(wires ? "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION"
+                                        : "GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION",
+                                  set);
+    if (!first.empty()) records.add("SHAPE_REPRESENTATION_RELATIONSHIP('',''," + first + "," + second + ")");
+    if (first.empty()) first = second;
+  }
+  records.add("SHAPE_DEFINITION_REPRESENTATION(" + shape + "," + first + ")");
+  add_colours(surfaces, names, context, add);
 
   return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME(" + encode_string(options.file_name) + "," +
-         encode_string(options.time_stamp) + ",(''),(''),'Knead','Knead','');\n" +
-         "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n" + records.text() +
-         "ENDSEC;\nEND-ISO-10303-21;\n";
+         encode_string(options.time_stamp) + ",(''),(''),'Knead','Knead','');\n" + "FILE_SCHEMA(('" +
+         std::string(protocol.schema) + "'));\nENDSEC;\nDATA;\n" + records.text() + "ENDSEC;\nEND-ISO-10303-21;\n";
 }
 
 }  // namespace knead::step

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/counts.hpp"
 #include "base/read_double.hpp"
@@ -56,6 +57,8 @@ void WordReader::skip() {
   }
 }
 
+bool is_tiny(std::string_view number) { return std::abs(std::strtod(std::string(number).c_str(), nullptr)) < 1; }
+
 bool WordReader::done() {
   skip();
   return at_ >= end_;
@@ -95,7 +98,7 @@ Expected<double> WordReader::number() {
   const std::string_view digits = word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
   double value = 0;
   const auto [end, problem] = read_double(digits.data(), digits.data() + digits.size(), value);
-  const bool tiny = problem == std::errc::result_out_of_range && std::abs(value) < 1;
+  const bool tiny = problem == std::errc::result_out_of_range && is_tiny(digits);
   if ((problem != std::errc() && !tiny) || end != digits.data() + digits.size() || !std::isfinite(value)) {
     return std::unexpected(error(range.begin, fmt::format("\"{}\" is not a number", printable(word)), "correct it"));
   }

@@ -17,6 +17,9 @@ struct TextRange {
   std::size_t begin = 0, end = 0;
 };
 
+/// Whether a number that no double can hold is too small for one, and so 0, not too large.
+[[nodiscard]] bool is_tiny(std::string_view number);
+
 /// Words of a text, separated by white space and commas, with their places.
 class WordReader {
  public:

@@ -68,7 +68,7 @@ Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, 
 }
 
 Expected<std::string> Document::save_as(const Format& format, std::span<const DocumentSurface> surfaces,
-                                        std::span<const SceneBody> bodies) const {
+                                        std::span<const SceneBody> bodies, SaveOptions options) const {
   if (step_file() != nullptr) {
     return input_error(fmt::format("a new file would lose the faces of this {} file", source_->format()), {},
                        "write it in its own format");
@@ -77,7 +77,6 @@ Expected<std::string> Document::save_as(const Format& format, std::span<const Do
     return input_error(fmt::format("new {} files cannot be written", format.name), {}, "write STEP");
   std::vector<NamedSurface> made;
   for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});
-  SaveOptions options;
   options.unit = !surfaces.empty() ? surfaces.front().unit : !bodies.empty() ? bodies.front().unit : unit_;
   for (const SceneBody& body : bodies) {
     if (const auto* curve = std::get_if<BodyShapes<1>>(&body.shapes)) {

@@ -299,8 +299,8 @@ Expected<std::string> Session::save() const {
   return document().save(present_surfaces(*this), followed, state().bodies);
 }
 
-Expected<std::string> Session::save_as(const Format& format) const {
-  return document().save_as(format, present_surfaces(*this), state().bodies);
+Expected<std::string> Session::save_as(const Format& format, const SaveOptions& how) const {
+  return document().save_as(format, present_surfaces(*this), state().bodies, how);
 }
 
 }  // namespace knead

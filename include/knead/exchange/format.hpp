@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,10 +13,14 @@
 
 namespace knead {
 
+/// Red, green and blue from 0 to 1, as CAD files have them.
+using Colour = std::array<double, 3>;
+
 /// A surface to write.
 struct NamedSurface {
   std::string name;  ///< UTF-8; may be empty
   Surface surface;
+  std::optional<Colour> colour = {};
 };
 
 /// A curve to write.
@@ -29,6 +34,7 @@ struct NamedMesh {
   std::string name;                                     ///< UTF-8; may be empty
   Points points, normals;                               ///< one normal per point, unit, or zero where there is none
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the tip of the normal
+  std::optional<Colour> colour = {};                    ///< in formats that hold colours
 };
 
 /// How to write surfaces.
@@ -37,6 +43,8 @@ struct SaveOptions {
   std::string unit = {};                ///< of the coordinates, such as "mm"; empty: unknown
   std::string title = "surfaces";       ///< the title in formats that have one
   std::vector<NamedCurve> curves = {};  ///< after the surfaces, in formats that hold curves
+  std::string_view schema = "ap214";    ///< of STEP: "ap214" or "ap242"
+  bool faces = false;                   ///< in STEP and IGES: as faces on their natural bounds, in shells
 };
 
 /// What a format stores of a surface.

@@ -53,8 +53,9 @@ class Document {
   /// The bytes of a new file with these surfaces, whole, the curves, and the six sides of each volume as surfaces.
   /// Errors (input): the format cannot be written, or holds no curves; the opened file has faces, which a new one would
   /// lose; a volume whose ends are not clamped.
+  /// `how`: schema and faces; what else it has comes from the document.
   [[nodiscard]] Expected<std::string> save_as(const Format& format, std::span<const DocumentSurface> surfaces,
-                                              std::span<const SceneBody> bodies = {}) const;
+                                              std::span<const SceneBody> bodies = {}, SaveOptions how = {}) const;
 
  private:
   Document() = default;

@@ -98,7 +98,7 @@ class Session {
   [[nodiscard]] Expected<std::string> save() const;
   /// A new file of this format with the present surfaces, whole, as `Document::save_as`; lengths of a file without a
   /// unit count as millimetres where the format must have one.
-  [[nodiscard]] Expected<std::string> save_as(const Format& format) const;
+  [[nodiscard]] Expected<std::string> save_as(const Format& format, const SaveOptions& how = {}) const;
 
   /// The whole session except the document's file, as bytes: every state of the history with every number as it is, and
   /// the commands. Data shared by states is written once. If the surfaces of the history need more than

@@ -1,0 +1,92 @@
+// Points given by angles, and items that are no exact geometry.
+
+#include <cmath>
+#include <numbers>
+
+#include "exchange/support.hpp"
+#include "knead/exchange/format.hpp"
+
+namespace knead {
+namespace {
+
+using testing::bilinear_patch;
+using testing::open_or_die;
+using testing::parse_or_die;
+using testing::step_text;
+using testing::unit_square_points;
+
+std::string context(const std::string& angle) {
+  return angle +
+         "#51=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
+         "#52=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#51,#50))REPRESENTATION_CONTEXT('',''))"
+         ";"
+         "\n#53=SHAPE_REPRESENTATION('',(#10),#52);\n";
+}
+const std::string radians = "#50=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));\n";
+const std::string degrees =
+    "#48=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));\n"
+    "#49=PLANE_ANGLE_MEASURE_WITH_UNIT(PLANE_ANGLE_MEASURE(0.0174532925199432958),#48);\n"
+    "#47=DIMENSIONAL_EXPONENTS(0.,0.,0.,0.,0.,0.,0.);\n"
+    "#50=(CONVERSION_BASED_UNIT('DEGREE',#49)NAMED_UNIT(#47)PLANE_ANGLE_UNIT());\n";
+
+std::string points(bool in_degrees) {
+  const std::string right = in_degrees ? "90." : "1.5707963267948966";
+  return "#1=CARTESIAN_POINT('',(0.,0.,0.));\n#2=CYLINDRICAL_POINT('',*,2.,0.,5.);\n#3=CYLINDRICAL_POINT('',*,3.," +
+         right + ",-1.);\n#4=SPHERICAL_POINT('',*,4.," + right + "," + right + ");\n";
+}
+
+TEST(StepPoints, ByAnglesAreRead) {
+  for (const bool in_degrees : {false, true}) {
+    const auto file =
+        parse_or_die(step_text(points(in_degrees) + bilinear_patch() + context(in_degrees ? degrees : radians)));
+    ASSERT_EQ(file.surfaces().size(), 1U) << file.unreadable_surfaces()[0].reason.message();
+    const Points& p = file.surfaces()[0].surface.control_points();
+    EXPECT_EQ(Point(p.row(1)), Point(2, 0, 5));
+    EXPECT_NEAR((Point(p.row(2)) - Point(0, 3, -1)).norm(), 0, 1e-15 * 3);
+    EXPECT_NEAR((Point(p.row(3)) - Point(0, 4, 0)).norm(), 0, 1e-15 * 4);
+  }
+}
+
+TEST(StepPoints, ByAnglesStayAndGetNewRecordsWhereTheyMove) {
+  const std::string text = step_text(points(false) + bilinear_patch() + context(radians));
+  const auto file = parse_or_die(text);
+  EXPECT_EQ(*file.with_control_points({}), text);
+  Points moved = file.surfaces()[0].surface.control_points();
+  moved(3, 2) = 0.25;
+  const step::Edit edit{"#10", moved};
+  const auto written = file.with_control_points({&edit, 1});
+  ASSERT_TRUE(written) << written.error().message();
+  EXPECT_NE(written->find(points(false)), std::string::npos) << "the old records";
+  EXPECT_TRUE(testing::same_bits(parse_or_die(*written).surfaces()[0].surface.control_points(), moved));
+}
+
+TEST(StepPoints, OfAPlaneOrOfSeveralUnitsAreErrorsWithARemedy) {
+  const auto reason = [](const std::string& data) {
+    const auto file = parse_or_die(step_text(data));
+    EXPECT_EQ(file.unreadable_surfaces().size(), 1U);
+    return file.unreadable_surfaces().empty() ? "" : file.unreadable_surfaces()[0].reason.message();
+  };
+  std::string polar = unit_square_points();
+  polar.replace(polar.find("#4="), std::string::npos, "#4=POLAR_POINT('',*,1.,0.5);\n");
+  EXPECT_NE(reason(polar + bilinear_patch() + context(radians)).find("a point of a plane"), std::string::npos);
+  const std::string both =
+      context(degrees) + "#54=(GLOBAL_UNIT_ASSIGNED_CONTEXT((#48))REPRESENTATION_CONTEXT('',''));\n";
+  EXPECT_NE(reason(points(true) + bilinear_patch() + both).find("several units"), std::string::npos);
+}
+
+TEST(StepRemarks, NameTessellatedItems) {
+  const std::string text =
+      step_text(unit_square_points() + bilinear_patch() +
+                "#20=COORDINATES_LIST('',3,((0.,0.,0.),(1.,0.,0.),(0.,1.,0.)));\n"
+                "#21=TRIANGULATED_FACE('',#20,3,((0.,0.,1.)),$,(),((1,2,3)));\n#22=TESSELLATED_SHELL('',(#21),$);\n"
+                "#23=TRIANGULATED_FACE('',#20,3,((0.,0.,1.)),$,(),((1,2,3)));\n");
+  const auto source = open_or_die(text, "a.step");
+  ASSERT_EQ(source->remarks().size(), 1U);
+  EXPECT_EQ(
+      source->remarks()[0],
+      "1 x TESSELLATED_SHELL, 2 x TRIANGULATED_FACE: triangles and polylines, which are neither shown nor changed");
+  EXPECT_TRUE(open_or_die(step_text(unit_square_points() + bilinear_patch()), "a.step")->remarks().empty());
+}
+
+}  // namespace
+}  // namespace knead
