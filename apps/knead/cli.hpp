@@ -22,6 +22,7 @@ Action add_gramian(CLI::App& app);
 Action add_stiffness(CLI::App& app);
 Action add_basis(CLI::App& app);
 Action add_mesh(CLI::App& app);
+Action add_export(CLI::App& app);
 Action add_matrices(CLI::App& app);
 Action add_schema(CLI::App& app);
 Action add_snake(CLI::App& app);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -36,13 +37,14 @@ struct Row {
   const Surface* surface;
   std::array<bool, 2> closed = {};
   bool trimmed = false;
+  int faces = -1;  ///< on it; -1: the format has none
 };
 
 std::vector<Row> rows_of(const Source& source) {
   std::vector<Row> rows;
   if (const step::File* file = source.step_file()) {
     for (const step::SurfaceEntity& s : file->surfaces())
-      rows.push_back({s.id, s.name, &s.surface, s.closed, s.trimmed});
+      rows.push_back({s.id, s.name, &s.surface, s.closed, s.trimmed, s.faces});
   } else {
     for (const SourceSurface& s : source.surfaces()) {
       rows.push_back({s.id, s.name, s.surface.get(), closed_directions(*s.surface)});
@@ -59,16 +61,23 @@ Json to_json(const Row& s) {
     const auto values = surface.knots(d).knots();
     knots.push_back(std::vector<double>(values.begin(), values.end()));
   }
+  Json weights;
+  if (surface.rational()) {
+    const auto [least, most] = std::ranges::minmax_element(surface.weights());
+    weights = {*least, *most};
+  }
   const KnotVector &u = surface.knots(0), &v = surface.knots(1);
   return {{"id", s.id},
           {"name", s.name},
           {"degree", {u.degree(), v.degree()}},
           {"net", surface.net()},
           {"rational", surface.rational()},
+          {"weights", std::move(weights)},
           {"clamped", {u.clamped(), v.clamped()}},
           {"closed", s.closed},
           {"knots", std::move(knots)},
           {"max_interior_multiplicity", {u.max_interior_multiplicity(), v.max_interior_multiplicity()}},
+          {"faces", s.faces < 0 ? Json() : Json(s.faces)},
           {"trimmed", s.trimmed},
           {"bounding_box", {to_json(box.lower), to_json(box.upper)}}};
 }

@@ -85,11 +85,11 @@ int run(int argc, char** argv) {
   app.footer(std::string(knead::cli::exit_codes) +
              "\nErrors are one line on standard error: file, place, what is wrong; remedy."
              "\n`knead COMMAND --help` explains a command.");
-  const std::array<knead::cli::Action, 11> actions = {
+  const std::array<knead::cli::Action, 12> actions = {
       knead::cli::add_info(app),     knead::cli::add_sculpt(app),  knead::cli::add_analyse(app),
       knead::cli::add_commands(app), knead::cli::add_gramian(app), knead::cli::add_stiffness(app),
       knead::cli::add_matrices(app), knead::cli::add_basis(app),   knead::cli::add_mesh(app),
-      knead::cli::add_schema(app),   knead::cli::add_snake(app)};
+      knead::cli::add_export(app),   knead::cli::add_schema(app),  knead::cli::add_snake(app)};
   try {
     app.parse(joined_arguments(argc, argv));
   } catch (const CLI::Success& done) {

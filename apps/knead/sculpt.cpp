@@ -26,7 +26,7 @@ namespace knead::cli {
 namespace {
 
 struct SculptArguments {
-  std::string file, output, script, report, picture;
+  std::string file, output, script, report, picture, schema = "ap214";
   bool fresh = false;
   [[nodiscard]] const std::string& name() const { return fresh ? output : file; }
 };
@@ -239,18 +239,21 @@ void print_summary(const SculptArguments& options, const Session& session, const
 /// The format of a new file that the output's name asks for: the input has another one, without faces that a new file
 /// would lose. Null: the output is the input, changed.
 const Format* other_format(const SculptArguments& options, const Document& document) {
-  if (document.source() == nullptr || document.step_file() != nullptr) return nullptr;
+  if (document.step_file() != nullptr) return nullptr;
   const auto wanted = format_of_name(options.output, FormatContent::surfaces);
-  return wanted && (*wanted)->name != document.source()->format() && (*wanted)->save != nullptr ? *wanted : nullptr;
+  if (!wanted || (*wanted)->save == nullptr) return nullptr;
+  return document.source() == nullptr || (*wanted)->name != document.source()->format() ? *wanted : nullptr;
 }
 
 /// The CAD file comes last: if it exists, everything requested has been written.
 Expected<void> write_results(const SculptArguments& options, const Session& session, const Outcome& o) {
   const Format* other = other_format(options, session.document());
-  auto bytes = other != nullptr ? session.save_as(*other) : session.save();
+  SaveOptions how;
+  how.schema = options.schema;
+  auto bytes = other != nullptr ? session.save_as(*other, how) : session.save();
   if (!bytes) return std::unexpected(bytes.error());
   const auto& surfaces = session.document().surfaces();
-  if (other != nullptr && !surfaces.empty() && surfaces.front().unit == "unknown") {
+  if (other != nullptr && !options.fresh && !surfaces.empty() && surfaces.front().unit == "unknown") {
     fmt::print("lengths are written as millimetres: {} does not say what they are\n", options.file);
   }
   std::string picture;
@@ -317,6 +320,10 @@ Expected<void> run(const SculptArguments& options) {
   auto document = open_document(options.file, options.fresh);
   if (!document) return std::unexpected(document.error());
   if (auto possible = check_ending(options, *document); !possible) return possible;
+  const Format* made = other_format(options, *document);
+  if (options.schema != "ap214" && (made == nullptr || made->id != "step")) {
+    return usage_error("this does not write a new STEP file", "--schema", "leave it out: a file keeps its schema");
+  }
 
   Session session(std::move(*document));
   if (auto done = execute(session, *commands); !done) return done;
@@ -335,6 +342,9 @@ Action add_sculpt(CLI::App& app) {
   command->add_flag("--new", options->fresh, "start without a FILE: the script makes surfaces with the command new");
   command->add_option("-o,--output", options->output, "STEP file to write, completely or not at all")->required();
   command->add_option("--script", options->script, "JSON file with the commands")->required();
+  command->add_option("--schema", options->schema, "of a new STEP file: ap214 or ap242")
+      ->check(CLI::IsMember({"ap214", "ap242"}))
+      ->capture_default_str();
   command->add_option("--report", options->report, "JSON file for the report, see below");
   command->add_option("--picture", options->picture, "SVG file for a picture of the displacement over (u, v)");
   command->footer(

@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli.hpp"
+#include "knead/exchange/face_colours.hpp"
+#include "knead/exchange/face_conversion.hpp"
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/exchange/step_file.hpp"
+#include "outputs.hpp"
+
+namespace knead::cli {
+namespace {
+
+struct ExportArguments {
+  std::string file, output, schema = "ap214";
+  bool sets = false;
+};
+
+/// What a new file of whole surfaces does not have.
+void warn(const Source& source) {
+  const step::File* file = source.step_file();
+  if (file != nullptr) {
+    std::size_t trimmed = 0;
+    for (const step::SurfaceEntity& s : file->surfaces()) trimmed += s.trimmed ? 1 : 0;
+    if (trimmed > 0) {
+      fmt::print(stderr, "knead: warning: {} cut by faces; they are written whole\n",
+                 counted(trimmed, "surface is", "surfaces are"));
+    }
+    const std::size_t others = step::other_surfaces(*file).size();
+    if (others > 0) {
+      fmt::print(stderr, "knead: warning: {} of other forms left out\n", counted(others, "surface is", "surfaces are"));
+    }
+  }
+  for (const UnreadableSurface& s : source.unreadable()) {
+    fmt::print(stderr, "knead: warning: the surface {} is left out: {}\n", s.id, s.reason.message());
+  }
+}
+
+Expected<void> run(const ExportArguments& options) {
+  const auto format = format_of_name(options.output, FormatContent::surfaces);
+  if (!format || (*format)->save == nullptr) {
+    std::string endings;
+    for (const Format& known : formats()) {
+      if (known.save == nullptr) continue;
+      for (const std::string_view ending : known.endings)
+        endings += (endings.empty() ? "" : ", ") + std::string(ending);
+    }
+    return usage_error(fmt::format("new files with the name \"{}\" cannot be written", options.output), "--out",
+                       "use a name that ends in one of " + endings);
+  }
+  if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
+  auto input = read_file(options.file);
+  if (!input) return std::unexpected(input.error());
+  const auto source = open_source(std::move(*input), options.file);
+  if (!source) return std::unexpected(source.error());
+
+  const auto colours = (*source)->step_file() != nullptr ? face_colours(*(*source)->step_file())
+                                                         : std::unordered_map<std::string, Colour>();
+  std::vector<NamedSurface> surfaces;
+  SaveOptions how;
+  how.schema = options.schema;
+  how.faces = !options.sets;
+  for (const SourceSurface& s : (*source)->surfaces()) {
+    NamedSurface& made = surfaces.emplace_back(NamedSurface{s.name.empty() ? s.id : s.name, *s.surface});
+    if (const auto colour = colours.find(s.id); colour != colours.end()) made.colour = colour->second;
+    how.unit = s.unit;
+  }
+  for (const SourceCurve& c : (*source)->curves()) {
+    how.curves.push_back({c.name.empty() ? c.id : c.name, *c.curve});
+    if (how.unit.empty()) how.unit = c.unit;
+  }
+  if (how.unit.empty() || how.unit == "unknown") {
+    how.unit = "mm";
+    fmt::print("lengths are written as millimetres: {} does not say what they are\n", options.file);
+  }
+  auto bytes = save_surfaces(surfaces, **format, how);
+  if (!bytes) {
+    bytes.error().file = options.file;
+    return std::unexpected(std::move(bytes.error()));
+  }
+  if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
+  warn(**source);
+  fmt::print("wrote {} ({}, {}, {} bytes)\n", options.output, (*format)->name,
+             counted(surfaces.size(), "surface", "surfaces"), bytes->size());
+  return {};
+}
+
+}  // namespace
+
+Action add_export(CLI::App& app) {
+  auto options = std::make_shared<ExportArguments>();
+  CLI::App* command = app.add_subcommand("export", "write the surfaces of a CAD file as a new STEP or IGES file");
+  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--out", options->output, "new file; the ending selects the format: STEP or IGES")->required();
+  command->add_option("--schema", options->schema, "of a STEP file: ap214 or ap242")
+      ->check(CLI::IsMember({"ap214", "ap242"}))
+      ->capture_default_str();
+  command->add_flag("--sets", options->sets, "write bare surfaces, without faces, edges and shells");
+  command->footer(
+      "Every B-spline surface, whole, as a face on its natural bounds with its name and colour; sides that are the\n"
+      "same curve become one edge, and faces that share edges a shell. Control points, knots and weights are the\n"
+      "same bits. Faces that cut a surface, other surfaces, assemblies and everything else are not written, which a\n"
+      "warning says: `knead sculpt` keeps them.\n" +
+      std::string(exit_codes));
+  return [options] { return run(*options); };
+}
+
+}  // namespace knead::cli

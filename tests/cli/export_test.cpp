@@ -1,0 +1,65 @@
+#include "program.hpp"
+#include "step_sheet.hpp"
+
+namespace knead::testing {
+namespace {
+
+TEST(Export, WritesTheSameSurfacesInEveryFormatAndSchema) {
+  const Workshop workshop;
+  const Json before = knead({"info", bonnet(), "--json"}).json().at("surfaces");
+  for (const char* name : {"a.step", "b.stp", "c.igs", "d.iges"}) {
+    for (const char* schema : {"ap214", "ap242"}) {
+      const std::string out = workshop / name;
+      const Outcome run = knead({"export", bonnet(), "--out", out, "--schema", schema});
+      ASSERT_EQ(run.code, 0) << run.err;
+      EXPECT_NE(run.err.find("1 surface is cut by faces"), std::string::npos) << run.err;
+      EXPECT_NE(run.err.find("4 surfaces are of other forms"), std::string::npos) << run.err;
+      const Json info = knead({"info", out, "--json"}).json();
+      EXPECT_EQ(info.at("units"), "mm");
+      ASSERT_EQ(info.at("surfaces").size(), before.size());
+      for (std::size_t k = 0; k < before.size(); ++k) {
+        const Json& s = info.at("surfaces")[k];
+        EXPECT_EQ(s.at("knots"), before[k].at("knots"));
+        EXPECT_EQ(s.at("bounding_box"), before[k].at("bounding_box"));
+        EXPECT_EQ(s.at("weights"), before[k].at("weights"));
+        EXPECT_EQ(s.at("faces"), 1);
+        EXPECT_EQ(s.at("trimmed"), false);
+      }
+      const bool step = std::string(name).find(".st") != std::string::npos;
+      EXPECT_EQ(info.at("schema"), !step ? ""
+                                   : std::string_view(schema) == "ap242"
+                                       ? "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"
+                                       : "AUTOMOTIVE_DESIGN");
+    }
+  }
+}
+
+TEST(Export, RefusesOtherNamesAndSchemas) {
+  const Workshop workshop;
+  EXPECT_TRUE(fails_with(knead({"export", bonnet(), "--out", workshop / "a.brep"}), 2, {"--out", ".step", ".igs"}));
+  EXPECT_TRUE(
+      fails_with(knead({"export", bonnet(), "--out", workshop / "a.step", "--schema", "ap209"}), 2, {"--schema"}));
+  EXPECT_TRUE(fails_with(knead({"export", bonnet(), "--out", bonnet()}), 2, {"--out"}));
+  EXPECT_TRUE(workshop.files().empty());
+}
+
+TEST(Export, NewSurfacesBecomeStepOfAnySchemaOrIges) {
+  const Workshop workshop;
+  const std::string script = workshop.script(Json::array({command("new", {{"shape", "plane"}})}));
+  for (const std::string name : {"a.step", "b.igs"}) {
+    const Outcome run = knead({"sculpt", "--new", "-o", workshop / name, "--script", script});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const Json info = knead({"info", workshop / name, "--json"}).json();
+    EXPECT_EQ(info.at("format"), name == "a.step" ? "STEP" : "IGES");
+    EXPECT_EQ(info.at("surfaces").size(), 1U);
+  }
+  ASSERT_EQ(knead({"sculpt", "--new", "-o", workshop / "c.step", "--script", script, "--schema", "ap242"}).code, 0);
+  EXPECT_EQ(knead({"info", workshop / "c.step", "--json"}).json().at("schema"),
+            "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF");
+  EXPECT_TRUE(
+      fails_with(knead({"sculpt", bonnet(), "-o", workshop / "d.step", "--script", script, "--schema", "ap242"}), 2,
+                 {"--schema", "a file keeps its schema"}));
+}
+
+}  // namespace
+}  // namespace knead::testing
