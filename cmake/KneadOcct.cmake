@@ -4,7 +4,7 @@ include_guard(GLOBAL)
 find_path(KNEAD_OCCT_INCLUDE_DIR STEPCAFControl_Writer.hxx PATH_SUFFIXES opencascade)
 set(KNEAD_OCCT_LIBRARIES)
 set(KNEAD_OCCT_FOUND ${KNEAD_OCCT_INCLUDE_DIR})
-foreach(library TKFillet TKBool TKBO TKXDESTEP TKIGES TKSTEP TKSTEP209 TKSTEPAttr TKSTEPBase TKXSBase TKXCAF TKLCAF TKCDF TKCAF TKShHealing TKTopAlgo
+foreach(library TKFillet TKBool TKBO TKXDESTEP TKXDEIGES TKIGES TKSTEP TKSTEP209 TKSTEPAttr TKSTEPBase TKXSBase TKXCAF TKLCAF TKCDF TKCAF TKShHealing TKTopAlgo
                 TKPrim TKBRep TKGeomAlgo TKGeomBase TKG3d TKG2d TKMath TKernel)
   find_library(KNEAD_OCCT_${library} ${library})
   mark_as_advanced(KNEAD_OCCT_${library})

@@ -6,51 +6,24 @@
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
-#include <Geom_RectangularTrimmedSurface.hxx>
-#include <Interface_Static.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <Message_PrinterOStream.hxx>
-#include <STEPControl_Reader.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <Standard_Failure.hxx>
-#include <StepData_StepModel.hxx>
-#include <StepGeom_Surface.hxx>
-#include <StepShape_FaceSurface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
-#include <TransferBRep.hxx>
-#include <Transfer_TransientProcess.hxx>
-#include <XSControl_TransferReader.hxx>
-#include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <numbers>
+
+#include "oracle/occt_faces_data.hpp"
 
 namespace knead::oracle {
-namespace {
 
-using SurfaceHandle = opencascade::handle<Geom_Surface>;
-
-SurfaceHandle surface_of(const TopoDS_Face& face) {
-  SurfaceHandle surface = BRep_Tool::Surface(face);
-  if (const auto trimmed = opencascade::handle<Geom_RectangularTrimmedSurface>::DownCast(surface)) {
-    return trimmed->BasisSurface();
-  }
-  return surface;
-}
-
-/// Distance of a point from a surface: by Levenberg and Marquardt's iteration from (u, v), which ends at the foot, or
-/// by Open CASCADE's own search where that ends farther than `wanted`.
-double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, double wanted, gp_Pnt2d* foot = nullptr) {
+double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, double wanted, gp_Pnt2d* foot) {
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   surface->Bounds(u0, u1, v0, v1);
   const auto clamped = [&](double& u, double& v) {
@@ -104,24 +77,7 @@ double distance(const SurfaceHandle& surface, const gp_Pnt& p, gp_Pnt2d at, doub
   return best;
 }
 
-gp_Vec normal_at(const SurfaceHandle& surface, gp_Pnt2d at) {
-  gp_Pnt p;
-  gp_Vec du, dv;
-  surface->D1(at.X(), at.Y(), p, du, dv);
-  const gp_Vec n = du.Crossed(dv);
-  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-  surface->Bounds(u0, u1, v0, v1);
-  constexpr double unbounded = 1e3;  // planes, cylinders and cones are
-  const double a = du.Magnitude() * std::min(u1 - u0, unbounded), b = dv.Magnitude() * std::min(v1 - v0, unbounded);
-  // Beside a pole there is no normal to speak of.
-  if (std::min(a, b) <= 1e-5 * std::max(a, b) || n.Magnitude() == 0) return {0, 0, 0};
-  return n / n.Magnitude();
-}
-
-double degrees_between(const gp_Vec& a, const gp_Vec& b) {
-  if (a.Magnitude() == 0 || b.Magnitude() == 0) return 0;
-  return std::atan2(a.Crossed(b).Magnitude(), a.Dot(b)) * 180 / std::numbers::pi;
-}
+namespace {
 
 template <class F>
 void for_each_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, const F& f) {
@@ -154,37 +110,6 @@ bool is_smooth(const TopoDS_Edge& edge, const TopoDS_Face& face, const TopTools_
 }
 
 }  // namespace
-
-struct OcctFaces::Data {
-  TopoDS_Shape shape;
-  std::map<std::string, std::vector<TopoDS_Face>> on;
-  TopTools_IndexedDataMapOfShapeListOfShape around;  // faces of every edge
-};
-
-std::optional<OcctFaces> OcctFaces::read(const std::filesystem::path& path) {
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
-  STEPControl_Reader reader;
-  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return std::nullopt;
-  reader.TransferRoots();
-  auto data = std::make_shared<Data>();
-  data->shape = reader.OneShape();
-  if (data->shape.IsNull()) return std::nullopt;
-  TopExp::MapShapesAndAncestors(data->shape, TopAbs_EDGE, TopAbs_FACE, data->around);
-  const auto step = opencascade::handle<StepData_StepModel>::DownCast(reader.WS()->Model());
-  const auto process = reader.WS()->TransferReader()->TransientProcess();
-  for (int k = 1; k <= step->NbEntities(); ++k) {
-    const auto face = opencascade::handle<StepShape_FaceSurface>::DownCast(step->Value(k));
-    if (face.IsNull()) continue;
-    auto& list = data->on["#" + std::to_string(step->IdentLabel(face->FaceGeometry()))];
-    for (TopExp_Explorer at(TransferBRep::ShapeResult(process, face), TopAbs_FACE); at.More(); at.Next()) {
-      TopoDS_Face made = TopoDS::Face(at.Current());
-      made.Location(TopLoc_Location());
-      list.push_back(made);
-    }
-  }
-  return OcctFaces(std::move(data));
-}
 
 int OcctFaces::faces() const {
   int count = 0;

@@ -28,7 +28,7 @@ struct OcctCrease {
 /// The faces of a file by the surfaces on which they lie, ready for measuring.
 class OcctFaces {
  public:
-  /// Lengths in mm. None where the file cannot be read.
+  /// Of a STEP or IGES file; lengths in mm. None where it cannot be read.
   [[nodiscard]] static std::optional<OcctFaces> read(const std::filesystem::path& path);
 
   [[nodiscard]] int faces() const;
@@ -47,6 +47,14 @@ class OcctFaces {
     bool folded = false;  ///< the normal of a point turned by more than 90 degrees
   };
   [[nodiscard]] Moved moved(const std::string& surface, const OcctFaces& after) const;
+
+  /// The edges along which a face on a surface meets one on another surface with the same tangent planes, to 0.1
+  /// degrees, whether both share it or each has its own: the angle between them, and that with the surface as it is in
+  /// `after`.
+  struct Across {
+    double before = 0, after = 0;  ///< degrees
+  };
+  [[nodiscard]] std::vector<Across> across(const std::string& surface, const OcctFaces& after) const;
 
   /// How far 21 × 21 points of the box of each face on a surface, those that the face shows, are from that surface in
   /// `after`, mm, and the largest angle between the normals of both faces there, degrees. No points: the faces on it
