@@ -10,6 +10,7 @@
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
+#include "studio_assembly.hpp"
 #include "studio_bodies.hpp"
 #include "studio_combs.hpp"
 #include "studio_context.hpp"
@@ -371,6 +372,13 @@ KNEAD_EXPORT(knead_context) int knead_context() {
   if (!session || !session->document().step_file()) return answer("null");
   held().context = context_picture(*session->document().step_file(), held().origin);
   return answer(context_json(held().context));
+}
+
+/// The parts of the open file and where they stand: `assembly_json`; null without a file.
+KNEAD_EXPORT(knead_assembly) int knead_assembly() {
+  const auto& session = held().session;
+  const step::File* file = session ? session->document().step_file() : nullptr;
+  return answer(file != nullptr ? assembly_json(*file) : "null");
 }
 
 /// What the faces of the open file show of a surface: `trim_json`.

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "buffers.hpp"
-#include "knead/exchange/assembly.hpp"
 #include "knead/exchange/face_conversion.hpp"
 
 namespace knead::studio {
@@ -51,11 +50,6 @@ ContextPicture context_picture(const step::File& file, const Point& origin) {
     }
   }
   picture.skipped = std::move(context.skipped);
-  if (file.instances().empty()) return picture;
-  const auto assembly = step::assembly_of(file);
-  if (!assembly || !assembly->placed()) return picture;
-  picture.parts = assembly->parts.size();
-  for (const step::Part& part : assembly->parts) picture.places += part.places.size();
   return picture;
 }
 
@@ -81,7 +75,7 @@ std::string context_json(const ContextPicture& context) {
          buffers_json({{"positions", context.positions}, {"normals", context.normals}, {"indices", context.indices}}) +
          ",\"faces\":" + faces.dump() +
          ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
-         ",\"parts\":" + std::to_string(context.parts) + ",\"places\":" + std::to_string(context.places) + "}";
+         "}";
 }
 
 namespace {

@@ -26,8 +26,7 @@ struct ContextPicture {
   std::vector<float> positions, normals;  ///< 3 per point
   std::vector<std::uint32_t> indices;     ///< 3 per triangle, face after face
   std::vector<Face> faces;
-  std::vector<SkippedFace> skipped;   ///< faces that could not be triangulated
-  std::size_t parts = 0, places = 0;  ///< of an assembly that puts parts elsewhere than drawn, or several times; else 0
+  std::vector<SkippedFace> skipped;  ///< faces that could not be triangulated
 };
 
 [[nodiscard]] ContextPicture context_picture(const step::File& file, const Point& origin);
@@ -36,7 +35,7 @@ struct ContextPicture {
 [[nodiscard]] Point middle_of(const step::File& file);
 
 /// {"buffers": …, "faces": [{"id": "#11", "surface": "#10", "form": "PLANE", "triangles": 2}, …], "skipped": [{"id":
-/// "#12", "reason": "…"}, …], "parts": 0, "places": 0}
+/// "#12", "reason": "…"}, …]}
 [[nodiscard]] std::string context_json(const ContextPicture& context);
 
 /// The faces around the surfaces in full precision, four times as fine as drawn, and what is shown of each surface.

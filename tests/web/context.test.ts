@@ -42,12 +42,14 @@ describe('faces round the surfaces', () => {
     expect(engine.trims(7)).toBeNull();
   });
 
-  it('say how many parts an assembly has, and in how many places', async () => {
+  it('belong to parts where the file is an assembly', async () => {
     const engine = await Engine.load(wasm);
     engine.openStep(facesStep(), 'faces.step');
-    expect(engine.context()).toMatchObject({ parts: 0, places: 0 });
+    expect(engine.assembly()).toBeNull();
     engine.openStep(readFileSync(fileURLToPath(new URL('../../samples/bonnet.step', import.meta.url))), 'bonnet.step');
-    expect(engine.context()).toMatchObject({ parts: 2, places: 2 });
+    const { parts } = engine.assembly()!;
+    expect(parts.map(({ name, places }) => [name, places.length])).toEqual([['Bonnet', 1], ['Headlamp ring', 1]]);
+    for (const { id } of engine.context()!.faces) expect(parts.filter(({ faces }) => faces.includes(id)).length).toBe(1);
   });
 
   it('are none without a file', async () => {

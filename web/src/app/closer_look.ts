@@ -1,7 +1,8 @@
 import type { PictureWindow } from '../engine/session_types';
-import { eyeOf, pictureTolerance, roomy, serves, wantedWindow } from '../view/nearby';
+import { eyeOf, eyeOn, pictureTolerance, roomy, serves, wantedWindow } from '../view/nearby';
 import type { Viewer } from '../view/viewer';
 
+const mostPlaces = 16; // of a part that are looked at
 const restTime = 250; // milliseconds that views stand still before their pictures become finer
 
 /**
@@ -35,6 +36,7 @@ export class CloserLook {
     const eyes = viewer.viewports.flatMap((view) => (view.element.clientHeight > 0 ? [eyeOf(view.camera, view.element.clientHeight)] : []));
     const pictures = viewer.surfaces.map(({ picture }) => picture);
     const tolerance = pictureTolerance(pictures, viewer.display.detail);
-    return pictures.map((picture) => picture && wantedWindow(picture, eyes, tolerance));
+    return pictures.map((picture, k) =>
+      picture && wantedWindow(picture, viewer.standings(k).slice(0, mostPlaces).flatMap((at) => eyes.map((eye) => eyeOn(eye, at))), tolerance));
   }
 }

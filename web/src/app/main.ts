@@ -13,6 +13,7 @@ import { heldBadge } from '../panels/held_badge';
 import { listenToKeys } from '../panels/keyboard';
 import { legendCard } from '../panels/legend';
 import { analysisPanel } from '../panels/panel_analysis';
+import { assemblyPanel } from '../panels/panel_assembly';
 import { createPanel } from '../panels/panel_create';
 import { displayPanel } from '../panels/panel_display';
 import { surfacePanel } from '../panels/panel_surface';
@@ -39,7 +40,7 @@ document.getElementById('studio')!.append(
   toolRail(app),
   h('main', { class: 'stage' }, app.viewer.element, legendCard(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
-    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), checkPanel(app),
+    measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), assemblyPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), checkPanel(app),
     viewsPanel(app), displayPanel(app), analysisPanel(app), historyPanel(app)),
   statusBar(app),
 );

@@ -110,6 +110,7 @@ export class Studio implements App {
     const ids = frame.state.surfaces.map((s) => s.id).join();
     if (!this.fresh && ids !== this.surfaceIds) this.documents.askForContext();
     this.surfaceIds = ids;
+    if (frame.assembly !== undefined) this.tellPlaces();
     if (this.fresh) {
       this.fresh = false;
       this.hand.size.unit = 'length';
@@ -119,6 +120,26 @@ export class Studio implements App {
     this.computedTime += frame.computeTime;
     this.documents.keeper.computed(frame.unkept, frame.playing);
     this.changed();
+  }
+
+  /** What of the opened assembly is not as the user may expect. */
+  private tellPlaces(): void {
+    const { assembly, left } = this.viewer.placing;
+    this.toldParts.clear();
+    for (const warning of assembly?.warnings ?? []) this.notify({ kind: 'info', text: warning });
+    if (left > 0) this.notify({ kind: 'info', text: `${left} places of parts are not drawn: the file has too many of them. Nothing of the file is lost.` });
+  }
+
+  private readonly toldParts = new Set<string>();
+
+  /** Says once per part that it is sculpted in all its places at once. */
+  private tellRepeated(surface: number): void {
+    const { placing } = this.viewer;
+    const id = this.state?.surfaces[surface]?.id ?? '';
+    const part = placing.assembly?.parts.find((p) => p.surfaces.includes(id));
+    if (!part || placing.of(id).length < 2 || this.toldParts.has(part.name)) return;
+    this.toldParts.add(part.name);
+    this.notify({ kind: 'info', text: `${part.name ? `“${part.name}”` : 'This part'} stands in ${part.places.length} places of the assembly: it is sculpted once, and changes in all of them.` });
   }
 
   /** Seams that have a crease, of which the user knows. */
@@ -197,7 +218,7 @@ export class Studio implements App {
   /** The next frame is of another session. Gives back what takes that back. */
   begin(again = false): () => void {
     const { fresh, steps, stepsEnd, computedTime } = this;
-    const tool = this.viewer.selectedTool;
+    const tool = this.viewer.tools.selected;
     Object.assign(this, { fresh: !again, steps: [], stepsEnd: 0, computedTime: 0 });
     this.viewer.selectTool(null);
     this.hand.edges.forget();
@@ -235,6 +256,7 @@ export class Studio implements App {
     await this.attempt(async () => {
       await makeReady(this, surface, false);
       this.documents.pick();
+      this.tellRepeated(surface);
       this.changed();
       this.documents.keeper.touch();
     });

@@ -6,10 +6,6 @@ export async function loadContext(host: Host, current: () => boolean): Promise<v
     const { context, trims } = await host.client.context();
     if (!current()) return;
     host.showContext(context, trims);
-    const { parts, places } = context ?? { parts: 0, places: 0 };
-    if (places > parts) {
-      host.notify({ kind: 'info', text: `An assembly of ${parts === 1 ? 'one part' : `${parts} parts`} in ${places} places: each part is drawn and sculpted once, in its own coordinates, and changes in all its places. Meshes show them where they belong.` });
-    }
     const skipped = context?.skipped.length ?? 0;
     if (skipped > 0) {
       host.notify({ kind: 'info', text: `${skipped === 1 ? 'One face' : `${skipped} faces`} round the surfaces could not be drawn (${context!.skipped[0]!.id}: ${context!.skipped[0]!.reason}). Nothing of the file is lost.` });

@@ -5,8 +5,11 @@ import type { Command, Vector3 } from '../engine/session_types';
 export const measureKinds = { radius: 1, distance: 2, angle: 3, normals: 2 } as const;
 export type MeasureKind = keyof typeof measureKinds;
 
-/** What the engine says of a point of a surface, or, where `surface` is −1, of a face that does not move. */
-export type MeasuredPoint = Omit<ReadingInfo, 'name'>;
+/**
+ * What the engine says of a point of a surface, or, where `surface` is −1, of a face that does not move. In an assembly all is
+ * as in the model, and `place` is which of the places of its part is meant; null where those are others than the file's lengths.
+ */
+export type MeasuredPoint = Omit<ReadingInfo, 'name'> & { place?: string | null };
 
 /** A measurement. A pinned one follows its points on the surface: they are measurements of the session. */
 export interface Reading {
@@ -101,8 +104,11 @@ export function newReading(kind: MeasureKind, points: readonly MeasuredPoint[], 
   return { kind, name, points, pinned: false, names: points.map((_, k) => `${name}/${letters[k]}`) };
 }
 
-/** Whether the session can follow all of its points: those of grey faces it does not know. */
-export const canFollow = ({ points }: Reading): boolean => points.every((p) => p.surface >= 0);
+/** Why the session cannot follow all of its points; null where it can. It knows parts in their own coordinates, and no grey faces. */
+export function cannotFollow({ points }: Reading): string | null {
+  if (points.some((p) => p.surface < 0)) return 'Points of grey faces are not pinned';
+  return points.some((p) => p.place === null || p.place !== points[0]!.place) ? 'Points in several places of an assembly are not pinned' : null;
+}
 
 /** What lets a reading follow the surface. `ids`: of the surfaces. */
 export const pinning = ({ points, names }: Reading, ids: readonly string[]): Command[] =>

@@ -15,9 +15,34 @@ export interface Context {
   faces: GreyFace[];
   /** Faces that could not be triangulated, and why. */
   skipped: { id: string; reason: string }[];
-  /** Of an assembly that puts parts elsewhere than they are drawn, or several times: how many there are, in how many places; else 0. */
-  parts: number;
-  places: number;
+}
+
+/** One place where an assembly puts a part. */
+export interface PartPlace {
+  /** Products from the model down: "engine/valve/spring". */
+  path: string;
+  /** From the part's coordinates to the model's: three rows of four, one after the other. */
+  matrix: number[];
+}
+
+/** Geometry with coordinates of its own. */
+export interface Part {
+  name: string;
+  unit: string;
+  /** Ids of its surfaces, those of grey faces too. */
+  surfaces: string[];
+  /** Ids of its faces. */
+  faces: string[];
+  /** At least one. */
+  places: PartPlace[];
+}
+
+/** The parts of a file, and where they stand (bindings/wasm/studio_assembly.hpp). */
+export interface Assembly {
+  unit: string;
+  parts: Part[];
+  /** What could not be followed. */
+  warnings: string[];
 }
 
 /**

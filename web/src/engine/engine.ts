@@ -1,5 +1,5 @@
 import { type BufferTable, Buffers } from './buffers';
-import type { Context, FaceEdge, Trim } from './context';
+import type { Assembly, Context, FaceEdge, Trim } from './context';
 import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } from './generated';
 import { type DisplayChoice, type DisplayInfo, type DisplayRange, plain } from './displays';
 import {
@@ -40,6 +40,7 @@ interface Exports {
   knead_surface(surface: number): number;
   knead_mesh(format: number, detail: number): number;
   knead_context(): number;
+  knead_assembly(): number;
   knead_trims(surface: number): number;
   knead_face_edges(surface: number): number;
   knead_checked_edges(surface: number): number;
@@ -132,13 +133,18 @@ export class Engine {
 
   /** The other faces of the file; null if nothing was opened or all faces are surfaces. */
   context(): Context | null {
-    const found = this.json(this.wasm.knead_context()) as { buffers: BufferTable } & Pick<Context, 'faces' | 'skipped' | 'parts' | 'places'> | null;
+    const found = this.json(this.wasm.knead_context()) as { buffers: BufferTable } & Pick<Context, 'faces' | 'skipped'> | null;
     if (!found) return null;
     const buffers = this.buffers(found.buffers);
     return {
       positions: buffers.floats('positions'), normals: buffers.floats('normals'), indices: buffers.indices('indices'),
-      faces: found.faces, skipped: found.skipped, parts: found.parts, places: found.places,
+      faces: found.faces, skipped: found.skipped,
     };
+  }
+
+  /** The parts of the file and where they stand; null without assemblies. */
+  assembly(): Assembly | null {
+    return this.json(this.wasm.knead_assembly()) as Assembly | null;
   }
 
   trims(surface: number): Trim {

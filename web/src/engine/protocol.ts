@@ -1,4 +1,4 @@
-import type { Context, Trim } from './context';
+import type { Assembly, Context, Trim } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
 import type { BodyPicture, Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SectionPlane, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
 
@@ -67,6 +67,8 @@ export interface Frame {
   bodies: BodyPicture[];
   /** Of tools that are new or have changed shape since the previous frame, by name. */
   toolPictures: Record<string, ToolPicture>;
+  /** Of the opened file; only in the first frame of a session. */
+  assembly?: Assembly | null;
   /** Steps from number `firstStep` on, for the plot. */
   firstStep: number;
   steps: StepInfo[];

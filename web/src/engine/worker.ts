@@ -73,6 +73,9 @@ function execute(commands: Command[], join: boolean, keep = false): void {
 /** What the present session began with, for going back to it. */
 let source: { bytes: Uint8Array; name: string } | null = null;
 
+/** The page does not know yet where the parts of the session stand. */
+let assemblyDue = false;
+
 /** Begins another session; where that fails the one before goes on. */
 function begin(engine: Engine, next: typeof source, act: () => void): void {
   stopPlaying();
@@ -89,6 +92,7 @@ function begin(engine: Engine, next: typeof source, act: () => void): void {
     throw error;
   }
   source = next;
+  assemblyDue = true;
   shownSteps = 0;
 }
 
@@ -151,7 +155,9 @@ function sendFrame(engine: Engine): void {
   const frame = {
     state, pictures, range, late, combs, bodies, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
+    ...(assemblyDue ? { assembly: engine.assembly() } : {}),
   };
+  assemblyDue = false;
   post(
     { kind: 'frame', frame },
     [

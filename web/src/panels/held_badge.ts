@@ -1,7 +1,6 @@
 import * as THREE from 'three';
 
 import { heldInWords } from '../tools/held';
-import { seenBox } from '../view/bounds';
 import type { App } from './app';
 import { h } from './dom';
 
@@ -41,7 +40,7 @@ export function heldBadge(app: App): HTMLElement {
     if (badge.hidden || !info) return;
     badge.textContent = heldInWords(info, edges!.map((e) => e.id), app.hand.edges.meetingOthers);
     badge.classList.toggle('loose', badge.textContent.startsWith('Nothing held') || badge.textContent.endsWith('when it moves'));
-    box = seenBox(viewer.surfaces[k!]?.picture ?? null, viewer.trimOf(k!));
+    box = viewer.extent.seen(k!);
     place();
   });
   viewer.onDrawn.push(place);

@@ -36,7 +36,7 @@ function handle(app: App, event: KeyboardEvent): boolean {
     app.viewer.turntable.on = false;
     if (app.hand.active) void app.hand.pointers.cancel();
     else if (document.querySelector('.shortcuts')) toggleShortcuts(app);
-    else if (app.viewer.selectedTool) {
+    else if (app.viewer.tools.selected) {
       app.viewer.selectTool(null);
       app.changed();
     } else if (app.hand.measure.forget()) app.changed();
@@ -88,8 +88,8 @@ function handle(app: App, event: KeyboardEvent): boolean {
   else if (key === '[' || key === ']') {
     app.hand.brush.settings.radius *= key === ']' ? 1.15 : 1 / 1.15;
     app.changed();
-  } else if ((key === 'delete' || key === 'backspace') && app.viewer.selectedTool) {
-    void app.execute([{ do: 'remove', tool: app.viewer.selectedTool }]);
+  } else if ((key === 'delete' || key === 'backspace') && app.viewer.tools.selected) {
+    void app.execute([{ do: 'remove', tool: app.viewer.tools.selected }]);
   } else return false;
   return true;
 }

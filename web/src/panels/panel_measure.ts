@@ -1,5 +1,6 @@
-import { canFollow, digits, inWords, type MeasureKind, measureKinds, pinning, type Reading, readingText, valuesOf } from '../document/readings';
+import { cannotFollow, digits, inWords, type MeasureKind, measureKinds, pinning, type Reading, readingText, valuesOf } from '../document/readings';
 import type { Command } from '../engine/session_types';
+import { still } from '../view/placing';
 import type { App } from './app';
 import { h, iconButton, toggle } from './dom';
 import { note, panel, row } from './panel';
@@ -36,9 +37,9 @@ export function measurePanel(app: App): HTMLElement {
 
 function item(app: App, reading: Reading): HTMLElement {
   const values = valuesOf(reading, unitOf(app), sizeOf(app));
-  const pin = iconButton('pin', reading.pinned ? `${reading.name} follows the surface` : !canFollow(reading) ? 'Points of grey faces are not pinned' : `Pin ${reading.name}: it follows the surface`, () => void pinDown(app, reading));
+  const pin = iconButton('pin', reading.pinned ? `${reading.name} follows the surface` : cannotFollow(reading) ?? `Pin ${reading.name}: it follows the surface`, () => void pinDown(app, reading));
   pin.classList.toggle('on', reading.pinned);
-  pin.disabled = reading.pinned || !canFollow(reading);
+  pin.disabled = reading.pinned || cannotFollow(reading) !== null;
   return h('li', { data: { reading: reading.name } },
     h('div', { class: 'reading-head' }, h('b', {}, reading.name), pin,
       iconButton('copy', `Copy ${reading.name} as text`, () => copy(app, readingText(reading, unitOf(app), sizeOf(app)))),
@@ -90,7 +91,7 @@ export function readingLabels(app: App): HTMLElement {
   viewer.onDrawn.push(() => {
     const stage = viewer.element.getBoundingClientRect();
     for (const { place, label } of shown) {
-      const [x, y] = viewer.places(viewer.main, place);
+      const [x, y] = viewer.places(viewer.main, place, still);
       label.hidden = Number.isNaN(x);
       label.style.left = `${Math.round(x! - stage.left)}px`;
       label.style.top = `${Math.round(y! - stage.top)}px`;

@@ -15,7 +15,8 @@ const longestWay = 256;
 const length = (app: App) => (text: string) => parseLength(text, unitOf(app.state));
 
 export function surfacesPanel(app: App): HTMLElement {
-  return panel(app, 'Surfaces', (a) => [a.state?.surfaces.map((s) => [s.id, s.name, s.net, s.degree, s.moved > 0]), a.state?.selection,
+  const places = (id: string) => app.viewer.placing.of(id).length;
+  return panel(app, 'Surfaces', (a) => [a.viewer.placing.assembly?.parts.length, a.state?.surfaces.map((s) => [s.id, s.name, s.net, s.degree, s.moved > 0]), a.state?.selection,
     a.state?.bodies.map((b) => [b.id, b.name, b.net, b.moved > 0]), a.state?.body], () => {
     const { state } = app;
     if (!state || state.surfaces.length + state.bodies.length === 0) return [note('Nothing to sculpt yet.')];
@@ -33,7 +34,7 @@ export function surfacesPanel(app: App): HTMLElement {
         return h('li', {}, h('button', { class: on ? 'item on' : 'item', type: 'button', onclick: pick, title: 'Ctrl-click selects several, which then move together',
           aria: { pressed: String(on) } },
           h('span', {}, s.name || s.id),
-          h('small', {}, `${s.degree.join('·')}  ${s.net.join(' × ')}${s.rational ? '  NURBS' : ''}${s.moved > 0 ? '  •' : ''}`)));
+          h('small', {}, `${s.degree.join('·')}  ${s.net.join(' × ')}${s.rational ? '  NURBS' : ''}${places(s.id) > 1 ? `  in ${places(s.id)} places` : ''}${s.moved > 0 ? '  •' : ''}`)));
       }), ...state.bodies.map((b, k) => bodyItem(app, b, state.body === k))),
       row(
         h('button', { class: 'button small', type: 'button', title: 'Halve every span: the same shape on a finer net',
@@ -77,9 +78,9 @@ function edited(tool: ToolInfo, change: Partial<EditToolCommand>): EditToolComma
 }
 
 export function toolsPanel(app: App): HTMLElement {
-  return panel(app, 'Tools', (a) => [a.state?.tools, a.viewer.selectedTool, a.viewer.viewports[0]!.gizmo.mode], () => {
+  return panel(app, 'Tools', (a) => [a.state?.tools, a.viewer.tools.selected, a.viewer.viewports[0]!.gizmo.mode], () => {
     const tools = app.state?.tools.filter((t) => !(app.hand.active && t.name === 'brush')) ?? [];
-    const chosen = tools.find((t) => t.name === app.viewer.selectedTool);
+    const chosen = tools.find((t) => t.name === app.viewer.tools.selected);
     const pick = (name: string | null) => {
       app.viewer.selectTool(name);
       app.changed();

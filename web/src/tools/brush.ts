@@ -90,7 +90,10 @@ export class Brush implements PointerTool {
     }
     if (!hit) return false;
     if (this.mode === 'place') {
-      this.actions.place(hit.point, hit.normal);
+      const place = () => this.actions.place(hit.point, hit.normal);
+      // A tool acts in the coordinates of the selected part.
+      if (hit.standing.part === this.viewer.workplace.part) place();
+      else void this.actions.select(hit.surface).then(place);
       return true;
     }
     // The first press on a surface selects it and moves nothing.
@@ -244,10 +247,10 @@ export class Brush implements PointerTool {
     else this.ring.hide();
   }
 
-  private showRing({ point, normal }: { point: THREE.Vector3; normal: THREE.Vector3 }): void {
+  private showRing(hit: Hit): void {
     const { radius, strength } = this.settings;
     // Where a ball at that depth cuts the plane.
     const ball = this.mode === 'push' || this.mode === 'pull';
-    this.ring.show(point, normal, ball ? radius * Math.sqrt(Math.max(0.05, 1 - (1 - strength) ** 2)) : radius);
+    this.ring.show(hit, ball ? radius * Math.sqrt(Math.max(0.05, 1 - (1 - strength) ** 2)) : radius);
   }
 }

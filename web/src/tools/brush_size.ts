@@ -44,7 +44,7 @@ export class BrushSize {
   /** Of the unit, file units: a pixel at the depth that the main view looks at, or a hundredth of the diagonal of what is seen of the selected surfaces. */
   private length(): number {
     const { viewer } = this;
-    if (this.chosen === 'screen') return viewer.main.pixel();
+    if (this.chosen === 'screen') return viewer.main.pixel() / viewer.workplace.scale;
     if (this.chosen === 'length') return 1;
     const chosen = viewer.frame?.state.selection ?? [];
     const box = new THREE.Box3();

@@ -20,7 +20,8 @@ export class EdgeMark {
     this.line.name = 'marked edge';
     this.line.renderOrder = 12;
     this.line.visible = false;
-    viewer.overlay.add(this.line);
+    this.line.matrixAutoUpdate = false;
+    viewer.marks.add(this.line);
   }
 
   show(surface: string, course: readonly number[]): void {
@@ -43,6 +44,8 @@ export class EdgeMark {
   refresh(): void {
     const points = this.points();
     const shown = points !== null && points.length > 3;
+    this.line.matrix.copy(this.viewer.placing.working(this.marked?.surface ?? '').matrix);
+    this.line.matrixWorldNeedsUpdate = true;
     if (!shown && !this.line.visible) return;
     this.line.visible = shown;
     this.line.geometry.dispose();
@@ -55,7 +58,7 @@ export class EdgeMark {
   zoom(): void {
     const points = this.points();
     if (!points) return;
-    const { centre, radius } = boundsOf([new THREE.Box3().setFromArray(points)]);
+    const { centre, radius } = boundsOf([new THREE.Box3().setFromArray(points).applyMatrix4(this.line.matrix)]);
     this.viewer.fit({ centre, radius: Math.max(1.2 * radius, least * this.viewer.bounds().radius), lowest: 0 });
   }
 }

@@ -24,7 +24,7 @@ export function followGizmo(host: ToolHost, viewport: Viewport): void {
   /** From the state sent last to the present one, and a step of the surface unless it is playing anyway. */
   const commands = (): Command[] => {
     const { object } = gizmo;
-    const tool = host.viewer.selectedTool;
+    const tool = host.viewer.tools.selected;
     if (!object || !tool) return [];
     const list: Command[] = [];
     const steps = !host.playing() && selected(host.state!).length > 0;

@@ -46,7 +46,7 @@ export class Hand {
     this.edges = new Edges(viewer, actions.select, (surface) => host.client.faceEdges(surface), () => host.changed());
     this.measure = new Measure(viewer, host.client, () => host.changed());
     this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool(), (viewport, event) => this.offerToConvert(viewport, event),
-      () => (viewer.context.chosen = null));
+      () => viewer.context.choose(null), (viewport, event) => this.reach(viewport, event));
     for (const viewport of viewer.viewports) followGizmo(host, viewport);
     host.onChange.push(() => this.refresh());
   }
@@ -78,6 +78,17 @@ export class Hand {
     return paintModes.includes(this.mode) ? this.paint : this.brush;
   }
 
+  /** A part that stands several times is worked on where it is pressed, unless a mark is meant that is drawn elsewhere. */
+  private reach(viewport: Viewport, event: PointerEvent): void {
+    const { viewer } = this.host;
+    const first = viewer.frame?.state.selection[0];
+    if (!viewer.placing.placed || this.mode === 'measure') return;
+    if (this.mode === 'points' && first !== undefined && viewer.pickControlPoint(viewport, event, first, 20) !== null) return;
+    if (this.mode === 'edges' && this.edges.at(viewport, event, 22) !== null) return;
+    const hit = viewer.pick(viewport, event);
+    if (hit) viewer.workAt(hit.standing);
+  }
+
   /** Marks drawn over the surface follow it. */
   private refresh(): void {
     this.host.viewer.editing = this.mode === 'points' || this.mode === 'pin';
@@ -99,11 +110,13 @@ export class Hand {
   /** A grey face is no spline surface, but most can become one. */
   private offerToConvert(viewport: Viewport, event: PointerEvent): void {
     const { host } = this;
-    const face = host.viewer.pickGrey(viewport, event)?.face;
-    host.viewer.context.chosen = face?.id ?? null; // what F shows
+    const hit = host.viewer.pickGrey(viewport, event);
+    host.viewer.context.choose(hit); // what F shows
+    const face = hit?.face;
     if (!face?.surface) return;
     const convert = async () => {
       const { surface } = face; // held along its edges from the start
+      host.viewer.workAt(hit!.standing);
       if (!(await host.execute([{ do: 'convert', surfaces: [surface] }, { do: 'select', surface }, ...clay]))) return;
       await host.select(host.state!.surfaces.findIndex((s) => s.id === surface));
     };

@@ -2,6 +2,7 @@ import * as THREE from 'three';
 
 import { type MeasuredPoint, type MeasureKind, measureKinds, newReading, pinnedReadings, type Reading } from '../document/readings';
 import type { Vector3 } from '../engine/session_types';
+import { type Standing, still } from '../view/placing';
 import type { Viewer } from '../view/viewer';
 import { disc } from '../view/surface_view';
 import type { Viewport } from '../view/viewport';
@@ -13,6 +14,21 @@ const colour = 0xf2c14e;
 export interface Reader {
   reading(surface: number, at: [number, number]): Promise<MeasuredPoint>;
   faceReading(face: string, near: Vector3): Promise<MeasuredPoint>;
+}
+
+const rigid = 1e-9; // how much lengths of a part and the model may differ for a reading to be both
+
+/** What was measured on a part, as it is where the part stands. */
+export function inModel(point: MeasuredPoint, at: Standing, origin: readonly number[]): MeasuredPoint {
+  if (at === still) return point;
+  const p = new THREE.Vector3(...point.point.map((x, d) => x - origin[d]!) as Vector3).applyMatrix4(at.matrix);
+  const n = new THREE.Vector3(...point.normal);
+  if (n.lengthSq() > 0) n.applyNormalMatrix(new THREE.Matrix3().getNormalMatrix(at.matrix));
+  return {
+    ...point, point: p.toArray().map((x, d) => x + origin[d]!) as Vector3, normal: n.toArray(),
+    curvature: point.curvature && point.curvature.map((k) => k / at.scale) as [number, number],
+    place: Math.abs(at.scale - 1) < rigid ? `${at.part} ${at.place}` : null,
+  };
 }
 
 /** Picks points of surfaces and grey faces, and measures at them. The numbers are the engine's: the picture says only which point is meant. */
@@ -37,13 +53,17 @@ export class Measure implements PointerTool {
       part.frustumCulled = false;
       part.renderOrder = 15;
       part.visible = false;
-      viewer.overlay.add(part);
+      viewer.marks.add(part);
     }
   }
 
   /** The pinned ones first. */
   get readings(): Reading[] {
-    return [...pinnedReadings(this.viewer.frame?.state.readings ?? []), ...this.loose];
+    const { viewer } = this;
+    const pinned = pinnedReadings(viewer.frame?.state.readings ?? []).map((r): Reading => ({
+      ...r, points: r.points.map((p) => inModel(p, viewer.working(p.surface), viewer.origin)),
+    }));
+    return [...pinned, ...this.loose];
   }
 
   /** Another document. */
@@ -84,8 +104,8 @@ export class Measure implements PointerTool {
     const { viewer, engine } = this;
     const hit = viewer.pick(viewport, event);
     const grey = hit ? null : viewer.pickGrey(viewport, event);
-    if (hit) void this.pick(engine.reading(hit.surface, hit.fractions));
-    else if (grey) void this.pick(engine.faceReading(grey.face.id, grey.point.toArray().map((x, d) => x + viewer.origin[d]!) as Vector3));
+    if (hit) void this.pick(engine.reading(hit.surface, hit.fractions), hit.standing);
+    else if (grey) void this.pick(engine.faceReading(grey.face.id, grey.point.toArray().map((x, d) => x + viewer.origin[d]!) as Vector3), grey.standing);
     return true;
   }
 
@@ -93,11 +113,11 @@ export class Measure implements PointerTool {
     if (viewport) viewport.element.style.cursor = 'crosshair';
   }
 
-  private async pick(read: Promise<MeasuredPoint>): Promise<void> {
+  private async pick(read: Promise<MeasuredPoint>, at: Standing): Promise<void> {
     const asked = ++this.asked;
     const point = await read.catch(() => null);
     if (!point || asked !== this.asked) return;
-    this.picked.push(point);
+    this.picked.push(inModel(point, at, this.viewer.origin));
     if (this.picked.length === measureKinds[this.kind]) {
       this.loose.push(newReading(this.kind, this.picked, this.readings));
       this.picked = [];

@@ -97,7 +97,7 @@ export class Paint implements PointerTool {
     for (let k = 1; k <= count; ++k) {
       const place = { clientX: x + ((event.clientX - x) * k) / count, clientY: y + ((event.clientY - y) * k) / count };
       const hit = this.viewer.pick(stroke.viewport, place);
-      if (hit && hit.surface === stroke.surface) this.paint(stroke, hit);
+      if (hit && hit.surface === stroke.surface && hit.standing === stroke.start.standing) this.paint(stroke, hit);
     }
     stroke.at = { x: event.clientX, y: event.clientY };
   }
@@ -138,7 +138,7 @@ export class Paint implements PointerTool {
         stroke.share[k] = Math.max(stroke.share[k]!, share);
       }
     }
-    this.ring.show(hit.point, hit.normal, radius);
+    this.ring.show(hit, radius);
   }
 
   private showDots(stroke: Stroke): void {
@@ -233,7 +233,7 @@ export class Paint implements PointerTool {
 
   hover(viewport: Viewport | null, event?: PointerEvent): void {
     const hit = viewport && event ? this.viewer.pick(viewport, event) : null;
-    if (hit) this.ring.show(hit.point, hit.normal, this.radius());
+    if (hit) this.ring.show(hit, this.radius());
     else this.ring.hide();
   }
 }

@@ -29,7 +29,9 @@ export class Pointers {
     /** A click that the tool has nothing for. */
     private readonly clicked: (viewport: Viewport, event: PointerEvent) => void,
     /** A press that the tool takes. */
-    private readonly taken: () => void) {
+    private readonly taken: () => void,
+    /** Before a press or a click of the tool. */
+    private readonly reached: (viewport: Viewport, event: PointerEvent) => void) {
     for (const viewport of viewports) this.listen(viewport);
   }
 
@@ -74,6 +76,7 @@ export class Pointers {
     this.pressed = { x: event.clientX, y: event.clientY, moved: false };
     if (event.button !== 0 || this.onGizmo(viewport)) return;
     const tool = this.tool();
+    this.reached(viewport, event);
     if (!tool.press(viewport, event)) return;
     this.taken();
     this.busy = tool;

@@ -1,9 +1,10 @@
 import * as THREE from 'three';
 
-import type { Viewer } from '../view/viewer';
+import type { Hit, Viewer } from '../view/viewer';
 
 /** The circle around the pointer that shows how far a brush reaches. */
 export class Ring {
+  private readonly group = new THREE.Group(); // stands where the part does that is pointed at
   private readonly line: THREE.LineLoop<THREE.BufferGeometry, THREE.LineBasicMaterial>;
 
   constructor(private readonly viewer: Viewer) {
@@ -18,10 +19,14 @@ export class Ring {
     this.line.renderOrder = 20;
     this.line.visible = false;
     this.line.frustumCulled = false;
-    viewer.overlay.add(this.line);
+    this.group.matrixAutoUpdate = false;
+    this.group.add(this.line);
+    viewer.marks.add(this.group);
   }
 
-  show(point: THREE.Vector3, normal: THREE.Vector3, reach: number): void {
+  show({ point, normal, standing }: Pick<Hit, 'point' | 'normal' | 'standing'>, reach: number): void {
+    this.group.matrix.copy(standing.matrix);
+    this.group.matrixWorldNeedsUpdate = true;
     this.line.visible = true;
     this.line.position.copy(point);
     this.line.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), normal);

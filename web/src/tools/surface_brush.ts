@@ -12,6 +12,12 @@ import { Ring } from './ring';
 
 export type BrushKind = BrushCommand['kind'];
 
+/** As `axisOf`, of a surface that stands elsewhere. */
+function leaning(event: PointerEvent, camera: THREE.Camera, { normal, standing: { matrix, inverse } }: Hit): Vector3 {
+  const axis = new THREE.Vector3(...axisOf(event, camera, normal.clone().transformDirection(matrix)));
+  return axis.lengthSq() > 0 ? axis.transformDirection(inverse).toArray() : [0, 0, 0];
+}
+
 /** In the order of the picker: what is done along a path, about a place, and to the mask. */
 export const brushKinds: readonly (readonly [BrushKind, string])[] = [
   ['inflate', 'Along the normal of each point. Alt: inwards'], ['pull', 'Out of the surface. Alt pushes'], ['push', 'Into the surface. Alt pulls'],
@@ -121,7 +127,7 @@ export class SurfaceBrush implements PointerTool {
     return {
       at: hit.fractions, surface: this.viewer.frame!.state.surfaces[hit.surface]!.id,
       pressure: presses === 'none' || aboutPlaces.includes(kind) ? null : pressureOf(event),
-      axis: pen && tilt ? axisOf(event, viewport.camera, hit.normal) : null,
+      axis: pen && tilt ? leaning(event, viewport.camera, hit) : null,
     };
   }
 
@@ -164,7 +170,7 @@ export class SurfaceBrush implements PointerTool {
     }
     const hit = this.viewer.pick(stroke.viewport, event, stroke.frozen);
     if (!hit || !this.viewer.isSelected(hit.surface)) return;
-    this.ring.show(hit.point, hit.normal, this.size());
+    this.ring.show(hit, this.size());
     stroke.ahead.push(this.pointOf(hit, stroke.viewport, event));
     void this.followOn(stroke);
   }
@@ -211,7 +217,7 @@ export class SurfaceBrush implements PointerTool {
 
   hover(viewport: Viewport | null, event?: PointerEvent): void {
     const hit = viewport && event ? this.viewer.pick(viewport, event) : null;
-    if (hit) this.ring.show(hit.point, hit.normal, this.size());
+    if (hit) this.ring.show(hit, this.size());
     else this.ring.hide();
   }
 }

@@ -88,7 +88,7 @@ export class Navigator {
       const { height } = viewport.size();
       if (places.size === 2) {
         pan(viewport, now.x - old.x, now.y - old.y, pivot, height);
-        zoom(viewport, now.apart / Math.max(1, old.apart), viewport.unproject(now.x, now.y, pivot));
+        zoom(viewport, now.apart / Math.max(1, old.apart), viewport.unprojectInScene(now.x, now.y, pivot));
         let turn = now.angle - old.angle;
         if (turn > Math.PI) turn -= 2 * Math.PI;
         if (turn < -Math.PI) turn += 2 * Math.PI;

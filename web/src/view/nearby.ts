@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 
 import type { Picture, PictureWindow } from '../engine/session_types';
+import { type Standing, still } from './placing';
 
 /** A view that is shown: from scene to clip coordinates, and its height in pixels. */
 export interface Eye {
@@ -8,6 +9,10 @@ export interface Eye {
   /** Pixels of a length at clip depth w = 1; at w they are that many divided by w. */
   scale: number;
 }
+
+/** The same view of what stands elsewhere. */
+export const eyeOn = ({ matrix, scale }: Eye, at: Standing): Eye =>
+  (at === still ? { matrix, scale } : { matrix: new THREE.Matrix4().multiplyMatrices(matrix, at.matrix), scale: scale * at.scale });
 
 const wantedPixels = 0.5; // how far chords may be from the surface
 const pictureChord = 1.25e-4; // of the size of all nets, at detail 96: how far they are without a window

@@ -3,8 +3,10 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 
-import type { Context, Trim } from '../engine/context';
+import type { Trim } from '../engine/context';
 import type { Picture } from '../engine/session_types';
+import type { GreyPiece } from './context_view';
+import { placedPoints, planeOf, type Standing } from './placing';
 import { cutOfContext, cutOfPicture, type PlaneNumbers } from './section_lines';
 
 /** What a section is across: an axis of the file, or the direction of the view when it was chosen. */
@@ -13,9 +15,8 @@ export const sectionAxes: readonly SectionAxis[] = ['x', 'y', 'z', 'view'];
 
 /** What a section cuts. */
 export interface Cuttable {
-  pictures: readonly Picture[];
-  trims: readonly Trim[];
-  context: Context | null;
+  surfaces: readonly { picture: Picture; trim: Trim; standings: readonly Standing[] }[];
+  grey: readonly GreyPiece[];
 }
 
 const colour = 0xf0503c;
@@ -137,13 +138,15 @@ export class Section {
       normal.clone().multiplyScalar(this.offset).addScaledVector(u, side(u, a)).addScaledVector(v, side(v, b)));
   }
 
-  private draw({ pictures, trims, context }: Cuttable): void {
+  private draw({ surfaces, grey }: Cuttable): void {
     const { normal, constant } = this.plane;
     const numbers: PlaneNumbers = [normal.x, normal.y, normal.z, constant];
-    const pieces: number[] = context ? cutOfContext(context, numbers) : [];
-    pictures.forEach((picture, k) => {
-      for (const x of cutOfPicture(picture, numbers, trims[k] ?? null)) pieces.push(x);
-    });
+    const pieces: number[] = [];
+    const cut = (standings: readonly Standing[], by: (plane: PlaneNumbers) => number[]) => {
+      for (const at of standings) for (const x of placedPoints(by(planeOf(numbers, at)), at)) pieces.push(x);
+    };
+    for (const piece of grey) cut(piece.standings, (plane) => cutOfContext(piece, plane));
+    for (const { picture, trim, standings } of surfaces) cut(standings, (plane) => cutOfPicture(picture, plane, trim));
     this.cut.geometry.dispose();
     this.cut.geometry = new LineSegmentsGeometry();
     this.cut.visible = pieces.length > 0;

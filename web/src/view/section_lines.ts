@@ -52,7 +52,7 @@ export function cutOfPicture(picture: Picture, plane: PlaneNumbers, trim: Trim):
 }
 
 /** The cut of the grey faces. */
-export function cutOfContext({ positions, indices }: Context, plane: PlaneNumbers): number[] {
+export function cutOfContext({ positions, indices }: Pick<Context, 'positions' | 'indices'>, plane: PlaneNumbers): number[] {
   const [a, b, c, d] = plane;
   const result: number[] = [];
   const value = (k: number) => a * positions[3 * k]! + b * positions[3 * k + 1]! + c * positions[3 * k + 2]! + d;

@@ -1,4 +1,5 @@
 import type { SectionPlane } from '../engine/session_types';
+import { planeOf, still } from './placing';
 import type { Viewer } from './viewer';
 
 const most = 60; // section curves with combs
@@ -11,7 +12,7 @@ export function stepsBetween(lower: number, upper: number, step: number): number
   return Array.from({ length: Math.min(all, most) }, (_, k) => (first + skipped + k) * step);
 }
 
-/** The planes of the section curves, and that of the section view. */
+/** The planes of the section curves, and that of the section view, in the coordinates of the part that is worked on. */
 export function sectionPlanes(viewer: Viewer): SectionPlane[] {
   const { display, section, origin } = viewer;
   const planes: SectionPlane[] = [];
@@ -27,5 +28,12 @@ export function sectionPlanes(viewer: Viewer): SectionPlane[] {
     const [x, y, z] = section.normal.toArray();
     planes.push([x, y, z, section.offset + x * origin[0]! + y * origin[1]! + z * origin[2]!]);
   }
-  return planes;
+  const { workplace } = viewer;
+  if (workplace === still) return planes;
+  return planes.map(([x, y, z, offset]): SectionPlane => {
+    const inScene = offset - x * origin[0]! - y * origin[1]! - z * origin[2]!;
+    const [a, b, c, d] = planeOf([x, y, z, -inScene], workplace);
+    const length = Math.hypot(a, b, c);
+    return [a / length, b / length, c / length, (-d + a * origin[0]! + b * origin[1]! + c * origin[2]!) / length];
+  });
 }

@@ -5,6 +5,7 @@ import { type Display, type Palette, palettes } from './display';
 import { coarseLines } from './nearby';
 import { mark } from './net';
 import { GridPicker } from './picking';
+import type { Standing } from './placing';
 import { reliefLayer } from './relief';
 import { clippable } from './section';
 import { depthMaterial, restyleMaterial, surfaceMaterial, trimmedLines } from './surface_material';
@@ -15,6 +16,9 @@ const isocurveSpacing = 6; // grid lines between isocurves that are not knot lin
 /** Pictures of one surface: triangles, isocurves, knot lines and net, all over the buffers that the worker sends. */
 export class SurfaceView {
   readonly group = new THREE.Group();
+  /** Where it is worked on; the copies are in the other places of its part. */
+  private readonly own = new THREE.Group();
+  private readonly copies: THREE.Group[] = [];
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   picture: Picture | null = null;
   /** Of the present picture. */
@@ -51,7 +55,39 @@ export class SurfaceView {
     this.knotLines.renderOrder = 1;
     this.net.renderOrder = 2;
     this.points.renderOrder = 3;
-    this.group.add(this.mesh, this.depth, this.isocurves, this.knotLines, this.normals, this.net, this.points);
+    this.own.matrixAutoUpdate = false;
+    this.own.add(this.mesh, this.depth, this.isocurves, this.knotLines, this.normals, this.net, this.points);
+    this.group.add(this.own);
+  }
+
+  /** What is drawn in every place. */
+  private get everywhere(): THREE.Object3D[] {
+    return [this.mesh, this.depth, this.isocurves, this.knotLines];
+  }
+
+  /** Stands in these places; in `working` it has its net and normals, too. */
+  stand(standings: readonly Standing[], working: Standing): void {
+    const others = standings.filter((s) => s !== working);
+    for (const gone of this.copies.splice(others.length)) this.group.remove(gone);
+    while (this.copies.length < others.length) {
+      const copy = new THREE.Group();
+      copy.matrixAutoUpdate = false;
+      copy.add(...this.everywhere.map((part) => part.clone())); // which share geometry and material
+      this.copies.push(copy);
+      this.group.add(copy);
+    }
+    [this.own, ...this.copies].forEach((at, k) => {
+      const { matrix } = [working, ...others][k]!;
+      if (at.matrix.equals(matrix)) return;
+      at.matrix.copy(matrix);
+      at.matrixWorldNeedsUpdate = true;
+    });
+    this.showCopies();
+  }
+
+  private showCopies(): void {
+    const visible = this.everywhere.map((part) => part.visible);
+    for (const copy of this.copies) copy.children.forEach((part, k) => (part.visible = visible[k]!));
   }
 
   show(picture: Picture, info: SurfaceInfo, display: Display, palette: Palette, selected: boolean): void {
@@ -176,6 +212,7 @@ export class SurfaceView {
     this.net.visible = (display.net || this.editing) && selected;
     this.points.visible = (display.points || this.editing) && selected;
     this.normals.visible = display.normals;
+    this.showCopies();
     this.isocurves.material.color.set(palette.isocurve);
     this.isocurves.material.opacity = palette.isocurveOpacity;
     // Lines on a pale surface are dark in either theme.

@@ -3,31 +3,28 @@ import * as THREE from 'three';
 import { format } from '../document/units';
 import type { Context, Trim } from '../engine/context';
 import type { Frame } from '../engine/protocol';
-import { shown } from '../engine/trim_tree';
-import { type Bounds, boundsOf, seenBox } from './bounds';
+import { type Bounds, boundsOf } from './bounds';
 import { BodyView } from './body_view';
 import { CombView } from './comb_view';
 import { ContextView, type GreyHit } from './context_view';
 import { type Display, type Palette, palettes, type Theme } from './display';
+import { Extent } from './extent';
 import { Ground, roundStepAbove } from './ground';
 import { limitsOf } from './limits';
 import { Navigator } from './navigator';
 import type { GridPicker } from './picking';
+import { Placing, type Standing, still } from './placing';
 import { Section, type SectionAxis } from './section';
 import { Relief } from './relief';
 import { placeSections } from './surface_material';
+import { type Hit, nearestOn, scenePoint } from './surface_pick';
 import { SurfaceView } from './surface_view';
-import { ToolView } from './tool_view';
+import { type ToolScene, ToolsView } from './tools_view';
 import { trimTextures } from './trim_shader';
 import { Turntable } from './turntable';
 import { type ViewName, Viewport } from './viewport';
 
-export interface Hit {
-  surface: number;
-  point: THREE.Vector3; // scene coordinates
-  normal: THREE.Vector3; // towards the viewer
-  fractions: [number, number];
-}
+export type { Hit } from './surface_pick';
 
 /** Draws frames of the session in one window or four. Draws only when something has changed. */
 export class Viewer {
@@ -35,24 +32,28 @@ export class Viewer {
   readonly scene = new THREE.Scene();
   readonly viewports: Viewport[];
   readonly surfaces: SurfaceView[] = [];
-  readonly tools = new Map<string, ToolView>();
   readonly ground = new Ground();
-  /** Rings around the pointer and the like, drawn on top. */
+  /** Marks of the part that is worked on, in its coordinates, drawn on top. */
   readonly overlay = new THREE.Group();
+  /** Marks in the scene. */
+  readonly marks = new THREE.Group();
+  /** Where parts of an assembly stand. */
+  readonly placing = new Placing();
   origin: [number, number, number] = [0, 0, 0];
   frame: Frame | null = null;
-  selectedTool: string | null = null;
   /** Called after each picture. */
   readonly onDrawn: (() => void)[] = [];
 
-  readonly navigator = new Navigator((viewport, at) => this.pick(viewport, at)?.point ?? viewport.unproject(at.clientX, at.clientY, viewport.target));
+  readonly navigator = new Navigator((viewport, at) => scenePoint(this.pick(viewport, at)) ?? viewport.unprojectInScene(at.clientX, at.clientY, viewport.target));
   /** A double click on the label of a view. */
   onMaximise: (name: ViewName) => void = () => {};
 
+  readonly extent = new Extent(this);
   readonly turntable: Turntable;
   readonly section = new Section();
   readonly context = new ContextView();
-  private surroundings: Context | null = null;
+  private readonly work = new THREE.Group(); // what is in the coordinates of the part that is worked on
+  readonly tools = new ToolsView(this.work, () => this.viewports);
   readonly combs = new CombView();
   readonly bodies = new BodyView();
   /** A file was opened, and nothing in it has been chosen yet: what the session has selected is not what the user has. */
@@ -62,6 +63,7 @@ export class Viewer {
   private readonly relief = new Relief();
   private readonly raycaster = new THREE.Raycaster();
   private due = false;
+  private unseen = false; // no view has been fitted to anything yet
   private editsPoints = false;
   private groundHeight = 0;
   private sceneRadius = 1;
@@ -91,7 +93,9 @@ export class Viewer {
     this.element.append(this.renderer.domElement, windows);
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(0.4, -0.6, 1);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.overlay, this.context.mesh, this.section.group, this.combs.group, this.bodies.group);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f98, 1.4), key, this.ground.mesh, this.work, this.marks, this.context.group, this.section.group, this.bodies.group);
+    this.work.matrixAutoUpdate = false;
+    this.work.add(this.overlay, this.combs.group);
     this.section.onChange = () => this.redraw();
     new ResizeObserver(() => this.resize()).observe(this.element);
   }
@@ -105,7 +109,7 @@ export class Viewer {
   }
 
   get unit(): string {
-    return (this.frame?.state.surfaces[0] ?? this.frame?.state.bodies[0])?.unit ?? '';
+    return this.placing.placed ? this.placing.assembly!.unit : (this.frame?.state.surfaces[0] ?? this.frame?.state.bodies[0])?.unit ?? '';
   }
 
   /** The view alone, or, of four, the perspective one. */
@@ -127,6 +131,7 @@ export class Viewer {
     this.frame = frame;
     this.origin = frame.origin;
     const { state, pictures } = frame;
+    if (frame.assembly !== undefined) this.placing.open(frame.assembly, frame.origin);
     while (this.surfaces.length > pictures.length) {
       const gone = this.surfaces.pop()!;
       this.scene.remove(gone.group);
@@ -145,23 +150,59 @@ export class Viewer {
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
     this.bodies.show(frame.bodies, state.body, this.palette);
-    this.showTools();
+    this.stand();
+    this.tools.show(frame, this.toolScene);
     this.section.forget();
     if (fresh) {
       this.section.end();
       this.fit();
+      this.unseen = pictures.length + frame.bodies.length === 0;
     } else this.lowerGround();
     this.redraw();
   }
 
   /** The surroundings of the surfaces of the frame, and the visible part of each. */
   showContext(context: Context | null, trims: Trim[]): void {
-    this.context.show(context);
-    this.surroundings = context;
+    this.context.show(context, this.placing);
+    if (context && this.unseen) requestAnimationFrame(() => this.fitAll()); // there is nothing but grey faces
+    this.unseen &&= !context;
     this.section.forget();
     this.trims = trims;
     this.surfaces.forEach((s, k) => (s.trim = trimTextures(trims[k] ?? null)));
     this.restyle();
+  }
+
+  /** Puts all surfaces where they stand, and what belongs to the part that is worked on into its place. */
+  private stand(): void {
+    this.surfaces.forEach((s, k) => s.stand(this.standings(k), this.working(k)));
+    const { workplace } = this;
+    this.work.matrix.copy(workplace.matrix);
+    this.work.updateMatrixWorld(true);
+    for (const view of this.viewports) view.workplace = workplace;
+  }
+
+  /** Where a surface stands, by its number. */
+  standings(surface: number): readonly Standing[] {
+    return this.placing.of(this.frame?.state.surfaces[surface]?.id ?? '');
+  }
+
+  /** In which of these places it is worked on. */
+  working(surface: number): Standing {
+    return this.placing.working(this.frame?.state.surfaces[surface]?.id ?? '');
+  }
+
+  /** The place of the first selected surface: tools, control points, edges and combs are there. */
+  get workplace(): Standing {
+    const first = this.frame?.state.selection[0];
+    return first === undefined ? still : this.working(first);
+  }
+
+  /** From now on a part is worked on in this of its places. */
+  workAt(standing: Standing): void {
+    if (!this.placing.work(standing)) return;
+    this.stand();
+    this.section.forget();
+    this.redraw();
   }
 
   /** The ground stays below whatever is pressed down. */
@@ -171,48 +212,13 @@ export class Viewer {
     this.sceneRadius = radius;
   }
 
-  private showTools(): void {
-    const infos = this.frame?.state.tools ?? [];
-    for (const [name, view] of this.tools) {
-      if (infos.some((t) => t.name === name)) continue;
-      this.scene.remove(view.object);
-      view.dispose();
-      this.tools.delete(name);
-    }
-    const size = this.bounds().radius;
-    const dragging = this.viewports.some((v) => v.gizmo.dragging);
-    for (const info of infos) {
-      let view = this.tools.get(info.name);
-      if (!view) {
-        view = new ToolView(info);
-        view.object.userData.tool = info.name;
-        this.tools.set(info.name, view);
-        this.scene.add(view.object);
-      }
-      const picture = this.frame!.toolPictures[info.name];
-      if (picture) view.picture = picture;
-      // While the user drags a tool, the picture is ahead of the session.
-      if (!(dragging && info.name === this.selectedTool)) {
-        view.show(info, this.origin, size, this.palette, info.name === this.selectedTool);
-      }
-    }
-    if (this.selectedTool && !this.tools.has(this.selectedTool)) this.selectTool(null);
-    else this.attachGizmos();
+  private get toolScene(): ToolScene {
+    return { origin: this.origin, size: this.bounds().radius, palette: this.palette };
   }
 
   selectTool(name: string | null): void {
-    this.selectedTool = name;
-    for (const [other, view] of this.tools) view.show(view.tool, this.origin, this.bounds().radius, this.palette, other === name);
-    this.attachGizmos();
+    this.tools.select(name, this.toolScene);
     this.redraw();
-  }
-
-  private attachGizmos(): void {
-    const view = this.selectedTool ? this.tools.get(this.selectedTool) : undefined;
-    for (const { gizmo } of this.viewports) {
-      if (view && gizmo.object !== view.object) gizmo.attach(view.object);
-      else if (!view && gizmo.object) gizmo.detach();
-    }
   }
 
   trimOf(surface: number): Trim {
@@ -226,7 +232,7 @@ export class Viewer {
 
   /** Centre and radius of all surfaces. */
   bounds(): Bounds {
-    return boundsOf([...this.surfaces.map(({ picture }) => picture && new THREE.Box3().setFromArray(picture.positions)), ...this.bodies.boxes()]);
+    return this.extent.bounds();
   }
 
   /** Shows all surfaces. */
@@ -241,7 +247,7 @@ export class Viewer {
   /** Shows the grey face that was clicked last, or what is seen of the selected surfaces; all if there are none. */
   fitSelected(): void {
     const { state } = this.frame ?? {};
-    const boxes = (state?.selection ?? []).map((k) => seenBox(this.surfaces[k]?.picture ?? null, this.trims[k] ?? null));
+    const boxes = (state?.selection ?? []).map((k) => this.extent.seen(k));
     const grey = this.context.chosenBox();
     if (grey || (boxes.length > 0 && !this.waiting)) this.fit(boundsOf(grey ? [grey] : boxes));
     else this.fitAll();
@@ -249,16 +255,12 @@ export class Viewer {
 
   /** Shows the other faces of the file, too. */
   fitAll(): void {
-    this.fit(boundsOf(this.boxes()));
-  }
-
-  private boxes(): (THREE.Box3 | null)[] {
-    return [...this.surfaces.map((s, k) => seenBox(s.picture, this.trims[k] ?? null)), ...this.bodies.boxes(), this.context.box()];
+    this.fit(boundsOf(this.extent.all()));
   }
 
   /** Cuts through the middle of everything, and hides what is before that. */
   beginSection(axis: SectionAxis): void {
-    const box = this.boxes().reduce<THREE.Box3>((all, other) => (other ? all.union(other) : all), new THREE.Box3());
+    const box = this.extent.all().reduce<THREE.Box3>((all, other) => (other ? all.union(other) : all), new THREE.Box3());
     if (!box.isEmpty()) this.section.begin(axis, box, this.main.camera.getWorldDirection(new THREE.Vector3()).negate());
   }
 
@@ -270,9 +272,7 @@ export class Viewer {
     const state = this.frame?.state;
     this.surfaces.forEach((s, k) =>
       s.restyle(this.display, this.palette, !state || this.waiting || state.selection.length === 0 || state.selection.includes(k)));
-    for (const [name, view] of this.tools) {
-      view.show(view.tool, this.origin, this.bounds().radius, this.palette, name === this.selectedTool);
-    }
+    this.tools.restyle(this.toolScene);
     this.element.classList.toggle('four', this.display.fourViews);
     this.viewports[0]!.parallel = this.display.parallel;
     for (const v of this.viewports) v.element.hidden = !this.display.fourViews && v.name !== this.display.view;
@@ -280,18 +280,18 @@ export class Viewer {
   }
 
   /**
-   * What is under the pointer: the nearest surface, as last drawn or as it was when `frozen` was taken; where it is drawn
-   * trimmed, only what its faces show.
+   * What is under the pointer: the nearest surface, as last drawn, or, in the place that is worked on, as it was when `frozen`
+   * was taken; where it is drawn trimmed, only what its faces show.
    */
   pick(viewport: Viewport, event: { clientX: number; clientY: number }, frozen?: readonly (GridPicker | null)[]): Hit | null {
-    const { ray } = viewport.ray(event, this.raycaster);
+    const { ray } = viewport.sceneRay(event, this.raycaster);
     const far = this.section.clip(ray);
-    let best: (Hit & { distance: number }) | null = null;
-    for (const [surface, picker] of (frozen ?? this.pickers).entries()) {
-      const trim = this.display.trimmed ? this.trimOf(surface) : null;
-      const hit = picker?.hit(ray, trim ? (s, t) => shown(trim, s, t) : undefined);
-      if (hit && hit.distance <= far && (!best || hit.distance < best.distance)) best = { surface, ...hit };
-    }
+    const { workplace } = this;
+    const best = nearestOn(ray, far, (frozen ?? this.pickers).map((picker, k) => {
+      const all = this.standings(k);
+      const standings = frozen ? all.filter(({ part, place }) => part === workplace.part && place === workplace.place) : all;
+      return { picker, trim: this.display.trimmed ? this.trimOf(k) : null, standings };
+    }));
     return best && !frozen && this.context.hides(this.raycaster, best.distance) ? null : best;
   }
 
@@ -306,16 +306,16 @@ export class Viewer {
   }
 
   pickTool(viewport: Viewport, event: { clientX: number; clientY: number }): string | null {
-    viewport.ray(event, this.raycaster);
-    const hit = this.raycaster.intersectObjects([...this.tools.values()].map((t) => t.object), false)[0];
-    return (hit?.object.userData.tool as string | undefined) ?? null;
+    return this.tools.pick(viewport.sceneRay(event, this.raycaster));
   }
 
-  /** Where points of the scene lie on the page, as by `projectAll`; NaN also where a section hides them. */
-  places(viewport: Viewport, points: ArrayLike<number>): Float32Array {
-    const places = viewport.projectAll(points);
+  /** Where points of the part that is worked on, or by a matrix of others, lie on the page, as by `projectAll`; NaN also where a section hides them. */
+  places(viewport: Viewport, points: ArrayLike<number>, { matrix }: Pick<Standing, 'matrix'> = this.workplace): Float32Array {
+    const places = viewport.projectAll(points, matrix);
+    const p = new THREE.Vector3();
     for (let k = 0; 3 * k < points.length && this.section.on; ++k) {
-      if (this.section.hides(points[3 * k]!, points[3 * k + 1]!, points[3 * k + 2]!)) places[2 * k] = NaN;
+      p.set(points[3 * k]!, points[3 * k + 1]!, points[3 * k + 2]!).applyMatrix4(matrix);
+      if (this.section.hides(p.x, p.y, p.z)) places[2 * k] = NaN;
     }
     return places;
   }
@@ -356,10 +356,10 @@ export class Viewer {
 
   private draw(): void {
     const whole = this.element.getBoundingClientRect();
-    this.section.prepare([...this.surfaces.map((s) => s.group), this.context.mesh, this.combs.group, this.overlay], () => ({
-      pictures: this.display.surface ? this.surfaces.flatMap((s) => s.picture ?? []) : [],
-      trims: this.display.trimmed ? this.trims : [],
-      context: this.context.mesh.visible ? this.surroundings : null,
+    this.section.prepare([...this.surfaces.map((s) => s.group), this.context.group, this.combs.group, this.overlay, this.marks], () => ({
+      surfaces: this.display.surface ? this.surfaces.flatMap(({ picture }, k) =>
+        (picture ? [{ picture, trim: this.display.trimmed ? this.trimOf(k) : null, standings: this.standings(k) }] : [])) : [],
+      grey: this.context.group.visible ? this.context.pieces : [],
     }));
     const relief = Relief.wanted(this.display);
     const spacing = this.display.sections === 'none' ? 1 : this.sectionSpacing;

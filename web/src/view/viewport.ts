@@ -3,6 +3,7 @@ import { TransformControls } from 'three/examples/jsm/controls/TransformControls
 
 import { pixelSize } from './camera';
 import { directionOf, isSide, type NamedView, type Side, sideFrom, sides } from './directions';
+import { type Standing, still } from './placing';
 
 export type ViewName = 'perspective' | 'top' | 'front' | 'right';
 /** Where a camera stands, scene coordinates; `height` is what it sees of the plane through the target. */
@@ -15,6 +16,8 @@ export interface Placement {
   parallel: boolean;
 }
 
+/** Of nothing but the scene itself. */
+const inScene = new THREE.Matrix4();
 const upright = new THREE.Vector3(0, 0, 1);
 
 /** One of the windows onto the scene: a part of the page, a camera, the means to move tools in it. */
@@ -25,6 +28,8 @@ export class Viewport {
   camera: THREE.PerspectiveCamera | THREE.OrthographicCamera;
   /** What the camera looks at, scene coordinates. */
   readonly target = new THREE.Vector3();
+  /** The place of the part that tools work on: `ray` and `unproject` are in its coordinates. */
+  workplace: Standing = still;
   /** Looks along an axis of the file, and never turns away from it. */
   readonly axial: boolean;
 
@@ -177,26 +182,37 @@ export class Viewport {
     return new THREE.Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
   }
 
-  /** The ray under a pointer. */
-  ray(event: { clientX: number; clientY: number }, to: THREE.Raycaster): THREE.Raycaster {
+  /** The ray under a pointer, in the scene. */
+  sceneRay(event: { clientX: number; clientY: number }, to: THREE.Raycaster): THREE.Raycaster {
     to.setFromCamera(this.normalised(event.clientX, event.clientY), this.camera);
     return to;
   }
 
-  /** The point under a place of the page, in the plane through `at` that faces the viewer. */
-  unproject(x: number, y: number, at: THREE.Vector3): THREE.Vector3 {
-    const { ray } = this.ray({ clientX: x, clientY: y }, new THREE.Raycaster());
+  /** The point of the scene under a place of the page, in the plane through `at` that faces the viewer. */
+  unprojectInScene(x: number, y: number, at: THREE.Vector3): THREE.Vector3 {
+    const { ray } = this.sceneRay({ clientX: x, clientY: y }, new THREE.Raycaster());
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new THREE.Vector3()), at);
     return ray.intersectPlane(plane, new THREE.Vector3()) ?? at.clone();
   }
 
-  /** Where points of the scene, 3 numbers each, lie on the page, 2 numbers each; NaN behind the camera. */
-  projectAll(points: ArrayLike<number>): Float32Array {
+  /** As `sceneRay`, in the coordinates of the part that is worked on. */
+  ray(event: { clientX: number; clientY: number }, to: THREE.Raycaster): THREE.Raycaster {
+    this.sceneRay(event, to).ray.applyMatrix4(this.workplace.inverse);
+    return to;
+  }
+
+  /** As `unprojectInScene`, in the coordinates of the part that is worked on. */
+  unproject(x: number, y: number, at: THREE.Vector3): THREE.Vector3 {
+    return this.unprojectInScene(x, y, at.clone().applyMatrix4(this.workplace.matrix)).applyMatrix4(this.workplace.inverse);
+  }
+
+  /** Where points, 3 numbers each, lie on the page, 2 numbers each; NaN behind the camera. `matrix` takes them to the scene. */
+  projectAll(points: ArrayLike<number>, matrix = inScene): Float32Array {
     const box = this.element.getBoundingClientRect();
     const places = new Float32Array((2 * points.length) / 3);
     const p = new THREE.Vector3();
     for (let k = 0; 3 * k < points.length; ++k) {
-      p.set(points[3 * k]!, points[3 * k + 1]!, points[3 * k + 2]!).project(this.camera);
+      p.set(points[3 * k]!, points[3 * k + 1]!, points[3 * k + 2]!).applyMatrix4(matrix).project(this.camera);
       const seen = p.z > -1 && p.z < 1;
       places[2 * k] = seen ? box.left + ((p.x + 1) / 2) * box.width : NaN;
       places[2 * k + 1] = box.top + ((1 - p.y) / 2) * box.height;

@@ -1,0 +1,175 @@
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+
+import * as THREE from 'three';
+
+import { cannotFollow, type MeasuredPoint } from '@studio/document/readings';
+import { Engine } from '@studio/engine/engine';
+import { type AssemblyNode, assemblyTree } from '@studio/panels/assembly_tree';
+import { inModel } from '@studio/tools/measure';
+import { ContextView } from '@studio/view/context_view';
+import { eyeOn } from '@studio/view/nearby';
+import { GridPicker } from '@studio/view/picking';
+import { mostDrawn, placedPoints, Placing, planeOf, still } from '@studio/view/placing';
+import { cutOfPicture } from '@studio/view/section_lines';
+import { nearestOn, scenePoint } from '@studio/view/surface_pick';
+
+import { assemblyStep } from './assembly_step';
+
+const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+const wasm = readFileSync(here('../../web/src/engine/knead_studio.wasm'));
+let engine: Engine;
+const placing = new Placing();
+/** Of the plate, in the order of the file: upright, turned, lying. */
+const middles = [[20, 0, 0], [0, 30, 0], [0, -30, 5]] as const;
+let plate: string;
+
+beforeAll(async () => {
+  engine = await Engine.load(wasm);
+  engine.openStep(assemblyStep(), 'table.step');
+  placing.open(engine.assembly(), engine.origin);
+  plate = engine.state().surfaces[0]!.id;
+});
+
+const inScene = (p: readonly number[]) => new THREE.Vector3(...p.map((x, d) => x - engine.origin[d]!) as [number, number, number]);
+
+describe('parts of an assembly', () => {
+  it('come from the engine with their places, converted surfaces among them', () => {
+    const { unit, parts, warnings } = engine.assembly()!;
+    expect([unit, warnings]).toEqual(['mm', []]);
+    expect(parts.map((p) => [p.name, p.unit, p.places.length, p.surfaces.length, p.faces.length])).toEqual([['plate', 'mm', 3, 1, 0], ['foot', 'inch', 1, 1, 1]]);
+    expect(parts[0]!.places[0]).toEqual({ path: 'table/plate', matrix: [0, 0, 1, 20, 1, 0, 0, 0, 0, 1, 0, 0] });
+    expect(engine.context()!.faces[0]!.surface).toBe(parts[1]!.surfaces[0]);
+  });
+
+  it('are none of a file without products', async () => {
+    const fresh = await Engine.load(wasm);
+    fresh.fresh('sheet');
+    expect(fresh.assembly()).toBeNull();
+    placing.of('#7').forEach((s) => expect(s).toBe(still));
+  });
+
+  it('stand in the scene where the model has them, in its unit', () => {
+    expect(placing.placed).toBe(true);
+    const centres = placing.of(plate).map((s) => inScene([0, 0, 0]).applyMatrix4(s.matrix));
+    centres.forEach((p, k) => expect(p.distanceTo(inScene(middles[k]!))).toBeLessThan(1e-12));
+    const [foot] = placing.of(engine.assembly()!.parts[1]!.faces[0]!);
+    expect(foot!.scale).toBeCloseTo(25.4, 12);
+    expect(inScene([1, 0, 0]).applyMatrix4(foot!.matrix).distanceTo(inScene([-60 + 25.4, 0, 0]))).toBeLessThan(1e-12);
+  });
+
+  it('are worked on in the place that was asked for last, each part in its own', () => {
+    const [first, second] = placing.of(plate);
+    expect(placing.working(plate)).toBe(first);
+    expect(placing.work(second!)).toBe(true);
+    expect(placing.work(second!)).toBe(false);
+    expect(placing.working(plate)).toBe(second);
+    expect(placing.working('#7')).toBe(still);
+    expect(placing.work(first!)).toBe(true);
+  });
+
+  it('are hit by rays where they stand, at the same point of the surface', () => {
+    const picture = engine.picture(0, 24);
+    const surfaces = [{ picker: new GridPicker(picture), trim: null, standings: placing.of(plate) }];
+    const hitAt = (from: readonly number[], to: readonly number[]) =>
+      nearestOn(new THREE.Ray(inScene(from), inScene(to).sub(inScene(from)).normalize()), Infinity, surfaces);
+    // (1, 2, 0) of the part: at (20, 1, 2), at (-2, 31, 0), at (1, -28, 5).
+    const hits = [hitAt([40, 1, 2], [20, 1, 2]), hitAt([-2, 31, 9], [-2, 31, 0]), hitAt([1, -28, 9], [1, -28, 5])];
+    hits.forEach((hit, place) => {
+      expect(hit!.standing.place).toBe(place);
+      expect(hit!.point.distanceTo(inScene([1, 2, 0]))).toBeLessThan(1e-5);
+      hit!.fractions.forEach((x, d) => expect(x).toBeCloseTo(hits[0]!.fractions[d]!, 5));
+    });
+    expect(scenePoint(hits[0]!)!.distanceTo(inScene([20, 1, 2]))).toBeLessThan(1e-5);
+    expect(hitAt([1, 2, 9], [1, 2, 0])).toBeNull(); // where the part would be drawn at its own origin
+  });
+
+  it('are cut by a plane of the scene where they stand', () => {
+    const picture = engine.picture(0, 24);
+    // x = 20 would touch the upright one all over; y = 30.5 cuts the turned one only.
+    const offset = -(30.5 - engine.origin[1]);
+    const lengths = placing.of(plate).map((at) => {
+      const cut = placedPoints(cutOfPicture(picture, planeOf([0, 1, 0, offset], at), null), at);
+      for (let k = 1; k < cut.length; k += 3) expect(cut[k]! + engine.origin[1]).toBeCloseTo(30.5, 5);
+      let sum = 0;
+      for (let k = 0; k < cut.length; k += 6) sum += Math.hypot(...[0, 1, 2].map((d) => cut[k + d]! - cut[k + 3 + d]!));
+      return sum;
+    });
+    [0, 10, 0].forEach((length, k) => expect(lengths[k]).toBeCloseTo(length, 5));
+  });
+
+  it('are measured in the model: distances between places, radii in its unit', () => {
+    const reading = (p: [number, number, number]): MeasuredPoint => ({ surface: 0, at: [0.5, 0.5], point: p, displacement: [0, 0, 0], normal: [0, 0, 1], curvature: [0.5, 0],
+      von_mises: null, membrane: null, moment: null, bending_strain: null });
+    const [upright, turned] = placing.of(plate);
+    const a = inModel(reading([0, 0, 0]), upright!, engine.origin), b = inModel(reading([0, 0, 0]), turned!, engine.origin);
+    expect(Math.hypot(...a.point.map((x, d) => x - b.point[d]!))).toBeCloseTo(Math.hypot(20, 30), 12);
+    a.normal.forEach((x, d) => expect(x).toBeCloseTo([1, 0, 0][d]!, 12));
+    const kind = 'distance' as const, more = { name: 'distance 1', pinned: false, names: [], kind };
+    expect(cannotFollow({ ...more, points: [a, a] })).toBeNull();
+    expect(cannotFollow({ ...more, points: [a, b] })).toContain('several places');
+    const [foot] = placing.ofPart(1);
+    const onFoot = inModel(reading([1, 0, 0]), foot!, engine.origin);
+    expect(onFoot.curvature![0]).toBeCloseTo(0.5 / 25.4, 12);
+    expect(cannotFollow({ ...more, points: [onFoot, onFoot] })).not.toBeNull();
+    expect(inModel(reading([1, 2, 3]), still, engine.origin)).toEqual(reading([1, 2, 3]));
+  });
+
+  it('are seen from nearby in their own size', () => {
+    const [foot] = placing.ofPart(1);
+    const eye = { matrix: new THREE.Matrix4().makePerspective(-1, 1, 1, -1, 1, 1000), scale: 300 };
+    const on = eyeOn(eye, foot!);
+    expect(on.scale).toBeCloseTo(300 * 25.4, 9);
+    const p = new THREE.Vector3(0.3, 0.2, -1);
+    expect(p.clone().applyMatrix4(on.matrix).distanceTo(p.clone().applyMatrix4(foot!.matrix).applyMatrix4(eye.matrix))).toBeLessThan(1e-9);
+    expect(eyeOn(eye, still)).toEqual(eye);
+  });
+
+  it('are grey where they stand, and are hit there', () => {
+    const grey = new ContextView();
+    grey.show(engine.context(), placing);
+    grey.group.visible = true;
+    const box = grey.box()!;
+    expect(box.min.distanceTo(inScene([-85.4, -25.4, 0]))).toBeLessThan(1e-4);
+    expect(box.max.distanceTo(inScene([-34.6, 25.4, 0]))).toBeLessThan(1e-4);
+    const ray = new THREE.Raycaster(inScene([-50, 5, 9]), new THREE.Vector3(0, 0, -1));
+    const hit = grey.hit(ray, Infinity)!;
+    expect(hit.point.distanceTo(inScene([10 / 25.4, 5 / 25.4, 0]))).toBeLessThan(1e-5);
+    grey.choose(hit);
+    expect(grey.chosenBox()!.min.x).toBeCloseTo(box.min.x, 4);
+    expect(grey.hit(new THREE.Raycaster(inScene([0, 0, 9]), new THREE.Vector3(0, 0, -1)), Infinity)).toBeNull();
+  });
+
+  it('that are mirrored look alike from outside: their grey triangles are turned over by the mesh', () => {
+    const all = engine.assembly()!;
+    const mirrored = { ...all, parts: all.parts.map((part) => ({ ...part, places: [...part.places, { path: 'mirrored', matrix: [-1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0] }] })) };
+    const both = new Placing();
+    both.open(mirrored, engine.origin);
+    const grey = new ContextView();
+    grey.show(engine.context(), both);
+    grey.group.visible = true;
+    expect(grey.group.children.map((mesh) => Math.sign(mesh.matrixWorld.determinant()))).toEqual([1, -1]);
+    const hit = grey.hit(new THREE.Raycaster(inScene([4.5, 0.25, 9]), new THREE.Vector3(0, 0, -1)), Infinity)!;
+    expect(hit.point.distanceTo(inScene([0.5, 0.25, 0]))).toBeLessThan(1e-5);
+  });
+
+  it('beyond what can be drawn are counted', () => {
+    const all = engine.assembly()!;
+    const many = new Placing();
+    many.open({ ...all, parts: [{ ...all.parts[0]!, places: Array.from({ length: mostDrawn + 7 }, () => all.parts[0]!.places[0]!) }] }, engine.origin);
+    expect([many.of(plate).length, many.left]).toEqual([mostDrawn, 7]);
+  });
+});
+
+describe('the product tree', () => {
+  const text = (node: AssemblyNode): unknown => [...node.within.values()].map((n) => [n.name, n.places.length, ...(n.within.size > 0 ? [text(n)] : [])]);
+
+  it('has the products below each other, and counts those of one name', () => {
+    expect(text(assemblyTree(engine.assembly()!))).toEqual([['table', 0, [['plate', 3], ['foot', 1]]]]);
+  });
+
+  it('shows geometry that belongs to no product', () => {
+    const rest = { name: '', unit: 'mm', surfaces: ['#1'], faces: [], places: [{ path: '', matrix: [] }] };
+    expect(text(assemblyTree({ unit: 'mm', parts: [rest], warnings: [] }))).toEqual([['', 1]]);
+  });
+});
