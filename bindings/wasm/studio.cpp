@@ -22,6 +22,9 @@
 #include "studio_trims.hpp"
 #include "tool_picture.hpp"
 
+/// Of the host: how many steps of the command under way are done, of how many.
+extern "C" __attribute__((import_module("studio"), import_name("progress"))) void knead_progress(int done, int total);
+
 #define KNEAD_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
 namespace knead::studio {
@@ -197,7 +200,7 @@ KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
   if (!command) return fail(command.error());
   const bool first =
       session->document().is_fresh() && session->state().surfaces.empty() && session->state().bodies.empty();
-  if (auto done = session->execute(*command); !done) return fail(done.error());
+  if (auto done = session->execute(*command, knead_progress); !done) return fail(done.error());
   if (first) keep_origin_near(session->state());
   if (join != 0) session->join();
   return answer("{}");

@@ -5,6 +5,7 @@ import '../view/view_cube.css';
 import '../view/measure.css';
 import '../view/edges.css';
 
+import { busyBar } from '../panels/busy';
 import { notices, toolRail, topBar } from '../panels/chrome';
 import { h } from '../panels/dom';
 import { listenToEdges } from '../panels/edge_popover';
@@ -38,7 +39,7 @@ const app = new Studio();
 document.getElementById('studio')!.append(
   topBar(app),
   toolRail(app),
-  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), notices(app)),
+  h('main', { class: 'stage' }, app.viewer.element, legendCard(app), busyBar(app), notices(app)),
   h('aside', { class: 'side', aria: { label: 'Settings' } },
     measurePanel(app), brushPanel(app), pointsPanel(app), toolsPanel(app), assemblyPanel(app), surfacesPanel(app), surfacePanel(app), createPanel(app), materialPanel(app), evolutionPanel(app), constraintsPanel(app), checkPanel(app),
     viewsPanel(app), displayPanel(app), analysisPanel(app), historyPanel(app)),

@@ -5,7 +5,7 @@ import type { Notice, Question } from '../document/host';
 import { makeReady } from '../document/ready';
 import { adviceOn, creaseIn, inOneLine } from '../document/words';
 import { Saving } from '../document/saving';
-import { Client } from '../engine/client';
+import { Client, type End } from '../engine/client';
 import type { Context, Trim } from '../engine/context';
 import { plain } from '../engine/displays';
 import type { Frame, PictureSettings } from '../engine/protocol';
@@ -67,7 +67,7 @@ export class Studio implements App {
     this.viewer.onMaximise = (view) => this.setDisplay({ view, fourViews: !this.display.fourViews });
     this.client.onFrame = (frame) => this.show(frame);
     this.client.onError = (error) => this.fail(error);
-    this.client.onDeath = () => void this.revive();
+    this.client.onDeath = (end) => void this.revive(end);
     this.setTheme(this.theme);
   }
 
@@ -195,16 +195,16 @@ export class Studio implements App {
   }
 
   /** The engine has stopped: another goes on. */
-  private async revive(): Promise<void> {
-    const { deaths } = this.client;
-    if (deaths > mostDeaths) {
+  private async revive(end: End): Promise<void> {
+    const { deaths, stops } = this.client;
+    if (deaths - stops > mostDeaths) {
       this.notify({ kind: 'error', text: 'The engine stops again and again.', remedy: 'Reload the page: what was kept is offered there.' });
       return;
     }
     await this.client.ready;
     if (deaths !== this.client.deaths) return;
     this.askForPictures(false);
-    await this.documents.revive();
+    await this.documents.revive(end);
   }
 
   private fail(error: EngineErrorInfo): void {

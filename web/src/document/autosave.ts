@@ -81,6 +81,18 @@ export function hold(id: string): () => void {
   return release;
 }
 
+/** As `hold`, of a session that may be another tab's: null then. */
+export async function claim(id: string): Promise<(() => void) | null> {
+  if (!navigator.locks) return () => {};
+  let release = () => {};
+  const until = new Promise<void>((resolve) => (release = resolve));
+  const mine = await new Promise<boolean>((resolve) => void navigator.locks.request(lockOf(id), { ifAvailable: true }, (lock) => {
+    resolve(lock !== null);
+    return lock ? until : undefined;
+  }));
+  return mine ? release : null;
+}
+
 /** Ids of the sessions that some tab has open. */
 export async function heldIds(): Promise<Set<string>> {
   const { held = [] } = (await navigator.locks?.query()) ?? {};

@@ -1,4 +1,5 @@
-import type { Command } from '../engine/session_types';
+import type { End } from '../engine/client';
+import { type Command, EngineError } from '../engine/session_types';
 import { autosave, type Kept } from './autosave';
 import { loadContext } from './context';
 import type { OnDisk } from './disk';
@@ -222,6 +223,7 @@ export class Documents {
 
   private async goOn(kept: Kept, again = false): Promise<void> {
     const { host } = this;
+    const mine = again || (await this.keeper.claim(kept.id));
     const { commands } = JSON.parse(kept.journal) as { commands: Command[] };
     const source = kept.hasSource ? ((await autosave.source(kept.id)) ?? null) : null;
     if (!(await this.restored(kept.name, source, kept.snapshot, kept.opened ?? preparation(commands), again))) {
@@ -230,23 +232,51 @@ export class Documents {
     }
     this.pick();
     this.views = kept.views ?? [];
-    this.keeper.begin(kept.id, true);
-    // A stroke that was cut off ends here: its ball does not stay in the scene.
-    if (host.state?.tools.some((t) => t.name === 'brush')) await host.client.execute([{ do: 'remove', tool: 'brush' }], true);
+    if (mine) this.keeper.begin(kept.id, true);
+    else {
+      this.keeper.touch(); // under an id of its own
+      host.notify({ kind: 'info', text: `“${kept.name}” is open in another tab: this is a copy, which is kept on its own.` });
+    }
+    if (!again) await this.endStroke();
     host.changed();
   }
 
+  /** A stroke that was cut off ends here: its ball does not stay in the scene. */
+  private async endStroke(): Promise<void> {
+    const { host } = this;
+    if (host.state?.tools.some((t) => t.name === 'brush')) await host.client.execute([{ do: 'remove', tool: 'brush' }], true);
+  }
+
+  /** What the engine had done after the copy that it goes on from. False where something is missing. */
+  private async repeat(): Promise<boolean> {
+    const { client } = this.host;
+    const { acts, all } = client.acts.toRepeat;
+    for (const { commands, join, opening } of acts) {
+      try {
+        await client.execute(commands, join, opening);
+      } catch (error) {
+        if (!(error instanceof EngineError) || error.info.kind === 'died') throw error; // else it failed before, too
+      }
+    }
+    return all;
+  }
+
   /** The engine has stopped, and an empty one is there: the session goes on from its last copy, or as it was opened. */
-  async revive(): Promise<void> {
+  async revive(end: End): Promise<void> {
     const { host, reopen, worked, picked } = this;
     if (!reopen) return;
     await host.attempt(async () => {
       const copy = await this.keeper.lastCopy();
       if (copy) await this.goOn(copy, true);
       else await this.begin(this.name, this.file, reopen, true);
+      const all = await this.repeat();
+      await this.endStroke();
+      host.client.acts.repeated();
       Object.assign(this, { worked, picked });
       const from = copy ? `the copy of ${new Date(copy.when).toLocaleTimeString()}` : 'the document as it was opened';
-      host.notify({ kind: 'info', text: `The engine stopped, and was started again with ${from}.` });
+      if (end === 'stopped') host.notify({ kind: 'info', text: all ? 'Stopped: the document is as it was before.' : `Stopped: the document is that of ${from}.` });
+      else host.notify({ kind: 'info', text: `The engine stopped, and was started again with ${all ? 'everything that was done before' : from}.` });
+      this.keeper.touch();
       host.changed();
     });
   }

@@ -1,5 +1,5 @@
 import { type Command, EngineError } from '../engine/session_types';
-import { autosave, heldIds, hold, type Kept } from './autosave';
+import { autosave, claim, heldIds, hold, type Kept } from './autosave';
 import type { Host } from './host';
 import type { Source } from './knead_file';
 import type { SavedView } from './saved_views';
@@ -9,6 +9,7 @@ const mostUnkept = 1200; // milliseconds of computing after which it is kept in 
 const mostPlayed = 4000; // milliseconds of playing after which it is kept, however little was computed
 const historyBytes = 48 * 2 ** 20; // of shapes that undo can go back to after a recovery
 const mostSessions = 6;
+const retryTime = 20_000; // milliseconds after which it is tried again to keep what could not be kept
 
 /**
  * Keeps the session in the browser: source, commands, and a snapshot of all states. A recovery recomputes only
@@ -23,7 +24,8 @@ export class Keeper {
   private written = 0; // when writing last began
   private timer = 0;
   private writing: Promise<void> | null = null;
-  private failed = false;
+  private failed = 0; // when it could not be kept; 0: it could
+  private claimed: { id: string; release: () => void } | null = null;
 
   constructor(private readonly host: Host, private readonly documents: { readonly file: Source | null; readonly name: string; readonly views: readonly SavedView[] }) {
     // Whatever is not saved yet when the page goes away: the browser completes a transaction that has begun.
@@ -35,12 +37,25 @@ export class Keeper {
   /** From here on the session is another one: new, or restored. */
   begin(id: string = crypto.randomUUID(), sourceKept = false): void {
     clearTimeout(this.timer);
-    this.release();
+    const { claimed } = this;
+    this.claimed = null;
+    if (id !== this.id) {
+      this.release();
+      this.release = claimed?.id === id ? claimed.release : hold(id);
+    }
     this.id = id;
     delete document.documentElement.dataset.kept;
-    this.release = hold(id);
-    this.dirty = this.failed = false;
+    this.dirty = false;
+    this.failed = 0;
     this.sourceKept = sourceKept;
+  }
+
+  /** Makes a session that was left behind this tab's; false where another tab has it open. */
+  async claim(id: string): Promise<boolean> {
+    this.claimed?.release();
+    const release = await claim(id);
+    this.claimed = release && { id, release };
+    return release !== null;
   }
 
   /** Something changed. */
@@ -77,31 +92,42 @@ export class Keeper {
 
   /** One at a time; what changes meanwhile waits for the next. */
   async keep(): Promise<void> {
-    if (!this.dirty || this.failed) return;
+    if (!this.dirty) return;
     if (this.writing) return this.writing;
+    if (this.failed > 0 && performance.now() - this.failed < retryTime) return;
     this.dirty = false;
     this.written = performance.now();
     this.writing = this.write();
     await this.writing;
     this.writing = null;
-    if (this.dirty) this.touch();
+    if (this.dirty && this.failed === 0) this.touch();
   }
 
   private async write(): Promise<void> {
     const { id, host } = this;
     try {
-      const { snapshot, journal, opened } = await host.client.snapshot(historyBytes, true);
+      const { snapshot, journal, opened, mark } = await host.client.snapshot(historyBytes, true);
       if (id !== this.id) return; // another document since
       const commands = (JSON.parse(journal) as { commands: Command[] }).commands.length;
       const { file, name, views } = this.documents;
       const kept: Kept = { id, name, when: Date.now(), commands, opened, journal, snapshot, hasSource: file !== null, views: [...views] };
       await autosave.write(kept, this.sourceKept ? null : file);
       this.sourceKept = true;
+      host.client.acts.kept(mark);
+      if (this.failed > 0) host.notify({ kind: 'info', text: 'The browser keeps a copy of this session again.' });
+      this.failed = 0;
       if (id === this.id) document.documentElement.dataset.kept = String(commands);
     } catch (error) {
       if (error instanceof EngineError && error.info.kind === 'died') return; // goes on from the copy before
-      this.failed = true;
-      host.notify({ kind: 'error', text: `The browser could not keep a copy: ${String(error)}`, remedy: 'save a Knead document from time to time' });
+      this.dirty = true;
+      const first = this.failed === 0;
+      this.failed = performance.now();
+      if (!first) return;
+      const full = error instanceof DOMException && error.name === 'QuotaExceededError';
+      host.notify(full
+        ? { kind: 'error', text: 'The browser’s storage is full: no copy of this session is kept. The work goes on, and nothing that was kept before is lost.',
+          remedy: 'Save a Knead document, and remove sessions from Recent.' }
+        : { kind: 'error', text: `The browser could not keep a copy: ${String(error)}`, remedy: 'save a Knead document from time to time' });
     }
   }
 

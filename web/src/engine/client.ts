@@ -1,3 +1,4 @@
+import { Acts } from './acts';
 import type { Context, FaceEdge, Trim } from './context';
 import type { DisplayInfo } from './displays';
 import type { CheckedEdgeInfo, EdgesInfo, ReadingInfo } from './generated';
@@ -16,7 +17,14 @@ interface Answer {
 interface Waiting {
   resolve(reply: Answer): void;
   reject(error: Error): void;
+  /** When it was asked for. */
+  since: number;
+  request: Request;
 }
+
+/** Why there is another engine: the one before trapped or was ended, or the user stopped it. */
+export type End = 'died' | 'stopped';
+
 
 /** The page's end of the connection to the worker. */
 export class Client {
@@ -24,11 +32,15 @@ export class Client {
   /** Errors that no request waits for. */
   onError: (error: EngineErrorInfo) => void = () => {};
   /** The engine has stopped, and another one, which holds nothing, is on its way. */
-  onDeath: () => void = () => {};
+  onDeath: (end: End) => void = () => {};
+  /** So many steps of the command under way are done. */
+  onProgress: (done: number, total: number) => void = () => {};
   /** Of the present engine. */
   ready: Promise<void>;
-  /** How many engines there were before. */
+  /** How many engines there were before; how many of these the user has stopped. */
   deaths = 0;
+  stops = 0;
+  readonly acts = new Acts();
   /** What can colour surfaces; known once the engine is ready. */
   displays: readonly DisplayInfo[] = [];
 
@@ -37,6 +49,7 @@ export class Client {
   private live: { commands: () => Command[]; join: boolean } | null = null;
   private liveUnderWay: Promise<void> | null = null;
   private worker: Worker;
+  private watch = new AbortController();
 
   constructor(private readonly makeWorker: () => Worker) {
     this.worker = makeWorker();
@@ -51,8 +64,10 @@ export class Client {
         if (reply.kind === 'ready') {
           started = true;
           this.displays = reply.displays;
+          if (reply.lock) this.watchOver(worker, reply.lock);
           resolve();
-        } else if (reply.kind === 'frame') this.draw(reply.frame);
+        } else if (reply.kind === 'progress') this.onProgress(reply.done, reply.total);
+        else if (reply.kind === 'frame') this.draw(reply.frame);
         else if (reply.kind === 'died') this.startAgain();
         else this.settle(reply);
       };
@@ -68,11 +83,34 @@ export class Client {
     return ready;
   }
 
+  /** The browser may end a worker without a word, where memory is short: its lock is free then. */
+  private watchOver(worker: Worker, lock: string): void {
+    const { signal } = (this.watch = new AbortController());
+    const free = () => {
+      if (!signal.aborted && worker === this.worker) this.startAgain();
+    };
+    void navigator.locks.request(lock, { signal }, free).catch(() => undefined);
+  }
+
+  /** Since when the request under way has been waiting; null without one. `performance.now()`. */
+  get busySince(): number | null {
+    const [first] = this.waiting.values();
+    return first?.since ?? null;
+  }
+
+  /** Ends what the engine is doing, and the engine with it: what it has done before is done again in another one. */
+  stopAll(): void {
+    ++this.stops;
+    this.startAgain('stopped');
+  }
+
   /** What was asked of the engine before is answered by an error of the kind "died". */
-  private startAgain(): void {
+  private startAgain(end: End = 'died'): void {
+    this.watch.abort();
     this.worker.onmessage = this.worker.onerror = null;
     this.worker.terminate();
     ++this.deaths;
+    this.acts.lose();
     this.live = null;
     const lost = [...this.waiting.values()];
     this.waiting.clear();
@@ -80,10 +118,11 @@ export class Client {
     this.ready = this.listen(this.worker);
     const what = 'the engine stopped, and was started again';
     for (const { reject } of lost) reject(new EngineError({ kind: 'died', what, where: '', remedy: '', message: what }));
-    this.onDeath();
+    this.onDeath(end);
   }
 
   private draw(frame: Frame): void {
+    if (frame.playing) this.acts.gap();
     this.onFrame(frame);
     // Request the next one once this one is on the screen; a hidden page draws nothing and must not hold up the session.
     if (document.hidden) setTimeout(() => this.send({ kind: 'drawn' }), 0);
@@ -93,6 +132,7 @@ export class Client {
   private settle(reply: Extract<Reply, { id: number }>): void {
     const waiting = this.waiting.get(reply.id);
     this.waiting.delete(reply.id);
+    if (waiting) this.acts.settled(waiting.request, reply.kind === 'done');
     if (reply.kind === 'failed') {
       if (waiting) waiting.reject(new EngineError(reply.error));
       else this.onError(reply.error);
@@ -106,7 +146,7 @@ export class Client {
   private ask(request: Request): Promise<Answer> {
     const id = this.next++;
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject });
+      this.waiting.set(id, { resolve, reject, since: performance.now(), request });
       this.send(request, id);
     });
   }
@@ -117,9 +157,10 @@ export class Client {
   pictures = (settings: PictureSettings) => this.ask({ kind: 'pictures', settings });
   play = (toRest = false) => this.ask({ kind: 'play', toRest });
   stop = () => this.ask({ kind: 'stop' });
-  snapshot = async (historyBytes: number, kept: boolean): Promise<{ snapshot: Uint8Array; journal: string; opened: number }> => {
+  /** `mark`: of the acts that are in it. */
+  snapshot = async (historyBytes: number, kept: boolean): Promise<{ snapshot: Uint8Array; journal: string; opened: number; mark: number }> => {
     const { bytes, text, opened } = await this.ask({ kind: 'snapshot', historyBytes, kept });
-    return { snapshot: bytes!, journal: text!, opened: opened! };
+    return { snapshot: bytes!, journal: text!, opened: opened!, mark: this.acts.mark };
   };
   restore = (source: Uint8Array | null, name: string, snapshot: Uint8Array, opened: number) =>
     this.ask({ kind: 'restore', source, name, snapshot, opened });

@@ -50,10 +50,16 @@ interface Exports {
 
 /** The C++ session behind its C interface. Runs wherever WebAssembly does: in the worker, and in node for the tests. */
 export class Engine {
+  /** Called from within a command that takes steps: how many are done, of how many. */
+  onProgress: (done: number, total: number) => void = () => {};
+
   private constructor(private readonly wasm: Exports) {}
 
   static async load(bytes: BufferSource | Promise<Response>): Promise<Engine> {
-    return new Engine(await start<Exports>(bytes));
+    let engine: Engine | null = null;
+    const told = (done: number, total: number) => engine?.onProgress(done, total);
+    engine = new Engine(await start<Exports>(bytes, { studio: { progress: told } }));
+    return engine;
   }
 
   /** Bytes of linear memory, which grows and never shrinks. */

@@ -85,7 +85,10 @@ export interface Frame {
 }
 
 export type Reply =
-  | { kind: 'ready'; displays: DisplayInfo[] }
+  /** `lock` is held (Web Locks) as long as the worker lives; empty where the browser has none. */
+  | { kind: 'ready'; displays: DisplayInfo[]; lock: string }
+  /** So many steps of the command under way are done. */
+  | { kind: 'progress'; done: number; total: number }
   | { kind: 'frame'; frame: Frame }
   | { kind: 'done'; id: number; bytes?: Uint8Array; text?: string; opened?: number; context?: Context | null; trims?: Trim[]; material?: MaterialSamples }
   | { kind: 'failed'; id: number; error: EngineErrorInfo }

@@ -10,6 +10,7 @@ import { trimTree } from './trim_tree';
 
 const engineLoaded = Engine.load(fetch(wasmUrl)).then((engine) => {
   history = new History(engine);
+  engine.onProgress = tellProgress;
   return engine;
 });
 let settings: PictureSettings = { detail: 96, display: plain };
@@ -56,10 +57,22 @@ function newToolPictures(engine: Engine, tools: readonly ToolInfo[]): Record<str
 
 let history: History;
 
+const between = 200; // milliseconds from one report to the next
+let told = 0;
+
+/** How far the command is: from within it, while nothing else can be said. */
+function tellProgress(done: number, total: number): void {
+  const now = performance.now();
+  if (now - told < between) return;
+  told = now;
+  post({ kind: 'progress', done, total });
+}
+
 const travels = (command: Command) => command.do === 'undo' || command.do === 'redo';
 
 function execute(commands: Command[], join: boolean, keep = false): void {
   const start = performance.now();
+  told = start;
   resting = false;
   try {
     history.execute(commands, join, keep);
@@ -325,7 +338,18 @@ self.onmessage = async (event: MessageEvent<{ id: number; request: Request }>) =
   }
 };
 
+/** A browser that ends a worker tells nobody; its locks are free then. */
+async function live(): Promise<string> {
+  const lock = `knead engine ${Math.random()}`;
+  if (!navigator.locks) return '';
+  await new Promise<void>((held) => void navigator.locks.request(lock, () => {
+    held();
+    return new Promise(() => {});
+  }));
+  return lock;
+}
+
 engineLoaded.then(
-  (engine) => post({ kind: 'ready', displays: engine.displays() }),
+  async (engine) => post({ kind: 'ready', displays: engine.displays(), lock: await live() }),
   (error) => post({ kind: 'failed', id: 0, error: errorInfo(error) }),
 );

@@ -17,12 +17,15 @@ async function sha256(response: Response): Promise<string> {
   return [...new Uint8Array(digest)].map((b) => b.toString(16).padStart(2, '0')).join('');
 }
 
-async function keep(cache: Cache, path: string): Promise<void> {
+/** A file of the network, if it is that of this version. */
+async function fetched(path: string): Promise<Response> {
   // Files not named by their content must not come from the browser's own cache.
   const response = await fetch(base + path, { cache: path.startsWith('assets/') ? 'default' : 'no-cache' });
   if (!response.ok || (await sha256(response.clone())) !== manifest.files[path]) throw new Error(`${path} is not of version ${manifest.version}`);
-  await cache.put(base + path, response);
+  return response;
 }
+
+const keep = async (cache: Cache, path: string): Promise<void> => cache.put(base + path, await fetched(path));
 
 worker.addEventListener('install', (event) => {
   event.waitUntil((async () => {
@@ -53,8 +56,9 @@ async function answer(request: Request, path: string): Promise<Response> {
   const cache = await caches.open(own);
   const found = (await cache.match(base + path)) ?? (path.startsWith('assets/') ? await caches.match(base + path) : undefined);
   if (found) return found;
-  const response = await fetch(request);
-  if (response.ok && manifest.lazy.includes(path)) await cache.put(base + path, response.clone());
+  if (!manifest.lazy.includes(path)) return fetch(request);
+  const response = await fetched(path);
+  await cache.put(base + path, response.clone()).catch(() => undefined); // where storage is full it comes from the network again
   return response;
 }
 
