@@ -8,6 +8,7 @@ const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 export default defineConfig({
   root: here('..'),
   cacheDir: here('node_modules/.vite'),
+  server: { fs: { allow: [here('..')] } }, // the tests stand outside of this directory
   plugins: [rhinoWithoutEval({ forNode: true })],
   resolve: { alias: { '@studio': here('src'), three: here('node_modules/three') } },
   test: { globals: true, server: { deps: { inline: ['rhino3dm'] } }, include: ['tests/web/*.test.ts'], exclude: ['**/e2e/**'], testTimeout: 60_000 },

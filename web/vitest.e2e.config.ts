@@ -24,6 +24,7 @@ process.env.STUDIO_WORKERS = String(workers);
 export default defineConfig({
   root: here('..'),
   cacheDir: here('node_modules/.vite'),
+  server: { fs: { allow: [here('..')] } }, // the tests stand outside of this directory
   resolve: { alias: { '@studio': here('src'), 'playwright-core': here('node_modules/playwright-core') } },
   test: {
     globals: true,
