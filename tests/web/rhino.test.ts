@@ -2,7 +2,8 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { loadRhino, type Rhino, type RhinoBrep, type RhinoNurbs } from '@studio/document/rhino/module';
+import { crc32, exchanged, placesOf } from '@studio/document/rhino/archive';
+import { loadRhino, type Rhino, type RhinoBrep, type RhinoFile, type RhinoGeometry, type RhinoNurbs } from '@studio/document/rhino/module';
 import { type Patch, patchOf, samePatch } from '@studio/document/rhino/patch';
 import { openRhino, readRhino } from '@studio/document/rhino/read';
 import { rewriteRhino, writeRhino } from '@studio/document/rhino/write';
@@ -98,6 +99,42 @@ describe('Rhino files', () => {
     expect(new Map(surfaces.map((s) => [s.name, s.patch]))).toEqual(new Map([['a', fine], ['b', patch(false)], ['new', patch(true)]]));
   });
 
+  it('of a later version get other numbers in their place, and the sum over them', () => {
+    const bytes = writeRhino(rhino, [named('a', patch(false)), named('b', moved(patch(false), 5))], 'mm').bytes;
+    const was = Float64Array.from(patch(false).points.flat());
+    const now = was.map((x, k) => (k === 4 ? x + 0.125 : x));
+    const places = placesOf(bytes, was);
+    expect(places.length).toBe(1);
+    const written = exchanged(bytes, places[0]!, now)!;
+    const after = readRhino(rhino, openRhino(rhino, written)).surfaces;
+    expect(after[0]!.patch.points.flat()).toEqual([...now]);
+    expect(after[1]!.patch).toEqual(moved(patch(false), 5));
+    expect(exchanged(written, places[0]!, was)).toEqual(bytes);
+    // Where the sum is wrong before, nothing is written.
+    const broken = bytes.slice();
+    broken[places[0]! + 3]! ^= 1;
+    expect(exchanged(broken, places[0]!, now)).toBeNull();
+    expect(crc32(new TextEncoder().encode('123456789'))).toBe(0xcbf43926); // the check value of CRC-32
+  });
+
+  it('keep a solid that is made, but for its sculpted face', () => {
+    const made = rhino as never as { File3dm: new () => RhinoFile; Brep: { createFromBoundingBox(box: object): RhinoGeometry }; BoundingBox: new (lower: number[], upper: number[]) => object };
+    const file = new made.File3dm();
+    const attributes = new rhino.ObjectAttributes();
+    attributes.name = 'box';
+    file.objects().add(made.Brep.createFromBoundingBox(new made.BoundingBox([0, 0, 0], [1, 2, 3])), attributes);
+    const bytes = file.toByteArrayOptions(Object.assign(new rhino.File3dmWriteOptions(), { version: 7 }));
+    const { surfaces } = readRhino(rhino, openRhino(rhino, bytes));
+    expect(surfaces.length).toBe(6);
+    const wanted = surfaces.map((s, k) => (k === 2 ? named(s.name, moved(s.patch, 0)) : s));
+    const written = rewriteRhino(rhino, bytes, wanted);
+    expect([...written.beside, ...written.within]).toEqual([surfaces[2]!.name]);
+    const after = readRhino(rhino, openRhino(rhino, written.bytes)).surfaces;
+    for (const s of wanted) expect(after.some((other) => samePatch(other.patch, s.patch))).toBe(true);
+    expect(after.length).toBe(6 + written.beside.length);
+    expect(openRhino(rhino, written.bytes).objects().count).toBe(1 + written.beside.length);
+  });
+
   it('say what they cannot be', () => {
     expect(() => openRhino(rhino, new TextEncoder().encode('no Rhino file at all'))).toThrow(/no Rhino file/);
   });
@@ -127,11 +164,35 @@ describe.skipIf(!shared)('real Rhino files', () => {
     const whole = first.face === null || (geometry as RhinoBrep).isSurface;
     const changed = rewriteRhino(rhino, source, surfaces.map((s, k) => (k === 0 ? named(s.name, moved(s.patch, 3)) : s)));
     const after = readRhino(rhino, openRhino(rhino, changed.bytes)).surfaces.map((s) => s.patch);
-    expect(changed.beside).toEqual(whole ? [] : [first.name]);
+    expect(changed.beside).toEqual([]);
+    expect(changed.within).toEqual(whole ? [] : [first.name]);
     const has = (p: Patch) => after.some((other) => samePatch(p, other));
     expect(has(moved(first.patch, 3))).toBe(true);
-    expect(has(first.patch)).toBe(!whole);
+    expect(has(first.patch)).toBe(false);
     for (const s of surfaces.slice(1)) expect(has(s.patch)).toBe(true);
     expect(openRhino(rhino, changed.bytes).archiveVersion).toBe(file.archiveVersion);
+    if (whole) return;
+    // Under the face of a polysurface only the numbers of its control points, and a sum over them, are others.
+    const differ = [...source.keys()].filter((k) => source[k] !== changed.bytes[k]);
+    expect(changed.bytes.length).toBe(source.length);
+    expect(differ.length).toBeGreaterThan(0);
+    expect(differ.length).toBeLessThanOrEqual(8 * 3 + 4);
+    // With another net the numbers cannot stay in their place: it lies beside.
+    const fine: Patch = { degree: [1, 1], net: [2, 2], knots_u: [0, 0, 1, 1], knots_v: [0, 0, 1, 1], points: [[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 1]], weights: null };
+    const other = rewriteRhino(rhino, source, surfaces.map((s, k) => (k === 0 ? named(s.name, fine) : s)));
+    expect([other.beside, other.within]).toEqual([[first.name], []]);
+  });
+
+  it.each(files)('%s: faces of several polysurfaces are exchanged at once, beside a further surface', (name) => {
+    const source = new Uint8Array(readFileSync(join(shared!, name)));
+    const file = openRhino(rhino, source);
+    const { surfaces } = readRhino(rhino, file);
+    const chosen = (k: number) => k % 3 === 1;
+    const wanted = surfaces.map((s, k) => (chosen(k) ? named(s.name, moved(s.patch, 2)) : s));
+    const written = rewriteRhino(rhino, source, [...wanted, named('new', patch(true))]);
+    const after = readRhino(rhino, openRhino(rhino, written.bytes)).surfaces.map((s) => s.patch);
+    for (const { patch: p } of [...wanted, named('new', patch(true))]) expect(after.some((other) => samePatch(p, other))).toBe(true);
+    expect(written.beside).toEqual([]);
+    expect(after.length).toBe(surfaces.length + 1);
   });
 });

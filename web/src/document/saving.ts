@@ -70,13 +70,14 @@ export class Saving {
     const surfaces = [];
     for (const [k, { name, id }] of state!.surfaces.entries()) surfaces.push({ name: name || id, patch: await client.surface(k) });
     const source = file?.kind === 'rhino' ? file.bytes : null;
-    const { bytes, beside } = await rhino.write(source, surfaces, state!.surfaces[0]?.unit ?? 'mm');
+    const { bytes, beside, within } = await rhino.write(source, surfaces, state!.surfaces[0]?.unit ?? 'mm');
     download(bytes, `${stem}${source ? '-sculpted' : ''}.3dm`, 'model/vnd.3dm');
-    if (beside.length > 0) {
-      const some = beside.slice(0, 3).join('”, “') + (beside.length > 3 ? '”, “…' : '');
-      return `Saved. Faces of a polysurface, or trimmed ones, cannot be exchanged: “${some}” lie beside it as surfaces on its layer.`;
-    }
-    return undefined;
+    const some = (names: string[]) => `“${names.slice(0, 3).join('”, “')}${names.length > 3 ? '”, “…' : ''}”`;
+    const told = [
+      within.length > 0 ? `${some(within)}: exchanged under the trims of the file. Where a surface has moved along an edge, the edge stays behind: RebuildEdges in Rhino brings it back.` : '',
+      beside.length > 0 ? `${some(beside)} cannot be exchanged within a polysurface, as knots are others or the face is no NURBS surface: they lie beside it, on its layer.` : '',
+    ].filter(Boolean);
+    return told.length > 0 ? `Saved. ${told.join(' ')}` : undefined;
   });
 
   /** All surfaces as one mesh, as fine as the pictures are. */
