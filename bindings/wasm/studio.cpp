@@ -2,7 +2,6 @@
 // `knead_input(size)`, calls, and reads what came out from `knead_text()`; every call may grow the memory, so that
 // views of it must be taken anew. Functions that can fail return 0 then, and the text is {"error": …}.
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -58,17 +57,6 @@ int answer(std::string text) {
   return 1;
 }
 
-/// The middle of all control points: what positions of pictures are measured from.
-Point middle(const Document& document) {
-  Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-  for (const DocumentSurface& s : document.surfaces()) {
-    lower = lower.cwiseMin(s.surface->control_points().colwise().minCoeff().transpose());
-    upper = upper.cwiseMax(s.surface->control_points().colwise().maxCoeff().transpose());
-  }
-  if (!document.surfaces().empty()) return (lower + upper) / 2;
-  return document.step_file() != nullptr ? middle_of(*document.step_file()) : Point::Zero();
-}
-
 /// The number in the open file of a surface of the session, which has converted ones last; the number of all where it
 /// is none of them.
 std::size_t place_in_file(int surface) {
@@ -85,7 +73,7 @@ std::shared_ptr<const VisibleRegion> visible_part(int surface) {
 }
 
 int start(Document document) {
-  held().origin = middle(document);
+  held().origin = middle_of(document);
   held().shown.forget();
   held().session.emplace(std::move(document));
   return answer(state_json(*held().session));
@@ -153,7 +141,7 @@ KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size
     if (!source) return fail(source.error());
     document = Document::from(*std::move(source));
   }
-  const Point origin = middle(document);
+  const Point origin = middle_of(document);
   auto session = Session::restore(std::move(document), snapshot);
   if (!session) return fail(session.error());
   held().origin = origin;

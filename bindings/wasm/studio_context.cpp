@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "buffers.hpp"
+#include "knead/exchange/assembly.hpp"
 #include "knead/exchange/face_conversion.hpp"
 
 namespace knead::studio {
@@ -23,6 +24,16 @@ Point middle_of(const step::File& file) {
     }
   }
   return lower.x() <= upper.x() ? Point((lower + upper) / 2) : Point::Zero();
+}
+
+Point middle_of(const Document& document) {
+  Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+  for (const DocumentSurface& s : document.surfaces()) {
+    lower = lower.cwiseMin(s.surface->control_points().colwise().minCoeff().transpose());
+    upper = upper.cwiseMax(s.surface->control_points().colwise().maxCoeff().transpose());
+  }
+  if (!document.surfaces().empty()) return (lower + upper) / 2;
+  return document.step_file() != nullptr ? middle_of(*document.step_file()) : Point::Zero();
 }
 
 ContextPicture context_picture(const step::File& file, const Point& origin) {
@@ -58,6 +69,17 @@ std::shared_ptr<const Surroundings> surroundings(const step::File& file,
   constexpr double fine = 2.5e-4;
   auto result = std::make_shared<Surroundings>();
   if (auto faces = context_faces(file, fine)) result->faces = std::move(faces->faces);
+  if (const auto assembly = step::assembly_of(file); assembly && assembly->parts.size() > 1) {
+    for (std::size_t k = 0; k < assembly->parts.size(); ++k) {
+      for (const auto* ids : {&assembly->parts[k].surfaces, &assembly->parts[k].faces}) {
+        for (const std::string& id : *ids) result->parts.emplace(id, k);
+      }
+    }
+    // Converted surfaces have the names of what was below their faces.
+    for (const step::OtherSurface& s : step::other_surfaces(file)) {
+      if (!s.faces.empty()) result->parts.emplace(s.id, result->part_of(s.faces.front()));
+    }
+  }
   const auto senses = face_senses(file);
   for (std::size_t k = 0; k < senses.size(); ++k) {
     result->shown[file.surfaces()[k].id] = {k < visible.size() ? visible[k] : nullptr, senses[k]};
@@ -74,8 +96,7 @@ std::string context_json(const ContextPicture& context) {
   return "{\"buffers\":" +
          buffers_json({{"positions", context.positions}, {"normals", context.normals}, {"indices", context.indices}}) +
          ",\"faces\":" + faces.dump() +
-         ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
-         "}";
+         ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}";
 }
 
 namespace {

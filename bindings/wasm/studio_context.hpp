@@ -9,6 +9,7 @@
 #include "knead/exchange/trim_loops.hpp"
 #include "knead/scene/display.hpp"
 #include "knead/sculpt/visible_region.hpp"
+#include "knead/session/document.hpp"
 
 namespace knead::studio {
 
@@ -33,6 +34,8 @@ struct ContextPicture {
 
 /// The middle of these faces.
 [[nodiscard]] Point middle_of(const step::File& file);
+/// The middle of all control points, or without any of the faces: what positions of pictures are measured from.
+[[nodiscard]] Point middle_of(const Document& document);
 
 /// {"buffers": …, "faces": [{"id": "#11", "surface": "#10", "form": "PLANE", "triangles": 2}, …], "skipped": [{"id":
 /// "#12", "reason": "…"}, …]}

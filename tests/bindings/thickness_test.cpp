@@ -116,6 +116,24 @@ TEST(Thickness, IsMeasuredOnTheSideOfTheMaterial) {
   expect_between(thicknesses(pictures, scene, 1, other), 1 - 1e-6, 1 + 1e-6);
 }
 
+TEST(Thickness, OfAPartOfAnAssemblyDoesNotSeeOtherParts) {
+  const Scene scene = scene_of(std::vector{plate(1), plate(0.6), plate(0)});
+  FaceMesh below;  // seen from above it faces away
+  below.id = "#9";
+  below.points = {{-100, -100, 0.8}, {100, -100, 0.8}, {0, 200, 0.8}};
+  below.normals.assign(3, -Point::UnitZ());
+  below.triangles = {{0, 2, 1}};
+  for (const std::size_t part : {std::size_t{0}, std::size_t{1}}) {
+    auto around = std::make_shared<Surroundings>();
+    around->faces = {below};
+    around->parts = {{"#2", 1}, {"#9", part}};
+    PictureMaker pictures;
+    const double first = part == 0 ? 0.2 : 1;
+    expect_between(thicknesses(pictures, scene, 0, around), first - 1e-6, first + 1e-6);
+    expect_none(thicknesses(pictures, scene, 1, around));
+  }
+}
+
 TEST(Thickness, FollowsWhatMoves) {
   Scene scene = scene_of(std::vector{plate(1), plate(0)});
   PictureMaker pictures;

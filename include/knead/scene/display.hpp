@@ -36,6 +36,13 @@ struct Surroundings {
   };
   std::vector<FaceMesh> faces;         ///< those that lie on no surface of the scene
   std::map<std::string, Shown> shown;  ///< by the ids of surfaces; others are shown whole
+  /// Numbers of the parts of an assembly, by the ids of surfaces and faces: each part has coordinates of its own, so
+  /// that its surfaces see it alone. What is not listed is of part 0.
+  std::map<std::string, std::size_t> parts;
+  [[nodiscard]] std::size_t part_of(const std::string& id) const {
+    const auto found = parts.find(id);
+    return found == parts.end() ? 0 : found->second;
+  }
 };
 
 class ModelFacets;

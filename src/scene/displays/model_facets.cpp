@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/grid_lines.hpp"
@@ -10,16 +11,16 @@
 namespace knead {
 namespace {
 
-TriangleTree tree_of(const std::vector<FaceMesh>& faces) {
+struct Triangles {
   std::vector<Point> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (const FaceMesh& face : faces) {
+
+  void add(const FaceMesh& face) {
     const auto first = static_cast<std::uint32_t>(points.size());
     points.insert(points.end(), face.points.begin(), face.points.end());
     for (const auto& [a, b, c] : face.triangles) triangles.push_back({first + a, first + b, first + c});
   }
-  return {std::move(points), std::move(triangles)};
-}
+};
 
 /// Whether a triangle has an area but for rounding; at poles some have none.
 bool has_area(const Point& a, const Point& b, const Point& c) {
@@ -92,9 +93,9 @@ Expected<ModelFacets::Part> ModelFacets::part_of(std::shared_ptr<const Surface> 
 Expected<void> ModelFacets::refresh(const Scene& scene, bool opened, std::shared_ptr<const Surroundings> around) {
   const double diagonal = diagonal_of(scene, around.get());
   const std::size_t count = scene.surfaces.size();
-  bool changed = parts_.size() != count + 1 || around != around_;
-  if (changed || diagonal != diagonal_) parts_.resize(count + 1);
-  if (changed) parts_[count] = {{}, {{}, 1}, around ? tree_of(around->faces) : TriangleTree(), {}};
+  bool changed = parts_.size() != count || around != around_;
+  if (changed || diagonal != diagonal_) parts_.resize(count);
+  if (changed) see(around.get());
   for (std::size_t k = 0; k < count; ++k) {
     const SceneSurface& s = scene.surfaces[k];
     const auto& drawn = opened ? s.opened : s.current;
@@ -102,8 +103,9 @@ Expected<void> ModelFacets::refresh(const Scene& scene, bool opened, std::shared
     if (around) {
       if (const auto found = around->shown.find(s.id); found != around->shown.end()) shown = found->second;
     }
-    if (parts_[k].of == drawn && parts_[k].shown.visible == shown.visible && parts_[k].shown.sense == shown.sense &&
-        diagonal == diagonal_) {
+    const std::size_t part = around ? around->part_of(s.id) : 0;
+    if (parts_[k].of == drawn && parts_[k].part == part && parts_[k].shown.visible == shown.visible &&
+        parts_[k].shown.sense == shown.sense && diagonal == diagonal_) {
       continue;
     }
     auto made = part_of(drawn, shown, chord * diagonal);
@@ -112,6 +114,7 @@ Expected<void> ModelFacets::refresh(const Scene& scene, bool opened, std::shared
       return std::unexpected(made.error());
     }
     parts_[k] = *std::move(made);
+    parts_[k].part = part;
     changed = true;
   }
   around_ = std::move(around);
@@ -119,8 +122,20 @@ Expected<void> ModelFacets::refresh(const Scene& scene, bool opened, std::shared
   if (!changed) return {};
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Part& part : parts_) boxes.push_back(part.tree.box());
+  for (const Part& part : others_) boxes.push_back(part.tree.box());
   boxes_ = BoxTree(boxes);
   return {};
+}
+
+void ModelFacets::see(const Surroundings* around) {
+  std::map<std::size_t, Triangles> by_part;
+  if (around != nullptr) {
+    for (const FaceMesh& face : around->faces) by_part[around->part_of(face.id)].add(face);
+  }
+  others_.clear();
+  for (auto& [part, found] : by_part) {
+    others_.push_back({{}, {{}, 1}, {std::move(found.points), std::move(found.triangles)}, {}, part});
+  }
 }
 
 double ModelFacets::outward(int surface) const {
@@ -132,7 +147,8 @@ std::optional<double> ModelFacets::thickness(int surface, const Point& from, con
   const double near = 2 * chord * diagonal_;
   double to = std::numeric_limits<double>::infinity();
   boxes_.along(ray, to, [&](std::uint32_t k) {
-    const Part& part = parts_[k];
+    const Part& part = k < parts_.size() ? parts_[k] : others_[k - parts_.size()];
+    if (part.part != parts_[static_cast<std::size_t>(surface)].part) return;
     const bool own = k == static_cast<std::uint32_t>(surface);
     (void)part.tree.nearest(ray, to, [&](const TriangleTree::Hit& hit) {
       const Point facet = part.tree.facet(hit.triangle);
