@@ -6,7 +6,8 @@ namespace knead::step {
 
 Expected<KnotVector> implied_knots(ImpliedKnots form, int degree, int count) {
   if (degree < 1 || degree > max_degree) {
-    return input_error("the degree is " + std::to_string(degree), {}, "degrees 1 to 15 can be read");
+    return input_error("the degree is " + std::to_string(degree), {},
+                       "degrees 1 to " + std::to_string(max_degree) + " can be read");
   }
   if (count < degree + 1) {
     return input_error(std::to_string(count) + " control points for degree " + std::to_string(degree), {},

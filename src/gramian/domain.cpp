@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "methods.hpp"
+#include "simd/kernels.hpp"
 #include "span_basis.hpp"
 #include "unit_gauss.hpp"
 
@@ -41,6 +42,7 @@ void add_span(const KnotVector& knots, int s, GramianSet& set, Cut cut) {
 }  // namespace
 
 bool within_kernel_range(const KnotVector& knots) {
+  if (knots.degree() > max_kernel_degree) return false;
   // Repeated knots are split by 2^-300; spans must stay clear of that, and of overflow. Distinct knots differ by at
   // least their last bit, so only knots next to zero can be too close.
   constexpr double smallest = 0x1p-240, largest = 0x1p240, far_from_zero = 0x1p-180;

@@ -27,7 +27,8 @@ void gauss_gramians(const KnotVector& knots, InstructionSet instructions, Gramia
 /// domain only: at most p(p + 1)/2 entries at either end, none if the knots are clamped.
 void cut_to_domain(const KnotVector& knots, GramianSet& set);
 
-/// False if knot distances are so extreme that products of two of them could leave the range of doubles.
+/// False if knot distances are so extreme that products of two of them could leave the range of doubles, or the degree
+/// is above `max_kernel_degree`.
 [[nodiscard]] bool within_kernel_range(const KnotVector& knots);
 
 /// All four terms by the positive recurrence, into matrices of any size.

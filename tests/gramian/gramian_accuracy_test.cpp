@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "gramian/simd/kernels.hpp"
 #include "knead/gramian/gramian.hpp"
 #include "support/gramian_error.hpp"
 #include "support/knot_families.hpp"
@@ -16,7 +17,23 @@ using testing::Quad;
 using testing::worst_error;
 
 class OfDegree : public ::testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Degrees, OfDegree, ::testing::Range(1, max_degree + 1));
+INSTANTIATE_TEST_SUITE_P(Degrees, OfDegree, ::testing::Range(1, detail::max_kernel_degree + 1));
+
+// Above the kernels' degrees the recurrence is Gauss' points, and as exact as they are.
+class OfHighDegree : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Degrees, OfHighDegree, ::testing::Values(16, max_degree));
+
+TEST_P(OfHighDegree, every_term_is_right_to_3e_14_of_the_absolute_integral_on_every_family) {
+  for (const auto& [name, knots] : testing::knot_families(GetParam())) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(used_gramian_method(knots, 0, 0, GramianMethod::recurrence), GramianMethod::gauss);
+    const GramianSet set = *gramians(knots, GramianMethod::recurrence);
+    EXPECT_LE(worst_error(set.g00, testing::quad_gramian(knots, 0, 0)), 3e-14) << "G00";
+    EXPECT_LE(worst_error(set.g11, testing::quad_gramian(knots, 1, 1)), 3e-14) << "G11";
+    EXPECT_LE(worst_error(set.g22, testing::quad_gramian(knots, 2, 2)), 3e-14) << "G22";
+    EXPECT_LE(worst_error(set.g10, testing::quad_gramian(knots, 1, 0)), 3e-14) << "G10";
+  }
+}
 
 TEST_P(OfDegree, gauss_is_right_to_1e_14_of_the_absolute_integral_on_every_family) {
   for (const auto& [name, knots] : testing::knot_families(GetParam())) {

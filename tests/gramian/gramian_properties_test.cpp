@@ -21,7 +21,7 @@ constexpr GramianMethod all_methods[] = {GramianMethod::gauss, GramianMethod::ga
 /// Every family with every method that is fit for it, and the accuracy that may be asked of the method.
 template <class Check>
 void for_all_methods(Check check) {
-  for (int p = 1; p <= max_degree; ++p) {
+  for (const int p : testing::checked_degrees) {
     for (const auto& family : testing::knot_families(p)) {
       for (const GramianMethod method : all_methods) {
         const bool lossy = method == GramianMethod::analytic;

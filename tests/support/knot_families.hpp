@@ -15,6 +15,9 @@
 /// each family stands alone too. `random_knots` draws one of any kind.
 namespace knead::testing {
 
+/// Every degree of the kernels, and some above: for what is slow to check.
+inline const std::vector<int> checked_degrees = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 20, 25};
+
 struct NamedKnots {
   std::string name;
   KnotVector knots;

@@ -7,7 +7,8 @@
 
 namespace knead {
 
-inline constexpr int max_degree = 15;
+/// The highest degree of a knot vector; what CAD systems write ends at 25.
+inline constexpr int max_degree = 25;
 
 /// Which one-sided limit to take where a piecewise polynomial jumps.
 enum class Side { left, right };

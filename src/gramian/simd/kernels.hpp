@@ -4,6 +4,10 @@
 
 namespace knead::detail {
 
+/// The highest degree of the kernels: above it the recurrence loses more digits in 22 than Gauss points do, and its
+/// intermediate sums leave the first-level cache.
+inline constexpr int max_kernel_degree = 15;
+
 /// Knots for kernels that read whole vectors, and past the last knot, which is repeated there.
 struct KernelKnots {
   static constexpr int readable = 128;  ///< more than any kernel reads at once
@@ -23,12 +27,12 @@ struct KernelKnots {
 struct KernelOutput {
   double* g[4];  ///< 00, 11, 22, 10
   std::size_t stride[4];
-  double* lower10[16];  ///< lower10[s − 1]
+  double* lower10[max_kernel_degree + 1];  ///< lower10[s − 1]
 };
 
 /// The p + 1 Gauss points on [0, 1]: t, 1 − t and the root of the weight.
 struct GaussPoints {
-  double t[16], complement[16], root_weight[16];
+  double t[max_kernel_degree + 1], complement[max_kernel_degree + 1], root_weight[max_kernel_degree + 1];
 };
 
 /// The kernels of one instruction set.

@@ -8,7 +8,7 @@ namespace knead::detail::KNEAD_ISA {
 /// The positive recurrence for any degree up to 15: the same as `FixedRecurrence`, but on blocks of rows in memory, one
 /// (k, l, s) at a time. Row `block` of every array is row 0 of the previous block, which lies above: the carry.
 class BlockedRecurrence {
-  static constexpr int block = 32, padded = block + 8, max_K = 16, arrays = max_K * (max_K + 1) / 2;
+  static constexpr int block = 32, padded = block + 8, max_K = max_kernel_degree + 1, arrays = max_K * (max_K + 1) / 2;
   using Rows = double[padded];
 
  public:

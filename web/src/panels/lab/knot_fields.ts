@@ -19,7 +19,7 @@ export class LabControls {
   constructor(private readonly model: LabModel) {
     const chip = (d: Direction) => h('button', { class: 'chip', type: 'button', onclick: () => model.turn(d), aria: { label: `Direction ${d}` } }, d);
     this.directions = { u: chip('u'), v: chip('v') };
-    const degrees = Array.from({ length: 15 }, (_, k) => [String(k + 1), `degree ${k + 1}`] as const);
+    const degrees = Array.from({ length: 25 }, (_, k) => [String(k + 1), `degree ${k + 1}`] as const);
     this.degree = select('Degree', degrees, '', (k) => model.setDegree(Number(k)));
     this.order = select('What is plotted', [], '', (k) => model.setOrder(Number(k)));
     this.element = h('div', { class: 'lab-line tight' }, this.directions.u, this.directions.v, this.degree, this.integrate, this.order, this.differentiate);
