@@ -32,9 +32,19 @@ Expected<Part21File> Part21File::parse(std::string bytes, std::string name) {
 }
 
 std::optional<std::uint32_t> Part21File::find(std::uint64_t id) const {
-  const auto found = index_.find(id);
-  if (found == index_.end() || found->second == no_instance) return std::nullopt;
-  return found->second;
+  const auto found = lookup(id);
+  if (found == index_.end() || found->instance == no_instance) return std::nullopt;
+  return found->instance;
+}
+
+std::vector<Part21File::Name>::const_iterator Part21File::lookup(std::uint64_t id) const {
+  // Most files number their entities without gaps.
+  if (!index_.empty() && id - index_.front().id < index_.size()) {
+    const auto guess = index_.begin() + static_cast<std::ptrdiff_t>(id - index_.front().id);
+    if (guess->id == id) return guess;
+  }
+  const auto found = std::ranges::lower_bound(index_, id, {}, &Name::id);
+  return found != index_.end() && found->id == id ? found : index_.end();
 }
 
 std::vector<std::uint32_t> Part21File::children(std::uint32_t value) const {
@@ -105,17 +115,31 @@ bool Part21Parser::define(const Part21Token& name, std::uint32_t index) {
   const auto id = parse_instance_name(file_.text({name.begin, name.end}));
   if (!id) return fail_at(name.begin, "an instance name above 2^63 - 1", "number the entities from 1");
   if (index != no_instance) file_.instances_[index].id = *id;
-  const auto [found, fresh] = file_.index_.try_emplace(*id, index);
-  if (!fresh) {
-    const auto other = found->second;
-    const auto line = other == no_instance ? 0 : file_.line(file_.instances_[other].bytes.begin);
-    return fail_at(name.begin,
-                   "#" + std::to_string(*id) + " is defined twice" +
-                       (line == 0 ? std::string() : ", first in line " + std::to_string(line)),
-                   "give one of them another name");
-  }
+  file_.index_.push_back({*id, index, name.begin});
   file_.largest_id_ = std::max(file_.largest_id_, *id);
   return true;
+}
+
+bool Part21Parser::sort_names() {
+  auto& names = file_.index_;
+  const auto before = [](const Part21File::Name& a, const Part21File::Name& b) {
+    return a.id != b.id ? a.id < b.id : a.byte < b.byte;
+  };
+  if (!std::ranges::is_sorted(names, before)) std::ranges::sort(names, before);
+  // Of all names defined again, the first in the file.
+  const Part21File::Name* again = nullptr;
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    if (names[k].id == names[k - 1].id && (again == nullptr || names[k].byte < again->byte)) again = &names[k];
+  }
+  if (again == nullptr) return true;
+  const auto& first = *std::ranges::lower_bound(names, again->id, {}, &Part21File::Name::id);
+  current_ = again->instance;
+  if (current_ == no_instance) section_ = "REFERENCE section";
+  return fail_at(
+      again->byte,
+      "#" + std::to_string(again->id) + " is defined twice" +
+          (first.instance == no_instance ? std::string() : ", first in line " + std::to_string(file_.line(first.byte))),
+      "give one of them another name");
 }
 
 bool Part21Parser::resolve() {
@@ -134,7 +158,7 @@ bool Part21Parser::resolve_range(std::uint32_t first, std::uint32_t last, std::u
     auto& value = file_.values_[k];
     if (value.kind != Part21Kind::reference) continue;
     const auto id = parse_instance_name(file_.text(value.bytes));
-    const auto found = id ? file_.index_.find(*id) : file_.index_.end();
+    const auto found = id ? file_.lookup(*id) : file_.index_.end();
     if (!id) {
       current_ = owner;
       return fail_at(value.bytes.begin,
@@ -148,7 +172,7 @@ bool Part21Parser::resolve_range(std::uint32_t first, std::uint32_t last, std::u
       file_.largest_id_ = std::max(file_.largest_id_, *id);  // no new record must become what is missing
       continue;
     }
-    value.target = found->second;
+    value.target = found->instance;
     if (value.target != no_instance) ++file_.instances_[value.target].uses;
   }
   return true;

@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "knead/base/error.hpp"
@@ -87,7 +86,7 @@ class Part21File {
   /// Index of the instance #id.
   [[nodiscard]] std::optional<std::uint32_t> find(std::uint64_t id) const;
   /// True if #id is taken, by an instance or by the REFERENCE section.
-  [[nodiscard]] bool taken(std::uint64_t id) const { return index_.contains(id); }
+  [[nodiscard]] bool taken(std::uint64_t id) const { return lookup(id) != index_.end(); }
   /// The largest name taken; 0 if there is none.
   [[nodiscard]] std::uint64_t largest_id() const { return largest_id_; }
 
@@ -117,6 +116,14 @@ class Part21File {
   Part21File() = default;
   friend class Part21Parser;
 
+  /// A name and its instance; no_instance: of the REFERENCE section.
+  struct Name {
+    std::uint64_t id = 0;
+    std::uint32_t instance = no_instance;
+    std::uint32_t byte = 0;  ///< where it is defined
+  };
+  [[nodiscard]] std::vector<Name>::const_iterator lookup(std::uint64_t id) const;
+
   std::string name_;
   std::string bytes_;
   std::vector<Part21Instance> instances_;
@@ -124,8 +131,8 @@ class Part21File {
   std::vector<std::uint32_t> header_;
   std::vector<Part21Dangling> dangling_;
   std::size_t dangling_count_ = 0;
-  std::vector<std::uint32_t> line_starts_;                  // of the second line and on
-  std::unordered_map<std::uint64_t, std::uint32_t> index_;  // name to instance; no_instance: REFERENCE section
+  std::vector<std::uint32_t> line_starts_;  // of the second line and on
+  std::vector<Name> index_;  // sorted by id: no choice of names makes that slow, as it would a hash table
   std::uint64_t largest_id_ = 0;
 };
 

@@ -16,7 +16,7 @@ constexpr std::string_view end_mark = "END-ISO-10303-21";
 }  // namespace
 
 Expected<void> Part21Parser::parse() {
-  if (file_structure() && resolve()) return {};
+  if (file_structure() && sort_names() && resolve()) return {};
   return std::unexpected(error_);
 }
 

@@ -37,6 +37,7 @@ class Part21Parser {
   bool parameter(int depth);
   bool parameter_list(int depth);
   bool define(const Part21Token& name, std::uint32_t index);
+  bool sort_names();
   bool resolve();
   bool resolve_range(std::uint32_t first, std::uint32_t last, std::uint32_t owner);
 

@@ -1,5 +1,7 @@
 #include "step_faces.hpp"
 
+#include <unordered_map>
+
 namespace knead::step {
 
 std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::uint32_t> surface) {
@@ -33,6 +35,34 @@ std::vector<Face> read_faces(const Reader& reader) {
     result.push_back(face);
   }
   return result;
+}
+
+Expected<void> check_loop_uses(const Reader& reader) {
+  const std::size_t records = reader.file().instances().size(), most = free_edge_uses + edge_uses_per_record * records;
+  std::unordered_map<std::uint32_t, std::size_t> edges_of;  // of each bound
+  std::size_t uses = 0;
+  for (std::uint32_t k = 0; k < records; ++k) {
+    if (!reader.is(k, "ADVANCED_FACE") && !reader.is(k, "FACE_SURFACE") && !reader.is(k, "FACE")) continue;
+    const auto bounds = reader.attributes(k, "FACE", 1, 1);
+    if (bounds.empty()) continue;
+    for (const auto bound : reader.references(bounds[0])) {
+      const auto [known, fresh] = edges_of.try_emplace(bound, 1);
+      if (fresh) {
+        const auto own = reader.attributes(bound, "FACE_BOUND", 1, 2);
+        const auto loop = own.empty() ? std::nullopt : reader.reference(own[0]);
+        const bool of_points = loop && reader.is(*loop, "POLY_LOOP");
+        const auto path = !loop ? own : reader.attributes(*loop, of_points ? "POLY_LOOP" : "PATH", 1, 1);
+        if (loop && !path.empty()) known->second += reader.references(path[0]).size();
+      }
+      uses += known->second;
+    }
+    if (uses <= most) continue;
+    return reader.error(k,
+                        "faces up to this one repeat loops until they have " + std::to_string(uses) +
+                            " edges, in a file of " + std::to_string(records) + " records",
+                        "give every face loops of its own");
+  }
+  return {};
 }
 
 std::vector<std::uint32_t> edges_around(const Reader& reader, const Face& face) {

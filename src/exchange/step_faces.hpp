@@ -25,6 +25,13 @@ struct Face {
 /// that they trim: the bounds of the face are more precise.
 [[nodiscard]] std::vector<Face> read_faces(const Reader& reader);
 
+// What loops may hold, each counted once for every face that it bounds: no more than a file of loops that bound one
+// face each has, but for small files. Without it a hundred kilobytes ask for millions of edges.
+inline constexpr std::size_t edge_uses_per_record = 2, free_edge_uses = 50000;
+
+/// An error (input) at the first face with which the faces exceed that.
+[[nodiscard]] Expected<void> check_loop_uses(const Reader& reader);
+
 /// The EDGE_CURVEs around a face, once for every time a loop runs along them.
 [[nodiscard]] std::vector<std::uint32_t> edges_around(const Reader& reader, const Face& face);
 

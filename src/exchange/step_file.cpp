@@ -8,6 +8,7 @@
 #include "part21_text.hpp"
 #include "step_data.hpp"
 #include "step_entity.hpp"
+#include "step_faces.hpp"
 #include "step_free_curves.hpp"
 #include "step_instances.hpp"
 #include "step_surfaces.hpp"
@@ -46,6 +47,7 @@ Expected<File> File::parse(std::string bytes, std::string name) {
   auto data = std::make_shared<Data>(*std::move(records));
   const Reader reader(data->records);
   data->schema = schema_of(data->records);
+  if (auto few = check_loop_uses(reader); !few) return std::unexpected(std::move(few.error()));
 
   std::vector<ReadSurface> read;
   for (std::uint32_t k = 0; k < data->records.instances().size(); ++k) {

@@ -122,7 +122,7 @@ TEST(Part21, ABrokenFileIsAnErrorWithLineAndEntity) {
       {"#1=A();\n#2=B(/* x);\n", 9, "#2 B", "comment is not closed"},
       {"#1=A(\"12);\n", 8, "#1 A", "binary is not closed"},
       {"#1=A(.T);\n", 8, "#1 A", "enumeration is not closed"},
-      {"#1=A();\n#1=B();\n", 9, "#1", "defined twice, first in line 8"},
+      {"#1=A();\n#1=B();\n", 9, "#1 B", "defined twice, first in line 8"},
       {"#99999999999999999999=A();\n", 8, "#0", "above 2^63"},
       {"#1=A(#99999999999999999999);\n", 8, "#1 A", "refers to"},
       {"#1=A(1.5.2);\n", 8, "#1 A", "runs into"},
