@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <cstring>
 
 #include "format_list.hpp"
 #include "surface_mesh.hpp"
@@ -6,19 +7,30 @@
 namespace knead::detail {
 namespace {
 
+/// Whether two corners of a triangle are one in single precision: it would have no area and no normal. What shares them
+/// collapses along the same side, so that a closed mesh stays closed.
+bool collapses(const Points& points, const std::array<std::uint32_t, 3>& triangle) {
+  const auto corner = [&](std::size_t k) -> Eigen::Vector3f { return points.row(triangle[k]).cast<float>(); };
+  return corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0);
+}
+
 Expected<std::string> save_stl(std::span<const NamedMesh> all, const SaveOptions& options) {
   constexpr std::size_t header = 80;
   std::string text = "Knead" + lengths_in(options.unit);
   text.resize(header, ' ');
-  append(text, static_cast<std::uint32_t>(number_of_triangles(all)));
+  std::uint32_t count = 0;
+  append(text, count);
   for (const NamedMesh& mesh : all) {
     if (auto fits = fits_single_precision(mesh, "STL"); !fits) return std::unexpected(fits.error());
     for (const auto& t : mesh.triangles) {
+      if (collapses(mesh.points, t)) continue;
+      ++count;
       append_point<float>(text, facet(mesh.points, t).normalized());
       for (const std::uint32_t corner : t) append_point<float>(text, mesh.points.row(corner));
       append(text, std::uint16_t{0});
     }
   }
+  std::memcpy(text.data() + header, &count, sizeof count);
   return text;
 }
 

@@ -237,6 +237,19 @@ TEST(Format, JsonHasOneObjectPerFormat) {
   }
 }
 
+TEST(MeshWriter, StlHasNoTrianglesThatSinglePrecisionCollapses) {
+  // A ring as thin as a thousandth, of radius 1e6: points around the tube are one in single precision.
+  const std::vector<NamedSurface> far = {{"far", *revolve(*circle_quarters({1e6, 1e6}, 1e-3, -1, 2))}};
+  const auto bytes = mesh_file(far, "stl", {.detail = 12});
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  for (const auto& corners : read_stl(*bytes).corners) {
+    EXPECT_NE(corners[0], corners[1]);
+    EXPECT_NE(corners[1], corners[2]);
+    EXPECT_NE(corners[2], corners[0]);
+  }
+  EXPECT_LT(read_stl(*bytes).corners.size(), read_obj(*mesh_file(far, "obj", {.detail = 12})).corners.size());
+}
+
 TEST(MeshWriter, RefusesWhatItCannotWrite) {
   EXPECT_NE(mesh_file({}, "stl").error().message().find("no surface"), std::string::npos);
   const auto surfaces = sphere_and_torus();
