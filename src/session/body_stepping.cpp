@@ -62,7 +62,9 @@ Expected<void> Executor::run_body(int count, const EvolutionPolicy& evolution) {
   for (int k = 0; k < count; ++k) {
     auto done = std::visit([&](auto& shapes) { return step_body(shapes, evolution); }, body()->shapes);
     if (!done) return done;
-    if (progress) progress(k + 1, count);
+    const auto on = carries_on(k + 1, count);
+    if (!on) return std::unexpected(on.error());
+    if (!*on) break;
   }
   return {};
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
+#include <span>
 
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
@@ -51,11 +53,34 @@ Expected<Document> Document::with_splines(std::span<const std::string> surfaces)
   return document;
 }
 
+namespace {
+
+bool same_bits(std::span<const double> a, std::span<const double> b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+bool same_bits(const Surface& a, const Surface& b) {
+  const auto coordinates = [](const Surface& s) {
+    return std::span<const double>(s.control_points().data(), static_cast<std::size_t>(s.control_points().size()));
+  };
+  for (int d = 0; d < 2; ++d) {
+    if (a.knots(d).degree() != b.knots(d).degree() || !same_bits(a.knots(d).knots(), b.knots(d).knots())) return false;
+  }
+  return same_bits(coordinates(a), coordinates(b)) && same_bits(a.weights(), b.weights());
+}
+
+}  // namespace
+
 Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, std::span<const std::string> followed,
                                      std::span<const SceneBody> bodies) const {
   if (source_) {
     std::vector<std::shared_ptr<const Surface>> present;
-    for (const DocumentSurface& s : surfaces) present.push_back(s.surface);
+    const auto& opened = source_->surfaces();
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      // What has come back to what it was keeps its bytes, such as a surface that was refined and coarsened.
+      const bool back = k < opened.size() && same_bits(*surfaces[k].surface, *opened[k].surface);
+      present.push_back(back ? opened[k].surface : surfaces[k].surface);
+    }
     std::vector<std::shared_ptr<const Curve>> curves;
     for (const SourceCurve& c : source_->curves()) {
       const auto body = std::ranges::find(bodies, c.id, &SceneBody::id);

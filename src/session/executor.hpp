@@ -64,6 +64,8 @@ struct Executor {
   std::optional<int> increments = {};  ///< of the load of a shell
   std::vector<SeamReport> shell_seams = {};
   std::vector<std::string> shell_notes = {};
+  bool may_stop = false;               ///< the command may end after any of its steps
+  std::optional<int> stopped = {};     ///< after so many steps
 
   template <class C>
   Expected<void> execute(const C& command);
@@ -79,6 +81,9 @@ struct Executor {
   Expected<Tool*> find_tool(const std::optional<std::string>& name);
   /// Diagonal of the bounding box of the first selected surface's reference: the unit of `relative`.
   Expected<double> diagonal();
+
+  /// Tells how many steps are done. Whether to go on; if not, `stopped` where a command may end early, else an error.
+  Expected<bool> carries_on(int done, int total);
 
   /// Keeps a constraint on the selected surfaces, after trying that it can be made.
   Expected<void> keep(const Constraint& constraint);

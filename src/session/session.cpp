@@ -62,7 +62,7 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
     return {};
   }
   const AnyCommand& any = command.any();
-  const Command meant = any.without ? make_command(*any.without) : command;
+  Command meant = any.without ? make_command(*any.without) : command;
   auto next = std::make_shared<SessionState>(state());
   next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
   Executor executor{document(),   cache_->model, cache_->stroke, cache_->brush,
@@ -74,6 +74,11 @@ Expected<void> Session::execute(const Command& command, const Progress& progress
   const auto execute = [&](const auto& fields) { return apply(executor, fields); };
   if (auto done = std::visit(execute, meant.any().fields); !done) return done;
   if (auto closed = executor.check_followed(state()); !closed) return closed;
+  if (executor.stopped) {
+    StepCommand made = *fields_of<StepCommand>(meant);
+    made.count = *executor.stopped;
+    meant = make_command(std::move(made));
+  }
   if (only_looks(meant) && !state().stroke && !state().brush) {
     states_[position_] = std::move(next);
     return {};
@@ -280,6 +285,26 @@ int Session::moved_control_points(int surface) const {
 
 namespace {
 
+/// Whether a surface is that of the file but for the rounding of knots that were inserted and removed again: it stands
+/// as it was opened, on the knots of the file.
+bool only_rounded(const SceneSurface& s, const Surface& file) {
+  constexpr double roundings = 1e-13;  // of the largest coordinate
+  const Surface &now = *s.current, &opened = *s.opened;
+  const auto same = [](const Points& a, const Points& b) { return a.rows() == b.rows() && a == b; };
+  for (int d = 0; d < 2; ++d) {
+    if (!std::ranges::equal(now.knots(d).knots(), file.knots(d).knots())) return false;
+  }
+  if (!same(now.control_points(), opened.control_points()) || !std::ranges::equal(now.weights(), opened.weights()) ||
+      now.weights().size() != file.weights().size()) {
+    return false;
+  }
+  for (std::size_t k = 0; k < now.weights().size(); ++k) {
+    if (std::abs(now.weights()[k] - file.weights()[k]) > roundings * std::abs(file.weights()[k])) return false;
+  }
+  const double largest = file.control_points().cwiseAbs().maxCoeff();
+  return (now.control_points() - file.control_points()).cwiseAbs().maxCoeff() <= roundings * largest;
+}
+
 std::vector<DocumentSurface> present_surfaces(const Session& session) {
   std::vector<DocumentSurface> surfaces;
   const auto& scene = session.state().surfaces;
@@ -287,6 +312,10 @@ std::vector<DocumentSurface> present_surfaces(const Session& session) {
   if (session.document().is_fresh()) std::ranges::for_each(scene, append);
   for (const DocumentSurface& s : session.document().surfaces()) {  // converted ones come last in the scene
     append(*std::ranges::find(scene, s.id, &SceneSurface::id));
+    if (surfaces.back().surface != s.surface &&
+        only_rounded(*std::ranges::find(scene, s.id, &SceneSurface::id), *s.surface)) {
+      surfaces.back().surface = s.surface;
+    }
   }
   return surfaces;
 }

@@ -56,7 +56,7 @@ std::shared_ptr<const Surface> read_surface(Reader& a) {
 
 /// The part of a state that is not shared with the one before it: steps are appended, most surfaces stay.
 struct Neighbour {
-  const std::vector<StepRecord>* steps = nullptr;
+  const SharedList<StepRecord>* steps = nullptr;
   std::vector<std::string> surfaces, bodies;  // as bytes
 };
 
@@ -239,10 +239,12 @@ void read_state(Reader& a, const Document& opened, SessionState& state) {
   std::size_t shared = 0;
   a.count(shared);
   if (shared > steps.size()) return a.fail();
-  steps.resize(shared);
-  const std::size_t more = a.length(4);
-  steps.resize(shared + more);
-  for (std::size_t k = shared; k < steps.size() && !a.bad(); ++k) pass(a, steps[k]);
+  steps.truncate(shared);
+  for (std::size_t more = a.length(4); more > 0 && !a.bad(); --more) {
+    StepRecord step;
+    pass(a, step);
+    steps.push_back(std::move(step));
+  }
   list(a, seam_reports);
   notes.clear();
   list(a, notes);

@@ -41,6 +41,13 @@ std::string note_of(const ActiveStep& step) {
       step.coarseness, halvings == 1 ? "once" : fmt::format("{} times", halvings));
 }
 
+Expected<bool> Executor::carries_on(int done, int total) {
+  if (!progress || progress(done, total) || done >= total) return true;
+  if (!may_stop) return input_error(fmt::format("it was stopped after {} of {} steps", done, total));
+  stopped = done;
+  return false;
+}
+
 Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more, int done,
                              int total) {
   auto selection = selected();
@@ -91,7 +98,9 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     if (auto within = check_limit(); !within) return within;
     record(*step, seconds, std::move(note));
     ++stepped;
-    if (progress) progress(done + stepped, total > 0 ? total : count);
+    const auto on = carries_on(done + stepped, total > 0 ? total : count);
+    if (!on) return std::unexpected(on.error());
+    if (!*on) break;
   }
   if (stepped > 0 && shell) note_model(shell_seams, shell_notes);
   if (stepped > 0 && !shell) note_model(cache->seams, cache->notes);

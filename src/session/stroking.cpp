@@ -308,7 +308,7 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
     converged = converged && step->converged;
     if (note.empty()) note = note_of(*step);
     last = std::move(*step);
-    if (progress) progress(++done, static_cast<int>(places.size()));
+    if (auto on = carries_on(++done, static_cast<int>(places.size())); !on) return std::unexpected(on.error());
   }
   if (last.gap > 0 && (state.stroke->history.array() == 0).all()) return std::unexpected(all_held(last.gap_tool));
   if (auto shown = show_stroke(true); !shown) return shown;

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "knead/exchange/step_file.hpp"
 #include "session/json.hpp"
 #include "support.hpp"
 
@@ -57,6 +58,87 @@ TEST(Limits, StepsAreCountedBeforeTheyAreTaken) {
     EXPECT_NE(error.what.find("too many"), std::string::npos) << each << ": " << error.message();
     EXPECT_NE(error.remedy.find("1000000"), std::string::npos) << error.message();
   }
+}
+
+TEST(Limits, AStepThatIsStoppedCountsTheStepsItHasMade) {
+  const std::vector<std::string> press = {R"({"do":"edge","which":"all"})",
+                                          R"({"do":"tool","shape":"sphere","radius":0.3,"at":[0.5,0.5]})",
+                                          R"({"do":"move","by":[0,0,0.1],"relative":true})"};
+  Session stopped = sheet_and(press), whole = sheet_and(press);
+  const auto command = parse_command(R"({"do":"step","count":50})");
+  ASSERT_TRUE(command);
+  ASSERT_TRUE(stopped.execute(*command, [](int done, int total) {
+    EXPECT_EQ(total, 50);
+    return done < 4;
+  }));
+  EXPECT_EQ(stopped.state().steps.size(), 4U);
+  EXPECT_EQ(fields_of<StepCommand>(stopped.journal().back())->count, 4);
+  run(whole, {R"({"do":"step","count":4})"});
+  EXPECT_EQ(*stopped.save(), *whole.save());
+  run(stopped, {R"({"do":"undo"})"});
+  EXPECT_TRUE(stopped.state().steps.empty());
+}
+
+TEST(Limits, OtherCommandsThatAreStoppedChangeNothing) {
+  for (const std::string json :
+       {R"({"do":"lattice","net":[4,4,4],"steps":3})", R"({"do":"drag","at":[0.5,0.5],"by":[0,0,0.1],"steps":3})"}) {
+    Session session = sheet_and({R"({"do":"edge","which":"all"})"});
+    const SessionState* before = &session.state();
+    const auto command = parse_command(json);
+    ASSERT_TRUE(command);
+    const auto done = session.execute(*command, [](int, int) { return false; });
+    ASSERT_FALSE(done) << json;
+    EXPECT_NE(done.error().what.find("stopped after 1 of 3 steps"), std::string::npos) << done.error().message();
+    EXPECT_EQ(&session.state(), before);
+    EXPECT_TRUE(session.execute(*command, [](int k, int n) { return k < n; })) << "the last step is done";
+  }
+}
+
+TEST(Limits, StatesShareTheRecordsOfSteps) {
+  Session session = sheet_and({R"({"do":"step","count":1000})"});
+  const StepRecord* first = &session.state().steps[0];
+  for (int k = 0; k < 10; ++k) run(session, {R"({"do":"release"})", R"({"do":"step"})"});
+  EXPECT_EQ(session.state().steps.size(), 1010U);
+  EXPECT_EQ(&session.state().steps[0], first);
+  const auto restored = Session::restore(Document::fresh("test"), session.snapshot());
+  ASSERT_TRUE(restored) << restored.error().message();
+  EXPECT_EQ(restored->state().steps, session.state().steps);
+}
+
+TEST(Limits, WhatIsRefinedAndCoarsenedKeepsItsBytes) {
+  Session session = open_sample();
+  const std::string before = *session.save();
+  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"refine","region":[[0,1],[0,1]]})"});
+  EXPECT_NE(*session.save(), before);
+  run(session, {R"({"do":"coarsen","tolerance":1e-9})"});
+  EXPECT_TRUE(*session.save() == before);
+  run(session, {R"({"do":"points","which":[80],"by":[0,0,1e-9]})"});
+  EXPECT_FALSE(*session.save() == before);
+}
+
+TEST(Limits, SurfacesOfHighDegreesAreSculpted) {
+  for (const std::string degrees : {R"("degree":[20,3],"net":[21,7])", R"("degree":[22,2],"net":[23,6])"}) {
+    Session session = fresh();
+    run(session, {R"({"do":"new",)" + degrees + "}", R"({"do":"edge","which":"all"})",
+                  R"({"do":"tool","shape":"sphere","radius":0.3,"at":[0.5,0.5]})",
+                  R"({"do":"move","by":[0,0,0.1],"relative":true})", R"({"do":"step","count":2,"lambda":1})"});
+    EXPECT_NEAR(session.largest_displacement(0), 0.157, 0.01) << degrees;  // as far as the ball is moved, and more
+    EXPECT_EQ(refusal(session, R"({"do":"elevate","by":[20,0]})").remedy, "degrees go to 25");
+  }
+}
+
+TEST(Limits, TheHighestDegreesAreMovedMeshedAndWritten) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","degree":[22,25],"net":[24,26]})", R"({"do":"points","rows_u":[12],"by":[0,0,0.5]})"});
+  EXPECT_GT(session.largest_displacement(0), 0.01);
+  const auto bytes = session.save();
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  const auto read = step::File::parse(*bytes, "high.step");
+  ASSERT_TRUE(read) << read.error().message();
+  ASSERT_EQ(read->surfaces().size(), 1U);
+  EXPECT_TRUE(same_bits(read->surfaces()[0].surface, *session.state().surfaces[0].current));
+  const NamedSurface named{"high", *session.state().surfaces[0].current};
+  EXPECT_TRUE(save_surfaces({&named, 1}, *find_format("stl")));
 }
 
 TEST(Limits, AToolTooSmallForItsSurfaceIsRefusedAtOnce) {

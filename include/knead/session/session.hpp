@@ -11,6 +11,7 @@
 #include "knead/sculpt/seam_coupling.hpp"
 #include "knead/session/command.hpp"
 #include "knead/session/document.hpp"
+#include "knead/session/shared_list.hpp"
 
 namespace knead {
 
@@ -44,7 +45,7 @@ struct ModeRecord {
 
 /// The record of a session so far.
 struct SessionRecord {
-  std::vector<StepRecord> steps;
+  SharedList<StepRecord> steps;           ///< shared by the states of a history
   std::vector<SeamReport> seam_reports;   ///< of the model of the last step; patches are indices of surfaces
   std::vector<std::string> notes;         ///< side effects of commands: refinements, lines kept smooth
   std::optional<double> energy_before;    ///< energy before the first step
@@ -68,8 +69,10 @@ class Session {
   Session& operator=(Session&&) noexcept;
   ~Session();
 
-  /// Called after each step of a stepping command with the numbers of steps done and requested.
-  using Progress = std::function<void(int, int)>;
+  /// Called after each step of a stepping command with the numbers of steps done and requested; returns whether to go
+  /// on. A `step` command that is stopped keeps the steps it has made, and its entry counts only those. Others that are
+  /// stopped are errors (input), and change nothing.
+  using Progress = std::function<bool(int, int)>;
 
   [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {});
 

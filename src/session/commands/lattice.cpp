@@ -60,7 +60,7 @@ Expected<void> Executor::execute(const LatticeCommand& c) {
     auto step = model->step(active, *tools);
     if (!step) return std::unexpected(step.error());
     active.control_points = std::move(step->control_points);
-    if (progress) progress(k + 1, c.steps);
+    if (auto on = carries_on(k + 1, c.steps); !on) return std::unexpected(on.error());
   }
   for (int index : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];

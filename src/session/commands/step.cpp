@@ -31,6 +31,7 @@ Expected<void> Executor::execute(const StepCommand& c) {
   }
   increments = c.increments;
   allow_held = c.allow.has_value();
+  may_stop = true;
   return run(c.count, evolution);
 }
 
