@@ -106,7 +106,7 @@ Expected<void> run(const AnalyseArguments& options) {
   auto document = open_document(options.file, options.fresh);
   if (!document) return std::unexpected(document.error());
   Session session(std::move(*document));
-  if (auto done = execute(session, *commands); !done) return done;
+  if (auto done = execute(session, *commands); !done) return std::unexpected(done.error());
   if (!session.state().selected) return input_error("no surface is selected", options.script, "select one");
   const auto grids = grids_of(session.state(), options.samples);
   if (!grids) return std::unexpected(grids.error());

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli.hpp"
 #include "faces.hpp"
@@ -14,6 +15,7 @@
 #include "knead/exchange/step_file.hpp"
 #include "knead/spline/extremum.hpp"
 #include "parts.hpp"
+#include "progress.hpp"
 
 namespace knead::cli {
 namespace {
@@ -155,10 +157,13 @@ void print_text(const Source& source) {
 }
 
 Expected<void> run(const InfoArguments& options) {
+  std::optional<ProgressLine> line;
+  announce_reading(line.emplace(), options.file);
   auto bytes = read_file(options.file);
   if (!bytes) return std::unexpected(std::move(bytes.error()));
   const auto source = open_source(*std::move(bytes), options.file);
   if (!source) return std::unexpected(source.error());
+  if (!options.json) line.reset();  // what is printed shows how far it is
   const step::File* const file = (*source)->step_file();
   if (options.faces && file == nullptr) {
     return usage_error(fmt::format("a {} file has no faces", (*source)->format()), "--faces", "leave it out");
@@ -177,7 +182,11 @@ Expected<void> run(const InfoArguments& options) {
       others.back()["reason"] = made ? "only faces of a STEP file are converted" : made.error().message();
   }
   Json surfaces = Json::array(), unreadable = Json::array(), instances = Json::array();
-  for (const Row& s : rows_of(**source)) surfaces.push_back(to_json(s));
+  const auto rows = rows_of(**source);
+  for (const Row& s : rows) {
+    surfaces.push_back(to_json(s));
+    line->show("surface", surfaces.size(), rows.size());
+  }
   Json curves = Json::array();
   for (const SourceCurve& c : (*source)->curves()) curves.push_back(to_json(c));
   for (const UnreadableSurface& s : (*source)->unreadable()) {
@@ -197,6 +206,7 @@ Expected<void> run(const InfoArguments& options) {
                      {"instances", std::move(instances)},
                      {"assembly", file != nullptr ? parts_json(*file) : Json()},
                      {"remarks", (*source)->remarks()}};
+  line.reset();
   fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));
   return {};
 }

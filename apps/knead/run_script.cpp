@@ -1,36 +1,32 @@
 #include "run_script.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <cstdio>
+#include <utility>
 
 #include "cli.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/session/command_json.hpp"
+#include "progress.hpp"
 
 namespace knead::cli {
 namespace {
 
-/// "step 12 of 60" on standard error, when that is a terminal and the work has taken more than a second.
-class ProgressLine {
- public:
-  void show(int done, int total) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!terminal_ || now - start_ < std::chrono::seconds(1) || now - shown_ < std::chrono::milliseconds(100)) return;
-    shown_ = now;
-    fmt::print(stderr, "\rstep {} of {} ", done, total);
-    std::fflush(stderr);
+/// The error of a command with its place in the script; one about an entity names the CAD file that it is in.
+Error within_script(Error error, const Session& session, const Script& script, std::size_t command) {
+  const std::string place =
+      command < script.implied ? std::string() : fmt::format("commands[{}]", command - script.implied);
+  if (error.file.empty() && error.where.starts_with('#') && !session.document().is_fresh()) {
+    error.file = session.document().name();
   }
-  ~ProgressLine() {
-    if (shown_ > start_) fmt::print(stderr, "\r\x1b[K");
+  if (!error.file.empty() && error.file != script.name) {
+    const std::string line = error.line > 0 ? fmt::format(":{}", error.line) : "";
+    error.where = error.file + line + (error.where.empty() ? "" : ": " + error.where);
   }
-
- private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), shown_ = start_;
-};
+  error.file = script.name;
+  error.line = 0;
+  return place.empty() ? error : error.within(place);
+}
 
 }  // namespace
 
@@ -54,20 +50,27 @@ Expected<void> check_source(const std::string& file, bool fresh) {
 }
 
 Expected<Document> open_document(const std::string& file, bool fresh) {
-  return fresh ? Document::fresh("sheet") : Document::open(file);
+  if (fresh) return Document::fresh("sheet");
+  ProgressLine line;
+  announce_reading(line, file);
+  return Document::open(file);
 }
 
-Expected<void> execute(Session& session, const Script& script) {
+Expected<Execution> execute(Session& session, const Script& script, bool stops) {
   ProgressLine line;
-  for (std::size_t k = 0; k < script.commands.size(); ++k) {
-    auto done = session.execute(script.commands[k], [&line](int step, int total) { line.show(step, total); });
-    if (done) continue;
-    Error error =
-        k < script.implied ? done.error() : done.error().within(fmt::format("commands[{}]", k - script.implied));
-    error.file = script.name;
-    return std::unexpected(error);
+  const auto progress = [&](int step, int total) {
+    line.show("step", static_cast<std::size_t>(step), static_cast<std::size_t>(total));
+    return !(stops && Interrupt::asked());
+  };
+  Execution execution;
+  for (const Command& command : script.commands) {
+    auto done = session.execute(command, progress);
+    if (stops && Interrupt::asked()) return execution;
+    if (!done) return std::unexpected(within_script(std::move(done.error()), session, script, execution.commands));
+    ++execution.commands;
   }
-  return {};
+  execution.complete = true;
+  return execution;
 }
 
 std::string modes_json(const SessionState& state) {

@@ -21,8 +21,15 @@ struct Script {
 /// Opens a CAD file, or begins without one.
 [[nodiscard]] Expected<Document> open_document(const std::string& file, bool fresh);
 
-/// Executes all commands, with progress on a terminal. The error names the script and the command.
-[[nodiscard]] Expected<void> execute(Session& session, const Script& script);
+/// How far a script came.
+struct Execution {
+  std::size_t commands = 0;  ///< so many are done; of the next one, if it is `step`, some steps may be
+  bool complete = false;
+};
+
+/// Executes all commands, with progress on a terminal; with `stops`, until Ctrl+C is pressed (`Interrupt`). The error
+/// names the script, the command, and the CAD file where it is about an entity of that.
+[[nodiscard]] Expected<Execution> execute(Session& session, const Script& script, bool stops = false);
 
 /// The lists `modes` and `buckling` of reports, each after a comma; nothing where there are none.
 [[nodiscard]] std::string modes_json(const SessionState& state);

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "cli.hpp"
@@ -20,6 +23,7 @@
 #include "outputs.hpp"
 #include "parts.hpp"
 #include "picture.hpp"
+#include "progress.hpp"
 #include "run_script.hpp"
 
 namespace knead::cli {
@@ -27,7 +31,7 @@ namespace {
 
 struct SculptArguments {
   std::string file, output, script, report, picture, schema = "ap214";
-  bool fresh = false;
+  bool fresh = false, keep_partial = false;
   [[nodiscard]] const std::string& name() const { return fresh ? output : file; }
 };
 
@@ -326,10 +330,23 @@ Expected<void> run(const SculptArguments& options) {
   }
 
   Session session(std::move(*document));
-  if (auto done = execute(session, *commands); !done) return done;
+  std::optional<Interrupt> interrupt;
+  if (options.keep_partial) interrupt.emplace();
+  const auto done = execute(session, *commands, options.keep_partial);
+  if (!done) return std::unexpected(done.error());
   const Outcome outcome = outcome_of(session);
   print_summary(options, session, outcome);
-  return write_results(options, session, outcome);
+  if (!done->complete) {
+    const std::size_t implied = std::min(commands->implied, done->commands);
+    fmt::print(stderr, "knead: stopped: {} of {} commands are done; what stands is written\n", done->commands - implied,
+               commands->commands.size() - commands->implied);
+  }
+  auto written = write_results(options, session, outcome);
+  if (written && !done->complete) {
+    std::fflush(stdout);
+    Interrupt::pass_on();
+  }
+  return written;
 }
 
 }  // namespace
@@ -345,6 +362,8 @@ Action add_sculpt(CLI::App& app) {
   command->add_option("--schema", options->schema, "of a new STEP file: ap214 or ap242")
       ->check(CLI::IsMember({"ap214", "ap242"}))
       ->capture_default_str();
+  command->add_flag("--keep-partial", options->keep_partial,
+                    "at Ctrl+C write what the steps done so far have made; a second Ctrl+C writes nothing");
   command->add_option("--report", options->report, "JSON file for the report, see below");
   command->add_option("--picture", options->picture, "SVG file for a picture of the displacement over (u, v)");
   command->footer(

@@ -1,6 +1,9 @@
 // What is hostile by accident or on purpose: the program ends with one line and an exit code, and writes nothing.
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
 
 #include "program.hpp"
 
@@ -88,6 +91,44 @@ TEST(Hostile, ALimitThatAStepCannotKeepIsAnError) {
   EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", workshop / "out.step", "--script", script}), 4,
                          {"commands[4]", "beyond the limit of 1.7", "refine the net"}));
   EXPECT_EQ(workshop.files(), std::vector<std::string>{"script.json"});
+}
+
+/// The exit code of the program with these arguments after Ctrl+C in its first second.
+int interrupted(const std::string& arguments) {
+  const std::string line = "timeout -s INT 1 " KNEAD_PROGRAM " " + arguments + " >/dev/null 2>&1 </dev/null";
+  const int status = std::system(line.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(Hostile, CtrlCWritesWhatStandsOnlyIfAsked) {
+  const Workshop workshop;
+  const std::string script =
+      workshop.script({command("new"), command("edge", {{"which", "all"}}), command("load", {{"gravity", {0, 0, -1}}}),
+                       command("step", {{"count", 1000000}})});
+  const std::string arguments = "sculpt --new -o " + workshop / "out.step" + " --script " + script;
+  constexpr int timed_out = 124;
+  EXPECT_EQ(interrupted(arguments), timed_out);
+  EXPECT_EQ(workshop.files(), std::vector<std::string>{"script.json"});
+  EXPECT_EQ(interrupted(arguments + " --keep-partial --report " + workshop / "report.json"), timed_out);
+  ASSERT_EQ(workshop.files(), (std::vector<std::string>{"out.step", "report.json", "script.json"}));
+  const auto steps = Json::parse(content_of(workshop / "report.json")).at("steps").size();
+  EXPECT_GE(steps, 1U);
+  EXPECT_LT(steps, 1000000U);
+  EXPECT_TRUE(step::File::parse(content_of(workshop / "out.step"), "out.step"));
+}
+
+TEST(Hostile, ErrorsAboutASurfaceNameTheCadFile) {
+  const Workshop workshop;
+  const std::string part = workshop / "part.step";
+  const std::string make =
+      workshop.script(Json::array({command("new", {{"size", {15, 15.5}}, {"degree", {1, 4}}, {"net", {2, 5}}})}));
+  ASSERT_EQ(knead({"sculpt", "--new", "-o", part, "--script", make}).code, 0);
+  const std::string script =
+      workshop.script({command("limit", {{"distance", 1.7}}),
+                       command("force", {{"at", {0.9, 0.6}}, {"to", {6, -4, -5}}, {"strength", 1e10}}),
+                       command("edge", {{"which", "v0"}}), command("step")});
+  EXPECT_TRUE(fails_with(knead({"sculpt", part, "-o", workshop / "out.step", "--script", script}), 4,
+                         {script + ": commands[3]: " + part + ": #", "beyond the limit of 1.7"}));
 }
 
 }  // namespace
