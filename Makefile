@@ -2,7 +2,7 @@
 # The work is done by CMake presets (CMakePresets.json) and the scripts in scripts/.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run studio test test-studio asan noexcept wasm format format-check lint check-long bench bench-compare instructions bench-studio figures examples clean
+.PHONY: help setup build run studio test test-studio asan fuzz noexcept wasm format format-check lint check-long bench bench-compare instructions bench-studio figures examples clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -27,6 +27,9 @@ test: ## Build everything and run all tests
 
 asan: ## Run all tests under the address and undefined-behaviour sanitizers
 	@scripts/test.sh asan
+
+fuzz: ## Run every fuzz target for KNEAD_FUZZ_SECONDS (default 20), with the objects of asan
+	@scripts/fuzz.sh
 
 noexcept: ## Build the core without exceptions and link a program against it
 	@scripts/noexcept.sh

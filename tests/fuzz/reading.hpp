@@ -1,0 +1,71 @@
+// What the readers' targets have in common: open, describe, mesh, write unchanged, move and write.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fuzz.hpp"
+#include "knead/exchange/context_faces.hpp"
+#include "knead/exchange/face_edges.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/exchange/model_mesh.hpp"
+#include "knead/exchange/trim_loops.hpp"
+
+namespace knead::fuzz {
+
+/// The surfaces of the file and, if `moved`, their control points a little higher.
+inline std::vector<std::shared_ptr<const Surface>> surfaces_of(const Source& source, bool moved) {
+  std::vector<std::shared_ptr<const Surface>> result;
+  for (const SourceSurface& s : source.surfaces()) {
+    result.push_back(s.surface);
+    if (!moved) continue;
+    Points points = s.surface->control_points();
+    points.col(2).array() += 0.125;
+    auto higher = s.surface->with_control_points(points);
+    if (higher) result.back() = std::make_shared<const Surface>(*std::move(higher));
+  }
+  return result;
+}
+
+inline void check_faces(const step::File& file) {
+  const auto check_meshes = [](const FaceMeshes& meshes) {
+    for (const FaceMesh& f : meshes.faces) {
+      check(f.points.size() == f.normals.size(), "as many normals as points");
+      for (const auto& t : f.triangles) {
+        for (const auto k : t) check(k < f.points.size(), "a corner of a triangle that is no point: " + f.id);
+      }
+    }
+  };
+  for (const auto& made : {context_faces(file, 0.1), model_faces(file)}) {
+    if (made) check_meshes(*made);
+    if (!made) check_error(made.error());
+  }
+  if (const auto loops = trim_loops(file, 0.1); !loops) check_error(loops.error());
+  for (const auto& s : file.surfaces()) {
+    if (const auto region = visible_region(file, s.id); !region) check_error(region.error());
+  }
+}
+
+/// All of it, on a file that may or may not be one.
+inline void read_and_write(std::string_view bytes, const std::string& name) {
+  PeakMemory::begin();
+  const auto source = open_source(std::string(bytes), name);
+  check_memory(bytes.size(), "reading");
+  if (!source) return check_error(source.error());
+  for (const SourceSurface& s : (*source)->surfaces()) check_finite(*s.surface, "a surface of the file");
+  for (const SourceCurve& c : (*source)->curves()) check_finite(*c.curve, "a curve of the file");
+  for (const UnreadableSurface& u : (*source)->unreadable()) check_error(u.reason);
+  const auto same = (*source)->save(surfaces_of(**source, false));
+  check(same.has_value() && *same == bytes, "an unchanged file is written with other bytes");
+  if (const step::File* file = (*source)->step_file()) check_faces(*file);
+  if ((*source)->surfaces().empty()) return;
+  const auto written = (*source)->save(surfaces_of(**source, true));
+  if (!written) return check_error(written.error());
+  const auto again = open_source(*written, name);
+  check(again.has_value(), "what was written cannot be read");
+  check((*again)->surfaces().size() == (*source)->surfaces().size(), "another number of surfaces was written");
+}
+
+}  // namespace knead::fuzz
