@@ -5,8 +5,8 @@ cd "$(dirname "$0")/.."
 
 scripts/setup.sh studio
 scripts/configure.sh wasm
-cmake --build build/wasm --target knead_studio knead_lab knead_types
-for module in engine/knead_studio panels/lab/knead_lab; do
+cmake --build build/wasm --target knead_studio knead_lab knead_snake knead_types
+for module in engine/knead_studio panels/lab/knead_lab panels/snakes/knead_snake; do
   built=build/wasm/bindings/wasm/${module##*/}.wasm
   cmp -s "$built" "web/src/$module.wasm" || cp "$built" "web/src/$module.wasm"
 done

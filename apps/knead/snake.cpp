@@ -6,12 +6,12 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli.hpp"
 #include "image_file.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/session/snake_script.hpp"
+#include "knead/session/snake_text.hpp"
 #include "outputs.hpp"
 #include "volume_snake.hpp"
 
@@ -44,76 +44,17 @@ Expected<SnakeScript> script_in(const SnakeArguments& options) {
   return std::unexpected(error);
 }
 
-double area_of(const std::vector<std::array<double, 2>>& line) {
-  double twice = 0;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    const auto &a = line[k], &b = line[(k + 1) % line.size()];
-    twice += a[0] * b[1] - a[1] * b[0];
-  }
-  return std::abs(twice) / 2;
-}
-
-std::string json_of(const std::vector<SnakeResult>& snakes, const SnakeArguments& options, const Image& image) {
-  std::string text = fmt::format("{{\"image\":{},\"width\":{},\"height\":{},\"snakes\":[",
-                                 nlohmann::json(options.image).dump(), image.width, image.height);
-  for (std::size_t k = 0; k < snakes.size(); ++k) {
-    const SnakeResult& s = snakes[k];
-    const KnotVector& knots = s.curve.knots()[0];
-    text += fmt::format(
-        "{}\n{{\"closed\":{},\"degree\":{},\"iterations\":{},\"converged\":{},\"crossings\":{},\"area\":{},",
-        k > 0 ? "," : "", s.closed, knots.degree(), s.iterations, s.converged, crossings(s),
-        json_number(s.closed ? area_of(polyline(s)) : 0));
-    std::string list;
-    for (const double x : knots.knots()) list += (list.empty() ? "" : ",") + json_number(x);
-    text += "\"knots\":[" + list + "],\"control_points\":[";
-    list.clear();
-    for (Eigen::Index i = 0; i < s.curve.size(); ++i) {
-      list += fmt::format("{}[{},{}]", list.empty() ? "" : ",", json_number(s.curve.control_points()(i, 0)),
-                          json_number(s.curve.control_points()(i, 1)));
-    }
-    text += list + "]}";
-  }
-  return text + "]}\n";
-}
-
-std::string csv_of(const std::vector<SnakeResult>& snakes) {
-  std::string text = "snake,x,y\n";
-  for (std::size_t k = 0; k < snakes.size(); ++k) {
-    for (const auto& [x, y] : polyline(snakes[k])) text += fmt::format("{},{:.17g},{:.17g}\n", k, x, y);
-  }
-  return text;
-}
-
-/// Pixels as units, so that it lies on the image.
-std::string svg_of(const std::vector<SnakeResult>& snakes, const Image& image) {
-  std::string text =
-      fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-0.5 -0.5 {} {}\" width=\"{}\" height=\"{}\">\n",
-                  image.width, image.height, image.width, image.height);
-  for (const SnakeResult& s : snakes) {
-    std::string points;
-    for (const auto& [x, y] : polyline(s)) points += fmt::format("{}{:.17g},{:.17g}", points.empty() ? "" : " ", x, y);
-    text += fmt::format("<{} points=\"{}\" fill=\"none\" stroke=\"#c0392b\" stroke-width=\"1\"/>\n",
-                        s.closed ? "polygon" : "polyline", points);
-  }
-  return text + "</svg>\n";
-}
-
 Expected<void> write_results(const std::vector<SnakeResult>& snakes, const SnakeArguments& options,
                              const Image& image) {
   if (!options.output.empty()) {
     const std::string ending = std::filesystem::path(options.output).extension().string();
-    const std::string text = ending == ".csv"   ? csv_of(snakes)
-                             : ending == ".svg" ? svg_of(snakes, image)
-                                                : json_of(snakes, options, image);
+    const std::string text = ending == ".csv"   ? snakes_csv(snakes)
+                             : ending == ".svg" ? snakes_svg(snakes, image.width, image.height)
+                                                : snakes_json(snakes, options.image, image.width, image.height);
     if (auto done = write_file_atomically(options.output, text); !done) return done;
   }
   if (options.mask.empty()) return {};
-  Image all{image.width, image.height, std::vector<double>(image.values.size(), 0)};
-  for (const SnakeResult& s : snakes) {
-    const Image one = mask_of(s, image.width, image.height);
-    for (std::size_t k = 0; k < all.values.size(); ++k) all.values[k] = std::max(all.values[k], one.values[k]);
-  }
-  const auto bytes = png_of(all);
+  const auto bytes = png_of(snakes_mask(snakes, image.width, image.height));
   if (!bytes) return std::unexpected(bytes.error());
   return write_file_atomically(options.mask, *bytes);
 }

@@ -12,6 +12,7 @@ import type { Frame, PictureSettings } from '../engine/protocol';
 import { selected } from '../engine/session_state';
 import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
 import type { App } from '../panels/app';
+import { openSnakes } from '../panels/snakes/door';
 import { Hand } from '../tools/hand';
 import { defaultDisplay, type Display, type Theme } from '../view/display';
 import { sectionPlanes } from '../view/section_planes';
@@ -241,6 +242,10 @@ export class Studio implements App {
 
   showContext(context: Context | null, trims: Trim[]): void {
     this.viewer.showContext(context, trims);
+  }
+
+  openImage(file: File): Promise<void> {
+    return openSnakes(this, file);
   }
 
   forgetEdges(): void {

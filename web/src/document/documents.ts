@@ -110,9 +110,11 @@ export class Documents {
       if (await this.mayLeave()) await this.openStep(await bytes(), file.name);
     } else if (/\.3dm$/i.test(file.name)) {
       if (await this.mayLeave()) await this.openRhino(await bytes(), file.name);
+    } else if (/\.(png|jpe?g)$/i.test(file.name)) {
+      await host.openImage(file);
     } else {
       host.notify({ kind: 'error', text: `“${file.name}” is not a kind of file that the studio reads`,
-        remedy: `open ${readFormats}, a Rhino file (.3dm) or a Knead document (.knead)` });
+        remedy: `open ${readFormats}, a Rhino file (.3dm), a Knead document (.knead) or an image (.png, .jpg)` });
     }
   }
 

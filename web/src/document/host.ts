@@ -40,6 +40,8 @@ export interface Host {
   sizeBrush(radius: number): void;
   /** The surroundings of the surfaces, and the visible part of each. */
   showContext(context: Context | null, trims: Trim[]): void;
+  /** Contours in an image: another part of the page. */
+  openImage(file: File): Promise<void>;
   /** The edges of faces are to be asked for again. */
   forgetEdges(): void;
   /** The view as a PNG file, with `scale` pixels for each of the page's. */

@@ -10,6 +10,7 @@ import { openLab } from './lab/door';
 import { recentMenu } from './recent_menu';
 import { samePlace, saveEntries } from './save_menu';
 import { shortcuts } from './shortcuts';
+import { openSnakes } from './snakes/door';
 import { toggleTour } from './tour';
 
 /** Bars at the top and the left, messages, the overlay of shortcuts, the welcome screen. */
@@ -40,12 +41,13 @@ export function topBar(app: App): HTMLElement {
   const same = [...save.querySelectorAll<HTMLElement>('.menu-item')].find((item) => item.querySelector('b')?.textContent === samePlace)!;
   const bar = h('header', { class: 'top' },
     h('span', { class: 'brand' }, 'Knead'),
-    iconButton('open', 'Open a CAD, Rhino or Knead file (O)', open, 'Open'), galleryMenu(app), recentMenu(app), save, picker,
+    iconButton('open', 'Open a CAD, Rhino or Knead file, or an image (O)', open, 'Open'), galleryMenu(app), recentMenu(app), save, picker,
     h('span', { class: 'rule' }), undo, redo, h('span', { class: 'rule' }), play, step, rest,
     h('span', { class: 'spacer' }), name, unit, h('span', { class: 'spacer' }),
     ...foldable(
       iconButton('fit', 'Fit everything (Shift+F; F: what is selected)', () => app.viewer.fitAll()), four,
       iconButton('lab', 'Basis functions and Gramians (L)', () => void openLab(app)),
+      iconButton('image', 'Snakes: contours in an image', () => void openSnakes(app)),
       iconButton('theme', 'Light or dark', () => app.setTheme(app.theme === 'dark' ? 'light' : 'dark')),
       iconButton('tour', 'Guided tour, two minutes', () => toggleTour(app)),
       iconButton('help', 'Shortcuts (?)', () => toggleShortcuts(app))));

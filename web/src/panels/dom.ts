@@ -61,6 +61,9 @@ const paths: Record<string, string> = {
   turn: 'M19 8a8 8 0 10.500 7M19 3v5h-5',
   lab: 'M3 19c5 0 4-14 9-14s4 14 9 14M3 19h18M3 10c3 0 3 9 6 9M21 10c-3 0-3 9-6 9',
   dock: 'M4 5h16v14H4zM4 13h16',
+  ellipse: 'M12 6c5 0 9 2.700 9 6s-4 6-9 6-9-2.700-9-6 4-6 9-6z',
+  volcano: 'M3 20l6-11h6l6 11zM12 6V3M8 6L6.500 4M16 6l1.500-2',
+  image: 'M4 5h16v14H4zM4 16l5-5 4 4 3-3 4 4M16 9.500h.5',
   scale: 'M4 20L20 4M14 4h6v6M10 20H4v-6',
 };
 

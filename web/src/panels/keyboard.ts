@@ -5,6 +5,7 @@ import type { App } from './app';
 import { toggleShortcuts } from './chrome';
 import { openLab } from './lab/door';
 import { toggleSection } from './section';
+import { snakesAreOpen } from './snakes/door';
 import { look, toggleParallel, toggleTurntable } from './views';
 
 export function listenToKeys(app: App): void {
@@ -14,7 +15,7 @@ export function listenToKeys(app: App): void {
   window.addEventListener('blur', () => app.compare(false));
   document.addEventListener('keydown', (event) => {
     const target = event.target as HTMLElement;
-    if (target.closest('input[type=text], textarea')) return;
+    if (target.closest('input[type=text], textarea') || snakesAreOpen()) return;
     if (handle(app, event)) event.preventDefault();
   });
 }

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "knead/session/snake_script.hpp"
+
+namespace knead::snakes {
+
+/// What the user's hand draws at: a point of one of the snakes.
+struct Hand {
+  std::size_t snake = 0;
+  SnakeSpring spring = {};
+};
+
+/// How snakes are drawn: points in single precision, in pixels.
+struct Lines {
+  std::vector<float> points;            ///< x, y, parameter (0 to 1) of places along all contours
+  std::vector<std::uint32_t> offsets;   ///< where each begins among them, and their end
+  std::vector<float> net;               ///< x, y of all control points that can be moved
+  std::vector<std::uint32_t> net_from;  ///< likewise
+};
+
+/// An image and the snakes in it, each from where it starts to where it is.
+class Room {
+ public:
+  /// Forgets the snakes and the mask.
+  [[nodiscard]] Expected<void> set_image(Image image);
+  void set_mask(std::optional<Image> mask);
+  /// The snakes of a script whose starts stand in the one before go on from where they are, under the new settings; the
+  /// others begin, as all do with `again`. On failure everything stays.
+  [[nodiscard]] Expected<void> set_script(std::string_view json, bool again);
+  /// Some iterations of all snakes that do not rest.
+  [[nodiscard]] Expected<void> advance(int iterations);
+  /// Those that rest, or have made all their iterations, may go on.
+  [[nodiscard]] Expected<void> wake();
+  /// The hand's spring, until it lets go.
+  [[nodiscard]] Expected<void> pull(const std::optional<Hand>& hand);
+  [[nodiscard]] Expected<void> move_point(std::size_t snake, int point, double x, double y);
+
+  [[nodiscard]] const std::optional<Image>& image() const { return image_; }
+  /// Whether nothing is left to do: all rest or have made their iterations.
+  [[nodiscard]] bool ended() const { return !run_ || run_->ended(); }
+  [[nodiscard]] std::vector<SnakeResult> results() const;
+  [[nodiscard]] Lines lines() const;
+  /// Q at the pixels, from black at its smallest to white at its largest.
+  [[nodiscard]] std::vector<std::uint8_t> energy() const;
+
+ private:
+  struct One {
+    SnakeStart start;
+    SnakeSettings settings;
+    int earlier = 0;  ///< iterations before it was changed last
+  };
+  /// Where one is to go on.
+  struct Moved {
+    One one;
+    Curve curve;
+  };
+  [[nodiscard]] Expected<Moved> begun(const SnakeScript& script, const SnakeStart& start) const;
+  [[nodiscard]] Expected<Moved> goes_on(const One& before, SnakeResult now, const SnakeScript& script,
+                                        const SnakeStart& start) const;
+  /// Its settings with the hand's spring, if it is this one that is pulled.
+  [[nodiscard]] SnakeSettings settings_now(std::size_t snake) const;
+  [[nodiscard]] Expected<void> change(std::size_t snake);
+
+  std::optional<Image> image_ = {}, mask_ = {};
+  std::optional<ImagePotential> potential_ = {};
+  ImagePotentialSettings energy_ = {};
+  std::vector<One> snakes_ = {};
+  std::optional<Snakes> run_ = {};
+  std::optional<Hand> hand_ = {};
+};
+
+/// A grey image of pixels with four bytes each, as the command line makes one; the fourth does not count.
+[[nodiscard]] Image grey_of(std::span<const std::uint8_t> rgba, int width, int height);
+
+}  // namespace knead::snakes

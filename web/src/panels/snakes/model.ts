@@ -1,0 +1,210 @@
+import { EngineError } from '../../engine/session_types';
+import type { App } from '../app';
+import { SnakeClient } from './client';
+import { download, greyImage, openImage, type Opened } from './files';
+import type { ContourKind, Snakes } from './module';
+import { type Place, type Preset, presetOf, presets, type Script, scriptText, type Spring, type Start, type Volcano } from './script';
+
+export const tools = ['draw', 'ellipse', 'points', 'pull', 'volcano'] as const;
+export type Tool = (typeof tools)[number];
+
+const none: Snakes = { states: [], ended: true, points: new Float32Array(), offsets: new Uint32Array([0]), net: new Float32Array(), netFrom: new Uint32Array([0]) };
+
+/** An image, the snakes in it, and what the user has chosen. */
+export class SnakeModel {
+  readonly client = new SnakeClient();
+  /** Drawn anew on these. */
+  readonly onChange: (() => void)[] = [];
+  /** Another image. */
+  onImage: () => void = () => {};
+  image: Opened | null = null;
+  mask: string | null = null;
+  energy: OffscreenCanvas | null = null;
+  snakes: Snakes = none;
+  running = false;
+  tool: Tool = 'draw';
+  /** Of what is drawn by hand. */
+  closed = true;
+  /** Springs stay where the hand lets go. */
+  keepSprings = false;
+  preset: Preset = presets[0]!;
+  spring = presets[0]!.spring;
+  selected = 0;
+  script: Script = { ...presetOf(presets[0]!), mask: '', volcanoes: [], snakes: [] };
+
+  constructor(private readonly app: App) {
+    this.client.onSnakes = (snakes, running) => {
+      this.snakes = snakes;
+      this.running = running;
+      this.selected = Math.min(this.selected, Math.max(0, snakes.states.length - 1));
+      this.changed();
+    };
+    this.client.onError = (error) => this.tell(new EngineError(error));
+  }
+
+  close(): void {
+    this.client.close();
+    this.image?.bitmap.close();
+  }
+
+  changed(): void {
+    for (const draw of this.onChange) draw();
+  }
+
+  tell(error: unknown): void {
+    const info = error instanceof EngineError ? error.info : null;
+    const text = info ? `${info.where && /^[a-z_]+$/.test(info.where) ? `${info.where}: ` : ''}${info.what}` : error instanceof Error ? error.message : String(error);
+    this.app.notify({ kind: 'error', text: text.charAt(0).toUpperCase() + text.slice(1), ...(info?.remedy ? { remedy: info.remedy } : {}) });
+  }
+
+  async open(file: File): Promise<void> {
+    if (this.script.snakes.length > 0) {
+      const choice = await this.app.ask({ title: 'Open another image?', text: `The snakes in “${this.image?.name ?? ''}” are lost unless you save them.`, choices: [{ id: 'open', label: 'Open it' }] });
+      if (choice !== 'open') return;
+    }
+    const image = await openImage(file);
+    await this.client.ask({ kind: 'image', pixels: image.pixels });
+    this.image?.bitmap.close();
+    Object.assign(this, { image, mask: null, energy: null, snakes: none, selected: 0 });
+    this.script = { ...this.script, mask: '', volcanoes: [], snakes: [] };
+    if (image.reduced) this.app.notify({ kind: 'info', text: `“${image.name}” has 16 bits a channel: the browser reduces them to 8. The command line keeps all 16.` });
+    this.onImage();
+    this.changed();
+  }
+
+  async openMask(file: File): Promise<void> {
+    const mask = await openImage(file);
+    await this.client.ask({ kind: 'mask', pixels: mask.pixels });
+    mask.bitmap.close();
+    this.mask = mask.name;
+    const image = this.script.image.distance === 0 ? { ...this.script.image, distance: 0.1 } : this.script.image;
+    if (!(await this.apply({ ...this.script, mask: mask.name, image }))) this.mask = null;
+  }
+
+  /** Another script; false, and nothing has changed, if the engine refuses it. */
+  async apply(script: Script, again = false): Promise<boolean> {
+    return (await this.refusal(script, again, true)) === null;
+  }
+
+  /** Why the engine refuses a script; null if it takes it. */
+  async refusal(script: Script, again = false, tell = false): Promise<string | null> {
+    try {
+      if (script.snakes.length > 0) await this.client.ask({ kind: 'script', text: scriptText(script), again });
+      else if (this.script.snakes.length > 0) await this.client.ask({ kind: 'image', pixels: this.image!.pixels });
+      this.script = script;
+      if (script.snakes.length === 0) this.snakes = none;
+      if (this.energy) await this.showEnergy(true);
+      this.changed();
+      return null;
+    } catch (error) {
+      if (tell) this.tell(error);
+      return error instanceof EngineError ? [error.info.what, error.info.remedy].filter(Boolean).join(': ') : String(error);
+    }
+  }
+
+  async choose(preset: Preset): Promise<void> {
+    const { distance } = this.script.image, { image, settings } = presetOf(preset);
+    this.preset = preset;
+    this.spring = preset.spring;
+    if (await this.apply({ ...this.script, image: { ...image, distance }, settings })) await this.wake();
+  }
+
+  async add(start: Start): Promise<void> {
+    if (await this.apply({ ...this.script, snakes: [...this.script.snakes, start] })) {
+      this.selected = this.script.snakes.length - 1;
+      this.changed();
+    }
+  }
+
+  async remove(k: number): Promise<void> {
+    await this.apply({ ...this.script, snakes: this.script.snakes.filter((_, i) => i !== k) });
+  }
+
+  async setVolcanoes(volcanoes: Volcano[]): Promise<void> {
+    if (this.script.snakes.length > 0) await this.apply({ ...this.script, volcanoes });
+    else {
+      this.script = { ...this.script, volcanoes };
+      this.changed();
+    }
+  }
+
+  async setSprings(k: number, springs: Spring[]): Promise<void> {
+    const { springs: _, ...start } = this.script.snakes[k]!;
+    await this.apply({ ...this.script, snakes: this.script.snakes.map((s, i) => (i !== k ? s : springs.length > 0 ? { ...start, springs } : start)) });
+  }
+
+  async run(on: boolean): Promise<void> {
+    if (this.script.snakes.length === 0) {
+      this.app.notify({ kind: 'info', text: 'Draw a snake in the image first.' });
+      return;
+    }
+    await this.attempt(() => this.client.ask({ kind: 'run', on }));
+  }
+
+  /** Goes on under new settings if it was going, or had come to rest. */
+  private async wake(): Promise<void> {
+    if (this.running) await this.run(true);
+  }
+
+  async again(): Promise<void> {
+    await this.apply(this.script, true);
+  }
+
+  async pull(snake: number, at: number, to: Place): Promise<void> {
+    await this.attempt(() => this.client.ask({ kind: 'pull', pull: { snake, at, to, strength: this.spring } }));
+  }
+
+  async letGo(): Promise<void> {
+    await this.attempt(() => this.client.ask({ kind: 'pull', pull: null }));
+  }
+
+  async move(snake: number, point: number, to: Place): Promise<void> {
+    await this.attempt(() => this.client.ask({ kind: 'move', snake, point, to }));
+  }
+
+  /** What attracts, as a picture over the image. */
+  async showEnergy(on: boolean): Promise<void> {
+    if (on && this.script.snakes.length === 0) {
+      this.app.notify({ kind: 'info', text: 'The energy is computed with the first snake: draw one.' });
+      return;
+    }
+    await this.attempt(async () => {
+      this.energy = on ? greyImage((await this.client.ask({ kind: 'picture', of: 'energy' })).picture!) : null;
+      this.changed();
+    });
+  }
+
+  async saveContours(as: ContourKind): Promise<void> {
+    await this.save(async (stem) => {
+      const { text } = await this.client.ask({ kind: 'contours', as, image: this.image!.name });
+      download(text!, `${stem}-contours.${as}`, { json: 'application/json', csv: 'text/csv', svg: 'image/svg+xml' }[as]);
+    });
+  }
+
+  async saveMask(): Promise<void> {
+    await this.save(async (stem) => {
+      const { picture } = await this.client.ask({ kind: 'picture', of: 'mask' });
+      download(await greyImage(picture!).convertToBlob({ type: 'image/png' }), `${stem}-mask.png`, 'image/png');
+    });
+  }
+
+  async saveScript(): Promise<void> {
+    await this.save((stem) => Promise.resolve(download(`${scriptText(this.script, 2)}\n`, `${stem}-snakes.json`, 'application/json')));
+  }
+
+  private async save(act: (stem: string) => Promise<void>): Promise<void> {
+    if (this.script.snakes.length === 0) {
+      this.app.notify({ kind: 'info', text: 'There is no snake to save yet: draw one in the image.' });
+      return;
+    }
+    await this.attempt(() => act(this.image!.name.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'image'));
+  }
+
+  private async attempt(act: () => Promise<unknown>): Promise<void> {
+    try {
+      await act();
+    } catch (error) {
+      this.tell(error);
+    }
+  }
+}
