@@ -8,6 +8,7 @@
 #include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
+#include "knead/scene/lattice.hpp"
 #include "knead/session/command_json.hpp"
 #include "studio_assembly.hpp"
 #include "studio_bodies.hpp"
@@ -306,6 +307,17 @@ KNEAD_EXPORT(knead_body_picture) int knead_body_picture(int body) {
   const auto& bodies = held().session->state().bodies;
   if (body < 0 || body >= static_cast<int>(bodies.size())) return fail({ErrorKind::usage, "there is no such body"});
   auto picture = body_picture(bodies[static_cast<std::size_t>(body)], held().origin);
+  if (!picture) return fail(picture.error());
+  held().body = *std::move(picture);
+  return answer(body_json(held().body));
+}
+
+/// Likewise the block of the command `lattice` round the selected surfaces, with so many control points along x, y, z.
+KNEAD_EXPORT(knead_lattice_picture) int knead_lattice_picture(int x, int y, int z, double margin) {
+  if (!held().session) return without_session();
+  const auto lattice = lattice_around_selection(held().session->state(), margin, {3, 3, 3}, {x, y, z});
+  if (!lattice) return fail(lattice.error());
+  auto picture = volume_picture(lattice->rest(), held().origin);
   if (!picture) return fail(picture.error());
   held().body = *std::move(picture);
   return answer(body_json(held().body));

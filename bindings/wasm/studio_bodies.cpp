@@ -36,20 +36,25 @@ std::vector<double> lines_across(const KnotVector& knots) {
   return places;
 }
 
-Expected<void> draw(const BodyShapes<1>& shapes, const Point& origin, BodyPicture& to) {
-  const Curve& curve = *shapes.current;
+double fraction(const KnotVector& knots, double u) {
+  const Interval domain = knots.domain();
+  return (u - domain.lower) / (domain.upper - domain.lower);
+}
+
+Expected<void> draw(const Curve& curve, const Point& origin, BodyPicture& to) {
   const std::vector<double> places = along(curve.knots(0), curve_chords);
   const auto points = evaluate_grid<1>(curve, {std::span<const double>(places)});
   if (!points) return std::unexpected(points.error());
   for (Eigen::Index k = 0; k + 1 < points->points().rows(); ++k) {
-    append(to.lines, points->points().row(k).transpose(), origin);
-    append(to.lines, points->points().row(k + 1).transpose(), origin);
+    for (const Eigen::Index end : {k, k + 1}) {
+      append(to.lines, points->points().row(end).transpose(), origin);
+      append(to.at, Point(fraction(curve.knots(0), places[static_cast<std::size_t>(end)]), 0, 0), Point::Zero());
+    }
   }
   return {};
 }
 
-Expected<void> draw(const BodyShapes<3>& shapes, const Point& origin, BodyPicture& to) {
-  const Volume& volume = *shapes.current;
+Expected<void> draw(const Volume& volume, const Point& origin, BodyPicture& to) {
   for (std::size_t d = 0; d < 3; ++d) {
     std::array<std::vector<double>, 3> places;
     for (std::size_t e = 0; e < 3; ++e) {
@@ -73,6 +78,11 @@ Expected<void> draw(const BodyShapes<3>& shapes, const Point& origin, BodyPictur
           for (const std::size_t end : {k, k + 1}) {
             at[d] = end;
             append(to.lines, row(at), origin);
+            Point share;
+            for (std::size_t g = 0; g < 3; ++g) {
+              share[static_cast<Eigen::Index>(g)] = fraction(volume.knots()[g], places[g][at[g]]);
+            }
+            append(to.at, share, Point::Zero());
           }
         }
       }
@@ -82,10 +92,12 @@ Expected<void> draw(const BodyShapes<3>& shapes, const Point& origin, BodyPictur
 }
 
 template <int D>
-void draw_net(const BodyShapes<D>& shapes, const Point& origin, std::vector<float>& to) {
-  const auto net = shapes.current->net();
-  const Points& points = shapes.current->control_points();
-  for (int k = 0; k < shapes.current->size(); ++k) {
+void draw_net(const Spline<D>& spline, const Point& origin, BodyPicture& picture) {
+  std::vector<float>& to = picture.net;
+  const auto net = spline.net();
+  const Points& points = spline.control_points();
+  for (int k = 0; k < spline.size(); ++k) {
+    append(picture.points, points.row(k).transpose(), origin);
     std::array<int, D> at;
     for (int d = D - 1, rest = k; d >= 0; --d) {
       at[static_cast<std::size_t>(d)] = rest % net[static_cast<std::size_t>(d)];
@@ -103,18 +115,27 @@ void draw_net(const BodyShapes<D>& shapes, const Point& origin, std::vector<floa
   }
 }
 
-}  // namespace
-
-Expected<BodyPicture> body_picture(const SceneBody& body, const Point& origin) {
+template <int D>
+Expected<BodyPicture> picture_of(const Spline<D>& spline, const Point& origin) {
   BodyPicture picture;
-  auto done = std::visit([&](const auto& shapes) { return draw(shapes, origin, picture); }, body.shapes);
-  if (!done) return std::unexpected(done.error());
-  std::visit([&](const auto& shapes) { draw_net(shapes, origin, picture.net); }, body.shapes);
+  if (auto done = draw(spline, origin, picture); !done) return std::unexpected(done.error());
+  draw_net(spline, origin, picture);
   return picture;
 }
 
+}  // namespace
+
+Expected<BodyPicture> body_picture(const SceneBody& body, const Point& origin) {
+  return std::visit([&](const auto& shapes) { return picture_of(*shapes.current, origin); }, body.shapes);
+}
+
+Expected<BodyPicture> volume_picture(const Volume& volume, const Point& origin) { return picture_of(volume, origin); }
+
 std::string body_json(const BodyPicture& picture) {
-  return "{\"buffers\":" + buffers_json({{"lines", picture.lines}, {"net", picture.net}}) + "}";
+  return "{\"buffers\":" +
+         buffers_json(
+             {{"lines", picture.lines}, {"at", picture.at}, {"net", picture.net}, {"points", picture.points}}) +
+         "}";
 }
 
 }  // namespace knead::studio

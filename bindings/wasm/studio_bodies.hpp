@@ -9,13 +9,18 @@ namespace knead::studio {
 
 /// A curve or a volume to draw; places relative to the requested origin, 3 numbers each.
 struct BodyPicture {
-  std::vector<float> lines;  ///< ends of chords: of a curve, or of the knot lines on the sides of a volume
-  std::vector<float> net;    ///< ends of the legs of the control polygon; of a volume those on its sides
+  std::vector<float> lines;   ///< ends of chords: of a curve, or of the knot lines on the sides of a volume
+  std::vector<float> at;      ///< where these ends are, three fractions of the domain each; of a curve the first counts
+  std::vector<float> net;     ///< ends of the legs of the control polygon; of a volume those on its sides
+  std::vector<float> points;  ///< the control points, in their order
 };
 
 /// 24 chords per span of a curve, 6 of a volume's knot lines, of which at most 12 per direction are drawn. Errors: a
 /// denominator that is not positive (numerical).
 [[nodiscard]] Expected<BodyPicture> body_picture(const SceneBody& body, const Point& origin);
+
+/// The same of a volume alone.
+[[nodiscard]] Expected<BodyPicture> volume_picture(const Volume& volume, const Point& origin);
 
 /// {"buffers": …}
 [[nodiscard]] std::string body_json(const BodyPicture& picture);

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "knead/scene/lattice.hpp"
 #include "knead/scene/mask.hpp"
 #include "knead/spline/knot_removal.hpp"
 
@@ -116,6 +117,21 @@ Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
   }
   if (auto put = mask.put_on(s); !put) return std::unexpected(put.error());
   return done;
+}
+
+Expected<Lattice> lattice_around_selection(const Scene& scene, double margin, const std::array<int, 3>& degree,
+                                           const std::array<int, 3>& net) {
+  if (scene.selection().empty()) return input_error("no surface is selected", "surface", "select one");
+  BoundingBox box;
+  bool first = true;
+  for (const int index : scene.selection()) {
+    const Points& points = scene.surfaces[static_cast<std::size_t>(index)].current->control_points();
+    const Point lower = points.colwise().minCoeff().transpose(), upper = points.colwise().maxCoeff().transpose();
+    box.lower = first ? lower : Point(box.lower.cwiseMin(lower));
+    box.upper = first ? upper : Point(box.upper.cwiseMax(upper));
+    first = false;
+  }
+  return Lattice::create(box, margin, degree, net);
 }
 
 }  // namespace knead

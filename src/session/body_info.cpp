@@ -27,6 +27,7 @@ void describe(BodyInfo& b, Fields& fields) {
   fields.add("damping", b.damping);
   fields.add("hold", b.hold, {.help = "outer layers of control points that do not move"});
   fields.add("pins", b.pins, {.help = "numbers of pinned control points"});
+  fields.add("sides", b.sides, {.help = "which of them are held: `u0`, `u1` of a curve, to `w1` of a volume"});
   fields.add("holds", b.holds, {.help = "how many sides and points are held besides"});
   fields.add("moved", b.moved, {.help = "number of control points that are not as they were made"});
   fields.add("displacement", b.displacement, {.help = "the largest", .unit = Unit::length});
@@ -56,6 +57,11 @@ std::vector<BodyInfo> bodies_of(const Scene& scene) {
     info.damping = b.damping;
     info.hold = b.hold_rows;
     info.pins.assign(b.pins.begin(), b.pins.end());
+    for (const KeptBodyHold& kept : b.holds) {
+      const auto* hold = std::get_if<SideHold>(&kept.hold);
+      if (hold == nullptr) continue;
+      info.sides.push_back({"uvw"[hold->side.direction], hold -> side.upper ? '1' : '0'});
+    }
     info.holds = static_cast<int>(b.holds.size());
     info.moved = moved_control_points(b);
     info.displacement = largest_displacement(b);

@@ -60,6 +60,7 @@ struct BodyInfo {
   double mass = 0, damping = 0;
   int hold = 0;
   std::vector<int> pins;
+  std::vector<std::string> sides = {};
   int holds = 0, moved = 0;
   double displacement = 0;
 };

@@ -175,5 +175,38 @@ TEST(Command, ALatticeCarriesTheSurfaceAlongAsOneStepOfUndo) {
   EXPECT_EQ(refusal(session, R"({"do":"lattice","steps":0})").where, "steps");
 }
 
+TEST(Command, AControlPointOfALatticeIsMovedByHandAndTheSurfaceFollows) {
+  Session session = fresh();
+  run(session, {sheet});
+  const Points before = first(session).current->control_points();
+  // All points of the block: the surface is carried along as a rigid body, to rounding.
+  std::string all;
+  for (int k = 0; k < 64; ++k) all += (k > 0 ? "," : "") + std::to_string(k);
+  run(session, {R"({"do":"lattice","net":[4,4,4],"which":[)" + all + R"(],"by":[0.1,0,-0.2]})"});
+  Points carried = before;
+  carried.rowwise() += Eigen::RowVector3d(0.1, 0, -0.2);
+  EXPECT_LT((first(session).current->control_points() - carried).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_EQ(first(session).rest, first(session).current);
+  run(session, {R"({"do":"undo"})"});
+  // One point, twice named: x moves by N_i(u) N_j(v) N_k(w) times the move.
+  run(session, {R"({"do":"lattice","net":[4,4,4],"degree":[3,3,3],"margin":0.25,"which":[21,21],"by":[0,0,1]})"});
+  const Points after = first(session).current->control_points();
+  const Point lower = before.colwise().minCoeff().transpose(), upper = before.colwise().maxCoeff().transpose();
+  const double margin = 0.25 * (upper - lower).norm();
+  const auto bernstein = [](double u) { return 3 * u * (1 - u) * (1 - u); };  // number 1 of four cubic ones
+  for (Eigen::Index i = 0; i < before.rows(); ++i) {
+    double share = 1;
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      share *= bernstein((before(i, d) - lower[d] + margin) / (upper[d] - lower[d] + 2 * margin));
+    }
+    EXPECT_NEAR(after(i, 2) - before(i, 2), share, 1e-14);
+    EXPECT_EQ(after(i, 0), before(i, 0));
+  }
+  EXPECT_EQ(refusal(session, R"({"do":"lattice","net":[4,4,4],"which":[64],"by":[0,0,1]})").where, "which[0]");
+  EXPECT_EQ(refusal(session, R"({"do":"lattice","which":[1]})").where, "by");
+  EXPECT_EQ(refusal(session, R"({"do":"lattice","by":[0,0,1]})").where, "which");
+  EXPECT_EQ(refusal(session, R"({"do":"lattice","which":[1],"by":[0,0,1],"hold":["u0"]})").where, "hold");
+}
+
 }  // namespace
 }  // namespace knead

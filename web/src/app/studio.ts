@@ -10,7 +10,7 @@ import type { Context, Trim } from '../engine/context';
 import { plain } from '../engine/displays';
 import type { Frame, PictureSettings } from '../engine/protocol';
 import { selected } from '../engine/session_state';
-import { type Command, EngineError, type EngineErrorInfo, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
+import { type Command, EngineError, type EngineErrorInfo, type LatticeSettings, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
 import type { App } from '../panels/app';
 import { openSnakes } from '../panels/snakes/door';
 import { Hand } from '../tools/hand';
@@ -288,7 +288,13 @@ export class Studio implements App {
     const asked: PictureSettings['combs'] = combs === 'none' || combs === 'sections' ? undefined : { curves: [on('u'), on('v')], teeth: combTeeth };
     const display = colour ? { display: colour.name, settings: colourSettings[colour.name] ?? {} } : plain;
     const sectionCombs = combs === 'sections' ? sectionPlanes(this.viewer) : undefined;
-    void this.attempt(async () => void (await this.client.pictures({ detail, display, opened, combs: asked, sectionCombs, windows: this.closer.windows() })));
+    void this.attempt(async () => void (await this.client.pictures({ detail, display, opened, combs: asked, sectionCombs, windows: this.closer.windows(), ...(this.hand.points.lattice ? { lattice: this.hand.points.lattice } : {}) })));
+  }
+
+  showLattice(lattice: LatticeSettings | null): void {
+    this.hand.points.lattice = lattice;
+    this.hand.points.choose([]);
+    this.askForPictures(false);
   }
 
   private comparing = false;

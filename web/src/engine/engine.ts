@@ -3,7 +3,7 @@ import type { Assembly, Context, FaceEdge, Trim } from './context';
 import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } from './generated';
 import { type DisplayChoice, type DisplayInfo, type DisplayRange, plain } from './displays';
 import {
-  type BodyPicture, coefficients, type Combs, type Command, EngineError, type MaterialSamples, type MeshFormat, type Picture, type PictureWindow,
+  type BodyPicture, coefficients, type Combs, type Command, EngineError, type LatticeSettings, type MaterialSamples, type MeshFormat, type Picture, type PictureWindow,
   type SectionPlane, type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture, type Vector3,
 } from './session_types';
 import { start } from './wasi';
@@ -31,6 +31,7 @@ interface Exports {
   knead_displays(): number;
   knead_range(): number;
   knead_body_picture(body: number): number;
+  knead_lattice_picture(x: number, y: number, z: number, margin: number): number;
   knead_combs(surface: number, alongU: number, alongV: number, teeth: number): number;
   knead_section_combs(surface: number, x: number, y: number, z: number, offset: number): number;
   knead_picture(surface: number, detail: number, opened: number, s0: number, t0: number, s1: number, t1: number, tolerance: number): number;
@@ -240,9 +241,18 @@ export class Engine {
 
   /** A curve or a volume, by its place in the list of the state. */
   bodyPicture(body: number): BodyPicture {
-    const { buffers } = this.json(this.wasm.knead_body_picture(body)) as { buffers: BufferTable };
+    return this.drawnBody(this.wasm.knead_body_picture(body));
+  }
+
+  /** The block of the command `lattice` round the selected surfaces. */
+  latticePicture({ net, margin }: LatticeSettings): BodyPicture {
+    return this.drawnBody(this.wasm.knead_lattice_picture(...net, margin));
+  }
+
+  private drawnBody(succeeded: number): BodyPicture {
+    const { buffers } = this.json(succeeded) as { buffers: BufferTable };
     const { floats } = this.buffers(buffers);
-    return { lines: floats('lines'), net: floats('net') };
+    return { lines: floats('lines'), at: floats('at'), net: floats('net'), points: floats('points') };
   }
 
   /** The shape of a tool, by its place in the list of the state. */

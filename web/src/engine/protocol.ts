@@ -1,9 +1,10 @@
 import type { Assembly, Context, Trim } from './context';
 import type { DisplayChoice, DisplayInfo, DisplayRange } from './displays';
-import type { BodyPicture, Combs, Command, EngineErrorInfo, MaterialSamples, MeshFormat, Picture, PictureWindow, SectionPlane, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
+import type { BodyPicture, Combs, Command, EngineErrorInfo, LatticeSettings, MaterialSamples, MeshFormat, Picture, PictureWindow, SectionPlane, SessionInfo, StepInfo, ToolPicture, Vector3 } from './session_types';
 
 /** How surfaces are drawn. */
 export interface PictureSettings {
+  lattice?: LatticeSettings;
   detail: number;
   display: DisplayChoice;
   /** The shapes as they were opened, for comparison. */
@@ -65,6 +66,8 @@ export interface Frame {
   combs: Combs[];
   /** Curves and volumes, in the order of the state. */
   bodies: BodyPicture[];
+  /** The block of the command `lattice`, where it is shown. */
+  lattice: BodyPicture | null;
   /** Of tools that are new or have changed shape since the previous frame, by name. */
   toolPictures: Record<string, ToolPicture>;
   /** Of the opened file; only in the first frame of a session. */

@@ -58,8 +58,18 @@ export type SectionPlane = readonly [x: number, y: number, z: number, offset: nu
 
 /** A curve or a volume to draw (bindings/wasm/studio_bodies.hpp): ends of lines, relative to the session's origin. */
 export interface BodyPicture {
+  /** Ends of chords, and three fractions of the domain for each. */
   lines: Float32Array;
+  at: Float32Array;
+  /** Ends of the legs of the control polygon. */
   net: Float32Array;
+  points: Float32Array;
+}
+
+/** The block of the command `lattice` that is shown. */
+export interface LatticeSettings {
+  net: [number, number, number];
+  margin: number;
 }
 
 /** Curvature combs of a surface (bindings/wasm/studio_combs.hpp); places relative to the session's origin. */

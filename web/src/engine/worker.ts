@@ -159,6 +159,7 @@ function sendFrame(engine: Engine): void {
     ...sectionCombs.map((plane) => engine.sectionCombs(k, plane)),
   ]);
   const bodies = state.bodies.map((_, k) => engine.bodyPicture(k));
+  const lattice = settings.lattice && state.selection.length > 0 ? engine.latticePicture(settings.lattice) : null;
   const toolPictures = newToolPictures(engine, state.tools);
   if (state.steps < shownSteps) shownSteps = 0;
   const firstStep = Math.max(shownSteps, state.steps - 400);
@@ -166,7 +167,7 @@ function sendFrame(engine: Engine): void {
   shownSteps = state.steps;
   frameDrawn = false;
   const frame = {
-    state, pictures, range, late, combs, bodies, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
+    state, pictures, range, late, combs, bodies, lattice, toolPictures, firstStep, steps, origin: engine.origin, playing: playing !== 'no', moved: movedBy(engine, state),
     computeTime, pictureTime: performance.now() - start, memory: engine.memorySize, unkept,
     ...(assemblyDue ? { assembly: engine.assembly() } : {}),
   };
@@ -176,7 +177,7 @@ function sendFrame(engine: Engine): void {
     [
       ...pictures.flatMap((p) => [p.positions, p.normals, p.values, p.s, p.t, p.linesU, p.linesV, p.net, p.held]),
       ...combs.flatMap((c) => [c.places, c.vectors, c.joined]),
-      ...bodies.flatMap((b) => [b.lines, b.net]),
+      ...[...bodies, ...(lattice ? [lattice] : [])].flatMap((b) => [b.lines, b.at, b.net, b.points]),
       ...Object.values(toolPictures).flatMap((p) => [p.positions, p.normals, p.indices]),
     ].map((a) => a.buffer as ArrayBuffer),
   );

@@ -118,23 +118,28 @@ function materialFields(app: App): (Node | null)[] {
 
 /** Control points: which are chosen, their positions, the displacement, their weights. */
 export function pointsPanel(app: App): HTMLElement {
-  const key = (a: App) => [[...a.hand.points.chosen], a.hand.points.lock, a.hand.points.net, a.changes, unitOf(a.state)];
+  const key = (a: App) => [[...a.hand.points.chosen], a.hand.points.lock, a.hand.points.net, a.hand.points.kind, a.hand.points.lattice, a.changes, unitOf(a.state)];
   return panel(app, 'Control points', key, () => {
     const { points } = app.hand;
     const [m, n] = points.net;
     const count = points.chosen.size;
     const all = [...points.chosen];
+    const plain = points.kind === 'surface', block = points.lattice !== null;
     const choosing = row(
       small('All', 'Choose all control points', () => points.choose(Array.from({ length: m * n }, (_, k) => k))),
-      small('Row u', 'The rows along u that hold the chosen points', () => points.chooseRows('u')),
-      small('Row v', 'The rows along v that hold the chosen points', () => points.chooseRows('v')),
+      plain ? small('Row u', 'The rows along u that hold the chosen points', () => points.chooseRows('u')) : null,
+      plain ? small('Row v', 'The rows along v that hold the chosen points', () => points.chooseRows('v')) : null,
       small('None', 'Choose none', () => points.choose([])),
+      ...latticeFields(app),
     );
-    if (count === 0) {
-      return [note('Click a point; Shift adds, a box takes many, a double click its row. Drag what is chosen; X, Y, Z or N while dragging keep to an axis or the normal.'), choosing];
+    if (block) {
+      return [note('Drag the points of the block: the selected surfaces follow. After each drag it is put round their new shape.'), choosing];
     }
-    const surface = app.viewer.surfaces[points.surface ?? -1]?.picture;
-    const place = surface ? all.reduce((sum, k) => sum.add(new THREE.Vector3().fromArray(surface.net, 3 * k)), new THREE.Vector3())
+    if (count === 0) {
+      return [note(plain ? 'Click a point; Shift adds, a box takes many, a double click its row. Drag what is chosen; X, Y, Z or N while dragging keep to an axis or the normal.' : 'Click a point; Shift adds, a box takes many. Drag what is chosen; X, Y or Z while dragging keep to an axis.'), choosing];
+    }
+    const { places } = points;
+    const place = places ? all.reduce((sum, k) => sum.add(new THREE.Vector3().fromArray(places, 3 * k)), new THREE.Vector3())
       .divideScalar(count).add(new THREE.Vector3(...app.viewer.origin)) : new THREE.Vector3();
     const run = (command: Partial<PointsCommand>) => void app.execute([{ do: 'points', ...points.which(), ...command }]);
     const along = (axis: number) => (value: number) =>
@@ -142,19 +147,36 @@ export function pointsPanel(app: App): HTMLElement {
     const by = [0, 0, 0, 0];
     const delta = ['x', 'y', 'z', 'normal'].map((name, k) => numberInput(`Move by ${name}`, 0, (v) => void (by[k] = v), length(app)));
     return [
-      note(count === 1 ? `Point ${Math.floor(all[0]! / n)}, ${all[0]! % n} of ${m} × ${n}` : `${count} of ${m} × ${n} points, their middle at`),
+      plain ? note(count === 1 ? `Point ${Math.floor(all[0]! / n)}, ${all[0]! % n} of ${m} × ${n}` : `${count} of ${m} × ${n} points, their middle at`)
+        : note(`${count === 1 ? `Point ${all[0]} of` : `${count} points of`} the ${points.kind}`),
       wide('At', row(...['x', 'y', 'z'].map((name, k) => numberInput(`Position ${name}`, place.getComponent(k), along(k), length(app))))),
       wide('Move', row(...delta.slice(0, 3)), 'Along x, y, z'),
-      field('Normal', row(delta[3]!, small('Move', 'Move the chosen points by these lengths', () => {
+      plain ? field('Normal', row(delta[3]!, small('Move', 'Move the chosen points by these lengths', () => {
         const normal = points.normalAt(place.clone().sub(new THREE.Vector3(...app.viewer.origin)));
         run({ by: new THREE.Vector3().fromArray(by).addScaledVector(normal, by[3]!).toArray() });
-      })), 'Along the normal of the surface'),
-      ...weightFields(app, all),
-      row(...(['x', 'y', 'z', 'normal'] as const).map((lock) => toggle(lock === 'normal' ? 'Normal' : lock.toUpperCase(), points.lock === lock,
+      })), 'Along the normal of the surface') : row(small('Move', 'Move the chosen points by these lengths', () => run({ by: [by[0]!, by[1]!, by[2]!] }))),
+      ...(plain ? weightFields(app, all) : []),
+      row(...(plain ? (['x', 'y', 'z', 'normal'] as const) : (['x', 'y', 'z'] as const)).map((lock) => toggle(lock === 'normal' ? 'Normal' : lock.toUpperCase(), points.lock === lock,
         () => points.setLock(lock), 'The next drag goes along this only'))),
       choosing,
     ];
   }, true, (a) => a.hand.mode === 'points');
+}
+
+/** The block round the selected surfaces, and how many points it has along x, y, z. */
+function latticeFields(app: App): (Node | null)[] {
+  const { points } = app.hand;
+  if (points.kind !== 'surface' && points.kind !== 'lattice') return [];
+  const { lattice } = points;
+  const set = (k: 0 | 1 | 2) => (value: number) => {
+    const net = [...lattice!.net] as [number, number, number];
+    net[k] = Math.min(12, Math.max(4, Math.round(value)));
+    app.showLattice({ ...lattice!, net });
+  };
+  return [
+    toggle('Lattice', lattice !== null, (on) => app.showLattice(on ? { net: [4, 4, 4], margin: 0.1 } : null), 'A block of space round the selected surfaces: dragging its points deforms what is in it'),
+    lattice ? field('Points', row(...([0, 1, 2] as const).map((k) => numberInput(`Points of the lattice along ${'xyz'[k]}`, lattice.net[k], set(k)))), 'Of the block along x, y, z: 4 to 12') : null,
+  ];
 }
 
 function weightFields(app: App, chosen: number[]): (Node | null)[] {

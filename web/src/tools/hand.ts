@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import { clay } from '../document/clay';
 import type { Command } from '../engine/session_types';
 import type { Viewport } from '../view/viewport';
+import { BodyHand } from './body_hand';
 import { BrushSize } from './brush_size';
 import { Brush, type BrushActions } from './brush';
 import { Edges } from './edges';
@@ -22,6 +23,7 @@ export class Hand {
   readonly size: BrushSize;
   readonly brush: Brush;
   readonly surfaceBrush: SurfaceBrush;
+  readonly bodies: BodyHand;
   readonly points: PointEditor;
   readonly paint: Paint;
   readonly edges: Edges;
@@ -38,14 +40,21 @@ export class Hand {
     const { settings } = this.brush;
     this.size = new BrushSize(viewer, settings, () => !this.active, () => host.changed());
     this.surfaceBrush = new SurfaceBrush(viewer, actions, () => settings.radius, (factor) => (settings.radius *= factor));
-    this.points = new PointEditor(viewer, { ...actions, changed: () => host.changed() });
+    this.bodies = new BodyHand(viewer, actions, (body) => this.selectBody(body));
+    this.points = new PointEditor(viewer, { ...actions, selectBody: (body) => this.selectBody(body), changed: () => host.changed() });
     this.paint = new Paint(viewer, () => this.brush.settings.radius, {
       execute: (commands) => host.execute(commands), select: actions.select,
       material: (surface, counts) => host.client.material(surface, counts),
     });
     this.edges = new Edges(viewer, actions.select, (surface) => host.client.faceEdges(surface), () => host.changed());
     this.measure = new Measure(viewer, host.client, () => host.changed());
-    this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool(), (viewport, event) => this.offerToConvert(viewport, event),
+    for (const viewport of viewer.viewports) this.bodies.listen(viewport); // before the tools see it
+    this.pointers = new Pointers(viewer.viewports, viewer.navigator, () => this.tool(), (viewport, event) => {
+      if (this.bodies.click(viewport, event)) return;
+      const surface = this.bodies.selected === null ? null : viewer.pick(viewport, event);
+      if (surface) void host.select(surface.surface);
+      else this.offerToConvert(viewport, event);
+    },
       () => viewer.context.choose(null), (viewport, event) => this.reach(viewport, event));
     for (const viewport of viewer.viewports) followGizmo(host, viewport);
     host.onChange.push(() => this.refresh());
@@ -60,6 +69,7 @@ export class Hand {
     this.tool().hover?.(null);
     for (const v of this.host.viewer.viewports) v.element.style.cursor = '';
     this.brush.mode = mode;
+    if (mode !== 'points' && this.points.lattice) this.host.showLattice(null);
     document.querySelector('.side')?.scrollTo({ top: 0 }); // where the panel of the mode is
     if (paintModes.includes(mode)) this.paint.kind = mode as PaintKind;
     this.host.changed();
@@ -67,14 +77,15 @@ export class Hand {
 
   /** Something that Esc would revert is under way. */
   get active(): boolean {
-    return [this.brush, this.surfaceBrush, this.points, this.paint].some((tool) => tool.active);
+    return [this.brush, this.surfaceBrush, this.bodies, this.points, this.paint].some((tool) => tool.active);
   }
 
   tool(): PointerTool {
     if (this.mode === 'points') return this.points;
-    if (this.mode === 'edges') return this.edges;
+    if (this.mode === 'edges') return this.bodies.selected === null ? this.edges : this.bodies;
     if (this.mode === 'measure') return this.measure;
     if (this.mode === 'brush') return this.surfaceBrush;
+    if ((this.mode === 'grab' || this.mode === 'look') && this.bodies.under) return this.bodies;
     return paintModes.includes(this.mode) ? this.paint : this.brush;
   }
 
@@ -95,6 +106,11 @@ export class Hand {
     this.points.refresh(this.mode === 'points');
     this.edges.refresh(this.mode === 'edges');
     void this.paint.refresh(this.mode === 'material', this.host.changes);
+  }
+
+  /** A curve or a volume, alone. */
+  private async selectBody(body: number): Promise<void> {
+    await this.host.execute([{ do: 'select', body: this.host.state!.bodies[body]!.id }]);
   }
 
   /** A new tool, on the near side of the surface point. */

@@ -1,5 +1,5 @@
 import type { Host } from '../document/host';
-import type { Command } from '../engine/session_types';
+import type { Command, LatticeSettings } from '../engine/session_types';
 import type { Viewer } from '../view/viewer';
 
 /** What the pointer's tools need from the page. */
@@ -12,6 +12,8 @@ export interface ToolHost extends Host {
   playing(): boolean;
   /** Executes commands as one history entry, or with `join` as part of the previous entry. */
   execute(commands: Command[], join?: boolean): Promise<true | null>;
+  /** Shows the block of the command `lattice` round what is selected, whose points are dragged in place of the surface's; null: none. */
+  showLattice(lattice: LatticeSettings | null): void;
   /** Selects a surface; one without settings is made ready to sculpt. */
   select(surface: number): Promise<void>;
 }

@@ -1,6 +1,9 @@
 import * as THREE from 'three';
 
 import type { Command } from '../engine/session_types';
+import type { BodyPicture, LatticeSettings } from '../engine/session_types';
+import { pickBody } from '../view/body_picking';
+import { nearestPoint } from '../view/near';
 import { gridIndices, wholeRows } from '../view/net';
 import { disc } from '../view/surface_view';
 import type { Viewer } from '../view/viewer';
@@ -14,6 +17,7 @@ export interface PointActions {
   end(commands: Command[]): Promise<void>;
   cancel(): Promise<void>;
   select(surface: number): Promise<void>;
+  selectBody(body: number): Promise<void>;
   changed(): void;
 }
 
@@ -30,11 +34,15 @@ interface Hold {
   cancelled: boolean;
 }
 
-/** Picks control points of the selected surface, by click, box and row, and drags them. */
+/** Picks control points of the selected surface, curve or volume, or of the lattice, by click, box and row, and drags them. */
 export class PointEditor implements PointerTool {
   /** Flat indices i n + j. */
   readonly chosen = new Set<number>();
   lock: Lock = null;
+  /** The block of space whose points are dragged instead, and what is in it follows; null: none. */
+  lattice: LatticeSettings | null = null;
+  /** The block as it was when the drag began. */
+  private block: BodyPicture | null = null;
 
   private of = ''; // the surface and net that they are indices of
   private hold: Hold | null = null;
@@ -59,22 +67,39 @@ export class PointEditor implements PointerTool {
 
   /** The surface whose points are picked: the first selected one. */
   get surface(): number | undefined {
-    return this.viewer.frame?.state.selection[0];
+    return this.viewer.bodies.control ? undefined : this.viewer.frame?.state.selection[0];
   }
 
+  /** Of a curve, a volume and a lattice all points in one row. */
   get net(): [number, number] {
-    const { surface } = this;
-    return surface === undefined ? [0, 0] : this.viewer.frame!.state.surfaces[surface]!.net;
+    const { surface, viewer } = this;
+    if (viewer.bodies.control) return [viewer.bodies.control.length / 3, 1];
+    return surface === undefined ? [0, 0] : viewer.frame!.state.surfaces[surface]!.net;
+  }
+
+  /** What the points belong to, for the page; null where nothing is selected. */
+  get kind(): 'surface' | 'curve' | 'volume' | 'lattice' | null {
+    const { bodies, frame } = this.viewer;
+    if (bodies.lattice) return 'lattice';
+    if (bodies.control) return frame!.state.bodies[frame!.state.body!]!.kind;
+    return this.surface === undefined ? null : 'surface';
+  }
+
+  /** Places of all points that can be picked, scene coordinates. */
+  get places(): Float32Array | null {
+    return this.viewer.bodies.control ?? this.viewer.surfaces[this.surface ?? -1]?.picture?.net ?? null;
   }
 
   /** After every frame: the chosen points are shown where they are now, or forgotten if the net has changed. */
   refresh(shown: boolean): void {
-    const { surface } = this;
-    const of = surface === undefined ? '' : `${this.viewer.frame!.state.surfaces[surface]!.id} ${this.net.join()}`;
+    const { surface, viewer } = this, { state } = viewer.frame ?? {};
+    this.freezeBlock();
+    const id = surface === undefined ? `${this.kind} ${state?.bodies[state.body ?? -1]?.id}` : state!.surfaces[surface]!.id;
+    const of = `${id} ${this.net.join()}`;
     if (of !== this.of) this.chosen.clear();
     this.of = of;
-    const net = surface === undefined ? undefined : this.viewer.surfaces[surface]?.picture?.net;
-    this.marks.visible = shown && this.chosen.size > 0 && net !== undefined;
+    const net = this.places;
+    this.marks.visible = shown && this.chosen.size > 0 && net !== null;
     if (!this.marks.visible) return;
     const places = new Float32Array(3 * this.chosen.size);
     [...this.chosen].forEach((k, at) => places.set(net!.subarray(3 * k, 3 * k + 3), 3 * at));
@@ -99,14 +124,14 @@ export class PointEditor implements PointerTool {
   /** The points to which a command applies. */
   which(): ReturnType<typeof wholeRows> {
     const [m, n] = this.net;
+    if (this.kind !== 'surface') return { which: [...this.chosen].sort((a, b) => a - b) };
     return wholeRows([...this.chosen].sort((a, b) => a - b), m, n);
   }
 
   press(viewport: Viewport, event: PointerEvent): boolean {
-    const { surface } = this;
-    if (surface === undefined) return false;
+    if (!this.places) return false;
     const touch = event.pointerType === 'touch';
-    const point = this.viewer.pickControlPoint(viewport, event, surface, touch ? 20 : 10);
+    const point = this.at(viewport, event, touch ? 20 : 10);
     if (point === null) {
       if (touch || event.altKey) return false;
       const element = document.createElement('div');
@@ -115,7 +140,7 @@ export class PointEditor implements PointerTool {
       this.box = { viewport, x: event.clientX, y: event.clientY, add: event.shiftKey, element };
       return true;
     }
-    if (event.ctrlKey || event.metaKey || event.altKey) {
+    if (this.kind === 'surface' && (event.ctrlKey || event.metaKey || event.altKey)) {
       if (!event.shiftKey) this.chosen.clear();
       this.chosen.add(point);
       this.chooseRows(event.altKey ? 'v' : 'u');
@@ -127,8 +152,9 @@ export class PointEditor implements PointerTool {
       return true;
     }
     if (!this.chosen.has(point)) this.choose([point]);
-    const picture = this.viewer.surfaces[surface]!.picture!;
-    const start = new THREE.Vector3().fromArray(picture.net, 3 * point);
+    const start = new THREE.Vector3().fromArray(this.places, 3 * point);
+    const { lattice } = this.viewer.bodies;
+    this.block = lattice && { ...lattice, net: lattice.net.slice(), points: lattice.points.slice() };
     this.hold = {
       viewport, start, normal: this.normalAt(start), by: new THREE.Vector3(), pointer: { x: event.clientX, y: event.clientY },
       begun: null, cancelled: false,
@@ -136,8 +162,30 @@ export class PointEditor implements PointerTool {
     return true;
   }
 
-  /** Of the drawn surface where it is nearest to a point. */
+  private at(viewport: Viewport, event: { clientX: number; clientY: number }, reach: number): number | null {
+    return this.places ? nearestPoint(this.viewer.places(viewport, this.places), event, reach) : null;
+  }
+
+  /** While a point of the block is dragged the block is that of the beginning, with the point where the pointer is. */
+  private freezeBlock(): void {
+    const { block, hold, viewer } = this;
+    if (!block || !hold) return;
+    const shown = { ...block, net: block.net.slice(), points: block.points.slice() };
+    for (const k of this.chosen) {
+      const before = new THREE.Vector3().fromArray(block.points, 3 * k), after = before.clone().add(hold.by);
+      after.toArray(shown.points, 3 * k);
+      for (let at = 0; at < shown.net.length; at += 3) {
+        if (before.equals(new THREE.Vector3().fromArray(block.net, at))) after.toArray(shown.net, at);
+      }
+    }
+    viewer.bodies.lattice = shown;
+    viewer.bodies.restyle(viewer.display, viewer.palette);
+    viewer.redraw();
+  }
+
+  /** Of the drawn surface where it is nearest to a point; upwards where there is none. */
   normalAt(point: THREE.Vector3): THREE.Vector3 {
+    if (this.surface === undefined) return new THREE.Vector3(0, 0, 1);
     const { positions, normals } = this.viewer.surfaces[this.surface!]!.picture!;
     let nearest = Infinity;
     let best = 0;
@@ -176,7 +224,9 @@ export class PointEditor implements PointerTool {
   private send(hold: Hold): void {
     hold.by = this.moved(hold);
     this.showAxis(hold);
-    const command = (): Command => ({ do: 'points', ...this.which(), by: hold.by.toArray() });
+    const { lattice } = this, which = this.which();
+    const command = (): Command => (lattice && 'which' in which ? { do: 'lattice', ...lattice, which: which.which, by: hold.by.toArray() } : { do: 'points', ...which, by: hold.by.toArray() });
+    this.freezeBlock();
     hold.begun ??= this.actions.begin([command()]);
     void hold.begun.then((good) => {
       if (good && !hold.cancelled) this.actions.follow(() => [{ do: 'undo' }, command()], false);
@@ -214,26 +264,27 @@ export class PointEditor implements PointerTool {
   release(event: PointerEvent): void {
     const { box, hold } = this;
     this.box = null;
-    this.hold = null;
+    this.hold = this.block = null;
     this.lock = null;
     this.showAxis(null);
     if (box) {
       box.element.remove();
       this.chooseBox(box, event);
     } else if (hold?.begun) {
+      if (this.lattice) this.chosen.clear(); // the block is put round the new shape
       void hold.begun.then((good) => (good && !hold.cancelled ? this.actions.end([]) : undefined));
     }
   }
 
   private chooseBox(box: NonNullable<PointEditor['box']>, event: PointerEvent): void {
-    const { surface } = this;
-    if (surface === undefined) return;
-    const places = this.viewer.places(box.viewport, this.viewer.surfaces[surface]!.picture!.net);
+    if (!this.places) return;
+    const places = this.viewer.places(box.viewport, this.places);
     const [x0, x1] = [Math.min(box.x, event.clientX), Math.max(box.x, event.clientX)];
     const [y0, y1] = [Math.min(box.y, event.clientY), Math.max(box.y, event.clientY)];
     if (x1 - x0 < 4 && y1 - y0 < 4) {
       // A click on another surface selects that surface.
-      const hit = this.viewer.pick(box.viewport, event);
+      const hit = this.viewer.pick(box.viewport, event), body = pickBody(this.viewer, box.viewport, event);
+      if (body && body.body !== this.viewer.frame!.state.body) return void this.actions.selectBody(body.body);
       if (hit && !this.viewer.isSelected(hit.surface)) void this.actions.select(hit.surface);
       else if (!box.add) this.choose([]);
       return;
@@ -248,8 +299,7 @@ export class PointEditor implements PointerTool {
 
   /** The row along u through the point; with Shift, along v. */
   doubleClick(viewport: Viewport, event: MouseEvent): void {
-    const { surface } = this;
-    const point = surface === undefined ? null : this.viewer.pickControlPoint(viewport, event, surface, 10);
+    const point = this.kind === 'surface' ? this.at(viewport, event, 10) : null;
     if (point === null) return;
     this.chosen.clear();
     this.chosen.add(point);
@@ -260,7 +310,7 @@ export class PointEditor implements PointerTool {
     const { hold } = this;
     this.box?.element.remove();
     this.box = null;
-    this.hold = null;
+    this.hold = this.block = null;
     this.lock = null;
     this.showAxis(null);
     if (!hold?.begun) return;
@@ -269,8 +319,7 @@ export class PointEditor implements PointerTool {
   }
 
   hover(viewport: Viewport | null, event?: PointerEvent): void {
-    const { surface } = this;
-    if (!viewport || !event || surface === undefined) return;
-    viewport.element.style.cursor = this.viewer.pickControlPoint(viewport, event, surface, 10) === null ? '' : 'move';
+    if (!viewport || !event || !this.places) return;
+    viewport.element.style.cursor = this.at(viewport, event, 10) === null ? '' : 'move';
   }
 }

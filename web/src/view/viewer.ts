@@ -12,6 +12,7 @@ import { Extent } from './extent';
 import { Ground, roundStepAbove } from './ground';
 import { limitsOf } from './limits';
 import { Navigator } from './navigator';
+import { nearestPoint } from './near';
 import type { GridPicker } from './picking';
 import { Placing, type Standing, still } from './placing';
 import { Section, type SectionAxis } from './section';
@@ -103,7 +104,7 @@ export class Viewer {
   /** Control points are shown and can be picked. */
   set editing(on: boolean) {
     if (this.surfaces.every((s) => s.editing === on) && this.editsPoints === on) return;
-    this.editsPoints = on;
+    this.editsPoints = this.bodies.editing = on;
     for (const s of this.surfaces) s.editing = on;
     this.restyle();
   }
@@ -149,7 +150,8 @@ export class Viewer {
     this.combs.restyle(this.display.combScale * this.bounds().radius, this.palette.comb);
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
-    this.bodies.show(frame.bodies, state.body, this.palette);
+    this.bodies.show(frame.bodies, frame.lattice, state.body, state.bodies);
+    this.bodies.restyle(this.display, this.palette);
     this.stand();
     this.tools.show(frame, this.toolScene);
     this.section.forget();
@@ -269,6 +271,7 @@ export class Viewer {
     this.section.forget();
     this.ground.restyle(this.palette);
     this.combs.restyle(this.display.combScale * this.bounds().radius, this.palette.comb);
+    this.bodies.restyle(this.display, this.palette);
     const state = this.frame?.state;
     this.surfaces.forEach((s, k) =>
       s.restyle(this.display, this.palette, !state || this.waiting || state.selection.length === 0 || state.selection.includes(k)));
@@ -323,15 +326,7 @@ export class Viewer {
   /** Index of the control point of a surface under the pointer, within `reach` pixels. */
   pickControlPoint(viewport: Viewport, event: { clientX: number; clientY: number }, surface: number, reach = 9): number | null {
     const net = this.surfaces[surface]?.picture?.net;
-    if (!net) return null;
-    const places = this.places(viewport, net);
-    let best: number | null = null;
-    let nearest = reach;
-    for (let k = 0; 2 * k < places.length; ++k) {
-      const distance = Math.hypot(places[2 * k]! - event.clientX, places[2 * k + 1]! - event.clientY);
-      if (distance < nearest) [nearest, best] = [distance, k];
-    }
-    return best;
+    return net ? nearestPoint(this.places(viewport, net), event, reach) : null;
   }
 
   redraw(): void {
