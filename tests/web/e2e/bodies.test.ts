@@ -6,7 +6,7 @@ const studio = studioOfFile({ width: 900, height: 620 });
 
 interface Page {
   studio: {
-    documents: { openScene(name: string, commands: object[]): Promise<boolean> };
+    documents: { saved(): void; openScene(name: string, commands: object[]): Promise<boolean> };
     execute(commands: object[]): Promise<unknown>;
     viewer: {
       main: { projectAll(points: ArrayLike<number>): Float32Array };
@@ -17,7 +17,11 @@ interface Page {
 }
 
 const open = async (list: object[]) => {
-  await studio.page.evaluate((c) => (window as never as Page).studio.documents.openScene('bodies', c), list);
+  await studio.page.evaluate((c) => {
+    const { documents } = (window as never as Page).studio;
+    documents.saved(); // nothing is asked
+    return documents.openScene('bodies', c);
+  }, list);
   await settled(studio.page);
 };
 const state = () => studio.page.evaluate(() => (window as never as Page).studio.state);
