@@ -23,7 +23,7 @@ export class SnakeFields {
     const { model } = this;
     this.drawList();
     const { image, settings, volcanoes, mask } = model.script;
-    const now = JSON.stringify([image, settings, volcanoes.length, mask, model.preset.name, model.spring, model.keepSprings, model.energy !== null, model.image?.name, model.script.snakes.length > 0]);
+    const now = JSON.stringify([image, settings, volcanoes.length, mask, model.preset.name, model.spring, model.volcano, model.keepSprings, model.energy !== null, model.image?.name, model.script.snakes.length > 0]);
     if (now === this.drawn) return;
     const focus = document.activeElement;
     if (this.element.contains(focus) && focus instanceof HTMLInputElement && focus.type === 'text') return; // once it is left
@@ -48,6 +48,10 @@ export class SnakeFields {
       h('section', {}, h('h3', {}, 'By hand'),
         this.line('Spring', 'Force per pixel by which a drag draws a contour. Too strong a pull far across others makes a contour cross itself.', model.spring, (spring) => {
           model.spring = spring;
+          model.changed();
+        }),
+        this.line('Volcano', 'Force of a new volcano at its rim, from where it falls with the square of the distance: small against what attracts, or it moves snakes that are far away.', model.volcano, (volcano) => {
+          model.volcano = volcano;
           model.changed();
         }),
         row(toggle('Springs stay', model.keepSprings, (keep) => {

@@ -272,7 +272,7 @@ export class ImageView {
     const k = volcanoes.findIndex((v) => this.away(e, v.at) < near);
     if (k >= 0) return { kind: 'volcano', k, at: volcanoes[k]!.at, made: false, moved: false };
     const at = this.place(e), { width, height } = model.image!.pixels;
-    model.script = { ...model.script, volcanoes: [...volcanoes, { at, strength: model.spring * 2, radius: Math.max(2, Math.round(Math.min(width, height) / 20)) }] };
+    model.script = { ...model.script, volcanoes: [...volcanoes, { at, strength: model.volcano, radius: Math.max(2, Math.round(Math.min(width, height) / 20)) }] };
     return { kind: 'volcano', k: volcanoes.length, at, made: true, moved: false };
   }
 

@@ -29,6 +29,7 @@ export class SnakeModel {
   keepSprings = false;
   preset: Preset = presets[0]!;
   spring = presets[0]!.spring;
+  volcano = presets[0]!.volcano;
   selected = 0;
   script: Script = { ...presetOf(presets[0]!), mask: '', volcanoes: [], snakes: [] };
 
@@ -106,6 +107,7 @@ export class SnakeModel {
     const { distance } = this.script.image, { image, settings } = presetOf(preset);
     this.preset = preset;
     this.spring = preset.spring;
+    this.volcano = preset.volcano;
     if (await this.apply({ ...this.script, image: { ...image, distance }, settings })) await this.wake();
   }
 

@@ -77,14 +77,16 @@ export interface Preset {
   settings: Partial<Settings>;
   /** Force per distance by which the hand draws. */
   spring: number;
+  /** Force of a new volcano at its radius. */
+  volcano: number;
 }
 
 export const presets: readonly Preset[] = [
-  { name: 'Regions', about: 'Bright from dark: works from far away, for closed contours', image: { smoothing: 1, region: 1 }, settings: {}, spring: 0.3 },
-  { name: 'Edges', about: 'To the strongest edge nearby: start close to it', image: { smoothing: 3, edge: 1 }, settings: { units: 0, alpha: 0.015, beta: 10, gamma: 0.001, motion: 0.1 }, spring: 0.1 },
-  { name: 'Edges, from afar', about: 'The gradient vector flow points to edges from all around', image: { smoothing: 2, flow: 1 }, settings: { units: 0, alpha: 0.015, beta: 10, gamma: 0.5, motion: 0.05 }, spring: 1 },
+  { name: 'Regions', about: 'Bright from dark: works from far away, for closed contours', image: { smoothing: 1, region: 1 }, settings: {}, spring: 0.3, volcano: 1 },
+  { name: 'Edges', about: 'To the strongest edge nearby: start close to it', image: { smoothing: 3, edge: 1 }, settings: { units: 0, alpha: 0.015, beta: 10, gamma: 0.001, motion: 0.1 }, spring: 0.1, volcano: 0.02 },
+  { name: 'Edges, from afar', about: 'The gradient vector flow points to edges from all around', image: { smoothing: 2, flow: 1 }, settings: { units: 0, alpha: 0.015, beta: 10, gamma: 0.5, motion: 0.05 }, spring: 1, volcano: 1 },
   { name: 'Bright lines', about: 'Along what is bright, as writing on a dark ground; a negative intensity follows dark lines', image: { smoothing: 1.5, line: 5 },
-    settings: { units: 0, alpha: 0.01, beta: 0.1, gamma: 0.05, motion: 0.05 }, spring: 0.3 },
+    settings: { units: 0, alpha: 0.01, beta: 0.1, gamma: 0.05, motion: 0.05 }, spring: 0.3, volcano: 0.3 },
 ];
 
 export const presetOf = ({ image, settings }: Preset): { image: ImageEnergy; settings: Settings } => ({ image: { ...noEnergy, ...image }, settings: { ...usual, ...settings } });
