@@ -196,7 +196,11 @@ void read_state(Reader& a, const Document& opened, SessionState& state) {
   list(a, together);
   read_changed(a, surfaces, [](const SceneSurface& s) {
     if (!s.mask.empty() && s.mask.size() != static_cast<std::size_t>(s.current->size())) return false;
-    // `opened` may differ once the basis was edited.
+    for (std::size_t d = 0; d < 2; ++d) {  // shapes are compared at equal parameters
+      const Interval domain = s.current->knots()[d].domain(), first = s.opened->knots()[d].domain();
+      if (first.lower != domain.lower || first.upper != domain.upper) return false;
+    }
+    // `opened` may differ otherwise once the basis was edited.
     return s.reference->net() == s.current->net() && s.rest->net() == s.current->net();
   });
   if (a.bad()) return;
