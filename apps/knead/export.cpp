@@ -30,7 +30,8 @@ void warn(const Source& source) {
     }
     const std::size_t others = step::other_surfaces(*file).size();
     if (others > 0) {
-      fmt::print(stderr, "knead: warning: {} of other forms left out\n", counted(others, "surface is", "surfaces are"));
+      fmt::print(stderr, "knead: warning: {} left out\n",
+                 counted(others, "surface of another form is", "surfaces of other forms are"));
     }
   }
   for (const UnreadableSurface& s : source.unreadable()) {
