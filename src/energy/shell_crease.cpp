@@ -13,7 +13,7 @@ namespace knead {
 namespace {
 
 /// The tangents a_1, a_2 of one side, then those of the other.
-using Tangents = Eigen::Matrix<double, 3, 4>;
+using SideTangents = Eigen::Matrix<double, 3, 4>;
 using Gradient = Eigen::Matrix<double, 12, 1>;
 
 /// c and s of one point, and their derivatives by the four tangents.
@@ -21,7 +21,7 @@ struct PointAngle {
   double c, s;
   Gradient dc, ds;
 
-  PointAngle(const Tangents& a, int along) {
+  PointAngle(const SideTangents& a, int along) {
     const Eigen::Vector3d cross[2] = {a.col(0).cross(a.col(1)), a.col(2).cross(a.col(3))};
     const double area[2] = {cross[0].norm(), cross[1].norm()}, speed = a.col(along).norm();
     const Eigen::Vector3d n[2] = {cross[0] / area[0], cross[1] / area[1]}, t = a.col(along) / speed;
@@ -133,8 +133,8 @@ struct ShellCrease::Data {
     Eigen::MatrixX4d gradient;  // derivatives of their functions by u and v of side a, then of side b
     double c, s;                // at rest
 
-    [[nodiscard]] Tangents tangents(const Points& x) const {
-      Tangents a = Tangents::Zero();
+    [[nodiscard]] SideTangents tangents(const Points& x) const {
+      SideTangents a = SideTangents::Zero();
       for (std::size_t r = 0; r < nodes.size(); ++r) {
         a += x.row(nodes[r]).transpose() * gradient.row(static_cast<Eigen::Index>(r));
       }
@@ -156,7 +156,7 @@ Expected<void> ShellCrease::Data::add(const SidePoint& a, const SidePoint& b, do
   point.gradient = Eigen::MatrixX4d::Zero(static_cast<Eigen::Index>(point.nodes.size()), 4);
   point.gradient.topLeftCorner(a.gradient.rows(), 2) = a.gradient;
   point.gradient.bottomRightCorner(b.gradient.rows(), 2) = b.gradient;
-  Tangents at_rest = Tangents::Zero();
+  SideTangents at_rest = SideTangents::Zero();
   for (std::size_t r = 0; r < point.nodes.size(); ++r) {
     const bool of_a = r < a.nodes.size();
     const Eigen::RowVector3d place = of_a ? rest_a.row(point.nodes[r] - first_a) : rest_b.row(point.nodes[r] - first_b);
@@ -221,7 +221,7 @@ void ShellCrease::add_gradient(const Points& x, Points& gradient) const {
   for (const Data::Gauss& point : data_->points) {
     const PointAngle now(point.tangents(x), data_->along);
     const Gradient by_tangents = point.weight * ((now.c - point.c) * now.dc + (now.s - point.s) * now.ds);
-    const Eigen::Map<const Tangents> f(by_tangents.data());
+    const Eigen::Map<const SideTangents> f(by_tangents.data());
     for (std::size_t r = 0; r < point.nodes.size(); ++r) {
       gradient.row(point.nodes[r]) += (f * point.gradient.row(static_cast<Eigen::Index>(r)).transpose()).transpose();
     }
@@ -235,7 +235,7 @@ void ShellCrease::append_hessian(const Points& x, std::vector<Eigen::Triplet<dou
     Eigen::MatrixX2d rows(3 * n, 2);
     for (int k = 0; k < 2; ++k) {
       const Gradient& by = k == 0 ? now.dc : now.ds;
-      const Eigen::Map<const Tangents> f(by.data());
+      const Eigen::Map<const SideTangents> f(by.data());
       for (Eigen::Index r = 0; r < n; ++r) rows.col(k).segment<3>(3 * r) = f * point.gradient.row(r).transpose();
     }
     const Eigen::MatrixXd block = point.weight * rows * rows.transpose();

@@ -64,8 +64,8 @@ struct Executor {
   std::optional<int> increments = {};  ///< of the load of a shell
   std::vector<SeamReport> shell_seams = {};
   std::vector<std::string> shell_notes = {};
-  bool may_stop = false;               ///< the command may end after any of its steps
-  std::optional<int> stopped = {};     ///< after so many steps
+  bool may_stop = false;            ///< the command may end after any of its steps
+  std::optional<int> stopped = {};  ///< after so many steps
 
   template <class C>
   Expected<void> execute(const C& command);
