@@ -12,9 +12,6 @@ using knead::steps_json;
 /// The content of panels: surfaces, tools, settings, notes, the last step; no control points (docs/studio.md).
 [[nodiscard]] std::string state_json(const Session& session);
 
-/// The middle of all control points: what positions of pictures are measured from.
-[[nodiscard]] Point middle(const Document& document);
-
 /// One line per command in effect, each in JSON.
 [[nodiscard]] std::string journal_json(const Session& session);
 

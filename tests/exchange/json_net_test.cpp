@@ -17,7 +17,7 @@ std::string with(const Source& source, const Surface& surface) {
   return bytes.value_or("");
 }
 
-std::string error_of(const std::string& text) {
+std::string refusal_of(const std::string& text) {
   const auto source = open_source(text, "a.json");
   EXPECT_FALSE(source) << text;
   return source ? "" : source.error().message();
@@ -65,7 +65,7 @@ TEST(JsonNet, ComesBackToTheSameBitsWithDegreesKnotsAndWeights) {
 
 TEST(JsonNet, FaultsAreNamedWithTheirLine) {
   const auto has = [](const std::string& text, const std::string& word) {
-    EXPECT_NE(error_of(text).find(word), std::string::npos) << error_of(text);
+    EXPECT_NE(refusal_of(text).find(word), std::string::npos) << refusal_of(text);
   };
   has("[[[0,0,0],[0,1,0]],\n[[1,0,0],[1,1]]]", "a.json:2: a control point has 2 coordinates");
   has("[[[0,0,0],[0,1,0]],[[1,0,0]]]", "row 2 of the net has 1 items, the first row has 2");
