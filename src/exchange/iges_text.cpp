@@ -40,7 +40,7 @@ std::string ascii(std::string_view text) {
   return result;
 }
 
-std::string hollerith(std::string_view text) {
+std::string hollerith_of(std::string_view text) {
   const std::string plain = ascii(text);
   return plain.empty() ? std::string() : fmt::format("{}H{}", plain.size(), plain);
 }
@@ -54,7 +54,7 @@ class Sections {
   int add(int type, int form, Values values, const std::string& name = {}, int colour = 0, bool dependent = false) {
     const std::string label = ascii(name).substr(0, label_columns);
     if (ascii(name).size() > label_columns) {
-      const int property = add(406, 15, {"1", hollerith(name)}, {}, 0, true);
+      const int property = add(406, 15, {"1", hollerith_of(name)}, {}, 0, true);
       values.insert(values.end(), {"0", "1", std::to_string(property)});
     }
     values.insert(values.begin(), std::to_string(type));
@@ -143,11 +143,11 @@ Expected<void> add_shells(std::span<const NamedSurface> surfaces, const std::vec
 }
 
 std::string global_section(const SaveOptions& options, const Unit& unit, double largest) {
-  const std::string title = hollerith(options.title);
+  const std::string title = hollerith_of(options.title);
   return fmt::format(
       "1H,,1H;,{0},{0},5HKnead,5HKnead,32,38,6,308,15,{0},1.,{1},{2},1,0.1,15H20000101.000000,{3},{4},,,11,0,"
       "15H20000101.000000;",
-      title, unit.flag, hollerith(unit.iges), format_shortest_real(resolution), format_real(largest));
+      title, unit.flag, hollerith_of(unit.iges), format_shortest_real(resolution), format_real(largest));
 }
 
 template <class Spline>
