@@ -189,7 +189,11 @@ KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
   if (!command) return fail(command.error());
   const bool first =
       session->document().is_fresh() && session->state().surfaces.empty() && session->state().bodies.empty();
-  if (auto done = session->execute(*command, knead_progress); !done) return fail(done.error());
+  const auto told = [](int done, int total) {
+    knead_progress(done, total);
+    return true;  // the page stops what takes long by ending its worker
+  };
+  if (auto done = session->execute(*command, told); !done) return fail(done.error());
   if (first) keep_origin_near(session->state());
   if (join != 0) session->join();
   return answer("{}");

@@ -15,9 +15,6 @@ namespace knead {
 namespace {
 
 constexpr double theta_of_dynamics = 0.55;
-constexpr double run_away = 1e4;         // a step longer than this many model sizes is refused
-constexpr double developed_slip = 1e-4;  // friction is fully developed at this displacement, in lengths of the model
-constexpr double missed_constraint = 1e-9;
 constexpr double interactive_imbalance = 1e-3;
 constexpr double gained_energy = 1e-12;  // of the energies that are compared: rounding
 constexpr int max_energy_rounds = 12;

@@ -9,10 +9,6 @@
 namespace knead {
 namespace {
 
-constexpr double run_away = 1e4;            // a step longer than this many model sizes is refused
-constexpr double developed_slip = 1e-4;     // friction is fully developed at this displacement, in lengths of the model
-constexpr double missed_constraint = 1e-9;  // of the size of the model
-
 std::vector<ModelTool> in_model_units(std::span<const Tool> tools, const Point& centre, double length) {
   std::vector<ModelTool> result;
   for (const Tool& tool : tools) result.emplace_back(tool, centre, length);

@@ -106,7 +106,7 @@ TEST(StepSurfaces, AnUnreadableSurfaceSaysWhyAndLeavesTheRestUsable) {
     std::string data;
     const char* what;
   } cases[] = {
-      {with_knots("16,1", "(2,2),(2,2),(0.,1.),(0.,1.)"), "degrees are 16 x 1"},
+      {with_knots("26,1", "(2,2),(2,2),(0.,1.),(0.,1.)"), "degrees are 26 x 1"},
       {with_knots("1.,1", "(2,2),(2,2),(0.,1.),(0.,1.)"), "not integers"},
       {with_knots("1,1", "(2,1),(2,2),(0.,1.),(0.,1.)"), "multiplicities add up to 3"},
       {with_knots("1,1", "(3,1),(2,2),(0.,1.),(0.,1.)"), "u knots"},

@@ -154,6 +154,8 @@ TEST_P(Basis, SmoothnessAtAKnotIsDegreeMinusMultiplicity) {
 TEST_P(Basis, MarsdensIdentityHolds) {
   // (y − u)^p = Σ_i N_i(u) Π_{k=1..p} (y − x_{i+k}), and its derivatives in u (Marsden 1970).
   const int p = GetParam();
+  // Differences of differences lose more at degrees above 15: up to 23 (p + 1) roundings there, below 16 elsewhere.
+  const double roundings = p <= 15 ? 16 : 32;
   const KnotVector knots = testing::clamped_knots(p, {0, 1, 2, 4, 5}, {0, 1, std::min(2, p + 1), 1, 0});
   for (const int s : knots.spans()) {
     for (const double u : parameters_of(knots, s)) {
@@ -170,7 +172,8 @@ TEST_P(Basis, MarsdensIdentityHolds) {
             size += std::abs(got[static_cast<std::size_t>(d * (p + 1) + r)] * dual);
           }
           const double expected = falling * std::pow(y - u, p - d) * (d % 2 == 0 ? 1 : -1);
-          ASSERT_NEAR(sum, expected, 16 * (p + 1) * epsilon * size) << "order " << d << " at " << u << ", y " << y;
+          ASSERT_NEAR(sum, expected, roundings * (p + 1) * epsilon * size)
+              << "order " << d << " at " << u << ", y " << y;
         }
       }
     }
