@@ -80,16 +80,10 @@ int start(Document document) {
   return answer(state_json(*held().session));
 }
 
-/// A fresh document has its first surface somewhere. Far from there single precision would show steps: from this many
-/// sizes of the surface on, pictures are measured from its middle.
-void keep_origin_near(const SessionState& now) {
-  constexpr double far = 100;
-  if (now.surfaces.empty() && now.bodies.empty()) return;
-  const Points& points =
-      now.surfaces.empty() ? control_points_of(now.bodies.front()) : now.surfaces.front().current->control_points();
-  const Point lower = points.colwise().minCoeff().transpose(), upper = points.colwise().maxCoeff().transpose();
-  const Point centre = (lower + upper) / 2;
-  held().origin = centre.norm() > far * (upper - lower).norm() ? centre : Point(Point::Zero());
+int show_body(Expected<BodyPicture> picture) {
+  if (!picture) return fail(picture.error());
+  held().body = *std::move(picture);
+  return answer(body_json(held().body));
 }
 
 }  // namespace
@@ -194,7 +188,7 @@ KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
     return true;  // the page stops what takes long by ending its worker
   };
   if (auto done = session->execute(*command, told); !done) return fail(done.error());
-  if (first) keep_origin_near(session->state());
+  if (first) held().origin = origin_near(session->state(), held().origin);
   if (join != 0) session->join();
   return answer("{}");
 }
@@ -310,10 +304,7 @@ KNEAD_EXPORT(knead_body_picture) int knead_body_picture(int body) {
   if (!held().session) return without_session();
   const auto& bodies = held().session->state().bodies;
   if (body < 0 || body >= static_cast<int>(bodies.size())) return fail({ErrorKind::usage, "there is no such body"});
-  auto picture = body_picture(bodies[static_cast<std::size_t>(body)], held().origin);
-  if (!picture) return fail(picture.error());
-  held().body = *std::move(picture);
-  return answer(body_json(held().body));
+  return show_body(body_picture(bodies[static_cast<std::size_t>(body)], held().origin));
 }
 
 /// Likewise the block of the command `lattice` round the selected surfaces, with so many control points along x, y, z.
@@ -321,10 +312,7 @@ KNEAD_EXPORT(knead_lattice_picture) int knead_lattice_picture(int x, int y, int 
   if (!held().session) return without_session();
   const auto lattice = lattice_around_selection(held().session->state(), margin, {3, 3, 3}, {x, y, z});
   if (!lattice) return fail(lattice.error());
-  auto picture = volume_picture(lattice->rest(), held().origin);
-  if (!picture) return fail(picture.error());
-  held().body = *std::move(picture);
-  return answer(body_json(held().body));
+  return show_body(volume_picture(lattice->rest(), held().origin));
 }
 
 /// The shape of a tool in its own frame: the text is `tool_picture_json`, its buffers stay until the next call.

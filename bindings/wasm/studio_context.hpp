@@ -36,6 +36,9 @@ struct ContextPicture {
 [[nodiscard]] Point middle_of(const step::File& file);
 /// The middle of all control points, or without any of the faces: what positions of pictures are measured from.
 [[nodiscard]] Point middle_of(const Document& document);
+/// A fresh document has its first surface or body somewhere. Far from there single precision would show steps: from
+/// a hundred sizes of it on, pictures are measured from its middle, else from 0; while there is none, from `otherwise`.
+[[nodiscard]] Point origin_near(const SessionState& now, const Point& otherwise);
 
 /// {"buffers": …, "faces": [{"id": "#11", "surface": "#10", "form": "PLANE", "triangles": 2}, …], "skipped": [{"id":
 /// "#12", "reason": "…"}, …]}

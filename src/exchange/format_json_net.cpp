@@ -166,6 +166,11 @@ struct JsonNetReader {
       });
       return sizes ? Expected<void>() : std::unexpected(sizes.error());
     }
+    if (name == "commands" || name == "knead") {
+      Error error = wrong("it is a script of commands, not a net").error();
+      error.remedy = "open a STEP file or another one with surfaces, and give the script by --script";
+      return std::unexpected(std::move(error));
+    }
     return wrong(fmt::format("a net has no field \"{}\"", printable(name, 40)));
   }
 

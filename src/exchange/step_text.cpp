@@ -97,6 +97,25 @@ std::string add_curve(Records& records, const NewCurve& item) {
       print_curve(item.curve, encode_string(item.name), [&](int k) { return names[static_cast<std::size_t>(k)]; }));
 }
 
+/// Whether STEP can hold them: none is torn along a knot.
+Expected<void> whole(std::span<const NewSurface> surfaces, std::span<const NewCurve> curves) {
+  const auto check = [](const KnotVector& knots, const char* kind, std::size_t k) -> Expected<void> {
+    if (knots.max_interior_multiplicity() <= knots.degree()) return {};
+    return input_error(std::string("STEP knows no ") + kind + " that is torn along a knot",
+                       kind + (" " + std::to_string(k)),
+                       "keep knots inside the domain to a multiplicity of " + std::to_string(knots.degree()));
+  };
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    for (const auto& knots : surfaces[k].surface.knots()) {
+      if (auto can = check(knots, "surface", k); !can) return can;
+    }
+  }
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    if (auto can = check(curves[k].curve.knots(0), "curve", k); !can) return can;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string print_context(std::string_view unit, double uncertainty, const AddRecord& add) {
@@ -119,20 +138,7 @@ Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOp
     return input_error("the unit " + options.unit + " is not known", {}, "use um, mm, cm, m, km, inch or foot");
   }
   if (surfaces.empty() && curves.empty()) return input_error("there is no surface to write");
-  const auto whole = [](const KnotVector& knots, const char* kind, std::size_t k) -> Expected<void> {
-    if (knots.max_interior_multiplicity() <= knots.degree()) return {};
-    return input_error(std::string("STEP knows no ") + kind + " that is torn along a knot",
-                       kind + (" " + std::to_string(k)),
-                       "keep knots inside the domain to a multiplicity of " + std::to_string(knots.degree()));
-  };
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    for (const auto& knots : surfaces[k].surface.knots()) {
-      if (auto can = whole(knots, "surface", k); !can) return std::unexpected(can.error());
-    }
-  }
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    if (auto can = whole(curves[k].curve.knots(0), "curve", k); !can) return std::unexpected(can.error());
-  }
+  if (auto can = whole(surfaces, curves); !can) return std::unexpected(can.error());
 
   Records records;
   const auto product_name = encode_string(options.product);

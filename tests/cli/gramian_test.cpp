@@ -153,7 +153,7 @@ TEST(GramianCommand, WhatIsWrongIsNamed) {
   EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,2,1,3,3"}, 3, {"knot 3", "decrease", "sort"}));
   EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1,1,2,2"}, 3, {"knot 4", "repeated"}));
   EXPECT_TRUE(fails({"--degree", "3", "--knots", "0,0,1,1"}, 3, {"too few", "8"}));
-  EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1", "--a", "16"}, 2, {"--a", "0 to 15"}));
+  EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1", "--a", "26"}, 2, {"--a", "0 to 25"}));
   EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1", "--b", "-1"}, 2, {"--b"}));
   EXPECT_TRUE(fails({"--degree", "1", "--knots", "0,0,1,1", "--a", "1", "--all"}, 2, {"--a", "--all"}));
   EXPECT_TRUE(
