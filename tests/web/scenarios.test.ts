@@ -8,7 +8,8 @@ import { Engine } from '@studio/engine/engine';
 import { type Command, EngineError } from '@studio/engine/session_types';
 
 // The scenarios that the native session passes too (tests/session/scenario_test.cpp), and the examples' scripts: the same
-// expectations hold in WebAssembly, and the control points at the end are the native ones to 1e-9 of the size.
+// expectations hold in WebAssembly, and the control points at the end are the native ones to 1e-9 of the size unless a scenario
+// says otherwise.
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const native = process.env.KNEAD_CLI || join(root, 'build/release/knead');
@@ -18,6 +19,8 @@ type Step = Command | { refused: Command; where: string } | { expect: string; is
 interface Scenario {
   open?: string;
   steps: Step[];
+  /** How far control points may be off the native ones, of the size: five strokes over one another add up the steps' 1e-11. */
+  agreement?: number;
 }
 
 /** The falling sheet of Fig. 6.15 takes ninety steps; the way to its first touch will do here. */
@@ -70,7 +73,7 @@ function check(engine: Engine, step: Step): void {
 }
 
 describe('scenarios in WebAssembly', () => {
-  it.each(scenarios)('%s runs as the native session runs it', async (_name, { open, steps }) => {
+  it.each(scenarios)('%s runs as the native session runs it', async (_name, { open, steps, agreement = 1e-9 }) => {
     const engine = await begin(open);
     for (const step of steps) check(engine, step);
 
@@ -89,7 +92,7 @@ describe('scenarios in WebAssembly', () => {
         expect(here.length).toBe(other.length);
         const size = other.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
         const worst = here.reduce((most, x, i) => Math.max(most, Math.abs(x - other[i]!)), 0);
-        expect(worst).toBeLessThanOrEqual(1e-9 * size);
+        expect(worst).toBeLessThanOrEqual(agreement * size);
       });
     } finally {
       rmSync(directory, { recursive: true });
