@@ -10,6 +10,7 @@
 #include "knead/scene/display.hpp"
 #include "knead/sculpt/visible_region.hpp"
 #include "knead/session/document.hpp"
+#include "knead/session/session.hpp"
 
 namespace knead::studio {
 

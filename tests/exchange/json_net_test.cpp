@@ -73,7 +73,7 @@ TEST(JsonNet, FaultsAreNamedWithTheirLine) {
   has("[[[0,0,0],[0,1,1e999]]]", "\"1e999\" is not a number");
   has("[[[0,0,0],[0,1,0]]]", "1 x 2 control points is no surface");
   has("[[[0,0,0],[0,1,0]]", "does not end");
-  has(R"({"knead": 2, "commands": []})", "a net has no field \"knead\"");
+  has(R"({"knead": 2, "commands": []})", "it is a script of commands");
   has(R"({"net": [], "net": []})", "\"net\" is there twice");
   has(R"({"degree": [1, 1.5]})", "whole number");
   has(R"({"degree": [1, 1]})", "no field \"net\"");

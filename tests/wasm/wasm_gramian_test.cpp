@@ -96,7 +96,8 @@ TEST(WasmGramians, of_the_recurrence_are_those_of_this_machine_to_the_last_bit_a
               const double here = (*terms[t])(i, j);
               ASSERT_LT(at, numbers.size());
               const double there = numbers[at++];
-              if (method == GramianMethod::recurrence && p <= max_kernel_degree && !cut_by_the_domain(knots, i, j)) {
+              if (method == GramianMethod::recurrence && p <= detail::max_kernel_degree &&
+                  !cut_by_the_domain(knots, i, j)) {
                 ++compared_by_bits;
                 EXPECT_TRUE(same_bits(here, there) || (here == 0 && there == 0)) << t << ": " << i << ", " << j;
               } else {  // beside what Cauchy and Schwarz allow the entry to be
