@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets with the objects of the build under sanitizers, and runs each for some seconds.
+# Builds the fuzz targets, under sanitizers and with counters of the code that an input reaches, and runs each for some
+# seconds.
 #   scripts/fuzz.sh SECONDS [TARGET...]
-# What is found stays in build/fuzz/found, what leads into new code in build/fuzz/corpus. Without arguments:
+# What is found stays in build/fuzz/work/found, what leads into new code in build/fuzz/work/corpus. Without arguments:
 # KNEAD_FUZZ_SECONDS, or 20, of every target. A run ends with an error at a crash, a leak, undefined behaviour, an input
 # that takes more than 60 s, 2 GB of memory, or 512 MB in one piece; readers check how many bytes they held at once.
 set -euo pipefail
@@ -13,9 +14,9 @@ targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=(step iges brep text script snapshot document)
 
 scripts/setup.sh sanitizers
-scripts/configure.sh asan KNEAD_BUILD_TESTS=ON
+scripts/configure.sh fuzz KNEAD_BUILD_TESTS=ON
 cmake --build --preset fuzz
-programs=build/asan/tests/fuzz work=build/fuzz
+programs=build/fuzz/tests/fuzz work=build/fuzz/work
 mkdir -p "$work/found" "$work/seeds"
 "$programs/knead_fuzz_seeds" "$work/seeds"
 

@@ -14,10 +14,10 @@ const execute = (list: object[]) => studio.page.evaluate((c) => (window as never
 /** Whether an edge is marked, and its extent as shares of the view. */
 const mark = () => studio.page.evaluate(() => {
   const { viewer } = (window as never as { studio: { viewer: {
-    overlay: { children: { type: string; visible: boolean; name: string; geometry: { attributes: { instanceStart?: { data: { array: Float32Array } } } } }[] };
+    marks: { children: { type: string; visible: boolean; name: string; geometry: { attributes: { instanceStart?: { data: { array: Float32Array } } } } }[] };
     main: { projectAll(p: ArrayLike<number>): Float32Array; element: HTMLElement };
   } } }).studio;
-  const line = viewer.overlay.children.find((c) => c.name === 'marked edge')!;
+  const line = viewer.marks.children.find((c) => c.name === 'marked edge')!;
   if (!line.visible) return null;
   const places = viewer.main.projectAll(line.geometry.attributes.instanceStart!.data.array);
   const box = viewer.main.element.getBoundingClientRect();
