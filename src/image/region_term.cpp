@@ -46,7 +46,7 @@ class Cover {
     });
   }
   [[nodiscard]] std::optional<std::size_t> pixel(double x, double y) const {
-    if (!(x >= -0.5 && y >= -0.5 && x < width_ - 0.5 && y < height_ - 0.5)) return {};
+    if (!(x > -0.5 && y > -0.5 && x < width_ - 0.5 && y < height_ - 0.5)) return {};
     return static_cast<std::size_t>(std::lround(y) * width_ + std::lround(x));
   }
 
