@@ -10,6 +10,7 @@
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "medians.hpp"
+#include "scene/shell_model.hpp"
 
 // A moving ball in contact with a sheet: a cubic net over the unit square with two rows held and λ = 20, a ball of
 // radius 0.15 whose centre goes from (0.5, 0.5, 0.16) by (0.005, 0, −0.004) per frame, 20 frames. Times are medians
@@ -46,14 +47,15 @@ struct Work {
   std::vector<double> times, iterations, solves;
 };
 
-void run(const SceneModel& scene, const SessionState& start, bool touches, Work& work) {
+template <class Scene>
+void run(const Scene& scene, const SessionState& start, bool touches, Work& work) {
   std::vector<Tool> tools = start.tools;
   ActiveState state = active_state(start);
   for (int k = 0; k < frames; ++k) {
     const Placement& at = tools[0].shape.placement();
     tools[0].shape = *tools[0].shape.moved(at.rotation, at.position + Point(0.005, 0, -0.004));
     const double begun = bench::milliseconds();
-    auto step = scene.model.step(state, touches ? tools : std::vector<Tool>());
+    auto step = scene.model.step(state, touches ? tools : std::vector<Tool>(), {});
     work.times.push_back(bench::milliseconds() - begun);
     check(step.has_value() && step->converged, "a step failed");
     work.iterations.push_back(step->iterations);
@@ -81,8 +83,29 @@ void contact(benchmark::State& state) { frame(state, true, StepAccuracy::interac
 void contact_exact(benchmark::State& state) { frame(state, true, StepAccuracy::exact); }
 void contact_free(benchmark::State& state) { frame(state, false, StepAccuracy::exact); }
 
+/// The same sheet as a shell whose sides are 50 thicknesses long, static.
+void shell(benchmark::State& state, StepAccuracy accuracy) {
+  SessionState start = sheet(static_cast<int>(state.range(0)));
+  for (SceneSurface& s : start.surfaces) s.shell = ShellMaterial{2e5, 0.3, 0.02, 0};
+  start.evolution.mode = Evolution::stationary;
+  start.evolution.accuracy = accuracy;
+  const auto problem = shell_problem(start);
+  check(problem.has_value(), "no shell");
+  const auto model = make_shell_model(start, *problem, start.evolution);
+  check(model.has_value(), "no model of the shell");
+  Work work;
+  for (auto _ : state) run(*model, start, true, work);
+  state.counters["ms"] = bench::median(work.times);
+  state.counters["iterations"] = bench::median(work.iterations);
+}
+
+void shell_contact(benchmark::State& state) { shell(state, StepAccuracy::interactive); }
+void shell_contact_exact(benchmark::State& state) { shell(state, StepAccuracy::exact); }
+
 BENCHMARK(contact)->Arg(32)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(contact_exact)->Arg(32)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(shell_contact)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+BENCHMARK(shell_contact_exact)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(contact_free)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 
 }  // namespace

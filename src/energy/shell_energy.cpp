@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rational_basis.hpp"
+#include "shell_blocks.hpp"
 #include "shell_law.hpp"
 #include "tensor_pattern.hpp"
 
@@ -62,55 +63,6 @@ Expected<ShellElement> make_element(const Surface& rational, const RationalBasis
   return element;
 }
 
-/// Rows whose product left ᵀ right, plus its transpose, is an element's Hessian: per point six of the strains and three
-/// of the normal's second variation
-///   −Δδb_αβ = Σ_γ (n·Δa_γ)(a^γ·δc_αβ) + (a^γ·Δc_αβ)(n·δa_γ) + b_αβ a^γδ (n·Δa_δ)(n·δa_γ),
-/// δc_αβ = Σ_r c_αβ(r) δx_r. `membrane` is that of δ²ε, the same for each coordinate.
-struct HessianRows {
-  Eigen::MatrixXd left, right;                    // 9 per point × 3 L
-  Eigen::MatrixXd membrane_left, membrane_right;  // 2 per point × L
-
-  HessianRows(Eigen::Index points, Eigen::Index local)
-      : left(9 * points, 3 * local),
-        right(9 * points, 3 * local),
-        membrane_left(2 * points, local),
-        membrane_right(2 * points, local) {}
-
-  void set(Eigen::Index k, const ShellPoint& at, const Basis& basis, const ShellRest& rest, const Vector6& stress) {
-    const Eigen::Index local = basis.rows();
-    const Eigen::MatrixX3d second = detail::covariant_second(at, basis);
-    auto strain = left.middleRows(9 * k, 6);
-    detail::strain_rows(at, basis, second, strain);
-    const double half = rest.weight / 2;
-    right.middleRows(9 * k, 3).noalias() = half * rest.membrane * strain.topRows(3);
-    right.middleRows(9 * k + 3, 3).noalias() = half * rest.bending * strain.bottomRows(3);
-
-    const Eigen::Vector3d moment(stress[3], stress[4], 2 * stress[5]);
-    const Eigen::RowVectorXd c = rest.weight * (second * moment).transpose();
-    const double mb = half * moment.dot(at.curvature);
-    for (Eigen::Index d = 0; d < 3; ++d) {  // R_,γ a^γ along axis d
-      const Eigen::RowVectorXd q = (basis.leftCols<2>() * at.dual.row(d).transpose()).transpose();
-      for (Eigen::Index e = 0; e < 3; ++e) {
-        left.row(9 * k + 6 + d).segment(e * local, local) = at.normal[e] * q;
-        right.row(9 * k + 6 + d).segment(e * local, local) = mb * at.normal[e] * q;
-      }
-      right.row(9 * k + 6 + d).segment(d * local, local) += c;
-    }
-    membrane_left.middleRows(2 * k, 2) = basis.leftCols<2>().transpose();
-    Eigen::Matrix2d force;
-    force << stress[0], stress[2], stress[2], stress[1];
-    membrane_right.middleRows(2 * k, 2).noalias() = half * force * basis.leftCols<2>().transpose();
-  }
-
-  [[nodiscard]] Eigen::MatrixXd product() const {
-    const Eigen::Index local = membrane_left.cols();
-    Eigen::MatrixXd half = left.transpose() * right;
-    const Eigen::MatrixXd membrane = membrane_left.transpose() * membrane_right;
-    for (Eigen::Index c = 0; c < 3; ++c) half.block(c * local, c * local, local, local) += membrane;
-    return half + half.transpose();
-  }
-};
-
 /// The 3N × 3N pattern of zeros: every entry of the scalar one as a 3 × 3 block.
 SparseMatrix three_fold(const SparseMatrix& scalar) {
   SparseMatrix result(3 * scalar.rows(), 3 * scalar.cols());
@@ -141,6 +93,7 @@ struct ShellEnergy::Data {
   std::vector<ShellRest> rest;  // element after element
   std::vector<double> measure;  // of the parameters, of the same points
   SparseMatrix scalar, zero;
+  detail::ShellBlocks blocks;
 
   /// Calls visit(element, point of the element, its rest, local geometry, index over all points).
   template <class Visit>
@@ -167,23 +120,6 @@ struct ShellEnergy::Data {
       rest.push_back({weights[k] * law.measure(at), weights[k] * at.area, at.metric, at.curvature, membrane, bending});
     }
     return {};
-  }
-
-  void add_block(const ShellElement& element, const Eigen::MatrixXd& block, SparseMatrix& matrix) const {
-    const auto local = static_cast<Eigen::Index>(element.nodes.size());
-    for (Eigen::Index r = 0; r < local; ++r) {
-      const int node = element.nodes[static_cast<std::size_t>(r)];
-      const std::array<int, 2> i = pattern.unpack(node);
-      const int begin = scalar.outerIndexPtr()[node], count = scalar.outerIndexPtr()[node + 1] - begin;
-      double* to = matrix.valuePtr() + 9 * static_cast<std::ptrdiff_t>(begin);
-      for (Eigen::Index s = 0; s < local; ++s) {
-        const int at = 3 * pattern.offset(i, pattern.unpack(element.nodes[static_cast<std::size_t>(s)]));
-        for (Eigen::Index c = 0; c < 3; ++c) {
-          double* row = to + 3 * c * count + at;
-          for (Eigen::Index e = 0; e < 3; ++e) row[e] += block(e * local + s, c * local + r);
-        }
-      }
-    }
   }
 };
 
@@ -239,38 +175,27 @@ Expected<ShellEnergy> ShellEnergy::with_law(const Surface& surface, std::shared_
   }
   data->scalar = data->pattern.allocate();
   data->zero = three_fold(data->scalar);
+  data->blocks = detail::ShellBlocks(surface, quadrature, points, data->elements, data->rest);
   return ShellEnergy(std::move(data));
 }
 
-ShellParts ShellEnergy::energy(const Points& x) const {
-  ShellParts parts;
-  data_->each_point(x, [&](const ShellElement&, Eigen::Index, const ShellRest& rest, const ShellPoint& at, auto) {
-    const Vector6 strain = detail::shell_strain(at, rest.metric, rest.curvature);
-    const Vector6 stress = rest.stress(strain);
-    parts.membrane += rest.weight / 2 * stress.head<3>().dot(strain.head<3>());
-    parts.bending += rest.weight / 2 * stress.tail<3>().dot(strain.tail<3>());
-  });
-  return parts;
+ShellParts ShellEnergy::energy(const Points& x) const { return data_->blocks.forces(x, nullptr, nullptr); }
+
+ShellParts ShellEnergy::energy(const Points& x, Eigen::Ref<Points> gradient) const {
+  return data_->blocks.forces(x, &gradient, nullptr);
 }
 
 Points ShellEnergy::gradient(const Points& x) const {
   Points result = Points::Zero(x.rows(), 3);
-  data_->each_point(
-      x, [&](const ShellElement& element, Eigen::Index k, const ShellRest& rest, const ShellPoint& at, auto) {
-        const Vector6 s = rest.weight * rest.stress(detail::shell_strain(at, rest.metric, rest.curvature));
-        const Basis basis = basis_at(element, k);
-        const Eigen::MatrixX3d second = detail::covariant_second(at, basis);
-        Eigen::MatrixX3d force = basis.col(0) * (s[0] * at.tangent.col(0) + s[2] * at.tangent.col(1)).transpose();
-        force.noalias() += basis.col(1) * (s[1] * at.tangent.col(1) + s[2] * at.tangent.col(0)).transpose();
-        force.noalias() -= (second * Eigen::Vector3d(s[3], s[4], 2 * s[5])) * at.normal.transpose();
-        for (std::size_t r = 0; r < element.nodes.size(); ++r) {
-          result.row(element.nodes[r]) += force.row(static_cast<Eigen::Index>(r));
-        }
-      });
+  static_cast<void>(energy(x, result));
   return result;
 }
 
-ShellStress ShellEnergy::stress(const Points& x) const { return stress(x, Points::Zero(x.rows(), 3)); }
+ShellStress ShellEnergy::stress(const Points& x) const {
+  ShellStress result(6, static_cast<Eigen::Index>(data_->rest.size()));
+  static_cast<void>(data_->blocks.forces(x, nullptr, &result));
+  return result;
+}
 
 ShellStress ShellEnergy::stress(const Points& x, const Points& d) const {
   ShellStress result(6, static_cast<Eigen::Index>(data_->rest.size()));
@@ -289,20 +214,23 @@ ShellStress ShellEnergy::stress(const Points& x, const Points& d) const {
   return result;
 }
 
+ShellStress ShellEnergy::tension(const ShellStress& stress) const {
+  ShellStress result = ShellStress::Zero(6, stress.cols());
+  for (Eigen::Index k = 0; k < stress.cols(); ++k) {
+    result.col(k).head<3>() = detail::tension(stress.col(k).head<3>(), data_->rest[static_cast<std::size_t>(k)].metric);
+  }
+  return result;
+}
+
 SparseMatrix ShellEnergy::hessian(const Points& x, const ShellStress& stress) const {
   SparseMatrix matrix = data_->zero;
-  const ShellElement& any = data_->elements.front();
-  HessianRows rows(any.value.cols(), any.value.rows());
-  data_->each_point(x, [&](const ShellElement& element, Eigen::Index k, const ShellRest& rest, const ShellPoint& at,
-                           Eigen::Index index) {
-    rows.set(k, at, basis_at(element, k), rest, stress.col(index));
-    if (k + 1 == element.value.cols()) data_->add_block(element, rows.product(), matrix);
-  });
+  data_->blocks.add_hessian(x, stress, data_->pattern, data_->scalar, matrix);
   return matrix;
 }
 
 Points ShellEnergy::area_load(const Point& per_area) const {
   Points result = Points::Zero(data_->size, 3);
+  if (per_area == Point::Zero()) return result;
   std::size_t index = 0;
   for (const ShellElement& element : data_->elements) {
     for (Eigen::Index k = 0; k < element.value.cols(); ++k, ++index) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -65,6 +66,26 @@ inline Eigen::Matrix3d plane_stress(const Eigen::Vector3d& inverse, double young
       0, 0, ((1 - poisson) * a * b + (1 + poisson) * c * c) / 2;
   m.triangularView<Eigen::StrictlyLower>() = m.transpose();
   return young / (1 - poisson * poisson) * m;
+}
+
+/// The part of membrane forces n^αβ that pulls: with A = L Lᵀ the metric, Lᵀ n L without its negative eigenvalues.
+inline Eigen::Vector3d tension(const Eigen::Vector3d& force, const Eigen::Vector3d& metric) {
+  Eigen::Matrix2d l = Eigen::Matrix2d::Zero(), n;
+  l(0, 0) = std::sqrt(metric[0]);
+  l(1, 0) = metric[2] / l(0, 0);
+  l(1, 1) = std::sqrt(std::max(0.0, metric[1] - l(1, 0) * l(1, 0)));
+  n << force[0], force[2], force[2], force[1];
+  const Eigen::Matrix2d here = l.transpose() * n * l;
+  const double mean = (here(0, 0) + here(1, 1)) / 2, half = (here(0, 0) - here(1, 1)) / 2, shear = here(0, 1);
+  const double radius = std::sqrt(half * half + shear * shear);
+  if (mean >= radius) return force;
+  if (mean <= -radius) return Eigen::Vector3d::Zero();
+  // (mean + radius) times the projection on the direction of the larger principal value.
+  const double share = (mean + radius) / (2 * radius);
+  Eigen::Matrix2d pulling;
+  pulling << share * (radius + half), share * shear, share * shear, share * (radius - half);
+  const Eigen::Matrix2d inverse = l.inverse(), back = inverse.transpose() * pulling * inverse;
+  return {back(0, 0), back(1, 1), back(0, 1)};
 }
 
 /// ε and κ of a point against the rest shape's forms, each written 11, 22, 2·12.

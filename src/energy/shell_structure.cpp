@@ -46,20 +46,42 @@ ShellParts ShellStructure::energy(const Points& x) const {
   return sum;
 }
 
-Points ShellStructure::gradient(const Points& x) const {
-  Points result(x.rows(), 3);
+ShellParts ShellStructure::energy(const Points& x, Points& gradient) const {
+  ShellParts sum;
+  gradient = Points::Zero(x.rows(), 3);
   for (std::size_t k = 0; k < shells_.size(); ++k) {
-    result.middleRows(rows_[k], rows_[k + 1] - rows_[k]) = shells_[k].gradient(rows_of(x, k));
+    const ShellParts part = shells_[k].energy(rows_of(x, k), gradient.middleRows(rows_[k], rows_[k + 1] - rows_[k]));
+    sum.membrane += part.membrane;
+    sum.bending += part.bending;
   }
-  for (const ShellCrease& crease : creases_) crease.add_gradient(x, result);
+  for (const ShellCrease& crease : creases_) {
+    sum.bending += crease.energy(x);
+    crease.add_gradient(x, gradient);
+  }
+  return sum;
+}
+
+Points ShellStructure::gradient(const Points& x) const {
+  Points result;
+  static_cast<void>(energy(x, result));
   return result;
 }
 
-ShellStructure::Stress ShellStructure::stress(const Points& x) const { return stress(x, Points::Zero(x.rows(), 3)); }
+ShellStructure::Stress ShellStructure::stress(const Points& x) const {
+  Stress result;
+  for (std::size_t k = 0; k < shells_.size(); ++k) result.push_back(shells_[k].stress(rows_of(x, k)));
+  return result;
+}
 
 ShellStructure::Stress ShellStructure::stress(const Points& x, const Points& d) const {
   Stress result;
   for (std::size_t k = 0; k < shells_.size(); ++k) result.push_back(shells_[k].stress(rows_of(x, k), rows_of(d, k)));
+  return result;
+}
+
+ShellStructure::Stress ShellStructure::tension(const Stress& stress) const {
+  Stress result;
+  for (std::size_t k = 0; k < shells_.size(); ++k) result.push_back(shells_[k].tension(stress[k]));
   return result;
 }
 

@@ -5,7 +5,6 @@
 
 #include "constraints.hpp"
 #include "dead_loads.hpp"
-#include "joined_surfaces.hpp"
 #include "knead/sculpt/loads.hpp"
 
 namespace knead {
@@ -37,10 +36,9 @@ void append_held(const JoinedSurfaces& joined, const Points& displacement, std::
 Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& shell) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   const Point vector(scene.load.vector.data()), gravity(scene.load.gravity.data());
-  Points load = shell.area_load(shell.mass_per_area() * gravity);
-  if (scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area) {
-    load += shell.area_load(vector);
-  } else {
+  const bool per_area = scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area;
+  Points load = shell.area_load(shell.mass_per_area() * gravity + (per_area ? vector : Point::Zero().eval()));
+  if (!per_area) {
     const auto forces = load_forces<2>(*s.rest, {}, [&](const std::array<double, 2>&) { return vector; });
     if (!forces) return std::unexpected(forces.error());
     load += *forces;
@@ -99,8 +97,8 @@ Expected<ShellEnergy> energy_of(const SceneSurface& s) {
 }
 
 /// The input of the models of linear surfaces, for what holds shells: in places of the rest shape.
-ModelInput held_input(const Scene& scene, const EvolutionPolicy& evolution) {
-  ModelInput input = model_input(scene, evolution);
+ModelInput held_input(const Scene& scene) {
+  ModelInput input = model_input(scene, scene.evolution);
   const std::vector<int> selection = scene.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {
     input.surfaces[k].rest = scene.surfaces[static_cast<std::size_t>(selection[k])].rest;
@@ -108,52 +106,68 @@ ModelInput held_input(const Scene& scene, const EvolutionPolicy& evolution) {
   return input;
 }
 
+ShellInput shell_input(const Scene& scene) {
+  ShellInput input{held_input(scene), {}, {}};
+  for (const int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    input.shells.push_back(s.shell);
+    input.fundamental.push_back(s.fundamental);
+  }
+  return input;
+}
+
+/// The energies of the surfaces and of the creases between them.
+Expected<ShellStructure> structure_of(std::span<const SceneSurface* const> surfaces, const JoinedSurfaces& joined) {
+  std::vector<ShellEnergy> shells;
+  for (const SceneSurface* s : surfaces) {
+    auto shell = energy_of(*s);
+    if (!shell) return std::unexpected(shell.error());
+    shells.push_back(std::move(*shell));
+  }
+  std::vector<ShellCrease> creases;
+  for (const SeamReport& report : joined.seams) {
+    auto crease = crease_at(report, surfaces, shells, joined.rows);
+    if (!crease) return std::unexpected(crease.error());
+    if (*crease) creases.push_back(std::move(**crease));
+  }
+  return ShellStructure(std::move(shells), std::move(creases));
+}
+
 }  // namespace
 
-Expected<ShellProblem> shell_problem(const Scene& scene) {
+Expected<ShellProblem> shell_problem(const Scene& scene, const ShellProblem* kept) {
   const std::vector<int> selection = scene.selection();
-  auto joined = join_surfaces(held_input(scene, scene.evolution));
-  if (!joined) return std::unexpected(joined.error());
-  const std::vector<int>& rows = joined->rows;
-  std::vector<ShellEnergy> shells;
   std::vector<const SceneSurface*> surfaces;
+  for (const int k : selection) {
+    surfaces.push_back(&scene.surfaces[static_cast<std::size_t>(k)]);
+    if (auto within = check_scope(scene, *surfaces.back()); !within) return std::unexpected(within.error());
+  }
+  ShellInput input = shell_input(scene);
+  const bool same = kept != nullptr && kept->surfaces == selection && kept->input == input;
+  auto joined = same ? Expected<JoinedSurfaces>(kept->joined) : join_surfaces(input.model);
+  if (!joined) return std::unexpected(joined.error());
+  auto structure = same ? Expected<ShellStructure>(kept->structure) : structure_of(surfaces, *joined);
+  if (!structure) return std::unexpected(structure.error());
+  const std::vector<int>& rows = joined->rows;
   Points rest(rows.back(), 3), present(rows.back(), 3), load(rows.back(), 3);
   std::vector<EdgeMoment> moments;
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(selection[k])];
-    if (auto within = check_scope(scene, s); !within) return std::unexpected(within.error());
-    auto shell = energy_of(s);
-    if (!shell) return std::unexpected(shell.error());
-    const auto forces = load_on(scene, selection[k], *shell);
+    const auto forces = load_on(scene, selection[k], structure->shells()[k]);
     if (!forces) return std::unexpected(forces.error());
     const int first = rows[k], n = rows[k + 1] - first;
-    rest.middleRows(first, n) = s.rest->control_points();
-    present.middleRows(first, n) = s.current->control_points();
+    rest.middleRows(first, n) = surfaces[k]->rest->control_points();
+    present.middleRows(first, n) = surfaces[k]->current->control_points();
     load.middleRows(first, n) = *forces;
     if (auto ok = append_moments(scene, selection[k], first, rows.back(), moments); !ok) {
       return std::unexpected(ok.error());
     }
-    shells.push_back(std::move(*shell));
-    surfaces.push_back(&s);
-  }
-  std::vector<ShellCrease> creases;
-  for (const SeamReport& report : joined->seams) {
-    auto crease = crease_at(report, surfaces, shells, rows);
-    if (!crease) return std::unexpected(crease.error());
-    if (*crease) creases.push_back(std::move(**crease));
   }
   std::vector<LinearConstraint> constraints;
   append_held(*joined, present - rest, constraints);
   constraints.insert(constraints.end(), joined->settings.constraints.begin(), joined->settings.constraints.end());
-  return ShellProblem{selection,
-                      ShellStructure(std::move(shells), std::move(creases)),
-                      std::move(rest),
-                      std::move(present),
-                      std::move(constraints),
-                      std::move(load),
-                      std::move(moments),
-                      std::move(joined->seams),
-                      std::move(joined->notes)};
+  return ShellProblem{std::move(input),       std::move(*joined), selection,
+                      std::move(*structure),  std::move(rest),    std::move(present),
+                      std::move(constraints), std::move(load),    std::move(moments)};
 }
 
 bool touches_shell(const Scene& scene) {
@@ -165,36 +179,25 @@ bool touches_shell(const Scene& scene) {
          });
 }
 
-ShellInput shell_input(const Scene& scene, const EvolutionPolicy& evolution) {
-  ShellInput input{held_input(scene, evolution), {}, {}};
-  for (const int k : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    input.shells.push_back(s.shell);
-    input.fundamental.push_back(s.fundamental);
-  }
-  return input;
-}
-
-Expected<ShellModel> make_shell_model(const Scene& scene, const ShellProblem& problem, ShellInput input) {
-  const auto joined = join_surfaces(input.model);
-  if (!joined) return std::unexpected(joined.error());
-  const EvolutionPolicy& evolution = input.model.evolution;
+Expected<ShellModel> make_shell_model(const Scene& scene, const ShellProblem& problem,
+                                      const EvolutionPolicy& evolution) {
+  const ActiveSettings<2>& joined = problem.joined.settings;
   const SceneSurface& first = scene.surfaces[static_cast<std::size_t>(problem.surfaces.front())];
   const auto *mass = std::get_if<double>(&first.material.mass), *damping = std::get_if<double>(&first.material.damping);
   ActiveShellSettings settings{.evolution = evolution.mode,
                                .lambda = evolution.lambda,
                                .time_step = evolution.time_step,
                                .damping = mass != nullptr && damping != nullptr && *mass > 0 ? *damping / *mass : 0,
-                               .held = joined->settings.held,
-                               .constraints = joined->settings.constraints,
-                               .visible = joined->settings.visible,
-                               .detail = input.model.detail,
+                               .held = joined.held,
+                               .constraints = joined.constraints,
+                               .visible = joined.visible,
+                               .detail = problem.input.model.detail,
                                .accuracy = evolution.accuracy};
   std::vector<Surface> patches;
   for (const int k : problem.surfaces) patches.push_back(*scene.surfaces[static_cast<std::size_t>(k)].rest);
   auto model = ActiveShell::create(std::move(patches), problem.structure, std::move(settings));
   if (!model) return std::unexpected(model.error());
-  return ShellModel{std::move(input), std::move(*model)};
+  return ShellModel{problem, evolution, std::move(*model)};
 }
 
 Expected<ActiveShellLoads> shell_loads(const Scene& scene, const ShellProblem& problem, double share) {

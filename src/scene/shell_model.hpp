@@ -1,5 +1,6 @@
 #pragma once
 
+#include "joined_surfaces.hpp"
 #include "knead/energy/edge_moment.hpp"
 #include "knead/energy/shell_structure.hpp"
 #include "knead/scene/model.hpp"
@@ -8,28 +9,7 @@
 
 namespace knead {
 
-/// The selected surfaces as shells (docs/shell.md), in units of the file. Rows are control points, surface after
-/// surface.
-struct ShellProblem {
-  std::vector<int> surfaces;  ///< the selection
-  ShellStructure structure;
-  Points rest, present;
-  std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shapes, held points among them
-  Points load;                                ///< forces on the control points that keep their direction
-  std::vector<EdgeMoment> moments;            ///< which follow their edges
-  std::vector<SeamReport> seams;
-  std::vector<std::string> notes;
-};
-
-/// Errors (input): surfaces that are no shells among shells, a rest mode or a load that shells do not have; numbers of
-/// the material; those of `join_surfaces` and `ShellEnergy::create`.
-[[nodiscard]] Expected<ShellProblem> shell_problem(const Scene& scene);
-
-/// Whether something acts whose forces are not known before the shape is: tools, springs and volcanoes, pressure, wind,
-/// a limit.
-[[nodiscard]] bool touches_shell(const Scene& scene);
-
-/// Everything an `ActiveShell` of the selected surfaces depends on.
+/// Everything that shells of the selected surfaces depend on but what loads them.
 struct ShellInput {
   ModelInput model;
   std::vector<std::optional<ShellMaterial>> shells;
@@ -37,14 +17,42 @@ struct ShellInput {
 
   friend bool operator==(const ShellInput&, const ShellInput&) = default;
 };
-[[nodiscard]] ShellInput shell_input(const Scene& scene, const EvolutionPolicy& evolution);
+
+/// The selected surfaces as shells (docs/shell.md), in units of the file. Rows are control points, surface after
+/// surface.
+struct ShellProblem {
+  ShellInput input;
+  JoinedSurfaces joined;
+  std::vector<int> surfaces;  ///< the selection
+  ShellStructure structure;
+  Points rest, present;
+  std::vector<LinearConstraint> constraints;  ///< on the displacements from the rest shapes, held points among them
+  Points load;                                ///< forces on the control points that keep their direction
+  std::vector<EdgeMoment> moments;            ///< which follow their edges
+};
+
+/// \param kept one made before: what it has of the same input is taken from it.
+/// Errors (input): surfaces that are no shells among shells, a rest mode or a load that shells do not have; numbers of
+/// the material; those of `join_surfaces` and `ShellEnergy::create`.
+[[nodiscard]] Expected<ShellProblem> shell_problem(const Scene& scene, const ShellProblem* kept = nullptr);
+
+/// Whether something acts whose forces are not known before the shape is: tools, springs and volcanoes, pressure, wind,
+/// a limit.
+[[nodiscard]] bool touches_shell(const Scene& scene);
 
 /// The selected surfaces as shells that tools press.
 struct ShellModel {
-  ShellInput input;
+  ShellProblem problem;
+  EvolutionPolicy evolution;
   ActiveShell model;
+
+  /// Whether it is a model of this problem that evolves so.
+  [[nodiscard]] bool serves(const ShellProblem& other, const EvolutionPolicy& policy) const {
+    return evolution == policy && problem.input == other.input;
+  }
 };
-[[nodiscard]] Expected<ShellModel> make_shell_model(const Scene& scene, const ShellProblem& problem, ShellInput input);
+[[nodiscard]] Expected<ShellModel> make_shell_model(const Scene& scene, const ShellProblem& problem,
+                                                    const EvolutionPolicy& evolution);
 
 /// What acts on it but tools: `share` of the load, all of the rest. Errors: those of `active_loads`.
 [[nodiscard]] Expected<ActiveShellLoads> shell_loads(const Scene& scene, const ShellProblem& problem, double share);

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "contact_rounds.hpp"
 #include "shell_descent.hpp"
 #include "solve/constraint_space.hpp"
-#include "solve/coordinate_map.hpp"
+#include "solve/coordinate_restriction.hpp"
 
 namespace knead {
 namespace {
@@ -82,7 +83,7 @@ struct ActiveShell::Model {
   Points rest = {};
   SparseMatrix mass = {};  // of the step: λ B or M, normalised; empty: none
   ConstraintSpace space{0};
-  SparseMatrix map = {};
+  std::optional<CoordinateRestriction> restriction = {};
 
   [[nodiscard]] ScaledStructure scaled() const { return {structure, centre, length, energy}; }
   [[nodiscard]] const std::vector<int>& rows() const { return structure.rows(); }
@@ -112,10 +113,10 @@ Expected<ActiveShell> ActiveShell::create(std::vector<Surface> patches, ShellStr
   m.energy = 2 * m.structure.stretching_scale();
   std::vector<LinearConstraint> constraints = m.settings.constraints;
   for (LinearConstraint& c : constraints) c.value /= m.length;
-  auto space = ConstraintSpace::create(m.structure.size(), constraints, m.settings.held);
+  auto space = ConstraintSpace::create(m.structure.size(), constraints, m.settings.held, true);
   if (!space) return std::unexpected(space.error());
   m.space = std::move(*space);
-  m.map = coordinate_map(m.space);
+  m.restriction.emplace(m.space, m.structure.hessian(m.rest));
   if (m.settings.evolution == Evolution::dynamic) {
     m.mass = m.length * m.length / m.energy * m.structure.mass();
   } else if (m.settings.evolution == Evolution::acm && m.settings.lambda > 0) {
@@ -178,7 +179,8 @@ struct ActiveShell::Run {
   /// The minimum under these normalised forces.
   void settle(const Points& b, const SparseMatrix& inertia, double theta) {
     const ShellStepProblem problem{structure,
-                                   m.map,
+                                   m.space,
+                                   *m.restriction,
                                    start,
                                    theta,
                                    inertia,

@@ -1,6 +1,9 @@
 #include "shell_descent.hpp"
 
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include "knead/solve/eigenmodes.hpp"
 
@@ -9,19 +12,22 @@ namespace {
 
 constexpr int max_iterations = 100;
 constexpr int max_halvings = 30;
+constexpr int max_parabolas = 30;
+constexpr double near_balance = 1e-3;       // of the forces that meet: parabolas lead so far, or further in one step
+constexpr double kept_parabola = 0.5;       // of the imbalance: what one parabola may leave, if it is to lead further
+constexpr double parabola_accuracy = 1e-4;  // of the displacement towards its minimum
 constexpr double sufficient_decrease = 1e-4;
 constexpr double rounding_of_potential = 1e-13;
-constexpr double negligible_step = 1e-13;  // in lengths of the model: rounding is all that is left
-constexpr double halved_imbalance = 0.5;   // a full step that lowers the imbalance so far is taken, whatever Φ does
-constexpr double exact_imbalance = 1e-9;   // less asks for no iteration
-constexpr double singular_pivot = 1e-15;
+constexpr double negligible_step = 1e-13;     // in lengths of the model: rounding is all that is left
+constexpr double halved_imbalance = 0.5;      // a full step that lowers the imbalance so far is taken, whatever Φ does
+constexpr double exact_imbalance = 1e-9;      // less asks for no iteration
 constexpr double rounding_of_forces = 1e-14;  // in membrane stiffness times length
 
 Eigen::Map<const Eigen::VectorXd> flattened(const Points& x) { return {x.data(), x.size()}; }
 
 }  // namespace
 
-ShellDescent::ShellDescent(const ShellStepProblem& problem, const Potential& potential)
+ShellDescent::ShellDescent(const ShellStepProblem& problem, Potential& potential)
     : problem_(problem), potential_(potential) {
   if (problem.inertia.rows() > 0) inertia_ = on_coordinates(problem.inertia);
 }
@@ -33,58 +39,53 @@ Points ShellDescent::inertia_times(const Points& y) const {
 ShellDescent::Place ShellDescent::at(Points y) const {
   Place place;
   place.contact = potential_.evaluate(problem_.start + y);
-  const Points qy = inertia_times(y), elastic = problem_.structure.gradient(position(y));
-  place.phi = problem_.structure.value(position(y)) / problem_.theta - dot(problem_.b, y) + 0.5 * dot(y, qy) +
-              place.contact.potential;
-  const Points forces = problem_.b - qy - elastic + place.contact.force;
-  place.imbalance = problem_.map.transpose() * flattened(forces);
+  const Points qy = inertia_times(y);
+  Points elastic;
+  const double value = problem_.structure.value(position(y), elastic);
+  place.phi = value / problem_.theta - dot(problem_.b, y) + 0.5 * dot(y, qy) + place.contact.potential;
+  place.pull = problem_.b - qy - elastic;
+  place.imbalance = problem_.space.reduce(place.pull + place.contact.force);
   place.scale = place.contact.force.norm() + problem_.b.norm() + qy.norm() + elastic.norm();
   place.y = std::move(y);
   return place;
 }
 
-/// Tᵀ (θ ∇²W + Q + ∇²Ψ) T.
-SparseMatrix ShellDescent::reduced(const SparseMatrix& elastic, const PotentialState& contact) const {
-  std::vector<Eigen::Triplet<double>> entries;
-  potential_.append_hessian(contact, entries);
-  SparseMatrix sum = problem_.theta * elastic;
+SparseMatrix ShellDescent::elastic(const Points& x, const ShellStructure::Stress& stress) const {
+  SparseMatrix sum = problem_.structure.hessian(x, stress);
+  if (problem_.theta != 1) sum *= problem_.theta;
   if (inertia_.rows() > 0) sum += inertia_;
-  if (!entries.empty()) {
-    SparseMatrix touched(sum.rows(), sum.cols());
-    touched.setFromTriplets(entries.begin(), entries.end());
-    sum += touched;
-  }
-  return problem_.map.transpose() * sum * problem_.map;
+  return sum;
 }
 
-/// Whether it is positive definite.
+SparseMatrix ShellDescent::hessian(const Place& place, const ShellStructure::Stress& stress) const {
+  SparseMatrix sum = elastic(position(place.y), stress);
+  std::vector<Eigen::Triplet<double>> entries;
+  potential_.append_hessian(place.contact, entries);
+  for (const auto& entry : entries) sum.coeffRef(entry.row(), entry.col()) += entry.value();
+  return sum;
+}
+
 bool ShellDescent::factor(const SparseMatrix& system) {
-  if (analysed_ != system.nonZeros()) {
-    solver_.analyzePattern(system);
-    analysed_ = system.nonZeros();
-  }
-  solver_.factorize(system);
-  if (solver_.info() != Eigen::Success) return false;
-  const auto& pivots = solver_.vectorD();
-  return pivots.size() == 0 || pivots.minCoeff() > singular_pivot * pivots.maxCoeff();
+  auto factored = ConstrainedCholesky::factor(system, problem_.space, problem_.restriction);
+  if (!factored) return false;
+  inverse_.emplace(std::move(*factored));
+  parabola_.resize(0, 0);
+  return true;
 }
 
 /// The Hessian, without its geometric part where that makes it indefinite, and with some more of a multiple of the
 /// identity where a mechanism is left.
 bool ShellDescent::factor_at(const Place& place, const ShellStructure::Stress& stress) {
-  const ScaledStructure& structure = problem_.structure;
-  const Points x = position(place.y);
-  if (factor(reduced(structure.hessian(x, stress), place.contact))) return true;
+  if (factor(hessian(place, stress))) return true;
   ShellStructure::Stress none = stress;
   for (ShellStress& s : none) s.setZero();
-  SparseMatrix system = reduced(structure.hessian(x, none), place.contact);
+  SparseMatrix system = hessian(place, none);
   if (factor(system)) return true;
-  double largest = 0;
-  for (Eigen::Index i = 0; i < system.rows(); ++i) largest = std::max(largest, std::abs(system.coeff(i, i)));
-  SparseMatrix identity(system.rows(), system.cols());
-  identity.setIdentity();
+  const Eigen::VectorXd diagonal = system.diagonal();
+  const double largest = diagonal.cwiseAbs().maxCoeff();
   for (double share = 1e-10; share < 1; share *= 100) {
-    if (factor(SparseMatrix(system + share * largest * identity))) return true;
+    system.diagonal() = diagonal.array() + share * largest;
+    if (factor(system)) return true;
   }
   return false;
 }
@@ -109,33 +110,77 @@ bool ShellDescent::advance(Place& place, const Points& d, double slope) const {
   return false;
 }
 
-PotentialState ShellDescent::run(Points& y, ContactSummary& summary) {
-  Place place = at(y);
-  ShellStructure::Stress stress = problem_.structure.stress(position(place.y));
-  summary.converged = false;
-  for (int iteration = 0;; ++iteration) {
-    const double size = place.imbalance.size() > 0 ? place.imbalance.norm() : 0;
-    residual_ = size > rounding_of_forces ? size / place.scale : 0;
-    summary.finite = summary.finite && std::isfinite(residual_);
-    if (!summary.finite) break;
-    if (residual_ <= problem_.tolerance && (iteration > 0 || residual_ <= exact_imbalance)) {
-      summary.converged = true;
-      break;
+bool ShellDescent::balanced(const Place& place, bool moved, double tolerance, ContactSummary& summary) {
+  const double size = place.imbalance.size() > 0 ? place.imbalance.norm() : 0;
+  residual_ = size > rounding_of_forces ? size / place.scale : 0;
+  summary.finite = summary.finite && std::isfinite(residual_);
+  summary.converged = summary.finite && residual_ <= tolerance && (moved || residual_ <= exact_imbalance);
+  return summary.converged || !summary.finite;
+}
+
+ShellDescent::Place ShellDescent::approach(Place place, double tolerance, ContactSummary& summary) {
+  double before = std::numeric_limits<double>::infinity();
+  bool fresh = false;
+  for (int round = 0; round < max_parabolas; ++round) {
+    if (balanced(place, round > 0, tolerance, summary)) return place;
+    if (parabola_.rows() == 0 || residual_ > kept_parabola * before) {
+      const Points x = position(place.y);
+      const ScaledStructure& structure = problem_.structure;
+      SparseMatrix a = elastic(x, structure.structure.tension(structure.stress(x)));
+      if (!factor(a)) return place;
+      parabola_ = std::move(a);
+      fresh = true;
+    } else {
+      fresh = false;
     }
+    before = residual_;
+    const auto times = [&](const Points& d) {
+      const Eigen::VectorXd image = parabola_ * flattened(d);
+      return Points(Eigen::Map<const Points>(image.data(), d.rows(), 3));
+    };
+    const StepProblem parabola{times, *inverse_,        place.pull, problem_.start + place.y, std::abs(place.phi),
+                               false, parabola_accuracy};
+    Points d = Points::Zero(place.y.rows(), 3);
+    const Minimum minimum = minimise_step(parabola, potential_, d);
+    ++summary.iterations;
+    summary.solves += minimum.summary.solves;
+    const double slope = dot(place.pull + place.contact.force, d);
+    if (!d.allFinite() || !(slope > 0) || !advance(place, d, slope)) {
+      if (fresh) return place;
+      before = 0;  // another parabola
+    }
+  }
+  return place;
+}
+
+ShellDescent::Place ShellDescent::newton(Place place, ContactSummary& summary) {
+  ShellStructure::Stress stress = problem_.structure.stress(position(place.y));
+  for (int iteration = 0;; ++iteration) {
+    if (balanced(place, iteration > 0, problem_.tolerance, summary)) break;
     if (iteration == max_iterations || !factor_at(place, stress)) break;
-    const Eigen::VectorXd z = solver_.solve(place.imbalance);
+    const Points forces = place.pull + place.contact.force, d = inverse_->solve(forces);
     ++summary.iterations;
     ++summary.solves;
-    const Eigen::VectorXd flat = problem_.map * z;
-    const Points d = Eigen::Map<const Points>(flat.data(), flat.size() / 3, 3);
     const Points before = position(place.y), old = place.y;
-    if (!d.allFinite() || !advance(place, d, place.imbalance.dot(z))) break;
+    if (!d.allFinite() || !advance(place, d, dot(forces, d))) break;
     const Points moved = place.y - old;
     if (moved.cwiseAbs().maxCoeff() <= negligible_step) {
       summary.converged = true;
       break;
     }
     stress = problem_.structure.stress(before, problem_.theta * moved);
+  }
+  return place;
+}
+
+PotentialState ShellDescent::run(Points& y, ContactSummary& summary) {
+  Place place = at(y);
+  summary.converged = false;
+  if (problem_.tolerance >= near_balance || !place.contact.contacts.empty()) {
+    place = approach(std::move(place), near_balance, summary);
+  }
+  if (summary.finite && !(summary.converged && residual_ <= problem_.tolerance)) {
+    place = newton(std::move(place), summary);
   }
   y = std::move(place.y);
   return std::move(place.contact);

@@ -14,7 +14,7 @@ bool Executor::shells() const {
 Expected<ActiveStep> Executor::one_shell_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
                                               double& seconds) {
   const auto start = std::chrono::steady_clock::now();
-  auto problem = shell_problem(state);
+  auto problem = shell_problem(state, shell_cache ? &shell_cache->problem : nullptr);
   if (!problem) return std::unexpected(problem.error());
   if (!state.energy_before) state.energy_before = problem->structure.energy(problem->present).sum();
   auto step = evolution.mode == Evolution::stationary && more.empty() && !touches_shell(state)
@@ -22,8 +22,8 @@ Expected<ActiveStep> Executor::one_shell_step(const EvolutionPolicy& evolution, 
                   : press_shell(*problem, evolution, more);
   if (!step) return step;
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  shell_seams = std::move(problem->seams);
-  shell_notes = std::move(problem->notes);
+  shell_seams = std::move(problem->joined.seams);
+  shell_notes = std::move(problem->joined.notes);
   return step;
 }
 
@@ -52,10 +52,9 @@ Expected<ActiveStep> Executor::load_shell(const ShellProblem& problem) {
 /// A step under tools, or in time.
 Expected<ActiveStep> Executor::press_shell(const ShellProblem& problem, const EvolutionPolicy& evolution,
                                            const std::vector<PointForce>& more) {
-  ShellInput input = shell_input(state, evolution);
-  if (!shell_cache || !(shell_cache->input == input)) {
+  if (!shell_cache || !shell_cache->serves(problem, evolution)) {
     shell_cache.reset();
-    auto made = make_shell_model(state, problem, std::move(input));
+    auto made = make_shell_model(state, problem, evolution);
     if (!made) return std::unexpected(made.error());
     shell_cache = std::move(*made);
   }

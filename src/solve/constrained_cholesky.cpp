@@ -5,13 +5,12 @@
 namespace knead {
 namespace {
 
-/// A known smooth displacement, which an ill-conditioned matrix reproduces worst, since the energy hardly resists it.
-Points known_displacement(Eigen::Index rows) { return Points::Ones(rows, 3); }
-
-/// Solves for it. This also detects a singular matrix that passed the factorisation by rounding.
-Expected<void> check_digits(const SparseCholesky& cholesky, const Points& forces) {
+/// Solves for a known smooth displacement of ones, which an ill-conditioned matrix reproduces worst, since the energy
+/// hardly resists it. This also detects a singular matrix that passed the factorisation by rounding.
+template <class Values>
+Expected<void> check_digits(const SparseCholesky& cholesky, const Values& forces) {
   constexpr double tolerance = 1e-3;
-  const double error = (cholesky.solve(forces) - known_displacement(forces.rows())).cwiseAbs().maxCoeff();
+  const double error = (cholesky.solve(forces).array() - 1).abs().maxCoeff();
   if (error <= tolerance) return {};
   return numerical_error(
       fmt::format("the system matrix is too close to singular (a known solution is missed by {:.1e})", error),
@@ -25,8 +24,23 @@ Expected<ConstrainedCholesky> ConstrainedCholesky::factor(SparseMatrix&& a, Cons
   if (space.free_count() > 0) {
     SparseMatrix reduced = space.restrict(a);
     SparseMatrix().swap(a);
-    const Points forces = reduced * known_displacement(reduced.rows());
+    const Points forces = reduced * Points::Ones(reduced.rows(), 3);
     auto factored = SparseCholesky::factor(std::move(reduced));
+    if (!factored) return std::unexpected(factored.error());
+    if (auto checked = check_digits(*factored, forces); !checked) return std::unexpected(checked.error());
+    cholesky = std::move(*factored);
+  }
+  return ConstrainedCholesky(std::move(space), std::move(cholesky));
+}
+
+Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a, ConstraintSpace space,
+                                                          const CoordinateRestriction& restriction) {
+  std::optional<SparseCholesky> cholesky;
+  if (space.free_count() > 0) {
+    const SparseMatrix lower = restriction.lower(a);
+    const Eigen::VectorXd in_order = lower.selfadjointView<Eigen::Lower>() * Eigen::VectorXd::Ones(lower.rows());
+    const Eigen::VectorXd forces = in_order(restriction.order());
+    auto factored = SparseCholesky::factor_in_order(lower, restriction.order());
     if (!factored) return std::unexpected(factored.error());
     if (auto checked = check_digits(*factored, forces); !checked) return std::unexpected(checked.error());
     cholesky = std::move(*factored);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "constraint_space.hpp"
+#include "coordinate_restriction.hpp"
 #include "knead/solve/sparse_cholesky.hpp"
 
 namespace knead {
@@ -16,6 +17,11 @@ class ConstrainedCholesky {
   [[nodiscard]] static Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space);
   /// The same where A is needed no longer: it is emptied before the factor is made.
   [[nodiscard]] static Expected<ConstrainedCholesky> factor(SparseMatrix&& a, ConstraintSpace space);
+
+  /// The same of A over all 3N coordinates, of the pattern of the restriction, whose space this is: T Tᵀ A T instead of
+  /// T Tᵀ (A ⊗ I) T. Errors: likewise.
+  [[nodiscard]] static Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space,
+                                                            const CoordinateRestriction& restriction);
 
   /// The X = T y that solves Tᵀ A X = Tᵀ B, for B of N × 3. Cost: O(nonzeros of the factor).
   [[nodiscard]] Points solve(const Points& b) const;

@@ -125,9 +125,9 @@ struct ConstraintSpace::Elimination {
 };
 
 Expected<ConstraintSpace> ConstraintSpace::create(int size, std::span<const LinearConstraint> constraints,
-                                                  const std::vector<bool>& held) {
+                                                  const std::vector<bool>& held, bool coordinates) {
   assert(held.empty() || held.size() == at(size));
-  bool coupled = false;
+  bool coupled = coordinates;
   for (const LinearConstraint& c : constraints) {
     coupled = coupled || c.normal.has_value();
     if (!c.value.allFinite()) return input_error("a right side is not a finite number", c.name);

@@ -26,12 +26,13 @@ class ConstraintSpace {
 
   /// \param size number of unknown points N.
   /// \param held one flag per unknown point; empty: none.
+  /// \param coordinates T maps to all 3N coordinates even where no constraint couples them.
   /// Errors (input): a constraint that contradicts others, both named; an unknown that does not exist; a number that is
   /// not finite, a normal of zero length. Two constraints count as dependent if elimination leaves less than 1e-11 of
   /// the largest coefficient, and as contradictory if it then leaves more than 1e-9 of the right sides (or of 1, the
   /// model's size).
   [[nodiscard]] static Expected<ConstraintSpace> create(int size, std::span<const LinearConstraint> constraints,
-                                                        const std::vector<bool>& held = {});
+                                                        const std::vector<bool>& held = {}, bool coordinates = false);
 
   [[nodiscard]] int size() const { return size_; }
   /// Length of y: independent points, or independent coordinates where `coupled`.

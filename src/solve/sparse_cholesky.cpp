@@ -22,17 +22,20 @@ Expected<SparseCholesky> SparseCholesky::factor(SparseMatrix&& a) {
   const Order order = inverse.inverse();
   SparseMatrix lower(a.rows(), a.cols());
   lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(order);
-  const auto size = static_cast<int>(a.rows());
   SparseMatrix().swap(a);
+  return factor_in_order(lower, order.indices());
+}
+
+Expected<SparseCholesky> SparseCholesky::factor_in_order(const SparseMatrix& lower, Eigen::VectorXi order) {
   auto panels = Panels::factor(lower);
   if (!panels) {
     return numerical_error("the system matrix is not positive definite", "Cholesky factorisation",
                            "hold more control points, or use a larger lambda or positive material coefficients");
   }
   auto factor = std::make_shared<Factor>();
-  factor->order = order.indices();
+  factor->order = std::move(order);
   factor->panels = std::move(*panels);
-  return SparseCholesky(std::move(factor), size);
+  return SparseCholesky(std::move(factor), static_cast<int>(lower.rows()));
 }
 
 Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) { return factor(SparseMatrix(a)); }

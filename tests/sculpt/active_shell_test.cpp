@@ -86,6 +86,28 @@ TEST(ActiveShell, ABallDentsItAndEveryForceIsBalanced) {
   EXPECT_LT(again.energy, 1e-12 * step.energy);  // without the ball it springs back
 }
 
+TEST(ActiveShell, InteractiveFramesAreBalancedAndComeToRest) {
+  const Surface rest = testing::uniform_sheet(3, 16, 16);
+  ActiveShellSettings settings{.evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15};
+  const ActiveShell exact = shell_of(rest, settings);
+  settings.accuracy = StepAccuracy::interactive;
+  const ActiveShell shell = shell_of(rest, settings);
+  ActiveState state{rest.control_points()};
+  Tool ball = ball_at({0.5, 0.5, 0.15}, 0.15);
+  ActiveStep step;
+  for (int frame = 1; frame <= 30; ++frame) {
+    ball = ball_at({0.5 + 0.005 * std::min(frame, 20), 0.5, 0.15 - 0.004 * std::min(frame, 20)}, 0.15);
+    step = step_of(shell, state, {&ball, 1});
+    EXPECT_TRUE(step.converged) << step.note;
+    EXPECT_LE(step.residual, 1e-3) << frame;
+    state.control_points = step.control_points;
+  }
+  EXPECT_LE(step.residual, 1e-6);  // ten frames after the ball has stopped
+  const ActiveStep at_rest = step_of(exact, state, {&ball, 1});
+  EXPECT_LT((at_rest.control_points - state.control_points).norm(),
+            1e-5 * (state.control_points - rest.control_points()).norm());
+}
+
 TEST(ActiveShell, ARigidBallStaysOutside) {
   const Surface rest = testing::uniform_sheet(3, 14, 14);
   const ActiveShell shell = shell_of(rest, {.evolution = Evolution::stationary, .held = ends_of(rest), .detail = 0.15});

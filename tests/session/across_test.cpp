@@ -3,6 +3,7 @@
 
 #include "pieces.hpp"
 #include "sculpt/groove.hpp"
+#include "session/brushes.hpp"
 
 namespace knead::testing {
 namespace {

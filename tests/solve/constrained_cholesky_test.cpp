@@ -185,5 +185,36 @@ TEST(ConstrainedCholesky, RefusesASingularSystem) {
   EXPECT_FALSE(ConstrainedCholesky::factor(p.k, ConstraintSpace(p.surface.size())));
 }
 
+TEST(ConstrainedCholesky, OfCoordinatesSolvesInTheirSpace) {
+  const Problem p(testing::relief(testing::uniform_clamped(3, 5), testing::uniform_clamped(2, 6), 1));
+  const int n = p.surface.size();
+  const std::vector<LinearConstraint> constraints{{"equal", {{7, 1.0}, {8, -1.0}}, {}, Point(1, 2, 3)},
+                                                  {"together", {{20, 0.5}, {21, 0.25}, {30, -0.75}}}};
+  std::vector<bool> held(static_cast<std::size_t>(n), false);
+  held[0] = held[11] = true;
+  const auto space = ConstraintSpace::create(n, constraints, held, true);
+  ASSERT_TRUE(space);
+  ASSERT_TRUE(space->coupled());
+  // Coordinates that depend on each other: a symmetric block of its own at every entry.
+  const SparseMatrix scalar = p.k + p.mass;
+  std::vector<Eigen::Triplet<double>> entries;
+  const Eigen::Matrix3d block{{2, 0.5, 0.1}, {0.5, 3, -0.2}, {0.1, -0.2, 1}};
+  for (int j = 0; j < scalar.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator it(scalar, j); it; ++it) {
+      for (int c = 0; c < 3; ++c) {
+        for (int e = 0; e < 3; ++e) entries.emplace_back(3 * it.row() + c, 3 * j + e, block(c, e) * it.value());
+      }
+    }
+  }
+  SparseMatrix a(3 * n, 3 * n);
+  a.setFromTriplets(entries.begin(), entries.end());
+  const CoordinateRestriction restriction(*space, a);
+  const auto inverse = ConstrainedCholesky::factor(a, *space, restriction);
+  ASSERT_TRUE(inverse) << inverse.error().message();
+  const Points x = space->expand(Eigen::VectorXd(random_points(space->free_count(), 3).col(0)));
+  const Eigen::VectorXd b = a * Eigen::Map<const Eigen::VectorXd>(x.data(), x.size());
+  EXPECT_LT((inverse->solve(Eigen::Map<const Points>(b.data(), n, 3)) - x).norm(), 1e-11 * x.norm());
+}
+
 }  // namespace
 }  // namespace knead

@@ -73,6 +73,8 @@ class ShellEnergy {
 
   /// W(x). Where S has no normal at a Gauss point this and all that follows is not finite. Cost: O(points p²).
   [[nodiscard]] ShellParts energy(const Points& x) const;
+  /// The same, and adds ∂W/∂x to `gradient`, N × 3.
+  [[nodiscard]] ShellParts energy(const Points& x, Eigen::Ref<Points> gradient) const;
   /// ∂W/∂x, the internal forces: N × 3. Cost: O(points p²).
   [[nodiscard]] Points gradient(const Points& x) const;
   /// The stress resultants t C:ε and t³/12 C:κ; of the fundamental forms 8 w1 ε and 2 w2 κ (half of both for 12).
@@ -80,8 +82,11 @@ class ShellEnergy {
   /// Those of the strains linearised about x: C:(ε(x) + ε'(x) d). Newton's method with them in the Hessian needs
   /// fewer iterations (Magisano, Leonetti and Garcea 2017).
   [[nodiscard]] ShellStress stress(const Points& x, const Points& d) const;
+  /// Their tension alone: membrane forces without negative principal values, no moments. With them the Hessian is
+  /// positive semidefinite, yet as stiff against displacements out of a stretched surface as the true one.
+  [[nodiscard]] ShellStress tension(const ShellStress& stress) const;
   /// ∂²W/∂x²: 3N × 3N, symmetric to the last bit, every entry of the tensor band stored. It may be indefinite. Cost:
-  /// about 9 (3 L)² multiply-adds per Gauss point, L = (p + 1)(q + 1).
+  /// about 45 (p + 1)³ multiply-adds per Gauss point at p = q, by sum factorisation.
   [[nodiscard]] SparseMatrix hessian(const Points& x) const { return hessian(x, stress(x)); }
   /// The same with other stresses in its geometric part.
   [[nodiscard]] SparseMatrix hessian(const Points& x, const ShellStress& stress) const;

@@ -24,11 +24,14 @@ class ShellStructure {
 
   /// The sums of `ShellEnergy`'s; what opens creases counts as bending.
   [[nodiscard]] ShellParts energy(const Points& x) const;
+  /// The same, and its gradient.
+  [[nodiscard]] ShellParts energy(const Points& x, Points& gradient) const;
   [[nodiscard]] Points gradient(const Points& x) const;
   /// One per shell.
   using Stress = std::vector<ShellStress>;
   [[nodiscard]] Stress stress(const Points& x) const;
   [[nodiscard]] Stress stress(const Points& x, const Points& d) const;
+  [[nodiscard]] Stress tension(const Stress& stress) const;
   /// Of creases Gauss and Newton's part. The pattern is the same at every x.
   [[nodiscard]] SparseMatrix hessian(const Points& x) const { return hessian(x, stress(x)); }
   [[nodiscard]] SparseMatrix hessian(const Points& x, const Stress& stress) const;

@@ -45,13 +45,15 @@ struct ActiveShellLoads {
 ///   dynamic     M(V₁ − V₀)/h + D V + ∇W(X_θ) + c − G + ∇Ψ(X₁) = 0,  X_θ = (1 − θ) X₀ + θ X₁,  Δ = X₁ − X₀ = h V,
 ///               V = (1 − θ) V₀ + θ V₁,  D = damping · M
 ///
-/// by Newton's method with the exact Hessian and a line search. Where the Hessian is indefinite its geometric part is
-/// left out, which makes it positive. A dynamic step takes θ = 0.55 and c = 0, nearly the midpoint rule, and keeps the
-/// result if g = W₁ − W₀ − ∇W(X_θ)·Δ − (θ − ½) |V₁ − V₀|²_M <= 0; else, where steps are too large to resolve the
-/// motion, θ = 1 (implicit Euler) with c = max(0, g) MΔ/(ΔᵀMΔ), found in up to 12 rounds. Either way energy does not
-/// grow without loads, however large the step: W₁ + T₁ <= W₀ + T₀ − h VᵀDV (a one-sided discrete gradient, after O.
-/// Gonzalez, *Time integration and discrete Hamiltonian systems*, 1996). Forces of pressure, wind and moments are those
-/// at the start of the step; a stationary step repeats until they have settled. Immutable, const is thread-safe.
+/// first by convex parabolas in the place of W with contact as it is, to an imbalance of 1e-3 of the forces that meet
+/// (interactive accuracy), then by Newton's method with the exact Hessian and a line search, to 1e-9 (docs/shell.md).
+/// Where the Hessian is indefinite its geometric part is left out, which makes it positive. A dynamic step takes θ =
+/// 0.55 and c = 0, nearly the midpoint rule, and keeps the result if g = W₁ − W₀ − ∇W(X_θ)·Δ − (θ − ½) |V₁ − V₀|²_M <=
+/// 0; else, where steps are too large to resolve the motion, θ = 1 (implicit Euler) with c = max(0, g) MΔ/(ΔᵀMΔ), found
+/// in up to 12 rounds. Either way energy does not grow without loads, however large the step: W₁ + T₁ <= W₀ + T₀ − h
+/// VᵀDV (a one-sided discrete gradient, after O. Gonzalez, *Time integration and discrete Hamiltonian systems*, 1996).
+/// Forces of pressure, wind and moments are those at the start of the step; a stationary step repeats until they have
+/// settled. Immutable, const is thread-safe.
 class ActiveShell {
  public:
   /// \param patches rest shapes of the structure's shells, in their order.

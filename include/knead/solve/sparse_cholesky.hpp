@@ -16,6 +16,10 @@ class SparseCholesky {
   /// The same where A is needed no longer: it is emptied before L is made, which takes several times its memory.
   [[nodiscard]] static Expected<SparseCholesky> factor(SparseMatrix&& a);
 
+  /// The factor of a matrix that is in the order of its factor, in which unknown i has the place order[i]; its lower
+  /// triangle is used.
+  [[nodiscard]] static Expected<SparseCholesky> factor_in_order(const SparseMatrix& lower, Eigen::VectorXi order);
+
   /// X with A X = B, three columns at once. Cost: O(nonzeros of L). const and thread-safe.
   [[nodiscard]] Points solve(const Points& b) const;
   /// The same for one column.

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "constraint_space.hpp"
+
+namespace knead {
+
+/// Tᵀ A T of symmetric matrices A over all 3N coordinates that have one pattern, T that of a `ConstraintSpace`, in an
+/// order that fills the factor little. What depends on the pattern alone is found once.
+class CoordinateRestriction {
+ public:
+  /// \param space of coordinates (`coupled`).
+  CoordinateRestriction(const ConstraintSpace& space, const SparseMatrix& pattern);
+
+  /// The lower triangle of Tᵀ A T in that order. Cost: one multiply-add per entry of A where nothing but coordinates is
+  /// held.
+  [[nodiscard]] SparseMatrix lower(const SparseMatrix& a) const;
+  /// order[i] is the place of unknown i.
+  [[nodiscard]] const Eigen::VectorXi& order() const { return order_; }
+
+ private:
+  struct Piece {
+    int from, to;  // values of A and of the result
+    double coefficient;
+  };
+
+  Eigen::VectorXi order_;
+  SparseMatrix zero_;  // the pattern of the result
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace knead
