@@ -104,13 +104,16 @@ Expected<void> keep_varying_load(SceneModel& scene) {
   if (!scene.input.varying) return {};
   scene.varying_load = Points::Zero(scene.model.rows().back(), 3);
   for (std::size_t patch = 0; patch < scene.input.surfaces.size(); ++patch) {
-    const Surface& reference = *scene.input.surfaces[patch].reference;
-    const auto fields = load_fields(*scene.input.varying, reference);
+    const SurfaceInput& s = scene.input.surfaces[patch];
+    const DomainScaling<2>& scaling = scene.model.scaling(static_cast<int>(patch));
+    const bool by_area = scene.input.varying->per == LoadMeasure::area;
+    const auto fields = load_fields(*scene.input.varying, *s.reference);
     if (!fields) return std::unexpected(fields.error());
     for (const Surface& field : *fields) {
-      const auto forces = load_forces<2>(reference, scene.model.scaling(static_cast<int>(patch)), field);
+      auto forces = by_area ? area_load_forces(*s.rest, field) : load_forces<2>(*s.reference, scaling, field);
       if (!forces) return std::unexpected(forces.error());
-      scene.varying_load.middleRows(scene.model.rows()[patch], reference.size()) += *forces;
+      if (by_area) *forces /= scaling.length * scaling.length;  // per area in lengths of the model
+      scene.varying_load.middleRows(scene.model.rows()[patch], s.reference->size()) += *forces;
     }
   }
   return {};
@@ -143,11 +146,12 @@ Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Sur
 ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
   ModelInput input;
   const bool visible_only = touches_visible(scene);
+  const bool by_area = scene.load.varies() && scene.load.per == LoadMeasure::area;
   for (int k : scene.selection()) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
     input.surfaces.push_back({.id = s.id,
                               .reference = s.reference,
-                              .rest = s.constraints.empty() ? nullptr : s.rest,
+                              .rest = s.constraints.empty() && !by_area ? nullptr : s.rest,
                               .mode = s.mode,
                               .material = s.material,
                               .hold_rows = s.hold_rows,

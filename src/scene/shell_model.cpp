@@ -10,16 +10,12 @@
 namespace knead {
 namespace {
 
-Expected<void> check_scope(const Scene& scene, const SceneSurface& s) {
+Expected<void> check_scope(const SceneSurface& s) {
   if (!s.nonlinear()) {
     return input_error("it is no shell, but is selected with shells", s.id, "give all of them the same kind of model");
   }
   if (s.mode == RestMode::none)
     return input_error("a shell needs a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
-  if (scene.load.varies()) {
-    return input_error("on a shell no load acts that varies over it", "load",
-                       "use vector, gravity, pressure and wind, and leave out samples and formulas");
-  }
   return {};
 }
 
@@ -36,10 +32,19 @@ void append_held(const JoinedSurfaces& joined, const Points& displacement, std::
 Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& shell) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   const Point vector(scene.load.vector.data()), gravity(scene.load.gravity.data());
-  const bool per_area = scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area;
-  Points load = shell.area_load(shell.mass_per_area() * gravity + (per_area ? vector : Point::Zero().eval()));
-  if (!per_area) {
+  Points load = shell.area_load(shell.mass_per_area() * gravity);
+  const bool by_area = scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area;
+  if (by_area) {
+    load += shell.area_load(vector);
+  } else {
     const auto forces = load_forces<2>(*s.rest, {}, [&](const std::array<double, 2>&) { return vector; });
+    if (!forces) return std::unexpected(forces.error());
+    load += *forces;
+  }
+  const auto fields = load_fields(scene.load, *s.reference);
+  if (!fields) return std::unexpected(fields.error());
+  for (const Surface& field : *fields) {
+    const auto forces = by_area ? area_load_forces(*s.rest, field) : load_forces<2>(*s.rest, {}, field);
     if (!forces) return std::unexpected(forces.error());
     load += *forces;
   }
@@ -140,7 +145,7 @@ Expected<ShellProblem> shell_problem(const Scene& scene, const ShellProblem* kep
   std::vector<const SceneSurface*> surfaces;
   for (const int k : selection) {
     surfaces.push_back(&scene.surfaces[static_cast<std::size_t>(k)]);
-    if (auto within = check_scope(scene, *surfaces.back()); !within) return std::unexpected(within.error());
+    if (auto within = check_scope(*surfaces.back()); !within) return std::unexpected(within.error());
   }
   ShellInput input = shell_input(scene);
   const bool same = kept != nullptr && kept->surfaces == selection && kept->input == input;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "knead/energy/stiffness.hpp"
 #include "support/numbers.hpp"
 #include "support/surfaces.hpp"
@@ -107,6 +110,54 @@ TEST(Load, RefusesWhatHasNoSense) {
       load_forces<2>(s, scaling, LoadFunction<2>([](const auto& u) { return Point(1 / (u[0] - u[0]), 0, 0); }));
   ASSERT_FALSE(infinite);
   EXPECT_EQ(infinite.error().kind, ErrorKind::input);
+}
+
+TEST(AreaLoad, AddsUpToTheLoadTimesTheArea) {
+  const Point f(0.3, -2, 1);
+  for (const auto& [s, area] :
+       {std::pair(testing::cylinder(3), 6 * std::numbers::pi), std::pair(testing::sphere(), 4 * std::numbers::pi)}) {
+    const auto load = sampled_load<2>(s, {3, 2}, f.transpose().replicate(6, 1));
+    ASSERT_TRUE(load);
+    const auto forces = area_load_forces(s, *load);
+    ASSERT_TRUE(forces) << forces.error().message();
+    EXPECT_LT((forces->colwise().sum().transpose() - area * f).norm(), 1e-10 * area * f.norm());
+  }
+}
+
+TEST(AreaLoad, OnAFlatSheetIsTheLoadOfTheParametersTimesItsArea) {
+  const Surface s = testing::uniform_sheet(3, 7, 5, 1.3, 0.9);
+  Points samples(12, 3);
+  for (Eigen::Index k = 0; k < samples.size(); ++k) samples.data()[k] = std::sin(3.0 * static_cast<double>(k));
+  const auto load = sampled_load<2>(s, {4, 3}, samples);  // kinks within the spans of the sheet
+  ASSERT_TRUE(load);
+  const auto area = area_load_forces(s, *load), parameters = load_forces<2>(s, {}, *load);
+  ASSERT_TRUE(area && parameters);
+  EXPECT_LE(largest(*area - 1.3 * 0.9 * *parameters), 1e-14 * largest(*area));
+}
+
+TEST(AreaLoad, OnAReliefIsThatOfManyGaussPoints) {
+  for (const double spread : {1.0, 2.0}) {
+    const Surface s = testing::relief(testing::uniform_clamped(2, 2), testing::uniform_clamped(3, 2), 5, 0.4, spread);
+    const auto load = sampled_load<2>(s, {2, 2}, (Points(4, 3) << 1, 0, 0, 0, 2, 0, 0, 0, 3, 1, 1, 1).finished());
+    ASSERT_TRUE(load);
+    const auto exact =
+        load_forces<2>(s, {}, LoadFunction<2>([&](const std::array<double, 2>& u) -> Point {
+                         const Parameters<2> at = Parameters<2>{{u[0], u[1]}};
+                         const auto e = *evaluate<2>(s, at, 1);
+                         const Eigen::Vector3d a = e.at({1, 0}).row(0), b = e.at({0, 1}).row(0);
+                         return a.cross(b).norm() * Point(evaluate<2>(*load, at)->points().row(0).transpose());
+                       }),
+                       40);
+    const auto forces = area_load_forces(s, *load);
+    ASSERT_TRUE(exact && forces);
+    EXPECT_LE(largest(*forces - *exact), 1e-10 * largest(*exact));
+  }
+}
+
+TEST(AreaLoad, NamesDomainsThatDiffer) {
+  const Surface s = testing::uniform_sheet(3, 7, 5);
+  const Surface other = testing::sheet(testing::clamped_knots(2, {0, 2}), testing::clamped_knots(2, {0, 1}));
+  EXPECT_EQ(area_load_forces(s, other).error().where, "load: direction u");
 }
 
 }  // namespace

@@ -38,6 +38,14 @@ TEST(DeadLoads, OnASquareSheetAreaIsTheParameterMeasureTimesItsSpeed) {
   EXPECT_LT(relative_difference(area, parameters), 1e-11);  // condition of a 10 × 10 plate times rounding
 }
 
+TEST(DeadLoads, SamplesPerAreaAreThoseOfTheParametersTimesTheSpeed) {
+  const Points area =
+      displaced_by({R"({"do":"load","counts":[2,2],"samples":[[0,0,0],[0,0,0],[0,0,1],[0,0,1]],"per":"area"})"});
+  const Points parameters = displaced_by({R"({"do":"load","formula":["0","0","100*s"]})"});
+  EXPECT_GT(area.cwiseAbs().maxCoeff(), 1);
+  EXPECT_LT(relative_difference(area, parameters), 1e-9);
+}
+
 TEST(DeadLoads, ALineOfForceBalancesThePointForceOfItsResultantInSymmetricSheets) {
   // Under a load along x, y or z the mean displacement of the loaded edge by a line force p and that of the whole force
   // at its middle follow Betti's theorem: the work of each in the other's displacement is the same.

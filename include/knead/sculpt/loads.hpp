@@ -35,6 +35,15 @@ template <int D>
 [[nodiscard]] Expected<Points> load_forces(const Spline<D>& shape, const DomainScaling<D>& scaling,
                                            const LoadFunction<D>& load, int points_per_span = 0);
 
+/// The forces of a load per area of the shape, F_i = ∫ R_i f |S_u × S_v| du dv: per area of the file, whatever the
+/// scaling. `load` is a spline on the same domain; its control points are the coefficients of f.
+///
+/// Exact up to rounding where the area element is a polynomial on every span, as on flat sheets with straight
+/// isocurves. Elsewhere two Gauss rules must agree to 1e-10 of max |f| times the area of each piece of the common
+/// knots, which is halved where they do not. Errors: domains that differ (input); a denominator that is not positive,
+/// pieces on which the rules never agree (numerical).
+[[nodiscard]] Expected<Points> area_load_forces(const Surface& shape, const Surface& load);
+
 /// The load through samples on a uniform grid over the domain of the shape, its ends included: counts[d] >= 2 samples
 /// in direction d, one row each, last direction fastest; linear between them in every direction. Errors (input):
 /// a wrong number of samples, fewer than 2 in a direction, a number that is not finite.

@@ -11,17 +11,20 @@ std::span<const Choice> choices(LoadMeasure) {
 void describe(LoadCommand& c, Fields& fields) {
   fields.name("load", "loads everywhere on the selected surfaces; replaces earlier ones");
   fields.add("vector", c.load.vector, {.help = "force per area"});
-  fields.add("per", c.load.per, {.help = "which area that is", .fallback = "`area` on shells, else `parameters`"});
+  fields.add(
+      "per", c.load.per,
+      {.help = "which area that is, of samples and formulas too", .fallback = "`area` on shells, else `parameters`"});
   fields.add("gravity", c.load.gravity, {.help = "acceleration; the force is mass times this"});
   fields.add("pressure", c.load.pressure, {.help = "force per area along the normal S_u × S_v"});
   fields.add("wind", c.load.wind, {.help = "velocity of the air; the force is along the normal"});
   fields.add("counts", c.load.counts,
              {.help = "`[m, n]` samples of any load f(u, v) over the domain, its ends included"});
   fields.add("samples", c.load.samples,
-             {.help = "m n forces `[x, y, z]` per area, along v first, linear in between; integrated exactly"});
+             {.help = "m n forces `[x, y, z]` per area, along v first, linear in between; integrated exactly, per area "
+                      "of a bent surface to 1e-10"});
   fields.add("formula", c.load.formula,
              {.help = "a force per area: a formula for each of x, y, z, of what `material` names; as cubic splines, "
-                      "integrated exactly"});
+                      "integrated likewise"});
   fields.add("tolerance", c.load.tolerance,
              {.help = "of these splines, in forces per area",
               .range = above(0),
