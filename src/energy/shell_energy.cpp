@@ -10,6 +10,7 @@
 #include "rational_basis.hpp"
 #include "shell_blocks.hpp"
 #include "shell_law.hpp"
+#include "shell_quadrature.hpp"
 #include "tensor_pattern.hpp"
 
 namespace knead {
@@ -107,7 +108,9 @@ struct ShellEnergy::Data {
     }
   }
 
-  [[nodiscard]] Expected<void> add_rest(const ShellElement& element, const Points& x, const Eigen::VectorXd& weights) {
+  /// \param points Gauss points of each direction with their number on an element, and the first ones of this element.
+  [[nodiscard]] Expected<void> add_rest(const ShellElement& element, const Points& x,
+                                        const detail::ShellQuadrature& points, const std::array<int, 2>& begin) {
     const Eigen::Matrix3Xd derivatives = coordinates(element, x) * element.derivative;
     for (Eigen::Index k = 0; k < element.value.cols(); ++k) {
       const ShellPoint at(derivatives.middleCols<5>(5 * k));
@@ -115,11 +118,31 @@ struct ShellEnergy::Data {
         return numerical_error("the rest shape has no normal at a Gauss point", fmt::format("point {}", rest.size()),
                                "remove folds and spans on which control points coincide");
       }
-      const auto [membrane, bending] = law.stiffness(at);
-      measure.push_back(weights[k]);
-      rest.push_back({weights[k] * law.measure(at), weights[k] * at.area, at.metric, at.curvature, membrane, bending});
+      const auto [weight, u] = points.at(begin, static_cast<int>(k));
+      const auto here = detail::coefficients_at(law, u);
+      if (!here) return std::unexpected(here.error());
+      const auto [membrane, bending] = law.stiffness(at, *here);
+      measure.push_back(weight);
+      rest.push_back({weight * law.measure(at), weight * at.area, weight * at.area * law.mass(here->thickness),
+                      at.metric, at.curvature, membrane, bending});
     }
     return {};
+  }
+
+  /// Σ over all points of R_i times their share of a vector.
+  [[nodiscard]] Points spread(double ShellRest::*share, const Point& vector) const {
+    Points result = Points::Zero(size, 3);
+    if (vector == Point::Zero()) return result;
+    std::size_t index = 0;
+    for (const ShellElement& element : elements) {
+      for (Eigen::Index k = 0; k < element.value.cols(); ++k, ++index) {
+        for (std::size_t r = 0; r < element.nodes.size(); ++r) {
+          const double part = rest[index].*share * element.value(static_cast<Eigen::Index>(r), k);
+          result.row(element.nodes[r]) += part * vector.transpose();
+        }
+      }
+    }
+    return result;
   }
 };
 
@@ -139,18 +162,17 @@ Expected<ShellEnergy> ShellEnergy::of_forms(const Surface& rest, const Fundament
 }
 
 Expected<ShellEnergy> ShellEnergy::with_law(const Surface& surface, std::shared_ptr<Data> data, int gauss_points) {
-  std::array<BasisQuadrature, 2> quadrature;
-  std::array<int, 2> points;
   for (std::size_t d = 0; d < 2; ++d) {
     const KnotVector& knots = surface.knots()[d];
     if (knots.degree() < 2) {
       return input_error("a surface of degree 1 does not bend", fmt::format("direction {}", d == 0 ? "u" : "v"),
                          "elevate its degree to 2 or more");
     }
-    points[d] = gauss_points > 0 ? gauss_points : knots.degree() + 1;
-    quadrature[d] = gauss_basis(knots, points[d], 2);
     data->pattern.degree[d] = knots.degree();
   }
+  const auto gauss = detail::shell_quadrature(surface.knots(), data->law, gauss_points);
+  if (!gauss) return std::unexpected(gauss.error());
+  const auto& [quadrature, points] = *gauss;
   data->size = surface.size();
   data->pattern.net = surface.net();
   const Points& x = surface.control_points();
@@ -164,12 +186,7 @@ Expected<ShellEnergy> ShellEnergy::with_law(const Surface& surface, std::shared_
     for (int v = 0; v < quadrature[1].basis.size(); v += points[1]) {
       auto element = make_element(*weighted, functions, quadrature, {u, v}, points);
       if (!element) return std::unexpected(element.error());
-      Eigen::VectorXd weights(points[0] * points[1]);
-      for (int k = 0; k < weights.size(); ++k) {
-        weights[k] = quadrature[0].weights[static_cast<std::size_t>(u + k / points[1])] *
-                     quadrature[1].weights[static_cast<std::size_t>(v + k % points[1])];
-      }
-      if (auto ok = data->add_rest(*element, x, weights); !ok) return std::unexpected(ok.error());
+      if (auto ok = data->add_rest(*element, x, *gauss, {u, v}); !ok) return std::unexpected(ok.error());
       data->elements.push_back(std::move(*element));
     }
   }
@@ -228,20 +245,9 @@ SparseMatrix ShellEnergy::hessian(const Points& x, const ShellStress& stress) co
   return matrix;
 }
 
-Points ShellEnergy::area_load(const Point& per_area) const {
-  Points result = Points::Zero(data_->size, 3);
-  if (per_area == Point::Zero()) return result;
-  std::size_t index = 0;
-  for (const ShellElement& element : data_->elements) {
-    for (Eigen::Index k = 0; k < element.value.cols(); ++k, ++index) {
-      for (std::size_t r = 0; r < element.nodes.size(); ++r) {
-        const double share = data_->rest[index].area * element.value(static_cast<Eigen::Index>(r), k);
-        result.row(element.nodes[r]) += share * per_area.transpose();
-      }
-    }
-  }
-  return result;
-}
+Points ShellEnergy::area_load(const Point& per_area) const { return data_->spread(&ShellRest::area, per_area); }
+
+Points ShellEnergy::weight(const Point& acceleration) const { return data_->spread(&ShellRest::mass, acceleration); }
 
 Points ShellEnergy::normal_load(const Points& x, const Points& velocity, double pressure, const Point& wind) const {
   Points result = Points::Zero(data_->size, 3);
@@ -267,12 +273,11 @@ double ShellEnergy::area() const {
 SparseMatrix ShellEnergy::mass() const {
   SparseMatrix matrix = data_->scalar;
   std::fill(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros(), 0.0);
-  const double density = data_->law.mass();
   std::size_t index = 0;
   for (const ShellElement& element : data_->elements) {
     const Eigen::Index points = element.value.cols();
     Eigen::VectorXd weights(points);
-    for (Eigen::Index k = 0; k < points; ++k, ++index) weights[k] = density * data_->rest[index].area;
+    for (Eigen::Index k = 0; k < points; ++k, ++index) weights[k] = data_->rest[index].mass;
     const Eigen::MatrixXd block = element.value * weights.asDiagonal() * element.value.transpose();
     for (std::size_t r = 0; r < element.nodes.size(); ++r) {
       for (std::size_t s = 0; s < element.nodes.size(); ++s) {

@@ -13,6 +13,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 struct ShellRest {
   double weight;  // of the quadrature, times the measure that the energy is integrated over
   double area;    // of the quadrature, times the area element
+  double mass;    // that times the mass per area
   Eigen::Vector3d metric, curvature;
   Eigen::Matrix3d membrane, bending;  // stress resultants per strain
 

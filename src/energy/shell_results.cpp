@@ -58,7 +58,9 @@ Expected<std::vector<ShellPointResults>> shell_results(const Surface& rest, cons
   std::vector<ShellPointResults> results;
   results.reserve(static_cast<std::size_t>(at.rows()));
   for (Eigen::Index k = 0; k < at.rows(); ++k) {
-    results.push_back(results_at(point_of(*before, k), point_of(*now, k), material));
+    const auto here = material.at({at(k, 0), at(k, 1)});
+    if (!here) return std::unexpected(here.error());
+    results.push_back(results_at(point_of(*before, k), point_of(*now, k), *here));
   }
   return results;
 }

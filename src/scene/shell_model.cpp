@@ -32,7 +32,7 @@ void append_held(const JoinedSurfaces& joined, const Points& displacement, std::
 Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& shell) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   const Point vector(scene.load.vector.data()), gravity(scene.load.gravity.data());
-  Points load = shell.area_load(shell.mass_per_area() * gravity);
+  Points load = shell.weight(gravity);
   const bool by_area = scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area;
   if (by_area) {
     load += shell.area_load(vector);

@@ -103,12 +103,6 @@ void command(Reader& a, T& x) {
 }
 
 template <class A>
-void pass(A& a, Of<A, ShellMaterial>& m) {
-  auto& [young, poisson, thickness, density] = m;
-  for (auto* x : {&young, &poisson, &thickness, &density}) pass(a, *x);
-}
-
-template <class A>
 void pass(A& a, Of<A, FundamentalMaterial>& m) {
   auto& [w1, w2] = m;
   for (auto& w : w1) pass(a, w);

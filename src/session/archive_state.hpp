@@ -62,6 +62,29 @@ inline void pass(Reader& a, Coefficient<2>& x) {
   x = std::move(*made);
 }
 
+inline void pass(Writer& a, const std::optional<SplineField<2>>& x) {
+  pass(a, x ? Coefficient<2>(*x) : Coefficient<2>(0.0));
+}
+inline void pass(Reader& a, std::optional<SplineField<2>>& x) {
+  Coefficient<2> read = 0.0;
+  pass(a, read);
+  x.reset();
+  if (auto* field = std::get_if<SplineField<2>>(&read)) x = std::move(*field);
+}
+
+template <class A>
+void pass(A& a, Of<A, ShellMaterial>& m) {
+  auto& [young, poisson, thickness, density, young_field, thickness_field] = m;
+  for (auto* x : {&young, &poisson, &thickness, &density}) pass(a, *x);
+  if constexpr (!A::writing) {
+    young_field.reset();
+    thickness_field.reset();
+  }
+  if (older_than(a, 10)) return;  // whose shells were the same everywhere
+  pass(a, young_field);
+  pass(a, thickness_field);
+}
+
 template <class A>
 void pass(A& a, Of<A, MaterialFieldOf<2>>& m) {
   for (auto& x : m.alpha) pass(a, x);

@@ -35,9 +35,9 @@ struct SurfaceInfo {
 
 static void describe(ShellMaterial& m, Fields& fields) {
   fields.name("shell info", "The material of a shell, in units of the file.");
-  fields.add("young", m.young);
+  fields.add("young", m.young, {.help = "its mean where it varies"});
   fields.add("poisson", m.poisson);
-  fields.add("thickness", m.thickness, {.unit = Unit::length});
+  fields.add("thickness", m.thickness, {.help = "its mean where it varies", .unit = Unit::length});
   fields.add("density", m.density);
 }
 

@@ -11,13 +11,14 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-/// Of versions 1 to 9: without probes, open strokes and their results; without brushes, masks and edges that follow;
-/// without their tangent planes; without converted surfaces, brushes that pass from surface to surface, and tools that
-/// touch what is visible only; without stamps, and strokes that are kept from folding; without pens and
-/// shells; without fundamental forms and modes; without curves and volumes; the present one.
-constexpr std::array<std::string_view, 9> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
-                                                    "Knead snapshot 4\n", "Knead snapshot 5\n", "Knead snapshot 6\n",
-                                                    "Knead snapshot 7\n", "Knead snapshot 8\n", "Knead snapshot 9\n"};
+/// Of versions 1 to 10, in hexadecimal digits: without probes, open strokes and their results; without brushes, masks
+/// and edges that follow; without their tangent planes; without converted surfaces, brushes that pass from surface to
+/// surface, and tools that touch what is visible only; without stamps, and strokes that are kept from folding; without
+/// pens and shells; without fundamental forms and modes; without curves and volumes; without shells that vary and
+/// bodies that keep their forms; the present one.
+constexpr std::array<std::string_view, 10> magics = {
+    "Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n", "Knead snapshot 4\n", "Knead snapshot 5\n",
+    "Knead snapshot 6\n", "Knead snapshot 7\n", "Knead snapshot 8\n", "Knead snapshot 9\n", "Knead snapshot a\n"};
 constexpr std::string_view magic = magics.back();
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.

@@ -214,7 +214,7 @@ TEST(ShellEnergy, HasSixZeroModesAndNoMore) {
 TEST(ShellEnergy, OfSimpleDeformationsIsThatOfPlateTheory) {
   const Surface rest = testing::sheet(testing::uniform_clamped(3, 2), testing::uniform_clamped(3, 2), 2, 1.5);
   const ShellEnergy shell = shell_of(rest);
-  const auto& [young, poisson, t, density] = rubber;
+  const double young = rubber.young, poisson = rubber.poisson, t = rubber.thickness;
   const double stretch = young * t / (1 - poisson * poisson), bend = stretch * t * t / 12;
   EXPECT_NEAR(shell.area(), 3, 1e-14);
   Points x = rest.control_points();

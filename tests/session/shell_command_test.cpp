@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <numeric>
 
 #include "sheet.hpp"
@@ -60,6 +62,63 @@ TEST(ShellCommand, ALoadThatGrowsAlongABeamIsGivenBySamplesOrAFormula) {
     const Session session = bent_cantilever({load, R"({"do":"step"})"});
     EXPECT_NEAR(tip_displacement(session)[2], exact, 1e-6 * exact) << load;
   }
+}
+
+TEST(ShellCommand, ATaperedBeamBendsAsBeamTheoryHasIt) {
+  // t = t₀ (1 − x/2L), P at the tip: w = ∫ P (L − x)² / (E I) dx = 96 P L³/(E t₀³) [ln y + 1/y − 1/(8 y²)] from 1/2 to
+  // 1.
+  const double exact = 96 * 1e-5 * 1000 / (1.2e6 * 1e-3) * (0.875 - 1.5 + std::log(2.0));
+  for (const char* taper :
+       {R"({"do":"material","coefficient":"thickness","formula":"0.1 - 0.05*s"})",
+        R"({"do":"material","coefficient":"thickness","counts":[2,2],"samples":[0.1,0.1,0.05,0.05]})"}) {
+    const Session session =
+        bent_cantilever({taper, R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,1e-5]})", R"({"do":"step"})"});
+    EXPECT_NEAR(tip_displacement(session)[2], exact, 1e-5 * exact) << taper;
+    EXPECT_NEAR(first(session).shell->thickness, 0.075, 1e-15);
+  }
+  // A modulus that varies as t³ would does the same to bending.
+  const Session soft =
+      bent_cantilever({R"({"do":"material","coefficient":"young","formula":"1.2e6*(1 - s/2)^3"})",
+                       R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,1e-5]})", R"({"do":"step"})"});
+  EXPECT_NEAR(tip_displacement(soft)[2], exact, 1e-5 * exact);
+}
+
+TEST(ShellCommand, CoefficientsThatVaryAreUndoneReplacedAndInSnapshots) {
+  const char* const taper = R"({"do":"material","coefficient":"thickness","formula":"0.1 - 0.05*s"})";
+  Session session = bent_cantilever({taper});
+  ASSERT_TRUE(first(session).shell->thickness_field);
+  const auto restored = Session::restore(session.document(), session.snapshot());
+  ASSERT_TRUE(restored) << restored.error().message();
+  EXPECT_EQ(first(*restored).shell, first(session).shell);
+  run(session, {R"({"do":"undo"})"});
+  EXPECT_FALSE(first(session).shell->thickness_field);
+  run(session, {taper, R"({"do":"material","density":2})"});
+  EXPECT_TRUE(first(session).shell->thickness_field);
+  run(session, {R"({"do":"material","thickness":0.2})"});
+  EXPECT_FALSE(first(session).shell->thickness_field);
+}
+
+TEST(ShellCommand, NamesWhatIsWrongWithCoefficientsThatVary) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,1],"net":[8,4]})"});
+  EXPECT_EQ(refusal(session, R"({"do":"material","coefficient":"thickness","formula":"1"})").where, "model");
+  EXPECT_EQ(refusal(session, R"({"do":"material","model":"shell","coefficient":"thickness","formula":"1"})").where,
+            "young");
+  run(session, {R"({"do":"material","model":"shell","young":1,"coefficient":"thickness","formula":"1 + s"})"});
+  EXPECT_EQ(refusal(session, R"({"do":"material","coefficient":"thickness","counts":[2,2],"samples":[1,0,1,1]})").where,
+            "thickness: coefficient (0, 1)");
+  EXPECT_EQ(refusal(session, R"({"do":"material","coefficient":"thickness","formula":"s - 0.5"})").where, "formula");
+  EXPECT_EQ(refusal(session, R"({"do":"material","coefficient":"young","formula":"1","young":2})").where, "young");
+  EXPECT_EQ(refusal(session, R"({"do":"material","coefficient":"poisson","formula":"0"})").where, "coefficient");
+  EXPECT_EQ(refusal(session, R"({"do":"material","thickness":2,"region":[[0,1],[0,0.5]]})").where, "region");
+}
+
+TEST(ShellCommand, WeightsOfTheFormsAreOneNumberOrThree) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,1],"net":[8,4]})",
+                R"({"do":"material","model":"fundamental","w1":2.5,"w2":[1,0.5,0.25]})"});
+  EXPECT_EQ(first(session).fundamental->w1, (std::array{2.5, 2.5, 2.5}));
+  EXPECT_EQ(first(session).fundamental->w2, (std::array{1.0, 0.5, 0.25}));
 }
 
 TEST(ShellCommand, GravityIsDensityTimesThickness) {

@@ -2,20 +2,31 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
+#include "knead/energy/spline_field.hpp"
 #include "knead/energy/stiffness.hpp"
 
 namespace knead {
 
-/// A thin, homogeneous, isotropic sheet, in any consistent units (N and mm give MPa; density per volume).
+/// A thin, isotropic sheet, in any consistent units (N and mm give MPa; density per volume).
 struct ShellMaterial {
   double young = 1;      ///< E > 0, force per area
   double poisson = 0;    ///< ν, −1 < ν <= 1/2
   double thickness = 1;  ///< t > 0
   double density = 0;    ///< mass per volume, >= 0
+  /// Where these vary: over the domain of the rest shape, every coefficient > 0. `young` and `thickness` are then what
+  /// stands for them in scales, as `mean_of` the field.
+  std::optional<SplineField<2>> young_field = {}, thickness_field = {};
+
+  /// The material at one point, without fields. Error: a parameter outside the domain of a field.
+  [[nodiscard]] Expected<ShellMaterial> at(const std::array<double, 2>& u) const;
 
   friend bool operator==(const ShellMaterial&, const ShellMaterial&) = default;
 };
+
+/// The mean over the parameter domain.
+[[nodiscard]] double mean_of(const SplineField<2>& field);
 
 /// The error names the number.
 [[nodiscard]] Expected<ShellMaterial> validated(const ShellMaterial& material);
@@ -58,13 +69,14 @@ using ShellStress = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 ///   W(S) = ∫ Σ_αβ w1_αβ (a_αβ − A_αβ)² + w2_αβ (b_αβ − B_αβ)² du dv.
 ///
 /// Integrated by Gauss points on every span, the same for all parts: W, gradient and Hessian are consistent to
-/// rounding. p + 1 points per direction leave no zero-energy modes but the six rigid ones. Immutable, const is
-/// thread-safe.
+/// rounding. p + 1 points per direction leave no zero-energy modes but the six rigid ones. Where coefficients vary, on
+/// every piece of the common knots, by so many points more that the energy of a small displacement of a flat sheet with
+/// straight isocurves is exact. Immutable, const is thread-safe.
 class ShellEnergy {
  public:
-  /// \param gauss_points per span and direction; 0: degree + 1.
-  /// Errors: a bad material (input); degree 1, which has no curvature (input); a rest shape without a normal at a Gauss
-  /// point, a rational denominator that is not positive (numerical).
+  /// \param gauss_points per span and direction; 0: degree + 1, and more where coefficients vary.
+  /// Errors: a bad material, one on another domain (input); degree 1, which has no curvature (input); a rest shape
+  /// without a normal at a Gauss point, a rational denominator that is not positive (numerical).
   [[nodiscard]] static Expected<ShellEnergy> create(const Surface& rest, const ShellMaterial& material,
                                                     int gauss_points = 0);
   /// The second integral. Errors: likewise.
@@ -93,6 +105,8 @@ class ShellEnergy {
 
   /// ∫ R_i dA · `per_area`: the forces on the control points of a load per area of the rest shape, N × 3.
   [[nodiscard]] Points area_load(const Point& per_area) const;
+  /// ∫ R_i μ dA · `acceleration`, μ as in `mass`: N × 3.
+  [[nodiscard]] Points weight(const Point& acceleration) const;
   /// ∫ R_i (pressure n + (n·(wind − v)) n) dA over the present shape x, n the unit normal S_u × S_v, v the velocity
   /// with control points `velocity`: N × 3.
   [[nodiscard]] Points normal_load(const Points& x, const Points& velocity, double pressure, const Point& wind) const;
@@ -110,7 +124,7 @@ class ShellEnergy {
   [[nodiscard]] double effective_thickness() const;
 
   [[nodiscard]] int size() const;
-  /// Density · thickness; 0 of the fundamental forms.
+  /// Density · thickness, a mean where that varies; 0 of the fundamental forms.
   [[nodiscard]] double mass_per_area() const;
 
  private:

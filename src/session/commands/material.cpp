@@ -39,7 +39,7 @@ Expected<MaterialFieldOf<2>> varied(const MaterialCommand& c, const SceneSurface
   Coefficient<2>* const place = coefficient_named(next, *c.coefficient);
   if (place == nullptr) {
     return input_error(fmt::format("\"{}\" is not a coefficient", *c.coefficient), "coefficient",
-                       "use alpha11, alpha12, alpha22, beta11, beta12, beta22, mass or damping");
+                       "use alpha11, alpha12, alpha22, beta11, beta12, beta22, mass, damping, young or thickness");
   }
   auto field = field_of(c, s);
   if (!field) return std::unexpected(field.error());
@@ -105,7 +105,12 @@ const Preset presets[] = {
 
 std::vector<double> list_of(const std::array<double, 3>& numbers) { return {numbers.begin(), numbers.end()}; }
 
-bool names_shell(const MaterialCommand& c) { return c.young || c.poisson || c.thickness || c.density; }
+/// Whether the coefficient that varies is one of a shell.
+bool varies_shell(const MaterialCommand& c) { return c.coefficient == "young" || c.coefficient == "thickness"; }
+
+bool names_shell(const MaterialCommand& c) {
+  return c.young || c.poisson || c.thickness || c.density || varies_shell(c);
+}
 
 bool names_something(const MaterialCommand& c) {
   return c.alpha || c.beta || c.mass || c.damping || c.coefficient || c.preset || c.plasticity || c.yield ||
@@ -126,15 +131,29 @@ Expected<std::optional<ShellMaterial>> shell_of(const MaterialCommand& c, const 
     return input_error("only shells have a Young's modulus, Poisson's ratio, thickness or density", "model",
                        R"(add "model":"shell", or use alpha, beta and mass)");
   }
-  if (!s.shell && !(c.young && c.thickness)) {
-    return input_error("a shell needs a Young's modulus and a thickness", c.young ? "thickness" : "young",
+  const bool young = c.young || c.coefficient == "young", thickness = c.thickness || c.coefficient == "thickness";
+  if (!s.shell && !(young && thickness)) {
+    return input_error("a shell needs a Young's modulus and a thickness", young ? "thickness" : "young",
                        R"(give them, as "young":210000,"thickness":1)");
   }
   ShellMaterial next = s.shell.value_or(ShellMaterial{});
-  if (c.young) next.young = *c.young;
+  if (c.young) {
+    next.young = *c.young;
+    next.young_field.reset();
+  }
   if (c.poisson) next.poisson = *c.poisson;
-  if (c.thickness) next.thickness = *c.thickness;
+  if (c.thickness) {
+    next.thickness = *c.thickness;
+    next.thickness_field.reset();
+  }
   if (c.density) next.density = *c.density;
+  if (varies_shell(c)) {
+    auto field = field_of(c, s);
+    if (!field) return std::unexpected(field.error());
+    const bool of_young = c.coefficient == "young";
+    (of_young ? next.young : next.thickness) = mean_of(*field);
+    (of_young ? next.young_field : next.thickness_field) = std::move(*field);
+  }
   auto checked = validated(next);
   if (!checked) return std::unexpected(checked.error());
   return *checked;
@@ -158,6 +177,13 @@ Expected<void> check_fields(const MaterialCommand& c) {
   for (const auto& [name, given] : {std::pair{"alpha", &c.alpha}, std::pair{"beta", &c.beta}}) {
     if (!*given || (*given)->size() == 3) continue;
     return input_error(fmt::format("{} numbers for a surface", (*given)->size()), name, "give [11, 12, 22]");
+  }
+  if (c.coefficient && ((c.young && c.coefficient == "young") || (c.thickness && c.coefficient == "thickness"))) {
+    return input_error("it is given as a number and by samples or a formula", *c.coefficient, "give one of them");
+  }
+  if (c.region && (names_shell(c) || c.w1 || c.w2)) {
+    return input_error("a region is of alpha, beta, mass and damping", "region",
+                       R"(let a shell vary by a formula: "coefficient":"thickness","formula":"1 + s^2")");
   }
   if (!c.coefficient && (c.formula || !c.samples.empty())) {
     return input_error("of which coefficient is not said", "coefficient", R"(name it, as "coefficient":"beta11")");
@@ -255,8 +281,8 @@ void describe(MaterialCommand& c, Fields& fields) {
               .fallback = "everywhere"});
   fields.add("falloff", c.falloff, {.help = "width of the border of the region, in fractions", .unit = Unit::fraction});
   fields.add("coefficient", c.coefficient,
-             {.help = "`alpha11` … `beta22`, `mass` or `damping`: only this one, by samples or a formula; `alpha` "
-                      "and `beta` are then ignored"});
+             {.help = "`alpha11` … `beta22`, `mass` or `damping`, of a shell `young` or `thickness`: only this one, by "
+                      "samples or a formula; `alpha` and `beta` are then ignored"});
   fields.add("counts", c.counts, {.help = "`[m, n]` samples over the domain, its ends included"});
   fields.add("samples", c.samples,
              {.help = "m n numbers, along v first, linear in between; all that is convex coefficient by coefficient"});
@@ -329,7 +355,7 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
   if (auto material = validated(constants); !material) return std::unexpected(material.error());
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    auto next = c.coefficient ? varied(c, s) : c.region ? painted(c, s) : everywhere(c, s);
+    auto next = c.coefficient && !varies_shell(c) ? varied(c, s) : c.region ? painted(c, s) : everywhere(c, s);
     if (!next) return std::unexpected(next.error());
     if (auto checked = validated<2>(*next); !checked) return std::unexpected(checked.error());
     const auto shell = shell_of(c, s);
