@@ -145,6 +145,7 @@ struct ActiveShell::Run {
         rounds(potential, m.patches, m.rows(), summary, note) {
     velocity = from.velocity.rows() > 0 ? Points(from.velocity / m.length) : Points::Zero(start.rows(), 3);
     y = m.space.feasible(displaced) - displaced;
+    if (from.guess.rows() > 0) y = from.guess / m.length;
     potential.grip(start, developed_slip);
     for (PointForce point : loads.points) {
       point.to = (point.to - m.centre) / m.length;

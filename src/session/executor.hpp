@@ -214,6 +214,7 @@ struct Executor {
   Expected<void> keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before);
   Expected<void> put_tool(const Point& place);
   Expected<ActiveStep> press();
+  Expected<ActiveStep> press_shell_on_bed(const std::vector<Tool>& tools);
   Expected<void> unite_under_stroke();
   Expected<bool> refine_stroke(const ActiveStep* step);
   Expected<void> press_along(const std::vector<Point>& places);

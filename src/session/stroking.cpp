@@ -47,7 +47,9 @@ Expected<Locality> bed_of(const Scene& scene, double reach) {
       const double side = scaling->length * scaling->factors[static_cast<std::size_t>(d)] * knots.domain().length();
       reach = std::max(reach, side / static_cast<double>(knots.spans().size()));
     }
+    if (s.nonlinear()) alpha = std::max(alpha, 1.0);  // its membrane; bending is felt less far
     for (std::size_t i : pure_terms) {
+      if (s.nonlinear()) break;
       beta = std::max(beta, mean(s.material.beta[i]));
       alpha = std::max(alpha, mean(s.material.alpha[i]));
     }
@@ -62,6 +64,7 @@ Expected<double> felt_area(const Scene& scene, const OpenStroke& stroke) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(*scene.selected)];
   const auto scaling = normalised_scaling<2>(*s.reference);
   if (!scaling) return std::unexpected(scaling.error());
+  if (s.nonlinear()) return scaling->length * scaling->length / stroke.lambda;
   double area = 0;
   for (std::size_t i : pure_terms) {
     area = std::max(
@@ -122,10 +125,6 @@ Points StrokeModel::control_points(const Points& x) const {
 Expected<void> Executor::begin_stroke(const std::string& name, double share) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
-  if ((*surface)->nonlinear()) {
-    return input_error("strokes act on the linear model", "stroke",
-                       R"(press shells by move and step, or use {"do":"material","model":"linear"})");
-  }
   const auto tool = find_tool(name);
   if (!tool) return std::unexpected(tool.error());
   if (state.scaling == ScalingMode::raw) {
@@ -210,6 +209,7 @@ Expected<ActiveStep> Executor::press() {
   for (Tool& t : *tools) {
     if (t.collides()) t.stiffness = std::min(std::max(t.stiffness, stroke.stiffness), max_tool_stiffness);
   }
+  if (shells()) return press_shell_on_bed(*tools);
   const ActiveSurface& model = stroke_cache->scene.model;
   auto loads = active_loads(state, stroke_cache->scene);
   if (!loads) return std::unexpected(loads.error());

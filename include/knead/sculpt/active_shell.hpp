@@ -62,9 +62,9 @@ class ActiveShell {
   [[nodiscard]] static Expected<ActiveShell> create(std::vector<Surface> patches, ShellStructure structure,
                                                     ActiveShellSettings settings);
 
-  /// One step under tools, in file units; `state.rest` is not read. `stretch` and `bend` of the result are membrane and
-  /// bending energy in units of the file, as is `kinetic`. Errors (numerical): the result is not finite; a structure
-  /// that nothing holds where that is needed.
+  /// One step under tools, in file units; `state.rest` is not read, `state.guess` is where the search begins. `stretch`
+  /// and `bend` of the result are membrane and bending energy in units of the file, as is `kinetic`. Errors
+  /// (numerical): the result is not finite; a structure that nothing holds where that is needed.
   [[nodiscard]] Expected<ActiveStep> step(const ActiveState& state, std::span<const Tool> tools,
                                           const ActiveShellLoads& loads) const;
 

@@ -85,8 +85,8 @@ struct ActiveState {
   /// Stress and loads are taken to balance in this state, whatever they are: only tools move it, against K + λW from
   /// here (acm and stationary).
   bool balanced = false;
-  /// Initial guess of a balanced step, as a displacement from `control_points` that the constraints allow: for a moving
-  /// tool, the previous step; empty: none.
+  /// Initial guess of a balanced step, or of any of an `ActiveShell`, as a displacement from `control_points` that the
+  /// constraints allow: for a moving tool, the previous step; empty: none.
   Points guess = {};
 };
 

@@ -1,0 +1,39 @@
+#include "executor.hpp"
+
+namespace knead {
+
+/// What the tools of the open stroke ask of shells, on the stroke's bed. The shapes from before the stroke are those of
+/// no stress here: what they carry is in balance with the forces on them, which are therefore left out.
+Expected<ActiveStep> Executor::press_shell_on_bed(const std::vector<Tool>& tools) {
+  const OpenStroke& stroke = *state.stroke;
+  Scene before = state;
+  const std::vector<int> selection = before.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    SceneSurface& s = before.surfaces[static_cast<std::size_t>(selection[k])];
+    s.rest = s.current = stroke.before[k].current;
+    s.velocity.resize(0, 3);
+  }
+  before.forces.clear();
+  before.load = {};
+  EvolutionPolicy evolution;
+  evolution.lambda = stroke.lambda;
+  evolution.accuracy = state.evolution.accuracy;
+  const auto problem = shell_problem(before);
+  if (!problem) return std::unexpected(problem.error());
+  ShellInput input = shell_input(before, evolution);
+  if (!shell_cache || !(shell_cache->input == input)) {
+    shell_cache.reset();
+    auto made = make_shell_model(before, *problem, std::move(input));
+    if (!made) return std::unexpected(made.error());
+    shell_cache = std::move(*made);
+  }
+  const auto loads = shell_loads(before, *problem, 1);
+  if (!loads) return std::unexpected(loads.error());
+  ActiveState from = active_state(before);
+  from.guess = stroke.older.rows() > 0 ? Points(2 * stroke.last - stroke.older) : stroke.last;
+  auto step = shell_cache->model.step(from, tools, *loads);
+  if (step) step->control_points -= from.control_points;  // the displacement
+  return step;
+}
+
+}  // namespace knead
