@@ -115,6 +115,22 @@ BodyInput<D> body_input(const Scene& scene, const SceneBody& body, const Evoluti
 }
 
 template <int D>
+Expected<std::vector<LinearConstraint>> body_conditions(const BodyInput<D>& input, const Points& present,
+                                                        std::vector<std::string>& notes) {
+  auto list = body_constraints(input, notes);
+  if (!list) return std::unexpected(list.error());
+  std::vector<LinearConstraint> conditions;
+  for (std::size_t k = 0; k < list->held.size(); ++k) {
+    if (!list->held[k]) continue;
+    const auto row = static_cast<Eigen::Index>(k);
+    const Point stays = (present.row(row) - input.rest->control_points().row(row)).transpose();
+    conditions.push_back({list->held_by[k], {{static_cast<int>(k), 1.0}}, stays});
+  }
+  conditions.insert(conditions.end(), list->constraints.begin(), list->constraints.end());
+  return conditions;
+}
+
+template <int D>
 Expected<BodyModel<D>> make_body_model(BodyInput<D> input) {
   std::vector<std::string> notes;
   auto list = body_constraints(input, notes);
@@ -170,6 +186,10 @@ Expected<ActiveLoads> body_loads(const Scene& scene, int index) {
   return loads;
 }
 
+template Expected<std::vector<LinearConstraint>> body_conditions<1>(const BodyInput<1>&, const Points&,
+                                                                    std::vector<std::string>&);
+template Expected<std::vector<LinearConstraint>> body_conditions<3>(const BodyInput<3>&, const Points&,
+                                                                    std::vector<std::string>&);
 template BodyInput<1> body_input<1>(const Scene&, const SceneBody&, const EvolutionPolicy&);
 template BodyInput<3> body_input<3>(const Scene&, const SceneBody&, const EvolutionPolicy&);
 template Expected<BodyModel<1>> make_body_model<1>(BodyInput<1>);

@@ -103,8 +103,14 @@ void pass(A& a, Of<A, KeptBodyHold>& kept) {
 }
 
 template <class A>
+void pass(A& a, Of<A, FormWeights>& w) {
+  pass(a, w.w1);
+  pass(a, w.w2);
+}
+
+template <class A>
 void pass(A& a, Of<A, SceneBody>& b) {
-  auto& [id, name, unit, shapes, velocity, mode, mass, damping, hold_rows, pins, holds] = b;
+  auto& [id, name, unit, shapes, velocity, mode, mass, damping, hold_rows, pins, holds, fundamental] = b;
   for (auto* x : {&id, &name, &unit}) pass(a, *x);
   bool curve = b.is_curve();
   pass(a, curve);
@@ -137,6 +143,9 @@ void pass(A& a, Of<A, SceneBody>& b) {
     }
   }
   list(a, holds, 8);
+  if constexpr (!A::writing) fundamental.reset();
+  if (older_than(a, 10)) return;  // which kept no forms
+  optional(a, fundamental);
 }
 
 /// Whether what is read of a body fits its net.

@@ -57,6 +57,35 @@ Expected<void> set_at(double& to, const std::optional<double>& given, const char
   return {};
 }
 
+/// The model that the body has after the command, and its weights.
+Expected<void> set_forms(SceneBody& body, const MaterialCommand& c) {
+  if (c.model == MaterialModel::shell) {
+    return input_error(fmt::format("a {} is no shell", kind_of(body)), "model", R"(use "linear" or "fundamental")");
+  }
+  const bool keeps = c.model ? *c.model == MaterialModel::fundamental : body.fundamental.has_value();
+  if (!keeps) {
+    if (c.w1 || c.w2) {
+      return input_error("only fundamental forms have weights w1 and w2", "model", R"(add "model":"fundamental")");
+    }
+    body.fundamental.reset();
+    return {};
+  }
+  if (c.w2 && !body.is_curve()) {
+    return input_error("a volume has a metric alone", "w2", "leave it out");
+  }
+  FormWeights next = body.fundamental.value_or(FormWeights{});
+  for (const auto& [given, to, field] : {std::tuple{&c.w1, &next.w1, "w1"}, std::tuple{&c.w2, &next.w2, "w2"}}) {
+    if (!*given) continue;
+    const std::array<double, 3>& w = **given;
+    if (w[0] != w[1] || w[1] != w[2]) {
+      return input_error(fmt::format("a {} has one weight of each form", kind_of(body)), field, "give one number");
+    }
+    if (auto done = set_at(*to, w[0], field); !done) return done;
+  }
+  body.fundamental = next;
+  return {};
+}
+
 /// The number of a control point by its indices. Errors (input): it does not exist.
 Expected<int> number_of(const std::vector<int>& net, const std::vector<int>& index, const std::string& where) {
   int number = 0;
@@ -120,27 +149,19 @@ Expected<void> on_body(Executor& executor, const MaterialCommand& c) {
   const struct {
     const char* name;
     bool given;
-  } fields[] = {{"region", c.region.has_value()},
-                {"coefficient", c.coefficient.has_value()},
-                {"samples", !c.samples.empty()},
-                {"formula", c.formula.has_value()},
-                {"preset", c.preset.has_value()},
-                {"plasticity", c.plasticity.has_value()},
-                {"yield", c.yield.has_value()},
-                {"locality", c.locality.has_value()},
-                {"model", c.model && *c.model != MaterialModel::linear},
-                {"young", c.young.has_value()},
-                {"poisson", c.poisson.has_value()},
-                {"thickness", c.thickness.has_value()},
-                {"density", c.density.has_value()},
-                {"w1", c.w1.has_value()},
-                {"w2", c.w2.has_value()}};
+  } fields[] = {{"region", c.region.has_value()},       {"coefficient", c.coefficient.has_value()},
+                {"samples", !c.samples.empty()},        {"formula", c.formula.has_value()},
+                {"preset", c.preset.has_value()},       {"plasticity", c.plasticity.has_value()},
+                {"yield", c.yield.has_value()},         {"locality", c.locality.has_value()},
+                {"young", c.young.has_value()},         {"poisson", c.poisson.has_value()},
+                {"thickness", c.thickness.has_value()}, {"density", c.density.has_value()}};
   for (const auto& [name, given] : fields) {
     if (given) return of_surfaces(body, name, "use alpha, beta, mass and damping");
   }
-  if (!c.alpha && !c.beta && !c.mass && !c.damping) {
-    return input_error("no field is given", "alpha", "give alpha, beta, mass or damping");
+  if (!c.alpha && !c.beta && !c.mass && !c.damping && !c.model && !c.w1 && !c.w2) {
+    return input_error("no field is given", "alpha", "give alpha, beta, mass, damping, or a model");
   }
+  if (auto done = set_forms(body, c); !done) return done;
   if (auto done = set_at(body.mass, c.mass, "mass"); !done) return done;
   if (auto done = set_at(body.damping, c.damping, "damping"); !done) return done;
   return std::visit([&](auto& shapes) { return set_material(shapes, c); }, body.shapes);

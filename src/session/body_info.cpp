@@ -25,6 +25,8 @@ void describe(BodyInfo& b, Fields& fields) {
   fields.add("beta", b.beta, {.help = "likewise"});
   fields.add("mass", b.mass);
   fields.add("damping", b.damping);
+  fields.add("w1", b.w1, {.help = "weight of the metric; null where the model is linear"});
+  fields.add("w2", b.w2, {.help = "weight of a curve's curvature"});
   fields.add("hold", b.hold, {.help = "outer layers of control points that do not move"});
   fields.add("pins", b.pins, {.help = "numbers of pinned control points"});
   fields.add("sides", b.sides, {.help = "which of them are held: `u0`, `u1` of a curve, to `w1` of a volume"});
@@ -55,6 +57,10 @@ std::vector<BodyInfo> bodies_of(const Scene& scene) {
         b.shapes);
     info.mass = b.mass;
     info.damping = b.damping;
+    if (b.fundamental) {
+      info.w1 = b.fundamental->w1;
+      if (b.is_curve()) info.w2 = b.fundamental->w2;
+    }
     info.hold = b.hold_rows;
     info.pins.assign(b.pins.begin(), b.pins.end());
     for (const KeptBodyHold& kept : b.holds) {

@@ -24,9 +24,41 @@ Expected<void> take_body(SceneBody& body, BodyShapes<D>& shapes, const ActiveSte
 
 SceneBody* Executor::body() { return state.body ? &state.bodies[static_cast<std::size_t>(*state.body)] : nullptr; }
 
+/// A static step of a body that keeps its fundamental forms.
+template <int D>
+Expected<void> Executor::settle_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution) {
+  SceneBody& b = *body();
+  if (!state.energy_before) {
+    const auto before = form_energy_of(b);
+    if (!before) return std::unexpected(before.error());
+    state.energy_before = *before;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::string> notes;
+  const auto step = settle_forms(state, *state.body, evolution, notes);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!step) return std::unexpected(step.error());
+  if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
+  if (auto done = take_body(b, shapes, *step, false); !done) return done;
+  record_body(*step, seconds, notes);
+  return {};
+}
+
+/// Keeps the record of a step of the selected body, and notes on its model that are new.
+void Executor::record_body(const ActiveStep& step, double seconds, const std::vector<std::string>& notes) {
+  StepRecord record = record_of(step, seconds, note_of(step));
+  record.surface = -1;
+  record.largest_displacement = largest_displacement(*body());
+  state.steps.push_back(std::move(record));
+  for (const std::string& note : notes) {
+    if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
+  }
+}
+
 template <int D>
 Expected<void> Executor::step_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution) {
   SceneBody& b = *body();
+  if (b.fundamental) return settle_body(shapes, evolution);
   BodyInput<D> input = body_input<D>(state, b, evolution);
   const auto* known = body_cache ? std::get_if<BodyModel<D>>(&*body_cache) : nullptr;
   if (known == nullptr || !(known->input == input)) {
@@ -48,13 +80,7 @@ Expected<void> Executor::step_body(BodyShapes<D>& shapes, const EvolutionPolicy&
   const bool imprinting =
       step->gap > 0 && std::ranges::any_of(state.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
   if (auto done = take_body(b, shapes, *step, imprinting); !done) return done;
-  StepRecord record = record_of(*step, seconds, note_of(*step));
-  record.surface = -1;
-  record.largest_displacement = largest_displacement(b);
-  state.steps.push_back(std::move(record));
-  for (const std::string& note : notes) {
-    if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
-  }
+  record_body(*step, seconds, notes);
   return {};
 }
 

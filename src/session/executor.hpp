@@ -160,6 +160,9 @@ struct Executor {
  private:
   template <int D>
   Expected<void> step_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution);
+  template <int D>
+  Expected<void> settle_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution);
+  void record_body(const ActiveStep& step, double seconds, const std::vector<std::string>& notes);
   Expected<void> know_what_holds();
   Expected<void> prepare_model(const EvolutionPolicy& evolution);
   Expected<ActiveStep> one_shell_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "described_json.hpp"
 #include "knead/session/session.hpp"
 
@@ -58,6 +60,7 @@ struct BodyInfo {
   Vector3 lower = {0, 0, 0}, upper = {0, 0, 0};
   std::vector<double> alpha, beta;
   double mass = 0, damping = 0;
+  std::optional<double> w1, w2;
   int hold = 0;
   std::vector<int> pins;
   std::vector<std::string> sides = {};

@@ -256,6 +256,7 @@ Expected<double> Session::body_energy() const {
   return std::visit(
       [&]<int D>(const BodyShapes<D>& shapes) -> Expected<double> {
         if (body.mode == RestMode::shape && shapes.current == shapes.rest) return 0;
+        if (body.fundamental) return form_energy_of(body);
         const auto made = make_body_model<D>(body_input<D>(state(), body, trial_evolution()));
         if (!made) return std::unexpected(made.error());
         return made->model.energy(active_state(body));

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "knead/energy/form_energy.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/body_constraints.hpp"
@@ -63,6 +64,7 @@ struct SceneBody {
   int hold_rows = 0;               ///< outer layers of control points that do not move
   std::set<int> pins = {};         ///< control points that do not move
   std::vector<KeptBodyHold> holds = {};
+  std::optional<FormWeights> fundamental = {};  ///< instead of the material: its forms are kept, in static steps
 
   [[nodiscard]] bool is_curve() const { return shapes.index() == 0; }
 };

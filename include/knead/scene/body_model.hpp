@@ -42,6 +42,21 @@ using AnyBodyModel = std::variant<BodyModel<1>, BodyModel<3>>;
 template <int D>
 [[nodiscard]] Expected<BodyModel<D>> make_body_model(BodyInput<D> input);
 
+/// The body of this index, which keeps its fundamental forms, at the nearest minimum of their energy less the work of
+/// the forces that keep their direction, in units of the file. Notes are appended. Errors (input): a step that is not
+/// static, tools or loads that such a body does not have, constraints that contradict each other; those of
+/// `FormEnergy::create` and `form_equilibrium`.
+[[nodiscard]] Expected<ActiveStep> settle_forms(const Scene& scene, int index, const EvolutionPolicy& evolution,
+                                                std::vector<std::string>& notes);
+
+/// The energy of its fundamental forms in the present shape.
+[[nodiscard]] Expected<double> form_energy_of(const SceneBody& body);
+
+/// What holds a body, as conditions on displacements from its rest shape, file units. Appends notes.
+template <int D>
+[[nodiscard]] Expected<std::vector<LinearConstraint>> body_conditions(const BodyInput<D>& input, const Points& present,
+                                                                      std::vector<std::string>& notes);
+
 /// The control points of a body with its rest shape and velocity.
 [[nodiscard]] ActiveState active_state(const SceneBody& body);
 

@@ -322,9 +322,11 @@ void describe(MaterialCommand& c, Fields& fields) {
        .range = at_least(0),
        .fallback = "as it was, at first 1",
        .uniform = true});
-  fields.add(
-      "w2", c.w2,
-      {.help = "of the second form", .range = at_least(0), .fallback = "as it was, at first 1", .uniform = true});
+  fields.add("w2", c.w2,
+             {.help = "of the second form, of a curve of its curvature",
+              .range = at_least(0),
+              .fallback = "as it was, at first 1",
+              .uniform = true});
 }
 
 void read_as_version_1(MaterialCommand& c) {
