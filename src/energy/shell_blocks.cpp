@@ -40,8 +40,13 @@ ShellBlocks::ShellBlocks(const Surface& surface, const std::array<BasisQuadratur
 
 /// Against forms of zero and with a stiffness of one the stresses are half the metric and minus the curvature.
 void ShellBlocks::measure_rest(const Points& x, std::vector<ShellRest>& rest) {
-  const ShellRest unit{
-      0, 0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
+  const ShellRest unit{0,
+                       0,
+                       0,
+                       Eigen::Vector3d::Zero(),
+                       Eigen::Vector3d::Zero(),
+                       Eigen::Matrix3d::Identity(),
+                       Eigen::Matrix3d::Identity()};
   const std::vector<ShellRest> units(rest.size(), unit);
   for (Block& block : blocks_) pack_rest(block, units);
   ShellStress forms(6, static_cast<Eigen::Index>(rest.size()));

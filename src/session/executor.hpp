@@ -168,6 +168,8 @@ struct Executor {
   Expected<ActiveStep> one_shell_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
                                       double& seconds);
   Expected<ActiveStep> load_shell(const ShellProblem& problem);
+  [[nodiscard]] const ShellProblem* kept_shell_problem() const;
+  Expected<void> keep_shell(const Scene& scene, const ShellProblem& problem, const EvolutionPolicy& evolution);
   Expected<ActiveStep> press_shell(const ShellProblem& problem, const EvolutionPolicy& evolution,
                                    const std::vector<PointForce>& more);
   Expected<void> refine_as(const std::vector<SeamRefinement>& refinements);

@@ -14,7 +14,7 @@ bool Executor::shells() const {
 Expected<ActiveStep> Executor::one_shell_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
                                               double& seconds) {
   const auto start = std::chrono::steady_clock::now();
-  auto problem = shell_problem(state, shell_cache ? &shell_cache->problem : nullptr);
+  auto problem = shell_problem(state, kept_shell_problem());
   if (!problem) return std::unexpected(problem.error());
   if (!state.energy_before) state.energy_before = problem->structure.energy(problem->present).sum();
   auto step = evolution.mode == Evolution::stationary && more.empty() && !touches_shell(state)
@@ -49,15 +49,22 @@ Expected<ActiveStep> Executor::load_shell(const ShellProblem& problem) {
   return step;
 }
 
+const ShellProblem* Executor::kept_shell_problem() const { return shell_cache ? &shell_cache->problem : nullptr; }
+
+/// Sees to it that the kept model is this one.
+Expected<void> Executor::keep_shell(const Scene& scene, const ShellProblem& problem, const EvolutionPolicy& evolution) {
+  if (shell_cache && shell_cache->serves(problem, evolution)) return {};
+  shell_cache.reset();
+  auto made = make_shell_model(scene, problem, evolution);
+  if (!made) return std::unexpected(made.error());
+  shell_cache = std::move(*made);
+  return {};
+}
+
 /// A step under tools, or in time.
 Expected<ActiveStep> Executor::press_shell(const ShellProblem& problem, const EvolutionPolicy& evolution,
                                            const std::vector<PointForce>& more) {
-  if (!shell_cache || !shell_cache->serves(problem, evolution)) {
-    shell_cache.reset();
-    auto made = make_shell_model(state, problem, evolution);
-    if (!made) return std::unexpected(made.error());
-    shell_cache = std::move(*made);
-  }
+  if (auto kept = keep_shell(state, problem, evolution); !kept) return std::unexpected(kept.error());
   const auto tools = tools_and_images(state);
   if (!tools) return std::unexpected(tools.error());
   const int parts = evolution.mode == Evolution::stationary ? increments.value_or(1) : 1;

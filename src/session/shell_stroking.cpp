@@ -18,15 +18,9 @@ Expected<ActiveStep> Executor::press_shell_on_bed(const std::vector<Tool>& tools
   EvolutionPolicy evolution;
   evolution.lambda = stroke.lambda;
   evolution.accuracy = state.evolution.accuracy;
-  const auto problem = shell_problem(before);
+  const auto problem = shell_problem(before, kept_shell_problem());
   if (!problem) return std::unexpected(problem.error());
-  ShellInput input = shell_input(before, evolution);
-  if (!shell_cache || !(shell_cache->input == input)) {
-    shell_cache.reset();
-    auto made = make_shell_model(before, *problem, std::move(input));
-    if (!made) return std::unexpected(made.error());
-    shell_cache = std::move(*made);
-  }
+  if (auto kept = keep_shell(before, *problem, evolution); !kept) return std::unexpected(kept.error());
   const auto loads = shell_loads(before, *problem, 1);
   if (!loads) return std::unexpected(loads.error());
   ActiveState from = active_state(before);

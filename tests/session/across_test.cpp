@@ -1,7 +1,6 @@
 // Strokes and brushes that pass from one surface to another that is coupled with it.
 #include <numbers>
 
-#include "brushes.hpp"
 #include "pieces.hpp"
 #include "sculpt/groove.hpp"
 #include "session/brushes.hpp"
