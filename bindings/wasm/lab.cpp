@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "answers.hpp"
 #include "knead/spline/jumps.hpp"
 #include "lab_curves.hpp"
 #include "lab_gramians.hpp"
@@ -36,23 +37,8 @@ Lab& held() {
   return value;
 }
 
-int answer(const Json& json) {
-  held().text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return 1;
-}
-
-int fail(const Error& error) {
-  const char* kind = error.kind == ErrorKind::numerical ? "numerical"
-                     : error.kind == ErrorKind::usage   ? "usage"
-                                                        : "input";
-  answer({{"error",
-           {{"kind", kind},
-            {"what", error.what},
-            {"where", error.where},
-            {"remedy", error.remedy},
-            {"message", error.message()}}}});
-  return 0;
-}
+int answer(const Json& json) { return answer_in(held().text, json); }
+int fail(const Error& error) { return fail_in(held().text, error); }
 
 int without_knots() { return fail({ErrorKind::usage, "there are no knots", {}, "give a knot vector first"}); }
 

@@ -4,6 +4,7 @@
 // {"error": …}, and the previous state stays.
 #include <nlohmann/json.hpp>
 
+#include "answers.hpp"
 #include "knead/session/snake_text.hpp"
 #include "snake_room.hpp"
 
@@ -29,23 +30,8 @@ Held& held() {
 
 std::string_view input_text() { return {reinterpret_cast<const char*>(held().input.data()), held().input.size()}; }
 
-int answer(const Json& json) {
-  held().text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return 1;
-}
-
-int fail(const Error& error) {
-  const char* kind = error.kind == ErrorKind::numerical ? "numerical"
-                     : error.kind == ErrorKind::usage   ? "usage"
-                                                        : "input";
-  answer({{"error",
-           {{"kind", kind},
-            {"what", error.what},
-            {"where", error.where},
-            {"remedy", error.remedy},
-            {"message", error.message()}}}});
-  return 0;
-}
+int answer(const Json& json) { return answer_in(held().text, json); }
+int fail(const Error& error) { return fail_in(held().text, error); }
 
 /// How the snakes are, and where in the buffers.
 int state() {
