@@ -77,6 +77,20 @@ KNEAD_EXPORT(snake_script) int snake_script(int again) {
 
 KNEAD_EXPORT(snake_advance) int snake_advance(int iterations) { return state_after(held().room.advance(iterations)); }
 
+/// No snakes; the image and the mask stay.
+KNEAD_EXPORT(snake_clear) int snake_clear() {
+  held().room.remove_snakes();
+  return state();
+}
+
+/// Keeps snakes, script and mask as they are; the text is {"kept": number}.
+KNEAD_EXPORT(snake_keep) int snake_keep() { return answer({{"kept", held().room.keep()}}); }
+
+/// All is as it was when it was kept.
+KNEAD_EXPORT(snake_restore) int snake_restore(int kept) { return state_after(held().room.restore(kept)); }
+
+KNEAD_EXPORT(snake_forget) void snake_forget(int kept) { held().room.forget(kept); }
+
 /// Snakes that have ended may go on.
 KNEAD_EXPORT(snake_wake) int snake_wake() { return state_after(held().room.wake()); }
 

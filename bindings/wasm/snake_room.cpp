@@ -11,12 +11,6 @@ namespace {
 constexpr double red = 0.2125, green = 0.7154, blue = 0.0721;  // as in apps/knead/image_file.cpp
 constexpr int drawn_per_span = 8;
 
-bool same(const ImagePotentialSettings& a, const ImagePotentialSettings& b) {
-  return a.smoothing == b.smoothing && a.line == b.line && a.edge == b.edge && a.termination == b.termination &&
-         a.flow == b.flow && a.flow_smoothness == b.flow_smoothness && a.flow_iterations == b.flow_iterations &&
-         a.region == b.region && a.distance == b.distance;
-}
-
 /// Whether they begin in the same place; springs may differ.
 bool same_place(const SnakeStart& a, const SnakeStart& b) {
   return a.shape == b.shape && a.centre == b.centre && a.radii == b.radii && a.angle == b.angle &&
@@ -57,8 +51,26 @@ Expected<void> Room::set_image(Image image) {
 }
 
 void Room::set_mask(std::optional<Image> mask) {
-  mask_ = std::move(mask);
-  potential_.reset();
+  now_.mask = mask ? std::make_shared<const Image>(std::move(*mask)) : nullptr;
+  now_.potential.reset();
+}
+
+void Room::remove_snakes() {
+  now_ = State{now_.mask};
+  hand_.reset();
+}
+
+int Room::keep() {
+  kept_.emplace(next_, now_);
+  return next_++;
+}
+
+Expected<void> Room::restore(int kept) {
+  const auto found = kept_.find(kept);
+  if (found == kept_.end()) return usage_error(fmt::format("nothing was kept under {}", kept));
+  now_ = found->second;
+  hand_.reset();
+  return {};
 }
 
 Expected<Room::Moved> Room::begun(const SnakeScript& script, const SnakeStart& start) const {
@@ -90,23 +102,23 @@ Expected<void> Room::set_script(std::string_view json, bool again) {
   if (!image_) return usage_error("there is no image", "image", "open one first");
   const auto script = parse_snake_script(json);
   if (!script) return std::unexpected(script.error());
-  std::optional<ImagePotential> potential = potential_;
-  if (!potential || !same(energy_, script->image)) {
-    auto made = ImagePotential::create(*image_, script->image, mask_);
+  std::optional<ImagePotential> potential = now_.potential;
+  if (!potential || now_.energy != script->image) {
+    auto made = ImagePotential::create(*image_, script->image, now_.mask ? std::optional(*now_.mask) : std::nullopt);
     if (!made) return std::unexpected(made.error());
     potential = std::move(*made);
   }
   const std::vector<SnakeResult> now = results();
-  std::vector<bool> taken(snakes_.size(), again);
+  std::vector<bool> taken(now_.snakes.size(), again);
   std::vector<One> snakes;
   std::vector<Curve> curves;
   std::vector<SnakeSettings> settings;
   for (std::size_t k = 0; k < script->snakes.size(); ++k) {
     const SnakeStart& start = script->snakes[k];
     std::size_t known = 0;
-    while (known < snakes_.size() && (taken[known] || !same_place(snakes_[known].start, start))) ++known;
-    const bool there = known < snakes_.size();
-    auto moved = there ? goes_on(snakes_[known], now[known], *script, start) : begun(*script, start);
+    while (known < now_.snakes.size() && (taken[known] || !same_place(now_.snakes[known].start, start))) ++known;
+    const bool there = known < now_.snakes.size();
+    auto moved = there ? goes_on(now_.snakes[known], now[known], *script, start) : begun(*script, start);
     if (!moved) return std::unexpected(moved.error().within(fmt::format("snakes[{}]", k)));
     if (there) taken[known] = true;
     settings.push_back(moved->one.settings);
@@ -115,22 +127,22 @@ Expected<void> Room::set_script(std::string_view json, bool again) {
   }
   auto run = Snakes::create(*potential, curves, settings);
   if (!run) return std::unexpected(run.error());
-  snakes_ = std::move(snakes);
-  run_ = std::move(*run);
-  potential_ = std::move(potential);
-  energy_ = script->image;
+  now_.snakes = std::move(snakes);
+  now_.run = std::move(*run);
+  now_.potential = std::move(potential);
+  now_.energy = script->image;
   hand_.reset();
   return {};
 }
 
 Expected<void> Room::advance(int iterations) {
-  if (!run_) return {};
-  const auto made = run_->advance(iterations);
+  if (!now_.run) return {};
+  const auto made = now_.run->advance(iterations);
   return made ? Expected<void>{} : std::unexpected(made.error());
 }
 
 SnakeSettings Room::settings_now(std::size_t snake) const {
-  SnakeSettings settings = snakes_[snake].settings;
+  SnakeSettings settings = now_.snakes[snake].settings;
   if (!hand_ || hand_->snake != snake) return settings;
   settings.springs.push_back(hand_->spring);
   settings.refine = 0;
@@ -139,22 +151,22 @@ SnakeSettings Room::settings_now(std::size_t snake) const {
 }
 
 Expected<void> Room::change(std::size_t snake) {
-  const auto now = run_->result(static_cast<int>(snake));
+  const auto now = now_.run->result(static_cast<int>(snake));
   if (!now) return std::unexpected(now.error());
-  if (auto done = run_->change(static_cast<int>(snake), settings_now(snake)); !done) return done;
-  snakes_[snake].earlier += now->iterations;
+  if (auto done = now_.run->change(static_cast<int>(snake), settings_now(snake)); !done) return done;
+  now_.snakes[snake].earlier += now->iterations;
   return {};
 }
 
 Expected<void> Room::wake() {
-  for (std::size_t k = 0; k < snakes_.size(); ++k) {
+  for (std::size_t k = 0; k < now_.snakes.size(); ++k) {
     if (auto done = change(k); !done) return done;
   }
   return {};
 }
 
 Expected<void> Room::pull(const std::optional<Hand>& hand) {
-  if (hand && hand->snake >= snakes_.size()) return usage_error(fmt::format("there is no snake {}", hand->snake));
+  if (hand && hand->snake >= now_.snakes.size()) return usage_error(fmt::format("there is no snake {}", hand->snake));
   const std::optional<Hand> before = hand_;
   hand_ = hand;
   if (before && (!hand || hand->snake != before->snake)) {
@@ -164,8 +176,8 @@ Expected<void> Room::pull(const std::optional<Hand>& hand) {
 }
 
 Expected<void> Room::move_point(std::size_t snake, int point, double x, double y) {
-  if (snake >= snakes_.size()) return usage_error(fmt::format("there is no snake {}", snake));
-  const auto now = run_->result(static_cast<int>(snake));
+  if (snake >= now_.snakes.size()) return usage_error(fmt::format("there is no snake {}", snake));
+  const auto now = now_.run->result(static_cast<int>(snake));
   if (!now) return std::unexpected(now.error());
   const int n = unknowns(*now);
   if (point < 0 || point >= n) return usage_error(fmt::format("there is no control point {}", point));
@@ -174,17 +186,17 @@ Expected<void> Room::move_point(std::size_t snake, int point, double x, double y
   for (Eigen::Index i = point; i < c.rows(); i += n) c.row(i).head<2>() << x, y;
   const auto curve = Curve::create({now->curve.knots()[0]}, std::move(c));
   if (!curve) return std::unexpected(curve.error());
-  if (auto done = run_->replace(static_cast<int>(snake), *curve, settings_now(snake)); !done) return done;
-  snakes_[snake].earlier += now->iterations;
+  if (auto done = now_.run->replace(static_cast<int>(snake), *curve, settings_now(snake)); !done) return done;
+  now_.snakes[snake].earlier += now->iterations;
   return {};
 }
 
 std::vector<SnakeResult> Room::results() const {
   std::vector<SnakeResult> all;
-  for (std::size_t k = 0; k < snakes_.size(); ++k) {
-    auto now = run_->result(static_cast<int>(k));
+  for (std::size_t k = 0; k < now_.snakes.size(); ++k) {
+    auto now = now_.run->result(static_cast<int>(k));
     if (!now) return all;
-    now->iterations += snakes_[k].earlier;
+    now->iterations += now_.snakes[k].earlier;
     all.push_back(std::move(*now));
   }
   return all;
@@ -215,10 +227,10 @@ Lines Room::lines() const {
 }
 
 std::vector<std::uint8_t> Room::energy() const {
-  if (!potential_) return {};
+  if (!now_.potential) return {};
   std::vector<double> values;
-  for (int y = 0; y < potential_->height(); ++y) {
-    for (int x = 0; x < potential_->width(); ++x) values.push_back(potential_->value(x, y));
+  for (int y = 0; y < now_.potential->height(); ++y) {
+    for (int x = 0; x < now_.potential->width(); ++x) values.push_back(now_.potential->value(x, y));
   }
   const auto [least, most] = std::ranges::minmax(values);
   std::vector<std::uint8_t> bytes;

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,8 +31,10 @@ struct Lines {
 /// An image and the snakes in it, each from where it starts to where it is.
 class Room {
  public:
-  /// Forgets the snakes and the mask.
+  /// Forgets the snakes, the mask and what was kept.
   [[nodiscard]] Expected<void> set_image(Image image);
+  /// The mask stays.
+  void remove_snakes();
   void set_mask(std::optional<Image> mask);
   /// The snakes of a script whose starts stand in the one before go on from where they are, under the new settings; the
   /// others begin, as all do with `again`. On failure everything stays.
@@ -43,9 +47,16 @@ class Room {
   [[nodiscard]] Expected<void> pull(const std::optional<Hand>& hand);
   [[nodiscard]] Expected<void> move_point(std::size_t snake, int point, double x, double y);
 
+  /// Keeps everything but the image as it is now, under a number.
+  [[nodiscard]] int keep();
+  /// Everything is as it was when it was kept, bit for bit, and goes on as it did then; the hand has let go. Errors:
+  /// there is no such number (usage).
+  [[nodiscard]] Expected<void> restore(int kept);
+  void forget(int kept) { kept_.erase(kept); }
+
   [[nodiscard]] const std::optional<Image>& image() const { return image_; }
   /// Whether nothing is left to do: all rest or have made their iterations.
-  [[nodiscard]] bool ended() const { return !run_ || run_->ended(); }
+  [[nodiscard]] bool ended() const { return !now_.run || now_.run->ended(); }
   [[nodiscard]] std::vector<SnakeResult> results() const;
   [[nodiscard]] Lines lines() const;
   /// Q at the pixels, from black at its smallest to white at its largest.
@@ -56,6 +67,14 @@ class Room {
     SnakeStart start;
     SnakeSettings settings;
     int earlier = 0;  ///< iterations before it was changed last
+  };
+  /// Everything but the image.
+  struct State {
+    std::shared_ptr<const Image> mask = {};
+    std::optional<ImagePotential> potential = {};
+    ImagePotentialSettings energy = {};
+    std::vector<One> snakes = {};
+    std::optional<Snakes> run = {};
   };
   /// Where one is to go on.
   struct Moved {
@@ -69,12 +88,11 @@ class Room {
   [[nodiscard]] SnakeSettings settings_now(std::size_t snake) const;
   [[nodiscard]] Expected<void> change(std::size_t snake);
 
-  std::optional<Image> image_ = {}, mask_ = {};
-  std::optional<ImagePotential> potential_ = {};
-  ImagePotentialSettings energy_ = {};
-  std::vector<One> snakes_ = {};
-  std::optional<Snakes> run_ = {};
+  std::optional<Image> image_ = {};
+  State now_ = {};
   std::optional<Hand> hand_ = {};
+  std::map<int, State> kept_ = {};
+  int next_ = 0;
 };
 
 /// A grey image of pixels with four bytes each, as the command line makes one; the fourth does not count.

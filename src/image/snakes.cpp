@@ -88,6 +88,11 @@ struct Snakes::State {
 };
 
 Snakes::Snakes(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Snakes::Snakes(const Snakes& other) : state_(std::make_unique<State>(*other.state_)) {}
+Snakes& Snakes::operator=(const Snakes& other) {
+  if (this != &other) state_ = std::make_unique<State>(*other.state_);
+  return *this;
+}
 Snakes::Snakes(Snakes&&) noexcept = default;
 Snakes& Snakes::operator=(Snakes&&) noexcept = default;
 Snakes::~Snakes() = default;

@@ -4,7 +4,7 @@ import { fileURLToPath } from 'node:url';
 
 import { EngineError } from '@studio/engine/session_types';
 import { type Pixels, SnakeModule, type Snakes } from '@studio/panels/snakes/module';
-import { imageFields, moreFields, type Preset, presetOf, presets, type Script, scriptText, snakeFields, type Start, thinned } from '@studio/panels/snakes/script';
+import { imageFields, moreFields, moreImageFields, noEnergy, type Preset, presetOf, presets, type Script, scriptText, snakeFields, type Start, thinned } from '@studio/panels/snakes/script';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const wasm = readFileSync(join(root, 'web/src/panels/snakes/knead_snake.wasm'));
@@ -120,6 +120,42 @@ describe('the module of snakes', () => {
     expect(least(dented)).toBeGreaterThan(middle[0] + radius < 72 ? 72 - middle[0] - radius + 1 : 1);
   });
 
+  it('goes back to what was kept, bit for bit, and on from there as before', async () => {
+    const module = await room([circle(46, 50, 30)], presets[1]!);
+    module.advance(20);
+    const kept = module.keep(), before = module.contours('json', '');
+    const on = module.advance(40), end = module.contours('json', '');
+    module.setScript(scriptText(script([circle(20, 20, 9), circle(46, 50, 30)])), true);
+    const other = module.keep();
+    module.clear();
+    expect(module.contours('csv', '').trim().split('\n').length).toBe(1);
+    for (let k = 0; k < 2; ++k) {
+      module.restore(kept);
+      expect(module.contours('json', '')).toBe(before);
+      expect(module.advance(40)).toEqual(on);
+      expect(module.contours('json', '')).toBe(end);
+    }
+    expect(module.restore(other).states.length).toBe(2);
+    module.forget(kept);
+    expect(() => module.restore(kept)).toThrow(/nothing was kept/);
+    module.setImage(disc());
+    expect(() => module.restore(other)).toThrow(/nothing was kept/);
+  });
+
+  it('keeps the mask when the last snake is removed', async () => {
+    const module = await room([circle(40, 52, 30)]);
+    module.setMask(disc(255, 0));
+    const near = scriptText(script([circle(40, 52, 30)], presets[0]!, { mask: 'mask.png', image: { ...noEnergy, distance: 1 } }));
+    module.setScript(near);
+    const mask = module.keep();
+    module.clear();
+    expect(module.setScript(near).states.length).toBe(1);
+    module.setMask(null);
+    expect(() => module.setScript(near)).toThrow(/mask/);
+    module.restore(mask);
+    expect(module.setScript(near, true).states.length).toBe(1);
+  });
+
   it('saves contours, the mask and the energy', async () => {
     const module = await room([circle(40, 52, 30)]);
     const snakes = rest(module);
@@ -172,9 +208,10 @@ describe('the module of snakes', () => {
 describe('the script of snakes', () => {
   it('has a field with an explanation for every number of its energies and settings', () => {
     const { image, settings } = presetOf(presets[0]!);
-    expect(imageFields.map((f) => f.key).sort()).toEqual(Object.keys(image).sort());
+    const { relative_region: _, ...numbers } = image;
+    expect([...imageFields, ...moreImageFields].map((f) => f.key).sort()).toEqual(Object.keys(numbers).sort());
     expect([...snakeFields, ...moreFields].map((f) => f.key).sort()).toEqual(Object.keys(settings).sort());
-    for (const { about } of [...imageFields, ...snakeFields, ...moreFields]) expect(about.length).toBeGreaterThan(15);
+    for (const { about } of [...imageFields, ...moreImageFields, ...snakeFields, ...moreFields]) expect(about.length).toBeGreaterThan(15);
   });
 
   it('is taken by the engine for every preset', async () => {

@@ -22,6 +22,8 @@ struct ImagePotentialSettings {
   /// bright.
   bool relative_region = false;
   double distance = 0;  ///< weight of the nearness to the mask
+
+  friend bool operator==(const ImagePotentialSettings&, const ImagePotentialSettings&) = default;
 };
 
 /// Errors (input): weights that are no numbers; negative smoothing, μ or iterations; too much of them.

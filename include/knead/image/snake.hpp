@@ -88,6 +88,9 @@ class Snakes {
   /// (input); a matrix that is not positive definite (numerical).
   [[nodiscard]] static Expected<Snakes> create(const ImagePotential& potential, const std::vector<Curve>& starts,
                                                const std::vector<SnakeSettings>& settings);
+  /// Copies go on independently, from the same state.
+  Snakes(const Snakes&);
+  Snakes& operator=(const Snakes&);
   Snakes(Snakes&&) noexcept;
   Snakes& operator=(Snakes&&) noexcept;
   ~Snakes();

@@ -1,4 +1,4 @@
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { directoryOfFile, downloaded, studioOfFile } from './page';
@@ -134,6 +134,97 @@ it('a second snake and a volcano are in the script, and settings that cannot be 
   const path = join(directory, 'mask.png');
   await download.saveAs(path);
   expect([...readFileSync(path).subarray(1, 4)].map((c) => String.fromCharCode(c)).join('')).toBe('PNG');
+});
+
+const key = (keys: string) => studio.page.keyboard.press(keys);
+const shown = () => snakes().locator('.snakes-lines').innerHTML();
+
+it('what was done is taken back step by step, and done again', async () => {
+  const undo = button('Undo'), redo = button('Redo'), script = () => save('Script'), contours = () => save('Contours, JSON');
+  expect(await undo.isDisabled()).toBe(false);
+  expect(await redo.isDisabled()).toBe(true);
+  const withAll = await script(), lines = await contours();
+  await key('Control+z'); // the volcano
+  await expect.poll(() => snakes().locator('.volcano').count()).toBe(0);
+  await key('Control+z'); // the ellipse
+  await expect.poll(() => snakes().locator('path.snake').count()).toBe(1);
+  expect(JSON.parse(await script())).toMatchObject({ snakes: [{ shape: 'points' }] });
+  await key('Control+y');
+  await key('Control+Shift+z');
+  await expect.poll(() => snakes().locator('.volcano').count()).toBe(1);
+  expect(await script()).toBe(withAll);
+  expect(await contours()).toBe(lines);
+  expect(await redo.isDisabled()).toBe(true);
+  // A run, from where it began.
+  const before = await shown();
+  await runToRest();
+  expect(await shown()).not.toBe(before);
+  const ran = await contours();
+  await undo.click();
+  await expect.poll(contours).toBe(lines);
+  expect(await shown()).toBe(before);
+  await redo.click();
+  await expect.poll(contours).toBe(ran);
+  expect(await snakes().locator('.snakes-status').textContent()).toContain('at rest'); // as it was
+  // A drag of a control point, of many moves, is one entry.
+  await button('Drag control points').click();
+  const box = (await snakes().locator('.snake-point').first().boundingBox())!;
+  await studio.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await studio.page.mouse.down();
+  await studio.page.mouse.move(box.x + 40, box.y + 30, { steps: 6 });
+  await studio.page.mouse.up();
+  await expect.poll(contours).not.toBe(ran);
+  await key('Control+z');
+  await expect.poll(contours).toBe(ran);
+  // A setting, and what the history forgets: a new entry ends what was to be done again.
+  const motion = snakes().locator('input[aria-label="Bend β"]'), bend = await motion.inputValue();
+  await motion.fill('77');
+  await motion.press('Enter');
+  await expect.poll(async () => (JSON.parse(await script()) as { settings: { beta: number } }).settings.beta).toBe(77);
+  expect(await redo.isDisabled()).toBe(true);
+  await undo.click();
+  await expect.poll(() => motion.inputValue()).toBe(bend);
+  expect(await contours()).toBe(ran);
+});
+
+it('what was just drawn runs, and is taken back, without a wait', async () => {
+  const { mouse } = studio.page;
+  await key('e');
+  await drag([60, 60], [80, 84]);
+  await mouse.up();
+  await key(' ');
+  await key('Control+z');
+  await key('Control+z');
+  await expect.poll(() => button('Redo').isDisabled()).toBe(false);
+  expect(await snakes().locator('path.snake').count()).toBe(2);
+  expect(await running()).toBe('false');
+  expect(await studio.page.locator('.notice', { hasText: 'Draw a snake' }).count()).toBe(0);
+});
+
+it('both snakes are removed, by the key and the list, and come back', async () => {
+  await snakes().locator('.snakes-view').focus();
+  await key('Delete');
+  await expect.poll(() => snakes().locator('path.snake').count()).toBe(1);
+  await button('Remove snake 1').click();
+  await expect.poll(() => snakes().locator('path.snake').count()).toBe(0);
+  await key('Control+z');
+  await key('Control+z');
+  await expect.poll(() => snakes().locator('path.snake').count()).toBe(2);
+});
+
+it('what is no image is refused with its name, and the one before stays', async () => {
+  const path = join(directory, 'empty.png');
+  for (const bytes of [new Uint8Array(), readFileSync(join(directory, 'mask.png')).subarray(0, 60)]) {
+    writeFileSync(path, bytes);
+    await snakes().locator('input[type=file][aria-label="Image to open"]').setInputFiles(path);
+    await studio.page.locator('dialog.question button', { hasText: 'Open it' }).click();
+    const refused = studio.page.locator('.notice', { hasText: 'empty.png' });
+    await refused.first().waitFor();
+    expect(await refused.first().textContent()).toMatch(/no image that the browser can read/);
+    await refused.first().locator('button').last().click();
+    expect(await snakes().locator('path.snake').count()).toBe(2);
+    expect(await snakes().locator('.snakes-status').textContent()).toContain(`${size} × ${size} pixels`);
+  }
 });
 
 it('of 16 bits a channel it says that they become 8, and closing leads back to the surfaces', async () => {

@@ -28,6 +28,7 @@ const paths: Record<string, string> = {
   save: 'M12 4v11M7 11l5 5 5-5M4 20h16',
   undo: 'M8 5L4 9l4 4M4 9h10a6 6 0 010 12h-3',
   redo: 'M16 5l4 4-4 4M20 9H10a6 6 0 000 12h3',
+  restart: 'M6 5v14M19 5L9 12l10 7z',
   play: 'M7 4.5v15l12-7.5z',
   pause: 'M8 5v14M16 5v14',
   step: 'M6 5v14l9-7zM18 5v14',

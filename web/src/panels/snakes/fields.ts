@@ -4,7 +4,7 @@ import { numberInput } from '../number_input';
 import { note, row } from '../panel';
 import { imageEndings } from './files';
 import type { SnakeModel } from './model';
-import { type Field, imageFields, moreFields, presets, snakeFields } from './script';
+import { type Field, imageFields, type ImageNumber, moreFields, moreImageFields, presets, snakeFields } from './script';
 
 /** The column beside the image: energies, settings, the list of snakes. Made anew when what it shows has changed. */
 export class SnakeFields {
@@ -23,7 +23,7 @@ export class SnakeFields {
     const { model } = this;
     this.drawList();
     const { image, settings, volcanoes, mask } = model.script;
-    const now = JSON.stringify([image, settings, volcanoes.length, mask, model.preset.name, model.spring, model.volcano, model.keepSprings, model.energy !== null, model.image?.name, model.script.snakes.length > 0]);
+    const now = JSON.stringify([image, settings, volcanoes.length, mask, model.preset.name, model.spring, model.volcano, model.keepSprings, model.holdEnds, model.energy !== null, model.image?.name, model.script.snakes.length > 0]);
     if (now === this.drawn) return;
     const focus = document.activeElement;
     if (this.element.contains(focus) && focus instanceof HTMLInputElement && focus.type === 'text') return; // once it is left
@@ -34,7 +34,7 @@ export class SnakeFields {
       const file = picker.files?.[0];
       if (file) void model.openMask(file).catch((error: unknown) => model.tell(error));
     });
-    const more = h('details', { class: 'more', open: this.open }, h('summary', {}, 'More settings'), ...moreFields.map((f) => this.setting(f)));
+    const more = h('details', { class: 'more', open: this.open }, h('summary', {}, 'More settings'), ...moreFields.map((f) => this.setting(f)), ...moreImageFields.map((f) => this.energy(f)));
     more.addEventListener('toggle', () => (this.open = more.open));
     this.element.replaceChildren(
       h('section', {}, h('h3', {}, 'Snakes'), this.list, model.script.snakes.length === 0 ? note('None yet: draw one in the image.') : null),
@@ -43,6 +43,7 @@ export class SnakeFields {
         note(`${model.preset.about}.`),
         ...imageFields.map((f) => this.energy(f)),
         row(h('button', { class: 'button small', type: 'button', title: 'An image whose white parts the energy “Mask” draws to', disabled: !model.image, onclick: () => picker.click() }, mask ? `Mask: ${mask}` : 'Open a mask…'), picker,
+          toggle('Relative', image.relative_region, (on) => void model.apply({ ...model.script, image: { ...model.script.image, relative_region: on } }), 'Regions count in the difference of the means, at most 1: the same force for what is pale and what is bright'),
           toggle('Show the energy', model.energy !== null, (on) => void model.showEnergy(on), 'What attracts, in place of the image: white draws most. Forces along the normal, as regions and the balloon, are not in it'))),
       h('section', {}, h('h3', {}, 'How the snake resists'), ...snakeFields.map((f) => this.setting(f)), more),
       h('section', {}, h('h3', {}, 'By hand'),
@@ -57,7 +58,11 @@ export class SnakeFields {
         row(toggle('Springs stay', model.keepSprings, (keep) => {
           model.keepSprings = keep;
           model.changed();
-        }, 'A spring stays where the drag ends; it is in the script, too. Drag its end to move it')),
+        }, 'A spring stays where the drag ends; it is in the script, too. Drag its end to move it'),
+          toggle('Ends held', model.holdEnds, (hold) => {
+            model.holdEnds = hold;
+            model.changed();
+          }, 'Of open snakes that are drawn from now on; free ones give way')),
         volcanoes.length > 0 ? row(h('button', { class: 'button small', type: 'button', onclick: () => void model.setVolcanoes([]) }, volcanoes.length === 1 ? 'Remove the volcano' : `Remove ${volcanoes.length} volcanoes`)) : null),
     );
     if (name) this.element.querySelector<HTMLElement>(`[aria-label="${CSS.escape(name)}"]`)?.focus({ preventScroll: true });
@@ -84,9 +89,9 @@ export class SnakeFields {
     });
   }
 
-  private energy({ key, label, about }: Field<keyof SnakeModel['script']['image']>): HTMLElement {
+  private energy({ key, label, about, whole }: Field<ImageNumber>): HTMLElement {
     const { model } = this;
-    return this.line(label, about, model.script.image[key], (value) => model.refusal({ ...model.script, image: { ...model.script.image, [key]: value } }), false, !model.image);
+    return this.line(label, about, model.script.image[key], (value) => model.refusal({ ...model.script, image: { ...model.script.image, [key]: whole ? Math.round(value) : value } }), whole, !model.image);
   }
 
   private setting({ key, label, about, whole }: Field<keyof SnakeModel['script']['settings']>): HTMLElement {

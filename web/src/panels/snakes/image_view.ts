@@ -1,7 +1,7 @@
 import { h } from '../dom';
 import { s, set } from '../lab/svg';
 import type { SnakeModel } from './model';
-import { type Place, thinned } from './script';
+import { type Place, thinned, type Volcano } from './script';
 
 const near = 11; // pixels of the screen at which something is meant
 const least = 6; // pixels of the screen below which a stroke or an ellipse is a click
@@ -9,10 +9,10 @@ const least = 6; // pixels of the screen below which a stroke or an ellipse is a
 type Grip =
   | { kind: 'stroke'; places: Place[] }
   | { kind: 'ellipse'; from: Place; to: Place }
-  | { kind: 'point'; snake: number; point: number }
+  | { kind: 'point'; snake: number; point: number; begun: boolean }
   | { kind: 'spring'; snake: number; at: number; from: Place; to: Place }
   | { kind: 'kept'; snake: number; spring: number; to: Place }
-  | { kind: 'volcano'; k: number; at: Place; made: boolean; moved: boolean }
+  | { kind: 'volcano'; k: number; volcano: Volcano; at: Place; made: boolean; moved: boolean }
   | { kind: 'pan'; last: [number, number] };
 
 /** The image with its snakes over it, and what the pointer does there. */
@@ -133,8 +133,9 @@ export class ImageView {
       all.push(...this.springLine(this.placeOn(k, spring.at), held));
     }));
     if (grip?.kind === 'spring') all.push(...this.springLine(this.placeOn(grip.snake, grip.at), grip.to));
-    script.volcanoes.forEach((v, k) => {
-      const [cx, cy] = this.at(grip?.kind === 'volcano' && grip.k === k ? grip.at : v.at);
+    const held = grip?.kind === 'volcano' ? grip : null;
+    [...script.volcanoes, ...(held?.made ? [held.volcano] : [])].forEach((v, k) => {
+      const [cx, cy] = this.at(held?.k === k ? held.at : v.at);
       all.push(s('circle', { class: 'volcano-reach', cx, cy, r: Math.max(8, v.radius * this.scale) }), s('path', { class: 'volcano', d: `M${cx} ${cy - 6}l6 11h-12z` }));
     });
     if (grip?.kind === 'stroke') all.push(s('path', { class: 'snake-draft', d: grip.places.map((p, k) => `${k === 0 ? 'M' : 'L'}${this.at(p).join(' ')}`).join('') + (model.closed ? 'Z' : '') }));
@@ -185,7 +186,7 @@ export class ImageView {
     else if (model.tool === 'ellipse') this.grip = { kind: 'ellipse', from: this.place(e), to: this.place(e) };
     else if (model.tool === 'volcano') this.grip = this.volcanoAt(e);
     else this.grip = this.pointAt(e) ?? { kind: 'pan', last: this.screen(e) };
-    if (this.grip.kind === 'spring') void model.pull(this.grip.snake, this.grip.at, this.grip.to);
+    if (this.grip.kind === 'spring') void model.pull(this.grip.snake, this.grip.at, this.grip.to, true);
     this.draw();
   }
 
@@ -203,10 +204,12 @@ export class ImageView {
     } else if (grip.kind === 'ellipse') {
       const [dx, dy] = [place[0] - grip.from[0], place[1] - grip.from[1]], both = Math.max(Math.abs(dx), Math.abs(dy));
       grip.to = e.shiftKey ? [grip.from[0] + Math.sign(dx) * both, grip.from[1] + Math.sign(dy) * both] : place;
-    } else if (grip.kind === 'point') void model.move(grip.snake, grip.point, place);
-    else if (grip.kind === 'spring') {
+    } else if (grip.kind === 'point') {
+      void model.move(grip.snake, grip.point, place, !grip.begun);
+      grip.begun = true;
+    } else if (grip.kind === 'spring') {
       grip.to = place;
-      void model.pull(grip.snake, grip.at, place);
+      void model.pull(grip.snake, grip.at, place, false);
     } else if (grip.kind === 'kept') grip.to = place;
     else if (grip.kind === 'volcano') {
       grip.at = place;
@@ -230,7 +233,7 @@ export class ImageView {
       this.cancel();
     } else if (grip.kind === 'stroke') {
       const points = thinned(grip.places, Math.max(0.5, 2 / this.scale));
-      if (this.extent(points) >= least) void model.add({ shape: 'points', points, closed: model.closed });
+      if (this.extent(points) >= least) void model.add({ shape: 'points', points, closed: model.closed, ...(model.closed || model.holdEnds ? {} : { hold_ends: false }) });
     } else if (grip.kind === 'ellipse') {
       const radii: Place = [Math.abs(grip.from[0] - grip.to[0]) / 2, Math.abs(grip.from[1] - grip.to[1]) / 2];
       if (Math.min(...radii) * this.scale >= least / 2) {
@@ -243,17 +246,17 @@ export class ImageView {
     } else if (grip.kind === 'volcano') {
       const { volcanoes } = model.script;
       const stays = grip.made || grip.moved; // a click on one takes it away
-      void model.setVolcanoes(stays ? volcanoes.map((v, k) => (k === grip.k ? { ...v, at: grip.at } : v)) : volcanoes.filter((_, k) => k !== grip.k));
+      const others = volcanoes.filter((_, k) => k !== grip.k);
+      if (stays) others.splice(grip.k, 0, { ...grip.volcano, at: grip.at });
+      void model.setVolcanoes(others);
     }
     this.draw();
   }
 
   private async letGo({ snake, at, to, from }: Extract<Grip, { kind: 'spring' }>): Promise<void> {
-    const { model } = this;
-    await model.letGo();
-    if (model.keepSprings && Math.hypot(to[0] - from[0], to[1] - from[1]) * this.scale >= least) {
-      await model.setSprings(snake, [...(model.script.snakes[snake]!.springs ?? []), { at, to, strength: model.spring }]);
-    }
+    const { model } = this, stays = model.keepSprings && Math.hypot(to[0] - from[0], to[1] - from[1]) * this.scale >= least;
+    if (stays) await model.letGo(snake, [...(model.script.snakes[snake]!.springs ?? []), { at, to, strength: model.spring }]);
+    else await model.letGo();
   }
 
   /** Largest side of what places cover, pixels of the screen. */
@@ -270,10 +273,10 @@ export class ImageView {
   private volcanoAt(e: PointerEvent): Grip {
     const { model } = this, { volcanoes } = model.script;
     const k = volcanoes.findIndex((v) => this.away(e, v.at) < near);
-    if (k >= 0) return { kind: 'volcano', k, at: volcanoes[k]!.at, made: false, moved: false };
+    if (k >= 0) return { kind: 'volcano', k, volcano: volcanoes[k]!, at: volcanoes[k]!.at, made: false, moved: false };
     const at = this.place(e), { width, height } = model.image!.pixels;
-    model.script = { ...model.script, volcanoes: [...volcanoes, { at, strength: model.volcano, radius: Math.max(2, Math.round(Math.min(width, height) / 20)) }] };
-    return { kind: 'volcano', k: volcanoes.length, at, made: true, moved: false };
+    const volcano = { at, strength: model.volcano, radius: Math.max(2, Math.round(Math.min(width, height) / 20)) };
+    return { kind: 'volcano', k: volcanoes.length, volcano, at, made: true, moved: false };
   }
 
   /** What is under the pointer: the end of a spring, a control point of the selected snake, or a contour. */
@@ -288,7 +291,7 @@ export class ImageView {
       const d = this.away(e, [snakes.net[2 * i]!, snakes.net[2 * i + 1]!]);
       if (d < distance) [best, distance] = [i, d];
     }
-    if (best >= 0 && model.tool === 'points') return { kind: 'point', snake: selected, point: best - snakes.netFrom[selected]! };
+    if (best >= 0 && model.tool === 'points') return { kind: 'point', snake: selected, point: best - snakes.netFrom[selected]!, begun: false };
     [best, distance] = [-1, 1.5 * near];
     for (let i = 0; i < snakes.points.length / 3; ++i) {
       const d = this.away(e, [snakes.points[3 * i]!, snakes.points[3 * i + 1]!]);

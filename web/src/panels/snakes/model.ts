@@ -3,6 +3,7 @@ import type { App } from '../app';
 import { SnakeClient } from './client';
 import { download, greyImage, openImage, type Opened } from './files';
 import type { ContourKind, Snakes } from './module';
+import { Past } from './past';
 import { type Place, type Preset, presetOf, presets, type Script, scriptText, type Spring, type Start, type Volcano } from './script';
 
 export const tools = ['draw', 'ellipse', 'points', 'pull', 'volcano'] as const;
@@ -25,6 +26,8 @@ export class SnakeModel {
   tool: Tool = 'draw';
   /** Of what is drawn by hand. */
   closed = true;
+  /** The ends of open ones that are drawn. */
+  holdEnds = true;
   /** Springs stay where the hand lets go. */
   keepSprings = false;
   preset: Preset = presets[0]!;
@@ -32,6 +35,10 @@ export class SnakeModel {
   volcano = presets[0]!.volcano;
   selected = 0;
   script: Script = { ...presetOf(presets[0]!), mask: '', volcanoes: [], snakes: [] };
+  readonly past = new Past(this.client, () => {
+    const { script, mask, preset, spring, volcano, selected } = this;
+    return { script, mask, preset, spring, volcano, selected };
+  });
 
   constructor(private readonly app: App) {
     this.client.onSnakes = (snakes, running) => {
@@ -66,6 +73,7 @@ export class SnakeModel {
     const image = await openImage(file);
     await this.client.ask({ kind: 'image', pixels: image.pixels });
     this.image?.bitmap.close();
+    this.past.clear();
     Object.assign(this, { image, mask: null, energy: null, snakes: none, selected: 0 });
     this.script = { ...this.script, mask: '', volcanoes: [], snakes: [] };
     if (image.reduced) this.app.notify({ kind: 'info', text: `“${image.name}” has 16 bits a channel: the browser reduces them to 8. The command line keeps all 16.` });
@@ -75,23 +83,42 @@ export class SnakeModel {
 
   async openMask(file: File): Promise<void> {
     const mask = await openImage(file);
-    await this.client.ask({ kind: 'mask', pixels: mask.pixels });
     mask.bitmap.close();
-    this.mask = mask.name;
-    const image = this.script.image.distance === 0 ? { ...this.script.image, distance: 0.1 } : this.script.image;
-    if (!(await this.apply({ ...this.script, mask: mask.name, image }))) this.mask = null;
+    const { kept } = await this.client.ask({ kind: 'keep' });
+    await this.past.entry(async () => {
+      await this.client.ask({ kind: 'mask', pixels: mask.pixels });
+      const before = this.mask;
+      this.mask = mask.name;
+      const image = this.script.image.distance === 0 ? { ...this.script.image, distance: 0.1 } : this.script.image;
+      const taken = (await this.take({ ...this.script, mask: mask.name, image }, false, true)) === null;
+      if (!taken) {
+        this.mask = before;
+        await this.client.ask({ kind: 'restore', kept: kept! }).then((now) => this.client.ask({ kind: 'forget', kept: [now.kept!] }));
+      }
+      return taken;
+    });
+    void this.client.ask({ kind: 'forget', kept: [kept!] });
+    this.changed();
   }
 
-  /** Another script; false, and nothing has changed, if the engine refuses it. */
+  /** Another script, which can be taken back; false, and nothing has changed, if the engine refuses it. */
   async apply(script: Script, again = false): Promise<boolean> {
     return (await this.refusal(script, again, true)) === null;
   }
 
   /** Why the engine refuses a script; null if it takes it. */
   async refusal(script: Script, again = false, tell = false): Promise<string | null> {
+    let why: string | null = null;
+    await this.past.entry(async () => (why = await this.take(script, again, tell)) === null);
+    this.changed();
+    return why;
+  }
+
+  /** The same without an entry of the history. */
+  private async take(script: Script, again: boolean, tell: boolean): Promise<string | null> {
     try {
       if (script.snakes.length > 0) await this.client.ask({ kind: 'script', text: scriptText(script), again });
-      else if (this.script.snakes.length > 0) await this.client.ask({ kind: 'image', pixels: this.image!.pixels });
+      else if (this.script.snakes.length > 0) await this.client.ask({ kind: 'clear' });
       this.script = script;
       if (script.snakes.length === 0) this.snakes = none;
       if (this.energy) await this.showEnergy(true);
@@ -104,11 +131,11 @@ export class SnakeModel {
   }
 
   async choose(preset: Preset): Promise<void> {
-    const { distance } = this.script.image, { image, settings } = presetOf(preset);
-    this.preset = preset;
-    this.spring = preset.spring;
-    this.volcano = preset.volcano;
-    if (await this.apply({ ...this.script, image: { ...image, distance }, settings })) await this.wake();
+    const { distance } = this.script.image, { image, settings } = presetOf(preset), { spring, volcano } = preset;
+    if (!(await this.apply({ ...this.script, image: { ...image, distance }, settings }))) return;
+    Object.assign(this, { preset, spring, volcano });
+    this.changed();
+    await this.wake();
   }
 
   async add(start: Start): Promise<void> {
@@ -123,24 +150,50 @@ export class SnakeModel {
   }
 
   async setVolcanoes(volcanoes: Volcano[]): Promise<void> {
-    if (this.script.snakes.length > 0) await this.apply({ ...this.script, volcanoes });
-    else {
-      this.script = { ...this.script, volcanoes };
-      this.changed();
-    }
+    await this.apply({ ...this.script, volcanoes });
   }
 
   async setSprings(k: number, springs: Spring[]): Promise<void> {
-    const { springs: _, ...start } = this.script.snakes[k]!;
-    await this.apply({ ...this.script, snakes: this.script.snakes.map((s, i) => (i !== k ? s : springs.length > 0 ? { ...start, springs } : start)) });
+    await this.apply(this.withSprings(k, springs));
   }
 
+  private withSprings(k: number, springs: Spring[]): Script {
+    const { springs: _, ...start } = this.script.snakes[k]!;
+    return { ...this.script, snakes: this.script.snakes.map((s, i) => (i !== k ? s : springs.length > 0 ? { ...start, springs } : start)) };
+  }
+
+  /** After what was asked for before, so that a snake that has just been drawn runs. */
   async run(on: boolean): Promise<void> {
-    if (this.script.snakes.length === 0) {
-      this.app.notify({ kind: 'info', text: 'Draw a snake in the image first.' });
-      return;
-    }
-    await this.attempt(() => this.client.ask({ kind: 'run', on }));
+    await this.past.next(async () => {
+      const ask = () => this.client.ask({ kind: 'run', on });
+      if (this.script.snakes.length === 0) this.app.notify({ kind: 'info', text: 'Draw a snake in the image first.' });
+      else if (on && !this.running) await this.note(ask);
+      else await this.attempt(ask);
+    });
+  }
+
+  /** Does something that can be taken back, or says why it cannot be done. */
+  private async note(act: () => Promise<unknown>): Promise<void> {
+    await this.past.entry(async () => {
+      try {
+        await act();
+        return true;
+      } catch (error) {
+        this.tell(error);
+        return false;
+      }
+    });
+    this.changed();
+  }
+
+  /** Takes back what was done last, or does it again. */
+  async travel(back: boolean): Promise<void> {
+    await this.attempt(() => this.past.travel(back, async (moment) => {
+      Object.assign(this, moment);
+      if (this.script.snakes.length === 0) this.energy = null;
+      if (this.energy) await this.showEnergy(true);
+      this.changed();
+    }));
   }
 
   /** Goes on under new settings if it was going, or had come to rest. */
@@ -152,16 +205,21 @@ export class SnakeModel {
     await this.apply(this.script, true);
   }
 
-  async pull(snake: number, at: number, to: Place): Promise<void> {
-    await this.attempt(() => this.client.ask({ kind: 'pull', pull: { snake, at, to, strength: this.spring } }));
+  /** `begins`: the first of a drag, which is taken back as one. */
+  async pull(snake: number, at: number, to: Place, begins: boolean): Promise<void> {
+    const ask = () => this.client.ask({ kind: 'pull', pull: { snake, at, to, strength: this.spring } });
+    await (begins ? this.note(ask) : this.attempt(ask));
   }
 
-  async letGo(): Promise<void> {
+  /** `springs`: those that the snake has from now on, where the hand's stays. */
+  async letGo(snake?: number, springs?: Spring[]): Promise<void> {
     await this.attempt(() => this.client.ask({ kind: 'pull', pull: null }));
+    if (snake !== undefined && springs) await this.take(this.withSprings(snake, springs), false, true);
   }
 
-  async move(snake: number, point: number, to: Place): Promise<void> {
-    await this.attempt(() => this.client.ask({ kind: 'move', snake, point, to }));
+  async move(snake: number, point: number, to: Place, begins: boolean): Promise<void> {
+    const ask = () => this.client.ask({ kind: 'move', snake, point, to });
+    await (begins ? this.note(ask) : this.attempt(ask));
   }
 
   /** What attracts, as a picture over the image. */

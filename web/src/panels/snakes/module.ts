@@ -11,6 +11,10 @@ interface Exports {
   snake_mask(width: number, height: number): number;
   snake_script(again: number): number;
   snake_advance(iterations: number): number;
+  snake_clear(): number;
+  snake_keep(): number;
+  snake_restore(kept: number): number;
+  snake_forget(kept: number): void;
   snake_wake(): number;
   snake_pull(snake: number, at: number, x: number, y: number, strength: number): number;
   snake_move(snake: number, point: number, x: number, y: number): number;
@@ -72,7 +76,7 @@ export class SnakeModule {
     return this.wasm.memory.buffer.byteLength;
   }
 
-  /** Forgets the snakes and the mask. */
+  /** Forgets the snakes, the mask and what was kept. */
   setImage({ width, height, data }: Pixels): Snakes {
     this.give(data);
     return this.snakes(this.wasm.snake_image(width, height));
@@ -87,6 +91,24 @@ export class SnakeModule {
   setScript(script: string, again = false): Snakes {
     this.give(new TextEncoder().encode(script));
     return this.snakes(this.wasm.snake_script(again ? 1 : 0));
+  }
+
+  /** No snakes; the mask stays. */
+  clear(): Snakes {
+    return this.snakes(this.wasm.snake_clear());
+  }
+
+  /** Keeps everything but the image as it is: the number to restore it by. */
+  keep(): number {
+    return this.json<{ kept: number }>(this.wasm.snake_keep()).kept;
+  }
+
+  restore(kept: number): Snakes {
+    return this.snakes(this.wasm.snake_restore(kept));
+  }
+
+  forget(kept: number): void {
+    this.wasm.snake_forget(kept);
   }
 
   advance(iterations: number): Snakes {

@@ -103,7 +103,13 @@ class SnakesPanel {
 
   private readonly key = (event: KeyboardEvent): void => {
     const target = event.target as HTMLElement;
-    if (target.closest('input[type=text], textarea, dialog') || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (target.closest('input[type=text], textarea, dialog') || event.altKey) return;
+    if (event.ctrlKey || event.metaKey) {
+      const key = event.key.toLowerCase();
+      if (key !== 'z' && key !== 'y') return;
+      event.preventDefault();
+      return this.travel(key === 'z' && !event.shiftKey);
+    }
     const tool = ({ d: 'draw', e: 'ellipse', p: 'points', g: 'pull', k: 'volcano' } as const)[event.key.toLowerCase()];
     if (tool) this.choose(tool);
     else if (event.key === ' ' && !(target instanceof HTMLButtonElement)) void this.model.run(!this.model.running);
@@ -117,6 +123,10 @@ class SnakesPanel {
     event.preventDefault();
   };
 
+  private travel(back: boolean): void {
+    if (!this.view.busy) void this.model.travel(back);
+  }
+
   private choose(tool: Tool): void {
     this.model.tool = tool;
     this.model.changed();
@@ -125,7 +135,8 @@ class SnakesPanel {
   private bar(): HTMLElement {
     const { model } = this;
     const tools = toolNames.map(([tool, name, text, label]) => [tool, iconButton(name, label, () => this.choose(tool), text)] as const);
-    const again = iconButton('undo', 'All snakes again from where they were drawn', () => void model.again(), 'Again');
+    const again = iconButton('restart', 'All snakes again from where they were drawn', () => void model.again(), 'Again');
+    const undo = iconButton('undo', 'Undo (Ctrl+Z)', () => this.travel(true)), redo = iconButton('redo', 'Redo (Ctrl+Shift+Z)', () => this.travel(false));
     const closed = h('button', { class: 'chip', type: 'button', title: 'Whether what is drawn by hand is closed', onclick: () => {
       model.closed = !model.closed;
       model.changed();
@@ -156,6 +167,8 @@ class SnakesPanel {
       closed.classList.toggle('on', model.closed);
       closed.setAttribute('aria-pressed', String(model.closed));
       closed.hidden = model.tool !== 'draw';
+      undo.disabled = !model.past.undo;
+      redo.disabled = !model.past.redo;
       this.run.disabled = again.disabled = model.script.snakes.length === 0;
       this.run.replaceChildren(icon(model.running ? 'pause' : 'play'), h('span', {}, model.running ? 'Stop' : 'Run'));
       name.textContent = model.image ? model.image.name : '';
@@ -165,6 +178,7 @@ class SnakesPanel {
     return h('header', { class: 'snakes-bar' },
       h('h2', {}, 'Snakes'),
       iconButton('open', 'Open an image, PNG or JPEG (O)', () => this.picker.click(), 'Open'), save, this.picker,
+      h('span', { class: 'rule' }), undo, redo,
       h('span', { class: 'rule' }), ...tools.map(([, button]) => button), closed,
       h('span', { class: 'rule' }), this.run, again,
       h('span', { class: 'spacer' }), name, h('span', { class: 'spacer' }),

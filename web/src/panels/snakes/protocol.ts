@@ -6,6 +6,11 @@ export type Request =
   | { kind: 'image'; pixels: Pixels }
   | { kind: 'mask'; pixels: Pixels | null }
   | { kind: 'script'; text: string; again: boolean }
+  | { kind: 'clear' }
+  | { kind: 'keep' }
+  /** Goes back to what was kept, and keeps what there was before. */
+  | { kind: 'restore'; kept: number }
+  | { kind: 'forget'; kept: number[] }
   | { kind: 'run'; on: boolean }
   | { kind: 'step'; iterations: number }
   | { kind: 'pull'; pull: Pull | null }
@@ -16,6 +21,8 @@ export type Request =
 
 export interface Result {
   text?: string;
+  /** By which it can be restored. */
+  kept?: number;
   picture?: { width: number; height: number; data: Uint8Array };
 }
 

@@ -46,6 +46,15 @@ function act(request: Request): Result {
     case 'image': running = pulled = false; show(module.setImage(request.pixels)); return {};
     case 'mask': show(module.setMask(request.pixels)); return {};
     case 'script': show(module.setScript(request.text, request.again)); return {};
+    case 'clear': running = pulled = false; show(module.clear()); return {};
+    case 'keep': return { kept: module.keep() };
+    case 'restore': {
+      const kept = module.keep();
+      running = pulled = false;
+      show(module.restore(request.kept));
+      return { kept };
+    }
+    case 'forget': for (const kept of request.kept) module.forget(kept); return {};
     case 'run': running = request.on; if (now) show(running ? module.wake() : now); return {};
     case 'step': show(module.advance(request.iterations)); return {};
     case 'pull':
