@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "region_term.hpp"
@@ -12,8 +11,6 @@
 namespace knead {
 namespace {
 
-constexpr int history = 10;  // earlier places that the motion is compared with
-constexpr int highest_level = 40, patience = 20;
 constexpr double most_uneven = 2;
 
 }  // namespace
@@ -86,45 +83,17 @@ Points MovingSnake::forces(const ImagePotential& image, double side, const std::
 
 Expected<void> MovingSnake::step(const ImagePotential& image, double side, const std::optional<Sides>& sides) {
   const Points next = net.solve(forces(image, side, sides), c, pulls());
-  Points move = next - c;
-  for (Eigen::Index k = 0; k < move.rows(); ++k) {
-    const double length = move.row(k).norm();
-    if (length > 0) move.row(k) *= settings.max_move * std::tanh(length / settings.max_move) / length;
-  }
+  const Points move = limited(next - c, settings.max_move);
   c += move;
   ++iterations;
-  if (static_cast<int>(before.size()) == history) {
-    motion = std::numeric_limits<double>::infinity();
-    for (const Points& earlier : before) motion = std::min(motion, (c - earlier).cwiseAbs().rowwise().sum().maxCoeff());
-    motion *= std::ldexp(1, level);
-    resting = motion < settings.motion;
-    before.clear();
-  } else {
-    before.push_back(c);
+  motion.went_to(c, settings.motion);
+  if (motion.steadied(move)) {
+    if (auto done = net.set_viscosity(viscosity()); !done) return done;
   }
-  if (auto done = steady(move); !done) return done;
   const bool normal = image.settings().region != 0 || settings.balloon != 0;
   const bool may = normal && settings.closed && settings.springs.empty() && settings.redistribute > 0;
-  const bool spreads = may && !resting && iterations % settings.redistribute == 0 && uneven();
+  const bool spreads = may && !motion.resting() && iterations % settings.redistribute == 0 && uneven();
   return spreads ? spread() : Expected<void>{};
-}
-
-Expected<void> MovingSnake::steady(const Points& move) {
-  double onwards = 0, all = 0;  // how much of the motion goes on as before
-  if (last.rows() == move.rows()) {
-    const Eigen::VectorXd along = move.cwiseProduct(last).rowwise().sum();
-    onwards = along.sum();
-    all = along.cwiseAbs().sum();
-  }
-  const bool turned = onwards<0.5 * all, straight = onwards> 0.9 * all;
-  last = move;
-  steadily = straight ? steadily + 1 : 0;
-  int next = level;
-  if (turned && level < highest_level) ++next;
-  if (steadily >= patience && level > 0) --next, steadily = 0;
-  if (next == level) return {};
-  level = next;
-  return net.set_viscosity(viscosity());
 }
 
 Expected<MovingSnake> snake_on(const Curve& start, const SnakeSettings& settings) {
@@ -152,7 +121,7 @@ Expected<MovingSnake> moved_to(const MovingSnake& snake, std::span<const double>
   if (!c) return std::unexpected(c.error());
   auto net = SnakeNet::create(breaks, snake.settings);
   if (!net) return std::unexpected(net.error());
-  MovingSnake moved{snake.settings, std::move(*net), std::move(*c), {}, snake.iterations};
+  MovingSnake moved{snake.settings, std::move(*net), std::move(*c), snake.iterations};
   moved.end_pull = snake.end_pull;
   return moved;
 }

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "knead/image/image_potential.hpp"
 #include "knead/image/snake.hpp"
+#include "snake_motion.hpp"
 #include "snake_net.hpp"
 
 namespace knead {
@@ -33,13 +32,8 @@ struct MovingSnake {
   SnakeSettings settings;
   SnakeNet net;
   Points c;  ///< its unknowns
-  std::deque<Points> before = {};
   int iterations = 0;
-  bool resting = false;
-  double motion = 0;
-  int level = 0;  ///< the viscosity is γ 2^level
-  int steadily = 0;
-  Points last = {};                     ///< the last move
+  SnakeMotion motion = {};
   std::array<double, 2> end_pull = {};  ///< forces that draw free ends outwards
 
   [[nodiscard]] Inside inside(const ImagePotential& image) const;
@@ -49,7 +43,7 @@ struct MovingSnake {
   /// v' at both ends of an open one.
   [[nodiscard]] std::array<Eigen::RowVector3d, 2> end_tangents() const;
 
-  [[nodiscard]] bool ended() const { return resting || iterations >= settings.max_iterations; }
+  [[nodiscard]] bool ended() const { return motion.resting() || iterations >= settings.max_iterations; }
 
  private:
   /// What draws the ends of an open one outwards.
@@ -60,9 +54,7 @@ struct MovingSnake {
   [[nodiscard]] Expected<void> spread();
   /// γ v and the forces of the image, of pressure and of volcanoes at the Gauss points.
   [[nodiscard]] Points forces(const ImagePotential& image, double side, const std::optional<Sides>& sides) const;
-  /// Doubles the viscosity when the snake turns back, and halves it again, down to what is asked, while it goes on.
-  [[nodiscard]] Expected<void> steady(const Points& move);
-  [[nodiscard]] double viscosity() const { return std::ldexp(settings.gamma, level); }
+  [[nodiscard]] double viscosity() const { return motion.viscosity(settings.gamma); }
 };
 
 /// A snake that starts here. Errors (input): settings outside their ranges, other knots than those of `curve_through`.

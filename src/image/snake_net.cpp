@@ -8,22 +8,16 @@
 
 #include "knead/gramian/gramian.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "periodic_knots.hpp"
 
 namespace knead {
 namespace {
 
 Expected<KnotVector> knots_between(std::span<const double> breaks, const SnakeSettings& settings) {
   const int p = settings.degree, spans = static_cast<int>(breaks.size()) - 1;
-  const double length = breaks.back() - breaks.front();
+  if (settings.closed) return periodic_knots(p, breaks);
   std::vector<double> knots;
-  for (int k = -p; k <= spans + p; ++k) {
-    if (!settings.closed) {
-      knots.push_back(breaks[static_cast<std::size_t>(std::clamp(k, 0, spans))]);
-    } else {
-      const int turns = k < 0 ? -1 : k > spans ? 1 : 0;
-      knots.push_back(breaks[static_cast<std::size_t>(k - turns * spans)] + turns * length);
-    }
-  }
+  for (int k = -p; k <= spans + p; ++k) knots.push_back(breaks[static_cast<std::size_t>(std::clamp(k, 0, spans))]);
   return KnotVector::create(p, std::move(knots));
 }
 

@@ -59,7 +59,7 @@ struct Snakes::State {
       const bool may = may_refine(s);
       auto moved = moved_to(s, may ? halved(breaks, std::vector<bool>(breaks.size() - 1, true)) : breaks);
       if (!moved) return std::unexpected(moved.error());
-      moved->resting = !may;
+      if (!may) moved->motion.stop();
       fine.push_back(std::move(*moved));
     }
     return {};
@@ -126,7 +126,7 @@ Expected<SnakeResult> Snakes::result(int snake) const {
   const MovingSnake& s = state_->snakes[static_cast<std::size_t>(snake)];
   auto curve = s.net.curve(s.c);
   if (!curve) return std::unexpected(curve.error());
-  return SnakeResult{std::move(*curve), s.settings.closed, s.iterations, s.resting, s.motion};
+  return SnakeResult{std::move(*curve), s.settings.closed, s.iterations, s.motion.resting(), s.motion.last()};
 }
 
 const SnakeSettings& Snakes::settings(int snake) const {

@@ -8,6 +8,7 @@
 
 #include "knead/gramian/gramian.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "periodic_knots.hpp"
 
 namespace knead {
 namespace {
@@ -18,9 +19,9 @@ constexpr int extra_points = 6;  // for sin and 1/sin beside the polynomials: to
 
 Expected<KnotVector> uniform_knots(int degree, int count, double length, bool periodic) {
   if (!periodic) return KnotVector::clamped_uniform(degree, count, 0, length);
-  std::vector<double> knots;
-  for (int k = -degree; k <= count + degree; ++k) knots.push_back(length * (double(k) / count));  // the end exactly
-  return KnotVector::create(degree, std::move(knots));
+  std::vector<double> breaks;
+  for (int k = 0; k <= count; ++k) breaks.push_back(length * (double(k) / count));  // the end exactly
+  return periodic_knots(degree, breaks);
 }
 
 /// The Gramian of functions that come around again.

@@ -6,19 +6,18 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "knead/spline/evaluate.hpp"
+#include "snake_motion.hpp"
 #include "surface_checks.hpp"
 #include "surface_net.hpp"
 
 namespace knead {
 namespace {
 
-constexpr int moves_compared = 10, highest_viscosity = 40, steady_moves = 20, band_layers = 4;
+constexpr int band_layers = 4;
 constexpr double most_uneven_area = 4, nearly_singular = 1e-6;
 
 /// Σ over the voxels inside by the divergence theorem, in voxels; signed.
@@ -38,13 +37,8 @@ struct MovingSurface {
   Points c;                   ///< its unknowns
   Eigen::MatrixXd held = {};  ///< the functions at each spring's point, one column each
   Eigen::MatrixXd spread = {};
-  std::deque<Points> before = {};
   int iterations = 0;
-  bool resting = false;
-  double motion = 0;
-  int level = 0;  ///< the viscosity is γ 2^level
-  int steadily = 0;
-  Points last = {};                                   ///< the last move
+  SnakeMotion motion = {};
   std::optional<SurfaceNet> mass = {}, poisson = {};  ///< solve with M, and with the stretch of α 1
 
   /// Everything that depends on the net and the viscosity.
@@ -141,29 +135,17 @@ struct MovingSurface {
   }
 
   Expected<void> step(const VolumePotential& image, double side, const std::optional<Greys>& greys) {
-    Points move = moved_by(net.load(forces(image, side, greys)) - net.internal(c));
-    for (Eigen::Index k = 0; k < move.rows(); ++k) {
-      const double length = move.row(k).norm();
-      if (length > 0) move.row(k) *= settings.max_move * std::tanh(length / settings.max_move) / length;
-    }
+    Points move = limited(moved_by(net.load(forces(image, side, greys)) - net.internal(c)), settings.max_move);
     net.keep_poles(move);
     c += move;
     ++iterations;
-    if (static_cast<int>(before.size()) == moves_compared) {
-      motion = std::numeric_limits<double>::infinity();
-      for (const Points& earlier : before) {
-        motion = std::min(motion, (c - earlier).cwiseAbs().rowwise().sum().maxCoeff());
-      }
-      motion *= std::ldexp(1, level);
-      resting = motion < settings.motion;
-      before.clear();
-    } else {
-      before.push_back(c);
+    motion.went_to(c, settings.motion);
+    if (motion.steadied(move)) {
+      if (auto done = prepare(); !done) return done;
     }
-    if (auto done = adapt(move); !done) return done;
     const bool normal = image.settings().region != 0 || image.settings().flow != 0 || settings.balloon != 0;
     const bool may = normal && settings.springs.empty() && settings.redistribute > 0;
-    if (!may || resting || iterations % settings.redistribute != 0) return {};
+    if (!may || motion.resting() || iterations % settings.redistribute != 0) return {};
     const Eigen::VectorXd stretch = stretches();
     const bool uneven = stretch.minCoeff() > 0 && stretch.maxCoeff() > most_uneven_area * stretch.minCoeff();
     return uneven ? redistribute(stretch) : Expected<void>{};
@@ -209,27 +191,8 @@ struct MovingSurface {
     return {};
   }
 
-  /// Doubles the viscosity when the surface turns back, and halves it again, down to what is asked, while it goes on.
-  Expected<void> adapt(const Points& move) {
-    double onwards = 0, all = 0;  // how much of the motion goes on as before
-    if (last.rows() == move.rows()) {
-      const Eigen::VectorXd along = move.cwiseProduct(last).rowwise().sum();
-      onwards = along.sum();
-      all = along.cwiseAbs().sum();
-    }
-    const bool turned = onwards<0.5 * all, straight = onwards> 0.9 * all;
-    last = move;
-    steadily = straight ? steadily + 1 : 0;
-    int next = level;
-    if (turned && level < highest_viscosity) ++next;
-    if (steadily >= steady_moves && level > 0) --next, steadily = 0;
-    if (next == level) return {};
-    level = next;
-    return prepare();
-  }
-
-  [[nodiscard]] double viscosity() const { return std::ldexp(settings.gamma, level); }
-  [[nodiscard]] bool ended() const { return resting || iterations >= settings.max_iterations; }
+  [[nodiscard]] double viscosity() const { return motion.viscosity(settings.gamma); }
+  [[nodiscard]] bool ended() const { return motion.resting() || iterations >= settings.max_iterations; }
 };
 
 /// All of them until the last one rests.
@@ -301,7 +264,7 @@ Expected<void> refine_all(const VolumePotential& image, std::vector<MovingSurfac
       refined.push_back(may);
       fine.push_back(s);
       if (!may) {
-        fine.back().resting = true;
+        fine.back().motion.stop();
         continue;
       }
       const auto here = s.net.surface(s.c);
@@ -358,7 +321,7 @@ Expected<std::vector<SurfaceSnakeResult>> run_surface_snakes(const VolumePotenti
   for (const MovingSurface& s : snakes) {
     auto surface = s.net.surface(s.c);
     if (!surface) return std::unexpected(surface.error());
-    results.push_back({std::move(*surface), s.iterations, s.resting, s.motion});
+    results.push_back({std::move(*surface), s.iterations, s.motion.resting(), s.motion.last()});
   }
   return results;
 }

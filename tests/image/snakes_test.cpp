@@ -2,22 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "knead/image/snake.hpp"
+#include "snake_fixtures.hpp"
 
 namespace knead {
 namespace {
 
-using std::numbers::pi;
-
-std::vector<std::array<double, 2>> ring(double x, double y, double radius, int count = 200) {
-  std::vector<std::array<double, 2>> points;
-  for (int k = 0; k < count; ++k) {
-    points.push_back({x + radius * std::cos(2 * pi * k / count), y + radius * std::sin(2 * pi * k / count)});
-  }
-  return points;
-}
+using testing::circle;
 
 TEST(Snakes, AdvanceInSlicesAsInOneRunToTheLastBit) {
   Image square{64, 64, std::vector<double>(4096, 0)};
@@ -28,7 +20,7 @@ TEST(Snakes, AdvanceInSlicesAsInOneRunToTheLastBit) {
   ASSERT_TRUE(image);
   const SnakeSettings settings{
       .control_points = 8, .units = 130, .alpha = 0.002, .beta = 0.02, .gamma = 0.1, .motion = 1e-2, .refine = 0.3};
-  const std::vector<Curve> starts = {*curve_through(ring(32, 32, 20), settings)};
+  const std::vector<Curve> starts = {*curve_through(circle(32, 32, 20), settings)};
   const auto whole = run_snakes(*image, starts, {settings});
   ASSERT_TRUE(whole) << whole.error().message();
   auto snakes = Snakes::create(*image, starts, {settings});
@@ -44,6 +36,25 @@ TEST(Snakes, AdvanceInSlicesAsInOneRunToTheLastBit) {
   EXPECT_EQ(sliced->curve.control_points(), whole->front().curve.control_points());
   EXPECT_EQ(sliced->iterations, whole->front().iterations);
   EXPECT_EQ(*snakes->advance(10), 0);
+}
+
+TEST(Snakes, CopiesGoOnByThemselvesToTheSamePlaces) {
+  const auto image = ImagePotential::create(testing::blurred_disc(64, 32, 30, 15, 1), {.smoothing = 0, .edge = 1});
+  ASSERT_TRUE(image);
+  const SnakeSettings settings{.control_points = 12, .alpha = 0.002, .beta = 0.02, .gamma = 0.1, .motion = 1e-2};
+  auto first = Snakes::create(*image, {*curve_through(circle(33, 32, 18), settings)}, {settings});
+  ASSERT_TRUE(first && first->advance(20));
+  Snakes second = *first;
+  const Points kept = second.result(0)->curve.control_points();
+  ASSERT_TRUE(first->advance(50));
+  const Points end = first->result(0)->curve.control_points();
+  EXPECT_EQ(second.result(0)->curve.control_points(), kept);
+  EXPECT_NE(kept, end);
+  ASSERT_TRUE(second.advance(50));
+  EXPECT_EQ(second.result(0)->curve.control_points(), end);
+  EXPECT_EQ(second.result(0)->last_motion, first->result(0)->last_motion);
+  *first = second;
+  EXPECT_EQ(first->result(0)->iterations, second.result(0)->iterations);
 }
 
 TEST(Snakes, ArePulledBySpringsWhileTheyRun) {
