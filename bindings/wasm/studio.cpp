@@ -8,7 +8,6 @@
 #include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/scene/lattice.hpp"
 #include "knead/session/command_json.hpp"
 #include "studio_assembly.hpp"
 #include "studio_bodies.hpp"
@@ -307,12 +306,11 @@ KNEAD_EXPORT(knead_body_picture) int knead_body_picture(int body) {
   return show_body(body_picture(bodies[static_cast<std::size_t>(body)], held().origin));
 }
 
-/// Likewise the block of the command `lattice` round the selected surfaces, with so many control points along x, y, z.
-KNEAD_EXPORT(knead_lattice_picture) int knead_lattice_picture(int x, int y, int z, double margin) {
+/// Likewise the block that the command `lattice` would pull, with so many control points along x, y, z; `anew` is 1 for
+/// one round the selected surfaces as they are.
+KNEAD_EXPORT(knead_lattice_picture) int knead_lattice_picture(int x, int y, int z, double margin, int anew) {
   if (!held().session) return without_session();
-  const auto lattice = lattice_around_selection(held().session->state(), margin, {3, 3, 3}, {x, y, z});
-  if (!lattice) return fail(lattice.error());
-  return show_body(volume_picture(lattice->rest(), held().origin));
+  return show_body(lattice_picture(held().session->state(), margin, {x, y, z}, anew != 0, held().origin));
 }
 
 /// The shape of a tool in its own frame: the text is `tool_picture_json`, its buffers stay until the next call.

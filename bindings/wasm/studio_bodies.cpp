@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "buffers.hpp"
+#include "knead/scene/lattice.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::studio {
@@ -129,13 +130,26 @@ Expected<BodyPicture> body_picture(const SceneBody& body, const Point& origin) {
   return std::visit([&](const auto& shapes) { return picture_of(*shapes.current, origin); }, body.shapes);
 }
 
-Expected<BodyPicture> volume_picture(const Volume& volume, const Point& origin) { return picture_of(volume, origin); }
+Expected<BodyPicture> lattice_picture(const Scene& scene, double margin, const std::array<int, 3>& net, bool anew,
+                                      const Point& origin) {
+  constexpr std::array<int, 3> degree = {3, 3, 3};
+  const PulledLattice* pulled = anew ? nullptr : lattice_to_pull_on(scene, margin, degree, net);
+  const auto lattice = pulled != nullptr ? lattice_around(pulled->before, margin, degree, net)
+                                         : lattice_around_selection(scene, margin, degree, net);
+  if (!lattice) return std::unexpected(lattice.error());
+  if (pulled == nullptr) return picture_of(lattice->rest(), origin);
+  const auto block = lattice->rest().with_control_points(pulled->points);
+  if (!block) return std::unexpected(block.error());
+  auto picture = picture_of(*block, origin);
+  if (picture) picture->pulled = true;
+  return picture;
+}
 
 std::string body_json(const BodyPicture& picture) {
   return "{\"buffers\":" +
          buffers_json(
              {{"lines", picture.lines}, {"at", picture.at}, {"net", picture.net}, {"points", picture.points}}) +
-         "}";
+         ",\"pulled\":" + (picture.pulled ? "true" : "false") + "}";
 }
 
 }  // namespace knead::studio

@@ -4,6 +4,7 @@
 
 #include "knead/scene/lattice.hpp"
 #include "knead/scene/mask.hpp"
+#include "knead/spline/extremum.hpp"
 #include "knead/spline/knot_removal.hpp"
 
 namespace knead {
@@ -119,19 +120,43 @@ Expected<Coarsening> coarsen(SceneSurface& s, double tolerance) {
   return done;
 }
 
-Expected<Lattice> lattice_around_selection(const Scene& scene, double margin, const std::array<int, 3>& degree,
-                                           const std::array<int, 3>& net) {
-  if (scene.selection().empty()) return input_error("no surface is selected", "surface", "select one");
+Expected<Lattice> lattice_around(const std::vector<std::shared_ptr<const Surface>>& surfaces, double margin,
+                                 const std::array<int, 3>& degree, const std::array<int, 3>& net) {
+  if (surfaces.empty()) return input_error("no surface is selected", "surface", "select one");
   BoundingBox box;
   bool first = true;
-  for (const int index : scene.selection()) {
-    const Points& points = scene.surfaces[static_cast<std::size_t>(index)].current->control_points();
+  for (const auto& surface : surfaces) {
+    const Points& points = surface->control_points();
     const Point lower = points.colwise().minCoeff().transpose(), upper = points.colwise().maxCoeff().transpose();
     box.lower = first ? lower : Point(box.lower.cwiseMin(lower));
     box.upper = first ? upper : Point(box.upper.cwiseMax(upper));
     first = false;
   }
   return Lattice::create(box, margin, degree, net);
+}
+
+Expected<Lattice> lattice_around_selection(const Scene& scene, double margin, const std::array<int, 3>& degree,
+                                           const std::array<int, 3>& net) {
+  std::vector<Shape2> surfaces;
+  for (const int index : scene.selection()) {
+    surfaces.push_back(scene.surfaces[static_cast<std::size_t>(index)].current);
+  }
+  return lattice_around(surfaces, margin, degree, net);
+}
+
+const PulledLattice* lattice_to_pull_on(const Scene& scene, double margin, const std::array<int, 3>& degree,
+                                        const std::array<int, 3>& net) {
+  if (!scene.lattice) return nullptr;
+  const PulledLattice& lattice = *scene.lattice;
+  const bool same_block = lattice.margin == margin && lattice.degree == degree && lattice.net == net;
+  if (!same_block || lattice.surfaces != scene.selection()) return nullptr;
+  for (std::size_t k = 0; k < lattice.surfaces.size(); ++k) {
+    const Surface &left = *lattice.after[k],
+                  &now = *scene.surfaces[static_cast<std::size_t>(lattice.surfaces[k])].current;
+    if (&left == &now) continue;
+    if (!same_basis(left, now) || left.control_points() != now.control_points()) return nullptr;
+  }
+  return &lattice;
 }
 
 }  // namespace knead

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "archive_parts.hpp"
+#include "knead/spline/extremum.hpp"
 
 namespace knead::archive {
 
@@ -254,6 +255,32 @@ void pass(A& a, Of<A, OpenBrush>& b) {
   list(a, masks, 8);
   if (older_than(a, 7)) return;
   choice(a, pressure, PressureUse::none);
+}
+
+template <class A>
+void pass(A& a, Of<A, PulledLattice>& l) {
+  auto& [net, degree, margin, points, surfaces, before, after] = l;
+  for (auto* three : {&net, &degree}) {
+    for (auto& x : *three) pass(a, x);
+  }
+  pass(a, margin);
+  pass(a, points);
+  list(a, surfaces);
+  list(a, before, 8);
+  list(a, after, 8);
+}
+
+/// Whether a lattice has the control points that its net says, and a shape before and after of each of its surfaces.
+inline bool is_whole(const PulledLattice& lattice) {
+  double count = 1;
+  for (const int n : lattice.net) count *= n;
+  if (static_cast<double>(lattice.points.rows()) != count || !lattice.points.allFinite()) return false;
+  const std::size_t surfaces = lattice.surfaces.size();
+  if (lattice.before.size() != surfaces || lattice.after.size() != surfaces) return false;
+  for (std::size_t k = 0; k < surfaces; ++k) {
+    if (!same_basis(*lattice.before[k], *lattice.after[k])) return false;
+  }
+  return surfaces > 0;
 }
 
 template <class A>

@@ -14,8 +14,8 @@ using archive::Writer;
 /// Of versions 1 to 10, in hexadecimal digits: without probes, open strokes and their results; without brushes, masks
 /// and edges that follow; without their tangent planes; without converted surfaces, brushes that pass from surface to
 /// surface, and tools that touch what is visible only; without stamps, and strokes that are kept from folding; without
-/// pens and shells; without fundamental forms and modes; without curves and volumes; without shells that vary and
-/// bodies that keep their forms; the present one.
+/// pens and shells; without fundamental forms and modes; without curves and volumes; without shells that vary, bodies
+/// that keep their forms and lattices that are pulled on; the present one.
 constexpr std::array<std::string_view, 10> magics = {
     "Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n", "Knead snapshot 4\n", "Knead snapshot 5\n",
     "Knead snapshot 6\n", "Knead snapshot 7\n", "Knead snapshot 8\n", "Knead snapshot 9\n", "Knead snapshot a\n"};
@@ -96,7 +96,7 @@ void read_changed(Reader& a, std::vector<T>& items, const Check& check) {
 
 void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   const auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-               followed, coupling, bend, stroke, brush, bodies, body] = static_cast<const Scene&>(state);
+               followed, coupling, bend, stroke, brush, bodies, body, lattice] = static_cast<const Scene&>(state);
   const auto& [steps, seam_reports, notes, energy_before, modes, buckling] = static_cast<const SessionRecord&>(state);
   archive::optional(a, selected);
   list(a, together);
@@ -136,6 +136,7 @@ void write_state(Writer& a, const SessionState& state, Neighbour& before) {
   list(a, buckling);
   write_changed(a, bodies, before.bodies);
   archive::optional(a, body);
+  archive::optional(a, lattice);
 }
 
 /// Whether the shapes from before a stroke are on the nets of the selected surfaces; all of their control points.
@@ -190,7 +191,7 @@ void read_converted(Reader& a, const Document& opened, SessionState& state) {
 /// Reads a state into one that starts as a copy of the previous one.
 void read_state(Reader& a, const Document& opened, SessionState& state) {
   auto& [selected, together, surfaces, tools, forces, load, limit, evolution, scaling, seams, permission, probes,
-         followed, coupling, bend, stroke, brush, bodies, body] = static_cast<Scene&>(state);
+         followed, coupling, bend, stroke, brush, bodies, body, lattice] = static_cast<Scene&>(state);
   auto& [steps, seam_reports, notes, energy_before, modes, buckling] = static_cast<SessionRecord&>(state);
   selected.reset();
   archive::optional(a, selected);
@@ -268,6 +269,9 @@ void read_state(Reader& a, const Document& opened, SessionState& state) {
     archive::optional(a, body);
     if (body && (*body < 0 || *body >= static_cast<int>(bodies.size()) || selected)) a.fail();
   }
+  lattice.reset();
+  if (a.version() > 9) archive::optional(a, lattice);
+  if (lattice && !a.bad() && !archive::is_whole(*lattice)) a.fail();
   for (int k : state.selection()) {
     if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
   }
@@ -299,6 +303,11 @@ std::string Session::snapshot(std::size_t history_bytes) const {
         if (seen.try_emplace(shape.get(), true).second) bytes += size_of(*shape);
       }
       bytes += static_cast<std::size_t>(s.velocity.size()) * sizeof(double);
+    }
+    if (states_[k]->lattice) {
+      for (const auto& shape : states_[k]->lattice->before) {
+        if (seen.try_emplace(shape.get(), true).second) bytes += size_of(*shape);
+      }
     }
     for (const SceneBody& b : states_[k]->bodies) {
       bytes += 4 * static_cast<std::size_t>(control_points_of(b).size()) * sizeof(double);

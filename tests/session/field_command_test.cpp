@@ -208,5 +208,63 @@ TEST(Command, AControlPointOfALatticeIsMovedByHandAndTheSurfaceFollows) {
   EXPECT_EQ(refusal(session, R"({"do":"lattice","which":[1],"by":[0,0,1],"hold":["u0"]})").where, "hold");
 }
 
+/// A pull of one control point of a block of 4 × 4 × 4.
+std::string pull(int which, const std::string& by, bool again) {
+  return R"({"do":"lattice","net":[4,4,4],"which":[)" + std::to_string(which) + R"(],"by":)" + by +
+         (again ? R"(,"again":true})" : "}");
+}
+
+TEST(Command, ALatticeThatIsPulledOnDeformsTheShapeThatItWasPutRound) {
+  const auto after = [](const std::vector<std::string>& commands) {
+    Session session = fresh();
+    run(session, {sheet});
+    run(session, commands);
+    return Points(first(session).current->control_points());
+  };
+  const std::string up = "[0,0,0.4]", side = "[0.3,0.1,0]", back = "[0,0,-0.4]";
+  const Points start = after({}), one = after({pull(21, up, false)}), two = after({pull(38, side, false)});
+  const Points both = after({pull(21, up, false), pull(38, side, true)});
+  // The pulls add up as displacements of the first shape.
+  EXPECT_LT((both - (one + two - start)).cwiseAbs().maxCoeff(), 1e-15);
+  // Round the new shape it is another block.
+  EXPECT_GT((after({pull(21, up, false), pull(38, side, false)}) - both).cwiseAbs().maxCoeff(), 1e-3);
+  // In either order, and back again.
+  EXPECT_EQ(after({pull(38, side, false), pull(21, up, true)}), both);
+  EXPECT_LT((after({pull(21, up, false), pull(21, back, true)}) - start).cwiseAbs().maxCoeff(), 1e-16);
+}
+
+TEST(Command, APulledLatticeIsInTheHistoryTheJournalAndTheSnapshot) {
+  Session session = fresh();
+  run(session, {sheet, pull(21, "[0,0,0.4]", false), pull(38, "[0.3,0.1,0]", true)});
+  const Points both = first(session).current->control_points();
+  run(session, {R"({"do":"undo"})", R"({"do":"undo"})", R"({"do":"redo"})", R"({"do":"redo"})"});
+  EXPECT_EQ(first(session).current->control_points(), both);
+  auto restored = Session::restore(Document::fresh("test"), session.snapshot());
+  ASSERT_TRUE(restored) << restored.error().message();
+  Session replayed = fresh();
+  for (const Command& command : session.journal()) ASSERT_TRUE(replayed.execute(command));
+  for (Session* each : {&session, &*restored, &replayed}) run(*each, {pull(42, "[0,0,-0.2]", true)});
+  EXPECT_GT((first(session).current->control_points() - both).cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_EQ(first(*restored).current->control_points(), first(session).current->control_points());
+  EXPECT_EQ(first(replayed).current->control_points(), first(session).current->control_points());
+}
+
+TEST(Command, ALatticeIsNotPulledOnWhereTheSurfacesHaveChanged) {
+  Session session = fresh();
+  run(session, {sheet});
+  const std::string on = pull(21, "[0,0,0.1]", true);
+  EXPECT_EQ(refusal(session, on).where, "again");
+  run(session, {pull(21, "[0,0,0.4]", false)});
+  EXPECT_EQ(refusal(session, R"({"do":"lattice","net":[4,4,5],"which":[21],"by":[0,0,1],"again":true})").where,
+            "again");
+  EXPECT_EQ(refusal(session, R"({"do":"lattice","net":[4,4,4],"again":true})").where, "again");
+  run(session, {R"({"do":"hold","rows":1})", on});  // the shape is the same
+  run(session, {R"({"do":"points","which":[5],"by":[0,0,0.1]})"});
+  EXPECT_EQ(refusal(session, on).where, "again");
+  run(session, {R"({"do":"undo"})", on});
+  run(session, {R"({"do":"refine","region":[[0,1],[0,1]]})"});
+  EXPECT_EQ(refusal(session, on).where, "again");
+}
+
 }  // namespace
 }  // namespace knead

@@ -138,8 +138,8 @@ std::string in_version_1(std::string snapshot) {
   const std::string plastic = plastic_of_surface();
   // The count of probes, no open stroke, the count of edges that follow, the coupling of positions, no brush, the
   // coupling of tangent planes and how far these may open; counts of steps, seams and notes and a flag follow, and the
-  // counts of converted surfaces, of modes of both kinds and of bodies, and that none is selected.
-  snapshot.erase(snapshot.size() - 33);
+  // counts of converted surfaces, of modes of both kinds and of bodies, that none is selected, and no lattice.
+  snapshot.erase(snapshot.size() - 34);
   snapshot.erase(snapshot.size() - 75, 42);
   snapshot.erase(snapshot.rfind(plastic), plastic.size());
   return sealed(std::move(snapshot), '1');
@@ -170,7 +170,7 @@ TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
   const std::size_t surface = old.rfind(plastic_of_surface());
   ASSERT_NE(surface, std::string::npos);
   old.erase(surface + plastic_of_surface().size() - 2, 2);
-  old.erase(old.size() - 25);  // counts of modes and bodies, and that none is selected
+  old.erase(old.size() - 26);  // counts of modes and bodies, that none is selected, and no lattice
   const auto restored = Session::restore(Document::fresh("test"), sealed(old, '6'));
   ASSERT_TRUE(restored) << restored.error().message();
   ASSERT_TRUE(restored->state().brush);
@@ -181,7 +181,7 @@ TEST(Snapshot, RefusesBytesThatAreNotItsOwn) {
   Session session = on_sheet(rich);
   const std::string good = session.snapshot();
   EXPECT_FALSE(Session::restore(session.document(), ""));
-  EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot 9\n"));
+  EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot A\n"));
   for (std::size_t size = 0; size < good.size(); size += 997) {
     EXPECT_FALSE(Session::restore(session.document(), std::string_view(good).substr(0, size))) << size;
   }

@@ -38,8 +38,28 @@ describe('curves and volumes as they are drawn', () => {
     expect(() => engine.latticePicture({ net: [4, 5, 6], margin: 0 })).toThrow(/margin/);
   });
 
+  it('show a lattice where it was pulled to, and another round the surfaces as they are', async () => {
+    const engine = await Engine.load(wasm);
+    engine.fresh('sheet');
+    engine.execute({ do: 'new', shape: 'plane', size: [30, 40], net: [6, 6] });
+    const block = { net: [4, 4, 4] as [number, number, number], margin: 0.1 };
+    const before = engine.latticePicture(block);
+    expect(before.pulled).toBe(false);
+    engine.execute({ do: 'lattice', ...block, which: [23], by: [0, 0, 20] });
+    const { points, pulled } = engine.latticePicture(block);
+    expect(pulled).toBe(true);
+    points.forEach((x, k) => expect(x - before.points[k]!).toBeCloseTo(k === 3 * 23 + 2 ? 20 : 0, 5));
+    engine.execute({ do: 'lattice', ...block, which: [23], by: [5, 0, 0], again: true });
+    expect(engine.latticePicture(block).points[3 * 23]! - points[3 * 23]!).toBeCloseTo(5, 5);
+    const anew = engine.latticePicture({ ...block, anew: true });
+    expect(anew.pulled).toBe(false);
+    expect(anew.points[3 * 63 + 2]!).toBeGreaterThan(before.points[3 * 63 + 2]! + 0.2); // round what has risen
+    engine.execute({ do: 'undo' });
+    expect([...engine.latticePicture(block).points]).toEqual([...points]);
+  });
+
   it('are met where the pointer is near their lines, at the place between the ends of a chord', () => {
-    const body = { lines: new Float32Array([0, 0, 0, 10, 0, 0]), at: new Float32Array([0.2, 0, 0, 0.4, 0, 0]), net: new Float32Array(), points: new Float32Array() };
+    const body = { lines: new Float32Array([0, 0, 0, 10, 0, 0]), at: new Float32Array([0.2, 0, 0, 0.4, 0, 0]), net: new Float32Array(), points: new Float32Array(), pulled: false };
     const flat = (points: Float32Array) => new Float32Array([...points].filter((_, k) => k % 3 < 2));
     const hit = nearestChord([body], 5, 3, 9, flat)!;
     expect(hit.body).toBe(0);

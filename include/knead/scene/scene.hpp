@@ -158,6 +158,16 @@ struct OpenBrush {
   std::vector<std::vector<double>> masks;  ///< likewise, from before the stroke
 };
 
+/// A block of space round surfaces as the hand has pulled it, which may be pulled on (`lattice_to_pull_on`).
+struct PulledLattice {
+  std::array<int, 3> net = {}, degree = {};  ///< along x, y, z
+  double margin = 0;                         ///< of the diagonal of what it was put round
+  Points points;                             ///< its control points as pulled, file units
+  std::vector<int> surfaces;                 ///< indices into the scene's surfaces
+  /// Of each, what the block was put round, and what it has made of it.
+  std::vector<std::shared_ptr<const Surface>> before, after;
+};
+
 /// The angle, in radians, that tangent planes at a smooth edge that follows may come to differ by; and the one that is
 /// accepted where less would leave the edge too little freedom.
 inline constexpr double asked_angle = 1e-3 * std::numbers::pi / 180, accepted_angle = 0.05 * std::numbers::pi / 180;
@@ -217,6 +227,7 @@ struct Scene {
   std::optional<OpenBrush> brush = {};    ///< a stroke of a brush; every other command ends it
   std::vector<SceneBody> bodies = {};     ///< curves and volumes
   std::optional<int> body = {};           ///< the one that commands act on; then no surface is selected
+  std::optional<PulledLattice> lattice = {};  ///< the last one that was pulled by hand
 
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;

@@ -27,6 +27,10 @@ void describe(LatticeCommand& c, Fields& fields) {
              {.help = "control points of the block that are moved by hand; that of indices i, j, k along x, y, z is "
                       "`(i · net[1] + j) · net[2] + k`"});
   fields.add("by", c.by, {.help = "how far these are moved; tools do not act then", .unit = Unit::length});
+  fields.add("again", c.again,
+             {.help = "go on with the block of the `lattice` before: its control points are moved from where they were "
+                      "pulled, and deform the shapes that it was put round. Net, degree, margin and selection are the "
+                      "same, and nothing else has changed the surfaces since"});
 }
 
 namespace {
@@ -56,15 +60,14 @@ Expected<Points> pressed(Executor& executor, const LatticeCommand& c, const Latt
   return std::move(active.control_points);
 }
 
-/// The same after the user's hand has moved some.
-Expected<Points> moved_by_hand(const LatticeCommand& c, const Lattice& lattice) {
-  const int count = lattice.rest().size();
+/// Control points of the block after the user's hand has moved some.
+Expected<Points> moved_by_hand(const LatticeCommand& c, Points points) {
+  const auto count = static_cast<int>(points.rows());
   if (c.which.empty()) return input_error("no control points are named", "which", "give their numbers, counted from 0");
   if (!c.by) return input_error("nothing says how far they are moved", "by", "give [dx, dy, dz]");
   const Eigen::RowVector3d by(c.by->data());
   if (!by.allFinite()) return input_error("the move is not finite", "by", "give three numbers");
   std::vector<bool> moved(static_cast<std::size_t>(count), false);
-  Points points = lattice.rest().control_points();
   for (std::size_t k = 0; k < c.which.size(); ++k) {
     const int number = c.which[k];
     if (number < 0 || number >= count) {
@@ -84,21 +87,37 @@ Expected<void> Executor::execute(const LatticeCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
   if (auto few = check_steps(c.steps, "steps"); !few) return few;
-  const auto lattice = lattice_around_selection(state, c.margin, c.degree, c.net);
-  if (!lattice) return std::unexpected(lattice.error());
   const bool by_hand = !c.which.empty() || c.by.has_value();
   if (by_hand && !c.hold.empty()) return input_error("faces hold against tools only", "hold", "leave it out, or which");
-  const auto after = by_hand ? moved_by_hand(c, *lattice) : pressed(*this, c, *lattice);
+  if (c.again && !by_hand)
+    return input_error("tools press a block of their own", "again", "leave it out, or add which");
+  const PulledLattice* on = c.again ? lattice_to_pull_on(state, c.margin, c.degree, c.net) : nullptr;
+  if (c.again && on == nullptr) {
+    return input_error("the surfaces are not as a block of this kind has left them", "again",
+                       "leave it out: a block is put round them as they are");
+  }
+  PulledLattice pulled{c.net, c.degree, c.margin, {}, state.selection(), {}, {}};
+  for (std::size_t k = 0; k < pulled.surfaces.size(); ++k) {
+    pulled.before.push_back(on ? on->before[k] : state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])].current);
+  }
+  const auto lattice = lattice_around(pulled.before, c.margin, c.degree, c.net);
+  if (!lattice) return std::unexpected(lattice.error());
+  auto after =
+      by_hand ? moved_by_hand(c, on ? on->points : lattice->rest().control_points()) : pressed(*this, c, *lattice);
   if (!after) return std::unexpected(after.error());
-  for (int index : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
-    const auto points = lattice->deformed(s.current->control_points(), *after);
+  for (std::size_t k = 0; k < pulled.surfaces.size(); ++k) {
+    const auto points = lattice->deformed(pulled.before[k]->control_points(), *after);
     if (!points) return std::unexpected(points.error());
-    auto moved = s.current->with_control_points(*points);
+    auto moved = pulled.before[k]->with_control_points(*points);
     if (!moved) return std::unexpected(moved.error());
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(pulled.surfaces[k])];
     s.current = s.rest = std::make_shared<const Surface>(std::move(*moved));  // the block carries the energy, not they
     s.velocity.resize(0, 3);
+    pulled.after.push_back(s.current);
   }
+  pulled.points = std::move(*after);
+  state.lattice.reset();
+  if (by_hand) state.lattice = std::move(pulled);
   return {};
 }
 

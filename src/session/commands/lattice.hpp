@@ -15,6 +15,7 @@ struct LatticeCommand {
   std::vector<std::string> hold;  ///< faces: "u0" … "w1", u along x, v along y, w along z
   std::vector<int> which;         ///< control points moved by hand: (i n_y + j) n_z + k
   std::optional<Vector3> by;      ///< by this; there are no steps then
+  bool again = false;             ///< from where the pull before has left them
 };
 
 template <>

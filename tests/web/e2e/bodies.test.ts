@@ -117,6 +117,43 @@ it('a point of a lattice is dragged, and the surface follows', async () => {
   expect(beside).toBeLessThan(1e-4 * length);
   await page.keyboard.press('Control+z');
   await expect.poll(async () => distance(await positions(page), before)).toBe(0);
+});
+
+it('the lattice stays as it is pulled, further drags go on, and it is put round the new shape when that is asked for', async () => {
+  const { page } = studio;
+  const block = () => page.evaluate(() => [...(window as never as Page).studio.viewer.bodies.lattice!.points]);
+  const start = await block(), flat = await positions(page);
+  const changed = (a: number[], b: number[]) => new Set(a.flatMap((x, k) => (Math.abs(x - b[k]!) > 1e-3 ? [Math.floor(k / 3)] : [])));
+  await dragFrom(await place('lattice', 23), 0, -80);
+  expect(changed(await block(), start)).toEqual(new Set([23]));
+  await dragFrom(await place('lattice', 39), 0, -60);
+  expect(changed(await block(), start)).toEqual(new Set([23, 39]));
+  const [first, second] = (await commands(page)).slice(-2) as { do: string; which: number[]; by: number[]; again?: boolean }[];
+  expect(first).toMatchObject({ do: 'lattice', which: [23] });
+  expect(first!.again).not.toBe(true);
+  expect(second).toMatchObject({ do: 'lattice', which: [39], again: true });
+  const both = await positions(page);
+  await page.keyboard.press('Control+z');
+  await expect.poll(async () => changed(await block(), start)).toEqual(new Set([23]));
+  await page.keyboard.press('Control+Shift+z');
+  await expect.poll(async () => distance(await positions(page), both)).toBe(0);
+  // The same point back to where it was, by what the journal says: the sheet is flat again but for the other's part.
+  await page.evaluate((by) => (window as never as Page).studio.execute([{ do: 'lattice', net: [4, 4, 4], margin: 0.1, which: [23], by, again: true }]), first!.by.map((x) => -x));
+  await page.evaluate((by) => (window as never as Page).studio.execute([{ do: 'lattice', net: [4, 4, 4], margin: 0.1, which: [39], by, again: true }]), second!.by.map((x) => -x));
+  await settled(page);
+  expect(distance(await positions(page), flat)).toBeLessThan(1e-4);
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Control+z');
+  await expect.poll(async () => distance(await positions(page), both)).toBe(0);
+  const fit = page.locator('.panel[data-panel="Control points"] button', { hasText: 'Fit anew' });
+  await fit.click();
+  await expect.poll(async () => changed(await block(), start).size).toBeGreaterThan(10);
+  expect(await fit.count()).toBe(0);
+  expect(distance(await positions(page), both)).toBe(0);
+  const anew = await block();
+  await dragFrom(await place('lattice', 24), -60, 0);
+  expect(((await commands(page)).at(-1) as { again?: boolean }).again).not.toBe(true);
+  expect(changed(await block(), anew)).toEqual(new Set([24]));
   await page.locator('.panel[data-panel="Control points"] button', { hasText: 'Lattice' }).click();
   await expect.poll(() => page.evaluate(() => (window as never as Page).studio.viewer.bodies.lattice)).toBeNull();
 });

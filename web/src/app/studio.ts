@@ -297,6 +297,13 @@ export class Studio implements App {
     this.askForPictures(false);
   }
 
+  latticePulled(): void {
+    const { lattice } = this.hand.points;
+    if (!lattice?.anew) return;
+    this.hand.points.lattice = { net: lattice.net, margin: lattice.margin };
+    this.askForPictures(false);
+  }
+
   private comparing = false;
 
   /** While a key is held: the surfaces as they were opened. */

@@ -31,7 +31,7 @@ interface Exports {
   knead_displays(): number;
   knead_range(): number;
   knead_body_picture(body: number): number;
-  knead_lattice_picture(x: number, y: number, z: number, margin: number): number;
+  knead_lattice_picture(x: number, y: number, z: number, margin: number, anew: number): number;
   knead_combs(surface: number, alongU: number, alongV: number, teeth: number): number;
   knead_section_combs(surface: number, x: number, y: number, z: number, offset: number): number;
   knead_picture(surface: number, detail: number, opened: number, s0: number, t0: number, s1: number, t1: number, tolerance: number): number;
@@ -244,15 +244,15 @@ export class Engine {
     return this.drawnBody(this.wasm.knead_body_picture(body));
   }
 
-  /** The block of the command `lattice` round the selected surfaces. */
-  latticePicture({ net, margin }: LatticeSettings): BodyPicture {
-    return this.drawnBody(this.wasm.knead_lattice_picture(...net, margin));
+  /** The block that the next command `lattice` by hand moves: as it was pulled, or round the selected surfaces. */
+  latticePicture({ net, margin, anew }: LatticeSettings): BodyPicture {
+    return this.drawnBody(this.wasm.knead_lattice_picture(...net, margin, anew ? 1 : 0));
   }
 
   private drawnBody(succeeded: number): BodyPicture {
-    const { buffers } = this.json(succeeded) as { buffers: BufferTable };
+    const { buffers, pulled } = this.json(succeeded) as { buffers: BufferTable; pulled: boolean };
     const { floats } = this.buffers(buffers);
-    return { lines: floats('lines'), at: floats('at'), net: floats('net'), points: floats('points') };
+    return { lines: floats('lines'), at: floats('at'), net: floats('net'), points: floats('points'), pulled };
   }
 
   /** The shape of a tool, by its place in the list of the state. */

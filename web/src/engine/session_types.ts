@@ -64,12 +64,16 @@ export interface BodyPicture {
   /** Ends of the legs of the control polygon. */
   net: Float32Array;
   points: Float32Array;
+  /** Of a lattice: it has been pulled, and another pull goes on there. */
+  pulled: boolean;
 }
 
 /** The block of the command `lattice` that is shown. */
 export interface LatticeSettings {
   net: [number, number, number];
   margin: number;
+  /** Round the surfaces as they are, whether or not there is one that was pulled. */
+  anew?: boolean;
 }
 
 /** Curvature combs of a surface (bindings/wasm/studio_combs.hpp); places relative to the session's origin. */

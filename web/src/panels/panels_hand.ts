@@ -118,7 +118,7 @@ function materialFields(app: App): (Node | null)[] {
 
 /** Control points: which are chosen, their positions, the displacement, their weights. */
 export function pointsPanel(app: App): HTMLElement {
-  const key = (a: App) => [[...a.hand.points.chosen], a.hand.points.lock, a.hand.points.net, a.hand.points.kind, a.hand.points.lattice, a.changes, unitOf(a.state)];
+  const key = (a: App) => [[...a.hand.points.chosen], a.hand.points.lock, a.hand.points.net, a.hand.points.kind, a.hand.points.lattice, a.hand.points.pulled, a.changes, unitOf(a.state)];
   return panel(app, 'Control points', key, () => {
     const { points } = app.hand;
     const [m, n] = points.net;
@@ -133,7 +133,7 @@ export function pointsPanel(app: App): HTMLElement {
       ...latticeFields(app),
     );
     if (block) {
-      return [note('Drag the points of the block: the selected surfaces follow. After each drag it is put round their new shape.'), choosing];
+      return [note('Drag the points of the block: the selected surfaces follow. It stays as it was pulled, until something else changes the surfaces.'), choosing];
     }
     if (count === 0) {
       return [note(plain ? 'Click a point; Shift adds, a box takes many, a double click its row. Drag what is chosen; X, Y, Z or N while dragging keep to an axis or the normal.' : 'Click a point; Shift adds, a box takes many. Drag what is chosen; X, Y or Z while dragging keep to an axis.'), choosing];
@@ -171,10 +171,11 @@ function latticeFields(app: App): (Node | null)[] {
   const set = (k: 0 | 1 | 2) => (value: number) => {
     const net = [...lattice!.net] as [number, number, number];
     net[k] = Math.min(12, Math.max(4, Math.round(value)));
-    app.showLattice({ ...lattice!, net });
+    app.showLattice({ ...lattice!, net, anew: false });
   };
   return [
     toggle('Lattice', lattice !== null, (on) => app.showLattice(on ? { net: [4, 4, 4], margin: 0.1 } : null), 'A block of space round the selected surfaces: dragging its points deforms what is in it'),
+    lattice && points.pulled ? small('Fit anew', 'Put the block round the surfaces as they are now', () => app.showLattice({ ...lattice, anew: true })) : null,
     lattice ? field('Points', row(...([0, 1, 2] as const).map((k) => numberInput(`Points of the lattice along ${'xyz'[k]}`, lattice.net[k], set(k)))), 'Of the block along x, y, z: 4 to 12') : null,
   ];
 }

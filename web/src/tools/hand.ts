@@ -41,7 +41,7 @@ export class Hand {
     this.size = new BrushSize(viewer, settings, () => !this.active, () => host.changed());
     this.surfaceBrush = new SurfaceBrush(viewer, actions, () => settings.radius, (factor) => (settings.radius *= factor));
     this.bodies = new BodyHand(viewer, actions, (body) => this.selectBody(body));
-    this.points = new PointEditor(viewer, { ...actions, selectBody: (body) => this.selectBody(body), changed: () => host.changed() });
+    this.points = new PointEditor(viewer, { ...actions, selectBody: (body) => this.selectBody(body), changed: () => host.changed(), pulled: () => host.latticePulled() });
     this.paint = new Paint(viewer, () => this.brush.settings.radius, {
       execute: (commands) => host.execute(commands), select: actions.select,
       material: (surface, counts) => host.client.material(surface, counts),

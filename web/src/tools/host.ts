@@ -14,6 +14,8 @@ export interface ToolHost extends Host {
   execute(commands: Command[], join?: boolean): Promise<true | null>;
   /** Shows the block of the command `lattice` round what is selected, whose points are dragged in place of the surface's; null: none. */
   showLattice(lattice: LatticeSettings | null): void;
+  /** The block that is shown has been pulled: it is shown as it was pulled from now on. */
+  latticePulled(): void;
   /** Selects a surface; one without settings is made ready to sculpt. */
   select(surface: number): Promise<void>;
 }

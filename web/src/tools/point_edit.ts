@@ -18,6 +18,8 @@ export interface PointActions {
   cancel(): Promise<void>;
   select(surface: number): Promise<void>;
   selectBody(body: number): Promise<void>;
+  /** A lattice that was put round the surfaces anew is that which is pulled on from now on. */
+  pulled(): void;
   changed(): void;
 }
 
@@ -83,6 +85,11 @@ export class PointEditor implements PointerTool {
     if (bodies.lattice) return 'lattice';
     if (bodies.control) return frame!.state.bodies[frame!.state.body!]!.kind;
     return this.surface === undefined ? null : 'surface';
+  }
+
+  /** Whether the block that is shown has been pulled, and is pulled on. */
+  get pulled(): boolean {
+    return this.viewer.bodies.lattice?.pulled ?? false;
   }
 
   /** Places of all points that can be picked, scene coordinates. */
@@ -224,8 +231,13 @@ export class PointEditor implements PointerTool {
   private send(hold: Hold): void {
     hold.by = this.moved(hold);
     this.showAxis(hold);
-    const { lattice } = this, which = this.which();
-    const command = (): Command => (lattice && 'which' in which ? { do: 'lattice', ...lattice, which: which.which, by: hold.by.toArray() } : { do: 'points', ...which, by: hold.by.toArray() });
+    const { block, lattice } = this, which = this.which();
+    const command = (): Command => {
+      const by = hold.by.toArray();
+      if (!lattice || !block || !('which' in which)) return { do: 'points', ...which, by };
+      const { net, margin } = lattice;
+      return { do: 'lattice', net, margin, which: which.which, by, ...(block.pulled ? { again: true } : {}) };
+    };
     this.freezeBlock();
     hold.begun ??= this.actions.begin([command()]);
     void hold.begun.then((good) => {
@@ -271,7 +283,7 @@ export class PointEditor implements PointerTool {
       box.element.remove();
       this.chooseBox(box, event);
     } else if (hold?.begun) {
-      if (this.lattice) this.chosen.clear(); // the block is put round the new shape
+      if (this.lattice) this.actions.pulled();
       void hold.begun.then((good) => (good && !hold.cancelled ? this.actions.end([]) : undefined));
     }
   }
