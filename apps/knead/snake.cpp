@@ -65,6 +65,10 @@ Expected<void> run(const SnakeArguments& options) {
   if (!options.output.empty() && ending != ".json" && ending != ".csv" && ending != ".svg") {
     return usage_error(fmt::format("\"{}\" is no kind of contour", ending), "--output", "name it .json, .csv or .svg");
   }
+  const std::string kind = std::filesystem::path(options.mask).extension().string();
+  if (!options.mask.empty() && kind != ".png") {
+    return usage_error(fmt::format("\"{}\" is no kind of mask", kind), "--mask", "name it .png");
+  }
   if (auto checked = check_outputs({{"--output", options.output}, {"--mask", options.mask}},
                                    {{"IMAGE", options.image}, {"--script", options.script}});
       !checked) {

@@ -121,6 +121,10 @@ Expected<void> check_arguments(const SnakeArguments& options) {
                          "name it .step, .json, " + list_of_endings(FormatContent::triangles));
     }
   }
+  const std::string kind = std::filesystem::path(options.mask).extension().string();
+  if (!options.mask.empty() && kind != ".nrrd") {
+    return usage_error(fmt::format("\"{}\" is no kind of mask", kind), "--mask", "name it .nrrd");
+  }
   return check_outputs({{"--output", options.output}, {"--mask", options.mask}},
                        {{"IMAGE", options.image}, {"--script", options.script}});
 }

@@ -81,6 +81,8 @@ TEST_F(SnakeCommand, StartsAtBlobs) {
 TEST_F(SnakeCommand, SaysWhatIsWrong) {
   EXPECT_TRUE(fails_with(knead({"snake", file("none.png")}), 3, {"none.png"}));
   EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "-o", file("contour.txt")}), 2, {".csv"}));
+  EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--mask", file("mask.jpg")}), 2, {"--mask", ".png"}));
+  EXPECT_FALSE(std::filesystem::exists(file("mask.jpg")));
   std::ofstream(file("bad.json")) << R"({"knead":2,"snakes":[{"radius":3}]})";
   EXPECT_TRUE(fails_with(knead({"snake", file("disc.png"), "--script", file("bad.json")}), 3, {"radii"}));
   std::ofstream(file("empty.json")) << R"({"knead":2,"snakes":[]})";
