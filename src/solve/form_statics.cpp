@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "coordinate_map.hpp"
@@ -83,6 +84,26 @@ class FormDescent {
   Eigen::SimplicialLDLT<SparseMatrix> solver_;
 };
 
+/// Whether the load moves the shape as a whole along an axis in which nothing holds it.
+bool drifts(const SparseMatrix& map, const Points& load) {
+  constexpr double rounding = 1e-12;
+  if (map.cols() == 0) return false;
+  const Eigen::SimplicialLDLT<SparseMatrix> normal(SparseMatrix(map.transpose() * map));
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (std::abs(load.col(axis).sum()) <= rounding * load.cwiseAbs().sum()) continue;
+    Points all = Points::Zero(load.rows(), 3);
+    all.col(axis).setOnes();
+    const Eigen::VectorXd free = map * normal.solve(Eigen::VectorXd(map.transpose() * as_vector(all)));
+    if ((free - as_vector(all)).cwiseAbs().maxCoeff() <= rounding) return true;
+  }
+  return false;
+}
+
+std::unexpected<Error> drifts_away() {
+  return numerical_error("nothing holds the shape against the forces", "constraints",
+                         "hold a side or pin points, so that the forces cannot move all of it");
+}
+
 }  // namespace
 
 template <int D>
@@ -98,6 +119,7 @@ Expected<FormEquilibrium> form_equilibrium(const FormEnergy<D>& energy, const Po
   const auto space = ConstraintSpace::create(energy.size(), constraints);
   if (!space) return std::unexpected(space.error());
   const SparseMatrix map = coordinate_map(*space);
+  if (drifts(map, load)) return drifts_away();
   const double extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).norm();
   FormDescent<D> descent(energy, map, load, rest + space->feasible(start - rest));
   FormEquilibrium result;
@@ -112,8 +134,7 @@ Expected<FormEquilibrium> form_equilibrium(const FormEnergy<D>& energy, const Po
     if (d.size() == 0 || !d.allFinite() || !descent.go(d, force)) break;
     ++result.iterations;
     if ((descent.place() - rest).cwiseAbs().maxCoeff() > ran_away * extent) {
-      return numerical_error("nothing holds the shape against the forces", "constraints",
-                             "hold a side or pin points, so that no motion is free of energy");
+      return drifts_away();
     }
     if (descent.last_step() <= nothing_moved * extent) {
       result.converged = true;

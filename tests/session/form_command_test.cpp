@@ -92,7 +92,7 @@ TEST(FormCommand, NamesWhatIsWrong) {
   EXPECT_EQ(refusal(session, R"({"do":"material","w2":-1})").where, "w2");
   run(session, {R"({"do":"force","kind":"spring","at":[1],"to":[1,1,1]})"});
   EXPECT_EQ(refusal(session, R"({"do":"evolve","mode":"static"})").where, "force");
-  run(session, {R"({"do":"remove","tool":"force"})", R"({"do":"tool","name":"ball","radius":1})"});
+  run(session, {R"({"do":"remove","tool":"force"})", R"({"do":"tool","name":"ball","radius":1,"position":[0,0,50]})"});
   EXPECT_EQ(refusal(session, R"({"do":"evolve","mode":"static"})").where, "tool");
   run(session, {R"({"do":"remove","tool":"ball"})", R"({"do":"material","model":"linear"})", R"({"do":"step"})"});
   EXPECT_EQ(refusal(session, R"({"do":"material","w1":1})").where, "model");
