@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { readKnead } from '@studio/document/knead_file';
+import { isNet, readKnead } from '@studio/document/knead_file';
 import { scenes } from '@studio/document/scenes';
 import { scriptOf } from '@studio/document/script';
 import { Engine } from '@studio/engine/engine';
@@ -46,5 +46,21 @@ describe('a script that the studio saves', () => {
       expect(readKnead(script).commands[0]).toMatchObject({ do: 'select' });
       expect(await run(script, bonnet)).toEqual(engine.state().surfaces.map((_, k) => engine.controlPoints(k)));
     }
+  });
+});
+
+describe('a JSON file', () => {
+  const rows = [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]];
+
+  it.each([['lists of points', rows], ['an object', { net: rows, degree: [1, 1] }]])('with a net as %s is no script, and opens as a surface', async (_, net) => {
+    const text = JSON.stringify(net);
+    expect(isNet(text)).toBe(true);
+    const engine = await Engine.load(wasm);
+    engine.openStep(new TextEncoder().encode(text), 'net.json');
+    expect(engine.controlPoints(0)).toEqual(new Float64Array(rows.flat(2)));
+  });
+
+  it('with commands, or damaged, is no net', () => {
+    for (const text of ['{"knead": 2, "commands": []}', '{"knead": 2, "net": []}', '{"commands": []}', '3', 'null', '[[', '']) expect(isNet(text)).toBe(false);
   });
 });

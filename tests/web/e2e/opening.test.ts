@@ -156,6 +156,19 @@ describe('a script that is opened', () => {
   });
 });
 
+describe('a JSON net that is opened', () => {
+  it('is a surface, and no script', async () => {
+    const { page } = studio;
+    await scene(page, 'Clay sheet');
+    const row = (x: number): number[][] => [0, 10, 20, 30].map((y) => [x, y, x * y / 100]);
+    await openFile(page, file('net.json', [0, 10, 20, 30].map(row)));
+    await expect.poll(() => page.locator('.document-name').textContent()).toBe('net.json');
+    const places = await positions(page);
+    expect([Math.min(...places), Math.max(...places)]).toEqual([0, 30]);
+    expect(await page.locator('.notice.error').count()).toBe(0);
+  });
+});
+
 describe('opening something else', () => {
   it('asks first where work is not saved, and not where nothing was done', async () => {
     const { page } = studio;

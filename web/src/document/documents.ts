@@ -6,7 +6,7 @@ import type { OnDisk } from './disk';
 import { cadFormat, readFormats } from './formats';
 import type { Host } from './host';
 import { Keeper } from './keeper';
-import { type KneadDocument, readKnead, type Source } from './knead_file';
+import { isNet, type KneadDocument, readKnead, type Source } from './knead_file';
 import { makeReady } from './ready';
 import type { SavedView } from './saved_views';
 
@@ -100,7 +100,8 @@ export class Documents {
   private async read(file: File): Promise<void> {
     const { host } = this;
     const bytes = async () => new Uint8Array(await file.arrayBuffer());
-    if (/\.(knead|json)$/i.test(file.name)) {
+    const net = /\.json$/i.test(file.name) && isNet(await file.text().catch(() => ''));
+    if (!net && /\.(knead|json)$/i.test(file.name)) {
       await host.attempt(async () => {
         const document = readKnead(await file.text());
         if (document.script) await this.openScript(document.commands, document.script, file.name);

@@ -11,7 +11,7 @@ export function cadFormat(name: string): { ending: string; format: (typeof opene
 }
 
 /** Endings of all files that the studio reads. */
-export const readEndings: readonly string[] = [...opened.flatMap(({ endings }) => endings), '.3dm', '.knead', '.json', '.png', '.jpg', '.jpeg'];
+export const readEndings: readonly string[] = [...opened.flatMap(({ endings }) => endings), '.3dm', '.knead', '.png', '.jpg', '.jpeg'];
 
 /** "STEP (.step, .stp, .p21), IGES (.igs, .iges), …". */
 export const readFormats = opened.map(({ name, endings }) => `${name} (${endings.join(', ')})`).join(', ');

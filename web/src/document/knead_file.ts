@@ -39,6 +39,16 @@ export function writeKnead(document: { name: string; source: Source | null; jour
 const isObject = (x: unknown): x is Record<string, unknown> => typeof x === 'object' && x !== null && !Array.isArray(x);
 const fields = ['knead', 'name', 'source', 'commands', 'views', 'snapshot'];
 
+/** Whether this JSON is a net of control points (docs/formats.md) rather than a document or a script. */
+export function isNet(text: string): boolean {
+  try {
+    const json: unknown = JSON.parse(text);
+    return Array.isArray(json) || (isObject(json) && json.net !== undefined && json.knead === undefined);
+  } catch {
+    return false; // `readKnead` says what is wrong
+  }
+}
+
 /** Throws an Error whose message says where the document is wrong, and what would be right. */
 export function readKnead(text: string): KneadDocument {
   let json: unknown;
