@@ -106,8 +106,9 @@ class ToolLoad {
   [[nodiscard]] long long points() const;
 
  private:
-  struct Element;  // one span per direction
-  struct Sample;   // one Gauss point
+  struct Element;     // one span per direction
+  struct Sample;      // one Gauss point
+  struct KeepAll {};  // no row of points is left out
   class Evaluation;
   class EntrySearch;
   using Homogeneous = std::array<double, 4>;
@@ -126,11 +127,12 @@ class ToolLoad {
                         const F& f) const;
   template <class F>
   void for_each_control_point(const Element& element, const F& f) const;
-  template <class F>
-  void for_each_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f) const;
-  template <class F>
-  void for_each_visible_point(const Element& element, const Points& x, int first, Workspace& workspace,
-                              const F& f) const;
+  template <class F, class Skip = KeepAll>
+  void for_each_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f,
+                      const Skip& skip = {}) const;
+  template <class F, class Skip = KeepAll>
+  void for_each_visible_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f,
+                              const Skip& skip = {}) const;
   [[nodiscard]] ToolPass pass_of(const ModelTool& tool) const {
     return mask_ && tool.tool().touches == ToolTouch::visible ? ToolPass::visible : ToolPass::all;
   }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
+#include <span>
 
 #include "tool_load.hpp"
 
@@ -138,11 +140,12 @@ void ToolLoad<D>::for_each_function(const std::array<int, 3>& at, int part, cons
 }
 
 /// f(sample) for every Gauss point of the element. The control points, homogeneous, are contracted one direction at a
-/// time.
+/// time. Left out are the points of a row or a layer if skip(its control points) is true; it is asked only where
+/// weights are positive.
 template <int D>
-template <class F>
-void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int first, Workspace& workspace,
-                                 const F& f) const {
+template <class F, class Skip>
+void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f,
+                                 const Skip& skip) const {
   std::array<std::size_t, D + 1> sizes;
   sizes[D] = 1;
   for (std::size_t d = D; d-- > 0;) sizes[d] = sizes[d + 1] * static_cast<std::size_t>(quadrature_[d].basis.degree + 1);
@@ -163,6 +166,9 @@ void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int fi
       sample.place = sample.inverse * Point(h[0], h[1], h[2]);
       f(sample);
       return;
+    }
+    if constexpr (!std::same_as<Skip, KeepAll>) {
+      if (d > 0 && in_hull_ && skip(std::span<const Homogeneous>(level[d]))) return;
     }
     const BasisQuadrature& q = quadrature_[d];
     for (int k = element.begin[d]; k < element.end[d]; ++k) {
@@ -192,14 +198,15 @@ int ToolLoad<D>::visibility(const Element& element) const {
   }
 }
 
-/// The same for every visible point, where edges cut the cell of a Gauss point for the visible part of it.
+/// The same for every visible point, where edges cut the cell of a Gauss point for the visible part of it. What is seen
+/// of a cell may lie beside the row of its Gauss point: of an element that edges cut no row is left out.
 template <int D>
-template <class F>
+template <class F, class Skip>
 void ToolLoad<D>::for_each_visible_point(const Element& element, const Points& x, int first, Workspace& workspace,
-                                         const F& f) const {
+                                         const F& f, const Skip& skip) const {
   const int all = visibility(element);
   if (all == VisibleMask::hidden) return;
-  if (all == VisibleMask::full) return for_each_point(element, x, first, workspace, f);
+  if (all == VisibleMask::full) return for_each_point(element, x, first, workspace, f, skip);
   for_each_point(element, x, first, workspace, [&](const Sample& whole) {
     const int state = mask_->state(whole.at[0], whole.at[1]);
     if (state == VisibleMask::hidden) return;

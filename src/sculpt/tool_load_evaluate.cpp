@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "tool_load_elements.hpp"
 
@@ -52,10 +53,13 @@ class ToolLoad<D>::Evaluation {
       if (actors_.friction != nullptr) rub(s);
       if (limited) hold_back(s);
     };
+    // Of an element that a tool enters most points may be far from it. Friction and the limit act away from tools.
+    const bool everywhere = limited || actors_.friction != nullptr;
+    const auto beyond = [&](std::span<const Homogeneous> row) { return !everywhere && beyond_all(row); };
     if (actors_.pass == ToolPass::all) {
-      load_.for_each_point(element, x_, first_, workspace_, act);
+      load_.for_each_point(element, x_, first_, workspace_, act, beyond);
     } else {
-      load_.for_each_visible_point(element, x_, first_, workspace_, act);
+      load_.for_each_visible_point(element, x_, first_, workspace_, act, beyond);
     }
   }
 
@@ -95,6 +99,18 @@ class ToolLoad<D>::Evaluation {
     Point lower, upper;
     load_.box_of(element, x_, first_, lower, upper);
     std::erase_if(near_, [&](std::size_t t) { return !actors_.tools[t].may_reach(lower, upper); });
+  }
+
+  /// Whether the control points lie beyond one side of the box of every tool that is near.
+  [[nodiscard]] bool beyond_all(std::span<const Homogeneous> row) const {
+    return std::ranges::none_of(near_, [&](std::size_t t) {
+      unsigned char beyond = 0xff;
+      for (const Homogeneous& h : row) {
+        const Point p = Point(h[0], h[1], h[2]) / h[3];
+        beyond &= actors_.tools[t].sides(p.data());
+      }
+      return beyond == 0;
+    });
   }
 
   /// Whether a point of the element may be further away than the limit allows.

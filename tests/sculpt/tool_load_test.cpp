@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <limits>
+#include <vector>
 
+#include "knead/sculpt/lattice.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
 
@@ -94,6 +98,67 @@ TEST(ToolLoad, UsesMorePointsForSmallerTools) {
   const auto fine = ToolLoad<2>::create(s, raw, 0.02);
   EXPECT_EQ(coarse->points(), 12 * 12);
   EXPECT_GE(fine->points(), 300 * 300);  // six points per 0.02
+}
+
+ModelTool ball_of(double radius) {
+  return {{"ball", testing::sphere_at(Point(0.6, 0.4, 0.15), radius), ToolMode::collision, 10, 1}, Point::Zero(), 1};
+}
+
+/// Near a shape that lies above it, but touches nothing. It has no bounds: no row of points is left out because of it.
+ModelTool plane_at(double height) {
+  auto below = PlacedShape::create(PlaneShape{}, {Eigen::Quaterniond::Identity(), Point(0, 0, height), {1, 1, 1}});
+  if (!below) ADD_FAILURE() << below.error().message();
+  return {{"plane", std::move(*below), ToolMode::collision, 10, 1}, Point::Zero(), 1};
+}
+
+template <int D>
+PotentialState evaluate(const ToolLoad<D>& load, const Points& x, std::vector<ModelTool> tools) {
+  PotentialState state;
+  state.force = Points::Zero(x.rows(), 3);
+  load.evaluate(x, 0, 0, {.tools = tools, .friction = nullptr, .limit = nullptr}, state);
+  return state;
+}
+
+template <int D>
+void expect_the_same_beside_a_plane(const Spline<D>& spline, double height) {
+  const auto load = ToolLoad<D>::create(spline, DomainScaling<D>{}, 0.1);
+  ASSERT_TRUE(load);
+  const Points x = spline.control_points();
+  ASSERT_TRUE(evaluate(*load, x, {plane_at(height)}).contacts.empty());
+  const PotentialState alone = evaluate(*load, x, {ball_of(0.2)});
+  const PotentialState beside = evaluate(*load, x, {ball_of(0.2), plane_at(height)});
+  ASSERT_GT(alone.contacts.size(), 20U);
+  EXPECT_EQ(alone.contacts.size(), beside.contacts.size());
+  EXPECT_EQ(alone.potential, beside.potential);
+  EXPECT_EQ(alone.force, beside.force);
+}
+
+TEST(ToolLoad, IsTheSameBitForBitWhereRowsOfPointsFarFromToolsAreLeftOut) {
+  expect_the_same_beside_a_plane(testing::relief(testing::uniform_clamped(3, 3), testing::uniform_clamped(2, 4), 1),
+                                 -0.2);
+  expect_the_same_beside_a_plane(
+      testing::relief(testing::uniform_clamped(2, 3), testing::uniform_clamped(2, 3), 2, 0.1, 5), -0.2);
+  const auto block = Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 3, 3}, {4, 5, 4});
+  ASSERT_TRUE(block);
+  expect_the_same_beside_a_plane(block->rest(), -0.65);
+}
+
+TEST(ToolLoad, OfAToolInACornerOfAnElementTakesTheTimeOfThatCorner) {
+  const auto block = Lattice::create({Point(0, 0, -0.5), Point(1, 1, 0.5)}, 0.05, {3, 3, 3}, {4, 4, 4});
+  ASSERT_TRUE(block);
+  const auto load = ToolLoad<3>::create(block->rest(), DomainScaling<3>{}, 0.1);
+  ASSERT_TRUE(load);
+  const auto shortest = [&](const std::vector<ModelTool>& tools) {
+    double seconds = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      const auto start = std::chrono::steady_clock::now();
+      EXPECT_FALSE(evaluate(*load, block->rest().control_points(), tools).contacts.empty());
+      seconds = std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return seconds;
+  };
+  // The box of the ball holds a hundredth of the points.
+  EXPECT_LT(shortest({ball_of(0.1)}), 0.3 * shortest({ball_of(0.1), plane_at(-0.65)}));
 }
 
 TEST(ToolLoad, WithoutToolsIsZero) {
