@@ -29,11 +29,13 @@ Expected<std::array<double, 3>> parse_triple(const std::string& text, const std:
   return std::array<double, 3>{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
+constexpr double max_entries = 2e8;  // of the matrix; assembling takes 24 bytes for each
+
 Expected<void> check_size(const std::array<int, 2>& degree, const std::array<int, 2>& net, const std::string& option) {
   const double entries = (1.0 + 2 * degree[0]) * net[0] * (1.0 + 2 * degree[1]) * net[1];
-  if (entries <= 1e9) return {};
-  return input_error(fmt::format("about {:.2g} entries are too many for this machine", entries), option,
-                     "use a smaller net");
+  if (entries <= max_entries) return {};
+  return input_error(fmt::format("a matrix of about {:.2g} entries is too large", entries), option,
+                     fmt::format("use a net or degrees with at most {:.2g}", max_entries));
 }
 
 /// On the knots that are given, or open uniform ones over [0, 1].

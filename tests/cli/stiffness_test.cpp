@@ -87,7 +87,8 @@ TEST(StiffnessCommand, WhatIsWrongIsNamed) {
   EXPECT_TRUE(fails({"--net", "4x4", "--alpha", "1,1"}, 2, {"--alpha", "three"}));
   EXPECT_TRUE(fails({"--net", "4x4", "--alpha", "1,2,1"}, 3, {"alpha12"}));
   EXPECT_TRUE(fails({"--net", "4x4", "--beta", "0,x,0"}, 2, {"--beta", "entry 1"}));
-  EXPECT_TRUE(fails({"--net", "100000x100000"}, 3, {"--net", "smaller"}));
+  EXPECT_TRUE(fails({"--net", "100000x100000"}, 3, {"--net", "too large", "at most"}));
+  EXPECT_TRUE(fails({"--net", "3000x3000"}, 3, {"--net", "4.4e+08", "2e+08"}));  // before it takes them
   EXPECT_TRUE(fails({"--net", "8x8", "--alpha", "1e305,0,1e305"}, 4, {"range"}));
 }
 
