@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "sheet.hpp"
 
@@ -175,6 +178,32 @@ TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
   ASSERT_TRUE(restored) << restored.error().message();
   ASSERT_TRUE(restored->state().brush);
   EXPECT_TRUE(same_state(restored->state(), session.state()));
+}
+
+std::string bytes_of(std::span<const double> numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
+}
+
+TEST(Snapshot, RefusesAShapeWithAnotherDomainThanTheSurfaceAsOpened) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,10],"net":[5,6]})", R"({"do":"points","rows_u":[2],"by":[0,0,1]})"});
+  const SceneSurface& surface = session.state().surfaces.front();
+  ASSERT_NE(surface.opened, surface.current);
+  const std::string good = session.snapshot();
+  const std::string knots = bytes_of(surface.current->knots(0).knots());
+  std::vector<double> longer(surface.current->knots(0).knots().begin(), surface.current->knots(0).knots().end());
+  for (double& u : longer) u *= 2;
+  std::string bad = good;  // with the last shape over a domain twice as long
+  const std::size_t last = bad.rfind(knots);
+  ASSERT_NE(last, bad.find(knots));
+  bad.replace(last, knots.size(), bytes_of(longer));
+  const auto refused = Session::restore(Document::fresh("test"), sealed(bad, '9'));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().where, "snapshot");
+  for (std::size_t at = bad.find(knots); at != std::string::npos; at = bad.find(knots, at)) {
+    bad.replace(at, knots.size(), bytes_of(longer));
+  }
+  EXPECT_TRUE(Session::restore(Document::fresh("test"), sealed(bad, '9')));  // all over the longer one
 }
 
 TEST(Snapshot, RefusesBytesThatAreNotItsOwn) {
