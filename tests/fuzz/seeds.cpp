@@ -90,7 +90,7 @@ void readers(Corpus& corpus) {
   corpus.add("iges", builder.text());
   corpus.add("brep", brep_square);
   const fs::path texts = fs::path(KNEAD_SOURCE_DIR) / "tests/fuzz/corpus/text";
-  for (const char* ending : {".g2", ".xml", ".dat", ".csv"}) {  // in the order of fuzz_text.cpp
+  for (const char* ending : {".g2", ".xml", ".dat", ".csv", ".json"}) {  // in the order of fuzz_text.cpp
     for (const auto& file : fs::directory_iterator(texts)) {
       if (file.path().extension() == ending) corpus.add("text", std::string(1, kind) + content_of(file.path()));
     }
