@@ -77,6 +77,10 @@ const std::vector<SourceCurve>& Source::curves() const {
   return none;
 }
 
+Expected<void> Source::can_move_edge(const std::string& id) const {
+  return input_error("only edges of faces can follow", id);
+}
+
 Expected<std::shared_ptr<const Source>> Source::with_splines(std::span<const std::string> /*surfaces*/) const {
   return input_error("only faces of a STEP file can be converted", name());
 }

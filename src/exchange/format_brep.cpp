@@ -57,7 +57,6 @@ class BrepSource final : public Source {
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
   const std::vector<UnreadableSurface>& unreadable() const override { return unreadable_; }
   const step::File* step_file() const override { return &view_; }
-  bool moves_edges() const override { return false; }
 
   Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
                              std::span<const std::string> followed,

@@ -9,14 +9,15 @@
 #include "iges_text.hpp"
 #include "iges_writer.hpp"
 #include "knead/exchange/step_file.hpp"
+#include "moved_edge.hpp"
 
 namespace knead::detail {
 namespace {
 
 class IgesSource final : public Source {
  public:
-  IgesSource(iges::File file, step::File view, std::vector<UnreadableSurface> unreadable)
-      : file_(std::move(file)), view_(std::move(view)), unreadable_(std::move(unreadable)) {
+  IgesSource(iges::File file, step::File view, std::vector<UnreadableSurface> unreadable, iges::EdgeSources edges)
+      : file_(std::move(file)), view_(std::move(view)), unreadable_(std::move(unreadable)), edges_(std::move(edges)) {
     for (const step::SurfaceEntity& s : view_.surfaces()) {
       surfaces_.push_back({s.id, s.name, file_.global().unit, std::make_shared<const Surface>(s.surface)});
     }
@@ -29,7 +30,7 @@ class IgesSource final : public Source {
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
   const std::vector<UnreadableSurface>& unreadable() const override { return unreadable_; }
   const step::File* step_file() const override { return &view_; }
-  bool moves_edges() const override { return false; }
+  Expected<void> can_move_edge(const std::string& id) const override { return iges::can_move(file_, edges_, id); }
 
   std::vector<std::string> remarks() const override {
     const iges::Global& global = file_.global();
@@ -50,21 +51,25 @@ class IgesSource final : public Source {
   Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
                              std::span<const std::string> followed,
                              std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
-    if (!followed.empty()) {
-      return input_error("edges of an IGES file cannot follow", followed.front(), "hold them, or set them free");
-    }
     std::vector<iges::Replacement> replacements;
+    std::vector<step::Replacement> changed;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k] == surfaces_[k].surface) continue;
       replacements.push_back({iges::integer(std::string_view(surfaces_[k].id).substr(1)).value_or(0), *surfaces[k]});
+      if (!followed.empty()) changed.push_back({surfaces_[k].id, *surfaces[k]});
     }
-    return iges::with_surfaces(file_, replacements);
+    const auto moved = step::moved_edges(view_, changed, followed);
+    if (!moved) return std::unexpected(moved.error());
+    const auto entities = iges::moved_entities(edges_, *moved);
+    if (!entities) return std::unexpected(entities.error());
+    return iges::with_surfaces(file_, replacements, *entities);
   }
 
  private:
   iges::File file_;
   step::File view_;
   std::vector<UnreadableSurface> unreadable_;
+  iges::EdgeSources edges_;
   std::vector<SourceSurface> surfaces_;
 };
 
@@ -74,7 +79,8 @@ Expected<std::shared_ptr<const Source>> open_iges(std::string bytes, std::string
   auto view = iges::step_view(*file);
   auto step = step::File::parse(std::move(view.text), file->name());
   if (!step) return std::unexpected(std::move(step.error()));
-  return std::make_shared<const IgesSource>(*std::move(file), *std::move(step), std::move(view.unreadable));
+  return std::make_shared<const IgesSource>(*std::move(file), *std::move(step), std::move(view.unreadable),
+                                            std::move(view.sources));
 }
 
 constexpr std::string_view iges_endings[] = {".igs", ".iges"};

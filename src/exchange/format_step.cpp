@@ -37,7 +37,7 @@ class StepSource final : public Source {
   const std::vector<UnreadableSurface>& unreadable() const override { return file_.unreadable_surfaces(); }
   std::string_view format() const override { return "STEP"; }
   const step::File* step_file() const override { return &file_; }
-  bool moves_edges() const override { return true; }
+  Expected<void> can_move_edge(const std::string& /*id*/) const override { return {}; }
   std::vector<std::string> remarks() const override {
     std::vector<std::string> result;
     for (const Error& warning : file_.warnings()) result.push_back("warning: " + warning.message());

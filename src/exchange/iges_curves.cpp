@@ -67,7 +67,9 @@ Expected<void> CurveReader::add_nested(int number, const Eigen::Affine3d& outer,
                                      : Expected<Piece>(Piece{});
   if (!piece) return std::unexpected(std::move(piece.error()));
   piece->number = number;
+  piece->move = move;
   if (piece->geometry == 0) {
+    piece->in_space = false;
     const Point origin = move.translation();
     piece->at = [origin](double) { return origin; };
     piece->geometry = records_.add(fmt::format("IGES_CURVE_{}('D{}')", entity->type, number));

@@ -18,6 +18,8 @@ struct Piece {
   std::function<Point(double)> at;  ///< from 0 to 1
   int samples = 1;                  ///< chords that show its shape
   bool reversed = false;            ///< run along from 1 to 0
+  bool in_space = true;             ///< the entity is this curve, not one in parameters or one that is not known
+  Eigen::Affine3d move = Eigen::Affine3d::Identity();  ///< from the entity's own coordinates to the model's
   [[nodiscard]] Point from() const { return at(reversed ? 1 : 0); }
   [[nodiscard]] Point to() const { return at(reversed ? 0 : 1); }
 };

@@ -69,24 +69,6 @@ Points points_of(const std::vector<double>& all, std::array<int, 2> count, const
   return result;
 }
 
-Expected<SplineLayout> curve_layout(const File& file, int number, const Parameters& parameters) {
-  const auto head = integers(file, number, parameters, 1, 2);  // K, M
-  if (!head) return std::unexpected(head.error());
-  if (!fits((*head)[0], (*head)[1]))
-    return file.error(number, "a degree or a number of control points is out of range");
-  SplineLayout at;
-  at.degree[0] = (*head)[1];
-  at.count[0] = (*head)[0] + 1;
-  const auto n = static_cast<std::size_t>(at.count[0]);
-  at.knots[0] = 7;
-  at.weights = at.knots[0] + n + static_cast<std::size_t>(at.degree[0]) + 1;
-  at.points = at.weights + n;
-  at.domain = at.points + 3 * n;
-  at.end = at.domain + 2;
-  if (parameters.values.size() < at.domain) return file.error(number, "parameters are missing", "get the whole file");
-  return at;
-}
-
 Expected<Eigen::Affine3d> with_matrices(const File& file, int number, const Eigen::Affine3d& outer) {
   const auto own = transform_of(file, number);
   if (!own) return std::unexpected(own.error());
@@ -119,6 +101,24 @@ Expected<SplineLayout> surface_layout(const File& file, int number, const Parame
   at.points = at.weights + n;
   at.domain = at.points + 3 * n;
   at.end = at.domain + 4;
+  if (parameters.values.size() < at.domain) return file.error(number, "parameters are missing", "get the whole file");
+  return at;
+}
+
+Expected<SplineLayout> curve_layout(const File& file, int number, const Parameters& parameters) {
+  const auto head = integers(file, number, parameters, 1, 2);  // K, M
+  if (!head) return std::unexpected(head.error());
+  if (!fits((*head)[0], (*head)[1]))
+    return file.error(number, "a degree or a number of control points is out of range");
+  SplineLayout at;
+  at.degree[0] = (*head)[1];
+  at.count[0] = (*head)[0] + 1;
+  const auto n = static_cast<std::size_t>(at.count[0]);
+  at.knots[0] = 7;
+  at.weights = at.knots[0] + n + static_cast<std::size_t>(at.degree[0]) + 1;
+  at.points = at.weights + n;
+  at.domain = at.points + 3 * n;
+  at.end = at.domain + 2;
   if (parameters.values.size() < at.domain) return file.error(number, "parameters are missing", "get the whole file");
   return at;
 }

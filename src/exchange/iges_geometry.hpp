@@ -20,6 +20,8 @@ struct SplineLayout {
 /// Errors (input): counts or degrees out of range, or more numbers than there are.
 [[nodiscard]] Expected<SplineLayout> surface_layout(const File& file, int number, const Parameters& parameters);
 
+[[nodiscard]] Expected<SplineLayout> curve_layout(const File& file, int number, const Parameters& parameters);
+
 /// Of the entity's transformation matrix (124) and those of that; the identity if it has none.
 /// Errors (input): numbers that cannot be read, or that are not those of an invertible matrix; it refers to itself.
 [[nodiscard]] Expected<Eigen::Affine3d> transform_of(const File& file, int number);

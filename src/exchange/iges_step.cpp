@@ -17,7 +17,6 @@ namespace knead::iges {
 namespace {
 
 using Ids = std::vector<int>;
-constexpr std::size_t most_compared = 4000;  // pieces of one loop among which seams are sought
 
 bool is_spline(int type) { return type == 128 || type == 114; }
 bool is_face(int type) { return type == 143 || type == 144 || type == 510; }
@@ -32,7 +31,10 @@ int surface_of(const File& file, int face) {
 class ViewBuilder {
  public:
   explicit ViewBuilder(const File& file)
-      : file_(file), records_(File::number(file.entities().size())), curves_(file, records_) {}
+      : file_(file),
+        records_(File::number(file.entities().size())),
+        curves_(file, records_),
+        edges_(records_, std::ranges::find(file.entities(), 408, &Entity::type) == file.entities().end()) {}
 
   StepView build() {
     std::vector<int> faces;
@@ -60,6 +62,7 @@ class ViewBuilder {
     for (const auto& [number, surface] : splines_) shown_.insert(number);
     add_subfigures(file_, shown_, context, records_);
     view_.text = records_.exchange_structure();
+    view_.sources = std::move(edges_.sources());
     return std::move(view_);
   }
 
@@ -133,6 +136,7 @@ class ViewBuilder {
       unknown.geometry =
           records_.add(fmt::format("IGES_BOUNDARY_{}('D{}')", entity != nullptr ? entity->type : 0, number));
       unknown.at = [](double) { return Point::Zero(); };
+      unknown.in_space = false;
       pieces.assign(1, unknown);
     }
     return edge_loop(pieces);
@@ -164,6 +168,7 @@ class ViewBuilder {
       }
       Piece lifted;
       lifted.number = piece.number;
+      lifted.in_space = false;
       lifted.geometry = records_.add("POLYLINE(''," + list_of(list) + ")");
       lifted.at = [corners](double t) {
         const double place = t * static_cast<double>(corners->size() - 1);
@@ -213,42 +218,13 @@ class ViewBuilder {
     if (pieces.size() != 2 || (pieces[0].to() - pieces[1].from()).norm() > 0) chain(pieces);
     Eigen::AlignedBox3d box;
     for (const Piece& piece : pieces) box.extend(piece.from()).extend(piece.at(0.5));
-    const double same = std::max(file_.global().resolution, 1e-6 * box.diagonal().norm());
-    const auto meet = [&](const Point& a, const Point& b) { return (a - b).norm() <= same; };
-    Ids vertices, edges, oriented;
-    std::vector<Point> corners;
-    const auto vertex = [&](const Point& p) {
-      for (std::size_t k = 0; k < corners.size() && k < most_compared; ++k) {
-        if (meet(corners[k], p)) return vertices[k];
-      }
-      corners.push_back(p);
-      vertices.push_back(records_.vertex(p));
-      return vertices.back();
-    };
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const Piece& piece = pieces[k];
-      int edge = 0;
-      bool back = piece.reversed;
-      for (std::size_t j = 0; j < k && k < most_compared && edge == 0; ++j) {  // there and back: a seam
-        const Piece& other = pieces[j];
-        if (!meet(other.from(), piece.to()) || !meet(other.to(), piece.from()) || !meet(other.at(0.5), piece.at(0.5)))
-          continue;
-        edge = edges[j];
-        back = !other.reversed;
-      }
-      if (edge == 0) edge = add_edge(piece, vertex(piece.at(0)), vertex(piece.at(1)));
-      edges.push_back(edge);
+    edges_.begin_loop(std::max(file_.global().resolution, 1e-6 * box.diagonal().norm()));
+    Ids oriented;
+    for (const Piece& piece : pieces) {
+      const auto [edge, back] = edges_.of(piece);
       oriented.push_back(records_.add(fmt::format("ORIENTED_EDGE('',*,*,#{},.{}.)", edge, back ? 'F' : 'T')));
     }
     return records_.add("EDGE_LOOP(''," + list_of(oriented) + ")");
-  }
-
-  /// Under the name of its curve where that is free.
-  int add_edge(const Piece& piece, int from, int to) {
-    const std::string record = fmt::format("EDGE_CURVE('',#{},#{},#{},.T.)", from, to, piece.geometry);
-    if (!named_.insert(piece.number).second) return records_.add(record);
-    records_.put(piece.number, record);
-    return piece.number;
   }
 
   /// A loop (508) of a B-rep, whose edges are shared: their number, and of each whether it is an edge or a vertex, its
@@ -283,7 +259,9 @@ class ViewBuilder {
       const double* own = &parameters[3 * static_cast<std::size_t>(index - 1)];
       p = move * Point(own[0], own[1], own[2]);
     }
-    return found->second = records_.vertex(p);
+    found->second = records_.vertex(p);
+    edges_.add_vertex(found->second, {list, index, move});
+    return found->second;
   }
 
   /// The coordinates of a vertex list (502), read once.
@@ -315,18 +293,20 @@ class ViewBuilder {
     if (pieces.size() != 1) {
       pieces.assign(1, Piece{});
       pieces[0].number = own[at];
+      pieces[0].in_space = false;
       pieces[0].geometry = records_.add(fmt::format("IGES_CURVE_102('D{}')", own[at]));
     }
-    return shared_edges_[{list, index}] = add_edge(pieces[0], from, to);
+    return shared_edges_[{list, index}] = edges_.add(pieces[0], from, to);
   }
 
   const File& file_;
   StepRecords records_;
   CurveReader curves_;
+  Edges edges_;
   StepView view_;
   std::map<int, Eigen::Affine3d> outer_;
   std::unordered_map<int, Surface> splines_;
-  std::set<int> surfaces_, named_, shown_;
+  std::set<int> surfaces_, shown_;
   std::map<std::pair<int, int>, int> shared_vertices_, shared_edges_;
   std::map<int, std::vector<double>> vertex_lists_;
   std::map<int, Ids> edge_lists_;

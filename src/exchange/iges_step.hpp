@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "iges_edges.hpp"
 #include "iges_file.hpp"
 #include "knead/exchange/source.hpp"
 
@@ -13,6 +14,7 @@ namespace knead::iges {
 struct StepView {
   std::string text;                           ///< an exchange structure
   std::vector<UnreadableSurface> unreadable;  ///< B-spline surfaces that are none
+  EdgeSources sources;                        ///< of its edges and vertices
 };
 
 /// Writes the B-spline surfaces (128) and the faces of an IGES file, 144, 143 and 510, with their boundaries, 142, 141
@@ -20,8 +22,10 @@ struct StepView {
 /// on single curves; what has no entity of its own gets names above them. Coordinates are the model's: transformation
 /// matrices are applied. Surfaces 108, 190 to 198, 120 and 122 and curves 100, 106, 110 and 126 are exact; others
 /// become records that STEP does not have, named by their type, which readers report where they need them. A boundary
-/// that is only given in parameters is a polyline on the surface. Pieces of a boundary that are the same, there and
-/// back, are one edge: a seam. A boundary that cannot be read is one of those records. Cost: linear in the file.
+/// that is only given in parameters is a polyline on the surface. Pieces of boundaries along the same curve are one
+/// edge
+/// (`Edges`; those of several boundaries unless subfigures are placed, whose coordinates are their own). A boundary
+/// that cannot be read is one of those records. Cost: linear in the file.
 [[nodiscard]] StepView step_view(const File& file);
 
 /// The matrix of the face that shows a B-spline surface, which the surface's own is applied before.

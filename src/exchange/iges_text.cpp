@@ -92,21 +92,6 @@ void append(Values& to, std::span<const double> numbers) {
   for (const double x : numbers) to.push_back(format_real(x));
 }
 
-Values values_of(const Curve& c) {
-  const KnotVector& knots = c.knots(0);
-  const Points& points = c.control_points();
-  const bool closed = knots.clamped() && points.row(0) == points.row(points.rows() - 1);
-  Values v = {std::to_string(c.size() - 1), std::to_string(knots.degree()), "0",
-              closed ? "1" : "0",           c.rational() ? "0" : "1",       "0"};
-  append(v, knots.knots());
-  for (Eigen::Index k = 0; k < c.size(); ++k) {
-    v.push_back(c.rational() ? format_real(c.weights()[static_cast<std::size_t>(k)]) : "1.");
-  }
-  for (Eigen::Index k = 0; k < c.size(); ++k) append(v, std::span(points.row(k).data(), 3));
-  append(v, std::array{knots.domain().lower, knots.domain().upper, 0.0, 0.0, 0.0});
-  return v;
-}
-
 /// Vertices, edges, loops, faces and shells over surfaces with these directory numbers.
 Expected<void> add_shells(std::span<const NamedSurface> surfaces, const std::vector<int>& numbers,
                           const std::vector<int>& colours, Sections& to) {
@@ -118,7 +103,7 @@ Expected<void> add_shells(std::span<const NamedSurface> surfaces, const std::vec
   for (const Point& p : made->vertices) append(vertices, std::span(p.data(), 3));
   const std::string corners = std::to_string(to.add(502, 1, std::move(vertices), {}, 0, true));
   for (const detail::NaturalEdge& e : made->edges) {
-    edges.push_back(std::to_string(to.add(126, 0, values_of(e.curve), {}, 0, true)));
+    edges.push_back(std::to_string(to.add(126, 0, curve_values(e.curve), {}, 0, true)));
     edges.insert(edges.end(), {corners, std::to_string(e.from + 1), corners, std::to_string(e.to + 1)});
   }
   const std::string list = std::to_string(to.add(504, 1, std::move(edges), {}, 0, true));
@@ -162,6 +147,21 @@ Expected<void> whole(const Spline& spline, const std::string& what) {
 }
 
 }  // namespace
+
+std::vector<std::string> curve_values(const Curve& c) {
+  const KnotVector& knots = c.knots(0);
+  const Points& points = c.control_points();
+  const bool closed = knots.clamped() && points.row(0) == points.row(points.rows() - 1);
+  Values v = {std::to_string(c.size() - 1), std::to_string(knots.degree()), "0",
+              closed ? "1" : "0",           c.rational() ? "0" : "1",       "0"};
+  append(v, knots.knots());
+  for (Eigen::Index k = 0; k < c.size(); ++k) {
+    v.push_back(c.rational() ? format_real(c.weights()[static_cast<std::size_t>(k)]) : "1.");
+  }
+  for (Eigen::Index k = 0; k < c.size(); ++k) append(v, std::span(points.row(k).data(), 3));
+  append(v, std::array{knots.domain().lower, knots.domain().upper, 0.0, 0.0, 0.0});
+  return v;
+}
 
 std::vector<std::string> surface_values(const Surface& s) {
   const auto [m, n] = s.net();
@@ -224,7 +224,7 @@ Expected<std::string> text_of(std::span<const NamedSurface> surfaces, const Save
   if (options.faces && !surfaces.empty()) {
     if (auto done = add_shells(surfaces, numbers, colours, sections); !done) return std::unexpected(done.error());
   }
-  for (const NamedCurve& c : options.curves) sections.add(126, 0, values_of(c.curve), c.name);
+  for (const NamedCurve& c : options.curves) sections.add(126, 0, curve_values(c.curve), c.name);
   return sections.text(options.title, global_section(options, *unit, largest));
 }
 

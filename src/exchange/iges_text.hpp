@@ -20,4 +20,7 @@ namespace knead::iges {
 /// The parameters of an entity 128, without its type.
 [[nodiscard]] std::vector<std::string> surface_values(const Surface& surface);
 
+/// The parameters of an entity 126, likewise.
+[[nodiscard]] std::vector<std::string> curve_values(const Curve& curve);
+
 }  // namespace knead::iges

@@ -122,15 +122,23 @@ class Surgeon {
     const auto values = power ? spline_values(file_, r, *parameters) : values_of(file_, r, *parameters);
     if (!values) return std::unexpected(values.error());
     if (*values == parameters->values) return {};
-    const auto first = static_cast<std::size_t>(entity->first);
-    const auto count = static_cast<std::size_t>(parameters->lines);
-    const std::vector<std::string> lines = wrapped(*values, file_.global(), parameters->rest);
-    changes_[first] = {count, lines};
-    if (power) splines_.push_back(r.number);
-    const auto stated = static_cast<std::size_t>(std::max(entity->lines, 0));
-    // Comments may follow; a count that was wrong becomes right.
-    const std::size_t comments = stated > count ? stated - count : 0;
-    if (lines.size() != count) counts_[r.number] = lines.size() + comments;
+    put(r.number, *parameters, *values);
+    if (power) become(r.number, 128);
+    return {};
+  }
+
+  Expected<void> replace(const MovedEntities& moved) {
+    for (const CurveReplacement& r : moved.curves) {
+      const auto parameters = file_.parameters(r.number);
+      if (!parameters) return std::unexpected(parameters.error());
+      const auto values = curve_values(file_, r, *parameters);
+      if (!values) return std::unexpected(values.error());
+      put(r.number, *parameters, *values);
+      become(r.number, 126);
+    }
+    const auto lists = vertex_values(file_, moved.vertices);
+    if (!lists) return std::unexpected(lists.error());
+    for (const auto& [list, values] : *lists) put(list, *file_.parameters(list), values);
     return {};
   }
 
@@ -156,6 +164,23 @@ class Surgeon {
     std::size_t end = 0;
     std::string text;
   };
+
+  /// Other parameters for an entity.
+  void put(int number, const Parameters& parameters, const std::vector<std::string>& values) {
+    const Entity& entity = *file_.find(number);
+    const auto count = static_cast<std::size_t>(parameters.lines);
+    const std::vector<std::string> lines = wrapped(values, file_.global(), parameters.rest);
+    changes_[static_cast<std::size_t>(entity.first)] = {count, lines};
+    const auto stated = static_cast<std::size_t>(std::max(entity.lines, 0));
+    // Comments may follow; a count that was wrong becomes right.
+    const std::size_t comments = stated > count ? stated - count : 0;
+    if (lines.size() != count) counts_[number] = lines.size() + comments;
+  }
+
+  /// Another type, of form 0.
+  void become(int number, int type) {
+    if (file_.find(number)->type != type) types_[number] = type;
+  }
 
   std::string line_break() const {
     const auto& records = file_.lines('P');
@@ -209,9 +234,10 @@ class Surgeon {
       if (entity.first >= 0 && moved != moved_.end() && moved->second != moved->first + 1) {
         put_field(records[2 * k], 1, static_cast<long long>(moved->second));
       }
-      if (std::ranges::find(splines_, File::number(k)) != splines_.end()) {
-        put_field(records[2 * k], 0, 128);
-        put_field(records[2 * k + 1], 0, 128);
+      const auto type = types_.find(File::number(k));
+      if (type != types_.end()) {
+        put_field(records[2 * k], 0, type->second);
+        put_field(records[2 * k + 1], 0, type->second);
         put_field(records[2 * k + 1], 4, 0);
       }
       const auto count = counts_.find(File::number(k));
@@ -237,7 +263,7 @@ class Surgeon {
   const File& file_;
   std::map<std::size_t, Change> changes_;     // by first record
   std::map<int, std::size_t> counts_;         // new counts of the directory
-  std::vector<int> splines_;                  // entities 114 that become 128
+  std::map<int, int> types_;                  // of entities of another type than before
   std::map<std::size_t, std::size_t> moved_;  // the new number of each record that is kept or begins an entity
   std::map<std::size_t, Edit> edits_;         // by first byte
   std::size_t written_ = 0;
@@ -249,15 +275,28 @@ bool same_bits(const Surface& a, const Surface& b) {
                      static_cast<std::size_t>(a.control_points().size()) * sizeof(double)) == 0;
 }
 
-Expected<void> check(const File& before, const std::string& bytes, std::span<const Replacement> replacements) {
+Expected<void> check(const File& before, const std::string& bytes, std::span<const Replacement> replacements,
+                     const MovedEntities& moved) {
   const auto failed = [&](int number, const std::string& what) {
     return numerical_error("the written file does not read back: " + what, before.label(number), "report this");
   };
   const auto after = File::parse(bytes, before.name());
   if (!after) return failed(1, after.error().message());
   if (after->entities().size() != before.entities().size()) return failed(1, "another number of entities");
+  const auto lists = vertex_values(before, moved.vertices);
+  if (!lists) return std::unexpected(lists.error());
   for (std::size_t k = 0; k < before.entities().size(); ++k) {
     const int number = File::number(k);
+    const auto curve = std::ranges::find(moved.curves, number, &CurveReplacement::number);
+    if (curve != moved.curves.end()) {
+      if (!reads_back(*after, *curve)) return failed(number, "the curve differs");
+      continue;
+    }
+    if (const auto list = lists->find(number); list != lists->end()) {
+      const auto now = after->parameters(number);
+      if (!now || now->values != list->second) return failed(number, "its vertices differ");
+      continue;
+    }
     const auto r = std::ranges::find(replacements, number, &Replacement::number);
     if (r == replacements.end()) {
       const auto a = before.parameters(number), b = after->parameters(number);
@@ -299,14 +338,16 @@ std::vector<std::string> wrapped(const std::vector<std::string>& values, const G
   return lines;
 }
 
-Expected<std::string> with_surfaces(const File& file, std::span<const Replacement> replacements) {
-  if (replacements.empty()) return file.bytes();
+Expected<std::string> with_surfaces(const File& file, std::span<const Replacement> replacements,
+                                    const MovedEntities& moved) {
+  if (replacements.empty() && moved.curves.empty() && moved.vertices.empty()) return file.bytes();
   Surgeon surgeon(file);
   for (const Replacement& r : replacements) {
     if (auto done = surgeon.replace(r); !done) return std::unexpected(std::move(done.error()));
   }
+  if (auto done = surgeon.replace(moved); !done) return std::unexpected(std::move(done.error()));
   std::string bytes = surgeon.bytes();
-  if (auto done = check(file, bytes, replacements); !done) return std::unexpected(std::move(done.error()));
+  if (auto done = check(file, bytes, replacements, moved); !done) return std::unexpected(std::move(done.error()));
   return bytes;
 }
 

@@ -26,9 +26,8 @@ std::string list_of(std::vector<std::string> ids) {
 }
 
 Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, const std::string& id) {
-  if (document.source() == nullptr || !document.source()->moves_edges()) {
-    return input_error("only edges of faces in a STEP file can follow", id);
-  }
+  if (document.source() == nullptr) return input_error("only edges of faces in a file can follow", id);
+  if (auto can = document.source()->can_move_edge(id); !can) return std::unexpected(can.error());
   auto edge = SharedEdge::create(*document.step_file(), id);
   if (!edge) {
     Error error = edge.error();

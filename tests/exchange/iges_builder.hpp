@@ -91,4 +91,54 @@ inline std::string shell() {
   return b.text();
 }
 
+/// Two plates side by side, the second over x from 4 to 8: as a B-rep whose faces share an edge (504), or as trimmed
+/// surfaces (144) each of which has a curve of its own there, the second one turned. The second half is moved back by
+/// `apart`.
+struct TwoPlates {
+  std::string text;
+  std::string left, right;  ///< surfaces
+  std::string edge;         ///< in the view
+  int curves = 0;           ///< along it
+};
+inline TwoPlates two_plates(bool shared, double apart = 0) {
+  IgesBuilder b;
+  const int left = b.add(128, plate());
+  const int matrix = b.add(124, fmt::format("1.,0.,0.,{:.17g},0.,1.,0.,0.,0.,0.,1.,0.", 4 + apart));
+  const int right = b.add(128, plate(), matrix);
+  const auto corner = [&](int k, bool second) {
+    return fmt::format("{:.17g},{}.,0.", (k == 1 || k == 2 ? 4 : 0) + (second ? 4 + apart : 0), k > 1 ? 2 : 0);
+  };
+  TwoPlates result{{}, fmt::format("#{}", left), fmt::format("#{}", right), {}, shared ? 1 : 2};
+  if (shared) {
+    const int vertices = b.add(502, "6,0.,0.,0.,4.,0.,0.,4.,2.,0.,0.,2.,0.,8.,0.,0.,8.,2.,0.", 0, 1);
+    constexpr int ends[7][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {1, 4}, {4, 5}, {5, 2}};
+    const char* places[] = {"0.,0.,0.", "4.,0.,0.", "4.,2.,0.", "0.,2.,0.", "8.,0.,0.", "8.,2.,0."};
+    std::string edges = "7";
+    for (const auto& [from, to] : ends) {
+      const int curve = b.add(110, fmt::format("{},{}", places[from], places[to]));
+      if (from == 1 && to == 2) result.edge = fmt::format("#{}", curve);
+      edges += fmt::format(",{},{},{},{},{}", curve, vertices, from + 1, vertices, to + 1);
+    }
+    const int list = b.add(504, edges, 0, 1);
+    const int first = b.add(508, fmt::format("4,0,{0},1,1,0,0,{0},2,1,0,0,{0},3,1,0,0,{0},4,1,0", list), 0, 1);
+    const int second = b.add(508, fmt::format("4,0,{0},5,1,0,0,{0},6,1,0,0,{0},7,1,0,0,{0},2,0,0", list), 0, 1);
+    b.add(510, fmt::format("{},1,1,{}", left, first), 0, 1);
+    b.add(510, fmt::format("{},1,1,{}", right, second), 0, 1);
+  } else {
+    for (const bool second : {false, true}) {
+      std::string parts = "4";
+      for (int k = 0; k < 4; ++k) {
+        const int curve = b.add(110, corner(k, second) + "," + corner((k + 1) % 4, second));
+        if (!second && k == 1) result.edge = fmt::format("#{}", curve);
+        parts += fmt::format(",{}", curve);
+      }
+      const int loop = b.add(102, parts);
+      const int surface = second ? right : left;
+      b.add(144, fmt::format("{},1,0,{}", surface, b.add(142, fmt::format("1,{},0,{},2", surface, loop))));
+    }
+  }
+  result.text = b.text();
+  return result;
+}
+
 }  // namespace knead::testing

@@ -211,15 +211,6 @@ TEST(Iges, ABoundaryThatIsNotKnownIsSaid) {
       << trims->skipped[0].reason.message();
 }
 
-TEST(Iges, EdgesCannotFollow) {
-  const auto source = open_or_die(trimmed(true));
-  std::vector<std::shared_ptr<const Surface>> surfaces = {source->surfaces()[0].surface};
-  const std::vector<std::string> followed = {"#3"};
-  const auto bytes = source->save(surfaces, followed);
-  ASSERT_FALSE(bytes);
-  EXPECT_NE(bytes.error().message().find("cannot follow"), std::string::npos);
-}
-
 TEST(Iges, SaysWhatIsWrong) {
   IgesBuilder b;
   b.add(128, plate());

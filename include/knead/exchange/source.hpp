@@ -74,8 +74,8 @@ class Source {
   /// The file in the words of STEP, for faces and their trimming: a STEP file itself, or what a reader of another
   /// format has made of it, with the same ids. Null for formats without faces.
   [[nodiscard]] virtual const step::File* step_file() const { return nullptr; }
-  /// Edges of its faces can be written anew.
-  [[nodiscard]] virtual bool moves_edges() const { return false; }
+  /// Whether this edge of its faces can be written anew. Errors (input): it cannot, with the reason.
+  [[nodiscard]] virtual Expected<void> can_move_edge(const std::string& id) const;
 
  protected:
   Source() = default;
