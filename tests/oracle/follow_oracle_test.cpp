@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "knead/exchange/format.hpp"
+
 #include "oracle/occt_shells.hpp"
 #include "oracle/pressed_edges.hpp"
 
@@ -38,6 +40,22 @@ TEST_P(StrokedPair, StaysClosedUnderStrokes) {
 INSTANTIATE_TEST_SUITE_P(Files, StrokedPair, ::testing::ValuesIn(few_files()), test_name);
 
 INSTANTIATE_TEST_SUITE_P(Files, PressedPair, ::testing::ValuesIn(all_files()), test_name);
+
+class PressedIgesPair : public ::testing::TestWithParam<fs::path> {};
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PressedIgesPair);
+
+TEST_P(PressedIgesPair, StaysClosedAlongTheEdgeThatFollows) {
+  const auto source = open_source(*read_file(GetParam()), GetParam().string());
+  ASSERT_TRUE(source) << source.error().message();
+  const step::File& file = *(*source)->step_file();
+  const auto directory = fs::temp_directory_path() / ("knead-iges-" + std::to_string(getpid()));
+  fs::create_directories(directory);
+  for (const Pair& pair : pairs_of(file)) move(GetParam(), file, pair, Motion::press, directory, 0);
+  fs::remove_all(directory);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, PressedIgesPair, ::testing::ValuesIn(testing::iges_files_in(testing::collection())),
+                         test_name);
 
 class PressedShell : public ::testing::TestWithParam<std::string> {};
 
