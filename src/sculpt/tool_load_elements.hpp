@@ -141,7 +141,7 @@ void ToolLoad<D>::for_each_function(const std::array<int, 3>& at, int part, cons
 
 /// f(sample) for every Gauss point of the element. The control points, homogeneous, are contracted one direction at a
 /// time. Left out are the points of a row or a layer if skip(its control points) is true; it is asked only where
-/// weights are positive.
+/// weights are positive, and where points are more than twice as many as control points: else asking takes as long.
 template <int D>
 template <class F, class Skip>
 void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f,
@@ -149,6 +149,12 @@ void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int fi
   std::array<std::size_t, D + 1> sizes;
   sizes[D] = 1;
   for (std::size_t d = D; d-- > 0;) sizes[d] = sizes[d + 1] * static_cast<std::size_t>(quadrature_[d].basis.degree + 1);
+  std::array<bool, D + 1> asked{};  // in row d
+  std::size_t points = 1;
+  for (std::size_t d = D; d-- > 1;) {
+    points *= static_cast<std::size_t>(element.end[d] - element.begin[d]);
+    asked[d] = in_hull_ && points > 2 * sizes[d];
+  }
   auto& level = workspace;  // level[d]: directions d … D−1 are still control points
   for (std::size_t d = 0; d <= D; ++d) level[d].resize(sizes[d]);
   std::size_t to = 0;
@@ -168,7 +174,7 @@ void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int fi
       return;
     }
     if constexpr (!std::same_as<Skip, KeepAll>) {
-      if (d > 0 && in_hull_ && skip(std::span<const Homogeneous>(level[d]))) return;
+      if (asked[d] && skip(std::span<const Homogeneous>(level[d]))) return;
     }
     const BasisQuadrature& q = quadrature_[d];
     for (int k = element.begin[d]; k < element.end[d]; ++k) {
