@@ -7,7 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "homogeneous.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -18,15 +17,18 @@ struct Jet {
   std::array<Point, 6> d;
 };
 
-Jet jet_at(const Surface& surface, double u, double v) {
+/// The first `Count` of these derivatives of (w S, w).
+template <std::size_t Count>
+std::array<Eigen::Vector4d, Count> homogeneous_at(const Surface& surface, double u, double v) {
+  constexpr int order = Count == 1 ? 0 : 2;
   const KnotVector& ku = surface.knots(0);
   const KnotVector& kv = surface.knots(1);
   const int p = ku.degree(), q = kv.degree(), n = kv.count(), su = ku.find_span(u), sv = kv.find_span(v);
-  std::array<double, 3 * (max_degree + 1)> nu, nv;
-  basis_derivatives(ku, su, u, 2, nu.data());
-  basis_derivatives(kv, sv, v, 2, nv.data());
+  std::array<double, static_cast<std::size_t>(order + 1) * (max_degree + 1)> nu, nv;
+  basis_derivatives(ku, su, u, order, nu.data());
+  basis_derivatives(kv, sv, v, order, nv.data());
   static constexpr std::array<std::array<int, 2>, 6> orders = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
-  std::array<Eigen::Vector4d, 6> h;
+  std::array<Eigen::Vector4d, Count> h;
   h.fill(Eigen::Vector4d::Zero());
   for (int r = 0; r <= p; ++r) {
     for (int c = 0; c <= q; ++c) {
@@ -34,21 +36,34 @@ Jet jet_at(const Surface& surface, double u, double v) {
       const double weight = surface.rational() ? surface.weights()[static_cast<std::size_t>(index)] : 1;
       Eigen::Vector4d point;
       point << weight * surface.control_points().row(index).transpose(), weight;
-      for (std::size_t k = 0; k < 6; ++k) {
+      for (std::size_t k = 0; k < Count; ++k) {
         h[k] += nu[static_cast<std::size_t>(orders[k][0] * (p + 1) + r)] *
                 nv[static_cast<std::size_t>(orders[k][1] * (q + 1) + c)] * point;
       }
     }
   }
+  return h;
+}
+
+// The samples have shown the denominator to be positive.
+Point point_at(const Surface& surface, double u, double v) {
+  const Eigen::Vector4d h = homogeneous_at<1>(surface, u, v)[0];
+  return surface.rational() ? Point(h.head<3>() / h[3]) : Point(h.head<3>());
+}
+
+Jet jet_at(const Surface& surface, double u, double v) {
+  const auto h = homogeneous_at<6>(surface, u, v);
   Jet jet;
-  if (!surface.rational()) {
-    for (std::size_t k = 0; k < 6; ++k) jet.d[k] = h[k].head<3>();
-    return jet;
-  }
-  static const detail::QuotientRule<2> rule(2);
-  std::vector<Points> cartesian(6, Points::Zero(1, 3));
-  rule.apply(h.front().data(), 4, 0, cartesian);  // the samples have shown the denominator to be positive
-  for (std::size_t k = 0; k < 6; ++k) jet.d[k] = cartesian[k].row(0).transpose();
+  auto& d = jet.d;
+  for (std::size_t k = 0; k < 6; ++k) d[k] = h[k].head<3>();
+  if (!surface.rational()) return jet;
+  const double w = h[0][3], wu = h[1][3], wv = h[2][3];  // the quotient rule: derivatives of w S = A
+  d[0] /= w;
+  d[1] = (d[1] - wu * d[0]) / w;
+  d[2] = (d[2] - wv * d[0]) / w;
+  d[3] = (d[3] - 2 * wu * d[1] - h[3][3] * d[0]) / w;
+  d[4] = (d[4] - wu * d[2] - wv * d[1] - h[4][3] * d[0]) / w;
+  d[5] = (d[5] - 2 * wv * d[2] - h[5][3] * d[0]) / w;
   return jet;
 }
 
@@ -141,7 +156,7 @@ class Ascent {
 
   /// Moves to y if f is larger there.
   bool go(const Eigen::Vector2d& y) {
-    const double there = f_.at(jet_at(surface_, y[0], y[1]).d[0]);
+    const double there = f_.at(point_at(surface_, y[0], y[1]));
     if (!(there > value_)) return false;
     x_ = y;
     value_ = there;
@@ -230,6 +245,8 @@ class SampledSpans {
   [[nodiscard]] SurfaceMaximum maximise(const Function& f) const {
     std::vector<Peak> peaks = peaks_of(f);
     std::ranges::sort(peaks, std::ranges::greater{}, &Peak::value);
+    if (in_hull_ && is_top(f, peaks.front().value))
+      return {peaks.front().value, {peaks.front().at[0], peaks.front().at[1]}};
     // On a plateau every sample is a peak: the best few suffice, since equal values refine to equal values.
     constexpr std::size_t refined = 8;
     std::vector<Eigen::Vector2d> begun;  // a peak on a knot line belongs to both adjacent spans
@@ -245,6 +262,18 @@ class SampledSpans {
   }
 
  private:
+  /// Whether a sample reaches the largest value at a control point, but for rounding: corners of a face do, and all of
+  /// a plane across an axis. Nothing is larger then, and ascents from every sample of a plateau would find so at
+  /// length.
+  template <class Function>
+  [[nodiscard]] bool is_top(const Function& f, double value) const {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    const Points& net = surface_.control_points();
+    double bound = -std::numeric_limits<double>::infinity();
+    for (Eigen::Index k = 0; k < net.rows(); ++k) bound = std::max(bound, f.at(Point(net.row(k).transpose())));
+    return value >= bound - rounding * std::abs(bound);
+  }
+
   const Surface& surface_;
   Samples u_, v_;
   bool in_hull_;
