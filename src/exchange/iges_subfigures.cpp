@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -13,6 +14,7 @@ namespace knead::iges {
 namespace {
 
 constexpr std::size_t most_items = 10'000'000;  // of all definitions together
+constexpr double most_shear = 1e-9;             // of a matrix of rotation, as far as files print one
 
 class Subfigures {
  public:
@@ -85,7 +87,7 @@ class Subfigures {
   /// The record of an instance; 0: it cannot be placed.
   int mapped(int instance, const std::map<int, int>& maps) {
     const auto parameters = file_.parameters(instance);
-    if (!parameters || file_.find(instance)->transform != 0 || parameters->values.size() < 2) return 0;
+    if (!parameters || parameters->values.size() < 2) return 0;
     const auto map = maps.find(integer(parameters->values[1]).value_or(0));
     if (map == maps.end()) return 0;
     Point place = Point::Zero();
@@ -97,8 +99,19 @@ class Subfigures {
       if (k == 5 && !parameters->values[k].empty()) scale = *value;
     }
     if (!(scale > 0)) return 0;
-    const int target = records_.add(fmt::format("CARTESIAN_TRANSFORMATION_OPERATOR_3D('',$,$,#{},{},$)",
-                                                records_.point(place), format_real(scale)));
+    // The instance's matrix moves what its place and scale have moved. STEP has no operator that shears.
+    const auto matrix = transform_of(file_, instance);
+    if (!matrix) return 0;
+    const Eigen::Matrix3d turn = matrix->linear();
+    const double length = std::cbrt(std::abs(turn.determinant()));
+    const Eigen::Matrix3d off = turn.transpose() * turn - length * length * Eigen::Matrix3d::Identity();
+    if (!(off.norm() <= most_shear * length * length)) return 0;
+    std::array<std::string, 3> axes = {"$", "$", "$"};
+    for (Eigen::Index k = 0; k < 3 && !turn.isIdentity(0); ++k)
+      axes[static_cast<std::size_t>(k)] = fmt::format("#{}", records_.direction(turn.col(k)));
+    const int origin = records_.point(*matrix * place);
+    const int target = records_.add(fmt::format("CARTESIAN_TRANSFORMATION_OPERATOR_3D('',{},{},#{},{},{})", axes[0],
+                                                axes[1], origin, format_real(scale * length), axes[2]));
     return records_.add(fmt::format("MAPPED_ITEM('',#{},#{})", map->second, target));
   }
 

@@ -148,6 +148,30 @@ TEST(IgesEntities, SubfiguresStandWhereTheirInstancesPutThem) {
   EXPECT_EQ(rest->places.size(), 1U) << "what is in no subfigure stands once, at its coordinates";
 }
 
+TEST(IgesEntities, TheMatrixOfAnInstanceMovesWhatItsPlaceAndScaleHaveMoved) {
+  IgesBuilder b;
+  const int turned = b.add(124, "0.,-1.,0.,10.,1.,0.,0.,20.,0.,0.,1.,30."),
+            mirrored = b.add(124, "-1.,0.,0.,0.,0.,1.,0.,0.,0.,0.,1.,0.", 0, 1),
+            sheared = b.add(124, "1.,0.5,0.,0.,0.,1.,0.,0.,0.,0.,1.,0.");
+  const int surface = b.add(128, testing::plate());
+  const int definition = b.add(308, fmt::format("0,4HPart,1,{}", surface));
+  b.add(408, fmt::format("{},100.,0.,0.,2.", definition), turned);
+  b.add(408, fmt::format("{},100.,0.,0.,1.", definition), mirrored);
+  b.add(408, fmt::format("{},0.,0.,0.,1.", definition), sheared);
+  const auto source = open_or_die(b.text(), "a.igs");
+  const auto model = step::assembly_of(*source->step_file());
+  ASSERT_TRUE(model) << model.error().message();
+  const step::Part* part = model->part_of(fmt::format("#{}", surface));
+  ASSERT_NE(part, nullptr);
+  ASSERT_EQ(part->places.size(), 2U) << "the sheared one cannot be told in the words of STEP";
+  // (1, 3, 0) is scaled and moved to (102, 6, 0) and (101, 3, 0) first.
+  for (const Point& wanted : {Point(10 - 6, 20 + 102, 30), Point(-101, 3, 0)}) {
+    EXPECT_TRUE(std::ranges::any_of(part->places, [&](const step::PartPlace& place) {
+      return (place.to_model * Point(1, 3, 0) - wanted).norm() < 1e-12;
+    })) << wanted.transpose();
+  }
+}
+
 TEST(IgesEntities, WhatIsNotReadIsCountedAndKept) {
   IgesBuilder b;
   const int surface = b.add(128, testing::plate());
