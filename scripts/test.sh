@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds everything in a preset and runs all its tests; in the release also those of the studio. Says what took how long.
+# Builds everything in a preset and runs all its tests; in the release also those of the studio, under sanitizers also the
+# fuzz targets. Says what took how long.
 #   scripts/test.sh release | asan
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -37,5 +38,6 @@ if [ "$preset" = release ]; then
   timed "studio: in node" studio_tests test
   timed "studio: in Chromium" studio_tests e2e
 fi
+if [ "$preset" = asan ]; then timed "fuzz targets" scripts/fuzz.sh; fi
 echo "test: all passed"
 printf '%s' "$report"
