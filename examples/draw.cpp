@@ -12,7 +12,7 @@ namespace knead::examples {
 namespace {
 
 constexpr double width = 640;
-constexpr int facets_per_span = 4;
+constexpr Colour clay = {236, 168, 92}, glass_colour = {200, 205, 215};
 
 const Point right = Point(0.8, 0.6, 0).normalized();
 const Point back = Point(-0.6, 0.8, 0).normalized();
@@ -23,22 +23,27 @@ struct Facet {
   std::array<Point, 4> corners;
   std::array<bool, 4> outlined;  // the side from corner k to the next
   bool glass;
+  Colour colour;
 };
 
 /// Facets of a grid of points, row by row; lines are drawn where `line` says so.
-template <class Line>
-void add_grid(const Points& points, int rows, int columns, bool glass, const Line& line, std::vector<Facet>& facets) {
+template <class Line, class ColourOf>
+void add_grid(const Points& points, int rows, int columns, bool glass, const Line& line, const ColourOf& colour,
+              std::vector<Facet>& facets) {
   for (int i = 0; i + 1 < rows; ++i) {
     for (int j = 0; j + 1 < columns; ++j) {
       const auto at = [&](int a, int b) { return Point(points.row(a * columns + b)); };
       facets.push_back({{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)},
                         {line(1, j), line(0, i + 1), line(1, j + 1), line(0, i)},
-                        glass});
+                        glass,
+                        colour(i, j)});
     }
   }
 }
 
-Expected<void> add_surface(const Surface& surface, std::vector<Facet>& facets) {
+Expected<void> add_surface(const Surface& surface, std::size_t number, const DrawStyle& style,
+                           std::vector<Facet>& facets) {
+  const int facets_per_span = style.facets_per_span;
   std::array<std::vector<double>, 2> parameters;
   for (std::size_t d = 0; d < 2; ++d) {
     const KnotVector& knots = surface.knots()[d];
@@ -53,7 +58,12 @@ Expected<void> add_surface(const Surface& surface, std::vector<Facet>& facets) {
   if (!grid) return std::unexpected(grid.error());
   add_grid(
       grid->points(), static_cast<int>(parameters[0].size()), static_cast<int>(parameters[1].size()), false,
-      [](int, int k) { return k % facets_per_span == 0; }, facets);
+      [&](int, int k) { return k % facets_per_span == 0; },
+      [&](std::size_t i, std::size_t j) {
+        const auto middle = [&](std::size_t d, std::size_t k) { return (parameters[d][k] + parameters[d][k + 1]) / 2; };
+        return style.colour ? style.colour(number, {middle(0, i), middle(1, j)}) : clay;
+      },
+      facets);
   return {};
 }
 
@@ -93,15 +103,16 @@ void add_tool(const Tool& tool, std::vector<Facet>& facets) {
     }
   }
   add_grid(
-      points, count, columns + 1, true, [](int d, int k) { return k % (d == 0 ? 3 : 4) == 0; }, facets);
+      points, count, columns + 1, true, [](int d, int k) { return k % (d == 0 ? 3 : 4) == 0; },
+      [](int, int) { return glass_colour; }, facets);
 }
 
 }  // namespace
 
-Expected<std::string> draw(std::span<const Surface> surfaces, std::span<const Tool> tools) {
+Expected<std::string> draw(std::span<const Surface> surfaces, std::span<const Tool> tools, const DrawStyle& style) {
   std::vector<Facet> facets;
-  for (const Surface& surface : surfaces) {
-    if (auto done = add_surface(surface, facets); !done) return std::unexpected(done.error());
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    if (auto done = add_surface(surfaces[k], k, style, facets); !done) return std::unexpected(done.error());
   }
   for (const Tool& tool : tools) add_tool(tool, facets);
   const auto depth = [](const Facet& f) {
@@ -126,7 +137,7 @@ Expected<std::string> draw(std::span<const Surface> surfaces, std::span<const To
   for (const Facet& f : facets) {
     const Point normal = (f.corners[2] - f.corners[0]).cross(f.corners[3] - f.corners[1]);
     const double shade = normal.norm() > 0 ? 0.45 + 0.55 * std::abs(normal.normalized().dot(light)) : 1;
-    const auto [r, g, b] = f.glass ? std::array{200.0, 205.0, 215.0} : std::array{236.0, 168.0, 92.0};
+    const auto [r, g, b] = f.colour;
     const std::string fill = fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(r * shade),
                                          static_cast<int>(g * shade), static_cast<int>(b * shade));
     std::string points;

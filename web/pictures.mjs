@@ -105,5 +105,13 @@ await picture('analysis-stress');
 await theme('dark');
 await drawGallery(page, here('../docs/pictures/gallery'));
 
+// What `make examples` draws of the analysis scripts.
+for (const [drawn, name] of [['drape_in_folds', 'analysis-drape-in-folds'], ['drape_linear', 'analysis-drape-linear'],
+  ['free_plate', 'analysis-plate'], ['buckling_can', 'analysis-can']]) {
+  await page.setViewportSize({ width: 700, height: 500 });
+  await page.goto(`file://${here(`../out/examples/${drawn}.svg`)}`);
+  await page.locator('svg').screenshot({ path: here(`../docs/pictures/${name}.png`) });
+}
+
 await browser.close();
 await server.close();
