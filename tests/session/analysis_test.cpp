@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -76,6 +77,37 @@ TEST(AnalysisScript, RolledCantilever) {
   EXPECT_NEAR(end[0], radius * std::sin(turn), 1e-5 * length);
   EXPECT_NEAR(end[2], radius * (std::cos(turn) - 1), 1e-5 * length);
   EXPECT_LT((end - Point(0, end[1], 0)).norm(), 1e-3 * length);  // closed
+}
+
+/// How much longer the hem is than before.
+double hem_stretch(const Session& session) {
+  const auto length = [](const Surface& s) {
+    double sum = 0;
+    for (int k = 0; k < 400; ++k) sum += (at(s, (k + 1) / 400.0, 0) - at(s, k / 400.0, 0)).norm();
+    return sum;
+  };
+  return length(*first(session).current) / length(*first(session).opened) - 1;
+}
+
+TEST(AnalysisScript, ADrapeHangsInFoldsAndTheLinearOneIsStretched) {
+  const Session linear = session_after("drape_linear");
+  EXPECT_GT(hem_stretch(linear), 0.02);
+  if (std::getenv("KNEAD_LONG") == nullptr) GTEST_SKIP() << "the drape itself takes 12 s: KNEAD_LONG";
+  const Session folded = session_after("drape_in_folds");
+  EXPECT_LT(std::abs(hem_stretch(folded)), 2e-3);
+  // The hem of the linear one stays above its place; that in folds is drawn in, and corners hang lowest.
+  const Surface& cloth = *first(folded).current;
+  EXPECT_GT(at(cloth, 0.5, 0)[1], at(*first(folded).opened, 0.5, 0)[1] + 10);
+  EXPECT_LT(at(cloth, 0, 0)[2], at(cloth, 0.5, 0)[2]);
+}
+
+TEST(AnalysisScript, TheModesOfAFreePlateAreThoseOfTheTable) {
+  const Session plate = session_after("free_plate");
+  // ω a² √(ρt/D) = 13.468 of the first mode that bends (docs/shell.md), in cycles per second.
+  const double bending = 210000 / (12 * (1 - 0.09)), lowest = 13.468 / (100 * 100) * std::sqrt(bending / 7.85e-9);
+  const auto& modes = plate.state().modes;
+  ASSERT_EQ(modes.size(), 10U);
+  EXPECT_NEAR(modes[6].value, lowest / (2 * std::numbers::pi), 2e-4 * lowest);
 }
 
 }  // namespace
