@@ -94,7 +94,10 @@ Expected<double> Executor::diagonal() {
   if (state.body) return diagonal_of(*body());
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
-  return bounding_box(*(*surface)->reference).diagonal();
+  const double length = bounding_box(*(*surface)->reference).diagonal();
+  if (length > 0) return length;
+  return numerical_error("all of the surface is one point", (*surface)->id,
+                         "select another surface, or give lengths and positions that are not relative");
 }
 
 Expected<void> Executor::keep(const Constraint& constraint) {

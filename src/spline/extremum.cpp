@@ -8,64 +8,10 @@
 #include <vector>
 
 #include "knead/spline/evaluate.hpp"
+#include "surface_jet.hpp"
 
 namespace knead {
 namespace {
-
-/// S and its derivatives to order 2 (00, 10, 01, 20, 11, 02) at one point, without traversing the whole net.
-struct Jet {
-  std::array<Point, 6> d;
-};
-
-/// The first `Count` of these derivatives of (w S, w).
-template <std::size_t Count>
-std::array<Eigen::Vector4d, Count> homogeneous_at(const Surface& surface, double u, double v) {
-  constexpr int order = Count == 1 ? 0 : 2;
-  const KnotVector& ku = surface.knots(0);
-  const KnotVector& kv = surface.knots(1);
-  const int p = ku.degree(), q = kv.degree(), n = kv.count(), su = ku.find_span(u), sv = kv.find_span(v);
-  std::array<double, static_cast<std::size_t>(order + 1) * (max_degree + 1)> nu, nv;
-  basis_derivatives(ku, su, u, order, nu.data());
-  basis_derivatives(kv, sv, v, order, nv.data());
-  static constexpr std::array<std::array<int, 2>, 6> orders = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
-  std::array<Eigen::Vector4d, Count> h;
-  h.fill(Eigen::Vector4d::Zero());
-  for (int r = 0; r <= p; ++r) {
-    for (int c = 0; c <= q; ++c) {
-      const int index = (su - p + r) * n + sv - q + c;
-      const double weight = surface.rational() ? surface.weights()[static_cast<std::size_t>(index)] : 1;
-      Eigen::Vector4d point;
-      point << weight * surface.control_points().row(index).transpose(), weight;
-      for (std::size_t k = 0; k < Count; ++k) {
-        h[k] += nu[static_cast<std::size_t>(orders[k][0] * (p + 1) + r)] *
-                nv[static_cast<std::size_t>(orders[k][1] * (q + 1) + c)] * point;
-      }
-    }
-  }
-  return h;
-}
-
-// The samples have shown the denominator to be positive.
-Point point_at(const Surface& surface, double u, double v) {
-  const Eigen::Vector4d h = homogeneous_at<1>(surface, u, v)[0];
-  return surface.rational() ? Point(h.head<3>() / h[3]) : Point(h.head<3>());
-}
-
-Jet jet_at(const Surface& surface, double u, double v) {
-  const auto h = homogeneous_at<6>(surface, u, v);
-  Jet jet;
-  auto& d = jet.d;
-  for (std::size_t k = 0; k < 6; ++k) d[k] = h[k].head<3>();
-  if (!surface.rational()) return jet;
-  const double w = h[0][3], wu = h[1][3], wv = h[2][3];  // the quotient rule: derivatives of w S = A
-  d[0] /= w;
-  d[1] = (d[1] - wu * d[0]) / w;
-  d[2] = (d[2] - wv * d[0]) / w;
-  d[3] = (d[3] - 2 * wu * d[1] - h[3][3] * d[0]) / w;
-  d[4] = (d[4] - wu * d[2] - wv * d[1] - h[4][3] * d[0]) / w;
-  d[5] = (d[5] - 2 * wv * d[2] - h[5][3] * d[0]) / w;
-  return jet;
-}
 
 /// A smooth function of the surface point with gradient and Hessian in (u, v).
 struct Value {
@@ -77,7 +23,7 @@ struct Value {
 /// The functions to maximise: f = S·S, or ± one coordinate.
 struct SquaredNorm {
   [[nodiscard]] double at(const Point& s) const { return s.squaredNorm(); }
-  [[nodiscard]] Value at(const Jet& j) const {
+  [[nodiscard]] Value at(const SurfaceJet& j) const {
     Value r;
     r.value = j.d[0].squaredNorm();
     r.gradient = 2 * Eigen::Vector2d(j.d[0].dot(j.d[1]), j.d[0].dot(j.d[2]));
@@ -92,7 +38,7 @@ struct Coordinate {
   int axis;
   double sign;
   [[nodiscard]] double at(const Point& s) const { return sign * s[axis]; }
-  [[nodiscard]] Value at(const Jet& j) const {
+  [[nodiscard]] Value at(const SurfaceJet& j) const {
     Value r;
     r.value = sign * j.d[0][axis];
     r.gradient = sign * Eigen::Vector2d(j.d[1][axis], j.d[2][axis]);
@@ -156,7 +102,7 @@ class Ascent {
 
   /// Moves to y if f is larger there.
   bool go(const Eigen::Vector2d& y) {
-    const double there = f_.at(point_at(surface_, y[0], y[1]));
+    const double there = f_.at(surface_point(surface_, y[0], y[1]));
     if (!(there > value_)) return false;
     x_ = y;
     value_ = there;
@@ -166,7 +112,7 @@ class Ascent {
   /// Newton's iteration, each direction on its own where f is not concave; true if it reaches a smooth maximum.
   bool climb() {
     for (int iteration = 0; iteration < 20; ++iteration) {
-      const Value here = f_.at(jet_at(surface_, x_[0], x_[1]));
+      const Value here = f_.at(surface_jet(surface_, x_[0], x_[1]));
       const Eigen::Vector2d g = here.gradient;
       // Directions that lead out of the domain are fixed.
       bool held[2];

@@ -191,9 +191,14 @@ TEST(Session, EveryRealSurfaceCanBeSculptedOrSaysWhyNot) {
     // The first surface of every file whose net is not huge.
     for (const DocumentSurface& s : session.document().surfaces()) {
       if (s.surface->size() > 600) continue;
-      run(session, {R"({"do":"select","surface":")" + s.id + R"("})",
-                    R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})",
-                    R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
+      run(session, {R"({"do":"select","surface":")" + s.id + R"("})"});
+      const auto tool =
+          session.execute(*parse_command(R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})"));
+      if (!tool) {  // some are one point
+        EXPECT_EQ(tool.error().kind, ErrorKind::numerical) << entry.path() << " " << s.id << tool.error().message();
+        continue;
+      }
+      run(session, {R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
       const auto done = session.execute(make_command(StepCommand{1, 1, StepWeight::mass}));
       if (!done) {
         EXPECT_EQ(done.error().kind, ErrorKind::numerical) << entry.path() << " " << s.id << done.error().message();

@@ -86,7 +86,7 @@ TEST(ShellBrush, MovesAShellAndItsRestShapeAsItMovesTheLinearModel) {
   Session shell = held_sheet({sheet_metal}), linear = held_sheet({});
   run(shell, brushes);
   run(linear, brushes);
-  EXPECT_GT(moved(shell, 0, 1, 0, 1), 4);
+  EXPECT_GT(moved(shell, 0, 1, 0, 1), 3);
   EXPECT_TRUE(same_bits(*first(shell).current, *first(linear).current));
   EXPECT_TRUE(same_bits(*first(shell).rest, *first(linear).rest));
 }
