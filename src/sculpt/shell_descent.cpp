@@ -16,8 +16,8 @@ constexpr int max_parabolas = 30;
 constexpr double near_balance = 1e-3;       // of the forces that meet: parabolas lead so far, or further in one step
 constexpr double kept_parabola = 0.5;       // of the imbalance: what one parabola may leave, if it is to lead further
 constexpr double parabola_accuracy = 1e-4;  // of the displacement towards its minimum
-constexpr double sufficient_decrease = 1e-4;
-constexpr double rounding_of_potential = 1e-13;
+constexpr double armijo_share = 1e-4;
+constexpr double rounding_of_phi = 1e-13;
 constexpr double negligible_step = 1e-13;     // in lengths of the model: rounding is all that is left
 constexpr double halved_imbalance = 0.5;      // a full step that lowers the imbalance so far is taken, whatever Φ does
 constexpr double exact_imbalance = 1e-9;      // less asks for no iteration
@@ -92,12 +92,12 @@ bool ShellDescent::factor_at(const Place& place, const ShellStructure::Stress& s
 
 /// Moves along d as far as lowers Φ enough, or all the way where that lowers the imbalance by much. False: not at all.
 bool ShellDescent::advance(Place& place, const Points& d, double slope) const {
-  const double rounding = rounding_of_potential * std::max(std::abs(place.phi), std::abs(slope));
+  const double rounding = rounding_of_phi * std::max(std::abs(place.phi), std::abs(slope));
   double t = 1;
   for (int k = 0; k < max_halvings; ++k) {
     Place next = at(place.y + t * d);
     const bool finite = std::isfinite(next.phi) && next.imbalance.allFinite();
-    if (finite && (next.phi <= place.phi - sufficient_decrease * t * slope + rounding ||
+    if (finite && (next.phi <= place.phi - armijo_share * t * slope + rounding ||
                    (k == 0 && next.imbalance.norm() <= halved_imbalance * place.imbalance.norm()))) {
       place = std::move(next);
       return true;
