@@ -16,14 +16,9 @@ namespace {
 
 using detail::form_vectors;
 using detail::FormDerivatives;
+using detail::FormElement;
 using detail::FormPoint;
 using detail::FormRest;
-
-/// The basis on one element: the derivatives of L functions at its Gauss points, side by side.
-struct FormElement {
-  std::vector<int> nodes;
-  Eigen::MatrixXd derivative;
-};
 
 template <int D>
 Expected<void> check_weights(const Spline<D>& rest, const FormWeights& weights) {

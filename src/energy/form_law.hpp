@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <vector>
 
 #include "knead/energy/form_energy.hpp"
 
@@ -115,6 +116,12 @@ struct FormPoint {
     m << 0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0;
     return m;
   }
+};
+
+/// The basis on one element: the derivatives of L functions at its Gauss points, side by side.
+struct FormElement {
+  std::vector<int> nodes;
+  Eigen::MatrixXd derivative;
 };
 
 }  // namespace knead::detail
