@@ -19,7 +19,7 @@ using testing::same_state;
 
 const char* const sheet_metal = R"({"do":"material","model":"shell","young":2e5,"poisson":0.3,"thickness":2})";
 
-Session held_sheet(const std::vector<std::string>& more) {
+Session sheet_between_sides(const std::vector<std::string>& more) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[100,100],"net":[16,16]})", R"({"do":"edge","which":"u0"})",
                 R"({"do":"edge","which":"u1"})", R"({"do":"edge","which":"v0"})", R"({"do":"edge","which":"v1"})"});
@@ -32,7 +32,7 @@ const std::vector<std::string> groove = {
     R"({"do":"stroke","tool":"ball","path":[[35,50,11],[65,50,11]],"plastic":"along"})"};
 
 TEST(ShellStroke, LeavesAGrooveAsDeepAsTheToolWent) {
-  Session session = held_sheet({sheet_metal, R"({"do":"material","plasticity":1,"locality":1})"});
+  Session session = sheet_between_sides({sheet_metal, R"({"do":"material","plasticity":1,"locality":1})"});
   const SessionState before = session.state();
   run(session, groove);
   const SceneSurface& s = first(session);
@@ -50,7 +50,7 @@ TEST(ShellStroke, LeavesAGrooveAsDeepAsTheToolWent) {
 }
 
 TEST(ShellStroke, InPartsIsThatInOneGo) {
-  Session one = held_sheet({sheet_metal}), parts = held_sheet({sheet_metal});
+  Session one = sheet_between_sides({sheet_metal}), parts = sheet_between_sides({sheet_metal});
   run(one, groove);
   run(parts, {groove[0], R"({"do":"stroke","tool":"ball","path":[[35,50,11]],"open":true})",
               R"({"do":"stroke","tool":"ball","path":[[65,50,11]],"open":true})",
@@ -59,20 +59,20 @@ TEST(ShellStroke, InPartsIsThatInOneGo) {
 }
 
 TEST(ShellStroke, ThatSpringsBackLeavesNothing) {
-  Session session = held_sheet({sheet_metal, R"({"do":"material","plasticity":0})"});
+  Session session = sheet_between_sides({sheet_metal, R"({"do":"material","plasticity":0})"});
   run(session, groove);
   EXPECT_EQ(moved(session, 0, 1, 0, 1), 0);
 }
 
 TEST(ShellStroke, OfTheFundamentalFormsLeavesItsGrooveToo) {
-  Session session = held_sheet(
+  Session session = sheet_between_sides(
       {R"({"do":"material","model":"fundamental","w1":1,"w2":1})", R"({"do":"material","plasticity":1,"locality":1})"});
   run(session, groove);
   EXPECT_NEAR(-at(*first(session).current, 0.5, 0.5)[2], 4, 0.4);
 }
 
 TEST(ShellStroke, ReleasedAtTheEndLeavesWhatTheToolPressedLast) {
-  Session session = held_sheet({sheet_metal, R"({"do":"evolve","mode":"static"})"});
+  Session session = sheet_between_sides({sheet_metal, R"({"do":"evolve","mode":"static"})"});
   run(session, {groove[0],
                 R"({"do":"stroke","tool":"ball","path":[[50,50,13],[50,50,11]],"plastic":"release","plasticity":1})"});
   EXPECT_NEAR(-at(*first(session).current, 0.5, 0.5)[2], 4, 0.4);
@@ -83,7 +83,7 @@ TEST(ShellBrush, MovesAShellAndItsRestShapeAsItMovesTheLinearModel) {
   const std::vector<std::string> brushes = {
       R"({"do":"brush","kind":"push","path":[[0.4,0.5],[0.6,0.5]],"radius":20,"height":5})",
       R"({"do":"brush","kind":"grab","path":[[0.5,0.5]],"radius":20,"by":[3,0,4]})"};
-  Session shell = held_sheet({sheet_metal}), linear = held_sheet({});
+  Session shell = sheet_between_sides({sheet_metal}), linear = sheet_between_sides({});
   run(shell, brushes);
   run(linear, brushes);
   EXPECT_GT(moved(shell, 0, 1, 0, 1), 3);
