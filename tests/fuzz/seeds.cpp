@@ -108,7 +108,7 @@ void sessions(Corpus& corpus) {
     // Without its name and checksum, behind its version.
     const std::string snapshot = after(commands).snapshot();
     const std::size_t name = snapshot.find('\n');
-    corpus.add("snapshot", std::string(1, static_cast<char>(std::string_view("123456789A").find(snapshot[name - 1]))) +
+    corpus.add("snapshot", std::string(1, static_cast<char>(std::string_view("123456789a").find(snapshot[name - 1]))) +
                                snapshot.substr(name + 9));
     if (const auto saved = after(commands).save()) {
       for (const auto& more : edits) corpus.add("document", *saved + "\n%%\n" + script(more));

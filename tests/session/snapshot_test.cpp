@@ -210,7 +210,7 @@ TEST(Snapshot, RefusesBytesThatAreNotItsOwn) {
   Session session = on_sheet(rich);
   const std::string good = session.snapshot();
   EXPECT_FALSE(Session::restore(session.document(), ""));
-  EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot A\n"));
+  EXPECT_FALSE(Session::restore(session.document(), "Knead snapshot a\n"));
   for (std::size_t size = 0; size < good.size(); size += 997) {
     EXPECT_FALSE(Session::restore(session.document(), std::string_view(good).substr(0, size))) << size;
   }
