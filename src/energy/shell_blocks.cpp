@@ -7,7 +7,7 @@
 namespace knead::detail {
 namespace {
 
-const ShellKernels& fastest_kernels() {
+const ShellKernels& fastest_shell_kernels() {
   const bool wide = avx2_shell_kernels != nullptr && best_instruction_set() >= InstructionSet::avx2;
   return wide ? *avx2_shell_kernels : *vector128_shell_kernels;
 }
@@ -22,7 +22,7 @@ ShellBlocks::ShellBlocks(const Surface& surface, const std::array<BasisQuadratur
     : shape_{{quadrature[0].basis.degree + 1, quadrature[1].basis.degree + 1},
              {points[0], points[1]},
              surface.rational()},
-      kernels_(&fastest_kernels()),
+      kernels_(&fastest_shell_kernels()),
       spans_(quadrature[1].basis.size() / points[1]) {
   for (const ShellElement& element : elements) nodes_.insert(nodes_.end(), element.nodes.begin(), element.nodes.end());
   const auto total = static_cast<int>(elements.size());
@@ -178,9 +178,9 @@ ShellParts ShellBlocks::forces(const Points& x, Eigen::Ref<Points>* gradient, Sh
 namespace {
 
 /// Adds blocks of 3 × 3 to a matrix, both a block and its mirror image.
-class BlockSum {
+class ShellBlockSum {
  public:
-  BlockSum(const TensorPattern<2>& pattern, const SparseMatrix& scalar, SparseMatrix& matrix)
+  ShellBlockSum(const TensorPattern<2>& pattern, const SparseMatrix& scalar, SparseMatrix& matrix)
       : pattern_(pattern), start_(scalar.outerIndexPtr()), value_(matrix.valuePtr()) {}
 
   void add(int a, int b, const std::array<double, 9>& block) {
@@ -209,7 +209,7 @@ void ShellBlocks::add_hessian(const Points& x, const ShellStress& stress, const 
   const std::ptrdiff_t p = shape_.functions[0], q = shape_.functions[1];
   std::vector<double> here(lanewise(3 * shape_.local())), work(static_cast<std::size_t>(shape_.work())),
       resultants(lanewise(6 * shape_.gauss())), blocks(lanewise(9 * p * p * shape_.pairs()));
-  BlockSum sum(pattern, scalar, matrix);
+  ShellBlockSum sum(pattern, scalar, matrix);
   for (const Block& block : blocks_) {
     gather(block, x, here);
     for (std::size_t l = 0; l < lanes; ++l) {

@@ -9,12 +9,12 @@
 namespace knead {
 namespace {
 
-using Row = std::vector<std::pair<int, double>>;  // of T: unknown, coefficient
+using MapRow = std::vector<std::pair<int, double>>;  // of T: unknown, coefficient
 
-std::vector<Row> rows_of(const ConstraintSpace& space) {
+std::vector<MapRow> map_rows(const ConstraintSpace& space) {
   std::vector<int> all(static_cast<std::size_t>(space.size()));
   std::iota(all.begin(), all.end(), 0);
-  std::vector<Row> rows(3 * all.size());
+  std::vector<MapRow> rows(3 * all.size());
   for (const ConstraintSpace::Term& term : space.terms(all)) {
     rows[static_cast<std::size_t>(term.row)].emplace_back(term.unknown, term.coefficient);
   }
@@ -23,7 +23,7 @@ std::vector<Row> rows_of(const ConstraintSpace& space) {
 
 /// Calls visit(entry of A, unknown, unknown, coefficient) for all that the entries of A add to Tᵀ A T.
 template <class Visit>
-void each_piece(const SparseMatrix& a, const std::vector<Row>& rows, Visit visit) {
+void each_restricted(const SparseMatrix& a, const std::vector<MapRow>& rows, Visit visit) {
   int entry = 0;
   for (Eigen::Index j = 0; j < a.outerSize(); ++j) {
     for (SparseMatrix::InnerIterator it(a, j); it; ++it, ++entry) {
@@ -35,10 +35,10 @@ void each_piece(const SparseMatrix& a, const std::vector<Row>& rows, Visit visit
 }
 
 /// Ones where Tᵀ A T has entries.
-SparseMatrix pattern_of(const SparseMatrix& a, const std::vector<Row>& rows, int size) {
+SparseMatrix restricted_pattern(const SparseMatrix& a, const std::vector<MapRow>& rows, int size) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(a.nonZeros()));
-  each_piece(a, rows, [&](int, int p, int q, double) { entries.emplace_back(p, q, 1.0); });
+  each_restricted(a, rows, [&](int, int p, int q, double) { entries.emplace_back(p, q, 1.0); });
   SparseMatrix pattern(size, size);
   pattern.setFromTriplets(entries.begin(), entries.end());
   return pattern;
@@ -48,10 +48,10 @@ SparseMatrix pattern_of(const SparseMatrix& a, const std::vector<Row>& rows, int
 
 CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const SparseMatrix& pattern) {
   assert(space.coupled() && pattern.isCompressed() && pattern.rows() == 3 * space.size());
-  const std::vector<Row> rows = rows_of(space);
+  const std::vector<MapRow> rows = map_rows(space);
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
   {
-    const SparseMatrix whole = pattern_of(pattern, rows, space.free_count());
+    const SparseMatrix whole = restricted_pattern(pattern, rows, space.free_count());
     Eigen::AMDOrdering<int>()(whole, inverse);
     order_ = inverse.inverse().eval().indices();
     zero_.resize(whole.rows(), whole.cols());
@@ -64,7 +64,7 @@ CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const
   }
   std::fill_n(zero_.valuePtr(), zero_.nonZeros(), 0.0);
   const int *start = zero_.outerIndexPtr(), *index = zero_.innerIndexPtr();
-  each_piece(pattern, rows, [&](int from, int p, int q, double coefficient) {
+  each_restricted(pattern, rows, [&](int from, int p, int q, double coefficient) {
     const int row = order_[p], column = order_[q];
     if (row < column) return;  // its mirror image is visited too
     const int to = static_cast<int>(std::lower_bound(index + start[column], index + start[column + 1], row) - index);
