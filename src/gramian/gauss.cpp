@@ -32,8 +32,9 @@ GaussPoints gauss_points(int degree) {
 }
 
 void gauss_gramians(const KnotVector& knots, InstructionSet instructions, GramianSet& set) {
+  constexpr int highest_kernel = 7;
   const int p = knots.degree();
-  if (p > highest_gauss_kernel || !within_kernel_range(knots)) {
+  if (p > highest_kernel || !within_kernel_range(knots)) {
     const auto term = [&](int a, int b) { return gauss_gramian(knots, a, b, p + 1); };
     set = {term(0, 0), term(1, 1), term(2, 2), term(1, 0)};
     return;

@@ -4,13 +4,6 @@
 
 namespace knead::detail {
 
-/// Of the kernels by Gauss points.
-#ifdef __wasm__
-inline constexpr int highest_gauss_kernel = 4;
-#else
-inline constexpr int highest_gauss_kernel = 7;
-#endif
-
 /// The highest degree of the kernels: above it the recurrence loses more digits in 22 than Gauss points do, and its
 /// intermediate sums leave the first-level cache.
 inline constexpr int max_kernel_degree = 15;
