@@ -150,10 +150,13 @@ void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int fi
   sizes[D] = 1;
   for (std::size_t d = D; d-- > 0;) sizes[d] = sizes[d + 1] * static_cast<std::size_t>(quadrature_[d].basis.degree + 1);
   std::array<bool, D + 1> asked{};  // in row d
-  std::size_t points = 1;
-  for (std::size_t d = D; d-- > 1;) {
-    points *= static_cast<std::size_t>(element.end[d] - element.begin[d]);
-    asked[d] = in_hull_ && points > 2 * sizes[d];
+  if constexpr (!std::same_as<Skip, KeepAll>) {
+    std::size_t points = 1;
+    for (std::size_t d = D; d-- > 1;) {
+      points *= static_cast<std::size_t>(element.end[d] - element.begin[d]);
+      asked[d] = in_hull_ && points > 2 * sizes[d];
+    }
+    if (std::ranges::find(asked, true) == asked.end()) return for_each_point(element, x, first, workspace, f);
   }
   auto& level = workspace;  // level[d]: directions d … D−1 are still control points
   for (std::size_t d = 0; d <= D; ++d) level[d].resize(sizes[d]);
