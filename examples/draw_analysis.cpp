@@ -1,7 +1,7 @@
 // Runs scripts as `knead sculpt` does and draws what shells make of their loads:
-//   example_draw_analysis shape|stress|modes SCRIPT.json OUT.svg [FILE.step]
-// `shape`: the surfaces as they are; `stress`: coloured by von Mises stress, with a legend; `modes`: the first four
-// shapes of the last `modes` or `buckling`, rigid ones left out, beside each other.
+//   example_draw_analysis stress|modes SCRIPT.json OUT.svg [FILE.step]
+// `stress`: coloured by von Mises stress, with a legend; `modes`: the first four shapes of the last `modes` or
+// `buckling`, rigid ones left out, beside each other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,8 +12,7 @@
 #include "draw.hpp"
 #include "knead/energy/shell_results.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
+#include "run_script.hpp"
 
 namespace {
 
@@ -33,22 +32,6 @@ examples::Colour rising(double t) {
   examples::Colour mixed{};
   for (std::size_t c = 0; c < 3; ++c) mixed[c] = std::lerp(at[k][c], at[k + 1][c], x - static_cast<double>(k));
   return mixed;
-}
-
-Expected<Session> run(const std::string& script, const std::string& file) {
-  const auto text = read_file(script);
-  if (!text) return std::unexpected(text.error());
-  const auto commands = parse_script(*text, script);
-  if (!commands) return std::unexpected(commands.error());
-  auto document = file.empty() ? Document::fresh("sheet") : Document::open(file);
-  if (!document) return std::unexpected(document.error());
-  Session session(std::move(*document));
-  for (std::size_t k = 0; k < commands->size(); ++k) {
-    if (auto done = session.execute((*commands)[k]); !done) {
-      return std::unexpected(done.error().within(fmt::format("commands[{}]", k)));
-    }
-  }
-  return session;
 }
 
 double von_mises(const SceneSurface& s, const std::array<double, 2>& u) {
@@ -127,14 +110,10 @@ Expected<std::string> modes_picture(const SessionState& state) {
 
 Expected<void> picture(const std::string& what, const std::string& script, const std::string& out,
                        const std::string& file) {
-  const auto session = run(script, file);
+  const auto session = examples::run_script(script, file);
   if (!session) return std::unexpected(session.error());
   const SessionState& state = session->state();
-  std::vector<Surface> surfaces;
-  for (const SceneSurface& s : state.surfaces) surfaces.push_back(*s.current);
-  const auto svg = what == "stress"  ? stress_picture(state)
-                   : what == "modes" ? modes_picture(state)
-                                     : examples::draw(surfaces, state.tools);
+  const auto svg = what == "stress" ? stress_picture(state) : modes_picture(state);
   if (!svg) return std::unexpected(svg.error());
   return write_file_atomically(out, *svg);
 }
@@ -143,8 +122,8 @@ Expected<void> picture(const std::string& what, const std::string& script, const
 
 int main(int argc, char** argv) try {
   const std::string what = argc > 1 ? argv[1] : "";
-  if ((argc != 4 && argc != 5) || (what != "shape" && what != "stress" && what != "modes")) {
-    std::fputs("usage: example_draw_analysis shape|stress|modes SCRIPT.json OUT.svg [FILE.step]\n", stderr);
+  if ((argc != 4 && argc != 5) || (what != "stress" && what != "modes")) {
+    std::fputs("usage: example_draw_analysis stress|modes SCRIPT.json OUT.svg [FILE.step]\n", stderr);
     return 2;
   }
   const auto done = picture(what, argv[2], argv[3], argc == 5 ? argv[4] : "");

@@ -7,29 +7,18 @@
 
 #include "draw.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/session/command_json.hpp"
-#include "knead/session/session.hpp"
+#include "run_script.hpp"
 
 namespace {
 
 using namespace knead;
 
 Expected<void> run(const std::string& script, const std::string& out, const std::string& file) {
-  const auto text = read_file(script);
-  if (!text) return std::unexpected(text.error());
-  const auto commands = parse_script(*text, script);
-  if (!commands) return std::unexpected(commands.error());
-  auto document = file.empty() ? Document::fresh("sheet") : Document::open(file);
-  if (!document) return std::unexpected(document.error());
-  Session session(std::move(*document));
-  for (std::size_t k = 0; k < commands->size(); ++k) {
-    if (auto done = session.execute((*commands)[k]); !done) {
-      return std::unexpected(done.error().within(fmt::format("commands[{}]", k)));
-    }
-  }
+  const auto session = examples::run_script(script, file);
+  if (!session) return std::unexpected(session.error());
   std::vector<Surface> surfaces;
-  for (const SceneSurface& s : session.state().surfaces) surfaces.push_back(*s.current);
-  const auto svg = examples::draw(surfaces, session.state().tools);
+  for (const SceneSurface& s : session->state().surfaces) surfaces.push_back(*s.current);
+  const auto svg = examples::draw(surfaces, session->state().tools);
   if (!svg) return std::unexpected(svg.error());
   return write_file_atomically(out, *svg);
 }

@@ -14,12 +14,14 @@ for script in examples/figures/*.json; do
   build/release/examples/example_draw_script "$script" "out/examples/$name.svg" ${file:+"$file"}
   echo "wrote out/examples/$name.svg"
 done
+for name in drape_in_folds drape_linear; do
+  build/release/examples/example_draw_script "examples/analysis/$name.json" "out/examples/$name.svg"
+  echo "wrote out/examples/$name.svg"
+done
 draw_analysis() {  # draw_analysis WHAT NAME [FILE]
   build/release/examples/example_draw_analysis "$1" "examples/analysis/$2.json" "out/examples/$2.svg" ${3:+"$3"}
   echo "wrote out/examples/$2.svg"
 }
-draw_analysis shape drape_in_folds
-draw_analysis shape drape_linear
 draw_analysis stress loaded_bonnet samples/bonnet.step
 draw_analysis modes free_plate
 draw_analysis modes buckling_can
