@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "knead/scene/body_model.hpp"
 #include "knead/sculpt/loads.hpp"
 #include "knead/solve/form_statics.hpp"
+#include "shell_model.hpp"
 
 namespace knead {
 namespace {
@@ -29,23 +28,6 @@ Expected<void> check_forms(const Scene& scene, const SceneBody& body, const Evol
   return {};
 }
 
-/// `solved` with the bits of `present` in coordinates that a condition holds at the present place, to rounding.
-Points with_held(Points solved, const Points& present, const Points& rest,
-                 std::span<const LinearConstraint> conditions) {
-  constexpr double rounding = 1e-15;
-  for (const LinearConstraint& c : conditions) {
-    if (c.terms.size() != 1) continue;
-    const Eigen::Index row = c.terms.front().first;
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      if (c.normal && (*c.normal)[k] == 0) continue;
-      const double was = present(row, k);
-      double& x = solved(row, k);
-      if (std::abs(x - was) <= rounding * (std::abs(x) + std::abs(rest(row, k)))) x = was;
-    }
-  }
-  return solved;
-}
-
 template <int D>
 Expected<ActiveStep> settle(const Scene& scene, const SceneBody& body, const BodyShapes<D>& shapes,
                             const ActiveLoads& loads, const EvolutionPolicy& evolution,
@@ -65,7 +47,7 @@ Expected<ActiveStep> settle(const Scene& scene, const SceneBody& body, const Bod
   auto found = form_equilibrium<D>(*energy, rest, present, *conditions, forces);
   if (!found) return std::unexpected(found.error());
   ActiveStep step;
-  step.control_points = with_held(std::move(found->control_points), present, rest, *conditions);
+  step.control_points = with_held_bits(std::move(found->control_points), present, rest, *conditions);
   const ShellParts parts = energy->energy(step.control_points);
   step.stretch = parts.membrane;
   step.bend = parts.bending;

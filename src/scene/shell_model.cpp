@@ -220,16 +220,17 @@ Expected<ActiveShellLoads> shell_loads(const Scene& scene, const ShellProblem& p
   return loads;
 }
 
-Points with_held_bits(const ShellProblem& problem, Points solved) {
+Points with_held_bits(Points solved, const Points& present, const Points& rest,
+                      std::span<const LinearConstraint> conditions) {
   constexpr double rounding = 1e-15;
-  for (const LinearConstraint& c : problem.constraints) {
+  for (const LinearConstraint& c : conditions) {
     if (c.terms.size() != 1) continue;
     const Eigen::Index row = c.terms.front().first;
     for (Eigen::Index k = 0; k < 3; ++k) {
       if (c.normal && (*c.normal)[k] == 0) continue;
       double& x = solved(row, k);
-      const double was = problem.present(row, k);
-      if (std::abs(x - was) <= rounding * (std::abs(x) + std::abs(problem.rest(row, k)))) x = was;
+      const double was = present(row, k);
+      if (std::abs(x - was) <= rounding * (std::abs(x) + std::abs(rest(row, k)))) x = was;
     }
   }
   return solved;

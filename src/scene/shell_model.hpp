@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "joined_surfaces.hpp"
 #include "knead/energy/edge_moment.hpp"
 #include "knead/energy/shell_structure.hpp"
@@ -57,7 +59,9 @@ struct ShellModel {
 /// What acts on it but tools: `share` of the load, all of the rest. Errors: those of `active_loads`.
 [[nodiscard]] Expected<ActiveShellLoads> shell_loads(const Scene& scene, const ShellProblem& problem, double share);
 
-/// `solved` with the bits of `present` in coordinates that a condition holds at the present place, to rounding.
-[[nodiscard]] Points with_held_bits(const ShellProblem& problem, Points solved);
+/// `solved` with the bits of `present` in coordinates that a condition on the displacement from `rest` holds at the
+/// present place, to rounding.
+[[nodiscard]] Points with_held_bits(Points solved, const Points& present, const Points& rest,
+                                    std::span<const LinearConstraint> conditions);
 
 }  // namespace knead

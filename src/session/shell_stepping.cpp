@@ -33,7 +33,8 @@ Expected<ActiveStep> Executor::load_shell(const ShellProblem& problem) {
                                  {.increments = increments.value_or(1)}, problem.moments);
   if (!found) return std::unexpected(found.error());
   ActiveStep step;
-  step.control_points = with_held_bits(problem, std::move(found->control_points));
+  step.control_points =
+      with_held_bits(std::move(found->control_points), problem.present, problem.rest, problem.constraints);
   const ShellParts energy = problem.structure.energy(step.control_points);
   step.stretch = energy.membrane;
   step.bend = energy.bending;
@@ -81,7 +82,8 @@ Expected<ActiveStep> Executor::press_shell(const ShellProblem& problem, const Ev
     from.control_points = taken->control_points;
     step = std::move(*taken);
   }
-  step.control_points = with_held_bits(problem, std::move(step.control_points));
+  step.control_points =
+      with_held_bits(std::move(step.control_points), problem.present, problem.rest, problem.constraints);
   if (evolution.mode == Evolution::stationary) {
     step.load_factor = 1;
     step.increments = std::move(iterations);
