@@ -163,30 +163,46 @@ struct FormEnergy<D>::Data {
   template <class Take>
   [[nodiscard]] SparseMatrix assemble(const Points& x, Take take) const {
     std::vector<Eigen::Triplet<double>> entries;
-    const Eigen::Index local = static_cast<Eigen::Index>(elements.front().nodes.size());
-    Eigen::MatrixXd block(3 * local, 3 * local);
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3 * vectors, 3 * local);
+    std::vector<Tangent> tangents;
     each_point(x, [&](const FormElement& element, Eigen::Index k, const FormRest<D>& at, const auto& derivatives) {
-      if (k == 0) block.setZero();
-      for (int v = 0; v < vectors; ++v) {
-        for (Eigen::Index c = 0; c < 3; ++c) {
-          rows.row(3 * v + c).segment(c * local, local) = element.derivative.col(vectors * k + v).transpose();
-        }
-      }
-      const FormPoint<D> point(derivatives, at, weights);
-      block.noalias() += rows.transpose() * (at.weight * take(point) * rows);
+      tangents.push_back(at.weight * take(FormPoint<D>(derivatives, at, weights)));
       if (k + 1 < element.derivative.cols() / vectors) return;
-      for (Eigen::Index i = 0; i < 3 * local; ++i) {
-        for (Eigen::Index j = 0; j < 3 * local; ++j) {
-          entries.emplace_back(3 * element.nodes[static_cast<std::size_t>(i % local)] + static_cast<int>(i / local),
-                               3 * element.nodes[static_cast<std::size_t>(j % local)] + static_cast<int>(j / local),
-                               (block(i, j) + block(j, i)) / 2);
-        }
-      }
+      append(element, tangents, entries);
+      tangents.clear();
     });
     SparseMatrix matrix(3 * size, 3 * size);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
+  }
+
+ private:
+  using Tangent = Eigen::Matrix<double, 3 * vectors, 3 * vectors>;
+
+  /// Σ_g Bᵀ T B of one element, B its derivatives at Gauss point g: a product of matrices per pair of coordinates.
+  static void append(const FormElement& element, const std::vector<Tangent>& tangents,
+                     std::vector<Eigen::Triplet<double>>& to) {
+    const auto& b = element.derivative;
+    Eigen::MatrixXd weighted(b.cols(), b.rows()), block(b.rows(), b.rows());
+    for (int c = 0; c < 3; ++c) {
+      for (int e = c; e < 3; ++e) {
+        for (std::size_t g = 0; g < tangents.size(); ++g) {
+          const auto at = vectors * static_cast<Eigen::Index>(g);
+          const Eigen::Matrix<double, vectors, vectors> of_pair =
+              tangents[g](Eigen::seqN(c, vectors, 3), Eigen::seqN(e, vectors, 3));
+          weighted.template middleRows<vectors>(at) = of_pair * b.template middleCols<vectors>(at).transpose();
+        }
+        block.noalias() = b * weighted;
+        for (Eigen::Index i = 0; i < b.rows(); ++i) {
+          for (Eigen::Index j = 0; j < b.rows(); ++j) {
+            const int row = 3 * element.nodes[static_cast<std::size_t>(i)] + c;
+            const int column = 3 * element.nodes[static_cast<std::size_t>(j)] + e;
+            const double value = c == e ? (block(i, j) + block(j, i)) / 2 : block(i, j);
+            to.emplace_back(row, column, value);
+            if (c != e) to.emplace_back(column, row, value);
+          }
+        }
+      }
+    }
   }
 };
 
@@ -247,6 +263,11 @@ SparseMatrix FormEnergy<D>::hessian(const Points& x) const {
 template <int D>
 SparseMatrix FormEnergy<D>::material_hessian(const Points& x) const {
   return data_->assemble(x, [](const FormPoint<D>& point) { return point.material; });
+}
+
+template <int D>
+SparseMatrix FormEnergy<D>::tense_hessian(const Points& x) const {
+  return data_->assemble(x, [](const FormPoint<D>& point) { return point.tense(); });
 }
 
 template <int D>

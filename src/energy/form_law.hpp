@@ -49,8 +49,10 @@ struct FormPoint {
   Eigen::Matrix<double, unknowns, 1> gradient = Eigen::Matrix<double, unknowns, 1>::Zero();
   Eigen::Matrix<double, unknowns, unknowns> hessian = Eigen::Matrix<double, unknowns, unknowns>::Zero();
   Eigen::Matrix<double, unknowns, unknowns> material = hessian;  // the part of products of first derivatives
+  Eigen::Matrix<double, D, D> stress;                            // 4 w e
 
-  FormPoint(const FormDerivatives<D>& a, const FormRest<D>& rest, const FormWeights& weights) {
+  FormPoint(const FormDerivatives<D>& a, const FormRest<D>& rest, const FormWeights& weights)
+      : stress(4 * weights.w1 * strain(a, rest)) {
     add_metric(a, rest, weights.w1);
     if constexpr (D == 1) {
       if (weights.w2 > 0) add_curvature(a, rest.curvature, weights.w2);
@@ -58,11 +60,29 @@ struct FormPoint {
     hessian += material;
   }
 
+  /// `material` and the geometric part of positive principal stresses.
+  [[nodiscard]] Eigen::Matrix<double, unknowns, unknowns> tense() const {
+    Eigen::Matrix<double, unknowns, unknowns> sum = material;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> principal(stress);
+    const auto& axes = principal.eigenvectors();
+    const Eigen::Matrix<double, D, D> tension =
+        axes * principal.eigenvalues().cwiseMax(0).asDiagonal() * axes.transpose();
+    for (int i = 0; i < D; ++i) {
+      for (int k = 0; k < D; ++k) sum.template block<3, 3>(3 * i, 3 * k).diagonal().array() += tension(i, k);
+    }
+    return sum;
+  }
+
  private:
+  [[nodiscard]] static Eigen::Matrix<double, D, D> strain(const FormDerivatives<D>& a, const FormRest<D>& rest) {
+    const auto tangents = a.template leftCols<D>();
+    return tangents.transpose() * tangents - rest.metric;
+  }
+
   /// w Σ e_ij², e_ij = S_i·S_j − S⁰_i·S⁰_j.
   void add_metric(const FormDerivatives<D>& a, const FormRest<D>& rest, double w) {
     const auto tangents = a.template leftCols<D>();
-    const Eigen::Matrix<double, D, D> e = tangents.transpose() * tangents - rest.metric;
+    const Eigen::Matrix<double, D, D> e = strain(a, rest);
     const Eigen::Matrix3d sum = tangents * tangents.transpose();
     metric = w * e.squaredNorm();
     for (int i = 0; i < D; ++i) {
@@ -71,7 +91,7 @@ struct FormPoint {
         auto part = material.template block<3, 3>(3 * i, 3 * k);
         part = 4 * w * tangents.col(k) * tangents.col(i).transpose();
         if (i == k) part += 4 * w * sum;
-        hessian.template block<3, 3>(3 * i, 3 * k).diagonal().array() += 4 * w * e(i, k);
+        hessian.template block<3, 3>(3 * i, 3 * k).diagonal().array() += stress(i, k);
       }
     }
   }

@@ -32,6 +32,10 @@ void append_held(const JoinedSurfaces& joined, const Points& displacement, std::
 Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& shell) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   const Point vector(scene.load.vector.data()), gravity(scene.load.gravity.data());
+  if (gravity != Point::Zero() && shell.mass_per_area() == 0) {
+    return input_error("a shell without density has no weight", "gravity",
+                       s.shell ? "give its material a density" : "use vector");
+  }
   Points load = shell.weight(gravity);
   const bool by_area = scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area;
   if (by_area) {
@@ -189,10 +193,12 @@ Expected<ShellModel> make_shell_model(const Scene& scene, const ShellProblem& pr
   const ActiveSettings<2>& joined = problem.joined.settings;
   const SceneSurface& first = scene.surfaces[static_cast<std::size_t>(problem.surfaces.front())];
   const auto *mass = std::get_if<double>(&first.material.mass), *damping = std::get_if<double>(&first.material.damping);
+  const bool forms = std::ranges::none_of(problem.input.shells, [](const auto& shell) { return shell.has_value(); });
   ActiveShellSettings settings{.evolution = evolution.mode,
                                .lambda = evolution.lambda,
                                .time_step = evolution.time_step,
                                .damping = mass != nullptr && damping != nullptr && *mass > 0 ? *damping / *mass : 0,
+                               .mass = forms && mass != nullptr ? *mass : 0,
                                .held = joined.held,
                                .constraints = joined.constraints,
                                .visible = joined.visible,

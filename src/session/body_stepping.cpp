@@ -24,7 +24,12 @@ Expected<void> take_body(SceneBody& body, BodyShapes<D>& shapes, const ActiveSte
 
 SceneBody* Executor::body() { return state.body ? &state.bodies[static_cast<std::size_t>(*state.body)] : nullptr; }
 
-/// A static step of a body that keeps its fundamental forms.
+/// Whether what the tools have done becomes the rest shape.
+bool Executor::imprints(const ActiveStep& step) const {
+  return step.gap > 0 && std::ranges::any_of(state.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
+}
+
+/// A step of a body that keeps its fundamental forms.
 template <int D>
 Expected<void> Executor::settle_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution) {
   SceneBody& b = *body();
@@ -39,7 +44,7 @@ Expected<void> Executor::settle_body(BodyShapes<D>& shapes, const EvolutionPolic
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!step) return std::unexpected(step.error());
   if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
-  if (auto done = take_body(b, shapes, *step, false); !done) return done;
+  if (auto done = take_body(b, shapes, *step, imprints(*step)); !done) return done;
   record_body(*step, seconds, notes);
   return {};
 }
@@ -77,9 +82,7 @@ Expected<void> Executor::step_body(BodyShapes<D>& shapes, const EvolutionPolicy&
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!step) return std::unexpected(step.error());
   if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
-  const bool imprinting =
-      step->gap > 0 && std::ranges::any_of(state.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
-  if (auto done = take_body(b, shapes, *step, imprinting); !done) return done;
+  if (auto done = take_body(b, shapes, *step, imprints(*step)); !done) return done;
   record_body(*step, seconds, notes);
   return {};
 }

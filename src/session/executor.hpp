@@ -162,6 +162,7 @@ struct Executor {
   Expected<void> step_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution);
   template <int D>
   Expected<void> settle_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution);
+  [[nodiscard]] bool imprints(const ActiveStep& step) const;
   void record_body(const ActiveStep& step, double seconds, const std::vector<std::string>& notes);
   Expected<void> know_what_holds();
   Expected<void> prepare_model(const EvolutionPolicy& evolution);

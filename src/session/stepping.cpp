@@ -155,8 +155,7 @@ Expected<ActiveStep> Executor::one_step(const std::vector<PointForce>& more, dou
 
 Expected<void> Executor::take(const ActiveStep& step) {
   Eigen::Index first = 0;
-  const bool imprinting =
-      step.gap > 0 && std::ranges::any_of(state.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
+  const bool imprinting = imprints(step);
   for (int index : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
     const Eigen::Index n = s.current->size();

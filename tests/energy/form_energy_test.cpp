@@ -133,10 +133,17 @@ void check_all(const Spline<D>& rest) {
                      material = energy->material_hessian(rest.control_points());
   EXPECT_LT((at_rest - material).norm(), 1e-11 * material.norm());
   for (const Points* place : {&rest.control_points(), &x}) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(Eigen::MatrixXd(energy->material_hessian(*place)),
-                                                                  Eigen::EigenvaluesOnly);
-    EXPECT_GT(spectrum.eigenvalues()[0], -1e-12 * spectrum.eigenvalues().maxCoeff());
+    for (const SparseMatrix& part : {energy->material_hessian(*place), energy->tense_hessian(*place)}) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(Eigen::MatrixXd(part), Eigen::EigenvaluesOnly);
+      EXPECT_GT(spectrum.eigenvalues()[0], -1e-12 * spectrum.eigenvalues().maxCoeff());
+    }
   }
+
+  // Stretched in all directions, nothing is left out of the metric's.
+  const FormEnergy<D> metric = *FormEnergy<D>::create(rest, {1.3, 0}, points);
+  const SparseMatrix stretched = metric.hessian(1.5 * rest.control_points());
+  EXPECT_LT((stretched - metric.tense_hessian(1.5 * rest.control_points())).norm(), 1e-13 * stretched.norm());
+  EXPECT_GT((stretched - metric.material_hessian(1.5 * rest.control_points())).norm(), 1e-2 * stretched.norm());
 
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Points moved = (rest.control_points() * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2);

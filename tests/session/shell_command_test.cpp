@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -126,6 +127,36 @@ TEST(ShellCommand, GravityIsDensityTimesThickness) {
       {R"({"do":"material","density":2})", R"({"do":"load","gravity":[0,0,-5e-6]})", R"({"do":"step"})"});
   const Session load = bent_cantilever({R"({"do":"load","vector":[0,0,-1e-6]})", R"({"do":"step"})"});
   EXPECT_NEAR(tip_displacement(weight)[2], tip_displacement(load)[2], 1e-12);
+}
+
+TEST(ShellCommand, WithoutMassThereIsNoWeight) {
+  Session session = bent_cantilever({});
+  run(session, {R"({"do":"load","gravity":[0,0,-1]})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "gravity");
+  run(session, {R"({"do":"material","model":"fundamental"})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "gravity");
+}
+
+TEST(ShellCommand, FormsSwingWithoutGainingEnergy) {
+  Session session = fresh();
+  run(session, {R"({"do":"new","size":[10,1],"net":[19,4]})", R"({"do":"edge","which":"u0","hold":"clamped"})",
+                R"({"do":"material","model":"fundamental","w1":1,"w2":10,"mass":1,"damping":0})",
+                R"({"do":"evolve","mode":"static"})",
+                R"({"do":"force","name":"pull","kind":"line","edge":"u1","vector":[0,0,0.5]})", R"({"do":"step"})",
+                R"({"do":"remove","tool":"pull"})", R"({"do":"evolve","mode":"dynamic","time_step":1})"});
+  const double at_first = *session.energy();
+  double before = at_first, fastest = 0;
+  for (int k = 0; k < 60; ++k) {
+    run(session, {R"({"do":"step"})"});
+    const StepRecord& step = session.state().steps.back();
+    EXPECT_TRUE(step.converged) << step.note;
+    EXPECT_LE(step.energy + step.kinetic, before * (1 + 1e-9));
+    before = step.energy + step.kinetic;
+    fastest = std::max(fastest, step.kinetic);
+  }
+  EXPECT_GT(fastest, 0.3 * at_first);
+  run(session, {R"({"do":"material","mass":0})"});
+  EXPECT_EQ(refusal(session, R"({"do":"step"})").where, "density");
 }
 
 TEST(ShellCommand, BendsFarAsInTheLiterature) {

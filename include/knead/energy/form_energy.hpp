@@ -46,6 +46,8 @@ class FormEnergy {
   [[nodiscard]] SparseMatrix hessian(const Points& x) const;
   /// Its positive semidefinite part of first derivatives of the forms (Gauss and Newton's).
   [[nodiscard]] SparseMatrix material_hessian(const Points& x) const;
+  /// The same and what tension adds, the positive principal strains of the metric: positive semidefinite.
+  [[nodiscard]] SparseMatrix tense_hessian(const Points& x) const;
 
   [[nodiscard]] int size() const;
   /// ∫ w1 Σ (S⁰_i·S⁰_j)²: the energy of a stretch of one, the scale that rounding is judged by.

@@ -42,10 +42,9 @@ using AnyBodyModel = std::variant<BodyModel<1>, BodyModel<3>>;
 template <int D>
 [[nodiscard]] Expected<BodyModel<D>> make_body_model(BodyInput<D> input);
 
-/// The body of this index, which keeps its fundamental forms, at the nearest minimum of their energy less the work of
-/// the forces that keep their direction, in units of the file. Notes are appended. Errors (input): a step that is not
-/// static, tools or loads that such a body does not have, constraints that contradict each other; those of
-/// `FormEnergy::create` and `form_equilibrium`.
+/// A step of the body of this index, which keeps its fundamental forms, under tools and loads, its mass and damping
+/// those of the linear model. Notes are appended. Errors (input): loads that such a body does not have, constraints
+/// that contradict each other; those of `FormEnergy::create` and `ActiveForm`.
 [[nodiscard]] Expected<ActiveStep> settle_forms(const Scene& scene, int index, const EvolutionPolicy& evolution,
                                                 std::vector<std::string>& notes);
 

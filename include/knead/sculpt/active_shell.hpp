@@ -10,12 +10,14 @@
 
 namespace knead {
 
-/// How an `ActiveShell` moves, and what holds it.
+/// How an `ActiveShell` or `ActiveForm` moves, and what holds it.
 struct ActiveShellSettings {
   Evolution evolution = Evolution::acm;
-  double lambda = 1;                               ///< acm: inverse step size, of a membrane of stiffness 1
-  double time_step = 0.02;                         ///< dynamic
-  double damping = 0.5;                            ///< dynamic: force per momentum, 1/time
+  double lambda = 1;        ///< acm: inverse step size, of a membrane of stiffness 1
+  double time_step = 0.02;  ///< dynamic
+  double damping = 0.5;     ///< dynamic: force per momentum, 1/time
+  /// dynamic: as in `ActiveSettings`, of shapes without density; 0: that of shells.
+  double mass = 0;
   std::vector<bool> held = {};                     ///< control points that do not move, one flag each; empty: none
   std::vector<LinearConstraint> constraints = {};  ///< on the displacements from the rest shape, file units
   std::vector<std::shared_ptr<const VisibleRegion>> visible = {};  ///< as in `ActiveSettings`

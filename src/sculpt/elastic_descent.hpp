@@ -3,41 +3,14 @@
 #include <optional>
 
 #include "contact_newton.hpp"
-#include "knead/energy/shell_structure.hpp"
+#include "elastic_energy.hpp"
 #include "solve/coordinate_restriction.hpp"
 
 namespace knead {
 
-/// The energy of a structure in normalised units: positions (x − centre)/length, energies divided by `energy`.
-struct ScaledStructure {
-  const ShellStructure& structure;
-  Point centre;
-  double length = 1, energy = 1;
-
-  [[nodiscard]] Points unscaled(const Points& x) const { return (length * x).rowwise() + centre.transpose(); }
-  [[nodiscard]] double value(const Points& x) const { return structure.energy(unscaled(x)).sum() / energy; }
-  /// The same, and its gradient.
-  [[nodiscard]] double value(const Points& x, Points& gradient) const {
-    const double sum = structure.energy(unscaled(x), gradient).sum();
-    gradient *= length / energy;
-    return sum / energy;
-  }
-  [[nodiscard]] Points gradient(const Points& x) const { return length / energy * structure.gradient(unscaled(x)); }
-  [[nodiscard]] SparseMatrix hessian(const Points& x, const ShellStructure::Stress& stress) const {
-    SparseMatrix result = structure.hessian(unscaled(x), stress);
-    result *= length * length / energy;
-    return result;
-  }
-  [[nodiscard]] ShellStructure::Stress stress(const Points& x) const { return structure.stress(unscaled(x)); }
-  /// With the strains linearised about x.
-  [[nodiscard]] ShellStructure::Stress stress(const Points& x, const Points& d) const {
-    return structure.stress(unscaled(x), length * d);
-  }
-};
-
 /// Φ(Y) = W(start + θ Y)/θ − b·Y + ½ Yᵀ Q Y + Ψ(start + Y) over all Y = Y₀ + T z.
-struct ShellStepProblem {
-  const ScaledStructure& structure;
+struct ElasticStepProblem {
+  const ElasticEnergy& energy;
   const ConstraintSpace& space;  ///< of coordinates, T
   const CoordinateRestriction& restriction;
   Points start;
@@ -49,9 +22,9 @@ struct ShellStepProblem {
 };
 
 /// Minimises Φ from one minimum to the next, as the potential changes.
-class ShellDescent {
+class ElasticDescent {
  public:
-  ShellDescent(const ShellStepProblem& problem, Potential& potential);
+  ElasticDescent(const ElasticStepProblem& problem, Potential& potential);
 
   /// From y, which becomes the minimum; returns Ψ there: by `approach` to 1e-3 of the forces that meet, and from where
   /// that ends by Newton's method with a line search.
@@ -82,16 +55,17 @@ class ShellDescent {
   [[nodiscard]] bool balanced(const Place& place, bool moved, double tolerance, ContactSummary& summary);
 
   [[nodiscard]] Place at(Points y) const;
-  /// θ ∇²W + Q, with these stresses in the geometric part of W's.
-  [[nodiscard]] SparseMatrix elastic(const Points& x, const ShellStructure::Stress& stress) const;
+  /// θ H + Q, of H one of W's Hessians.
+  [[nodiscard]] SparseMatrix elastic(SparseMatrix hessian) const;
   /// The same and ∇²Ψ.
-  [[nodiscard]] SparseMatrix hessian(const Place& place, const ShellStructure::Stress& stress) const;
+  [[nodiscard]] SparseMatrix with_contact(const Place& place, SparseMatrix hessian) const;
   /// Whether it is positive definite.
   [[nodiscard]] bool factor(const SparseMatrix& system);
-  [[nodiscard]] bool factor_at(const Place& place, const ShellStructure::Stress& stress);
+  /// \param before the position from where the place was reached, or none.
+  [[nodiscard]] bool factor_at(const Place& place, const std::optional<Points>& before);
   [[nodiscard]] bool advance(Place& place, const Points& d, double slope) const;
 
-  const ShellStepProblem& problem_;
+  const ElasticStepProblem& problem_;
   Potential& potential_;
   SparseMatrix inertia_;                        // of all coordinates
   std::optional<ConstrainedCholesky> inverse_;  // of the last matrix that was factored

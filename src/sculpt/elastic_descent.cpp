@@ -1,4 +1,4 @@
-#include "shell_descent.hpp"
+#include "elastic_descent.hpp"
 
 #include <cmath>
 #include <limits>
@@ -19,6 +19,7 @@ constexpr double parabola_accuracy = 1e-4;  // of the displacement towards its m
 constexpr double armijo_share = 1e-4;
 constexpr double rounding_of_phi = 1e-13;
 constexpr double negligible_step = 1e-13;     // in lengths of the model: rounding is all that is left
+constexpr double ran_away = 1e6;              // likewise: no minimum is so far
 constexpr double halved_imbalance = 0.5;      // a full step that lowers the imbalance so far is taken, whatever Φ does
 constexpr double exact_imbalance = 1e-9;      // less asks for no iteration
 constexpr double rounding_of_forces = 1e-14;  // in membrane stiffness times length
@@ -27,21 +28,21 @@ Eigen::Map<const Eigen::VectorXd> flattened(const Points& x) { return {x.data(),
 
 }  // namespace
 
-ShellDescent::ShellDescent(const ShellStepProblem& problem, Potential& potential)
+ElasticDescent::ElasticDescent(const ElasticStepProblem& problem, Potential& potential)
     : problem_(problem), potential_(potential) {
   if (problem.inertia.rows() > 0) inertia_ = on_coordinates(problem.inertia);
 }
 
-Points ShellDescent::inertia_times(const Points& y) const {
+Points ElasticDescent::inertia_times(const Points& y) const {
   return problem_.inertia.rows() > 0 ? Points(problem_.inertia * y) : Points::Zero(y.rows(), 3);
 }
 
-ShellDescent::Place ShellDescent::at(Points y) const {
+ElasticDescent::Place ElasticDescent::at(Points y) const {
   Place place;
   place.contact = potential_.evaluate(problem_.start + y);
   const Points qy = inertia_times(y);
   Points elastic;
-  const double value = problem_.structure.value(position(y), elastic);
+  const double value = problem_.energy.value(position(y), elastic);
   place.phi = value / problem_.theta - dot(problem_.b, y) + 0.5 * dot(y, qy) + place.contact.potential;
   place.pull = problem_.b - qy - elastic;
   place.imbalance = problem_.space.reduce(place.pull + place.contact.force);
@@ -50,22 +51,21 @@ ShellDescent::Place ShellDescent::at(Points y) const {
   return place;
 }
 
-SparseMatrix ShellDescent::elastic(const Points& x, const ShellStructure::Stress& stress) const {
-  SparseMatrix sum = problem_.structure.hessian(x, stress);
-  if (problem_.theta != 1) sum *= problem_.theta;
-  if (inertia_.rows() > 0) sum += inertia_;
-  return sum;
+SparseMatrix ElasticDescent::elastic(SparseMatrix hessian) const {
+  if (problem_.theta != 1) hessian *= problem_.theta;
+  if (inertia_.rows() > 0) hessian += inertia_;
+  return hessian;
 }
 
-SparseMatrix ShellDescent::hessian(const Place& place, const ShellStructure::Stress& stress) const {
-  SparseMatrix sum = elastic(position(place.y), stress);
+SparseMatrix ElasticDescent::with_contact(const Place& place, SparseMatrix hessian) const {
+  SparseMatrix sum = elastic(std::move(hessian));
   std::vector<Eigen::Triplet<double>> entries;
   potential_.append_hessian(place.contact, entries);
   for (const auto& entry : entries) sum.coeffRef(entry.row(), entry.col()) += entry.value();
   return sum;
 }
 
-bool ShellDescent::factor(const SparseMatrix& system) {
+bool ElasticDescent::factor(const SparseMatrix& system) {
   auto factored = ConstrainedCholesky::factor(system, problem_.space, problem_.restriction);
   if (!factored) return false;
   inverse_.emplace(std::move(*factored));
@@ -75,11 +75,11 @@ bool ShellDescent::factor(const SparseMatrix& system) {
 
 /// The Hessian, without its geometric part where that makes it indefinite, and with some more of a multiple of the
 /// identity where a mechanism is left.
-bool ShellDescent::factor_at(const Place& place, const ShellStructure::Stress& stress) {
-  if (factor(hessian(place, stress))) return true;
-  ShellStructure::Stress none = stress;
-  for (ShellStress& s : none) s.setZero();
-  SparseMatrix system = hessian(place, none);
+bool ElasticDescent::factor_at(const Place& place, const std::optional<Points>& before) {
+  const Points x = position(place.y);
+  const ElasticEnergy& energy = problem_.energy;
+  if (factor(with_contact(place, before ? energy.hessian(x, *before) : energy.hessian(x)))) return true;
+  SparseMatrix system = with_contact(place, energy.material_hessian(x));
   if (factor(system)) return true;
   const Eigen::VectorXd diagonal = system.diagonal();
   const double largest = diagonal.cwiseAbs().maxCoeff();
@@ -91,7 +91,7 @@ bool ShellDescent::factor_at(const Place& place, const ShellStructure::Stress& s
 }
 
 /// Moves along d as far as lowers Φ enough, or all the way where that lowers the imbalance by much. False: not at all.
-bool ShellDescent::advance(Place& place, const Points& d, double slope) const {
+bool ElasticDescent::advance(Place& place, const Points& d, double slope) const {
   const double rounding = rounding_of_phi * std::max(std::abs(place.phi), std::abs(slope));
   double t = 1;
   for (int k = 0; k < max_halvings; ++k) {
@@ -110,7 +110,7 @@ bool ShellDescent::advance(Place& place, const Points& d, double slope) const {
   return false;
 }
 
-bool ShellDescent::balanced(const Place& place, bool moved, double tolerance, ContactSummary& summary) {
+bool ElasticDescent::balanced(const Place& place, bool moved, double tolerance, ContactSummary& summary) {
   const double size = place.imbalance.size() > 0 ? place.imbalance.norm() : 0;
   residual_ = size > rounding_of_forces ? size / place.scale : 0;
   summary.finite = summary.finite && std::isfinite(residual_);
@@ -118,15 +118,13 @@ bool ShellDescent::balanced(const Place& place, bool moved, double tolerance, Co
   return summary.converged || !summary.finite;
 }
 
-ShellDescent::Place ShellDescent::approach(Place place, double tolerance, ContactSummary& summary) {
+ElasticDescent::Place ElasticDescent::approach(Place place, double tolerance, ContactSummary& summary) {
   double before = std::numeric_limits<double>::infinity();
   bool fresh = false;
   for (int round = 0; round < max_parabolas; ++round) {
     if (balanced(place, round > 0, tolerance, summary)) return place;
     if (parabola_.rows() == 0 || residual_ > kept_parabola * before) {
-      const Points x = position(place.y);
-      const ScaledStructure& structure = problem_.structure;
-      SparseMatrix a = elastic(x, structure.structure.tension(structure.stress(x)));
+      SparseMatrix a = elastic(problem_.energy.tense_hessian(position(place.y)));
       if (!factor(a)) return place;
       parabola_ = std::move(a);
       fresh = true;
@@ -153,27 +151,27 @@ ShellDescent::Place ShellDescent::approach(Place place, double tolerance, Contac
   return place;
 }
 
-ShellDescent::Place ShellDescent::newton(Place place, ContactSummary& summary) {
-  ShellStructure::Stress stress = problem_.structure.stress(position(place.y));
+ElasticDescent::Place ElasticDescent::newton(Place place, ContactSummary& summary) {
+  std::optional<Points> before;
   for (int iteration = 0;; ++iteration) {
     if (balanced(place, iteration > 0, problem_.tolerance, summary)) break;
-    if (iteration == max_iterations || !factor_at(place, stress)) break;
+    if (iteration == max_iterations || !factor_at(place, before)) break;
     const Points forces = place.pull + place.contact.force, d = inverse_->solve(forces);
     ++summary.iterations;
     ++summary.solves;
-    const Points before = position(place.y), old = place.y;
+    const Points old = place.y;
     if (!d.allFinite() || !advance(place, d, dot(forces, d))) break;
-    const Points moved = place.y - old;
-    if (moved.cwiseAbs().maxCoeff() <= negligible_step) {
+    if ((place.y - old).cwiseAbs().maxCoeff() <= negligible_step) {
       summary.converged = true;
       break;
     }
-    stress = problem_.structure.stress(before, problem_.theta * moved);
+    if (place.y.cwiseAbs().maxCoeff() > ran_away) break;
+    before = position(old);
   }
   return place;
 }
 
-PotentialState ShellDescent::run(Points& y, ContactSummary& summary) {
+PotentialState ElasticDescent::run(Points& y, ContactSummary& summary) {
   Place place = at(y);
   summary.converged = false;
   if (problem_.tolerance >= near_balance || !place.contact.contacts.empty()) {
