@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "knead/base/printable.hpp"
 
@@ -105,12 +106,19 @@ class Parser {
   }
 
   Done flat_curves() {
-    std::vector<BrepCurve> unused;
-    return each("Curve2ds", [&]() -> Done { return keep(read_brep_curve(words_, 2), unused); });
+    return each("Curve2ds", [&]() -> Done { return keep(read_brep_curve(words_, 2), file_.flat_curves); });
   }
 
   Done curves() {
-    return each("Curves", [&]() -> Done { return keep(read_brep_curve(words_, 3), file_.curves); });
+    WordReader head = words_;
+    head.next();
+    file_.curve_count = head.next();
+    return each("Curves", [&]() -> Done {
+      const std::size_t begin = words_.begin();
+      auto done = keep(read_brep_curve(words_, 3), file_.curves);
+      file_.curve_blocks.push_back({begin, words_.place()});
+      return done;
+    });
   }
 
   /// Number of nodes, whether they have parameters, deflection, nodes, parameters.
@@ -166,26 +174,93 @@ class Parser {
   }
 
   Done vertex(BrepShape& shape) {
-    const auto numbers = words_.numbers(4);  // tolerance, point
-    if (!numbers) return std::unexpected(numbers.error());
-    shape.point = Point((*numbers)[1], (*numbers)[2], (*numbers)[3]);
+    std::array<double, 4> numbers = {};  // tolerance, point
+    for (std::size_t k = 0; k < 4; ++k) {
+      const TextRange word = coming();
+      const auto number = words_.number();
+      if (!number) return std::unexpected(number.error());
+      numbers[k] = *number;
+      (k == 0 ? shape.tolerance_word : shape.coordinates[k - 1]) = word;
+    }
+    shape.tolerance = numbers[0];
+    shape.point = Point(numbers[1], numbers[2], numbers[3]);
     while (!words_.done() && !at_flags()) words_.next();  // its places on curves and surfaces
     return {};
   }
 
+  /// The place of the next word.
+  TextRange coming() {
+    const std::size_t begin = words_.begin();
+    return {begin, begin + words_.peek().size()};
+  }
+
   Done edge(BrepShape& shape) {
+    shape.tolerance_word = coming();
     const auto tolerance = words_.number();
     if (!tolerance) return std::unexpected(tolerance.error());
-    if (auto done = skip(2); !done) return done;  // same parameter, same range
-    const auto degenerated = integer(0, 1);
+    shape.tolerance = *tolerance;
+    const auto same_parameter = integer(0, 1), same_range = same_parameter ? integer(0, 1) : same_parameter,
+               degenerated = same_range ? integer(0, 1) : same_range;
     if (!degenerated) return std::unexpected(degenerated.error());
+    shape.same_parameter = *same_parameter != 0;
     shape.degenerated = *degenerated != 0;
-    if (words_.peek() == "1") {  // its curve in space comes first
-      words_.next();
-      if (auto done = geometry(shape, file_.curves.size()); !done) return done;
+    while (!words_.done() && !at_flags()) {  // what represents it, in any order
+      const std::size_t begin = words_.begin();
+      const auto type = integer(0, 7);
+      if (!type) return std::unexpected(type.error());
+      if (*type == 0) continue;
+      constexpr std::size_t words_of_polygons[] = {2, 3, 4};  // polygons, a triangulation, a location
+      Done done;
+      if (*type == 1) {
+        done = edge_curve(shape);
+      } else if (*type <= 3) {
+        done = flat_curve(shape, *type == 3);
+      } else if (*type == 4) {  // continuity across it, two surfaces with their locations
+        done = skip(5);
+      } else {
+        done = skip(words_of_polygons[*type - 5]);
+        shape.polygons.push_back({begin, words_.place()});
+      }
+      if (!done) return done;
     }
-    while (!words_.done() && !at_flags()) words_.next();  // curves in parameters, continuity, polygons
     return {};
+  }
+
+  Done edge_curve(BrepShape& shape) {
+    shape.curve_word = coming();
+    if (auto done = geometry(shape, file_.curves.size()); !done) return done;
+    return range(shape.range);
+  }
+
+  Done range(std::array<double, 2>& result) {
+    const auto ends = words_.numbers(2);
+    if (!ends) return std::unexpected(ends.error());
+    result = {(*ends)[0], (*ends)[1]};
+    return {};
+  }
+
+  /// Curves, of a seam also the continuity across it, surface, its location, range, in version 2 the end points.
+  Done flat_curve(BrepShape& shape, bool seam) {
+    const auto count = static_cast<int>(file_.flat_curves.size());
+    BrepFlatCurve flat;
+    const auto curve = integer(1, count);
+    if (!curve) return std::unexpected(curve.error());
+    flat.curve = *curve;
+    if (seam) {  // the second and the continuity, as "2CN" or "2 CN"
+      const std::string_view word = words_.words(words_.next());
+      const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), flat.other);
+      if (fault != std::errc() || flat.other < 1 || flat.other > count) return fail("there is no such curve");
+      if (auto done = skip(end == word.data() + word.size() ? 1 : 0); !done) return done;
+    }
+    const auto surface = integer(0, static_cast<int>(file_.surfaces.size()));
+    if (!surface) return std::unexpected(surface.error());
+    const auto at = place();
+    if (!at) return std::unexpected(at.error());
+    flat.surface = *surface;
+    flat.place = *at;
+    if (auto done = range(flat.range); !done) return done;
+    shape.flat.push_back(flat);
+    return skip(version_ == 2 ? 4 : 0);
   }
 
   Done geometry(BrepShape& shape, std::size_t count) {

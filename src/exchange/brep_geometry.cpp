@@ -29,13 +29,13 @@ class GeometryReader {
     if (!numbers) return std::unexpected(numbers.error());
     auto flat = bezier ? bezier_knots(*degree) : knots(*count);
     if (!flat) return std::unexpected(flat.error());
-    if (dimension == 2 || *periodic != 0) return std::optional<Curve>();
+    if (*periodic != 0) return std::optional<Curve>();
     Points points(static_cast<Eigen::Index>(n), 3);
     std::vector<double> weights;
     for (std::size_t k = 0; k < n; ++k) {
       const double* p = &(*numbers)[k * width];
-      points.row(static_cast<Eigen::Index>(k)) << p[0], p[1], p[2];
-      if (*rational != 0) weights.push_back(p[3]);
+      points.row(static_cast<Eigen::Index>(k)) << p[0], p[1], dimension == 3 ? p[2] : 0;
+      if (*rational != 0) weights.push_back(p[dimension]);
     }
     auto vector = KnotVector::create(*degree, *std::move(flat));
     if (!vector) return std::optional<Curve>();  // a degree or knots that are not known here

@@ -237,7 +237,11 @@ class ViewBuilder {
 
   int vertex(const Use& use, const Eigen::Affine3d& outer) {
     const Eigen::Affine3d move = outer * use.place;
-    return placed(use.shape, move, [&](bool) { return records_.vertex(move * file_.shapes[use.shape].point); });
+    return placed(use.shape, move, [&](bool) {
+      const int record = records_.vertex(move * file_.shapes[use.shape].point);
+      view_.sources.vertices[record] = {use.shape, move};
+      return record;
+    });
   }
 
   int edge_curve(std::size_t index, const Eigen::Affine3d& move) {
@@ -258,6 +262,7 @@ class ViewBuilder {
       const int put = first ? name_of(index) : records_.add(record);
       if (first) records_.put(put, record);
       ends_[put] = {from, to};
+      if (whole) view_.sources.edges[put] = {index, move * edge.place};
       return put;
     });
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,14 @@ struct BrepView {
       splines;                          ///< of each surface, in the coordinates of the model; none: another form
   std::vector<Eigen::Affine3d> places;  ///< of the surfaces: from the file's coordinates to the model's
   std::vector<UnreadableSurface> unreadable;
+  /// The shape that a record stands for, and where it puts the curve or point.
+  struct Source {
+    std::size_t shape = 0;
+    Eigen::Affine3d move = Eigen::Affine3d::Identity();
+  };
+  struct Sources {
+    std::map<int, Source> edges, vertices;  ///< by their records
+  } sources;
   std::size_t again = 0;  ///< faces that are used a second time, which are left out
 };
 

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <set>
 
+#include "brep_moved.hpp"
 #include "brep_step.hpp"
 #include "format_list.hpp"
 #include "knead/exchange/step_file.hpp"
+#include "moved_edge.hpp"
 
 namespace knead::detail {
 namespace {
@@ -37,7 +40,11 @@ Expected<std::string> print_brep(const Surface& surface) {
 class BrepSource final : public Source {
  public:
   BrepSource(std::string bytes, brep::BrepFile file, const brep::BrepView& view, step::File read)
-      : bytes_(std::move(bytes)), file_(std::move(file)), view_(std::move(read)), unreadable_(view.unreadable) {
+      : bytes_(std::move(bytes)),
+        file_(std::move(file)),
+        view_(std::move(read)),
+        sources_(view.sources),
+        unreadable_(view.unreadable) {
     for (const step::SurfaceEntity& s : view_.surfaces()) {
       std::size_t k = 0;
       std::from_chars(s.id.data() + 1, s.id.data() + s.id.size(), k);
@@ -57,26 +64,39 @@ class BrepSource final : public Source {
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
   const std::vector<UnreadableSurface>& unreadable() const override { return unreadable_; }
   const step::File* step_file() const override { return &view_; }
+  Expected<void> can_move_edge(const std::string& id) const override { return brep::can_move(file_, sources_, id); }
 
   Expected<std::string> save(std::span<const std::shared_ptr<const Surface>> surfaces,
                              std::span<const std::string> followed,
                              std::span<const std::shared_ptr<const Curve>> /*curves*/) const override {
-    if (!followed.empty()) {
-      return input_error("edges of a .brep file cannot follow", followed.front(), "hold them, or set them free");
-    }
     TextChanges changes;
+    std::vector<step::Replacement> changed;
+    std::set<int> changed_surfaces;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       if (surfaces[k] == surfaces_[k].surface) continue;
+      if (!followed.empty()) changed.push_back({surfaces_[k].id, *surfaces[k]});
       const auto& listed = **file_.surfaces[listed_[k]].spline;
       const std::size_t before = changes.size();
       auto done = add_changes(listed, *surfaces_[k].surface, *surfaces[k], print_brep, changes, back_[k]);
       if (!done) return std::unexpected(std::move(done.error()));
       if (changes.size() == before) continue;
+      changed_surfaces.insert(static_cast<int>(listed_[k]) + 1);
       for (const brep::BrepShape& face : file_.shapes) {  // its triangles are those of the surface before
         if (face.kind != brep::Shape::face || static_cast<std::size_t>(face.geometry) != listed_[k] + 1) continue;
         if (face.triangulation.end > face.triangulation.begin) changes.emplace_back(face.triangulation, std::string());
       }
     }
+    const auto moved = step::moved_edges(view_, changed, followed);
+    if (!moved) return std::unexpected(moved.error());
+    auto edges = brep::edge_changes(file_, sources_, *moved);
+    if (!edges) return std::unexpected(edges.error());
+    changes.insert(changes.end(), edges->begin(), edges->end());
+    if (changes.empty()) return bytes_;
+    // Read again: how far apart the curves of the edges are now.
+    const auto written = brep::BrepFile::parse(with_changes(bytes_, changes), name());
+    if (!written) return std::unexpected(written.error());
+    const auto tolerances = brep::tolerance_changes(file_, *written, changed_surfaces, *moved, sources_);
+    changes.insert(changes.end(), tolerances.begin(), tolerances.end());
     return with_changes(bytes_, std::move(changes));
   }
 
@@ -84,6 +104,7 @@ class BrepSource final : public Source {
   std::string bytes_;
   brep::BrepFile file_;
   step::File view_;
+  brep::BrepView::Sources sources_;
   std::vector<UnreadableSurface> unreadable_;
   std::vector<SourceSurface> surfaces_;
   std::vector<std::size_t> listed_;  // surface of the file that each is

@@ -4,6 +4,7 @@
 #include "exchange/support.hpp"
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
+#include "knead/exchange/shared_edge.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
@@ -88,6 +89,94 @@ TEST(Brep, DamagedIsAnErrorOrAFile) {
     const auto source = open_source(damaged, "a.brep");
     EXPECT_TRUE(source || !source.error().what.empty());
   }
+}
+
+/// The square with its corners lifted by 1 and its middle by 0.6, and all of its edges following.
+Expected<std::string> lifted(const Source& source, const std::vector<std::string>& edges) {
+  Points points(9, 3);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j)
+      points.row(3 * i + j) << 10 + 0.5 * static_cast<double>(i), 0.5 * static_cast<double>(j),
+          i == 1 || j == 1 ? 0.2 : 1;
+  }
+  const KnotVector knots = *KnotVector::create(2, {0, 0, 0, 1, 1, 1});
+  return source.save(std::vector{std::make_shared<const Surface>(*Surface::create({knots, knots}, points))}, edges);
+}
+
+TEST(Brep, EdgesFollowTheirFacesWithTheirVertices) {
+  const auto source = open_or_die(square);
+  const std::vector<std::string> edges = {"#6", "#7", "#8", "#9"};
+  for (const std::string& id : edges) EXPECT_TRUE(source->can_move_edge(id));
+  EXPECT_FALSE(source->can_move_edge("#1"));
+  const auto bytes = lifted(*source, edges);
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  const auto again = open_or_die(*bytes);
+  for (const std::string& id : edges) {
+    const auto edge = SharedEdge::create(*again->step_file(), id);
+    ASSERT_TRUE(edge) << edge.error().message();
+    EXPECT_LE(edge->gap(), 1e-6);
+    for (const Point& p : edge->vertex_points()) EXPECT_EQ(p.z(), 1);
+    EXPECT_NEAR(edge->at(0.5 * (edge->samples().front().parameter + edge->samples().back().parameter)).point.z(), 0.6,
+                1e-6);
+  }
+  EXPECT_NE(bytes->find("Curves 4"), std::string::npos) << "they take the places of their old curves";
+  EXPECT_EQ(bytes->find("\n6  1 1 0\n"), std::string::npos) << "the polygon of its old curve";
+  EXPECT_EQ(bytes->substr(0, bytes->find("Curves")), square.substr(0, square.find("Curves")));
+  EXPECT_EQ(bytes->substr(bytes->find("Wi\n"), 30), square.substr(square.find("Wi\n"), 30));
+}
+
+TEST(Brep, ACurveThatAnotherEdgeHasTooStays) {
+  std::string text = square;
+  text.replace(text.find("TShapes 10\n"), 11, "TShapes 11\nEd\n 1e-7 1 1 0\n1  2 0 0 1\n0\n\n0101000\n*\n");
+  const auto bytes = lifted(*open_or_die(text), {"#7", "#8", "#9", "#10"});
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  EXPECT_NE(bytes->find("Curves 5"), std::string::npos);
+  EXPECT_NE(bytes->find("1 1 0 0 0 1 0 \n"), std::string::npos) << "the curve that both had";
+  EXPECT_NE(bytes->find("\n1  5 0 0 1\n"), std::string::npos);
+  const auto edge = SharedEdge::create(*open_or_die(*bytes)->step_file(), "#8");
+  ASSERT_TRUE(edge) << edge.error().message();
+  EXPECT_LE(edge->gap(), 1e-6);
+}
+
+TEST(Brep, AnEdgeInSeveralPlacesDoesNotFollow) {
+  std::string text = square;
+  // The wire has the edge again, elsewhere.
+  text.replace(text.find("+6 0 +4 0 +3 0 +5 0 *"), 21, "+6 0 +4 0 +3 0 +5 0 +6 1 *");
+  const auto can = open_or_die(text)->can_move_edge("#6");
+  ASSERT_FALSE(can);
+  EXPECT_NE(can.error().message().find("several places"), std::string::npos) << can.error().message();
+}
+
+TEST(Brep, WhatRepresentsAnEdgeIsReadInAnyOrder) {
+  std::string text = square;
+  text.replace(text.find("1  1 0 0 1\n2  1 1 0 0 1\n"), 24, "2  1 1 0 0 1\n4 C0 1 0 1 0\n1  1 0 0 1\n");
+  const auto source = open_or_die(text);
+  EXPECT_TRUE(SharedEdge::create(*source->step_file(), "#6"));
+  EXPECT_TRUE(lifted(*source, {"#6", "#7", "#8", "#9"}));
+  text = square;
+  text.replace(text.find("2  1 1 0 0 1\n"), 13, "3  1 1CN 1 0 0 1\n");
+  EXPECT_TRUE(SharedEdge::create(*open_or_die(text)->step_file(), "#6"));
+}
+
+TEST(Brep, TheToleranceOfAnEdgeGrowsByWhatItsCurvesAreApart) {
+  std::string text = square;
+  // In parameters the edge runs from (0, 0) to (1, 0), faster at first: at equal parameters it is up to 0.25 away.
+  text.replace(text.find("1 0 0 1 0 \n"), 11, "7 0 0  2 3 2  0 0 1 0 1 0 \n 0 3 1 3\n");
+  const auto bytes = lifted(*open_or_die(text), {"#7", "#8", "#9"});
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  const std::string edge = bytes->substr(bytes->find("Ed\n"), 40);
+  // Before, it was 0.25 away; the surface that has moved is farther from the curve that stays.
+  EXPECT_GT(std::stod(edge.substr(3)), 0.25) << edge;
+  const std::string others = bytes->substr(bytes->find("Ed\n", bytes->find("Ed\n") + 1), 20);
+  EXPECT_EQ(others.find("Ed\n 1e-7 1 1 0"), 0U) << others;
+}
+
+TEST(Brep, AnEdgeWithCurvesAtDifferentParametersDoesNotFollow) {
+  std::string text = square;
+  text.replace(text.find(" 1e-7 1 1 0\n1  1"), 11, " 1e-7 0 0 0");
+  const auto can = open_or_die(text)->can_move_edge("#6");
+  ASSERT_FALSE(can);
+  EXPECT_NE(can.error().message().find("SameParameter"), std::string::npos) << can.error().message();
 }
 
 }  // namespace

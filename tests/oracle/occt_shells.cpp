@@ -6,6 +6,7 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
+#include <BRepTools.hxx>
 #include <GCE2d_MakeSegment.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
@@ -179,6 +180,11 @@ bool occt_write_shell(const std::string& name, const std::filesystem::path& path
   BRepBuilderAPI_Sewing sewing(1e-5);
   for (const TopoDS_Face& face : faces_of(name)) sewing.Add(face);
   sewing.Perform();
+  if (path.extension() == ".brep") {
+    const TopoDS_Shape shape = sewing.SewedShape();
+    BRepLib::BuildCurves3d(shape);
+    return BRepTools::Write(shape, path.c_str());
+  }
   STEPControl_Writer writer;
   Interface_Static::SetCVal("write.step.unit", "MM");
   return writer.Transfer(sewing.SewedShape(), STEPControl_AsIs) == IFSelect_RetDone &&

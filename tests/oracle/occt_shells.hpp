@@ -20,7 +20,7 @@ namespace knead::oracle {
 /// one.
 [[nodiscard]] std::vector<std::string> occt_mixed_shell_names();
 
-/// Writes one of them as a STEP file in millimetres.
+/// Writes one of them as a STEP file in millimetres, or, where the name ends so, as a .brep file.
 [[nodiscard]] bool occt_write_shell(const std::string& name, const std::filesystem::path& path);
 
 }  // namespace knead::oracle
