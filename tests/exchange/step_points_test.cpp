@@ -60,6 +60,25 @@ TEST(StepPoints, ByAnglesStayAndGetNewRecordsWhereTheyMove) {
   EXPECT_TRUE(testing::same_bits(parse_or_die(*written).surfaces()[0].surface.control_points(), moved));
 }
 
+TEST(StepPoints, OfAPlaneStayInTheCurvesOfParameters) {
+  const std::string curve =
+      "#60=POLAR_POINT('',*,1.,0.5);\n#61=POLAR_POINT('',*,0.,0.);\n"
+      "#62=B_SPLINE_CURVE_WITH_KNOTS('',1,(#61,#60),.UNSPECIFIED.,.F.,.F.,(2,2),(0.,1.),.UNSPECIFIED.);\n"
+      "#63=(GEOMETRIC_REPRESENTATION_CONTEXT(2)PARAMETRIC_REPRESENTATION_CONTEXT()REPRESENTATION_CONTEXT('',''));\n"
+      "#64=DEFINITIONAL_REPRESENTATION('',(#62),#63);\n#65=PCURVE('',#10,#64);\n";
+  const auto source =
+      open_or_die(step_text(unit_square_points() + bilinear_patch() + context(radians) + curve), "a.step");
+  ASSERT_EQ(source->surfaces().size(), 1U);
+  EXPECT_TRUE(source->unreadable().empty());
+  Points moved = source->surfaces()[0].surface->control_points();
+  moved(3, 2) = 0.25;
+  const auto surface = source->surfaces()[0].surface->with_control_points(moved);
+  const auto written = source->save(std::vector{std::make_shared<const Surface>(*surface)});
+  ASSERT_TRUE(written) << written.error().message();
+  EXPECT_NE(written->find(curve), std::string::npos);
+  EXPECT_TRUE(testing::same_bits(open_or_die(*written, "a.step")->surfaces()[0].surface->control_points(), moved));
+}
+
 TEST(StepPoints, OfAPlaneOrOfSeveralUnitsAreErrorsWithARemedy) {
   const auto reason = [](const std::string& data) {
     const auto file = parse_or_die(step_text(data));
