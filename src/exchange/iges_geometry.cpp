@@ -154,6 +154,7 @@ Expected<Surface> read_surface(const File& file, int number, const Eigen::Affine
   const auto move = with_matrices(file, number, outer);
   if (!move) return std::unexpected(move.error());
   if (file.find(number)->type == 114) return read_power_surface(file, number, *move);
+  if (file.find(number)->type == 118) return read_ruled_surface(file, number, *move);
   const auto at = surface_layout(file, number, *parameters);
   if (!at) return std::unexpected(at.error());
   auto u = knots_of(file, number, *parameters, *at, 0), v = knots_of(file, number, *parameters, *at, 1);

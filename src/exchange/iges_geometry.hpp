@@ -26,14 +26,21 @@ struct SplineLayout {
 /// Errors (input): numbers that cannot be read, or that are not those of an invertible matrix; it refers to itself.
 [[nodiscard]] Expected<Eigen::Affine3d> transform_of(const File& file, int number);
 
-/// A B-spline surface (128), or a parametric spline surface (114) as one, in the coordinates of the model, moved by
-/// `outer` and its own matrix. It has no weights if all of them are equal. u is slow and v fast, as in `Surface`; the
-/// file has u fast. Errors (input): those above; a degree above `max_degree`; knots or weights that make no surface.
+/// A B-spline surface (128), or a parametric spline surface (114) or ruled surface (118) as one, in the coordinates of
+/// the model, moved by `outer` and its own matrix. It has no weights if all of them are equal. u is slow and v fast, as
+/// in `Surface`; the file has u fast. Errors (input): those above; a degree above `max_degree`; knots or weights that
+/// make no surface.
 [[nodiscard]] Expected<Surface> read_surface(const File& file, int number, const Eigen::Affine3d& outer);
 
 /// A parametric spline surface (114), whose patches of cubic polynomials are made B-splines exactly but for rounding,
 /// with triple knots. Errors (input): numbers that cannot be read; patches that do not meet.
 [[nodiscard]] Expected<Surface> read_power_surface(const File& file, int number, const Eigen::Affine3d& move);
+
+/// A ruled surface (118) between two lines (110) or B-spline curves (126) over 0 … 1 in both directions, exact but for
+/// rounding: both curves get the larger degree and all knots. Errors (input): numbers that cannot be read; what is no
+/// B-spline surface or is not made one: points joined by equal lengths along curves (form 0) that are not both lines,
+/// other curves, curves with different weights.
+[[nodiscard]] Expected<Surface> read_ruled_surface(const File& file, int number, const Eigen::Affine3d& move);
 
 /// A B-spline curve (126), likewise.
 [[nodiscard]] Expected<Curve> read_curve(const File& file, int number, const Eigen::Affine3d& outer);

@@ -18,7 +18,7 @@ namespace {
 
 using Ids = std::vector<int>;
 
-bool is_spline(int type) { return type == 128 || type == 114; }
+bool is_spline(int type) { return type == 128 || type == 114 || type == 118; }
 bool is_face(int type) { return type == 143 || type == 144 || type == 510; }
 
 /// The surface of a face: the first pointer of 144 and 510, the second of 143.
@@ -47,6 +47,7 @@ class ViewBuilder {
     }
     for (std::size_t k = 0; k < file_.entities().size(); ++k) {
       if (is_spline(file_.entities()[k].type)) add_spline(File::number(k));
+      if (file_.entities()[k].type == 140) report_offset(File::number(k));
     }
     for (const int face : faces) {
       if (exceeds(file_, records_)) break;  // what is left is not known: its surfaces count as whole
@@ -80,6 +81,14 @@ class ViewBuilder {
     }
     records_.surface(number, *surface, file_.find(number)->label);
     splines_.emplace(number, *std::move(surface));
+  }
+
+  void report_offset(int number) {
+    Error reason = file_
+                       .error(number, "an offset surface is no B-spline surface, and would move with the one below",
+                              "convert it to a B-spline surface in the program that wrote the file")
+                       .error();
+    view_.unreadable.push_back({fmt::format("#{}", number), std::move(reason)});
   }
 
   /// A surface that is no B-spline, as a record.

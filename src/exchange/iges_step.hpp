@@ -13,7 +13,7 @@ namespace knead::iges {
 /// The geometry of an IGES file in the words of STEP.
 struct StepView {
   std::string text;                           ///< an exchange structure
-  std::vector<UnreadableSurface> unreadable;  ///< B-spline surfaces that are none
+  std::vector<UnreadableSurface> unreadable;  ///< B-spline surfaces that are none, ruled and offset surfaces
   EdgeSources sources;                        ///< of its edges and vertices
 };
 

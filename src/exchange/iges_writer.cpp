@@ -83,7 +83,8 @@ Expected<std::vector<std::string>> values_of(const File& file, const Replacement
   return result;
 }
 
-/// The parameters that make a parametric spline surface (114) a B-spline surface (128), with what others add to them.
+/// The parameters that make a parametric spline surface (114) or a ruled surface (118) a B-spline surface (128), with
+/// what others add to them.
 Expected<std::vector<std::string>> spline_values(const File& file, const Replacement& r, const Parameters& parameters) {
   const auto outer = outer_transform(file, r.number);
   const auto own = transform_of(file, r.number);
@@ -98,10 +99,13 @@ Expected<std::vector<std::string>> spline_values(const File& file, const Replace
   if (!moved) return std::unexpected(moved.error());
   std::vector<std::string> values = surface_values(*moved);
   values.insert(values.begin(), "128");
-  // Behind all patches: pointers to associativities and properties.
-  const auto m = integer(parameters.values[3]).value_or(0), n = integer(parameters.values[4]).value_or(0);
-  const std::size_t end = 7 + static_cast<std::size_t>(m + n) +
-                          std::size_t{48} * static_cast<std::size_t>(m + 1) * static_cast<std::size_t>(n + 1);
+  // Behind what describes it, as all patches: pointers to associativities and properties.
+  std::size_t end = 5;
+  if (file.find(r.number)->type == 114) {
+    const auto m = integer(parameters.values[3]).value_or(0), n = integer(parameters.values[4]).value_or(0);
+    end = 7 + static_cast<std::size_t>(m + n) +
+          std::size_t{48} * static_cast<std::size_t>(m + 1) * static_cast<std::size_t>(n + 1);
+  }
   for (std::size_t k = end; k < parameters.values.size(); ++k) values.push_back(parameters.values[k]);
   return values;
 }
@@ -113,17 +117,17 @@ class Surgeon {
 
   Expected<void> replace(const Replacement& r) {
     const Entity* entity = file_.find(r.number);
-    const bool power = entity != nullptr && entity->type == 114;
-    if (entity == nullptr || (entity->type != 128 && !power)) {
+    const bool other = entity != nullptr && (entity->type == 114 || entity->type == 118);
+    if (entity == nullptr || (entity->type != 128 && !other)) {
       return file_.error(r.number, "it is no B-spline surface");
     }
     const auto parameters = file_.parameters(r.number);
     if (!parameters) return std::unexpected(parameters.error());
-    const auto values = power ? spline_values(file_, r, *parameters) : values_of(file_, r, *parameters);
+    const auto values = other ? spline_values(file_, r, *parameters) : values_of(file_, r, *parameters);
     if (!values) return std::unexpected(values.error());
     if (*values == parameters->values) return {};
     put(r.number, *parameters, *values);
-    if (power) become(r.number, 128);
+    if (other) become(r.number, 128);
     return {};
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "exchange/iges_builder.hpp"
 #include "exchange/support.hpp"
@@ -190,16 +191,137 @@ TEST(IgesEntities, WhatIsNotReadIsCountedAndKept) {
                              "1 x 408 (subfigure instance)", "1 x 314 (colour)", "1 x 406 (property)"}) {
     EXPECT_NE(std::ranges::find(remarks, wanted), remarks.end()) << wanted;
   }
-  ASSERT_EQ(source->surfaces().size(), 1U);
+  ASSERT_EQ(source->surfaces().size(), 2U) << "and the ruled one";
   Points points = source->surfaces()[0].surface->control_points();
   points(2, 2) = 1.0 / 3;
   const std::vector moved = {
-      std::make_shared<const Surface>(*source->surfaces()[0].surface->with_control_points(points))};
+      std::make_shared<const Surface>(*source->surfaces()[0].surface->with_control_points(points)),
+      source->surfaces()[1].surface};
   const auto written = source->save(moved);
   ASSERT_TRUE(written) << written.error().message();
   const auto again = open_or_die(*written, "a.igs");
   EXPECT_EQ(again->remarks(), remarks);
   EXPECT_NE(written->find("406,1,9HName;,;,;;"), std::string::npos) << "strings with separators in them";
+}
+
+/// A parabola over 0 … 2 whose parameters count from 3 to 7, and a cubic with a knot inside.
+constexpr const char* parabola = "2,2,0,0,1,0,3.,3.,3.,7.,7.,7.,1.,1.,1.,0.,0.,0.,1.,0.,2.,2.,0.,0.,3.,7.,0.,0.,1.";
+constexpr const char* cubic =
+    "4,3,0,0,1,0,0.,0.,0.,0.,0.5,1.,1.,1.,1.,1.,1.,1.,1.,1.,0.,3.,0.,0.5,3.,1.,1.,3.,-1.,1.5,3.,0.5,2.,3.,0.,0.,1.,0.,"
+    "0.,1.";
+
+Point on(const std::string& curve, double share) {
+  const bool quadratic = curve == parabola;
+  Points points(quadratic ? 3 : 5, 3);
+  std::vector<double> knots;
+  if (quadratic) {
+    points << 0, 0, 0, 1, 0, 2, 2, 0, 0;
+    knots = {0, 0, 0, 1, 1, 1};
+  } else {
+    points << 0, 3, 0, 0.5, 3, 1, 1, 3, -1, 1.5, 3, 0.5, 2, 3, 0;
+    knots = {0, 0, 0, 0, 0.5, 1, 1, 1, 1};
+  }
+  const auto spline = Curve::create({*KnotVector::create(quadratic ? 2 : 3, knots)}, points);
+  return *evaluate_point<1>(*spline, {share});
+}
+
+TEST(IgesEntities, RuledSurfacesAtEqualParametersAreBSplinesExactly) {
+  for (const int turned : {0, 1}) {
+    IgesBuilder b;
+    const int first = b.add(126, parabola), second = b.add(126, cubic);
+    b.add(118, fmt::format("{},{},{},0", first, second, turned), 0, 1);
+    const auto source = open_or_die(b.text(), "a.igs");
+    ASSERT_EQ(source->surfaces().size(), 1U);
+    const Surface& s = *source->surfaces()[0].surface;
+    EXPECT_EQ(source->surfaces()[0].id, "#5");
+    EXPECT_EQ(s.knots(0).degree(), 3);
+    for (const double u : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+      for (const double v : {0.0, 0.3, 1.0}) {
+        const auto p = evaluate_point<2>(s, {u, v});
+        ASSERT_TRUE(p);
+        const Point wanted = (1 - v) * on(parabola, u) + v * on(cubic, turned != 0 ? 1 - u : u);
+        EXPECT_LE((*p - wanted).norm(), 1e-14) << u << " " << v;
+      }
+    }
+  }
+}
+
+TEST(IgesEntities, ARuledSurfaceEndsWhereItsCurvesDo) {
+  IgesBuilder b;
+  std::string part = parabola;  // from the middle on
+  part.replace(part.rfind(",3.,7.,"), 7, ",5.,7.,");
+  const int first = b.add(126, part), second = b.add(110, "0.,3.,1.,4.,3.,1.");
+  b.add(118, fmt::format("{},{},0,0", first, second), 0, 1);
+  const auto source = open_or_die(b.text(), "a.igs");
+  ASSERT_EQ(source->surfaces().size(), 1U);
+  for (const double u : {0.0, 0.4, 1.0}) {
+    const auto p = evaluate_point<2>(*source->surfaces()[0].surface, {u, 0});
+    EXPECT_LE((*p - on(parabola, 0.5 + 0.5 * u)).norm(), 1e-14);
+    const auto q = evaluate_point<2>(*source->surfaces()[0].surface, {u, 1});
+    EXPECT_LE((*q - Point(4 * u, 3, 1)).norm(), 1e-14);
+  }
+}
+
+TEST(IgesEntities, AChangedRuledSurfaceBecomesABSplineInItsPlaceAndItsCurvesStay) {
+  IgesBuilder b;
+  const int first = b.add(126, parabola), second = b.add(126, cubic);
+  const int matrix = b.add(124, "0.,-1.,0.,10.,1.,0.,0.,20.,0.,0.,1.,30.");
+  b.add(118, fmt::format("{},{},0,0", first, second), matrix, 1, 0, "a remark");
+  b.add(110, "0.,0.,0.,2.,0.,0.");
+  const std::string text = b.text();
+  const auto source = open_or_die(text, "a.igs");
+  ASSERT_EQ(source->surfaces().size(), 1U);
+  std::vector<std::shared_ptr<const Surface>> surfaces = {source->surfaces()[0].surface};
+  EXPECT_EQ(*source->save(surfaces), text);
+  Points points = surfaces[0]->control_points();
+  points(3, 2) += 0.125;
+  surfaces[0] = std::make_shared<const Surface>(*surfaces[0]->with_control_points(points));
+  const auto written = source->save(surfaces);
+  ASSERT_TRUE(written) << written.error().message();
+  const std::size_t end = text.find("118,");
+  EXPECT_EQ(written->substr(written->find("126,"), end - text.find("126,")),
+            text.substr(text.find("126,"), end - text.find("126,")))
+      << "its curves and its matrix";
+  EXPECT_NE(written->find("110,0.,0.,0.,2.,0.,0.;"), std::string::npos);
+  const auto remarks = open_or_die(*written, "a.igs")->remarks();
+  EXPECT_NE(std::ranges::find(remarks, "1 x 128 (B-spline surface)"), remarks.end());
+  EXPECT_NE(written->find("a remark"), std::string::npos);
+  const auto again = open_or_die(*written, "a.igs");
+  ASSERT_EQ(again->surfaces().size(), 1U);
+  EXPECT_LE((again->surfaces()[0].surface->control_points() - points).cwiseAbs().maxCoeff(), 1e-13 * 40);
+}
+
+TEST(IgesEntities, WhatIsNoBSplineSurfaceIsSaidWithTheReason) {
+  const auto reason = [](const auto& add) {
+    IgesBuilder b;
+    const int plate = b.add(128, testing::plate());
+    add(b, plate);
+    const auto source = open_or_die(b.text(), "a.igs");
+    EXPECT_EQ(source->surfaces().size(), 1U);
+    EXPECT_EQ(*source->save(std::vector{source->surfaces()[0].surface}), b.text());
+    return source->unreadable().size() == 1 ? source->unreadable()[0].reason.message() : "";
+  };
+  const auto by_lengths = reason([](IgesBuilder& b, int) {
+    const int first = b.add(126, parabola), second = b.add(126, cubic);
+    b.add(118, fmt::format("{},{},0,0", first, second));
+  });
+  EXPECT_NE(by_lengths.find("equal lengths"), std::string::npos) << by_lengths;
+  const auto arc = reason([](IgesBuilder& b, int) {
+    const int first = b.add(100, "0.,0.,0.,1.,0.,0.,1."), second = b.add(126, cubic);
+    b.add(118, fmt::format("{},{},0,0", first, second), 0, 1);
+  });
+  EXPECT_NE(arc.find("which is no line or B-spline curve"), std::string::npos) << arc;
+  const auto weights = reason([](IgesBuilder& b, int) {
+    std::string rational = parabola;
+    rational.replace(rational.find("1.,1.,1."), 8, "1.,2.,1.");
+    const int first = b.add(126, rational), second = b.add(126, cubic);
+    b.add(118, fmt::format("{},{},0,0", first, second), 0, 1);
+  });
+  EXPECT_NE(weights.find("different weights"), std::string::npos) << weights;
+  const auto offset = reason([](IgesBuilder& b, int plate) { b.add(140, fmt::format("0.,0.,1.,0.5,{}", plate)); });
+  EXPECT_NE(offset.find("offset surface"), std::string::npos) << offset;
+  const auto nothing = reason([](IgesBuilder& b, int) { b.add(118, "0,99,0,0", 0, 1); });
+  EXPECT_FALSE(nothing.empty());
 }
 
 }  // namespace
