@@ -19,13 +19,16 @@ std::string title(const step::Part& part) {
   return part.name.empty() ? "without a name" : "\"" + printable(part.name) + "\"";
 }
 
+std::string first_of(const std::vector<std::string>& ids) {
+  std::string result;
+  for (std::size_t k = 0; k < ids.size() && k < most_listed; ++k) result += (k == 0 ? "" : ", ") + ids[k];
+  if (ids.size() > most_listed) result += fmt::format(" and {} more", ids.size() - most_listed);
+  return ids.empty() ? "none" : result;
+}
+
 void print_part(const step::Part& part) {
-  std::string surfaces;
-  for (std::size_t k = 0; k < part.surfaces.size() && k < most_listed; ++k)
-    surfaces += (k == 0 ? "" : ", ") + part.surfaces[k];
-  if (part.surfaces.size() > most_listed) surfaces += fmt::format(" and {} more", part.surfaces.size() - most_listed);
-  if (surfaces.empty()) surfaces = "none";
-  fmt::print("    {}: {}, B-spline surfaces: {}\n", title(part), counted(part.faces.size(), "face", "faces"), surfaces);
+  fmt::print("    {}: {}, B-spline surfaces: {}{}\n", title(part), counted(part.faces.size(), "face", "faces"),
+             first_of(part.surfaces), part.curves.empty() ? "" : ", curves: " + first_of(part.curves));
   std::map<std::string, int> paths;
   for (const step::PartPlace& place : part.places) ++paths[place.path];
   std::size_t listed = 0;
@@ -74,6 +77,7 @@ Json parts_json(const step::File& file) {
                      {"unit", part.unit},
                      {"surfaces", part.surfaces},
                      {"faces", part.faces},
+                     {"curves", part.curves},
                      {"places", std::move(places)}});
   }
   return {{"unit", model->unit}, {"parts", std::move(parts)}, {"warnings", model->warnings}};

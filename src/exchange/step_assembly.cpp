@@ -59,7 +59,7 @@ struct PartClass {
   std::vector<Index> down;  // uses of which it is the parent
   std::size_t open = 0;     // uses of which it is the child, not yet followed
   std::vector<PartPlace> places;
-  std::vector<Index> surfaces, faces;  // records
+  std::vector<Index> surfaces, faces, curves;  // records
 };
 
 double ratio(const LengthUnit& child, const LengthUnit& parent) {
@@ -84,9 +84,9 @@ class Builder {
     if (auto done = fill(); !done) return std::unexpected(done.error());
     for (const Index k : in_order_) {
       PartClass& c = classes_[k];
-      if (c.surfaces.empty() && c.faces.empty()) continue;
+      if (c.surfaces.empty() && c.faces.empty() && c.curves.empty()) continue;
       const std::string unit = c.unit.name.empty() ? "unknown" : c.unit.name;
-      result_.parts.push_back({c.name, unit, names(c.surfaces), names(c.faces), std::move(c.places)});
+      result_.parts.push_back({c.name, unit, names(c.surfaces), names(c.faces), names(c.curves), std::move(c.places)});
     }
     add_rest();
     return std::move(result_);
@@ -229,7 +229,7 @@ class Builder {
   Expected<void> fill() {
     const std::size_t records = reader_.file().instances().size();
     // 1: a face, 2: a B-spline surface without faces (others are also referred to by the curves of their neighbours),
-    // 3: a representation
+    // 3: a representation, 4: a curve that stands for itself
     std::vector<std::uint8_t> kind(records, 0);
     std::vector<bool> spline(records, false);
     std::unordered_map<Index, Index> below;  // the surface of each face
@@ -241,6 +241,7 @@ class Builder {
     for (std::size_t k = 0; k < file_.surfaces().size(); ++k) {
       if (file_.surfaces()[k].faces == 0) kind[file_.data().surface_instances[k]] = 2;
     }
+    for (const Index k : file_.data().curve_instances) kind[k] = 4;
     for (const Index k : groups_.representations()) kind[k] = 3;
     std::vector<Index> mark(records, no_instance), stack;
     held_.assign(records, false);
@@ -260,6 +261,7 @@ class Builder {
           if (const auto on = below.find(target); on != below.end()) c.surfaces.push_back(on->second);
         }
         if (kind[target] == 2) c.surfaces.push_back(target);
+        if (kind[target] == 4) c.curves.push_back(target);
         stack.push_back(target);
         ++visits;
       };
@@ -280,14 +282,17 @@ class Builder {
 
   /// What belongs to no product.
   void add_rest() {
-    Part rest{{}, file_.length_unit(), {}, {}, {PartPlace{}}};
+    Part rest{{}, file_.length_unit(), {}, {}, {}, {PartPlace{}}};
     for (const Face& face : read_faces(reader_)) {
       if (!held_[face.instance]) rest.faces.push_back(name_of(reader_, face.instance));
     }
     for (const Index k : file_.data().surface_instances) {
       if (!given_[k]) rest.surfaces.push_back(name_of(reader_, k));
     }
-    if (!rest.faces.empty() || !rest.surfaces.empty()) result_.parts.push_back(std::move(rest));
+    for (const Index k : file_.data().curve_instances) {
+      if (!held_[k]) rest.curves.push_back(name_of(reader_, k));
+    }
+    if (!rest.faces.empty() || !rest.surfaces.empty() || !rest.curves.empty()) result_.parts.push_back(std::move(rest));
   }
 
   const File& file_;

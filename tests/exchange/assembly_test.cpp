@@ -167,6 +167,27 @@ TEST(Assembly, TheNumberOfPlacesIsLimited) {
   EXPECT_NE(model.error().message().find("more than 100000 places"), std::string::npos) << model.error().message();
 }
 
+TEST(Assembly, CurvesBelongToTheirParts) {
+  const auto curve = [](int id) {
+    return fmt::format(
+        "#{}=B_SPLINE_CURVE_WITH_KNOTS('',1,(#1,#2),.UNSPECIFIED.,.F.,.F.,(2,2),(0.,1.),.UNSPECIFIED.);\n", id);
+  };
+  const Assembly model =
+      assembly(curve(70) + curve(71) + curve(72) + "#73=GEOMETRIC_CURVE_SET('',(#71,#70));\n" +
+               "#74=GEOMETRIC_CURVE_SET('',(#72));\n" + product(100, "root", "#60") + product(110, "wire", "#60,#73") +
+               product(120, "plate", "#60,#10") + usage(200, 100, 110, 60, 61) + usage(210, 100, 110, 60, 62) +
+               usage(220, 100, 120, 60, 61));
+  ASSERT_EQ(model.parts.size(), 3U);
+  const auto part = [&](const std::string& name) { return *std::ranges::find(model.parts, name, &step::Part::name); };
+  EXPECT_EQ(part("wire").curves, (std::vector<std::string>{"#70", "#71"}));
+  ASSERT_EQ(part("wire").places.size(), 2U);
+  EXPECT_NE(part("wire").places[0].to_model.translation(), part("wire").places[1].to_model.translation());
+  EXPECT_TRUE(part("wire").surfaces.empty());
+  EXPECT_EQ(part("plate").surfaces, std::vector<std::string>{"#10"});
+  EXPECT_TRUE(part("plate").curves.empty());
+  EXPECT_EQ(part("").curves, std::vector<std::string>{"#72"}) << "of no product";
+}
+
 TEST(Assembly, MeshesStandWhereTheirPartsDo) {
   const auto file =
       parse_or_die(step_text(ground() + product(100, "car", "#403,#404") +

@@ -23,13 +23,14 @@ struct Part {
   std::string unit;                   ///< of its coordinates, as in `LengthUnit::name`; "unknown" if not given
   std::vector<std::string> surfaces;  ///< ids of its B-spline surfaces
   std::vector<std::string> faces;     ///< ids of its faces
+  std::vector<std::string> curves;    ///< ids of its curves that stand for themselves (`File::curves`)
   std::vector<PartPlace> places;      ///< at least one
 };
 
 /// The model of a STEP file: its parts, and where each of them stands.
 struct Assembly {
-  std::string unit;                   ///< of the model's coordinates: of its first root that has one; else "unknown"
-  std::vector<Part> parts;            ///< those with faces or B-spline surfaces, in the order of their first record
+  std::string unit;         ///< of the model's coordinates: of its first root that has one; else "unknown"
+  std::vector<Part> parts;  ///< those with faces, B-spline surfaces or curves, in the order of their first record
   std::vector<std::string> warnings;  ///< what could not be followed, one sentence each
 
   /// Some part is used several times, or does not stand at its own origin.
