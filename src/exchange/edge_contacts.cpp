@@ -27,7 +27,7 @@ class Follower {
         reader_(data.records),
         loops_(reader_, {under_chord}),
         angle_units_(plane_angle_units(reader_)),
-        feet_(data.surfaces.size()) {}
+        feet_(data.surfaces->size()) {}
 
   const Reader& reader() const { return reader_; }
 
@@ -42,7 +42,7 @@ class Follower {
       return result;
     }
     const auto k = static_cast<std::size_t>(on - drawn.begin());
-    result.surface = data_.surfaces[k].id;
+    result.surface = (*data_.surfaces)[k].id;
     if (auto done = along_spline(k, points, result.feet); !done) return std::unexpected(done.error());
     return result;
   }
@@ -50,11 +50,11 @@ class Follower {
  private:
   Expected<void> along_spline(std::size_t k, const std::vector<Point>& points, std::vector<Vector2d>& feet) {
     if (!feet_[k]) {
-      auto made = SurfaceFoot::create(data_.surfaces[k].surface);
+      auto made = SurfaceFoot::create((*data_.surfaces)[k].surface);
       if (!made) return std::unexpected(made.error());
       feet_[k] = *std::move(made);
     }
-    feet = feet_[k]->along(points, on_surface * net_diagonal(data_.surfaces[k].surface.control_points())).feet;
+    feet = feet_[k]->along(points, on_surface * net_diagonal((*data_.surfaces)[k].surface.control_points())).feet;
     return {};
   }
 

@@ -35,9 +35,7 @@ class Styles {
   explicit Styles(const Reader& reader) : reader_(reader) {}
 
   std::unordered_map<std::string, Colour> colours() {
-    for (Instance k = 0; k < reader_.file().instances().size(); ++k) {
-      if (reader_.is(k, "STYLED_ITEM") || reader_.is(k, "OVER_RIDING_STYLED_ITEM")) add(k);
-    }
+    for (const Instance k : reader_.file().named({"STYLED_ITEM", "OVER_RIDING_STYLED_ITEM"})) add(k);
     std::unordered_map<std::string, Colour> result;
     for (const auto& [face, found] : found_) result.emplace(name_of(reader_, face), found.second);
     for (const Face& face : read_faces(reader_)) {

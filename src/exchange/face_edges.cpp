@@ -24,8 +24,7 @@ constexpr int max_halvings = 7;
 /// Faces that belong to a shell.
 std::set<std::uint32_t> faces_in_shells(const Reader& reader) {
   std::set<std::uint32_t> result;
-  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
-    if (!reader.is(k, "CLOSED_SHELL") && !reader.is(k, "OPEN_SHELL")) continue;
+  for (const auto k : reader.file().named({"CLOSED_SHELL", "OPEN_SHELL"})) {
     const auto own = reader.attributes(k, "CONNECTED_FACE_SET", 1, 1);
     if (own.empty()) continue;
     for (const auto face : reader.references(own[0])) result.insert(face);
@@ -123,8 +122,8 @@ Expected<VisibleRegion> visible_region(const step::File& file, const std::string
   if (index == data.surface_index.end()) return input_error("there is no such surface", surface);
   const std::size_t k = index->second;
   const Reader reader(data.records);
-  const double size = net_diagonal(data.surfaces[k].surface.control_points());
-  const auto feet = SurfaceFoot::create(data.surfaces[k].surface);
+  const double size = net_diagonal((*data.surfaces)[k].surface.control_points());
+  const auto feet = SurfaceFoot::create((*data.surfaces)[k].surface);
   if (!feet) return std::unexpected(feet.error());
 
   VisibleRegion result;
@@ -145,7 +144,7 @@ Expected<VisibleRegion> visible_region(const step::File& file, const std::string
     for (const auto edge : edges) faces_at[edge].push_back(face.instance);
     if (face.surface != data.surface_instances[k]) continue;
     result.in_shell = result.in_shell || shells.contains(face.instance);
-    if (data.surfaces[k].trimmed) {
+    if ((*data.surfaces)[k].trimmed) {
       auto parts = region_of(reader, face, sampler, *feet, size);
       if (!parts) return std::unexpected(parts.error());
       for (const RegionPart& part : *parts) add_turns(part, feet->space(), result.faces);

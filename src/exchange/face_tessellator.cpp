@@ -135,7 +135,7 @@ FaceTessellator::FaceTessellator(const File::Data& data, ChordLimit chord)
 Expected<std::unique_ptr<ChartedSurface>> FaceTessellator::surface_of(const Face& face,
                                                                       const std::vector<Loop>& loops) {
   if (const auto found = splines_.find(face.surface); found != splines_.end()) {
-    auto spline = SplineFace::create(data_.surfaces[found->second].surface);
+    auto spline = SplineFace::create((*data_.surfaces)[found->second].surface);
     if (!spline) return reader_.error(face.instance, spline.error().what);
     return std::make_unique<SplineFace>(*std::move(spline));
   }

@@ -150,15 +150,17 @@ Expected<std::string> read_file(const std::filesystem::path& path, std::size_t m
     if (static_cast<unsigned long long>(status.st_size) > most) return too_large();
     expected = static_cast<std::size_t>(status.st_size);
   }
-  std::string bytes(expected, '\0');
+  // One byte more than the file has shows that it ends there, without room for what it might have grown by.
+  std::string bytes(expected + 1, '\0');
   std::size_t filled = 0;
 #ifndef __wasi__
+  if (S_ISFIFO(status.st_mode)) bytes.clear();
   if (S_ISFIFO(status.st_mode) && !wait_for_writer(file.get(), bytes)) {
     return std::unexpected(
         Error{ErrorKind::input, "nothing writes into this pipe", {}, "name a file", path.string(), 0});
   }
   if (!S_ISREG(status.st_mode)) static_cast<void>(::fcntl(file.get(), F_SETFL, 0));
-  filled = bytes.size() - expected;
+  if (S_ISFIFO(status.st_mode)) filled = bytes.size();
 #endif
   for (;;) {
     if (filled == bytes.size()) bytes.resize(bytes.size() + std::max<std::size_t>(65536, bytes.size() / 2));

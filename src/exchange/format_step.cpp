@@ -21,7 +21,8 @@ class StepSource final : public Source {
     for (const step::SurfaceEntity& s : file_.surfaces()) {
       const auto same = std::ranges::find(known, s.id, &SourceSurface::id);
       surfaces_.push_back(
-          {s.id, s.name, s.unit, same == known.end() ? std::make_shared<const Surface>(s.surface) : same->surface});
+          {s.id, s.name, s.unit,
+           same == known.end() ? std::shared_ptr<const Surface>(file_.data().surfaces, &s.surface) : same->surface});
     }
     for (const step::CurveEntity& c : file_.curves()) {
       const auto same = std::ranges::find(known_curves, c.id, &SourceCurve::id);
@@ -72,11 +73,11 @@ class StepSource final : public Source {
   [[nodiscard]] std::string tessellated() const {
     std::map<std::string, std::size_t> counts;
     const Part21File& records = file_.data().records;
-    for (const Part21Instance& instance : records.instances()) {
-      if (instance.complex || instance.first == instance.last) continue;
-      const std::string_view kind = records.keyword(instance.first);
-      if (kind.starts_with("TESSELLATED_") || kind.find("TRIANGULATED_") != std::string_view::npos)
-        ++counts[std::string(kind)];
+    for (const std::string_view kind : records.keywords()) {
+      if (!kind.starts_with("TESSELLATED_") && kind.find("TRIANGULATED_") == std::string_view::npos) continue;
+      for (const auto k : records.named({kind})) {
+        if (!records.instance(k).complex) ++counts[std::string(kind)];
+      }
     }
     std::string text;
     for (const auto& [kind, count] : counts)

@@ -96,7 +96,7 @@ double diagonal_of(const step::File::Data& data, const std::vector<Face>& faces,
     if (!own.isEmpty()) standing.extend(box, name_of(reader, face.instance), own);
   }
   if (box.isEmpty()) {
-    for (const SurfaceEntity& s : data.surfaces) {
+    for (const SurfaceEntity& s : *data.surfaces) {
       const Points& points = s.surface.control_points();
       standing.extend(box, s.id, {points.colwise().minCoeff().transpose(), points.colwise().maxCoeff().transpose()});
     }
@@ -156,7 +156,8 @@ Expected<FaceMeshes> faces_of(const step::File& file, double tolerance, const As
   const Reader reader(data.records);
   const std::vector<Face> faces = read_faces(reader);
   const double diagonal = diagonal_of(data, faces, reader, standing);
-  if (faces.empty() && data.surfaces.empty()) return input_error("the file has no faces", {}, "open a file with faces");
+  if (faces.empty() && data.surfaces->empty())
+    return input_error("the file has no faces", {}, "open a file with faces");
   if (tolerance == 0) tolerance = default_tolerance * diagonal;
   if (!std::isfinite(tolerance) || tolerance < least_tolerance * diagonal || !(tolerance > 0)) {
     return std::unexpected(
@@ -167,7 +168,7 @@ Expected<FaceMeshes> faces_of(const step::File& file, double tolerance, const As
   std::map<float, std::vector<Face>> by_scale;
   for (const Face& face : faces) by_scale[standing.scale(name_of(reader, face.instance))].push_back(face);
   for (const auto& [scale, own] : by_scale) add_faces(data, own, tolerance / scale, standing, result);
-  for (const SurfaceEntity& entity : data.surfaces) {
+  for (const SurfaceEntity& entity : *data.surfaces) {
     if (entity.faces > 0) continue;
     auto mesh = whole(entity, tolerance / standing.scale(entity.id));
     if (mesh)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "part21_parser.hpp"
 #include "part21_text.hpp"
@@ -16,46 +17,9 @@ Expected<Part21File> Part21File::parse(std::string bytes, std::string name) {
     return std::unexpected(
         Error{ErrorKind::input, "the file is larger than 4 GB", {}, "split it into parts", file.name_, 0});
   }
-  // LF, CRLF and lone CR all end a line.
-  for (std::uint32_t k = 0; k < file.bytes_.size(); ++k) {
-    const char c = file.bytes_[k];
-    if (c == '\n' || (c == '\r' && (k + 1 == file.bytes_.size() || file.bytes_[k + 1] != '\n'))) {
-      file.line_starts_.push_back(k + 1);
-    }
-  }
-  // A record takes about 50 bytes and 8 values.
-  file.instances_.reserve(file.bytes_.size() / 50);
-  file.values_.reserve(file.bytes_.size() / 7);
-  file.index_.reserve(file.bytes_.size() / 50);
+  file.reserve();
   if (auto parsed = Part21Parser(file).parse(); !parsed) return std::unexpected(std::move(parsed.error()));
   return file;
-}
-
-std::optional<std::uint32_t> Part21File::find(std::uint64_t id) const {
-  const auto found = lookup(id);
-  if (found == index_.end() || found->instance == no_instance) return std::nullopt;
-  return found->instance;
-}
-
-std::vector<Part21File::Name>::const_iterator Part21File::lookup(std::uint64_t id) const {
-  // Most files number their entities without gaps.
-  if (!index_.empty() && id - index_.front().id < index_.size()) {
-    const auto guess = index_.begin() + static_cast<std::ptrdiff_t>(id - index_.front().id);
-    if (guess->id == id) return guess;
-  }
-  const auto found = std::ranges::lower_bound(index_, id, {}, &Name::id);
-  return found != index_.end() && found->id == id ? found : index_.end();
-}
-
-std::vector<std::uint32_t> Part21File::children(std::uint32_t value) const {
-  std::vector<std::uint32_t> result;
-  for (auto k = value + 1; k < values_[value].next; k = values_[k].next) result.push_back(k);
-  return result;
-}
-
-int Part21File::line(std::uint32_t byte) const {
-  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), byte);
-  return static_cast<int>(after - line_starts_.begin()) + 1;
 }
 
 bool Part21Parser::at_keyword(std::string_view keyword) const {
@@ -102,22 +66,73 @@ bool Part21Parser::fail_expected(const std::string& expected) {
 
 std::uint32_t Part21Parser::push(Part21Kind kind, ByteRange bytes) {
   const auto index = static_cast<std::uint32_t>(file_.values_.size());
-  file_.values_.push_back({kind, bytes, index + 1, no_instance});
+  const auto length = kind == Part21Kind::reference ? Part21File::too_much : bytes.end - bytes.begin;
+  file_.values_.push_back({bytes.begin, static_cast<std::uint32_t>(kind) & 15U,
+                           std::min(length, Part21File::too_much) & Part21File::too_much});
   return index;
 }
 
-void Part21Parser::close(std::uint32_t value, std::uint32_t end) {
-  file_.values_[value].bytes.end = end;
-  file_.values_[value].next = static_cast<std::uint32_t>(file_.values_.size());
+void Part21Parser::close(std::uint32_t value) {
+  const auto next = static_cast<std::uint32_t>(file_.values_.size());
+  file_.values_[value].content = std::min(next - value, Part21File::too_much) & Part21File::too_much;
+  if (next - value >= Part21File::too_much) file_.wide_[value] = next;
 }
 
 bool Part21Parser::define(const Part21Token& name, std::uint32_t index) {
   const auto id = parse_instance_name(file_.text({name.begin, name.end}));
   if (!id) return fail_at(name.begin, "an instance name above 2^63 - 1", "number the entities from 1");
+  if (names_only_) {
+    file_.index_.push_back({*id, no_instance, name.begin});
+    if (index != no_instance) file_.instances_[index].id = *id;
+    return true;
+  }
+  const bool ascends = index != no_instance && (index == 0 || *id > file_.largest_id_);
+  if (file_.index_.empty() && !ascends) {
+    const auto before = index == no_instance ? file_.instances_.size() : index;
+    for (std::uint32_t k = 0; k < before; ++k)
+      file_.index_.push_back({file_.instances_[k].id, k, file_.instances_[k].bytes.begin});
+  }
   if (index != no_instance) file_.instances_[index].id = *id;
-  file_.index_.push_back({*id, index, name.begin});
+  if (!file_.index_.empty() || !ascends) file_.index_.push_back({*id, index, name.begin});
   file_.largest_id_ = std::max(file_.largest_id_, *id);
   return true;
+}
+
+void Part21Parser::note_part() {
+  const auto bytes = ByteRange{token_.begin, token_.end};
+  const auto written = file_.text(bytes);
+  const std::size_t size = written.size();
+  const auto byte = [&](std::size_t k) { return static_cast<std::size_t>(static_cast<unsigned char>(written[k])); };
+  const std::size_t slot = (size + 7 * byte(0) + 31 * byte(size / 2) + 127 * byte(size - 1)) % recent_.size();
+  auto& [text, number] = recent_[slot];
+  if (text != written) {
+    const auto [known, fresh] =
+        keyword_numbers_.try_emplace(written, static_cast<std::uint32_t>(file_.keywords_.size()));
+    if (fresh) file_.keywords_.push_back({bytes});
+    text = written;
+    number = known->second;
+  }
+  parts_.emplace_back(number, current_);
+}
+
+// Gathers the instances of each keyword.
+void Part21Parser::sort_parts() {
+  auto& keywords = file_.keywords_;
+  for (const auto& [number, instance] : parts_) ++keywords[number].last;
+  std::uint32_t at = 0;
+  for (auto& keyword : keywords) {
+    keyword.first = at;
+    at += keyword.last;
+    keyword.last = keyword.first;
+  }
+  file_.named_.resize(parts_.size());
+  for (const auto& [number, instance] : parts_) file_.named_[keywords[number].last++] = instance;
+  // Those within a &SCOPE come before the record that they belong to.
+  for (const auto& keyword : keywords) {
+    const std::span own(file_.named_.begin() + keyword.first, file_.named_.begin() + keyword.last);
+    if (!std::ranges::is_sorted(own)) std::ranges::sort(own);
+  }
+  std::ranges::sort(keywords, KeywordOrder(), [this](const auto& keyword) { return file_.text(keyword.bytes); });
 }
 
 bool Part21Parser::sort_names() {
@@ -156,24 +171,24 @@ bool Part21Parser::resolve() {
 bool Part21Parser::resolve_range(std::uint32_t first, std::uint32_t last, std::uint32_t owner) {
   for (auto k = first; k < last; ++k) {
     auto& value = file_.values_[k];
-    if (value.kind != Part21Kind::reference) continue;
-    const auto id = parse_instance_name(file_.text(value.bytes));
-    const auto found = id ? file_.lookup(*id) : file_.index_.end();
+    if (static_cast<Part21Kind>(value.kind) != Part21Kind::reference) continue;
+    const auto id = parse_instance_name(file_.text(k));
     if (!id) {
       current_ = owner;
-      return fail_at(value.bytes.begin,
-                     "it refers to " + std::string(file_.text(value.bytes).substr(0, 40)) + ", a name above 2^63 - 1",
+      return fail_at(value.begin,
+                     "it refers to " + std::string(file_.text(k).substr(0, 40)) + ", a name above 2^63 - 1",
                      "correct the name");
     }
-    if (found == file_.index_.end()) {
+    const auto found = file_.lookup(*id);
+    if (!found) {
       current_ = owner;
-      if (file_.dangling_count_++ < Part21File::most_dangling)
-        file_.dangling_.push_back({place(), *id, value.bytes.begin});
+      if (file_.dangling_count_++ < Part21File::most_dangling) file_.dangling_.push_back({place(), *id, value.begin});
       file_.largest_id_ = std::max(file_.largest_id_, *id);  // no new record must become what is missing
       continue;
     }
-    value.target = found->instance;
-    if (value.target != no_instance) ++file_.instances_[value.target].uses;
+    if (*found == no_instance) continue;
+    value.content = *found & Part21File::too_much;
+    ++file_.instances_[*found].uses;
   }
   return true;
 }

@@ -112,13 +112,18 @@ Part21Token Part21Lexer::string() {
   }
 }
 
-Part21Token Part21Lexer::keyword() {
-  std::uint32_t k = position_;
+std::uint32_t Part21Lexer::end_of_keyword(std::uint32_t begin) const {
+  auto k = begin;
   if (at(k) == '!' || at(k) == '&') ++k;
-  if (!is_letter(at(k))) return bad("a keyword without letters");
   // Hyphens occur only in ISO-10303-21 and END-ISO-10303-21.
   while (is_letter(at(k)) || is_digit(at(k)) || at(k) == '-') ++k;
-  return token(Part21Token::Kind::keyword, k);
+  return k;
+}
+
+Part21Token Part21Lexer::keyword() {
+  const bool marked = at(position_) == '!' || at(position_) == '&';
+  if (!is_letter(at(position_ + (marked ? 1 : 0)))) return bad("a keyword without letters");
+  return token(Part21Token::Kind::keyword, end_of_keyword(position_));
 }
 
 Part21Token Part21Lexer::instance_name() {

@@ -36,6 +36,8 @@ class Part21Lexer {
 
   [[nodiscard]] Part21Token next();
   [[nodiscard]] std::uint32_t position() const { return position_; }
+  /// Behind the keyword that begins here.
+  [[nodiscard]] std::uint32_t end_of_keyword(std::uint32_t begin) const;
   void set_position(std::uint32_t position) { position_ = position; }
 
  private:

@@ -16,8 +16,11 @@ constexpr std::string_view end_mark = "END-ISO-10303-21";
 }  // namespace
 
 Expected<void> Part21Parser::parse() {
-  if (file_structure() && sort_names() && resolve()) return {};
-  return std::unexpected(error_);
+  if (!file_structure() || !sort_names()) return std::unexpected(error_);
+  if (names_only_) return {};
+  sort_parts();
+  if (!resolve()) return std::unexpected(error_);
+  return {};
 }
 
 bool Part21Parser::file_structure() {
@@ -156,6 +159,8 @@ bool Part21Parser::signature_section() {
 bool Part21Parser::instance(std::uint32_t scope_owner) {
   if (token_.kind != Kind::name) return fail_expected("an entity #…= or ENDSEC;");
   const auto index = static_cast<std::uint32_t>(file_.instances_.size());
+  if (index >= Part21File::too_much) return fail("too many entities", "at most 2^28 - 2 can be read: split the file");
+  const std::size_t values_before = file_.values_.size();
   file_.instances_.emplace_back();
   file_.instances_[index].bytes.begin = token_.begin;
   file_.instances_[index].scope = scope_owner;
@@ -167,6 +172,11 @@ bool Part21Parser::instance(std::uint32_t scope_owner) {
   current_ = index;
   if (!record(index)) return false;
   file_.instances_[index].bytes.end = token_.end;
+  if (names_only_ && scope_owner == no_instance) {
+    file_.values_.resize(values_before);
+    file_.instances_.clear();
+    current_ = no_instance;
+  }
   return expect_symbol(';', "the record");
 }
 
@@ -211,7 +221,7 @@ bool Part21Parser::record(std::uint32_t owner) {
   } else {
     if (token_.kind != Kind::keyword) return fail_expected("an entity name");
     if (!typed(0)) return false;
-    bytes.end = file_.values_[first].bytes.end;
+    bytes.end = closed_;
   }
   auto& instance = file_.instances_[owner];
   instance.first = first;
@@ -223,17 +233,20 @@ bool Part21Parser::record(std::uint32_t owner) {
 
 bool Part21Parser::typed(int depth) {
   const auto index = push(Part21Kind::typed, {token_.begin, token_.end});
-  file_.values_[index].target = token_.end - token_.begin;
-  // The record being read is known by this name from here on.
-  if (current_ != no_instance && depth == 0 && file_.instances_[current_].last == 0) {
-    file_.instances_[current_].first = index;
-    file_.instances_[current_].last = index + 1;
+  if (current_ != no_instance && depth == 0) {
+    if (!names_only_) note_part();
+    // The record being read is known by this name from here on.
+    if (file_.instances_[current_].last == 0) {
+      file_.instances_[current_].first = index;
+      file_.instances_[current_].last = index + 1;
+    }
   }
   advance();
   if (!at_symbol('(')) return fail_expected("( behind the keyword");
   const auto end = parameter_list(depth + 1);
   if (!end) return false;
-  close(index, token_.end);
+  close(index);
+  closed_ = token_.end;
   advance();
   return true;
 }
@@ -285,7 +298,7 @@ bool Part21Parser::parameter(int depth) {
       } else if (at_symbol('(')) {
         const auto index = push(Part21Kind::list, bytes);
         if (!parameter_list(depth + 1)) return false;
-        close(index, token_.end);
+        close(index);
         advance();
         return true;
       } else {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "part21.hpp"
 #include "part21_lexer.hpp"
+#include "part21_text.hpp"
 
 namespace knead {
 
@@ -14,7 +18,10 @@ namespace knead {
 /// Functions return false after `fail` has stored the first error.
 class Part21Parser {
  public:
-  explicit Part21Parser(Part21File& file) : file_(file), lexer_(file.bytes_) {}
+  /// \param names_only entities are forgotten once they have been read, except for their names; their references are
+  /// not followed
+  explicit Part21Parser(Part21File& file, bool names_only = false)
+      : file_(file), lexer_(file.bytes_), names_only_(names_only) {}
 
   [[nodiscard]] Expected<void> parse();
 
@@ -57,14 +64,23 @@ class Part21Parser {
   [[nodiscard]] std::string place() const;
 
   std::uint32_t push(Part21Kind kind, ByteRange bytes);
-  void close(std::uint32_t value, std::uint32_t end);
+  void close(std::uint32_t value);
+  // The present token names a part of the record being read.
+  void note_part();
+  void sort_parts();
 
   Part21File& file_;
   Part21Lexer lexer_;
+  bool names_only_ = false;
   Part21Token token_;
   std::string section_ = "exchange structure";
+  std::uint32_t closed_ = 0;             // behind the last typed parameter or part
   std::uint32_t current_ = no_instance;  // instance being read, for errors
-  std::vector<ByteRange> anchors_;       // ranges of values that belong to no instance
+  // The names of parts: a number for each, those met lately, and the parts with their instances.
+  std::map<std::string_view, std::uint32_t, KeywordOrder> keyword_numbers_;
+  std::array<std::pair<std::string_view, std::uint32_t>, 256> recent_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> parts_;
+  std::vector<ByteRange> anchors_;  // ranges of values that belong to no instance
   Error error_;
   bool failed_ = false;
 };

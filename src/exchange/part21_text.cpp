@@ -192,6 +192,10 @@ bool same_keyword(std::string_view a, std::string_view b) {
          std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return upper(x) == upper(y); });
 }
 
+bool KeywordOrder::operator()(std::string_view a, std::string_view b) const {
+  return std::ranges::lexicographical_compare(a, b, [](char x, char y) { return upper(x) < upper(y); });
+}
+
 std::optional<std::uint64_t> parse_instance_name(std::string_view text) {
   std::uint64_t id = 0;
   const auto digits = text.substr(1);

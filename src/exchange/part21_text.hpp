@@ -10,6 +10,11 @@ namespace knead {
 /// Keywords are upper case by the standard; some writers use lower case.
 [[nodiscard]] bool same_keyword(std::string_view a, std::string_view b);
 
+/// An order in which keywords that differ in case alone are equal.
+struct KeywordOrder {
+  [[nodiscard]] bool operator()(std::string_view a, std::string_view b) const;
+};
+
 /// "#12" or "#0012" to 12; none above 2^63 − 1.
 [[nodiscard]] std::optional<std::uint64_t> parse_instance_name(std::string_view text);
 

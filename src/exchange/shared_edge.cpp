@@ -49,8 +49,8 @@ Expected<std::vector<std::size_t>> surfaces_at(const step::File::Data& data, con
 std::array<std::vector<std::string>, 2> edges_ending_at(const Reader& reader, std::uint32_t edge,
                                                         const std::array<std::string, 2>& vertices) {
   std::array<std::vector<std::string>, 2> result;
-  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
-    if (k == edge || !reader.is(k, "EDGE_CURVE")) continue;
+  for (const auto k : reader.file().named({"EDGE_CURVE"})) {
+    if (k == edge) continue;
     const auto ends = reader.attributes(k, "EDGE", 1, 2);
     if (ends.empty()) continue;
     for (std::size_t v = 0; v < 2; ++v) {
@@ -181,8 +181,8 @@ Expected<SharedEdge> SharedEdge::create(const step::File& file, const std::strin
   const step::File::Data& data = file.data();
   const Reader reader(data.records);
   std::optional<std::uint32_t> instance;
-  for (std::uint32_t k = 0; k < data.records.instances().size() && !instance; ++k) {
-    if (reader.is(k, "EDGE_CURVE") && name_of(reader, k) == id) instance = k;
+  for (const auto k : data.records.named({"EDGE_CURVE"})) {
+    if (!instance && name_of(reader, k) == id) instance = k;
   }
   if (!instance) return input_error("there is no such edge", id);
   const auto surfaces = surfaces_at(data, reader, *instance);
@@ -200,7 +200,7 @@ Expected<SharedEdge> SharedEdge::create(const step::File& file, const std::strin
   for (const double t : sampled(own)) made->samples.push_back({t, own.curve.at(t), {}});
   const auto contexts = read_unit_contexts(reader);
   for (const std::size_t k : *surfaces) {
-    const SurfaceEntity& s = data.surfaces[k];
+    const SurfaceEntity& s = (*data.surfaces)[k];
     auto feet = SurfaceFoot::create(s.surface);
     if (!feet) return std::unexpected(feet.error());
     made->follow(s, *feet);

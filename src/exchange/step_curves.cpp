@@ -212,10 +212,17 @@ Expected<CurveTable> CurveTable::create(Curve curve) {
   auto evaluation = evaluate<1>(result.curve_, parameters);
   if (!evaluation) return std::unexpected(std::move(evaluation.error()));
   result.points_ = evaluation->points();
+  result.lower_ = result.points_.colwise().minCoeff().transpose();
+  result.upper_ = result.points_.colwise().maxCoeff().transpose();
+  for (Eigen::Index k = 1; k < result.points_.rows(); ++k) {
+    result.longest_chord_ = std::max(result.longest_chord_, (result.points_.row(k) - result.points_.row(k - 1)).norm());
+  }
   return result;
 }
 
 CurveTable::Foot CurveTable::closest(const Point& point, double limit) const {
+  const double outside = (lower_ - point).cwiseMax(point - upper_).cwiseMax(0).norm();
+  if (outside - 2 * longest_chord_ > limit) return {parameters_.front(), outside};
   const Eigen::VectorXd distances = (points_.rowwise() - point.transpose()).rowwise().norm();
   Eigen::Index best = 0;
   Foot foot{0, distances.minCoeff(&best)};

@@ -46,6 +46,8 @@ class CurveTable {
   Curve curve_;
   std::vector<double> parameters_;
   Points points_;
+  Point lower_ = Point::Zero(), upper_ = Point::Zero();  // of the box around the points
+  double longest_chord_ = 0;                             // from one point to the next
 };
 
 }  // namespace knead::step

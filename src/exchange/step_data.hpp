@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -16,14 +17,13 @@ struct File::Data {
 
   Part21File records;
   std::string schema;
-  std::vector<SurfaceEntity> surfaces;
+  std::shared_ptr<const std::vector<SurfaceEntity>> surfaces;  // may outlive the file
   std::vector<std::uint32_t> surface_instances;                // of each of `surfaces`
-  std::vector<std::vector<std::uint32_t>> control_point_refs;  // for each: the values that refer to its control points
   std::unordered_map<std::string, std::size_t> surface_index;  // by id
   std::vector<UnreadableSurface> unreadable;
   std::vector<CurveEntity> curves;
   std::vector<std::uint32_t> curve_instances;                // of each of `curves`
-  std::vector<std::vector<std::uint32_t>> curve_point_refs;  // likewise
+  std::vector<std::vector<std::uint32_t>> curve_point_refs;  // for each: the values that refer to its control points
   std::vector<Instance> instances;
   std::vector<LengthUnit> units;
 };

@@ -17,7 +17,7 @@ std::string Reader::label(std::uint32_t instance) const {
 std::optional<std::uint32_t> Reader::part(std::uint32_t instance, std::string_view entity) const {
   const auto& record = file_->instance(instance);
   for (auto k = record.first; k < record.last; k = file_->value(k).next) {
-    if (same_keyword(file_->keyword(k), entity)) return k;
+    if (file_->is_named(k, entity)) return k;
   }
   return std::nullopt;
 }
@@ -37,24 +37,18 @@ std::vector<std::uint32_t> Reader::attributes(std::uint32_t instance, std::strin
 }
 
 std::optional<double> Reader::real(std::uint32_t value) const {
-  const auto kind = file_->value(value).kind;
+  const auto kind = file_->kind(value);
   if (kind != Part21Kind::real && kind != Part21Kind::integer) return std::nullopt;
   return parse_real(file_->text(value));
 }
 
 std::optional<int> Reader::integer(std::uint32_t value) const {
-  if (file_->value(value).kind != Part21Kind::integer) return std::nullopt;
+  if (file_->kind(value) != Part21Kind::integer) return std::nullopt;
   auto text = file_->text(value);
   if (text.starts_with('+')) text.remove_prefix(1);
   int result = 0;
   const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), result);
   return error == std::errc() && last == text.data() + text.size() ? std::optional(result) : std::nullopt;
-}
-
-std::optional<std::uint32_t> Reader::reference(std::uint32_t value) const {
-  const auto& parameter = file_->value(value);
-  if (parameter.kind != Part21Kind::reference || parameter.target == no_instance) return std::nullopt;
-  return parameter.target;
 }
 
 std::vector<std::uint32_t> Reader::references(std::uint32_t list) const {
@@ -67,12 +61,12 @@ std::vector<std::uint32_t> Reader::references(std::uint32_t list) const {
 }
 
 std::string Reader::string(std::uint32_t value) const {
-  return file_->value(value).kind == Part21Kind::string ? decode_string(file_->text(value)) : std::string();
+  return file_->kind(value) == Part21Kind::string ? decode_string(file_->text(value)) : std::string();
 }
 
 std::string_view Reader::enumeration(std::uint32_t value) const {
   const auto text = file_->text(value);
-  return file_->value(value).kind == Part21Kind::enumeration ? text.substr(1, text.size() - 2) : std::string_view();
+  return file_->kind(value) == Part21Kind::enumeration ? text.substr(1, text.size() - 2) : std::string_view();
 }
 
 std::string Reader::item_name(std::uint32_t instance) const {
@@ -82,20 +76,23 @@ std::string Reader::item_name(std::uint32_t instance) const {
 
 Expected<std::array<std::uint32_t, 3>> Reader::coordinate_values(std::uint32_t instance) const {
   if (!is(instance, "CARTESIAN_POINT")) return error(instance, "a CARTESIAN_POINT is needed here");
-  const auto own = attributes(instance, "CARTESIAN_POINT", 1, 1);
-  if (own.empty() || !is_list(own[0])) return error(instance, "it has no list of coordinates");
-  const auto coordinates = file_->children(own[0]);
-  if (coordinates.size() != 3) {
-    return error(instance, "it has " + std::to_string(coordinates.size()) + " coordinates",
-                 "a control point of a surface has 3");
+  const auto& record = file_->instance(instance);
+  const auto found = record.complex ? part(instance, "CARTESIAN_POINT") : std::optional(record.first);
+  const std::size_t inherited = record.complex ? 0 : 1;
+  std::size_t count = 0;
+  const auto own = file_->first_children<2>(*found, count);
+  if (count <= inherited || !is_list(own[inherited])) return error(instance, "it has no list of coordinates");
+  const auto coordinates = file_->first_children<3>(own[inherited], count);
+  if (count != 3) {
+    return error(instance, "it has " + std::to_string(count) + " coordinates", "a control point of a surface has 3");
   }
-  return std::array<std::uint32_t, 3>{coordinates[0], coordinates[1], coordinates[2]};
+  return coordinates;
 }
 
 /// Radians per unit of plane angles, of all contexts that have units.
 Expected<double> Reader::angle_unit(std::uint32_t instance) const {
   if (angle_units_.empty()) {
-    for (std::uint32_t k = 0; k < file_->instances().size(); ++k) {
+    for (const auto k : file_->named({"GLOBAL_UNIT_ASSIGNED_CONTEXT"})) {
       const auto context = attributes(k, "GLOBAL_UNIT_ASSIGNED_CONTEXT", 0, 1);
       if (!file_->instance(k).complex || context.empty()) continue;
       for (const std::uint32_t unit : references(context[0])) {
@@ -104,7 +101,7 @@ Expected<double> Reader::angle_unit(std::uint32_t instance) const {
         if (const auto own = attributes(unit, "CONVERSION_BASED_UNIT", 1, 2); !own.empty()) {
           const auto measure = reference(own[1]);
           const auto value = measure ? attributes(*measure, "MEASURE_WITH_UNIT", 0, 2) : std::vector<std::uint32_t>();
-          if (value.empty() || file_->value(value[0]).kind != Part21Kind::typed) continue;
+          if (value.empty() || file_->kind(value[0]) != Part21Kind::typed) continue;
           const auto inner = file_->children(value[0]);
           radians = inner.empty() ? 0 : real(inner[0]).value_or(0);
         }

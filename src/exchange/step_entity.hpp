@@ -45,12 +45,15 @@ class Reader {
   [[nodiscard]] std::optional<double> real(std::uint32_t value) const;
   [[nodiscard]] std::optional<int> integer(std::uint32_t value) const;
   /// Index of the instance referred to; none for anything but a reference within the file.
-  [[nodiscard]] std::optional<std::uint32_t> reference(std::uint32_t value) const;
+  [[nodiscard]] std::optional<std::uint32_t> reference(std::uint32_t value) const {
+    const auto target = file_->target(value);
+    return target == no_instance ? std::nullopt : std::optional(target);
+  }
   /// The instances in a list of references; other values are omitted.
   [[nodiscard]] std::vector<std::uint32_t> references(std::uint32_t list) const;
   [[nodiscard]] std::string string(std::uint32_t value) const;            ///< decoded; empty for $
   [[nodiscard]] std::string_view enumeration(std::uint32_t value) const;  ///< without its dots
-  [[nodiscard]] bool is_list(std::uint32_t value) const { return file_->value(value).kind == Part21Kind::list; }
+  [[nodiscard]] bool is_list(std::uint32_t value) const { return file_->kind(value) == Part21Kind::list; }
 
   /// Label of a REPRESENTATION_ITEM: the first parameter of a simple record.
   [[nodiscard]] std::string item_name(std::uint32_t instance) const;

@@ -1,8 +1,15 @@
 #include "step_faces.hpp"
 
+#include <array>
+#include <string_view>
 #include <unordered_map>
 
 namespace knead::step {
+namespace {
+
+constexpr std::array<std::string_view, 3> face_kinds = {"ADVANCED_FACE", "FACE_SURFACE", "FACE"};
+
+}  // namespace
 
 std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::uint32_t> surface) {
   constexpr int max_shell_nesting = 4;
@@ -19,9 +26,8 @@ std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::
 
 std::vector<Face> read_faces(const Reader& reader) {
   std::vector<Face> result;
-  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
+  for (const auto k : reader.file().named(face_kinds)) {
     const bool has_surface = reader.is(k, "ADVANCED_FACE") || reader.is(k, "FACE_SURFACE");
-    if (!has_surface && !reader.is(k, "FACE")) continue;
     const auto bounds = reader.attributes(k, "FACE", 1, 1);
     if (bounds.empty()) continue;
     Face face{k, bounds[0]};
@@ -41,8 +47,7 @@ Expected<void> check_loop_uses(const Reader& reader) {
   const std::size_t records = reader.file().instances().size(), most = free_edge_uses + edge_uses_per_record * records;
   std::unordered_map<std::uint32_t, std::size_t> edges_of;  // of each bound
   std::size_t uses = 0;
-  for (std::uint32_t k = 0; k < records; ++k) {
-    if (!reader.is(k, "ADVANCED_FACE") && !reader.is(k, "FACE_SURFACE") && !reader.is(k, "FACE")) continue;
+  for (const auto k : reader.file().named(face_kinds)) {
     const auto bounds = reader.attributes(k, "FACE", 1, 1);
     if (bounds.empty()) continue;
     for (const auto bound : reader.references(bounds[0])) {

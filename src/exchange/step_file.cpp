@@ -50,8 +50,7 @@ Expected<File> File::parse(std::string bytes, std::string name) {
   if (auto few = check_loop_uses(reader); !few) return std::unexpected(std::move(few.error()));
 
   std::vector<ReadSurface> read;
-  for (std::uint32_t k = 0; k < data->records.instances().size(); ++k) {
-    if (!is_b_spline_surface(reader, k)) continue;
+  for (const auto k : b_spline_surfaces(reader)) {
     if (auto surface = read_b_spline_surface(reader, k)) {
       data->surface_instances.push_back(k);
       read.push_back(*std::move(surface));
@@ -78,14 +77,16 @@ Expected<File> File::parse(std::string bytes, std::string name) {
     if (context >= 0) return contexts[static_cast<std::size_t>(context)].unit.name;
     return !contexts.empty() && one_unit ? contexts.front().unit.name : std::string("unknown");
   };
+  const auto surfaces = std::make_shared<std::vector<SurfaceEntity>>();
+  surfaces->reserve(read.size());
   for (std::size_t k = 0; k < read.size(); ++k) {
     const auto id = "#" + std::to_string(data->records.instance(read[k].instance).id);
     const auto closed = closed_directions(read[k].surface);
     data->surface_index.emplace(id, k);
-    data->control_point_refs.push_back(std::move(read[k].references));
-    data->surfaces.push_back({id, reader.item_name(read[k].instance), unit_in(context_of[k]),
-                              std::move(read[k].surface), closed, uses[k].trimmed, uses[k].faces});
+    surfaces->push_back({id, reader.item_name(read[k].instance), unit_in(context_of[k]), std::move(read[k].surface),
+                         closed, uses[k].trimmed, uses[k].faces});
   }
+  data->surfaces = surfaces;
   std::vector<ReadCurve> curves = free_curves(reader);
   for (const ReadCurve& c : curves) data->curve_instances.push_back(c.instance);
   const auto context_of_curve = contexts_of(reader, contexts, data->curve_instances);
@@ -102,7 +103,7 @@ Expected<File> File::parse(std::string bytes, std::string name) {
 const std::string& File::name() const { return data_->records.name(); }
 const std::string& File::bytes() const { return data_->records.bytes(); }
 const std::string& File::schema() const { return data_->schema; }
-const std::vector<SurfaceEntity>& File::surfaces() const { return data_->surfaces; }
+const std::vector<SurfaceEntity>& File::surfaces() const { return *data_->surfaces; }
 const std::vector<UnreadableSurface>& File::unreadable_surfaces() const { return data_->unreadable; }
 const std::vector<CurveEntity>& File::curves() const { return data_->curves; }
 const std::vector<Instance>& File::instances() const { return data_->instances; }
@@ -148,7 +149,7 @@ bool File::is_bound_curve(const std::string& id) const {
 
 const SurfaceEntity* File::find_surface(const std::string& id) const {
   const auto found = data_->surface_index.find(id);
-  return found == data_->surface_index.end() ? nullptr : &data_->surfaces[found->second];
+  return found == data_->surface_index.end() ? nullptr : &(*data_->surfaces)[found->second];
 }
 
 }  // namespace knead::step

@@ -4,7 +4,6 @@
 #include <array>
 #include <string_view>
 
-#include "part21_text.hpp"
 #include "step_curves.hpp"
 
 namespace knead::step {
@@ -25,36 +24,26 @@ constexpr std::array<std::string_view, 13> standing_holders = {"GEOMETRIC_CURVE_
                                                                "OVER_RIDING_STYLED_ITEM",
                                                                "PRESENTATION_LAYER_ASSIGNMENT"};
 
-bool holds_standing(const Reader& reader, const Part21Instance& record) {
-  for (auto part = record.first; part < record.last; part = reader.file().value(part).next) {
-    const std::string_view keyword = reader.file().keyword(part);
-    if (std::ranges::any_of(standing_holders, [&](std::string_view name) { return same_keyword(keyword, name); }))
-      return true;
-  }
-  return false;
-}
+constexpr std::array<std::string_view, 4> curve_forms = {"B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE",
+                                                         "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE"};
 
 }  // namespace
 
 bool is_b_spline_curve(const Reader& reader, std::uint32_t instance) {
-  for (const char* form : {"B_SPLINE_CURVE_WITH_KNOTS", "BEZIER_CURVE", "QUASI_UNIFORM_CURVE", "UNIFORM_CURVE"}) {
-    if (reader.is(instance, form)) return true;
-  }
-  return false;
+  return std::ranges::any_of(curve_forms, [&](std::string_view form) { return reader.is(instance, form); });
 }
 
 std::vector<ReadCurve> free_curves(const Reader& reader) {
   const Part21File& file = reader.file();
   const auto count = static_cast<std::uint32_t>(file.instances().size());
   std::vector<std::uint32_t> curves;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    if (file.instance(k).uses > 0 && is_b_spline_curve(reader, k)) curves.push_back(k);
+  for (const auto k : file.named(curve_forms)) {
+    if (file.instance(k).uses > 0) curves.push_back(k);
   }
   if (curves.empty()) return {};
   std::vector<std::uint32_t> held(count, 0);
-  for (std::uint32_t k = 0; k < count; ++k) {
+  for (const auto k : file.named(standing_holders)) {
     const Part21Instance& record = file.instance(k);
-    if (!holds_standing(reader, record)) continue;
     for (auto value = record.first; value < record.last; ++value) {
       if (const auto target = reader.reference(value)) ++held[*target];
     }

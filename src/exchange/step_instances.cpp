@@ -72,8 +72,9 @@ std::optional<Eigen::Affine3d> read_frame(const Reader& reader, Index instance) 
 class Assemblies {
  public:
   explicit Assemblies(const Reader& reader) : reader_(reader) {
-    const auto count = static_cast<Index>(reader.file().instances().size());
-    for (Index k = 0; k < count; ++k) {
+    for (const Index k :
+         reader.file().named({"SHAPE_DEFINITION_REPRESENTATION", "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",
+                              "REPRESENTATION_RELATIONSHIP", "SHAPE_REPRESENTATION_RELATIONSHIP"})) {
       if (reader.is(k, "SHAPE_DEFINITION_REPRESENTATION")) {
         const auto shape = attribute(reader, k, "SHAPE_DEFINITION_REPRESENTATION", 0, 0);
         const auto representation = attribute(reader, k, "SHAPE_DEFINITION_REPRESENTATION", 0, 1);
@@ -87,7 +88,7 @@ class Assemblies {
         const auto shape = attribute(reader, k, "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", 0, 1);
         const auto usage = shape ? attribute(reader, *shape, "PRODUCT_DEFINITION_SHAPE", 0, 2) : std::nullopt;
         if (relation && usage) relation_of_.try_emplace(*usage, *relation);
-      } else if (reader.is(k, "REPRESENTATION_RELATIONSHIP") || reader.is(k, "SHAPE_REPRESENTATION_RELATIONSHIP")) {
+      } else {
         link(k);
       }
     }
@@ -293,12 +294,13 @@ Structure read_structure(const Reader& reader) {
   const auto used = assemblies.used_relations();
   Structure result;
   std::vector<Index> mapped, relations;
-  for (Index k = 0; k < reader.file().instances().size(); ++k) {
+  for (const Index k : reader.file().named(
+           {"NEXT_ASSEMBLY_USAGE_OCCURRENCE", "MAPPED_ITEM", "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION"})) {
     if (reader.is(k, "NEXT_ASSEMBLY_USAGE_OCCURRENCE")) {
       if (auto usage = assemblies.usage(k)) result.components.push_back(*std::move(usage));
     } else if (reader.is(k, "MAPPED_ITEM")) {
       mapped.push_back(k);
-    } else if (reader.is(k, "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION") && !used.contains(k)) {
+    } else if (!used.contains(k)) {
       relations.push_back(k);
     }
   }

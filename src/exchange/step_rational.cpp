@@ -33,7 +33,7 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
   if (record.complex) {
     if (auto done = write_knots(instance, before, after); !done) return done;
     const auto item = reader_.part(instance, "REPRESENTATION_ITEM");
-    insert(item ? file_.value(*item).bytes.begin : record.record.end - 1, weights);
+    insert(item ? file_.range(*item).begin : record.record.end - 1, weights);
     return {};
   }
   const auto values = file_.children(record.first);
@@ -47,11 +47,11 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
   for (const auto& knots : after.knots()) {
     implied = implied && implied_knots(*form, knots.degree(), knots.count()) == knots;
   }
-  const auto bytes = file_.value(record.first).bytes;
+  const auto bytes = file_.range(record.first);
   const std::string name(file_.text(values[0]));
   const std::string keyword = form ? implied_keyword(*form) : "";
   // From the keyword to the comma after the name: comments there are lost.
-  const auto own = comma_between(file_.bytes(), file_.value(values[0]).bytes.end) + 1;
+  const auto own = comma_between(file_.bytes(), file_.range(values[0]).end) + 1;
   const std::string first = implied && *form == ImpliedKnots::bezier ? keyword + "()" : "";
   changes_.push_back({{bytes.begin, own}, "(" + first + "BOUNDED_SURFACE()B_SPLINE_SURFACE("});
   std::string rest = ")";
@@ -61,7 +61,7 @@ Expected<void> Surgeon::become_rational(std::uint32_t instance, const Surface& b
     rest += "B_SPLINE_SURFACE_WITH_KNOTS(" + printed[0].multiplicities + "," + printed[1].multiplicities + "," +
             printed[0].values + "," + printed[1].values + ",.UNSPECIFIED.)";
   } else if (!form) {
-    const auto comma = comma_between(file_.bytes(), file_.value(values[attributes_of_b_spline_surface - 1]).bytes.end);
+    const auto comma = comma_between(file_.bytes(), file_.range(values[attributes_of_b_spline_surface - 1]).end);
     changes_.push_back({{comma, comma + 1}, ")B_SPLINE_SURFACE_WITH_KNOTS("});
     if (auto done = write_knots(instance, before, after); !done) return done;
   }

@@ -119,6 +119,8 @@ bool is_b_spline_surface(const Reader& reader, std::uint32_t instance) {
   return std::any_of(forms.begin(), forms.end(), [&](std::string_view form) { return reader.is(instance, form); });
 }
 
+std::vector<std::uint32_t> b_spline_surfaces(const Reader& reader) { return reader.file().named(forms); }
+
 Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t instance) {
   const auto own = reader.attributes(instance, "B_SPLINE_SURFACE", 1, 3);
   if (own.empty()) return reader.error(instance, "it lacks degrees and control points");
@@ -148,7 +150,16 @@ Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t 
   }
   auto surface = Surface::create(*std::move(knots), std::move(points), *std::move(weights));
   if (!surface) return reader.error(instance, surface.error().what, surface.error().remedy);
-  return ReadSurface{instance, *std::move(surface), net->values};
+  return ReadSurface{instance, *std::move(surface)};
+}
+
+std::vector<std::uint32_t> control_point_values(const Reader& reader, std::uint32_t instance) {
+  std::vector<std::uint32_t> result;
+  for (const auto row : reader.file().children(reader.attributes(instance, "B_SPLINE_SURFACE", 1, 3)[2])) {
+    const auto values = reader.file().children(row);
+    result.insert(result.end(), values.begin(), values.end());
+  }
+  return result;
 }
 
 Expected<Curve> boundary_curve(const Surface& surface, int direction, int end) {

@@ -11,18 +11,23 @@
 
 namespace knead::step {
 
-/// A surface with the parameters from which its control points come.
+/// A surface and where it stands.
 struct ReadSurface {
   std::uint32_t instance = no_instance;
   Surface surface;
-  std::vector<std::uint32_t> references;  ///< values of kind `reference`, in the order of the control points
 };
 
 /// Whether it is a B_SPLINE_SURFACE in any form, simple or as part of a complex instance.
 [[nodiscard]] bool is_b_spline_surface(const Reader& reader, std::uint32_t instance);
 
+/// All of them, in the order of the file.
+[[nodiscard]] std::vector<std::uint32_t> b_spline_surfaces(const Reader& reader);
+
 /// Reads one (ISO 10303-42, b_spline_surface and its subtypes). Errors (input) with entity and line.
 [[nodiscard]] Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t instance);
+
+/// The values that refer to its control points, in their order; it must be one that can be read.
+[[nodiscard]] std::vector<std::uint32_t> control_point_values(const Reader& reader, std::uint32_t instance);
 
 /// The number of attributes of B_SPLINE_SURFACE with the name it inherits.
 inline constexpr std::size_t attributes_of_b_spline_surface = 8;

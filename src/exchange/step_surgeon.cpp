@@ -130,7 +130,7 @@ std::vector<Surgeon::Change> Surgeon::rewritten(const Coordinates& coordinates, 
   std::vector<Change> result;
   for (std::size_t k = 0; k < 3; ++k) {
     if (bits[k] == old_bits[k]) continue;
-    result.push_back({file_.value(coordinates[k]).bytes, format_real(points(row, static_cast<Eigen::Index>(k)))});
+    result.push_back({file_.range(coordinates[k]), format_real(points(row, static_cast<Eigen::Index>(k)))});
   }
   return result;
 }
@@ -251,8 +251,7 @@ Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& befor
                       printed[1].values + ",.UNSPECIFIED.";
     const auto& record = file_.instance(instance);
     if (record.complex) {
-      insert(file_.value(*reader_.part(instance, "B_SPLINE_SURFACE")).bytes.end,
-             std::string(with_knots) + "(" + text + ")");
+      insert(file_.range(*reader_.part(instance, "B_SPLINE_SURFACE")).end, std::string(with_knots) + "(" + text + ")");
     } else {
       // The knots follow the attributes of B_SPLINE_SURFACE, all of which must be present.
       if (const auto given = file_.children(record.first).size(); given != attributes_of_b_spline_surface) {
@@ -260,7 +259,7 @@ Expected<void> Surgeon::write_knots(std::uint32_t instance, const Surface& befor
                              "it has " + std::to_string(given) + " attributes, so knots cannot be listed behind them",
                              "its type has " + std::to_string(attributes_of_b_spline_surface));
       }
-      const auto bytes = file_.value(record.first).bytes;
+      const auto bytes = file_.range(record.first);
       const auto keyword = static_cast<std::uint32_t>(file_.keyword(record.first).size());
       changes_.push_back({{bytes.begin, bytes.begin + keyword}, with_knots});
       insert(bytes.end - 1, "," + text);

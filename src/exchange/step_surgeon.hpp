@@ -85,9 +85,7 @@ class Surgeon {
   // The text of a number: as in the list (of lists) if it occurs there, otherwise in the fewest digits.
   [[nodiscard]] std::function<std::string(double)> texts(std::uint32_t list) const;
   [[nodiscard]] std::string line_break() const;
-  void change(std::uint32_t value, std::string text) {
-    changes_.push_back({file_.value(value).bytes, std::move(text)});
-  }
+  void change(std::uint32_t value, std::string text) { changes_.push_back({file_.range(value), std::move(text)}); }
   void insert(std::uint32_t at, std::string text) { changes_.push_back({{at, at}, std::move(text)}); }
 
   const Part21File& file_;

@@ -87,8 +87,9 @@ void Surgeon::drop_parameter_curves(std::uint32_t edge, const std::set<std::uint
   change(parts[1], "(" + kept + ")");
   if (reader_.enumeration(parts[2]) != "CURVE_3D") change(parts[2], ".CURVE_3D.");
   if (intersection) {
-    const auto begin = file_.value(record.first).bytes.begin;
-    changes_.push_back({{begin, begin + file_.value(record.first).target}, "SURFACE_CURVE"});
+    const auto begin = file_.range(record.first).begin;
+    changes_.push_back(
+        {{begin, begin + static_cast<std::uint32_t>(file_.keyword(record.first).size())}, "SURFACE_CURVE"});
   }
 }
 

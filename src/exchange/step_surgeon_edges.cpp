@@ -46,7 +46,7 @@ Expected<void> Surgeon::replace_curve(std::uint32_t edge, const Curve& curve) {
     change(*inner, name);
   } else {
     const std::string copy = "#" + std::to_string(names_.next());
-    records += line_break() + copy_of(geometry, copy, {{file_.value(*inner).bytes, name}});
+    records += line_break() + copy_of(geometry, copy, {{file_.range(*inner), name}});
     change(own[0], copy);
   }
   insert(file_.instance(edge).bytes.end, std::move(records));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "knead/spline/evaluate.hpp"
 #include "step_curves.hpp"
@@ -164,27 +165,33 @@ std::vector<FaceUse> face_uses(const Reader& reader, const std::vector<ReadSurfa
   std::vector<FaceUse> uses(surfaces.size());
   std::unordered_map<std::uint32_t, std::size_t> index;
   for (std::size_t k = 0; k < surfaces.size(); ++k) index.emplace(surfaces[k].instance, k);
-  std::unordered_map<std::size_t, std::optional<NaturalBoundary>> boundaries;
-  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
-    if (const auto cut = cut_surface(reader, k, index, surfaces)) {
-      if (const auto found = index.find(*cut); found != index.end()) uses[found->second].trimmed = true;
-    }
-    if (!reader.is(k, "ADVANCED_FACE") && !reader.is(k, "FACE_SURFACE")) continue;
-    const auto bounds = reader.attributes(k, "FACE", 1, 1);
+  for (const auto k : reader.file().named({"CURVE_BOUNDED_SURFACE", "RECTANGULAR_TRIMMED_SURFACE"})) {
+    const auto cut = cut_surface(reader, k, index, surfaces);
+    const auto found = cut ? index.find(*cut) : index.end();
+    if (found != index.end()) uses[found->second].trimmed = true;
+  }
+  // Faces by their surfaces, so that what is computed for one surface does not outlive its faces.
+  std::vector<std::pair<std::size_t, std::uint32_t>> faces;
+  for (const auto k : reader.file().named({"ADVANCED_FACE", "FACE_SURFACE"})) {
     const auto geometry = reader.attributes(k, "FACE_SURFACE", 2, 1);
     const auto target = geometry.empty() ? std::nullopt : reader.reference(geometry[0]);
     const auto found = target ? index.find(*target) : index.end();
-    if (found == index.end()) continue;
-    const auto s = found->second;
+    if (found != index.end()) faces.emplace_back(found->second, k);
+  }
+  std::ranges::sort(faces);
+  std::optional<NaturalBoundary> boundary;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto [s, k] = faces[f];
+    if (f == 0 || faces[f - 1].first != s) boundary.reset();
     ++uses[s].faces;
+    const auto bounds = reader.attributes(k, "FACE", 1, 1);
     if (bounds.empty() || uses[s].trimmed) continue;
     const auto& surface = surfaces[s].surface;
     const double diagonal = net_diagonal(surface.control_points());
     const double tolerance = std::clamp(2 * uncertainty[s], 1e-5 * diagonal, 1e-4 * diagonal);
-    auto [slot, fresh] = boundaries.try_emplace(s);
-    if (fresh) slot->second = NaturalBoundary::create(surface, tolerance);
+    if (!boundary) boundary = NaturalBoundary::create(surface, tolerance);
     uses[s].trimmed = true;
-    if (auto& boundary = slot->second) {  // else it cannot be evaluated
+    if (boundary) {  // else it cannot be evaluated
       boundary->begin_face();
       uses[s].trimmed = !add_bounds(reader, bounds[0], *boundary) || !boundary->covered();
     }

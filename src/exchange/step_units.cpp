@@ -103,10 +103,6 @@ double uncertainty(const Reader& reader, std::uint32_t context, const LengthUnit
   return largest;
 }
 
-bool is_unit_context(const Reader& reader, std::uint32_t instance) {
-  return reader.is(instance, "GLOBAL_UNIT_ASSIGNED_CONTEXT");
-}
-
 // Marks everything reached from the items of one representation.
 class Reach {
  public:
@@ -143,8 +139,7 @@ class Reach {
 
 std::vector<UnitContext> read_unit_contexts(const Reader& reader) {
   std::vector<UnitContext> result;
-  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
-    if (!is_unit_context(reader, k)) continue;
+  for (const auto k : reader.file().named({"GLOBAL_UNIT_ASSIGNED_CONTEXT"})) {
     const auto own = reader.attributes(k, "GLOBAL_UNIT_ASSIGNED_CONTEXT", 0, 1);
     if (own.empty()) continue;
     for (const auto unit : reader.references(own[0])) {

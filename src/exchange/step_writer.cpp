@@ -2,41 +2,13 @@
 #include <unordered_map>
 
 #include "knead/exchange/step_file.hpp"
-#include "step_curves.hpp"
+#include "step_check.hpp"
 #include "step_data.hpp"
 #include "step_surfaces.hpp"
 #include "step_surgeon.hpp"
 
 namespace knead::step {
 namespace {
-
-bool same_surface(const Surface& a, const Surface& b) {
-  return a.knots() == b.knots() && same_bits(a.control_points(), b.control_points()) &&
-         same_bits(a.weights(), b.weights());
-}
-
-// Reads the result again: every surface must be as requested, bit for bit, or as before.
-Expected<void> check(const std::string& bytes, const File::Data& before,
-                     const std::unordered_map<std::size_t, const Surface*>& wanted) {
-  const auto broken = [&](const std::string& id) {
-    return std::unexpected(Error{ErrorKind::numerical, "internal: the written file does not read back as it should", id,
-                                 "please report this file", before.records.name(), 0});
-  };
-  const auto parsed = Part21File::parse(bytes, before.records.name());
-  if (!parsed) return broken(parsed.error().message());
-  const Reader reader(*parsed);
-  for (std::size_t k = 0; k < before.surfaces.size(); ++k) {
-    const auto& old = before.surfaces[k];
-    const auto instance = parsed->find(before.records.instance(before.surface_instances[k]).id);
-    if (!instance) return broken(old.id);
-    const auto read = read_b_spline_surface(reader, *instance);
-    const auto found = wanted.find(k);
-    if (!read || !same_surface(read->surface, found == wanted.end() ? old.surface : *found->second)) {
-      return broken(old.id);
-    }
-  }
-  return {};
-}
 
 Expected<std::size_t> find(const File::Data& data, const std::string& id) {
   const auto found = data.surface_index.find(id);
@@ -68,7 +40,7 @@ Expected<std::string> File::with_control_points(std::span<const Edit> edits) con
   for (const auto& edit : edits) {
     const auto k = find(*data_, edit.id);
     if (!k) return std::unexpected(k.error());
-    auto surface = data_->surfaces[*k].surface.with_control_points(edit.control_points);
+    auto surface = (*data_->surfaces)[*k].surface.with_control_points(edit.control_points);
     if (!surface) {
       Error error = surface.error().within(edit.id);
       error.file = name();
@@ -104,14 +76,6 @@ Expected<void> write_edges(const File::Data& data, const MovedEdges& moved, Surg
   return {};
 }
 
-bool same_curve(const Curve& a, const Curve& b) {
-  return a.knots() == b.knots() && same_bits(a.control_points(), b.control_points()) &&
-         same_bits(a.weights(), b.weights());
-}
-
-/// By the index of the curve in the file; empty where nothing changes.
-using WantedCurves = std::unordered_map<std::size_t, const Curve*>;
-
 Expected<WantedCurves> write_curves(const File::Data& data, std::span<const CurveReplacement> curves,
                                     Surgeon& surgeon) {
   WantedCurves wanted;
@@ -125,7 +89,7 @@ Expected<WantedCurves> write_curves(const File::Data& data, std::span<const Curv
     }
     const auto k = static_cast<std::size_t>(found - data.curves.begin());
     const Curve& before = found->curve;
-    if (same_curve(before, after)) continue;
+    if (same_spline(before, after)) continue;
     if (!wanted.emplace(k, &after).second) return wrong(id, "edited twice", "give one edit per curve");
     const KnotVector& knots = after.knots(0);
     if (knots != before.knots(0) && knots.max_interior_multiplicity() > knots.degree()) {
@@ -142,34 +106,18 @@ Expected<WantedCurves> write_curves(const File::Data& data, std::span<const Curv
   return wanted;
 }
 
-// Reads the curves again: each must be as requested, or as before.
-Expected<void> check_curves(const std::string& bytes, const File::Data& before, const WantedCurves& wanted) {
-  const auto parsed = Part21File::parse(bytes, before.records.name());
-  if (!parsed) return std::unexpected(parsed.error());
-  const Reader reader(*parsed);
-  for (std::size_t k = 0; k < before.curves.size(); ++k) {
-    const auto instance = parsed->find(before.records.instance(before.curve_instances[k]).id);
-    const auto read = instance ? read_b_spline_curve(reader, *instance) : Expected<Curve>(std::unexpected(Error{}));
-    const auto found = wanted.find(k);
-    if (read && same_curve(*read, found == wanted.end() ? before.curves[k].curve : *found->second)) continue;
-    return std::unexpected(Error{ErrorKind::numerical, "internal: the written file does not read back as it should",
-                                 before.curves[k].id, "please report this file", before.records.name(), 0});
-  }
-  return {};
-}
-
 }  // namespace
 
 Expected<std::string> File::with_surfaces(std::span<const Replacement> replacements, const MovedEdges& moved,
                                           std::span<const CurveReplacement> curves) const {
   const auto& data = *data_;
-  std::unordered_map<std::size_t, const Surface*> wanted;
+  WantedSurfaces wanted;
   Surgeon surgeon(data.records);
   bool changed = false;
   for (const auto& [id, after] : replacements) {
     const auto k = find(data, id);
     if (!k) return std::unexpected(k.error());
-    const auto& before = data.surfaces[*k].surface;
+    const auto& before = (*data.surfaces)[*k].surface;
     if (!wanted.emplace(*k, &after).second) {
       return std::unexpected(Error{ErrorKind::input, "edited twice", id, "give one edit per surface", name()});
     }
@@ -178,10 +126,10 @@ Expected<std::string> File::with_surfaces(std::span<const Replacement> replaceme
       error.file = name();
       return std::unexpected(std::move(error));
     }
-    if (same_surface(before, after)) continue;
+    if (same_spline(before, after)) continue;
     changed = true;
     const auto instance = data.surface_instances[*k];
-    const auto& refs = data.control_point_refs[*k];
+    const auto refs = control_point_values(Reader(data.records), instance);
     const bool same_net = before.knots() == after.knots() && same_bits(before.weights(), after.weights());
     auto done = same_net ? surgeon.move_points(instance, refs, before.control_points(), after.control_points())
                          : surgeon.replace_surface(instance, refs, before, after);
@@ -191,11 +139,7 @@ Expected<std::string> File::with_surfaces(std::span<const Replacement> replaceme
   if (!wanted_curves) return std::unexpected(wanted_curves.error());
   if (!changed && wanted_curves->empty() && moved.edges.empty() && moved.vertices.empty()) return bytes();
   if (auto done = write_edges(data, moved, surgeon); !done) return std::unexpected(std::move(done.error()));
-  auto result = surgeon.result();
-  if (auto checked = check(result, data, wanted); !checked) return std::unexpected(std::move(checked.error()));
-  if (data.curves.empty()) return result;
-  if (auto checked = check_curves(result, data, *wanted_curves); !checked) return std::unexpected(checked.error());
-  return result;
+  return checked(surgeon.result(), data, wanted, *wanted_curves);
 }
 
 }  // namespace knead::step

@@ -192,8 +192,7 @@ std::vector<double> plane_angle_units(const Reader& reader) {
   const auto add = [&](double unit) {
     if (std::find(result.begin(), result.end(), unit) == result.end()) result.push_back(unit);
   };
-  for (std::uint32_t k = 0; k < reader.file().instances().size(); ++k) {
-    if (!reader.is(k, "PLANE_ANGLE_UNIT")) continue;
+  for (const auto k : reader.file().named({"PLANE_ANGLE_UNIT"})) {
     if (reader.is(k, "SI_UNIT")) {
       add(1);
     } else if (const auto own = reader.attributes(k, "CONVERSION_BASED_UNIT", 1, 2); !own.empty()) {

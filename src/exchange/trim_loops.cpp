@@ -17,22 +17,22 @@ Expected<TrimLoops> trim_loops(const step::File& file, double chord) {
   const step::File::Data& data = file.data();
   const Reader reader(data.records);
   TrimLoops result;
-  result.surfaces.resize(data.surfaces.size());
+  result.surfaces.resize(data.surfaces->size());
   std::unordered_map<std::uint32_t, std::size_t> index;
-  for (std::size_t k = 0; k < data.surfaces.size(); ++k) {
-    if (data.surfaces[k].trimmed) index.emplace(data.surface_instances[k], k);
+  for (std::size_t k = 0; k < data.surfaces->size(); ++k) {
+    if ((*data.surfaces)[k].trimmed) index.emplace(data.surface_instances[k], k);
   }
   EdgeSampler edges(reader, {chord});
   std::unordered_map<std::size_t, Expected<SurfaceFoot>> feet;
-  std::vector<bool> failed(data.surfaces.size(), false);
+  std::vector<bool> failed(data.surfaces->size(), false);
   for (const Face& face : read_faces(reader)) {
     const auto found = index.find(face.surface);
     if (found == index.end()) continue;
     const auto k = found->second;
     auto foot = feet.find(k);
-    if (foot == feet.end()) foot = feet.emplace(k, SurfaceFoot::create(data.surfaces[k].surface)).first;
+    if (foot == feet.end()) foot = feet.emplace(k, SurfaceFoot::create((*data.surfaces)[k].surface)).first;
     auto parts = foot->second ? region_of(reader, face, edges, *foot->second,
-                                          net_diagonal(data.surfaces[k].surface.control_points()))
+                                          net_diagonal((*data.surfaces)[k].surface.control_points()))
                               : Expected<std::vector<RegionPart>>(std::unexpected(foot->second.error()));
     if (!parts) {
       failed[k] = true;

@@ -45,8 +45,8 @@ std::string skeleton(const Part21File& file, const Part21Instance& instance) {
   for (auto k = instance.first; k < instance.last; ++k) {
     const auto kind = file.value(k).kind;
     if (kind != Part21Kind::real && kind != Part21Kind::integer && kind != Part21Kind::reference) continue;
-    text += file.text(ByteRange{at, file.value(k).bytes.begin});
-    at = file.value(k).bytes.end;
+    text += file.text(ByteRange{at, file.range(k).begin});
+    at = file.range(k).end;
   }
   return text + std::string(file.text(ByteRange{at, instance.bytes.end}));
 }

@@ -83,6 +83,64 @@ TEST(Part21, ScopesNestAndExport) {
   EXPECT_EQ(file.instance(*file.find(1)).uses, 2U) << "the export list does not count";
 }
 
+TEST(Part21, InstancesAreFoundByTheNamesOfTheirParts) {
+  const auto file = read(
+      step_text("#9=&SCOPE\n#1=B();\nENDSCOPE b(#1);\n#2=(A()B());\n#3=BB();\n#4=A(B(1));\n#5=(B()B());\n#6=C();\n"));
+  const auto ids = [&](std::initializer_list<std::string_view> names) {
+    std::vector<std::uint64_t> result;
+    for (const auto k : file.named(names)) result.push_back(file.instance(k).id);
+    return result;
+  };
+  EXPECT_EQ(ids({"B"}), (std::vector<std::uint64_t>{9, 1, 2, 5})) << "in the order of their '#'";
+  EXPECT_EQ(ids({"A"}), (std::vector<std::uint64_t>{2, 4}));
+  EXPECT_EQ(ids({"BB", "A", "B"}), (std::vector<std::uint64_t>{9, 1, 2, 3, 4, 5})) << "once each";
+  EXPECT_EQ(ids({"D", "", "AB"}), std::vector<std::uint64_t>{});
+  EXPECT_EQ(file.keywords().size(), 4U) << "A, B, BB, C";
+}
+
+TEST(Part21, LinesEndInEveryWayWhereverTheyAre) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string bytes = "ISO-10303-21;" + end + "HEADER;" + end + "ENDSEC;" + end + "DATA;" + end;
+    for (int k = 1; k <= 3000; ++k) bytes += "#" + std::to_string(k) + "=A();" + end;
+    const auto file = read(bytes + "ENDSEC;" + end + "END-ISO-10303-21;" + end);
+    for (std::uint32_t k = 0; k < 3000; ++k) {
+      ASSERT_EQ(file.line(file.instance(k).bytes.begin), static_cast<int>(k) + 5);
+      ASSERT_EQ(file.line(file.instance(k).bytes.end), static_cast<int>(k) + 5);
+    }
+    EXPECT_EQ(file.line(static_cast<std::uint32_t>(file.bytes().size())), 3007);
+  }
+}
+
+TEST(Part21, RangesOfNestedListsEndAtTheirParenthesis) {
+  const auto file = read(step_text("#12=T(((1) ,( 'a)', () /*)*/ )) , U( V( #12 ) ),$);\n"));
+  const auto parameters = file.children(file.instance(0).first);
+  ASSERT_EQ(parameters.size(), 3U);
+  EXPECT_EQ(file.text(parameters[0]), "((1) ,( 'a)', () /*)*/ ))");
+  EXPECT_EQ(file.text(parameters[1]), "U( V( #12 ) )");
+  EXPECT_EQ(file.text(file.children(parameters[0])[1]), "( 'a)', () /*)*/ )");
+  EXPECT_EQ(file.text(file.children(parameters[1])[0] + 1), "#12");
+  EXPECT_EQ(file.text(parameters[2]), "$");
+}
+
+TEST(Part21, NamesAloneFindTheSameRecords) {
+  std::string bytes = step_text("#9=A(';',#4);\n#4=(B()C(1));\n#7 = D( /* ; */ ) ;\n");
+  const std::string before = bytes;
+  const auto names = Part21Names::parse(bytes, "test.step");
+  ASSERT_TRUE(names) << names.error().message();
+  EXPECT_EQ(bytes, before);
+  EXPECT_EQ(names->record(9), "#9=A(';',#4);");
+  EXPECT_EQ(names->record(4), "#4=(B()C(1));");
+  EXPECT_EQ(names->record(7), "#7 = D( /* ; */ ) ;");
+  EXPECT_EQ(names->record(5), std::nullopt);
+  for (const char* wrong : {"#1=A();\n#2=B();\n#1=C();\n", "#1=A(;\n", "#1=A((1,));\n"}) {
+    std::string text = step_text(wrong);
+    const auto found = Part21Names::parse(text, "test.step");
+    ASSERT_FALSE(found) << wrong;
+    EXPECT_EQ(found.error().line, error_of(step_text(wrong)).line);
+    EXPECT_EQ(found.error().what.substr(0, 10), error_of(step_text(wrong)).what.substr(0, 10));
+  }
+}
+
 TEST(Part21, SectionsOfTheLaterEditions) {
   const auto file = read(
       "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('S'));\nENDSEC;\nANCHOR;\n<here>=#1{tag:'v'};\n<there>=$;\nENDSEC;\n"
