@@ -1,5 +1,7 @@
 #include "knead/scene/model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -173,7 +175,17 @@ ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
   return input;
 }
 
+Expected<void> check_model_size(Eigen::Index control_points) {
+  if (control_points <= max_model_size) return {};
+  return input_error(fmt::format("{} control points are selected, and no more than {} can be moved together",
+                                 control_points, max_model_size),
+                     "net", "make the net coarser, or select fewer surfaces");
+}
+
 Expected<JoinedSurfaces> join_surfaces(const ModelInput& input) {
+  Eigen::Index size = 0;
+  for (const SurfaceInput& s : input.surfaces) size += s.reference->size();
+  if (auto fits = check_model_size(size); !fits) return std::unexpected(fits.error());
   JoinedSurfaces joined;
   ActiveSettings<2>& settings = joined.settings;
   if (auto held = hold_surfaces(input.surfaces, joined); !held) return std::unexpected(held.error());

@@ -90,6 +90,11 @@ Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainS
     counts[d] = std::move(*chosen);
     points *= std::accumulate(counts[d].begin(), counts[d].end(), 0.0) * per_piece;
   }
+  if (points > max_points && !std::isfinite(detail)) {
+    return input_error(fmt::format("forces on this net would be integrated over {:.0f} points, more than {:.0f}",
+                                   points, static_cast<double>(max_points)),
+                       "net", "use a coarser net, or a lower degree");
+  }
   if (points > max_points) return too_small(detail);
   for (std::size_t d = 0; d < D; ++d) {
     const int per_piece = spline.knots()[d].degree() + 1;

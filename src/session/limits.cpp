@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <variant>
+
 #include "base/counts.hpp"
 
 namespace knead {
@@ -10,6 +12,19 @@ Expected<void> check_net_size(const std::array<int, 2>& counts) {
   if (product_of(counts, max_net_size)) return {};
   return input_error(fmt::format("a net of {} x {} has more than {} million control points", counts[0], counts[1],
                                  max_net_size / 1000000),
+                     "net", "use fewer");
+}
+
+Expected<void> check_document_size(const Scene& scene, std::int64_t more) {
+  std::int64_t size = more;
+  for (const SceneSurface& s : scene.surfaces) size += s.current->size();
+  for (const SceneBody& body : scene.bodies) {
+    size += std::visit([](const auto& shapes) -> std::int64_t { return shapes.current->size(); }, body.shapes);
+  }
+  if (size <= max_document_size) return {};
+  return input_error(fmt::format("all surfaces, curves and volumes together would have {} control points, more than {} "
+                                 "million",
+                                 size, max_document_size / 1000000),
                      "net", "use fewer");
 }
 

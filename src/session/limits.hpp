@@ -5,17 +5,23 @@
 #include <cstdint>
 
 #include "knead/base/error.hpp"
+#include "knead/scene/scene.hpp"
 
 namespace knead {
 
 // What scripts may ask for. Each is far beyond use, and keeps what a few bytes can ask for within memory and time.
 
-inline constexpr std::int64_t max_net_size = 4000000;  ///< control points of one surface
-inline constexpr int max_steps = 1000000;              ///< of one command
-inline constexpr std::size_t max_json_depth = 64;      ///< lists and objects inside each other; commands need six
+inline constexpr std::int64_t max_net_size = 4000000;        ///< control points of one surface
+inline constexpr std::int64_t max_document_size = 20000000;  ///< control points of all that a document holds
+inline constexpr int max_steps = 1000000;                    ///< of one command
+inline constexpr std::size_t max_json_depth = 64;            ///< lists and objects inside each other; commands need six
 
 /// An error about `net` if a net of these counts (0 or more) is larger than `max_net_size`.
 [[nodiscard]] Expected<void> check_net_size(const std::array<int, 2>& counts);
+
+/// An error about `net` if the surfaces, curves and volumes of a scene have more than `max_document_size` control
+/// points, with so many more.
+[[nodiscard]] Expected<void> check_document_size(const Scene& scene, std::int64_t more);
 
 /// An error about `field` if there are fewer than `least` steps at each of `places`, or more than `max_steps` in all.
 [[nodiscard]] Expected<void> check_steps(int steps, const char* field, int least = 1, std::size_t places = 1);

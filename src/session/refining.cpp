@@ -67,10 +67,13 @@ double distance_from(const Surface& surface, SurfaceEdge edge, const Point& plac
 }  // namespace
 
 Expected<void> Executor::change_net(SceneSurface& s, const SurfaceChange& change) {
-  const SurfaceChange limited = [&change](const Surface& shape) -> Expected<Surface> {
+  const SurfaceChange limited = [&](const Surface& shape) -> Expected<Surface> {
     auto changed = change(shape);
     if (!changed) return changed;
     if (auto fits = check_net_size(changed->net()); !fits) return std::unexpected(fits.error());
+    if (auto fits = check_document_size(state, changed->size() - shape.size()); !fits) {
+      return std::unexpected(fits.error());
+    }
     return changed;
   };
   if (auto done = knead::change_net(s, limited); !done) return done;

@@ -38,11 +38,28 @@ TEST(Hostile, WithoutMemoryTheProgramSaysSo) {
   if (sanitized) GTEST_SKIP() << "the sanitizer reserves more";
   const Workshop workshop;
   Json nets = Json::array();
-  for (int k = 0; k < 20; ++k) nets.push_back(command("new", {{"net", {2000, 2000}}}));
+  for (int k = 0; k < 5; ++k) nets.push_back(command("new", {{"net", {2000, 2000}}}));
   const std::string script = workshop.script(nets);
-  const LessMemory limit(rlim_t{600} << 20U);
+  const LessMemory limit(rlim_t{400} << 20U);
   EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", workshop / "out.step", "--script", script}), 4, {"memory"}));
   EXPECT_EQ(workshop.files(), std::vector<std::string>{"script.json"});
+}
+
+TEST(Hostile, MoreControlPointsThanADocumentHoldsAreRefusedBeforeTheyAreMade) {
+  const Workshop workshop;
+  Json nets = Json::array();
+  for (int k = 0; k < 20; ++k) nets.push_back(command("new", {{"net", {2000, 2000}}}));
+  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", workshop / "out.step", "--script", workshop.script(nets)}), 3,
+                         {"commands[5]: net", "24000000 control points", "20 million"}));
+  EXPECT_EQ(workshop.files(), std::vector<std::string>{"script.json"});
+}
+
+TEST(Hostile, MoreControlPointsThanCanBeMovedTogetherAreRefusedBeforeAStep) {
+  const Workshop workshop;
+  const std::string script = workshop.script(
+      {command("new", {{"net", {2000, 2000}}}), command("load", {{"gravity", {0, 0, -1}}}), command("step")});
+  EXPECT_TRUE(fails_with(knead({"sculpt", "--new", "-o", workshop / "out.step", "--script", script}), 3,
+                         {"4000000 control points", "1000000", "coarser"}));
 }
 
 TEST(Hostile, TextFromFilesDoesNotReachTheTerminalRaw) {

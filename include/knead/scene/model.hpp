@@ -48,6 +48,13 @@ struct ModelInput {
   friend bool operator==(const ModelInput&, const ModelInput&) = default;
 };
 
+/// Control points that can be moved together, coupled surfaces all counted: what is factored for more of them would
+/// take gigabytes and minutes.
+inline constexpr Eigen::Index max_model_size = 1000000;
+
+/// Error (input): surfaces of so many control points in all are more than can be moved together.
+[[nodiscard]] Expected<void> check_model_size(Eigen::Index control_points);
+
 /// The smallest dimension of these tools that forces must resolve; 0: none.
 [[nodiscard]] double detail_of(const std::vector<Tool>& tools);
 

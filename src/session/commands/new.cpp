@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "../limits.hpp"
 #include "../new_body.hpp"
@@ -240,6 +241,9 @@ Expected<void> Executor::execute(const NewCommand& c) {
   if (makes_body(c)) {
     auto body = new_body(c, state.notes);
     if (!body) return std::unexpected(body.error());
+    const auto size =
+        std::visit([](const auto& shapes) -> std::int64_t { return shapes.current->size(); }, body->shapes);
+    if (auto fits = check_document_size(state, size); !fits) return fits;
     body->id = id;
     body->name = c.name.value_or(!c.points.empty() ? c.shape : body->name);
     body->unit = unit;
@@ -250,6 +254,7 @@ Expected<void> Executor::execute(const NewCommand& c) {
   }
   auto made = shape_of(c);
   if (!made) return std::unexpected(made.error());
+  if (auto fits = check_document_size(state, made->size()); !fits) return fits;
   auto at = placed(*std::move(made), c.position);
   if (!at) return std::unexpected(at.error().within("position"));
   const auto surface = std::make_shared<const Surface>(*std::move(at));
