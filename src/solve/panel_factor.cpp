@@ -12,6 +12,7 @@ namespace {
 
 /// The fastest kernels up to those of an instruction set.
 const detail::PanelKernels& panel_kernels_of(InstructionSet set) {
+  if (detail::avx512_panel_kernels != nullptr && set >= InstructionSet::avx512) return *detail::avx512_panel_kernels;
   const bool wide = detail::avx2_panel_kernels != nullptr && set >= InstructionSet::avx2;
   return wide ? *detail::avx2_panel_kernels : *detail::vector128_panel_kernels;
 }

@@ -25,6 +25,7 @@ struct PanelKernels {
 };
 
 extern const PanelKernels* const vector128_panel_kernels;
-extern const PanelKernels* const avx2_panel_kernels;  ///< null if the compiler does not target it
+extern const PanelKernels* const avx2_panel_kernels;    ///< null if the compiler does not target it
+extern const PanelKernels* const avx512_panel_kernels;  ///< likewise
 
 }  // namespace knead::detail
