@@ -48,16 +48,17 @@ Expected<std::size_t> end_of(const File& file, int number, const Parameters& par
   }
 }
 
+}  // namespace
+
 Curve turned(const Curve& curve) {
   const auto own = curve.knots(0).knots();
   const double sum = own.front() + own.back();
-  std::vector<double> knots(own.rbegin(), own.rend());
+  std::vector<double> knots(own.rbegin(), own.rend()), weights;
   for (double& t : knots) t = sum - t;
-  auto vector = KnotVector::create(curve.knots(0).degree(), std::move(knots));
-  return *Curve::create({*std::move(vector)}, Points(curve.control_points().colwise().reverse()));
+  if (curve.rational()) weights.assign(curve.weights().rbegin(), curve.weights().rend());
+  return *Curve::create({*KnotVector::create(curve.knots(0).degree(), std::move(knots))},
+                        Points(curve.control_points().colwise().reverse()), std::move(weights));
 }
-
-}  // namespace
 
 Expected<void> can_move(const File& file, const EdgeSources& sources, const std::string& edge) {
   const auto own = sources.edges.find(record_of(edge));

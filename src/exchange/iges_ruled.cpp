@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "iges_geometry.hpp"
+#include "iges_moved.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
 namespace knead::iges {
@@ -74,16 +75,6 @@ Expected<Curve> side(const File& file, int ruled, int number, const Eigen::Affin
     if (own.length() > 0) range = own;
   }
   return over_unit(*curve, range);
-}
-
-Curve turned(const Curve& curve) {
-  const auto own = curve.knots(0).knots();
-  std::vector<double> knots(own.rbegin(), own.rend());
-  for (double& t : knots) t = 1 - t;
-  std::vector<double> weights;
-  if (curve.rational()) weights.assign(curve.weights().rbegin(), curve.weights().rend());
-  return *Curve::create({*KnotVector::create(curve.knots(0).degree(), std::move(knots))},
-                        Points(curve.control_points().colwise().reverse()), std::move(weights));
 }
 
 /// The knots of `to` that `from` lacks. Those that differ by the rounding of 0 … 1 are one.
