@@ -1,38 +1,14 @@
 // What is hostile by accident or on purpose: the program ends with one line and an exit code, and writes nothing.
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
 
+#include "less_memory.hpp"
 #include "program.hpp"
 
 namespace knead::testing {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitized = true;
-#elif defined(__has_feature)
-constexpr bool sanitized = __has_feature(address_sanitizer);
-#else
-constexpr bool sanitized = false;
-#endif
-
-/// Less memory for programs that are started, until the end of the scope.
-class LessMemory {
- public:
-  explicit LessMemory(rlim_t bytes) {
-    getrlimit(RLIMIT_AS, &before_);
-    const rlimit less{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_AS, &less);
-  }
-  LessMemory(const LessMemory&) = delete;
-  LessMemory& operator=(const LessMemory&) = delete;
-  ~LessMemory() { setrlimit(RLIMIT_AS, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 TEST(Hostile, WithoutMemoryTheProgramSaysSo) {
   if (sanitized) GTEST_SKIP() << "the sanitizer reserves more";

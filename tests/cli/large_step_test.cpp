@@ -1,22 +1,13 @@
 // Large STEP files take memory in proportion to their size, and little of it.
-#include <sys/resource.h>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include "less_memory.hpp"
 #include "program.hpp"
 
 namespace knead::testing {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitized = true;
-#elif defined(__has_feature)
-constexpr bool sanitized = __has_feature(address_sanitizer);
-#else
-constexpr bool sanitized = false;
-#endif
 
 constexpr int side = 40, surfaces = 200;
 
@@ -50,21 +41,6 @@ void write_surfaces(const std::string& path) {
   }
   out << "ENDSEC;\nEND-ISO-10303-21;\n";
 }
-
-class LessMemory {
- public:
-  explicit LessMemory(rlim_t bytes) {
-    getrlimit(RLIMIT_AS, &before_);
-    const rlimit less{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_AS, &less);
-  }
-  LessMemory(const LessMemory&) = delete;
-  LessMemory& operator=(const LessMemory&) = delete;
-  ~LessMemory() { setrlimit(RLIMIT_AS, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 TEST(LargeStep, IsListedAndChangedInFourTimesItsSize) {
   if (sanitized) GTEST_SKIP() << "the sanitizer reserves more";
