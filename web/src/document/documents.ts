@@ -246,8 +246,12 @@ export class Documents {
 
   /** A stroke that was cut off ends here: its ball does not stay in the scene. */
   private async endStroke(): Promise<void> {
-    const { host } = this;
-    if (host.state?.tools.some((t) => t.name === 'brush')) await host.client.execute([{ do: 'remove', tool: 'brush' }], true);
+    const { client } = this.host;
+    // Asked of the engine: the frame on the screen may be an earlier one.
+    const { commands } = JSON.parse(await client.journal()) as { commands: Command[] };
+    const made = commands.map((c) => c.do === 'tool' && c.name === 'brush').lastIndexOf(true);
+    const removed = commands.map((c) => c.do === 'remove' && c.tool === 'brush').lastIndexOf(true);
+    if (made > removed) await client.execute([{ do: 'remove', tool: 'brush' }], true);
   }
 
   /** What the engine had done after the copy that it goes on from. False where something is missing. */
