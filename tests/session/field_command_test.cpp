@@ -144,6 +144,26 @@ TEST(Command, MirrorSymmetryMirrorsToolsAndForces) {
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-8);
 }
 
+TEST(Command, AForceIsMirroredAtTheSurfaceItWasMadeFor) {
+  const std::string beside = R"({"do":"new","net":[7,7],"position":[5,0,0]})",
+                    force = R"({"do":"force","at":[0.2,0.5],"to":[5.2,0.5,1],"strength":100})",
+                    step = R"({"do":"step","count":3})";
+  Session alone = fresh(), both = fresh();
+  run(alone, {beside, R"({"do":"symmetry","mirror":"u"})", force, step});
+  run(both, {R"({"do":"new","net":[7,7]})", beside, R"({"do":"select","surface":"#2"})",
+             R"({"do":"symmetry","mirror":"u"})", force, R"({"do":"select","surfaces":["#1","#2"]})", step});
+  EXPECT_EQ(both.largest_displacement(0), 0);
+  const Points &a = first(alone).current->control_points(), &b = both.state().surfaces[1].current->control_points();
+  EXPECT_GT(a.col(2).minCoeff(), 0.9);
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-9);
+  const Points& rest = both.state().surfaces[1].rest->control_points();
+  for (int k = 0; k < 49; ++k) {  // as in a mirror at x = 5.5; the field u varies slowest
+    const int image = (6 - k / 7) * 7 + k % 7;
+    EXPECT_NEAR(b(k, 0) - rest(k, 0), rest(image, 0) - b(image, 0), 1e-12);
+    EXPECT_NEAR(b(k, 2), b(image, 2), 1e-12);
+  }
+}
+
 TEST(Command, TheAnalyticRouteIsCloseToGauss) {
   Session gauss = fresh(), analytic = fresh();
   const std::vector<std::string> press = {R"({"do":"edge","hold":"position"})",

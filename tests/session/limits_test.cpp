@@ -123,7 +123,12 @@ TEST(Limits, SurfacesOfHighDegreesAreSculpted) {
                   R"({"do":"tool","shape":"sphere","radius":0.3,"at":[0.5,0.5]})",
                   R"({"do":"move","by":[0,0,0.1],"relative":true})", R"({"do":"step","count":2,"lambda":1})"});
     EXPECT_NEAR(session.largest_displacement(0), 0.157, 0.01) << degrees;  // as far as the ball is moved, and more
-    EXPECT_EQ(refusal(session, R"({"do":"elevate","by":[20,0]})").remedy, "degrees go to 25");
+    const Error error = refusal(session, R"({"do":"elevate","by":[19,0]})");
+    EXPECT_EQ(error.what, degrees.find("[20") == std::string::npos
+                              ? "#1 has degree 22 in u: it cannot be raised by 19"
+                              : "#1 has degree 20 in u: it cannot be raised by 19");
+    EXPECT_EQ(error.where, "by");
+    EXPECT_NE(error.remedy.find("degrees go to 25: use at most "), std::string::npos) << error.remedy;
   }
 }
 

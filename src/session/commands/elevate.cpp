@@ -1,5 +1,7 @@
 #include "elevate.hpp"
 
+#include <fmt/format.h>
+
 #include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
@@ -13,6 +15,16 @@ template <>
 Expected<void> Executor::execute(const ElevateCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   if (c.by[0] < 0 || c.by[1] < 0) return input_error("a degree cannot be lowered", "by", "use numbers >= 0");
+  for (int index : state.selection()) {
+    const auto& surface = state.surfaces[static_cast<std::size_t>(index)];
+    for (int d = 0; d < 2; ++d) {
+      const int degree = surface.current->knots(d).degree(), by = c.by[static_cast<std::size_t>(d)];
+      if (by <= max_degree - degree) continue;
+      return input_error(
+          fmt::format("{} has degree {} in {}: it cannot be raised by {}", surface.id, degree, d == 0 ? "u" : "v", by),
+          "by", fmt::format("degrees go to {}: use at most {}", max_degree, max_degree - degree));
+    }
+  }
   for (int index : state.selection()) {
     auto done =
         change_net(state.surfaces[static_cast<std::size_t>(index)], [&](const Surface& shape) -> Expected<Surface> {
