@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <ranges>
 
 #include "cli.hpp"
 #include "knead/exchange/face_colours.hpp"
@@ -75,6 +76,18 @@ Expected<void> run(const ExportArguments& options) {
   if (how.unit.empty() || how.unit == "unknown") {
     how.unit = "mm";
     fmt::print("lengths are written as millimetres: {} does not say what they are\n", options.file);
+  }
+  if (how.faces) {
+    const auto left = without_faces(surfaces);
+    if (!left) return std::unexpected(left.error());
+    std::string ids;
+    for (const std::size_t k : *left) ids += (ids.empty() ? "" : ", ") + (*source)->surfaces()[k].id;
+    for (const std::size_t k : std::views::reverse(*left))
+      surfaces.erase(surfaces.begin() + static_cast<std::ptrdiff_t>(k));
+    if (!left->empty()) {
+      fmt::print(stderr, "knead: warning: {} left out, as all their sides are points and they have no face: {}\n",
+                 counted(left->size(), "surface is", "surfaces are"), ids);
+    }
   }
   auto bytes = save_surfaces(surfaces, **format, how);
   if (!bytes) {

@@ -6,10 +6,12 @@
 #include <map>
 #include <queue>
 
+#include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "step_surfaces.hpp"
 
-namespace knead::detail {
+namespace knead {
+namespace detail {
 namespace {
 
 constexpr double same_place = 1e-9;  // of the largest surface's size
@@ -41,6 +43,18 @@ int along(const Curve& a, const Curve& b, double tolerance) {
   return runs(false) ? 1 : runs(true) ? -1 : 0;
 }
 
+/// Whether a side is a point, a pole.
+bool is_point(const Curve& side, double tolerance) {
+  const Points& points = side.control_points();
+  return (points.rowwise() - points.row(0)).rowwise().norm().maxCoeff() <= tolerance;
+}
+
+double natural_tolerance(std::span<const Surface* const> surfaces) {
+  double size = 0;
+  for (const Surface* s : surfaces) size = std::max(size, step::net_diagonal(s->control_points()));
+  return same_place * size;
+}
+
 class Builder {
  public:
   explicit Builder(double tolerance) : tolerance_(tolerance) {}
@@ -51,14 +65,15 @@ class Builder {
     for (const auto& [direction, end, forward] : {std::tuple(1, 0, true), {0, 1, true}, {1, 1, false}, {0, 0, false}}) {
       auto side = step::boundary_curve(surface, direction, end);
       if (!side) return std::unexpected(std::move(side.error()));
-      const Points& points = side->control_points();
-      if ((points.rowwise() - points.row(0)).rowwise().norm().maxCoeff() <= tolerance_) continue;  // a pole
+      if (is_point(*side, tolerance_)) continue;
       auto use = edge_of(*std::move(side));
       if (!use) return std::unexpected(std::move(use.error()));
       if (!forward) use->forward = !use->forward;
       face.loop.push_back(*use);
     }
-    if (face.loop.empty()) return input_error("the surface is a point");
+    if (face.loop.empty())
+      return input_error("all its sides are points: it has no face", {},
+                         "leave it out, or write surfaces without faces");
     for (const auto& use : face.loop) users_[use.edge].push_back(static_cast<int>(result_.faces.size()));
     result_.faces.push_back(std::move(face));
     return {};
@@ -158,9 +173,7 @@ class Builder {
 }  // namespace
 
 Expected<NaturalFaces> natural_faces(std::span<const Surface* const> surfaces) {
-  double size = 0;
-  for (const Surface* s : surfaces) size = std::max(size, step::net_diagonal(s->control_points()));
-  Builder builder(same_place * size);
+  Builder builder(natural_tolerance(surfaces));
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     if (auto done = builder.add(*surfaces[k]); !done) {
       return std::unexpected(done.error().within("surface " + std::to_string(k)));
@@ -169,4 +182,23 @@ Expected<NaturalFaces> natural_faces(std::span<const Surface* const> surfaces) {
   return builder.build();
 }
 
-}  // namespace knead::detail
+}  // namespace detail
+
+Expected<std::vector<std::size_t>> without_faces(std::span<const NamedSurface> surfaces) {
+  std::vector<const Surface*> shapes;
+  for (const NamedSurface& s : surfaces) shapes.push_back(&s.surface);
+  const double tolerance = detail::natural_tolerance(shapes);
+  std::vector<std::size_t> result;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    bool point = true;
+    for (int side = 0; side < 4 && point; ++side) {
+      const auto curve = step::boundary_curve(*shapes[k], side / 2, side % 2);
+      if (!curve) return std::unexpected(curve.error());
+      point = detail::is_point(*curve, tolerance);
+    }
+    if (point) result.push_back(k);
+  }
+  return result;
+}
+
+}  // namespace knead

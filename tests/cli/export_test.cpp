@@ -43,6 +43,21 @@ TEST(Export, RefusesOtherNamesAndSchemas) {
   EXPECT_TRUE(workshop.files().empty());
 }
 
+TEST(Export, LeavesOutWhatHasNoFaceAndSaysSo) {
+  const Workshop workshop;
+  const std::string script = workshop.script(Json::array(
+      {command("new", {{"shape", "plane"}}), command("new", {{"shape", "plane"}, {"size", 1e-12}, {"name", "tip"}})}));
+  ASSERT_EQ(knead({"sculpt", "--new", "-o", workshop / "both.step", "--script", script}).code, 0);
+  for (const std::string name : {"a.step", "b.igs"}) {
+    const Outcome run = knead({"export", workshop / "both.step", "--out", workshop / name});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("1 surface is left out"), std::string::npos) << run.err;
+    EXPECT_EQ(knead({"info", workshop / name, "--json"}).json().at("surfaces").size(), 1U);
+  }
+  ASSERT_EQ(knead({"export", workshop / "both.step", "--out", workshop / "c.step", "--sets"}).code, 0);
+  EXPECT_EQ(knead({"info", workshop / "c.step", "--json"}).json().at("surfaces").size(), 2U);
+}
+
 TEST(Export, NewSurfacesBecomeStepOfAnySchemaOrIges) {
   const Workshop workshop;
   const std::string script = workshop.script(Json::array({command("new", {{"shape", "plane"}})}));

@@ -5,11 +5,13 @@
 
 #include <cmath>
 #include <filesystem>
+#include <ranges>
 
 #include "exchange/new_surfaces.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "oracle/occt_check.hpp"
+#include "oracle/step_oracle.hpp"
 #include "support/surfaces.hpp"
 
 namespace knead::oracle {
@@ -97,6 +99,27 @@ TEST_P(NewFile, OfEveryKindOfSurfaceIsValid) {
     EXPECT_TRUE(read->complaints.empty()) << read->complaints.front();
     EXPECT_EQ(read->bad_shapes, 0);
     EXPECT_EQ(read->topology.at("faces"), 1);
+  }
+}
+
+TEST_P(NewFile, OfTheSurfacesOfARealFileIsValid) {
+  const auto files = all_files();
+  if (files.empty()) GTEST_SKIP() << "no collection of CAD files beside the project";
+  for (const fs::path& path : files) {
+    SCOPED_TRACE(path.filename().string());
+    const auto source = open_source(*read_file(path), path.filename().string());
+    ASSERT_TRUE(source) << source.error().message();
+    std::vector<NamedSurface> all;
+    for (const SourceSurface& s : (*source)->surfaces()) all.push_back({s.id, *s.surface});
+    if (all.empty()) continue;
+    const auto left = without_faces(all);
+    ASSERT_TRUE(left);
+    for (const std::size_t k : std::views::reverse(*left)) all.erase(all.begin() + static_cast<std::ptrdiff_t>(k));
+    const auto read = checked(all, true, "mm");
+    ASSERT_TRUE(read);
+    EXPECT_TRUE(read->complaints.empty()) << read->complaints.front();
+    EXPECT_EQ(read->topology.at("faces"), static_cast<int>(all.size()));
+    EXPECT_EQ(read->bad_shapes, 0);
   }
 }
 

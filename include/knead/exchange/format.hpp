@@ -110,6 +110,10 @@ struct Format {
 [[nodiscard]] Expected<std::string> save_surfaces(std::span<const NamedSurface> surfaces, const Format& format,
                                                   const SaveOptions& options = {});
 
+/// The surfaces, by index, that no new file can hold as faces: all their sides are points, to 1e-9 of the largest
+/// surface's size. `save_surfaces` refuses them where it makes faces. Errors: those of evaluating a side.
+[[nodiscard]] Expected<std::vector<std::size_t>> without_faces(std::span<const NamedSurface> surfaces);
+
 /// The bytes of a file of these meshes; the format must be one of triangles. Errors: another format, more than 2³¹
 /// triangles (input); a coordinate too large for the format (numerical).
 [[nodiscard]] Expected<std::string> save_meshes(std::span<const NamedMesh> meshes, const Format& format,
