@@ -49,6 +49,7 @@ std::string assembly_json(const step::File& file) {
                      {"unit", part.unit},
                      {"surfaces", std::move(surfaces)},
                      {"faces", part.faces},
+                     {"curves", part.curves},
                      {"places", places_of(part)}});
   }
   return Json{{"unit", assembly->unit}, {"parts", std::move(parts)}, {"warnings", assembly->warnings}}.dump(

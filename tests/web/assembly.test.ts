@@ -8,9 +8,10 @@ import { Engine } from '@studio/engine/engine';
 import { type AssemblyNode, assemblyTree } from '@studio/panels/assembly_tree';
 import { inModel } from '@studio/tools/measure';
 import { ContextView } from '@studio/view/context_view';
+import { type DrawnBody, drawnBodies, nearestChord } from '@studio/view/near';
 import { eyeOn } from '@studio/view/nearby';
 import { GridPicker } from '@studio/view/picking';
-import { mostDrawn, placedPoints, Placing, planeOf, still } from '@studio/view/placing';
+import { mostDrawn, placedBox, placedPoints, Placing, planeOf, still } from '@studio/view/placing';
 import { cutOfPicture } from '@studio/view/section_lines';
 import { nearestOn, scenePoint } from '@studio/view/surface_pick';
 
@@ -37,7 +38,8 @@ describe('parts of an assembly', () => {
   it('come from the engine with their places, converted surfaces among them', () => {
     const { unit, parts, warnings } = engine.assembly()!;
     expect([unit, warnings]).toEqual(['mm', []]);
-    expect(parts.map((p) => [p.name, p.unit, p.places.length, p.surfaces.length, p.faces.length])).toEqual([['plate', 'mm', 3, 1, 0], ['foot', 'inch', 1, 1, 1]]);
+    expect(parts.map((p) => [p.name, p.unit, p.places.length, p.surfaces.length, p.faces.length, p.curves.length]))
+      .toEqual([['plate', 'mm', 3, 1, 0, 0], ['foot', 'inch', 1, 1, 1, 0], ['rail', 'mm', 2, 0, 0, 1]]);
     expect(parts[0]!.places[0]).toEqual({ path: 'table/plate', matrix: [0, 0, 1, 20, 1, 0, 0, 0, 0, 1, 0, 0] });
     expect(engine.context()!.faces[0]!.surface).toBe(parts[1]!.surfaces[0]);
   });
@@ -66,6 +68,27 @@ describe('parts of an assembly', () => {
     expect(placing.working(plate)).toBe(second);
     expect(placing.working('#7')).toBe(still);
     expect(placing.work(first!)).toBe(true);
+  });
+
+  it('have curves where they stand, met there by the pointer', () => {
+    const { bodies } = engine.state();
+    expect(placing.of(bodies[0]!.id).map((s) => inScene([12, 0, 0]).applyMatrix4(s.matrix).distanceTo(inScene(s.place === 0 ? [0, 72, 0] : [12, 60, 8]))))
+      .toEqual([expect.closeTo(0, 12), expect.closeTo(0, 12)]);
+    const all = drawnBodies([engine.bodyPicture(0)], bodies, placing);
+    const boxes = all.map(({ picture, standing }) => placedBox(new THREE.Box3().setFromArray(picture.lines), standing)!
+      .translate(new THREE.Vector3(...(engine.origin as [number, number, number]))));
+    const near = (p: THREE.Vector3, q: readonly number[]) => p.toArray().forEach((x, d) => expect(x).toBeCloseTo(q[d]!, 5));
+    near(boxes[0]!.min, [0, 60, 0]);
+    near(boxes[0]!.max, [0, 72, 0]);
+    near(boxes[1]!.min, [0, 60, 8]);
+    near(boxes[1]!.max, [12, 60, 8]);
+    // Seen from above, in the scene.
+    const above = ({ picture, standing }: DrawnBody) => placedPoints(picture.lines, standing).filter((_, k) => k % 3 < 2);
+    const at = inScene([0, 66, 0]);
+    const hit = nearestChord(all, at.x, at.y, 0.1, above)!;
+    expect(hit.standing.place).toBe(0);
+    expect(hit.point.distanceTo(inScene([6, 0, 0]))).toBeLessThan(1e-4);
+    expect(scenePoint(hit).distanceTo(at)).toBeLessThan(1e-4);
   });
 
   it('are hit by rays where they stand, at the same point of the surface', () => {
@@ -165,11 +188,11 @@ describe('the product tree', () => {
   const text = (node: AssemblyNode): unknown => [...node.within.values()].map((n) => [n.name, n.places.length, ...(n.within.size > 0 ? [text(n)] : [])]);
 
   it('has the products below each other, and counts those of one name', () => {
-    expect(text(assemblyTree(engine.assembly()!))).toEqual([['table', 0, [['plate', 3], ['foot', 1]]]]);
+    expect(text(assemblyTree(engine.assembly()!))).toEqual([['table', 0, [['plate', 3], ['foot', 1], ['rail', 2]]]]);
   });
 
   it('shows geometry that belongs to no product', () => {
-    const rest = { name: '', unit: 'mm', surfaces: ['#1'], faces: [], places: [{ path: '', matrix: [] }] };
+    const rest = { name: '', unit: 'mm', surfaces: ['#1'], faces: [], curves: [], places: [{ path: '', matrix: [] }] };
     expect(text(assemblyTree({ unit: 'mm', parts: [rest], warnings: [] }))).toEqual([['', 1]]);
   });
 });

@@ -1,7 +1,8 @@
 /**
  * A STEP file of an assembly in mm: the part "plate", a flat patch of 10 × 10 about its origin, stands upright at (20, 0, 0),
  * its z along x, and lies at (0, 30, 0), turned by a quarter about z, and at (0, -30, 5); the part "foot", a square of 2 × 2 inches
- * on a plane, stands at (-60, 0, 0).
+ * on a plane, stands at (-60, 0, 0); the part "rail", a curve from (0, 0, 0) to (12, 0, 0), stands at (0, 60, 0) turned by a
+ * quarter about z, and at (0, 60, 8).
  */
 export function assemblyStep(): Uint8Array {
   const lines: string[] = [];
@@ -52,6 +53,11 @@ export function assemblyStep(): Uint8Array {
   use(table, plate, frame([0, 30, 0], [0, 0, 1], [0, 1, 0]));
   use(table, plate, frame([0, -30, 5]));
   use(table, foot, frame([-60, 0, 0]));
+  const ends = [0, 4, 8, 12].map((x) => `#${point(x, 0, 0)}`).join();
+  const wire = add(`B_SPLINE_CURVE_WITH_KNOTS('wire',3,(${ends}),.UNSPECIFIED.,.F.,.F.,(4,4),(0.,1.),.UNSPECIFIED.)`);
+  const rail = product('rail', [add(`GEOMETRIC_CURVE_SET('',(#${wire}))`), origin], mm);
+  use(table, rail, frame([0, 60, 0], [0, 0, 1], [0, 1, 0]));
+  use(table, rail, frame([0, 60, 8]));
   const text = `ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n${lines.join('\n')}\nENDSEC;\nEND-ISO-10303-21;\n`;
   return new TextEncoder().encode(text);
 }

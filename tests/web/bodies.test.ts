@@ -3,7 +3,8 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 import { Engine } from '@studio/engine/engine';
-import { nearestChord, nearestPoint } from '@studio/view/near';
+import { type DrawnBody, nearestChord, nearestPoint } from '@studio/view/near';
+import { still } from '@studio/view/placing';
 import { heldPoints } from '@studio/view/body_view';
 
 const wasm = readFileSync(join(fileURLToPath(new URL('../..', import.meta.url)), 'web/src/engine/knead_studio.wasm'));
@@ -60,13 +61,14 @@ describe('curves and volumes as they are drawn', () => {
 
   it('are met where the pointer is near their lines, at the place between the ends of a chord', () => {
     const body = { lines: new Float32Array([0, 0, 0, 10, 0, 0]), at: new Float32Array([0.2, 0, 0, 0.4, 0, 0]), net: new Float32Array(), points: new Float32Array(), pulled: false };
-    const flat = (points: Float32Array) => new Float32Array([...points].filter((_, k) => k % 3 < 2));
-    const hit = nearestChord([body], 5, 3, 9, flat)!;
+    const drawn = [{ body: 0, picture: body, standing: still }];
+    const flat = ({ picture }: DrawnBody) => new Float32Array([...picture.lines].filter((_, k) => k % 3 < 2));
+    const hit = nearestChord(drawn, 5, 3, 9, flat)!;
     expect(hit.body).toBe(0);
     expect(hit.point.toArray()).toEqual([5, 0, 0]);
     expect(hit.at[0]).toBeCloseTo(0.3, 6);
-    expect(nearestChord([body], 5, 12, 9, flat)).toBeNull();
-    expect(nearestChord([body], 5, 0, 9, () => new Float32Array([NaN, NaN, NaN, NaN]))).toBeNull();
+    expect(nearestChord(drawn, 5, 12, 9, flat)).toBeNull();
+    expect(nearestChord(drawn, 5, 0, 9, () => new Float32Array([NaN, NaN, NaN, NaN]))).toBeNull();
     expect(nearestPoint(new Float32Array([0, 0, 10, 0, NaN, 0]), { clientX: 8, clientY: 1 }, 9)).toBe(1);
   });
 

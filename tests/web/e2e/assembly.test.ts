@@ -10,7 +10,7 @@ const directory = directoryOfFile();
 interface Vector { x: number; y: number; z: number; set(...x: number[]): Vector; clone(): Vector; project(camera: unknown): Vector; applyMatrix4(m: unknown): Vector; toArray(): number[] }
 interface App {
   viewer: {
-    origin: number[]; main: { camera: unknown; element: HTMLElement; target: Vector }; workplace: { place: number };
+    origin: number[]; main: { camera: unknown; element: HTMLElement; target: Vector }; workplace: { place: number; matrix: unknown }; frame: { state: { body: number | null } };
     pick(view: unknown, at: { clientX: number; clientY: number }): { surface: number; standing: { place: number; matrix: unknown }; point: Vector } | null;
     tools: { get(name: string): { object: { matrixWorld: { elements: number[] } } } | undefined };
     section: { begin(...x: unknown[]): void; on: boolean };
@@ -56,8 +56,8 @@ it('shows every part where the assembly puts it', async () => {
 it('lists the products, and goes to one place after the other', async () => {
   const { page } = studio;
   const tree = page.locator('.panel[data-panel=Assembly]');
-  expect(await tree.locator('.item span').allTextContents()).toEqual(['plate × 3', 'foot']);
-  expect(await tree.locator('.note').first().textContent()).toContain('2 parts in 4 places');
+  expect(await tree.locator('.item span').allTextContents()).toEqual(['plate × 3', 'foot', 'rail × 2']);
+  expect(await tree.locator('.note').first().textContent()).toContain('3 parts in 6 places');
   await page.keyboard.press('Shift+F');
 });
 
@@ -112,6 +112,30 @@ it('puts a tool where the part was clicked', async () => {
   const { position } = tool as { position: number[] };
   [-position[1]!, 30 + position[0]!, position[2]!].forEach((x, d) => expect(world[d]).toBeCloseTo(x, 4));
   expect(Math.hypot(world[0]! + 3, world[1]! - 31)).toBeLessThan(0.6);
+  await page.keyboard.press('Control+z');
+  await settled(page);
+});
+
+it('selects a curve of a part in the place that is clicked, and draws it there', async () => {
+  const { page } = studio;
+  await page.keyboard.press('v');
+  await click(0, 66, 0);
+  const points = () => page.evaluate(() => {
+    const { viewer } = (window as never as { studio: App }).studio;
+    return { place: viewer.workplace.place, body: viewer.frame.state.body };
+  });
+  expect(await points()).toMatchObject({ place: 0, body: 0 });
+  await page.keyboard.press('g');
+  await page.mouse.move(...(await onPage(0, 66, 0)));
+  await page.mouse.down();
+  await page.mouse.move(...(await onPage(0, 66, 3)), { steps: 4 });
+  await settled(page);
+  await page.mouse.up();
+  await settled(page);
+  const spring = (await commands(page)).filter((c) => c.do === 'force').at(-1) as never as { to: number[] };
+  // Of the part: up, at its middle.
+  expect(Math.abs(spring.to[0]! - 6)).toBeLessThan(1.5);
+  expect(spring.to[2]!).toBeGreaterThan(0);
   await page.keyboard.press('Control+z');
   await settled(page);
 });

@@ -33,6 +33,8 @@ export interface Part {
   surfaces: string[];
   /** Ids of its faces. */
   faces: string[];
+  /** Ids of its curves that stand for themselves. */
+  curves: string[];
   /** At least one. */
   places: PartPlace[];
 }

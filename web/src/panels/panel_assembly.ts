@@ -21,7 +21,7 @@ export function assemblyPanel(app: App): HTMLElement {
     if (placing.assembly !== shown) [shown, opened] = [placing.assembly, opened + 1];
     return shown;
   };
-  return panel(app, 'Assembly', (a) => [assembly() && opened, a.state?.surfaces.map((s) => s.id), a.state?.selection], () => {
+  return panel(app, 'Assembly', (a) => [assembly() && opened, a.state?.surfaces.map((s) => s.id), a.state?.selection, a.state?.bodies.map((b) => b.id), a.state?.body], () => {
     const all = assembly();
     if (!all) return [];
     const places = all.parts.reduce((sum, part) => sum + part.places.length, 0);
@@ -47,14 +47,15 @@ function item(app: App, all: Assembly, node: AssemblyNode): HTMLElement {
   const part = all.parts[node.places[0]!.part]!;
   const { state } = app;
   const ids = state?.surfaces.filter((s) => part.surfaces.includes(s.id)).map((s) => s.id) ?? [];
-  const on = !app.viewer.waiting && (state?.selection.some((k) => ids.includes(state.surfaces[k]!.id)) ?? false);
+  const chosen = state ? [...state.selection.map((k) => state.surfaces[k]!.id), ...(state.body === null ? [] : [state.bodies[state.body]!.id])] : [];
+  const on = !app.viewer.waiting && chosen.some((id) => ids.includes(id) || part.curves.includes(id));
   const count = node.places.length > 1 ? ` × ${node.places.length}` : '';
   let next = 0;
   const show = () => goTo(app, node.places[next++ % node.places.length]!);
   return h('li', {}, h('button', { class: on ? 'item on' : 'item', type: 'button', onclick: show, aria: { pressed: String(on) },
     title: node.places.length > 1 ? 'Shows one place after the other; tools work there' : 'Shows it' },
     h('span', {}, `${name}${count}`),
-    h('small', {}, ids.length > 0 ? counted(ids.length, 'surface') : counted(part.faces.length, 'face'))), inner);
+    h('small', {}, ids.length > 0 ? counted(ids.length, 'surface') : part.faces.length > 0 ? counted(part.faces.length, 'face') : counted(part.curves.length, 'curve'))), inner);
 }
 
 /** Shows a part in one of its places, where it is worked on from now on. */
@@ -63,9 +64,12 @@ function goTo(app: App, { part, place }: { part: number; place: number }): void 
   const at = viewer.placing.ofPart(part)[place];
   if (!at) return; // beyond what is drawn
   viewer.workAt(at);
-  const { surfaces, faces } = viewer.placing.assembly!.parts[part]!;
+  const { surfaces, faces, curves } = viewer.placing.assembly!.parts[part]!;
   const boxes = viewer.surfaces.flatMap(({ picture }, k) =>
     (picture && surfaces.includes(app.state!.surfaces[k]!.id) ? [placedBox(new THREE.Box3().setFromArray(picture.positions), at)] : []));
+  for (const { body, picture, standing } of viewer.bodies.drawn) {
+    if (standing === at && curves.includes(app.state!.bodies[body]!.id)) boxes.push(placedBox(new THREE.Box3().setFromArray(picture.lines), at));
+  }
   const grey = viewer.context.boxAt(new Set(faces), at);
   if (boxes.length > 0 || grey) viewer.fit(boundsOf([...boxes, grey]));
   app.changed();

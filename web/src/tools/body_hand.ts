@@ -65,6 +65,7 @@ export class BodyHand implements PointerTool {
   click(viewport: Viewport, event: PointerEvent): boolean {
     const hit = pickBody(this.viewer, viewport, event);
     if (!hit) return false;
+    this.viewer.workAt(hit.standing);
     if (hit.body !== this.selected) void this.select(hit.body);
     return true;
   }
@@ -75,6 +76,7 @@ export class BodyHand implements PointerTool {
     const { mode } = this.viewer.element.dataset;
     const hit = mode === 'look' ? null : pickBody(this.viewer, viewport, event, event.pointerType === 'touch' ? 18 : 9);
     if (!hit) return false; // looking, the view turns; a click selects
+    this.viewer.workAt(hit.standing);
     if (hit.body !== this.selected) {
       void this.select(hit.body);
       return true;

@@ -296,7 +296,10 @@ export class PointEditor implements PointerTool {
     if (x1 - x0 < 4 && y1 - y0 < 4) {
       // A click on another surface selects that surface.
       const hit = this.viewer.pick(box.viewport, event), body = pickBody(this.viewer, box.viewport, event);
-      if (body && body.body !== this.viewer.frame!.state.body) return void this.actions.selectBody(body.body);
+      if (body && body.body !== this.viewer.frame!.state.body) {
+        this.viewer.workAt(body.standing);
+        return void this.actions.selectBody(body.body);
+      }
       if (hit && !this.viewer.isSelected(hit.surface)) void this.actions.select(hit.surface);
       else if (!box.add) this.choose([]);
       return;

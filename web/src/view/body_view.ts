@@ -3,6 +3,8 @@ import * as THREE from 'three';
 import type { BodyInfo } from '../engine/generated';
 import type { BodyPicture } from '../engine/session_types';
 import type { Display, Palette } from './display';
+import { type DrawnBody, drawnBodies } from './near';
+import { placedBox, placedPoints, Placing, type Standing, still } from './placing';
 import { disc } from './surface_view';
 
 const line = () => {
@@ -29,8 +31,11 @@ export class BodyView {
   editing = false;
   bodies: BodyPicture[] = [];
   lattice: BodyPicture | null = null;
+  /** Of the selected one, or of what the lattice is round. */
+  workplace: Standing = still;
   private selected: number | null = null;
-  private info: BodyInfo | null = null;
+  private infos: readonly BodyInfo[] = [];
+  private placing = new Placing();
   private readonly rest = line();
   private readonly lit = line();
   private readonly chosen = line();
@@ -43,24 +48,30 @@ export class BodyView {
   }
 
   /** `infos`: of the bodies, in their order. */
-  show(bodies: BodyPicture[], lattice: BodyPicture | null, selected: number | null, infos: readonly BodyInfo[]): void {
-    Object.assign(this, { bodies, lattice, selected, info: infos[selected ?? -1] ?? null });
+  show(bodies: BodyPicture[], lattice: BodyPicture | null, selected: number | null, infos: readonly BodyInfo[], placing: Placing): void {
+    Object.assign(this, { bodies, lattice, selected, infos, placing });
   }
 
-  /** Places of the control points that can be dragged. */
+  /** All of them, in all their places. */
+  get drawn(): DrawnBody[] {
+    return drawnBodies(this.bodies, this.infos, this.placing);
+  }
+
+  /** The control points that can be dragged, in the coordinates of their part. */
   get control(): Float32Array | null {
     return (this.lattice ?? this.bodies[this.selected ?? -1])?.points ?? null;
   }
 
   restyle(display: Display, palette: Palette): void {
-    const { bodies, selected, hovered, lattice } = this;
-    const of = (which: (k: number) => boolean) => bodies.filter((_, k) => which(k));
-    const held = [...of((k) => k === selected), ...(lattice ? [lattice] : [])];
+    const { drawn, bodies, selected, hovered, lattice, workplace } = this;
+    const of = (which: (k: number) => boolean) => drawn.filter(({ body }) => which(body)).map(({ picture, standing }) => placedPoints(picture.lines, standing));
+    const held = [...bodies.filter((_, k) => k === selected), ...(lattice ? [lattice] : [])];
+    const here = (points: Float32Array) => placedPoints(points, workplace);
     const parts = [
-      [this.rest, of((k) => k !== selected && k !== hovered).map((b) => b.lines), palette.net, 0.8],
-      [this.lit, of((k) => k !== selected && k === hovered).map((b) => b.lines), palette.toolSelected, 0.75],
-      [this.chosen, held.map((b) => b.lines), palette.toolSelected, lattice ? 0.55 : 1],
-      [this.net, held.map((b) => b.net), palette.net, this.editing ? 0.8 : 0.4],
+      [this.rest, of((k) => k !== selected && k !== hovered), palette.net, 0.8],
+      [this.lit, of((k) => k !== selected && k === hovered), palette.toolSelected, 0.75],
+      [this.chosen, [...of((k) => k === selected), ...(lattice ? [here(lattice.lines)] : [])], palette.toolSelected, lattice ? 0.55 : 1],
+      [this.net, held.map((b) => here(b.net)), palette.net, this.editing ? 0.8 : 0.4],
     ] as const;
     for (const [part, ends, colour, opacity] of parts) {
       part.geometry.dispose();
@@ -70,9 +81,9 @@ export class BodyView {
       part.material.color.set(colour);
       part.material.opacity = opacity;
     }
-    const { control, info } = this;
+    const { control, infos } = this, info = infos[selected ?? -1];
     const ends = info && !lattice && control ? heldPoints(info.net, info.sides).flatMap((k) => [...control.subarray(3 * k, 3 * k + 3)]) : [];
-    const dotted = [[this.points, this.editing && control ? control : new Float32Array(), palette.net, 3], [this.held, new Float32Array(ends), heldColour, 6]] as const;
+    const dotted = [[this.points, this.editing && control ? here(control) : new Float32Array(), palette.net, 3], [this.held, here(new Float32Array(ends)), heldColour, 6]] as const;
     for (const [part, places, colour, larger] of dotted) {
       part.visible = places.length > 0;
       part.geometry.dispose();
@@ -83,9 +94,9 @@ export class BodyView {
     }
   }
 
-  /** Of each. */
+  /** Of each in each of its places. */
   boxes(): THREE.Box3[] {
-    return this.bodies.map(({ lines }) => new THREE.Box3().setFromArray(lines));
+    return this.drawn.map(({ picture, standing }) => placedBox(new THREE.Box3().setFromArray(picture.lines), standing)!);
   }
 }
 

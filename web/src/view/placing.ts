@@ -39,7 +39,7 @@ function standing(part: number, place: number, rows: readonly number[], origin: 
 export class Placing {
   assembly: Assembly | null = null;
   private standings: Standing[][] = []; // by part
-  private parts = new Map<string, number[]>(); // by the ids of surfaces and faces
+  private parts = new Map<string, number[]>(); // by the ids of surfaces, faces and curves
   private chosen = new Map<number, number>(); // places by part
 
   /** Another file; null: without an assembly. */
@@ -48,7 +48,7 @@ export class Placing {
     this.parts = new Map();
     this.chosen = new Map();
     this.standings = (assembly?.parts ?? []).map((part, k) => {
-      for (const id of [...part.surfaces, ...part.faces]) this.parts.set(id, [...(this.parts.get(id) ?? []), k]);
+      for (const id of [...part.surfaces, ...part.faces, ...part.curves]) this.parts.set(id, [...(this.parts.get(id) ?? []), k]);
       return part.places.slice(0, mostDrawn).map((place, l) => standing(k, l, place.matrix, origin));
     });
   }
@@ -67,7 +67,7 @@ export class Placing {
     return this.standings[part] ?? [];
   }
 
-  /** Where a surface or a face stands, by its id. */
+  /** Where a surface, a face or a curve stands, by its id. */
   of(id: string): readonly Standing[] {
     const parts = this.parts.get(id);
     if (!parts) return unmoved;
@@ -99,10 +99,10 @@ export function planeOf([a, b, c, d]: readonly [number, number, number, number],
 }
 
 /** Points of a part, three numbers each, in the scene. */
-export function placedPoints(points: number[], at: Standing): number[] {
+export function placedPoints<P extends number[] | Float32Array>(points: P, at: Standing): P {
   if (at === still) return points;
   const p = new THREE.Vector3();
-  const result = new Array<number>(points.length);
+  const result = points.slice() as P;
   for (let k = 0; k < points.length; k += 3) p.fromArray(points, k).applyMatrix4(at.matrix).toArray(result, k);
   return result;
 }

@@ -16,7 +16,8 @@ export interface Hit {
 }
 
 /** Where it is in the scene. */
-export const scenePoint = (hit: Hit | null): THREE.Vector3 | null => hit && hit.point.clone().applyMatrix4(hit.standing.matrix);
+export const scenePoint = <H extends Pick<Hit, 'point' | 'standing'> | null>(hit: H): H extends null ? null : THREE.Vector3 =>
+  (hit && hit.point.clone().applyMatrix4(hit.standing.matrix)) as never;
 
 /** A drawn surface: what rays meet, what its trims leave of it, and where it stands. */
 export interface Pickable {

@@ -150,8 +150,7 @@ export class Viewer {
     this.combs.restyle(this.display.combScale * this.bounds().radius, this.palette.comb);
     const lit = (k: number) => state.selection.length === 0 || state.selection.includes(k);
     pictures.forEach((p, k) => this.surfaces[k]!.show(p, state.surfaces[k]!, this.display, this.palette, lit(k)));
-    this.bodies.show(frame.bodies, frame.lattice, state.body, state.bodies);
-    this.bodies.restyle(this.display, this.palette);
+    this.bodies.show(frame.bodies, frame.lattice, state.body, state.bodies, this.placing);
     this.stand();
     this.tools.show(frame, this.toolScene);
     this.section.forget();
@@ -181,6 +180,8 @@ export class Viewer {
     this.work.matrix.copy(workplace.matrix);
     this.work.updateMatrixWorld(true);
     for (const view of this.viewports) view.workplace = workplace;
+    this.bodies.workplace = workplace;
+    this.bodies.restyle(this.display, this.palette);
   }
 
   /** Where a surface stands, by its number. */
@@ -193,9 +194,11 @@ export class Viewer {
     return this.placing.working(this.frame?.state.surfaces[surface]?.id ?? '');
   }
 
-  /** The place of the first selected surface: tools, control points, edges and combs are there. */
+  /** The place of the selected curve or the first selected surface: tools, control points, edges and combs are there. */
   get workplace(): Standing {
-    const first = this.frame?.state.selection[0];
+    const { state } = this.frame ?? {};
+    const first = state?.selection[0];
+    if (state && state.body !== null) return this.placing.working(state.bodies[state.body]!.id);
     return first === undefined ? still : this.working(first);
   }
 
