@@ -124,11 +124,10 @@ TEST(Limits, SurfacesOfHighDegreesAreSculpted) {
                   R"({"do":"move","by":[0,0,0.1],"relative":true})", R"({"do":"step","count":2,"lambda":1})"});
     EXPECT_NEAR(session.largest_displacement(0), 0.157, 0.01) << degrees;  // as far as the ball is moved, and more
     const Error error = refusal(session, R"({"do":"elevate","by":[19,0]})");
-    EXPECT_EQ(error.what, degrees.find("[20") == std::string::npos
-                              ? "#1 has degree 22 in u: it cannot be raised by 19"
-                              : "#1 has degree 20 in u: it cannot be raised by 19");
+    const bool lower = degrees.find("[20") != std::string::npos;
+    EXPECT_EQ(error.what, fmt::format("#1 has degree {} in u: it cannot be raised by 19", lower ? 20 : 22));
     EXPECT_EQ(error.where, "by");
-    EXPECT_NE(error.remedy.find("degrees go to 25: use at most "), std::string::npos) << error.remedy;
+    EXPECT_EQ(error.remedy, fmt::format("degrees go to 25: use at most {}", lower ? 5 : 3));
   }
 }
 

@@ -16,25 +16,20 @@ Expected<void> Executor::execute(const ElevateCommand& c) {
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   if (c.by[0] < 0 || c.by[1] < 0) return input_error("a degree cannot be lowered", "by", "use numbers >= 0");
   for (int index : state.selection()) {
-    const auto& surface = state.surfaces[static_cast<std::size_t>(index)];
-    for (int d = 0; d < 2; ++d) {
-      const int degree = surface.current->knots(d).degree(), by = c.by[static_cast<std::size_t>(d)];
-      if (by <= max_degree - degree) continue;
-      return input_error(
-          fmt::format("{} has degree {} in {}: it cannot be raised by {}", surface.id, degree, d == 0 ? "u" : "v", by),
-          "by", fmt::format("degrees go to {}: use at most {}", max_degree, max_degree - degree));
-    }
-  }
-  for (int index : state.selection()) {
-    auto done =
-        change_net(state.surfaces[static_cast<std::size_t>(index)], [&](const Surface& shape) -> Expected<Surface> {
-          Expected<Surface> result = shape;
-          for (int d = 0; d < 2; ++d) {
-            const int times = c.by[static_cast<std::size_t>(d)];
-            if (result && times > 0) result = elevate_degree<2>(*result, d, times);
-          }
-          return result;
-        });
+    auto& s = state.surfaces[static_cast<std::size_t>(index)];
+    auto done = change_net(s, [&](const Surface& shape) -> Expected<Surface> {
+      Expected<Surface> result = shape;
+      for (int d = 0; d < 2; ++d) {
+        const int degree = shape.knots(d).degree(), times = c.by[static_cast<std::size_t>(d)];
+        if (times > max_degree - degree) {
+          return input_error(
+              fmt::format("{} has degree {} in {}: it cannot be raised by {}", s.id, degree, d == 0 ? "u" : "v", times),
+              "by", fmt::format("degrees go to {}: use at most {}", max_degree, max_degree - degree));
+        }
+        if (result && times > 0) result = elevate_degree<2>(*result, d, times);
+      }
+      return result;
+    });
     if (!done) return done;
   }
   return {};
