@@ -8,10 +8,10 @@ import { Engine } from '@studio/engine/engine';
 import { type AssemblyNode, assemblyTree } from '@studio/panels/assembly_tree';
 import { inModel } from '@studio/tools/measure';
 import { ContextView } from '@studio/view/context_view';
-import { type DrawnBody, drawnBodies, nearestChord } from '@studio/view/near';
+import { boxOf, type DrawnBody, drawnBodies, nearestChord } from '@studio/view/near';
 import { eyeOn } from '@studio/view/nearby';
 import { GridPicker } from '@studio/view/picking';
-import { mostDrawn, placedBox, placedPoints, Placing, planeOf, still } from '@studio/view/placing';
+import { mostDrawn, placedPoints, Placing, planeOf, still } from '@studio/view/placing';
 import { cutOfPicture } from '@studio/view/section_lines';
 import { nearestOn, scenePoint } from '@studio/view/surface_pick';
 
@@ -75,8 +75,7 @@ describe('parts of an assembly', () => {
     expect(placing.of(bodies[0]!.id).map((s) => inScene([12, 0, 0]).applyMatrix4(s.matrix).distanceTo(inScene(s.place === 0 ? [0, 72, 0] : [12, 60, 8]))))
       .toEqual([expect.closeTo(0, 12), expect.closeTo(0, 12)]);
     const all = drawnBodies([engine.bodyPicture(0)], bodies, placing);
-    const boxes = all.map(({ picture, standing }) => placedBox(new THREE.Box3().setFromArray(picture.lines), standing)!
-      .translate(new THREE.Vector3(...(engine.origin as [number, number, number]))));
+    const boxes = all.map((drawn) => boxOf(drawn).translate(new THREE.Vector3(...(engine.origin as [number, number, number]))));
     const near = (p: THREE.Vector3, q: readonly number[]) => p.toArray().forEach((x, d) => expect(x).toBeCloseTo(q[d]!, 5));
     near(boxes[0]!.min, [0, 60, 0]);
     near(boxes[0]!.max, [0, 72, 0]);

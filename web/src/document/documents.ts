@@ -249,9 +249,8 @@ export class Documents {
     const { client } = this.host;
     // Asked of the engine: the frame on the screen may be an earlier one.
     const { commands } = JSON.parse(await client.journal()) as { commands: Command[] };
-    const made = commands.map((c) => c.do === 'tool' && c.name === 'brush').lastIndexOf(true);
-    const removed = commands.map((c) => c.do === 'remove' && c.tool === 'brush').lastIndexOf(true);
-    if (made > removed) await client.execute([{ do: 'remove', tool: 'brush' }], true);
+    const last = commands.filter((c) => (c.do === 'tool' && c.name === 'brush') || (c.do === 'remove' && c.tool === 'brush')).at(-1);
+    if (last?.do === 'tool') await client.execute([{ do: 'remove', tool: 'brush' }], true);
   }
 
   /** What the engine had done after the copy that it goes on from. False where something is missing. */

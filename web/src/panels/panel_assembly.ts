@@ -2,6 +2,7 @@ import * as THREE from 'three';
 
 import type { Assembly } from '../engine/context';
 import { boundsOf } from '../view/bounds';
+import { boxOf } from '../view/near';
 import { placedBox } from '../view/placing';
 import type { App } from './app';
 import { type AssemblyNode, assemblyTree } from './assembly_tree';
@@ -67,10 +68,8 @@ function goTo(app: App, { part, place }: { part: number; place: number }): void 
   const { surfaces, faces, curves } = viewer.placing.assembly!.parts[part]!;
   const boxes = viewer.surfaces.flatMap(({ picture }, k) =>
     (picture && surfaces.includes(app.state!.surfaces[k]!.id) ? [placedBox(new THREE.Box3().setFromArray(picture.positions), at)] : []));
-  for (const { body, picture, standing } of viewer.bodies.drawn) {
-    if (standing === at && curves.includes(app.state!.bodies[body]!.id)) boxes.push(placedBox(new THREE.Box3().setFromArray(picture.lines), at));
-  }
+  const lines = viewer.bodies.drawn.filter(({ body, standing }) => standing === at && curves.includes(app.state!.bodies[body]!.id)).map(boxOf);
   const grey = viewer.context.boxAt(new Set(faces), at);
-  if (boxes.length > 0 || grey) viewer.fit(boundsOf([...boxes, grey]));
+  if (boxes.length + lines.length > 0 || grey) viewer.fit(boundsOf([...boxes, ...lines, grey]));
   app.changed();
 }

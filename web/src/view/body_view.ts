@@ -3,8 +3,8 @@ import * as THREE from 'three';
 import type { BodyInfo } from '../engine/generated';
 import type { BodyPicture } from '../engine/session_types';
 import type { Display, Palette } from './display';
-import { type DrawnBody, drawnBodies } from './near';
-import { placedBox, placedPoints, Placing, type Standing, still } from './placing';
+import { boxOf, type DrawnBody, drawnBodies } from './near';
+import { placedPoints, Placing, type Standing, still } from './placing';
 import { disc } from './surface_view';
 
 const line = () => {
@@ -96,7 +96,7 @@ export class BodyView {
 
   /** Of each in each of its places. */
   boxes(): THREE.Box3[] {
-    return this.drawn.map(({ picture, standing }) => placedBox(new THREE.Box3().setFromArray(picture.lines), standing)!);
+    return this.drawn.map(boxOf);
   }
 }
 

@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 
 import type { BodyPicture, Vector3 } from '../engine/session_types';
-import type { Placing, Standing } from './placing';
+import { placedBox, type Placing, type Standing } from './placing';
 
 /** A curve or a volume in one of its places. */
 export interface DrawnBody {
@@ -13,6 +13,9 @@ export interface DrawnBody {
 /** All curves and volumes, by their pictures and ids, in all their places. */
 export const drawnBodies = (pictures: readonly BodyPicture[], ids: readonly { id: string }[], placing: Placing): DrawnBody[] =>
   pictures.flatMap((picture, body) => placing.of(ids[body]!.id).map((standing) => ({ body, picture, standing })));
+
+/** Round one of them, in the scene. */
+export const boxOf = ({ picture, standing }: DrawnBody): THREE.Box3 => placedBox(new THREE.Box3().setFromArray(picture.lines), standing)!;
 
 /** Where the pointer meets the lines of a curve or a volume. */
 export interface BodyHit {

@@ -16,8 +16,7 @@ export interface Hit {
 }
 
 /** Where it is in the scene. */
-export const scenePoint = <H extends Pick<Hit, 'point' | 'standing'> | null>(hit: H): H extends null ? null : THREE.Vector3 =>
-  (hit && hit.point.clone().applyMatrix4(hit.standing.matrix)) as never;
+export const scenePoint = ({ point, standing }: Pick<Hit, 'point' | 'standing'>): THREE.Vector3 => point.clone().applyMatrix4(standing.matrix);
 
 /** A drawn surface: what rays meet, what its trims leave of it, and where it stands. */
 export interface Pickable {

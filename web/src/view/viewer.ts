@@ -45,7 +45,10 @@ export class Viewer {
   /** Called after each picture. */
   readonly onDrawn: (() => void)[] = [];
 
-  readonly navigator = new Navigator((viewport, at) => scenePoint(this.pick(viewport, at)) ?? viewport.unprojectInScene(at.clientX, at.clientY, viewport.target));
+  readonly navigator = new Navigator((viewport, at) => {
+    const hit = this.pick(viewport, at);
+    return hit ? scenePoint(hit) : viewport.unprojectInScene(at.clientX, at.clientY, viewport.target);
+  });
   /** A double click on the label of a view. */
   onMaximise: (name: ViewName) => void = () => {};
 
