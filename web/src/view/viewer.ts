@@ -199,9 +199,8 @@ export class Viewer {
 
   /** The place of the selected curve or the first selected surface: tools, control points, edges and combs are there. */
   get workplace(): Standing {
-    const { state } = this.frame ?? {};
-    const first = state?.selection[0];
-    if (state && state.body !== null) return this.placing.working(state.bodies[state.body]!.id);
+    const { selection: [first] = [], bodies = [], body = null } = this.frame?.state ?? {};
+    if (body !== null) return this.placing.working(bodies[body]!.id);
     return first === undefined ? still : this.working(first);
   }
 
