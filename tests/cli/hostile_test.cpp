@@ -86,9 +86,11 @@ TEST(Hostile, ALimitThatAStepCannotKeepIsAnError) {
   EXPECT_EQ(workshop.files(), std::vector<std::string>{"script.json"});
 }
 
-/// The exit code of the program with these arguments after Ctrl+C in its first second.
+/// The exit code of the program with these arguments after Ctrl+C in its first second. In the foreground `timeout`
+/// sends one signal; else another one follows to the whole group, and a second Ctrl+C ends the program at once.
 int interrupted(const std::string& arguments) {
-  const std::string line = "timeout -s INT 1 " KNEAD_PROGRAM " " + arguments + " >/dev/null 2>&1 </dev/null";
+  const std::string line =
+      "timeout --foreground -s INT 1 " KNEAD_PROGRAM " " + arguments + " >/dev/null 2>&1 </dev/null";
   const int status = std::system(line.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
