@@ -14,7 +14,8 @@ peers=(libocct-data-exchange-dev libsuitesparse-dev)
 # The library for WebAssembly, and node to run it.
 wasm=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc nodejs)
 # The studio is built by node's tools, whose versions are those of web/package-lock.json. Node from elsewhere brings npm.
-studio=("${wasm[@]}")
+# wasm-split of binaryen takes the engine apart.
+studio=("${wasm[@]}" binaryen)
 command -v npm >/dev/null || studio+=(npm)
 # And tested in a real browser.
 web=("${build[@]}" "${studio[@]}" chromium)

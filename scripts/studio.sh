@@ -19,6 +19,11 @@ if ! cmp -s package-lock.json node_modules/.installed; then
   cp package-lock.json node_modules/.installed
 fi
 inputs=(index.html package-lock.json vite.config.ts tsconfig.json src public ../samples/bonnet.step)
+# The engine in two modules; what a session calls first is what the page loads first.
+engine=src/engine
+if [ ! -f $engine/knead_core.wasm ] || [ -n "$(find $engine/knead_studio.wasm scripts/split.mjs -newer $engine/knead_core.wasm -print -quit)" ]; then
+  node scripts/split.mjs $engine/knead_studio.wasm $engine/knead_core.wasm $engine/knead_rest.wasm
+fi
 if [ ! -f dist/index.html ] || [ -n "$(find "${inputs[@]}" -newer dist/index.html -print -quit)" ]; then
   npm run --silent build
   node scripts/pack.mjs dist

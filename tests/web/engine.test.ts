@@ -1,9 +1,8 @@
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { brotliDecompressSync } from 'node:zlib';
 
 import { Engine } from '@studio/engine/engine';
 import { type Command, EngineError, type Vector3 } from '@studio/engine/session_types';
@@ -30,14 +29,6 @@ const press: Command[] = [
 ];
 
 describe('the session in WebAssembly', () => {
-  it('is at most 1.1 megabytes as it goes over the network', () => {
-    const assets = join(root, 'web/dist/assets');
-    const packed = readdirSync(assets).filter((name) => /^knead_studio.*\.wasm\.br$/.test(name)).map((name) => readFileSync(join(assets, name)));
-    expect(packed).toHaveLength(1);
-    expect(brotliDecompressSync(packed[0]!).equals(wasm)).toBe(true);
-    expect(packed[0]!.byteLength).toBeLessThan(1_120_000);
-  });
-
   it('gives the control points of the native one to 1e-9', async () => {
     const directory = mkdtempSync(join(tmpdir(), 'knead-'));
     try {

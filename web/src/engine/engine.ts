@@ -2,6 +2,7 @@ import { type BufferTable, Buffers } from './buffers';
 import type { Assembly, Context, FaceEdge, Trim } from './context';
 import { type CheckedEdgeInfo, type EdgesInfo, fileFormats, type ReadingInfo } from './generated';
 import { type DisplayChoice, type DisplayInfo, type DisplayRange, plain } from './displays';
+import type { Rest } from './rest';
 import {
   type BodyPicture, coefficients, type Combs, type Command, EngineError, type LatticeSettings, type MaterialSamples, type MeshFormat, type Picture, type PictureWindow,
   type SectionPlane, type SessionInfo, type StepInfo, type SurfaceNumbers, type ToolPicture, type Vector3,
@@ -56,10 +57,11 @@ export class Engine {
 
   private constructor(private readonly wasm: Exports) {}
 
-  static async load(bytes: BufferSource | Promise<Response>): Promise<Engine> {
+  /** `rest`: the second module, where the first is the core that was split from it. */
+  static async load(bytes: BufferSource | Promise<Response>, rest?: Rest): Promise<Engine> {
     let engine: Engine | null = null;
     const told = (done: number, total: number) => engine?.onProgress(done, total);
-    engine = new Engine(await start<Exports>(bytes, { studio: { progress: told } }));
+    engine = new Engine(await start<Exports>(bytes, { studio: { progress: told } }, rest));
     return engine;
   }
 

@@ -1,3 +1,5 @@
+import type { Rest } from './rest';
+
 /** What a library calls beside the system, by module and name. */
 type Imports = Record<string, Record<string, (...numbers: number[]) => void>>;
 
@@ -5,7 +7,7 @@ type Imports = Record<string, Record<string, (...numbers: number[]) => void>>;
  * The few system calls that the compiled C++ library may make. There are no file system and no arguments; calls not
  * listed here return "not supported" (52).
  */
-function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memory, own: Imports): WebAssembly.Imports {
+function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memory, own: Imports, rest?: Rest): WebAssembly.Imports {
   const view = () => new DataView(memory().buffer);
   const known: Record<string, (...args: never[]) => number> = {
     clock_time_get: (_id: number, _precision: bigint, out: number) => {
@@ -35,20 +37,22 @@ function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memor
   };
   const imports: WebAssembly.Imports = {};
   for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-    (imports[from] ??= {})[name] = own[from]?.[name] ?? (known[name] as ((...args: unknown[]) => number) | undefined) ?? (() => 52);
+    const standIn = from === 'rest' ? rest?.standIn(name) : undefined;
+    (imports[from] ??= {})[name] = standIn ?? own[from]?.[name] ?? (known[name] as ((...args: unknown[]) => number) | undefined) ?? (() => 52);
   }
   return imports;
 }
 
-/** Starts a compiled C++ library, as it arrives or from its bytes, and returns its exports. */
+/** Starts a compiled C++ library, as it arrives or from its bytes, and returns its exports. `rest`: what was split from it. */
 export async function start<Exports extends { memory: WebAssembly.Memory; _initialize(): void }>(
-  bytes: BufferSource | Promise<Response>, own: Imports = {},
+  bytes: BufferSource | Promise<Response>, own: Imports = {}, rest?: Rest,
 ): Promise<Exports> {
   const module =
     bytes instanceof Promise ? await WebAssembly.compileStreaming(bytes) : await WebAssembly.compile(bytes);
   let wasm: Exports | undefined;
-  const instance = await WebAssembly.instantiate(module, wasiImports(module, () => wasm!.memory, own));
+  const instance = await WebAssembly.instantiate(module, wasiImports(module, () => wasm!.memory, own, rest));
   wasm = instance.exports as unknown as Exports;
+  rest?.join(instance.exports);
   wasm._initialize();
   return wasm;
 }

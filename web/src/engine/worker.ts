@@ -1,18 +1,36 @@
 import { type DisplayRange, noValue, plain } from './displays';
 import { Engine } from './engine';
 import { History } from './history';
-import wasmUrl from './knead_studio.wasm?url';
+import coreUrl from './knead_core.wasm?url';
+import restUrl from './knead_rest.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
+import { Rest } from './rest';
 import { type Command, EngineError, type EngineErrorInfo, type Picture, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
 import { trimTree } from './trim_tree';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
 
-const engineLoaded = Engine.load(fetch(wasmUrl)).then((engine) => {
+const rest = new Rest(() => new WebAssembly.Module(fetchNow(restUrl)));
+const engineLoaded = Engine.load(fetch(coreUrl), rest).then((engine) => {
   history = new History(engine);
   engine.onProgress = tellProgress;
   return engine;
 });
+
+/** While the C++ session waits for it. */
+function fetchNow(url: string): ArrayBuffer {
+  const request = new XMLHttpRequest();
+  request.open('GET', url, false);
+  request.responseType = 'arraybuffer';
+  request.send();
+  if (request.status !== 200) throw new Error(`${url} could not be fetched: ${request.status} ${request.statusText}`);
+  return request.response as ArrayBuffer;
+}
+
+const restAfter = 4000; // milliseconds: what the page shows first comes first
+void engineLoaded.then(() => setTimeout(() => {
+  if (!rest.started) WebAssembly.compileStreaming(fetch(restUrl)).then((module) => rest.provide(module), () => undefined); // a call fetches it again
+}, restAfter));
 let settings: PictureSettings = { detail: 96, display: plain };
 /** Nothing has changed since the page asked for pictures: what it sees from nearby is drawn finely. */
 let resting = false;
