@@ -189,6 +189,8 @@ it('what was done is taken back step by step, and done again', async () => {
 
 it('what was just drawn runs, and is taken back, without a wait', async () => {
   const { mouse } = studio.page;
+  await button('Redo').click();
+  await expect.poll(() => button('Redo').isDisabled()).toBe(true);
   await key('e');
   await drag([60, 60], [80, 84]);
   await mouse.up();
@@ -196,7 +198,7 @@ it('what was just drawn runs, and is taken back, without a wait', async () => {
   await key('Control+z');
   await key('Control+z');
   await expect.poll(() => button('Redo').isDisabled()).toBe(false);
-  expect(await snakes().locator('path.snake').count()).toBe(2);
+  await expect.poll(() => snakes().locator('path.snake').count()).toBe(2);
   expect(await running()).toBe('false');
   expect(await studio.page.locator('.notice', { hasText: 'Draw a snake' }).count()).toBe(0);
 });

@@ -43,7 +43,7 @@ export class SnakeFields {
         note(`${model.preset.about}.`),
         ...imageFields.map((f) => this.energy(f)),
         row(h('button', { class: 'button small', type: 'button', title: 'An image whose white parts the energy “Mask” draws to', disabled: !model.image, onclick: () => picker.click() }, mask ? `Mask: ${mask}` : 'Open a mask…'), picker,
-          toggle('Relative', image.relative_region, (on) => void model.apply({ ...model.script, image: { ...model.script.image, relative_region: on } }), 'Regions count in the difference of the means, at most 1: the same force for what is pale and what is bright'),
+          toggle('Relative', image.relative_region, (on) => void model.apply((script) => ({ ...script, image: { ...script.image, relative_region: on } })), 'Regions count in the difference of the means, at most 1: the same force for what is pale and what is bright'),
           toggle('Show the energy', model.energy !== null, (on) => void model.showEnergy(on), 'What attracts, in place of the image: white draws most. Forces along the normal, as regions and the balloon, are not in it'))),
       h('section', {}, h('h3', {}, 'How the snake resists'), ...snakeFields.map((f) => this.setting(f)), more),
       h('section', {}, h('h3', {}, 'By hand'),
@@ -91,12 +91,12 @@ export class SnakeFields {
 
   private energy({ key, label, about, whole }: Field<ImageNumber>): HTMLElement {
     const { model } = this;
-    return this.line(label, about, model.script.image[key], (value) => model.refusal({ ...model.script, image: { ...model.script.image, [key]: whole ? Math.round(value) : value } }), whole, !model.image);
+    return this.line(label, about, model.script.image[key], (value) => model.refusal((script) => ({ ...script, image: { ...script.image, [key]: whole ? Math.round(value) : value } })), whole, !model.image);
   }
 
   private setting({ key, label, about, whole }: Field<keyof SnakeModel['script']['settings']>): HTMLElement {
     const { model } = this;
-    return this.line(label, about, model.script.settings[key], (value) => model.refusal({ ...model.script, settings: { ...model.script.settings, [key]: whole ? Math.round(value) : value } }), whole, !model.image);
+    return this.line(label, about, model.script.settings[key], (value) => model.refusal((script) => ({ ...script, settings: { ...script.settings, [key]: whole ? Math.round(value) : value } })), whole, !model.image);
   }
 
   /** A number with its name, and a mark that unfolds what it means. */

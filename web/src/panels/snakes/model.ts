@@ -9,7 +9,16 @@ import { type Place, type Preset, presetOf, presets, type Script, scriptText, ty
 export const tools = ['draw', 'ellipse', 'points', 'pull', 'volcano'] as const;
 export type Tool = (typeof tools)[number];
 
+/** What a script becomes. */
+export type Change = (script: Script) => Script;
+
 const none: Snakes = { states: [], ended: true, points: new Float32Array(), offsets: new Uint32Array([0]), net: new Float32Array(), netFrom: new Uint32Array([0]) };
+
+const withSprings = (script: Script, k: number, springs: Spring[]): Script =>
+  ({ ...script, snakes: script.snakes.map(({ springs: before, ...start }, i) => {
+    const held = i === k ? springs : before ?? [];
+    return held.length > 0 ? { ...start, springs: held } : start;
+  }) });
 
 /** An image, the snakes in it, and what the user has chosen. */
 export class SnakeModel {
@@ -101,15 +110,15 @@ export class SnakeModel {
     this.changed();
   }
 
-  /** Another script, which can be taken back; false, and nothing has changed, if the engine refuses it. */
-  async apply(script: Script, again = false): Promise<boolean> {
-    return (await this.refusal(script, again, true)) === null;
+  /** Changes the script, which can be taken back; false, and nothing has changed, if the engine refuses it. */
+  async apply(change: Change, again = false): Promise<boolean> {
+    return (await this.refusal(change, again, true)) === null;
   }
 
-  /** Why the engine refuses a script; null if it takes it. */
-  async refusal(script: Script, again = false, tell = false): Promise<string | null> {
+  /** Why the engine refuses a change; null if it takes it. After what was asked for before: an undo that is under way comes first. */
+  async refusal(change: Change, again = false, tell = false): Promise<string | null> {
     let why: string | null = null;
-    await this.past.entry(async () => (why = await this.take(script, again, tell)) === null);
+    await this.past.next(() => this.past.entry(async () => (why = await this.take(change(this.script), again, tell)) === null));
     this.changed();
     return why;
   }
@@ -131,35 +140,30 @@ export class SnakeModel {
   }
 
   async choose(preset: Preset): Promise<void> {
-    const { distance } = this.script.image, { image, settings } = presetOf(preset), { spring, volcano } = preset;
-    if (!(await this.apply({ ...this.script, image: { ...image, distance }, settings }))) return;
+    const { image, settings } = presetOf(preset), { spring, volcano } = preset;
+    if (!(await this.apply((script) => ({ ...script, image: { ...image, distance: script.image.distance }, settings })))) return;
     Object.assign(this, { preset, spring, volcano });
     this.changed();
     await this.wake();
   }
 
   async add(start: Start): Promise<void> {
-    if (await this.apply({ ...this.script, snakes: [...this.script.snakes, start] })) {
+    if (await this.apply((script) => ({ ...script, snakes: [...script.snakes, start] }))) {
       this.selected = this.script.snakes.length - 1;
       this.changed();
     }
   }
 
   async remove(k: number): Promise<void> {
-    await this.apply({ ...this.script, snakes: this.script.snakes.filter((_, i) => i !== k) });
+    await this.apply((script) => ({ ...script, snakes: script.snakes.filter((_, i) => i !== k) }));
   }
 
   async setVolcanoes(volcanoes: Volcano[]): Promise<void> {
-    await this.apply({ ...this.script, volcanoes });
+    await this.apply((script) => ({ ...script, volcanoes }));
   }
 
   async setSprings(k: number, springs: Spring[]): Promise<void> {
-    await this.apply(this.withSprings(k, springs));
-  }
-
-  private withSprings(k: number, springs: Spring[]): Script {
-    const { springs: _, ...start } = this.script.snakes[k]!;
-    return { ...this.script, snakes: this.script.snakes.map((s, i) => (i !== k ? s : springs.length > 0 ? { ...start, springs } : start)) };
+    await this.apply((script) => withSprings(script, k, springs));
   }
 
   /** After what was asked for before, so that a snake that has just been drawn runs. */
@@ -202,7 +206,7 @@ export class SnakeModel {
   }
 
   async again(): Promise<void> {
-    await this.apply(this.script, true);
+    await this.apply((script) => script, true);
   }
 
   /** `begins`: the first of a drag, which is taken back as one. */
@@ -214,7 +218,7 @@ export class SnakeModel {
   /** `springs`: those that the snake has from now on, where the hand's stays. */
   async letGo(snake?: number, springs?: Spring[]): Promise<void> {
     await this.attempt(() => this.client.ask({ kind: 'pull', pull: null }));
-    if (snake !== undefined && springs) await this.take(this.withSprings(snake, springs), false, true);
+    if (snake !== undefined && springs) await this.take(withSprings(this.script, snake, springs), false, true);
   }
 
   async move(snake: number, point: number, to: Place, begins: boolean): Promise<void> {
