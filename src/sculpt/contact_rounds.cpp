@@ -103,7 +103,7 @@ PotentialState ContactRounds<D>::run(double limit, const Points& limit_origin, c
     if (!summary_.finite || !reached.limited) return reached;
     const double largest = largest_displacement<D>(patches_, rows_, place() - limit_origin);
     if (largest <= limit * (1 + limit_tolerance)) return reached;
-    if (round == max_limit_rounds) {
+    if (round == max_limit_rounds || largest - limit >= inner) {  // it would be tightened to less than nothing
       summary_.converged = false;
       note_ = "the limit is exceeded between the points where it is kept; refine the net";
       return reached;

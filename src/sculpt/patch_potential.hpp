@@ -48,7 +48,7 @@ class PatchPotential final : public Potential {
   [[nodiscard]] double deepest_entry(std::size_t k, const Points& x) const {
     double deepest = 0;
     for (std::size_t l = 0; l < loads_.size(); ++l)
-      deepest = std::max(deepest, loads_[l].deepest_entry(x, rows_[l], tools_[k]));
+      deepest = std::max(deepest, loads_[l].deepest_entry(x, rows_[l], tools_[k]).depth);
     return deepest;
   }
   [[nodiscard]] std::size_t tool_count() const { return tools_.size(); }
@@ -73,43 +73,28 @@ class PatchPotential final : public Potential {
   }
 
   void apply_hessian(const PotentialState& state, const Points& v, Points& out) const override {
-    for (const ContactPoint& c : state.contacts) {
-      if (c.patch < 0) {
-        const PointForce& force = points_[static_cast<std::size_t>(c.at[0])];
-        const Point h = c.hessian * combined(force, v);
-        for (const auto& [row, r] : force.terms) out.row(row) += r * h.transpose();
-        continue;
-      }
-      const auto k = static_cast<std::size_t>(c.patch);
-      loads_[k].apply_hessian(c, rows_[k], v, out);
-    }
+    for_each_patch(
+        state, [&](std::size_t k, auto contacts) { loads_[k].apply_hessian(contacts, rows_[k], v, out); },
+        [&](const ContactPoint& c) {
+          const PointForce& force = points_[static_cast<std::size_t>(c.at[0])];
+          const Point h = c.hessian * combined(force, v);
+          for (const auto& [row, r] : force.terms) out.row(row) += r * h.transpose();
+        });
   }
 
   void append_hessian(const PotentialState& state, std::vector<Eigen::Triplet<double>>& entries) const override {
-    const std::span<const ContactPoint> all(state.contacts);
-    for (std::size_t k = 0; k < all.size();) {
-      std::size_t end = k + 1;
-      while (end < all.size() && all[end].patch == all[k].patch) ++end;
-      if (all[k].patch >= 0) {
-        const auto patch = static_cast<std::size_t>(all[k].patch);
-        loads_[patch].append_hessian(all.subspan(k, end - k), rows_[patch], entries);
-      } else {
-        for (; k < end; ++k) append_point(all[k], entries);
-      }
-      k = end;
-    }
+    for_each_patch(
+        state, [&](std::size_t k, auto contacts) { loads_[k].append_hessian(contacts, rows_[k], entries); },
+        [&](const ContactPoint& c) { append_point(c, entries); });
   }
 
   void mark(const PotentialState& state, std::vector<char>& marks) const override {
-    for (const ContactPoint& c : state.contacts) {
-      if (c.patch < 0) {
-        for (const auto& [row, r] : points_[static_cast<std::size_t>(c.at[0])].terms)
-          marks[static_cast<std::size_t>(row)] = 1;
-      } else {
-        const auto k = static_cast<std::size_t>(c.patch);
-        loads_[k].mark(c, rows_[k], marks);
-      }
-    }
+    for_each_patch(
+        state, [&](std::size_t k, auto contacts) { loads_[k].mark(contacts, rows_[k], marks); },
+        [&](const ContactPoint& c) {
+          for (const auto& [row, r] : points_[static_cast<std::size_t>(c.at[0])].terms)
+            marks[static_cast<std::size_t>(row)] = 1;
+        });
   }
 
   void widen(std::vector<char>& marks) const override {
@@ -137,6 +122,23 @@ class PatchPotential final : public Potential {
   }
 
  private:
+  /// on_patch(k, contacts) for contacts of one patch that follow one another, on_point(contact) for each of a force on
+  /// one point.
+  template <class F, class G>
+  static void for_each_patch(const PotentialState& state, const F& on_patch, const G& on_point) {
+    const std::span<const ContactPoint> all(state.contacts);
+    for (std::size_t k = 0; k < all.size();) {
+      std::size_t end = k + 1;
+      while (end < all.size() && all[end].patch == all[k].patch) ++end;
+      if (all[k].patch >= 0) {
+        on_patch(static_cast<std::size_t>(all[k].patch), all.subspan(k, end - k));
+      } else {
+        for (std::size_t i = k; i < end; ++i) on_point(all[i]);
+      }
+      k = end;
+    }
+  }
+
   [[nodiscard]] static Point combined(const PointForce& force, const Points& x) {
     Point sum = Point::Zero();
     for (const auto& [row, r] : force.terms) sum += r * x.row(row).transpose();

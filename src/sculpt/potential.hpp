@@ -28,6 +28,7 @@ struct PotentialState {
   int entered = -1;       ///< the index of that tool
   double coarseness = 0;  ///< longest span in contact with a tool, in sizes of that tool
   bool limited = false;   ///< some point is restrained by a limit
+  long long visited = 0;  ///< Gauss points at which what acts was asked
 };
 
 /// Some control points, and the elements of every patch that depend on no others.

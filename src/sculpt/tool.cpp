@@ -99,7 +99,7 @@ void ModelTool::set_offset(double offset) {
 double ModelTool::distance(const Point& x) const { return tool_.shape.nearest(Point(length_ * x)).distance / length_; }
 
 bool ModelTool::may_reach(const Point& lower, const Point& upper) const {
-  if ((upper.array() < lower_.array()).any() || (lower.array() > upper_.array()).any()) return false;
+  if (!overlaps(lower, upper)) return false;
   // Distances are 1-Lipschitz.
   const Point middle = 0.5 * (lower + upper);
   const double radius = 0.5 * (upper - lower).norm(),
@@ -110,19 +110,29 @@ bool ModelTool::may_reach(const Point& lower, const Point& upper) const {
 
 ToolAction ModelTool::action(const Point& x) const {
   ToolAction action;
-  if ((x.array() < lower_.array()).any() || (x.array() > upper_.array()).any()) return action;
+  const Point beyond = (lower_ - x).cwiseMax(x - upper_);
+  if (beyond.maxCoeff() > 0) {
+    action.clear = beyond.cwiseMax(0).norm();
+    return action;
+  }
   const Nearest near = tool_.shape.nearest(Point(length_ * x));
   const double phi = near.distance / length_ - offset_, k = tool_.stiffness;
   double slope = 0, curvature = 0;  // ψ'(φ) and ψ''(φ)
   if (tool_.collides()) {
-    if (phi >= 0) return action;
+    if (phi >= 0) {
+      if (near.converged && !jumps()) action.clear = phi;
+      return action;
+    }
     action.potential = 0.5 * k * phi * phi;
     action.entry = -phi;
     slope = k * phi;
     curvature = k;
   } else {
     const double r2 = range_ * range_, s = 1 - phi * phi / r2;
-    if (s <= 0) return action;
+    if (s <= 0) {
+      if (near.converged) action.clear = std::max(0.0, std::abs(phi) - range_);
+      return action;
+    }
     const double sign = tool_.direction == ToolDirection::pull ? 1 : -1;
     action.potential = -sign * k * r2 / 6 * s * s * s;
     slope = sign * k * s * s * phi;

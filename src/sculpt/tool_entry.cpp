@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "tool_load_elements.hpp"
@@ -21,12 +23,13 @@ class ToolLoad<D>::EntrySearch {
       : load_(load), x_(x), first_(first), tool_(tool) {
     for (std::size_t d = 0; d < D; ++d) spans_[d] = load.knots_[d].spans();
     masked_ = load.pass_of(tool) == ToolPass::visible;
+    leaps_ = !tool.jumps();
   }
 
-  [[nodiscard]] double deepest() {
+  [[nodiscard]] Penetration deepest() {
     load_.for_each_element([&](const Element& element) { sample(element); });
-    double deepest = 0;
-    for (Candidate& c : candidates_) deepest = std::max(deepest, refine(c));
+    Penetration deepest{0, visited_};
+    for (Candidate& c : candidates_) deepest.depth = std::max(deepest.depth, refine(c));
     return deepest;
   }
 
@@ -72,6 +75,83 @@ class ToolLoad<D>::EntrySearch {
     return load_.region_->contains(at);
   }
 
+  /// The samples of an element in one direction, and what every basis function is there.
+  struct Line {
+    int degree = 0;
+    std::vector<double> u, values;  // values: of the p + 1 functions, sample after sample
+    std::vector<double> progress;   // see `progress_along`
+  };
+
+  void tabulate(const Element& element, std::size_t d) {
+    const KnotVector& knots = load_.knots_[d];
+    const int at = span(element, d), count = samples_per_gauss_point[D - 1] * (element.end[d] - element.begin[d]);
+    const double begin = knots[at], end = knots[at + 1];
+    Line& line = lines_[d];
+    line.degree = knots.degree();
+    const auto width = static_cast<std::size_t>(line.degree + 1), size = static_cast<std::size_t>(count + 1);
+    line.u.resize(size);
+    line.values.resize(size * width);
+    line.progress.assign(size, 0.0);
+    spacing_[d] = (end - begin) / count;
+    for (std::size_t k = 0; k < size; ++k) {
+      line.u[k] = k + 1 == size ? end : begin + static_cast<double>(k) * spacing_[d];
+      double* n = line.values.data() + k * width;
+      basis_values(knots, at, line.u[k], n);
+      for (std::size_t r = 1; r < width; ++r) line.progress[k] += static_cast<double>(r) * n[r];
+    }
+  }
+
+  /// Samples are kept whose depth is more.
+  [[nodiscard]] double least_depth() const {
+    return candidates_.size() < refined ? -reach_ : std::max(-reach_, candidates_.back().depth);
+  }
+
+  /// Whether no sample between these control points can be kept.
+  [[nodiscard]] bool all_shallow(std::span<const Homogeneous> row) const {
+    Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+    for (const Homogeneous& h : row) {
+      const Point p = Point(h[0], h[1], h[2]) / h[3];
+      lower = lower.cwiseMin(p);
+      upper = upper.cwiseMax(p);
+    }
+    return 0.5 * (upper - lower).norm() - tool_.distance(0.5 * (lower + upper)) < least_depth();
+  }
+
+  /// Visits the samples of directions d … D − 1, for which level d holds the control points. The last direction leaps
+  /// over samples that are too near to a shallow one to be deep.
+  void visit(std::size_t d, Candidate& c) {
+    if (d == D) {
+      ++visited_;
+      const Homogeneous& h = level_[D][0];
+      c.depth = -tool_.distance(Point(h[0], h[1], h[2]) / h[3]);
+      if (c.depth > least_depth() && touches(c.u)) keep(c);
+      return;
+    }
+    const std::span<const Homogeneous> row = level_[d];
+    if (leaps_ && load_.in_hull_ && d > 0 && all_shallow(row)) return;
+    const Line& line = lines_[d];
+    const auto width = static_cast<std::size_t>(line.degree + 1);
+    const std::size_t inner = row.size() / width;
+    const double step = leaps_ && d + 1 == D && load_.weights_.empty() ? longest_step(row) : 0;
+    level_[d + 1].resize(inner);
+    for (std::size_t k = 0; k < line.u.size(); ++k) {
+      c.u[d] = line.u[k];
+      const double* n = line.values.data() + k * width;
+      for (std::size_t i = 0; i < inner; ++i) {
+        Homogeneous sum = {0, 0, 0, 0};
+        for (std::size_t r = 0; r < width; ++r) {
+          for (std::size_t e = 0; e < 4; ++e) sum[e] += n[r] * row[r * inner + i][e];
+        }
+        level_[d + 1][i] = sum;
+      }
+      visit(d + 1, c);
+      if (step == 0) continue;
+      constexpr double safe = 1 - 1e-6;
+      const double enough = line.progress[k] + safe * (least_depth() - c.depth) / step;
+      while (k + 1 < line.u.size() && line.progress[k + 1] < enough) ++k;
+    }
+  }
+
   /// Keeps the deepest samples of all elements.
   void sample(const Element& element) {
     const int visible = masked_ ? load_.visibility(element) : VisibleMask::full;
@@ -80,37 +160,19 @@ class ToolLoad<D>::EntrySearch {
     Point lower, upper;
     load_.box_of(element, x_, first_, lower, upper);
     if (load_.in_hull_ && !tool_.may_reach(lower, upper)) return;
-    Candidate c{0, element, {}, {}};
     // Between samples the shape may penetrate further, but by no more than the extent of its control points.
-    const double reach = (upper - lower).norm();
-    std::array<int, D> counts, k{};
-    std::array<double, D> begin, end;
-    for (std::size_t d = 0; d < D; ++d) {
-      counts[d] = samples_per_gauss_point[D - 1] * (element.end[d] - element.begin[d]);
-      begin[d] = load_.knots_[d][span(element, d)];
-      end[d] = load_.knots_[d][span(element, d) + 1];
-      c.spacing[d] = (end[d] - begin[d]) / counts[d];
-    }
-    do {
-      for (std::size_t d = 0; d < D; ++d) c.u[d] = k[d] == counts[d] ? end[d] : begin[d] + k[d] * c.spacing[d];
-      c.depth = depth_at(element, c.u);
-      if (c.depth > -reach && is_deep(c) && touches(c.u)) keep(c);
-    } while (advance(k, counts));
+    reach_ = (upper - lower).norm();
+    for (std::size_t d = 0; d < D; ++d) tabulate(element, d);
+    level_[0].clear();
+    load_.for_each_control_point(element, [&](int row) {
+      const double w = load_.weights_.empty() ? 1 : load_.weights_[static_cast<std::size_t>(row)];
+      const double* p = x_.data() + 3 * static_cast<std::ptrdiff_t>(first_ + row);
+      level_[0].push_back({w * p[0], w * p[1], w * p[2], w});
+    });
+    Candidate c{0, element, {}, spacing_};
+    visit(0, c);
   }
 
-  /// Advances through 0 … counts[d] in all directions, the last one fastest; false after the last.
-  [[nodiscard]] static bool advance(std::array<int, D>& k, const std::array<int, D>& counts) {
-    for (std::size_t d = D; d-- > 0;) {
-      if (++k[d] <= counts[d]) return true;
-      k[d] = 0;
-    }
-    return false;
-  }
-
-  /// Whether it is among the deepest so far.
-  [[nodiscard]] bool is_deep(const Candidate& c) const {
-    return candidates_.size() < refined || c.depth > candidates_.back().depth;
-  }
   void keep(const Candidate& c) {
     if (candidates_.size() == refined) candidates_.pop_back();
     candidates_.insert(std::ranges::upper_bound(candidates_, c.depth, std::greater{}, &Candidate::depth), c);
@@ -140,19 +202,25 @@ class ToolLoad<D>::EntrySearch {
   int first_;
   const ModelTool& tool_;
   std::array<std::vector<int>, D> spans_;
-  bool masked_ = false;                // the tool touches what is visible only
-  bool in_cut_ = false;                // in the present element that is a part
+  bool masked_ = false;        // the tool touches what is visible only
+  bool in_cut_ = false;        // in the present element that is a part
+  bool leaps_ = true;          // distances bound those of points nearby
+  std::array<Line, D> lines_;  // of the present element, as are
+  std::array<double, D> spacing_{};
+  double reach_ = 0;
+  Workspace level_;  // directions d … D − 1 of level d are control points
+  long long visited_ = 0;
   std::vector<Candidate> candidates_;  // deepest first
 };
 
 template <int D>
-double ToolLoad<D>::deepest_entry(const Points& x, int first, const ModelTool& tool) const {
-  if (!tool.tool().collides()) return 0;
+Penetration ToolLoad<D>::deepest_entry(const Points& x, int first, const ModelTool& tool) const {
+  if (!tool.tool().collides()) return {};
   return EntrySearch(*this, x, first, tool).deepest();
 }
 
-template double ToolLoad<1>::deepest_entry(const Points&, int, const ModelTool&) const;
-template double ToolLoad<2>::deepest_entry(const Points&, int, const ModelTool&) const;
-template double ToolLoad<3>::deepest_entry(const Points&, int, const ModelTool&) const;
+template Penetration ToolLoad<1>::deepest_entry(const Points&, int, const ModelTool&) const;
+template Penetration ToolLoad<2>::deepest_entry(const Points&, int, const ModelTool&) const;
+template Penetration ToolLoad<3>::deepest_entry(const Points&, int, const ModelTool&) const;
 
 }  // namespace knead

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "knead/spline/evaluate.hpp"
-#include "tool_load_elements.hpp"
+#include "tool_load_sums.hpp"
 
 namespace knead {
 namespace {
@@ -73,6 +73,14 @@ Expected<std::vector<int>> pieces(const std::vector<double>& lengths, int per_sp
 
 }  // namespace
 
+std::vector<double> progress_along(const BasisTable& basis) {
+  std::vector<double> result(static_cast<std::size_t>(basis.size()), 0.0);
+  for (int k = 0; k < basis.size(); ++k) {
+    for (int r = 1; r <= basis.degree; ++r) result[static_cast<std::size_t>(k)] += r * basis.row(k, 0)[r];
+  }
+  return result;
+}
+
 template <int D>
 Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainScaling<D>& scaling, double detail) {
   ToolLoad load;
@@ -106,6 +114,7 @@ Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainS
     load.lengths_[d] = std::move(lengths[d]);
     load.knots_.push_back(spline.knots()[d]);
   }
+  for (std::size_t d = 0; d < D; ++d) load.progress_[d] = progress_along(load.quadrature_[d].basis);
   load.weights_.assign(spline.weights().begin(), spline.weights().end());
   load.in_hull_ = std::ranges::all_of(load.weights_, [](double w) { return w > 0; });
   return load;
@@ -161,17 +170,25 @@ long long ToolLoad<D>::index(const std::array<int, 3>& at) const {
 }
 
 template <int D>
-void ToolLoad<D>::apply_hessian(const ContactPoint& contact, int first, const Points& v, Points& out) const {
-  double sum[3] = {0, 0, 0};
-  for_each_function(contact.at, contact.part, [&](int row, double n) {
-    const double* from = v.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
-    for (int c = 0; c < 3; ++c) sum[c] += n * from[c];
-  });
-  const Point h = contact.factor * (contact.hessian * Point(sum[0], sum[1], sum[2]));
-  for_each_function(contact.at, contact.part, [&](int row, double n) {
-    double* to = out.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
-    for (int c = 0; c < 3; ++c) to[c] += n * h[c];
-  });
+void ToolLoad<D>::apply_hessian(std::span<const ContactPoint> contacts, int first, const Points& v, Points& out) const {
+  FieldAtPoints field(*this, v, first);
+  ForcesOfPoints forces(*this, first, out);
+  for (const ContactPoint& contact : contacts) {
+    if (contact.part < 0) {
+      forces.add(contact.at, contact.factor, contact.hessian * field.at(contact.at));
+      continue;
+    }
+    double sum[3] = {0, 0, 0};
+    for_each_function(contact.at, contact.part, [&](int row, double n) {
+      const double* from = v.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
+      for (int c = 0; c < 3; ++c) sum[c] += n * from[c];
+    });
+    const Point h = contact.factor * (contact.hessian * Point(sum[0], sum[1], sum[2]));
+    for_each_function(contact.at, contact.part, [&](int row, double n) {
+      double* to = out.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
+      for (int c = 0; c < 3; ++c) to[c] += n * h[c];
+    });
+  }
 }
 
 template <int D>
@@ -212,9 +229,17 @@ void ToolLoad<D>::append_hessian(std::span<const ContactPoint> contacts, int fir
 }
 
 template <int D>
-void ToolLoad<D>::mark(const ContactPoint& contact, int first, std::vector<char>& marks) const {
-  for_each_function(contact.at, contact.part,
-                    [&](int row, double) { marks[static_cast<std::size_t>(first + row)] = 1; });
+void ToolLoad<D>::mark(std::span<const ContactPoint> contacts, int first, std::vector<char>& marks) const {
+  Element element, last;
+  last.first.fill(-1);
+  for (const ContactPoint& contact : contacts) {
+    for (std::size_t d = 0; d < D; ++d) {
+      element.first[d] = quadrature_[d].basis.first[static_cast<std::size_t>(contact.at[d])];
+    }
+    if (element.first == last.first) continue;
+    for_each_control_point(element, [&](int row) { marks[static_cast<std::size_t>(first + row)] = 1; });
+    last.first = element.first;
+  }
 }
 
 template <int D>
@@ -288,7 +313,7 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
       if (in_hull_ && !tool.may_reach(lower, upper)) continue;
       const auto grip = [&](const Sample& s) {
         const ToolAction action = tool.action(s.place);
-        if (!action.active) return;
+        if (!action.active) return action.clear;
         int& at = result.index[static_cast<std::size_t>(index(s.at))];
         const FrictionAnchors::Anchor anchor{tool.tool().friction * action.force.norm(), action.normal, s.place};
         if (at < 0) {
@@ -297,6 +322,7 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
         } else if (anchor.grip > result.anchors[static_cast<std::size_t>(at)].grip) {
           result.anchors[static_cast<std::size_t>(at)] = anchor;  // of two tools the stronger one grips
         }
+        return 0.0;
       };
       if (pass == ToolPass::all) {
         for_each_point(element, x, first, workspace, grip);

@@ -21,6 +21,17 @@ enum class ToolPass {
   visible,  ///< those that touch its visible part only
 };
 
+/// The deepest penetration of a tool, 0 if there is none, and the number of samples among which it was sought.
+struct Penetration {
+  double depth = 0;
+  long long visited = 0;
+};
+
+/// How far along a row of control points the parameters of a table are, Σ r N_r(u) with r counted within a span:
+/// between two parameters of one span the shape moves by no more than the difference times the longest step from
+/// control point to control point of the row, since the sums N_r + … + N_p grow with u.
+[[nodiscard]] std::vector<double> progress_along(const BasisTable& basis);
+
 /// Dry friction, lagged: the normal forces and positions of all points in contact at the start of a step.
 struct FrictionAnchors {
   struct Anchor {
@@ -79,16 +90,16 @@ class ToolLoad {
   /// Adds potential, force and contacts at control points x (rows `first` … of all points) to `state`.
   void evaluate(const Points& x, int first, int patch, const Actors& actors, PotentialState& state) const;
 
-  /// Adds the Hessian at one contact point of this patch, applied to v, to `out`.
-  void apply_hessian(const ContactPoint& contact, int first, const Points& v, Points& out) const;
+  /// Adds the Hessian at contact points of this patch, applied to v, to `out`: fastest in the order of `evaluate`.
+  void apply_hessian(std::span<const ContactPoint> contacts, int first, const Points& v, Points& out) const;
 
   /// Appends what that Hessian adds to the matrix of all coordinates, for contact points of this patch; those of one
   /// element after another give one block.
   void append_hessian(std::span<const ContactPoint> contacts, int first,
                       std::vector<Eigen::Triplet<double>>& entries) const;
 
-  /// Sets the marks of the control points that a contact point of this patch depends on.
-  void mark(const ContactPoint& contact, int first, std::vector<char>& marks) const;
+  /// Sets the marks of the control points that contact points of this patch depend on.
+  void mark(std::span<const ContactPoint> contacts, int first, std::vector<char>& marks) const;
 
   /// Marks the neighbours of this patch's marked control points, by one in every direction of the net.
   void widen(int first, std::vector<char>& marks) const;
@@ -101,7 +112,7 @@ class ToolLoad {
 
   /// How deep the shape with control points x penetrates a tool, anywhere, not only at Gauss points: sampled three
   /// times as densely, with the deepest samples refined by a compass search to 1e-6 of the sample distance.
-  [[nodiscard]] double deepest_entry(const Points& x, int first, const ModelTool& tool) const;
+  [[nodiscard]] Penetration deepest_entry(const Points& x, int first, const ModelTool& tool) const;
 
   [[nodiscard]] long long points() const;
 
@@ -111,6 +122,9 @@ class ToolLoad {
   struct KeepAll {};  // no row of points is left out
   class Evaluation;
   class EntrySearch;
+  class PointSums;  // over Gauss points, one direction at a time
+  class FieldAtPoints;
+  class ForcesOfPoints;
   using Homogeneous = std::array<double, 4>;
   using Workspace = std::array<std::vector<Homogeneous>, D + 1>;
 
@@ -136,6 +150,8 @@ class ToolLoad {
   [[nodiscard]] ToolPass pass_of(const ModelTool& tool) const {
     return mask_ && tool.tool().touches == ToolTouch::visible ? ToolPass::visible : ToolPass::all;
   }
+  [[nodiscard]] static double longest_step(std::span<const Homogeneous> row);
+  [[nodiscard]] int last_within(double clear, std::size_t d, int k, int end, std::span<const Homogeneous> row) const;
   [[nodiscard]] int visibility(const Element& element) const;
   [[nodiscard]] const double* values(const std::array<int, 3>& at, int part, std::size_t d) const;
   [[nodiscard]] long long index(const std::array<int, 3>& at) const;
@@ -148,6 +164,7 @@ class ToolLoad {
   std::vector<KnotVector> knots_;
   std::array<std::vector<int>, D> spans_;        // first Gauss point of every span, and the end
   std::array<std::vector<double>, D> lengths_;   // of every span, normalised
+  std::array<std::vector<double>, D> progress_;  // at every Gauss point, see `progress_along`
   std::vector<double> weights_;                  // of the control points; empty for a polynomial spline
   bool in_hull_ = true;                          // all weights are positive
   std::shared_ptr<const VisibleRegion> region_;  // null: everything is visible

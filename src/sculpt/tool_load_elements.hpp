@@ -139,9 +139,31 @@ void ToolLoad<D>::for_each_function(const std::array<int, 3>& at, int part, cons
   direction(direction, 0, 0, 1.0);
 }
 
+/// The longest step between neighbours in a row of control points.
+template <int D>
+double ToolLoad<D>::longest_step(std::span<const Homogeneous> row) {
+  double longest = 0;
+  for (std::size_t r = 1; r < row.size(); ++r) {
+    double squared = 0;
+    for (std::size_t c = 0; c < 3; ++c) squared += (row[r][c] - row[r - 1][c]) * (row[r][c] - row[r - 1][c]);
+    longest = std::max(longest, squared);
+  }
+  return std::sqrt(longest);
+}
+
+/// The last of the points k … end − 1 in a row of direction d that lies within `clear` of point k, in one span.
+template <int D>
+int ToolLoad<D>::last_within(double clear, std::size_t d, int k, int end, std::span<const Homogeneous> row) const {
+  constexpr double safe = 1 - 1e-6;
+  const double enough = progress_[d][static_cast<std::size_t>(k)] + safe * clear / longest_step(row);
+  while (k + 1 < end && progress_[d][static_cast<std::size_t>(k + 1)] < enough) ++k;
+  return k;
+}
+
 /// f(sample) for every Gauss point of the element. The control points, homogeneous, are contracted one direction at a
 /// time. Left out are the points of a row or a layer if skip(its control points) is true; it is asked only where
 /// weights are positive, and where points are more than twice as many as control points: else asking takes as long.
+/// Left out, too, are points of a polynomial within the distance that f(sample) returns.
 template <int D>
 template <class F, class Skip>
 void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f,
@@ -167,17 +189,16 @@ void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int fi
     level[0][to++] = {w * p[0], w * p[1], w * p[2], w};
   });
   Sample sample;
-  const auto contract = [&](auto self, std::size_t d, double weight) -> void {
+  const auto contract = [&](auto self, std::size_t d, double weight) -> double {
     if (d == D) {
       const Homogeneous& h = level[D][0];
       sample.weight = weight;
       sample.inverse = weights_.empty() ? 1 : 1 / h[3];
       sample.place = sample.inverse * Point(h[0], h[1], h[2]);
-      f(sample);
-      return;
+      return f(sample);
     }
     if constexpr (!std::same_as<Skip, KeepAll>) {
-      if (asked[d] && skip(std::span<const Homogeneous>(level[d]))) return;
+      if (asked[d] && skip(std::span<const Homogeneous>(level[d]))) return 0;
     }
     const BasisQuadrature& q = quadrature_[d];
     for (int k = element.begin[d]; k < element.end[d]; ++k) {
@@ -191,8 +212,11 @@ void ToolLoad<D>::for_each_point(const Element& element, const Points& x, int fi
         }
         level[d + 1][i] = sum;
       }
-      self(self, d + 1, weight * q.weights[static_cast<std::size_t>(k)]);
+      const double clear = self(self, d + 1, weight * q.weights[static_cast<std::size_t>(k)]);
+      if (d + 1 == D && clear > 0 && weights_.empty() && k + 1 < element.end[d])
+        k = last_within(clear, d, k, element.end[d], level[d]);
     }
+    return 0;
   };
   contract(contract, 0, 1.0);
 }
@@ -216,10 +240,11 @@ void ToolLoad<D>::for_each_visible_point(const Element& element, const Points& x
   const int all = visibility(element);
   if (all == VisibleMask::hidden) return;
   if (all == VisibleMask::full) return for_each_point(element, x, first, workspace, f, skip);
-  for_each_point(element, x, first, workspace, [&](const Sample& whole) {
+  for_each_point(element, x, first, workspace, [&](const Sample& whole) -> double {
     const int state = mask_->state(whole.at[0], whole.at[1]);
-    if (state == VisibleMask::hidden) return;
-    if (state == VisibleMask::full) return f(whole);
+    if (state == VisibleMask::hidden) return 0;
+    if (state == VisibleMask::full) f(whole);
+    if (state == VisibleMask::full) return 0;
     Sample s = whole;
     s.part = state;
     s.weight *= mask_->parts()[static_cast<std::size_t>(state)].share;
@@ -232,6 +257,7 @@ void ToolLoad<D>::for_each_visible_point(const Element& element, const Points& x
     s.inverse = weights_.empty() ? 1 : 1 / denominator;
     s.place *= s.inverse;
     f(s);
+    return 0;  // the next point may stand elsewhere than its Gauss point
   });
 }
 

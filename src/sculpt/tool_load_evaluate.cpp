@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <span>
 
-#include "tool_load_elements.hpp"
+#include "tool_load_sums.hpp"
 
 namespace knead {
 namespace {
@@ -25,9 +27,16 @@ template <int D>
 class ToolLoad<D>::Evaluation {
  public:
   Evaluation(const ToolLoad& load, const Points& x, int first, int patch, const Actors& actors, PotentialState& state)
-      : load_(load), x_(x), first_(first), patch_(patch), actors_(actors), state_(state) {
+      : load_(load),
+        x_(x),
+        first_(first),
+        patch_(patch),
+        actors_(actors),
+        state_(state),
+        forces_(load, first, state.force) {
     find_sides();
     if (actors.limit == nullptr) return;
+    original_.emplace(load, actors.limit->original, 0);
     displacements_.resize(static_cast<Eigen::Index>(count_));
     for_each_used([&](std::size_t k) {
       const auto i = static_cast<Eigen::Index>(k);
@@ -48,13 +57,15 @@ class ToolLoad<D>::Evaluation {
     double longest = 0;
     for (std::size_t d = 0; d < D; ++d)
       longest = std::max(longest, load_.lengths_[d][static_cast<std::size_t>(element.span[d])]);
-    const auto act = [&](const Sample& s) {
-      press(s, longest);
-      if (actors_.friction != nullptr) rub(s);
-      if (limited) hold_back(s);
-    };
     // Of an element that a tool enters most points may be far from it. Friction and the limit act away from tools.
     const bool everywhere = limited || actors_.friction != nullptr;
+    const auto act = [&](const Sample& s) {
+      ++state_.visited;
+      const double clear = press(s, longest);
+      if (actors_.friction != nullptr) rub(s);
+      if (limited) hold_back(s);
+      return everywhere ? 0 : clear;
+    };
     const auto beyond = [&](std::span<const Homogeneous> row) { return !everywhere && beyond_all(row); };
     if (actors_.pass == ToolPass::all) {
       load_.for_each_point(element, x_, first_, workspace_, act, beyond);
@@ -101,15 +112,17 @@ class ToolLoad<D>::Evaluation {
     std::erase_if(near_, [&](std::size_t t) { return !actors_.tools[t].may_reach(lower, upper); });
   }
 
-  /// Whether the control points lie beyond one side of the box of every tool that is near.
+  /// Whether every tool that is near acts on nothing between the control points.
   [[nodiscard]] bool beyond_all(std::span<const Homogeneous> row) const {
+    Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+    for (const Homogeneous& h : row) {
+      const Point p = Point(h[0], h[1], h[2]) / h[3];
+      lower = lower.cwiseMin(p);
+      upper = upper.cwiseMax(p);
+    }
     return std::ranges::none_of(near_, [&](std::size_t t) {
-      unsigned char beyond = 0xff;
-      for (const Homogeneous& h : row) {
-        const Point p = Point(h[0], h[1], h[2]) / h[3];
-        beyond &= actors_.tools[t].sides(p.data());
-      }
-      return beyond == 0;
+      const ModelTool& tool = actors_.tools[t];
+      return tool.jumps() ? tool.overlaps(lower, upper) : tool.may_reach(lower, upper);
     });
   }
 
@@ -124,18 +137,24 @@ class ToolLoad<D>::Evaluation {
 
   void push(const Sample& s, double potential, const Point& force, const Eigen::Matrix3d& hessian) {
     state_.potential += s.weight * potential;
-    load_.for_each_function(s.at, s.part, [&](int row, double n) {
-      double* to = state_.force.data() + 3 * static_cast<std::ptrdiff_t>(first_ + row);
-      for (int c = 0; c < 3; ++c) to[c] += s.weight * s.inverse * n * force[c];
-    });
+    if (s.part < 0) {
+      forces_.add(s.at, s.weight * s.inverse, force);
+    } else {
+      load_.for_each_function(s.at, s.part, [&](int row, double n) {
+        double* to = state_.force.data() + 3 * static_cast<std::ptrdiff_t>(first_ + row);
+        for (int c = 0; c < 3; ++c) to[c] += s.weight * s.inverse * n * force[c];
+      });
+    }
     state_.contacts.push_back({patch_, s.at, s.weight * s.inverse * s.inverse, hessian, s.part});
   }
 
-  /// Tools. `longest` is the element's longest span.
-  void press(const Sample& s, double longest) {
+  /// Tools. `longest` is the element's longest span. Returns how far around no tool acts.
+  double press(const Sample& s, double longest) {
+    double clear = std::numeric_limits<double>::infinity();
     for (std::size_t t : near_) {
       const ModelTool& tool = actors_.tools[t];
       const ToolAction action = tool.action(s.place);
+      clear = std::min(clear, action.clear);
       if (!action.active) continue;
       push(s, action.potential, action.force, action.hessian);
       const double size = tool.size();
@@ -145,6 +164,7 @@ class ToolLoad<D>::Evaluation {
         state_.entered = static_cast<int>(t);
       }
     }
+    return clear;
   }
 
   /// Friction.
@@ -166,9 +186,13 @@ class ToolLoad<D>::Evaluation {
   /// The limit.
   void hold_back(const Sample& s) {
     Point original = Point::Zero();
-    load_.for_each_function(s.at, s.part, [&](int row, double n) {
-      original += s.inverse * n * actors_.limit->original.row(row).transpose();
-    });
+    if (s.part < 0) {
+      original = s.inverse * original_->at(s.at);
+    } else {
+      load_.for_each_function(s.at, s.part, [&](int row, double n) {
+        original += s.inverse * n * actors_.limit->original.row(row).transpose();
+      });
+    }
     const Point displacement = s.place - original;
     const double length = displacement.norm(), beyond = length - actors_.limit->distance, k = actors_.limit->stiffness;
     if (!(beyond > 0)) return;
@@ -184,9 +208,11 @@ class ToolLoad<D>::Evaluation {
   int first_, patch_;
   const Actors& actors_;
   PotentialState& state_;
-  std::size_t count_ = 0;             // of control points
-  std::vector<unsigned char> sides_;  // tool after tool
-  Eigen::VectorXd displacements_;     // of the control points: their hull bounds the displacement of every point
+  ForcesOfPoints forces_;
+  std::optional<FieldAtPoints> original_;  // that the limit is measured from
+  std::size_t count_ = 0;                  // of control points
+  std::vector<unsigned char> sides_;       // tool after tool
+  Eigen::VectorXd displacements_;          // of the control points: their hull bounds the displacement of every point
   std::vector<std::size_t> near_;
   Workspace workspace_;
 };

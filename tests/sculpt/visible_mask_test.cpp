@@ -191,15 +191,15 @@ TEST(VisibleMask, AToolInAHoleTouchesNothingAndSeesNoEntry) {
   // It comes to 0.19 from the middle of the hole, whose edge cuts cells of the grid there.
   Tool ball{"ball", testing::sphere_at(Point(0.45, 0.55, 0), 0.19), ToolMode::collision, 3, 1};
   const ModelTool everywhere(ball, Point::Zero(), 1);
-  EXPECT_GT(load->deepest_entry(s.control_points(), 0, everywhere), 0.1);
+  EXPECT_GT(load->deepest_entry(s.control_points(), 0, everywhere).depth, 0.1);
   ball.touches = ToolTouch::visible;
   const auto state = state_of(*load, s.control_points(), ball);
   EXPECT_EQ(state.force, Points::Zero(s.size(), 3));
   EXPECT_EQ(state.entry, 0);
-  EXPECT_LE(load->deepest_entry(s.control_points(), 0, ModelTool(ball, Point::Zero(), 1)), 0);
+  EXPECT_LE(load->deepest_entry(s.control_points(), 0, ModelTool(ball, Point::Zero(), 1)).depth, 0);
   // Where it reaches over the edge, it enters no deeper than at the edge.
   ball.shape = testing::sphere_at(Point(0.45, 0.55, 0), 0.23);
-  const double entry = load->deepest_entry(s.control_points(), 0, ModelTool(ball, Point::Zero(), 1));
+  const double entry = load->deepest_entry(s.control_points(), 0, ModelTool(ball, Point::Zero(), 1)).depth;
   EXPECT_NEAR(entry, 0.03, 1e-3);
 }
 
@@ -220,7 +220,7 @@ TEST(VisibleMask, ForceIsMinusTheGradientOfThePotential) {
   const double slope = (up.potential - down.potential) / (2 * h);
   EXPECT_NEAR(-state.force.cwiseProduct(direction).sum(), slope, 1e-4 * std::abs(slope));
   Points curved = Points::Zero(x.rows(), 3);
-  for (const ContactPoint& c : state.contacts) load->apply_hessian(c, 0, direction, curved);
+  load->apply_hessian(state.contacts, 0, direction, curved);
   const Points difference = (down.force - up.force) / (2 * h);
   EXPECT_LE((curved - difference).norm(), 1e-4 * difference.norm());
 }

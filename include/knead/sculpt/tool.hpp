@@ -65,6 +65,7 @@ inline constexpr double rigid_gap = 1e-4;
 /// Where the nearest direction is not unique, as at the centre of a sphere, the force is zero.
 struct ToolAction {
   bool active = false;
+  double clear = 0;  ///< points nearer than this to x are not acted on either; 0: some may be
   double potential = 0;
   double entry = 0;  ///< collision: −φ
   Point force = Point::Zero();
@@ -99,6 +100,14 @@ class ModelTool {
       result |= (x[c] > upper_[c] ? 2U : 0U) << (2 * c);
     }
     return static_cast<unsigned char>(result);
+  }
+  /// Whether the signed distance jumps where a collision tool is open (see `SplineShape`). Else it is 1-Lipschitz.
+  [[nodiscard]] bool jumps() const {
+    return tool_.collides() && std::holds_alternative<SplineShape>(tool_.shape.shape());
+  }
+  /// Whether the box meets the tool's own.
+  [[nodiscard]] bool overlaps(const Point& lower, const Point& upper) const {
+    return (upper.array() >= lower_.array()).all() && (lower.array() <= upper_.array()).all();
   }
   /// False only where the tool certainly acts on nothing in the box.
   [[nodiscard]] bool may_reach(const Point& lower, const Point& upper) const;
