@@ -62,9 +62,10 @@ Expected<Execution> execute(Session& session, const Script& script, bool stops) 
     line.show("step", static_cast<std::size_t>(step), static_cast<std::size_t>(total));
     return !(stops && Interrupt::asked());
   };
+  const auto go_on = [&] { return !(stops && Interrupt::asked()); };
   Execution execution;
   for (const Command& command : script.commands) {
-    auto done = session.execute(command, progress);
+    auto done = session.execute(command, progress, go_on);
     if (stops && Interrupt::asked()) return execution;
     if (!done) return std::unexpected(within_script(std::move(done.error()), session, script, execution.commands));
     ++execution.commands;

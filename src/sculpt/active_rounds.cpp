@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "active_run.hpp"
+#include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {
@@ -66,7 +67,7 @@ PotentialState ActiveSpline<D>::Run::settle(const StepProblem& step) {
     corrected.b = step.b + difference;
     const Points last = y;
     reached = keep_within_limit(corrected);
-    if (!summary.finite) return reached;
+    if (!summary.finite || Interruption::asked_for()) return reached;
     const double change = (y - last).cwiseAbs().maxCoeff();
     if (change <= route_tolerance * std::max(y.cwiseAbs().maxCoeff(), m.extent * route_tolerance)) {
       lagged = difference;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "active_run.hpp"
+#include "knead/base/interruption.hpp"
 #include "surface_forces.hpp"
 
 namespace knead {
@@ -189,6 +190,7 @@ Expected<ActiveStep> ActiveSpline<D>::step(const ActiveState& state, std::span<c
   Run run(*model_, state, tools, loads, std::move(*external));
   run.touch();
   run.balance();
+  if (Interruption::asked_for()) return interrupted_error();
   return run.accept();
 }
 

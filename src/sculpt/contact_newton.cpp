@@ -5,7 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "contact_neighbourhood.hpp"
+#include "contact_anchor.hpp"
+#include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {
@@ -29,48 +30,6 @@ constexpr double far_from_balance = 1e-2;
 constexpr double stage_tolerance = 1e-4;
 constexpr int max_stage_iterations = 20;
 
-/// Contacts affect few control points, and the minimum is sought within their neighbourhood. Let r be the imbalance of
-/// forces b − AY + F at some Y₀, the anchor, and z = L⁻¹r with A = LLᵀ: computed once on the whole net. From then on
-/// all directions, and so all residuals, are combinations β r + E e, with forces e in the neighbourhood (E embeds them)
-/// whose images A⁻¹E e are needed only there, as is s = A⁻¹r. The new Y = Y₀ + A⁻¹(β r + E e) is needed everywhere
-/// once, at the end.
-struct Anchor {
-  Points y;
-  ConstrainedCholesky::Half z;
-  double rs;                          // rᵀ A⁻¹ r
-  double quadratic;                   // ½ YᵀAY − Yᵀb
-  double squared;                     // YᵀAY
-  Points x_here, s_here, force_here;  // x_here: start + Y₀
-};
-
-/// β r + E e.
-struct Combination {
-  double beta = 0;
-  Points e;
-
-  /// (β r + E e)ᵀ A⁻¹ (β r + E e), given its image under A⁻¹ in the neighbourhood.
-  [[nodiscard]] double norm(const Anchor& anchor, const Points& image) const {
-    return beta * with_r(anchor) + dot(e, image);
-  }
-  /// rᵀ A⁻¹ (β r + E e).
-  [[nodiscard]] double with_r(const Anchor& anchor) const { return beta * anchor.rs + dot(anchor.s_here, e); }
-  [[nodiscard]] Points image(const Anchor& anchor, const ContactNeighbourhood& near) const {
-    if ((e.array() == 0).all()) return beta * anchor.s_here;
-    return beta * anchor.s_here + near.inverse(e);
-  }
-  void add(double t, const Combination& other) {
-    beta += t * other.beta;
-    e += t * other.e;
-  }
-};
-
-/// A displacement d in the neighbourhood, A d, and the slope of Φ along d.
-struct Direction {
-  Combination ad;
-  Points d;
-  double slope = 0;
-};
-
 /// (A + H) d = r by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual.
 /// If A + H turns out not to be positive, the result is the sum of the steps so far, or A⁻¹r: a descent direction in
 /// any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). \param image of r.
@@ -82,6 +41,7 @@ Direction newton_direction(const PotentialState& state, const Anchor& anchor, Co
   double rs = r.norm(anchor, image);
   const double target = tolerance * tolerance * rs;
   for (int iteration = 0; iteration < max_cg_iterations && rs > target && rs > 0; ++iteration) {
+    if (Interruption::asked_for()) break;
     const Points hp = near.hessian(state, p);
     const double pap = ap.norm(anchor, p), curvature = pap + dot(p, hp);
     if (curvature <= 1e-12 * pap) {
@@ -136,7 +96,7 @@ class Minimisation {
     summary.converged = false;
     Progress progress{tolerance, max_iterations};
     double before = std::numeric_limits<double>::infinity();
-    while (true) {
+    while (!Interruption::asked_for()) {
       View here = kept_ ? std::move(*kept_) : view();
       kept_.reset();
       if (progress.largest < 0) {
@@ -317,7 +277,10 @@ class Minimisation {
       au.add(t, to.ad);
       PotentialState state = evaluate_inside(view, u);
       const double next = view.quadratic_at(au, u);
-      if (!rounded && next + state.potential > here + sufficient_decrease * t * to.slope && t > 1e-10) continue;
+      if (!rounded && next + state.potential > here + sufficient_decrease * t * to.slope && t > 1e-10 &&
+          !Interruption::asked_for()) {
+        continue;
+      }
       view.u = std::move(u);
       view.au = std::move(au);
       view.quadratic = next;
@@ -333,6 +296,7 @@ class Minimisation {
     update(view, at);
     while (true) {
       if (progress.iteration == progress.max_iterations || summary.solves > max_solves) return Round::over;
+      if (Interruption::asked_for()) return Round::over;
       ++summary.iterations;
       const Direction to = direction(view, at, progress);
       const bool rounded = is_rounded(view, to);
@@ -363,6 +327,7 @@ class Minimisation {
       state_ = potential_.evaluate(x_);
       if (view.near.contains(state_) || !y_.allFinite() || progress.iteration >= progress.max_iterations) return round;
       summary.converged = false;
+      if (Interruption::asked_for()) return Round::over;
       const bool lower = view.quadratic + state_.potential <= before;
       take_in(view, state_);
       if (lower) continue;

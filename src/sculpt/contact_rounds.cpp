@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knead/base/interruption.hpp"
 #include "largest_displacement.hpp"
 
 namespace knead {
@@ -75,7 +76,7 @@ template <int D>
 PotentialState ContactRounds<D>::touch_rigid(const Descend& descend, const Place& place) {
   for (int rounds_left = max_rigid_rounds;;) {
     PotentialState reached = descend();
-    if (!summary_.finite) return {};
+    if (!summary_.finite || Interruption::asked_for()) return {};
     const Entries found = entries(place());
     const bool over = found.deepest <= rigid_gap || rounds_left == 0;
     if (over) {
@@ -100,7 +101,7 @@ PotentialState ContactRounds<D>::run(double limit, const Points& limit_origin, c
   for (int round = 0;; ++round) {
     potential_.limit(limit_origin, inner, limit_stiffness);
     PotentialState reached = touch_rigid(descend, place);
-    if (!summary_.finite || !reached.limited) return reached;
+    if (!summary_.finite || !reached.limited || Interruption::asked_for()) return reached;
     const double largest = largest_displacement<D>(patches_, rows_, place() - limit_origin);
     if (largest <= limit * (1 + limit_tolerance)) return reached;
     if (round == max_limit_rounds || largest - limit >= inner) {  // it would be tightened to less than nothing

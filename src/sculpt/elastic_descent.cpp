@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "knead/base/interruption.hpp"
 #include "knead/solve/eigenmodes.hpp"
 
 namespace knead {
@@ -83,7 +84,7 @@ bool ElasticDescent::factor_at(const Place& place, const std::optional<Points>& 
   if (factor(system)) return true;
   const Eigen::VectorXd diagonal = system.diagonal();
   const double largest = diagonal.cwiseAbs().maxCoeff();
-  for (double share = 1e-10; share < 1; share *= 100) {
+  for (double share = 1e-10; share < 1 && !Interruption::asked_for(); share *= 100) {
     system.diagonal() = diagonal.array() + share * largest;
     if (factor(system)) return true;
   }
@@ -94,7 +95,7 @@ bool ElasticDescent::factor_at(const Place& place, const std::optional<Points>& 
 bool ElasticDescent::advance(Place& place, const Points& d, double slope) const {
   const double rounding = rounding_of_phi * std::max(std::abs(place.phi), std::abs(slope));
   double t = 1;
-  for (int k = 0; k < max_halvings; ++k) {
+  for (int k = 0; k < max_halvings && !Interruption::asked_for(); ++k) {
     Place next = at(place.y + t * d);
     const bool finite = std::isfinite(next.phi) && next.imbalance.allFinite();
     if (finite && (next.phi <= place.phi - armijo_share * t * slope + rounding ||
@@ -122,7 +123,7 @@ ElasticDescent::Place ElasticDescent::approach(Place place, double tolerance, Co
   double before = std::numeric_limits<double>::infinity();
   bool fresh = false;
   for (int round = 0; round < max_parabolas; ++round) {
-    if (balanced(place, round > 0, tolerance, summary)) return place;
+    if (balanced(place, round > 0, tolerance, summary) || Interruption::asked_for()) return place;
     if (parabola_.rows() == 0 || residual_ > kept_parabola * before) {
       SparseMatrix a = elastic(problem_.energy.tense_hessian(position(place.y)));
       if (!factor(a)) return place;
@@ -155,7 +156,7 @@ ElasticDescent::Place ElasticDescent::newton(Place place, ContactSummary& summar
   std::optional<Points> before;
   for (int iteration = 0;; ++iteration) {
     if (balanced(place, iteration > 0, problem_.tolerance, summary)) break;
-    if (iteration == max_iterations || !factor_at(place, before)) break;
+    if (iteration == max_iterations || Interruption::asked_for() || !factor_at(place, before)) break;
     const Points forces = place.pull + place.contact.force, d = inverse_->solve(forces);
     ++summary.iterations;
     ++summary.solves;

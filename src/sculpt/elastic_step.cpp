@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "elastic_descent.hpp"
+#include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {
@@ -310,6 +311,7 @@ Expected<ActiveStep> elastic_step(const ElasticModel<D>& model, const ActiveStat
                            "hold a side or pin points, so that the forces cannot move all of it");
   }
   run.balance();
+  if (Interruption::asked_for()) return interrupted_error();
   return run.accept();
 }
 

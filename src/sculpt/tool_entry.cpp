@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "knead/base/interruption.hpp"
 #include "tool_load_elements.hpp"
 
 namespace knead {
@@ -154,6 +155,7 @@ class ToolLoad<D>::EntrySearch {
 
   /// Keeps the deepest samples of all elements.
   void sample(const Element& element) {
+    if (Interruption::asked_for()) return;
     const int visible = masked_ ? load_.visibility(element) : VisibleMask::full;
     if (visible == VisibleMask::hidden) return;
     in_cut_ = visible == VisibleMask::cut;

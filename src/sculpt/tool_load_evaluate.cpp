@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "knead/base/interruption.hpp"
 #include "tool_load_sums.hpp"
 
 namespace knead {
@@ -51,6 +52,7 @@ class ToolLoad<D>::Evaluation {
 
  private:
   void visit(const Element& element) {
+    if (Interruption::asked_for()) return;
     find_near(element);
     const bool limited = actors_.limit != nullptr && may_exceed(element);
     if (near_.empty() && !limited) return;

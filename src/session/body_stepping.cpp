@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "executor.hpp"
+#include "knead/base/interruption.hpp"
 #include "knead/scene/body_model.hpp"
 
 namespace knead {
@@ -90,6 +91,7 @@ Expected<void> Executor::step_body(BodyShapes<D>& shapes, const EvolutionPolicy&
 Expected<void> Executor::run_body(int count, const EvolutionPolicy& evolution) {
   for (int k = 0; k < count; ++k) {
     auto done = std::visit([&](auto& shapes) { return step_body(shapes, evolution); }, body()->shapes);
+    if (!done && Interruption::asked_for() && keeps_steps(k)) break;
     if (!done) return done;
     const auto on = carries_on(k + 1, count);
     if (!on) return std::unexpected(on.error());

@@ -84,6 +84,8 @@ struct Executor {
 
   /// Tells how many steps are done. Whether to go on; if not, `stopped` where a command may end early, else an error.
   Expected<bool> carries_on(int done, int total);
+  /// Whether the command may end with so many steps done, after the next one was interrupted.
+  bool keeps_steps(int done);
 
   /// Keeps a constraint on the selected surfaces, after trying that it can be made.
   Expected<void> keep(const Constraint& constraint);
@@ -166,6 +168,8 @@ struct Executor {
   void record_body(const ActiveStep& step, double seconds, const std::vector<std::string>& notes);
   Expected<void> know_what_holds();
   Expected<void> prepare_model(const EvolutionPolicy& evolution);
+  Expected<ActiveStep> next_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
+                                 double& seconds);
   Expected<ActiveStep> one_shell_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
                                       double& seconds);
   Expected<ActiveStep> load_shell(const ShellProblem& problem);

@@ -5,9 +5,11 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "body_commands.hpp"
 #include "commands.hpp"
+#include "knead/base/interruption.hpp"
 #include "knead/exchange/face_edges.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/spline/extremum.hpp"
@@ -50,7 +52,15 @@ bool only_looks(const Command& command) {
 
 }  // namespace
 
-Expected<void> Session::execute(const Command& command, const Progress& progress) {
+Expected<void> Session::execute(const Command& command, const Progress& progress, const GoOn& go_on) {
+  const Interruption interruption(go_on);
+  auto done = carry_out(command, progress);
+  if (done || !interruption.happened()) return done;
+  *cache_ = {};
+  return interrupted_error();
+}
+
+Expected<void> Session::carry_out(const Command& command, const Progress& progress) {
   if (fields_of<UndoCommand>(command)) {
     if (!can_undo()) return input_error("there is nothing to undo");
     --position_;
@@ -201,8 +211,9 @@ void Session::know_faces() {
     if (last != nullptr && last != &document) known.clear();  // neighbours lie on other surfaces
     last = &document;
     auto next = std::make_shared<SessionState>(*state);
-    for (SceneSurface& s : next->surfaces) {
-      if (!holds_trims(s.constraints)) continue;
+    for (std::size_t k = 0; k < next->surfaces.size(); ++k) {
+      if (!holds_trims(std::as_const(next->surfaces)[k].constraints)) continue;
+      SceneSurface& s = next->surfaces[k];
       auto found = known.find(s.id);
       if (found == known.end()) {
         // If they cannot be followed the next step says so.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "executor.hpp"
+#include "knead/base/interruption.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -42,10 +43,28 @@ std::string note_of(const ActiveStep& step) {
 }
 
 Expected<bool> Executor::carries_on(int done, int total) {
+  if (Interruption::asked_for()) {
+    if (!keeps_steps(done)) return interrupted_error();
+    return false;
+  }
   if (!progress || progress(done, total) || done >= total) return true;
   if (!may_stop) return input_error(fmt::format("it was stopped after {} of {} steps", done, total));
   stopped = done;
   return false;
+}
+
+bool Executor::keeps_steps(int done) {
+  if (!may_stop || done == 0) return false;
+  stopped = done;
+  Interruption::settle();
+  return true;
+}
+
+Expected<ActiveStep> Executor::next_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
+                                         double& seconds) {
+  const bool shell = shells();
+  if (auto made = shell ? know_what_holds() : prepare_model(evolution); !made) return std::unexpected(made.error());
+  return shell ? one_shell_step(evolution, more, seconds) : one_step(more, seconds);
 }
 
 Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more, int done,
@@ -65,9 +84,9 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
   int refinements = 0, stepped = 0;
   std::optional<Attempts> tried;
   while (stepped < count) {
-    if (auto made = shell ? know_what_holds() : prepare_model(evolution); !made) return made;
     double seconds = 0;
-    const auto step = shell ? one_shell_step(evolution, more, seconds) : one_step(more, seconds);
+    const auto step = next_step(evolution, more, seconds);
+    if (!step && Interruption::asked_for() && keeps_steps(stepped)) break;
     if (!step) return std::unexpected(step.error());
     if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
     if (step->coarseness > coarse && state.permission == RefinePermission::automatic && refinements < max_refinements &&
@@ -103,7 +122,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     if (!*on) break;
   }
   if (stepped > 0 && shell) note_model(shell_seams, shell_notes);
-  if (stepped > 0 && !shell) note_model(cache->seams, cache->notes);
+  if (stepped > 0 && !shell && cache) note_model(cache->seams, cache->notes);
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <span>
 
+#include "knead/base/interruption.hpp"
 #include "panels.hpp"
 #include "simd/panel_kernels.hpp"
 
@@ -68,7 +69,7 @@ void Panels::divide(const SparseMatrix& lower) {
   ColumnRows columns(lower);
   const auto size = static_cast<int>(lower.cols());
   std::vector<int> united, wider, merged;
-  for (int first = 0; first < size;) {
+  for (int first = 0; first < size && !Interruption::asked_for();) {
     columns.forget_before(first);
     // As many columns as fill three quarters of their panel.
     united = columns.of(first);
@@ -130,9 +131,11 @@ class Panels::Making {
         served_(p_.panels_.size(), 0),
         place_(static_cast<std::size_t>(lower.cols()), -1) {}
 
-  /// False: a pivot is not positive, or no number. Whatever is not finite in a row reaches the pivot of that row.
+  /// False: a pivot is not positive, or no number, or somebody asks to stop. Whatever is not finite in a row reaches
+  /// the pivot of that row.
   bool run() {
     for (const int k : p_.all_) {
+      if (Interruption::asked_for()) return false;
       const Panel& panel = p_.panels_[static_cast<std::size_t>(k)];
       const std::span<const int> below = p_.below(panel);
       for (std::size_t i = 0; i < below.size(); ++i) place_[static_cast<std::size_t>(below[i])] = static_cast<int>(i);
@@ -244,6 +247,7 @@ std::optional<Panels> Panels::factor(const SparseMatrix& lower, InstructionSet s
   Panels panels;
   panels.kernels_ = &panel_kernels_of(set);
   panels.divide(lower);
+  if (Interruption::asked_for()) return std::nullopt;
   if (!Making(panels, lower).run()) return std::nullopt;
   return panels;
 }

@@ -27,7 +27,7 @@ class Panels {
   /// so that L is stored once and A beside it.
   /// \param lower the lower triangle of A, in the order in which it is to be factored, columns in any order of rows
   /// \param set the fastest instruction set to use; all give the same bits.
-  /// None: A is not positive definite or not finite.
+  /// None: A is not positive definite or not finite, or an `Interruption` is asked for.
   [[nodiscard]] static std::optional<Panels> factor(const SparseMatrix& lower,
                                                     InstructionSet set = best_instruction_set());
 

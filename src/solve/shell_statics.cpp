@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "coordinate_map.hpp"
+#include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {
@@ -66,7 +67,7 @@ class ShellNewton {
       const Eigen::VectorXd reduced = map_.transpose() * flattened(imbalance);
       if (scale == 0) scale = reduced.norm();
       outcome.residual = scale > 0 ? reduced.norm() / scale : 0;
-      if (!std::isfinite(outcome.residual)) return outcome;
+      if (!std::isfinite(outcome.residual) || Interruption::asked_for()) return outcome;
       outcome.converged = outcome.residual <= options_.tolerance;
       if (outcome.converged || outcome.iterations == options_.max_iterations) return outcome;
       SparseMatrix tangent = shell_.hessian(x, stress);
@@ -138,6 +139,7 @@ Expected<ShellEquilibrium> shell_equilibrium(const ShellStructure& shell, const 
     const double left = 1 - result.load_factor, next = part > left * (1 - 1e-9) ? 1 : result.load_factor + part;
     Points x = result.control_points;
     const auto outcome = newton.iterate(x, next);
+    if (Interruption::asked_for()) return interrupted_error();
     spent += outcome.iterations;
     if (outcome.converged) {
       result.control_points = std::move(x);

@@ -73,8 +73,12 @@ class Session {
   /// on. A `step` command that is stopped keeps the steps it has made, and its entry counts only those. Others that are
   /// stopped are errors (input), and change nothing.
   using Progress = std::function<bool(int, int)>;
+  /// Asked within steps whether to go on (see `Interruption`): after a no the present step is given up, and the command
+  /// ends as if it had been stopped after the step before; where there is none it is an error (input), and changes
+  /// nothing.
+  using GoOn = std::function<bool()>;
 
-  [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {});
+  [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {}, const GoOn& go_on = {});
 
   /// Merges the last entry of the history with the one before it: undo then reverts both at once, and the state between
   /// them is dropped. For many commands that are one action, such as a stroke that follows the pointer. Equal `step`
@@ -113,6 +117,8 @@ class Session {
 
  private:
   struct ModelCache;
+
+  Expected<void> carry_out(const Command& command, const Progress& progress);
 
   [[nodiscard]] const Document& document_of(const SessionState& state) const {
     return state.document ? *state.document : document_;
