@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -43,6 +44,9 @@ class CurveTable {
 
  private:
   explicit CurveTable(Curve curve) : curve_(std::move(curve)) {}
+  [[nodiscard]] std::optional<std::array<Point, 3>> jet(double t) const;
+  void descend(const Point& point, Eigen::Index k, Foot& foot) const;
+
   Curve curve_;
   std::vector<double> parameters_;
   Points points_;
