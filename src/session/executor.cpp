@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "knead/exchange/face_conversion.hpp"
 #include "knead/spline/extremum.hpp"
@@ -47,8 +48,9 @@ Expected<int> Executor::find_surface(const std::string& id) const {
   constexpr std::size_t listed = 12;
   std::string known;
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
-    if (state.surfaces[k].id == id) return static_cast<int>(k);
-    if (k < listed) known += (k == 0 ? "" : ", ") + state.surfaces[k].id;
+    const SceneSurface& surface = std::as_const(state.surfaces)[k];
+    if (surface.id == id) return static_cast<int>(k);
+    if (k < listed) known += (k == 0 ? "" : ", ") + surface.id;
   }
   if (document.step_file() != nullptr) {
     const auto others = step::other_surfaces(*document.step_file());

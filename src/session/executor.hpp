@@ -183,7 +183,7 @@ struct Executor {
   /// The same motion, made again and again with edges coupled more tightly.
   struct Attempts {
     struct Best {
-      std::vector<SceneSurface> surfaces;
+      SharedItems<SceneSurface> surfaces;
       CouplingTolerance coupling;
       std::vector<Point> motion;  ///< of points of the edges, in the first one that could be accepted
     };

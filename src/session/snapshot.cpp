@@ -62,8 +62,8 @@ struct Neighbour {
 };
 
 /// Writes those items that are not the same as before.
-template <class T>
-void write_changed(Writer& a, const std::vector<T>& items, std::vector<std::string>& before) {
+template <class Items>
+void write_changed(Writer& a, const Items& items, std::vector<std::string>& before) {
   std::vector<std::string> written;
   a.count(items.size());
   for (std::size_t k = 0; k < items.size(); ++k) {
@@ -79,8 +79,8 @@ void write_changed(Writer& a, const std::vector<T>& items, std::vector<std::stri
 }
 
 /// Reads those items that are not the same as before, and what `check` says of each.
-template <class T, class Check>
-void read_changed(Reader& a, std::vector<T>& items, const Check& check) {
+template <class Items, class Check>
+void read_changed(Reader& a, Items& items, const Check& check) {
   const std::size_t known = items.size();
   items.resize(a.length(1));
   for (std::size_t k = 0; k < items.size() && !a.bad(); ++k) {

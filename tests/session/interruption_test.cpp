@@ -1,4 +1,4 @@
-// What is stopped within a step.
+// What is stopped within a step, and lists of surfaces that states share.
 
 #include "knead/base/interruption.hpp"
 
@@ -116,6 +116,27 @@ TEST(Interruption, IsTheInnermostOne) {
   EXPECT_TRUE(Interruption::asked_for());
   Interruption::settle();
   EXPECT_FALSE(Interruption::asked_for());
+}
+
+TEST(SharedItems, AreSharedByStatesUntilTheyChange) {
+  Session session = fresh();
+  for (int k = 0; k < 20; ++k) run(session, {new_sheet});
+  ASSERT_EQ(session.state().surfaces.size(), 20U);
+  const SharedItems<SceneSurface> before = session.state().surfaces;
+  run(session, {R"({"do":"select","surface":")" + before[7].id + R"("})", ball, R"({"do":"step"})",
+                R"({"do":"tool","name":"other","radius":1,"position":[1,1,3]})"});
+  const SharedItems<SceneSurface>& after = session.state().surfaces;
+  for (std::size_t k = 0; k < 20; ++k) EXPECT_EQ(&before[k] == &after[k], k != 7) << k;
+  SharedItems<int> list, copy;
+  for (int k = 0; k < 3; ++k) list.push_back(k);
+  copy = list;
+  EXPECT_EQ(&std::as_const(list)[1], &std::as_const(copy)[1]);
+  copy[1] = 5;
+  EXPECT_EQ(std::vector<int>(list.begin(), list.end()), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(std::vector<int>(copy.begin(), copy.end()), (std::vector<int>{0, 5, 2}));
+  EXPECT_FALSE(list == copy);
+  copy[1] = 1;
+  EXPECT_TRUE(list == copy);
 }
 
 }  // namespace

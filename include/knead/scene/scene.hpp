@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "knead/base/shared_items.hpp"
 #include "knead/energy/shell_energy.hpp"
 #include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/body.hpp"
@@ -210,7 +211,7 @@ struct SceneSurface {
 struct Scene {
   std::optional<int> selected = {};  ///< the surface that commands act on
   std::vector<int> together = {};    ///< the others selected with it
-  std::vector<SceneSurface> surfaces = {};
+  SharedItems<SceneSurface> surfaces = {};
   std::vector<Tool> tools = {};  ///< lengths in file units; oriented by `PlacedShape::placement`
   std::vector<SceneForce> forces = {};
   Load load = {};

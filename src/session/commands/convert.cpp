@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/face_edges.hpp"
@@ -44,13 +45,15 @@ Expected<std::vector<std::string>> neighbours(Executor& executor) {
 
 /// Neighbours are named with the surfaces on which they lie: regions beside the converted ones are found again.
 Expected<void> refresh_neighbours(SessionState& state, const std::vector<std::string>& ids) {
-  for (SceneSurface& s : state.surfaces) {
-    const bool beside = s.visible && std::ranges::any_of(s.visible->edges, [&](const TrimEdge& edge) {
+  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
+    const auto& visible = std::as_const(state.surfaces)[k].visible;
+    const bool beside = visible && std::ranges::any_of(visible->edges, [&](const TrimEdge& edge) {
                           return std::ranges::any_of(edge.supports, [&](const std::string& support) {
                             return std::ranges::find(ids, id_of(support)) != ids.end();
                           });
                         });
     if (!beside) continue;
+    SceneSurface& s = state.surfaces[k];
     auto region = visible_region(*state.document->step_file(), s.id);
     if (!region) return std::unexpected(region.error());
     s.visible = std::make_shared<const VisibleRegion>(std::move(*region));
