@@ -134,6 +134,11 @@ TEST_F(Tree, ThrowInTheCoreIsFound) {
   expect_only("src/spline/detail.hpp:3: the core must not throw");
 }
 
+TEST_F(Tree, WhatABodyThrowsIsCarriedBetweenThreadsInOneFile) {
+  write("src/base/parallel_for.cpp", "void f() { try { g(); } catch (...) {} }\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+}
+
 TEST_F(Tree, ThrowOutsideOfTheCoreIsAllowed) {
   write("apps/knead/main.cpp", "int main() { throw 1; }\n");
   EXPECT_EQ(violations(root_), std::vector<std::string>{});

@@ -27,6 +27,9 @@ constexpr std::size_t longest_function = 70;
 constexpr std::array<std::string_view, 2> files_of_long_functions = {"src/gramian/simd/recurrence_cubic.hpp",
                                                                      "src/gramian/simd/recurrence_fixed.hpp"};
 
+/// Carries what a caller's function throws from one thread to another, where there are exceptions.
+constexpr std::string_view file_of_exceptions = "src/base/parallel_for.cpp";
+
 std::optional<std::size_t> floor_of(std::string_view room) {
   const auto at = std::ranges::find(rooms, room);
   if (at == rooms.end()) return std::nullopt;
@@ -120,6 +123,7 @@ class Inspection {
   void inspect_core(const fs::path& file, const std::string& room, std::size_t floor) {
     static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
     static const std::regex exception(R"(\b(throw|try|catch)\b)");
+    const bool may_catch = fs::relative(file, root_).generic_string() == file_of_exceptions;
     bool in_comment = false;
     std::string first_include;
     const auto lines = lines_of(file);
@@ -132,7 +136,9 @@ class Inspection {
         continue;
       }
       const std::string& code = codes[i] = code_of(lines[i], in_comment);
-      if (std::regex_search(code, match, exception)) report(file, i + 1, "the core must not " + match[1].str());
+      if (!may_catch && std::regex_search(code, match, exception)) {
+        report(file, i + 1, "the core must not " + match[1].str());
+      }
     }
     if (std::ranges::find(rooms_of_short_functions, room) != rooms_of_short_functions.end()) {
       inspect_functions(file, codes);
