@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/gauss_legendre.hpp"
+#include "base/parallel_for.hpp"
 
 namespace knead {
 namespace {
@@ -117,15 +118,19 @@ Expected<BasisTable> tabulate_basis(const KnotVector& knots, std::span<const dou
   const std::size_t stride = static_cast<std::size_t>(order + 1) * static_cast<std::size_t>(knots.degree() + 1);
   table.derivatives.resize(parameters.size() * stride);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const double u = parameters[k];
-    if (!domain.contains(u)) {  // also false for NaN
-      return input_error(fmt::format("{} is outside the domain [{}, {}]", u, domain.lower, domain.upper),
-                         fmt::format("parameter {}", k));
-    }
-    const int span = knots.find_span(u, side);
-    table.first[k] = span - knots.degree();
-    basis_derivatives(knots, span, u, order, table.derivatives.data() + k * stride);
+    if (domain.contains(parameters[k])) continue;  // which no NaN is
+    return input_error(fmt::format("{} is outside the domain [{}, {}]", parameters[k], domain.lower, domain.upper),
+                       fmt::format("parameter {}", k));
   }
+  const auto count = static_cast<std::ptrdiff_t>(parameters.size());
+  const double work = 3.0 * static_cast<double>(stride) * (knots.degree() + 1);
+  detail::parallel_for(count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      const int span = knots.find_span(parameters[k], side);
+      table.first[k] = span - knots.degree();
+      basis_derivatives(knots, span, parameters[k], order, table.derivatives.data() + k * stride);
+    }
+  });
   return table;
 }
 

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
+#include "base/parallel_for.hpp"
 #include "homogeneous.hpp"
+#include "knead/spline/evaluator.hpp"
 
 namespace knead {
 namespace {
@@ -131,6 +134,44 @@ int multi_index_position(MultiIndex<D> a) {
 }
 
 template <int D>
+Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
+                        Evaluation<D>& result) {
+  const std::ptrdiff_t rows = tables[0]->size();
+  const auto indices = multi_indices<D>(order);
+  result.order = order;
+  result.derivatives.resize(indices.size());
+  for (Points& derivative : result.derivatives) derivative.resize(rows, 3);
+  const detail::HomogeneousNet<D> net(spline);
+  const detail::QuotientRule<D> quotient(spline.rational() ? order : 0);
+  auto work = static_cast<double>(net.width() * indices.size());
+  for (const BasisTable* table : tables) {
+    assert(table->order >= order && table->size() == rows);
+    work *= table->degree + 1;
+  }
+  const std::ptrdiff_t size = detail::block_size(rows, work);
+  std::vector<std::ptrdiff_t> failed(static_cast<std::size_t>((rows + size - 1) / size), -1);
+  detail::parallel_for(rows, size, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    LocalContraction<D> contraction(net, tables, order);
+    std::vector<double> homogeneous(indices.size() * net.width());
+    for (std::ptrdiff_t row = begin; row < end; ++row) {
+      contraction.point(static_cast<int>(row), homogeneous.data());
+      if (!spline.rational()) {
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+          std::copy_n(homogeneous.data() + k * 3, 3, result.derivatives[k].data() + row * 3);
+        }
+      } else if (!quotient.apply(homogeneous.data(), net.width(), row, result.derivatives)) {
+        failed[static_cast<std::size_t>(begin / size)] = row;
+        return;
+      }
+    }
+  });
+  for (const std::ptrdiff_t row : failed) {
+    if (row >= 0) return detail::denominator_error<1>({static_cast<std::size_t>(row)});
+  }
+  return {};
+}
+
+template <int D>
 Expected<Evaluation<D>> evaluate(const Spline<D>& spline, const Parameters<D>& parameters, int order, Side side) {
   std::array<BasisTable, D> tables;
   std::array<const BasisTable*, D> pointers;
@@ -142,22 +183,9 @@ Expected<Evaluation<D>> evaluate(const Spline<D>& spline, const Parameters<D>& p
     tables[d] = std::move(*table);
     pointers[d] = &tables[d];
   }
-  const auto indices = multi_indices<D>(order);
-  Evaluation<D> result{order, std::vector<Points>(indices.size(), Points(parameters.rows(), 3))};
-  const detail::HomogeneousNet<D> net(spline);
-  const detail::QuotientRule<D> quotient(spline.rational() ? order : 0);
-  LocalContraction<D> contraction(net, pointers, order);
-  std::vector<double> homogeneous(indices.size() * net.width());
-  for (Eigen::Index row = 0; row < parameters.rows(); ++row) {
-    contraction.point(static_cast<int>(row), homogeneous.data());
-    if (!spline.rational()) {
-      for (std::size_t k = 0; k < indices.size(); ++k) {
-        std::copy_n(homogeneous.data() + k * 3, 3, result.derivatives[k].data() + row * 3);
-      }
-    } else if (!quotient.apply(homogeneous.data(), net.width(), row, result.derivatives)) {
-      return detail::denominator_error<1>({static_cast<std::size_t>(row)});
-    }
-  }
+  Evaluation<D> result;
+  auto done = evaluate<D>(spline, pointers, order, result);
+  if (!done) return std::unexpected(std::move(done.error()));
   return result;
 }
 
@@ -170,10 +198,11 @@ Expected<Point> evaluate_point(const Spline<D>& spline, std::array<double, D> u)
   return Point(result->points().row(0).transpose());
 }
 
-#define KNEAD_INSTANTIATE(D)                                                                       \
-  template std::vector<MultiIndex<D>> multi_indices<D>(int);                                       \
-  template int multi_index_position<D>(MultiIndex<D>);                                             \
-  template Expected<Evaluation<D>> evaluate<D>(const Spline<D>&, const Parameters<D>&, int, Side); \
+#define KNEAD_INSTANTIATE(D)                                                                                           \
+  template std::vector<MultiIndex<D>> multi_indices<D>(int);                                                           \
+  template int multi_index_position<D>(MultiIndex<D>);                                                                 \
+  template Expected<void> evaluate<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int, Evaluation<D>&); \
+  template Expected<Evaluation<D>> evaluate<D>(const Spline<D>&, const Parameters<D>&, int, Side);                     \
   template Expected<Point> evaluate_point<D>(const Spline<D>&, std::array<double, D>);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
+#include "base/parallel_for.hpp"
 #include "homogeneous.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -120,26 +122,47 @@ SumRun sum_run_for(std::size_t width, std::size_t terms) {
   }
 }
 
-/// Walks the grid row by row. At every parameter of a direction but the last, the net is contracted once for every
-/// derivative needed further in, leaving a smaller net. In the last direction whole rows are summed.
+/// What all parts of a grid share.
+template <int D>
+struct GridTask {
+  GridTask(const Spline<D>& spline, const std::array<const BasisTable*, D>& given, int derivatives,
+           Evaluation<D>& evaluation)
+      : rational(spline.rational()),
+        net(spline),
+        tables(given),
+        order(derivatives),
+        basis(*given[D - 1], derivatives),
+        quotient(rational ? derivatives : 0),
+        sum_run(sum_run_for(net.width(), basis.width())),
+        result(evaluation) {}
+
+  bool rational;
+  detail::HomogeneousNet<D> net;
+  const std::array<const BasisTable*, D>& tables;
+  int order;
+  TransposedBasis basis;
+  detail::QuotientRule<D> quotient;
+  SumRun sum_run;
+  Evaluation<D>& result;
+};
+
+/// Walks a part of the grid row by row. At every parameter of a direction but the last, the net is contracted once for
+/// every derivative needed further in, leaving a smaller net. In the last direction whole rows are summed.
 template <int D>
 class GridWalk {
  public:
-  GridWalk(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order, Evaluation<D>& result)
-      : rational_(spline.rational()),
-        net_(spline),
-        tables_(tables),
-        order_(order),
-        basis_(*tables[D - 1], order),
-        quotient_(rational_ ? order : 0),
-        sum_run_(sum_run_for(net_.width(), basis_.width())),
-        result_(result) {
-    for (std::size_t d = 0; d + 1 < D; ++d) nets_[d].resize(multi_indices<D>(order).size() * net_.stride(d));
-    if (rational_) homogeneous_.resize(result.derivatives.size() * basis_.size() * 4);
+  explicit GridWalk(const GridTask<D>& task) : task_(task) {
+    for (std::size_t d = 0; d + 1 < D; ++d) nets_[d].resize(multi_indices<D>(task.order).size() * task.net.stride(d));
+    if (task.rational) homogeneous_.resize(task.result.derivatives.size() * task.basis.size() * 4);
   }
 
-  /// False if a denominator is not positive; `at()` then gives the point.
-  bool run() { return walk(0, {{MultiIndex<D>{}, net_.data()}}); }
+  /// At parameters begin … end − 1 of the first direction; all of it where that is also the last. False if a
+  /// denominator is not positive; `at()` then gives the point.
+  bool run(std::size_t begin, std::size_t end) {
+    row_ = begin;
+    for (std::size_t d = 1; d < D; ++d) row_ *= static_cast<std::size_t>(task_.tables[d]->size());
+    return walk(0, begin, end, {{MultiIndex<D>{}, task_.net.data()}});
+  }
   [[nodiscard]] const std::array<std::size_t, D>& at() const { return at_; }
 
  private:
@@ -149,19 +172,19 @@ class GridWalk {
     const double* net;
   };
 
-  bool walk(std::size_t d, const std::vector<Partial>& partials) {
+  bool walk(std::size_t d, std::size_t begin, std::size_t end, const std::vector<Partial>& partials) {
     if (d + 1 == D) return sum_row(partials);
-    const BasisTable& table = *tables_[d];
-    const std::size_t stride = net_.stride(d);
+    const BasisTable& table = *task_.tables[d];
+    const std::size_t stride = task_.net.stride(d), inner = static_cast<std::size_t>(task_.tables[d + 1]->size());
     std::vector<Partial> contracted;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(table.size()); ++k) {
+    for (std::size_t k = begin; k < end; ++k) {
       at_[d] = k;
       contracted.clear();
       double* to = nets_[d].data();
       for (const Partial& partial : partials) {
         const double* from = partial.net + static_cast<std::size_t>(table.first[k]) * stride;
         MultiIndex<D> a = partial.a;
-        int left = order_;
+        int left = task_.order;
         for (const int order : a) left -= order;
         for (int m = 0; m <= left; ++m, to += stride) {
           a[d] = m;
@@ -169,7 +192,7 @@ class GridWalk {
           contracted.push_back({a, to});
         }
       }
-      if (!walk(d + 1, contracted)) return false;
+      if (!walk(d + 1, 0, inner, contracted)) return false;
     }
     return true;
   }
@@ -183,26 +206,27 @@ class GridWalk {
   }
 
   bool sum_row(const std::vector<Partial>& partials) {
-    const std::size_t n = basis_.size(), width = net_.width();
+    const TransposedBasis& basis = task_.basis;
+    const std::size_t n = basis.size(), width = task_.net.width();
     for (const Partial& partial : partials) {
       MultiIndex<D> a = partial.a;
-      int left = order_;
+      int left = task_.order;
       for (const int order : a) left -= order;
       for (int m = 0; m <= left; ++m) {
         a[D - 1] = m;
         const auto k = static_cast<std::size_t>(multi_index_position<D>(a));
-        double* to = rational_ ? homogeneous_.data() + k * n * 4 : result_.derivatives[k].data() + row_ * 3;
-        for (std::size_t run = 0; run < basis_.runs().size(); ++run) {
-          const auto [first, begin] = basis_.runs()[run];
-          sum_run_(partial.net + first * width, basis_.values(m) + begin, n, basis_.width(), basis_.end(run) - begin,
-                   to + begin * width);
+        double* to = task_.rational ? homogeneous_.data() + k * n * 4 : task_.result.derivatives[k].data() + row_ * 3;
+        for (std::size_t run = 0; run < basis.runs().size(); ++run) {
+          const auto [first, begin] = basis.runs()[run];
+          task_.sum_run(partial.net + first * width, basis.values(m) + begin, n, basis.width(), basis.end(run) - begin,
+                        to + begin * width);
         }
       }
     }
-    for (std::size_t k = 0; rational_ && k < n; ++k) {
+    for (std::size_t k = 0; task_.rational && k < n; ++k) {
       at_[D - 1] = k;
-      if (!quotient_.apply(homogeneous_.data() + k * 4, n * 4, static_cast<Eigen::Index>(row_ + k),
-                           result_.derivatives)) {
+      if (!task_.quotient.apply(homogeneous_.data() + k * 4, n * 4, static_cast<Eigen::Index>(row_ + k),
+                                task_.result.derivatives)) {
         return false;
       }
     }
@@ -210,19 +234,39 @@ class GridWalk {
     return true;
   }
 
-  bool rational_;
-  detail::HomogeneousNet<D> net_;
-  const std::array<const BasisTable*, D>& tables_;
-  int order_;
-  TransposedBasis basis_;
-  detail::QuotientRule<D> quotient_;
-  SumRun sum_run_;
-  Evaluation<D>& result_;
+  const GridTask<D>& task_;
   std::array<std::vector<double>, D> nets_;  ///< the net remaining after direction d, one per derivative
   std::vector<double> homogeneous_;          ///< one row of a rational spline, by derivative and point
   std::size_t row_ = 0;
   std::array<std::size_t, D> at_{};
 };
+
+/// Multiplications per parameter of the first direction, roughly; none where that is the only one, which is not
+/// divided.
+template <int D>
+double work_of_a_slab(const GridTask<D>& task, Eigen::Index points) {
+  if constexpr (D == 1) return 0;
+  const double numbers = static_cast<double>(points) / task.tables[0]->size() *
+                         static_cast<double>(task.result.derivatives.size() * task.net.width());
+  return numbers * (task.tables[D - 1]->degree + 1 + (task.rational ? 4 : 0));
+}
+
+/// The whole grid, by several threads where it is large.
+template <int D>
+Expected<void> walk_all(const GridTask<D>& task, Eigen::Index points) {
+  const std::ptrdiff_t slabs = task.tables[0]->size(), size = detail::block_size(slabs, work_of_a_slab(task, points));
+  std::vector<std::optional<std::array<std::size_t, D>>> failed(static_cast<std::size_t>((slabs + size - 1) / size));
+  detail::parallel_for(slabs, size, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    GridWalk<D> walk(task);
+    if (!walk.run(static_cast<std::size_t>(begin), static_cast<std::size_t>(end))) {
+      failed[static_cast<std::size_t>(begin / size)] = walk.at();
+    }
+  });
+  for (const auto& at : failed) {
+    if (at) return detail::denominator_error<D>(*at);
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -238,9 +282,7 @@ Expected<void> evaluate_grid(const Spline<D>& spline, const std::array<const Bas
   result.derivatives.resize(multi_indices<D>(order).size());
   for (Points& derivative : result.derivatives) derivative.resize(rows, 3);
   if (rows == 0) return {};
-  GridWalk<D> walk(spline, tables, order, result);
-  if (!walk.run()) return detail::denominator_error<D>(walk.at());
-  return {};
+  return walk_all(GridTask<D>(spline, tables, order, result), rows);
 }
 
 template <int D>
