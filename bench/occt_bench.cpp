@@ -14,7 +14,7 @@
 #include <random>
 
 #include "knead/spline/closest_point.hpp"
-#include "knead/spline/evaluate.hpp"
+#include "knead/spline/normals.hpp"
 #include "medians.hpp"
 #include "sample_surface.hpp"
 
@@ -74,16 +74,7 @@ void evaluation(benchmark::State& state, bool rational, int order) {
       state,
       [&] {
         if (!evaluate_grid<2>(surface, tables, order, result)) std::abort();
-        if (order == 1) {
-          const Points &du = result.at({1, 0}), &dv = result.at({0, 1});
-          for (Eigen::Index i = 0; i < size; ++i) {
-            const double *a = du.data() + 3 * i, *b = dv.data() + 3 * i;
-            const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-            const double scale = 1 / std::sqrt(x * x + y * y + z * z);
-            double* to = normals.data() + 3 * i;
-            to[0] = scale * x, to[1] = scale * y, to[2] = scale * z;
-          }
-        }
+        if (order == 1) unit_normals(result, normals);
         benchmark::DoNotOptimize(result.derivatives.back().data());
         benchmark::DoNotOptimize(normals.data());
       },

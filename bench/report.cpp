@@ -53,6 +53,11 @@ constexpr Source sources[] = {
     {"cholmod.json", "solve/64", "ratio", "solve_vs_cholmod_64"},
     {"cholmod.json", "solve/128", "ratio", "solve_vs_cholmod_128"},
     {"cholmod.json", "solve/256", "ratio", "solve_vs_cholmod_256"},
+    {"threads.json", "grid/first_derivatives", "ratio", "two_threads_evaluation"},
+    {"threads.json", "scattered", "ratio", "two_threads_scattered"},
+    {"threads.json", "assembly/256", "ratio", "two_threads_assembly_256"},
+    {"threads.json", "apply/256", "ratio", "two_threads_apply_256"},
+    {"threads.json", "shell_hessian/64", "ratio", "two_threads_shell_hessian_64"},
     {"info.json", "info", "mb_per_s", "info_mb_per_s"},
 };
 

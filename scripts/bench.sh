@@ -8,6 +8,7 @@ scripts/setup.sh bench
 scripts/configure.sh release KNEAD_BUILD_BENCH=ON
 cmake --build build/release --target knead_benchmarks
 programs=build/release/bench out=out/bench
+export KNEAD_THREADS=${KNEAD_THREADS:-1}  # times are of the processor; threads_bench chooses for itself
 if [ $# -gt 0 ]; then
   for program in "$programs"/*_bench; do
     [ -x "$program" ] || continue

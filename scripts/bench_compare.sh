@@ -27,6 +27,7 @@ for side in base head; do
     cmake --build build/release --target knead_benchmarks)
 done
 judge=$compare/head/build/release/bench/knead_bench_judge
+export KNEAD_THREADS=${KNEAD_THREADS:-1}
 
 results=$compare/results
 rm -rf "$results"

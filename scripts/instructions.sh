@@ -16,6 +16,7 @@ cmake --build "$build" --target knead_instructions knead_bench_judge
 
 # Of ours vectors of two, and of the C library's the ones that every x86-64 has.
 export KNEAD_INSTRUCTION_SET=vector128
+export KNEAD_THREADS=1
 export GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2_Usable,-AVX2,-AVX512F,-FMA_Usable,-FMA,-FMA4,-ERMS
 program=$build/bench/knead_instructions judge=$build/bench/knead_bench_judge expected=bench/instructions.json
 [ "$("$program" --set)" = vector128 ] || { echo "instructions: this build has no portable vectors" >&2; exit 1; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel_for.hpp"
+#include "knead/base/threads.hpp"
 #include "knead/gramian/instruction_set.hpp"
 
 namespace knead::detail {
@@ -175,8 +177,6 @@ ShellParts ShellBlocks::forces(const Points& x, Eigen::Ref<Points>* gradient, Sh
   return sum;
 }
 
-namespace {
-
 /// Adds blocks of 3 × 3 to a matrix, both a block and its mirror image.
 class ShellBlockSum {
  public:
@@ -202,46 +202,85 @@ class ShellBlockSum {
   double* value_;
 };
 
-}  // namespace
+std::size_t ShellBlocks::hessian_numbers() const {
+  return lanewise(9 * shape_.functions[0] * shape_.functions[0] * shape_.pairs());
+}
 
-void ShellBlocks::add_hessian(const Points& x, const ShellStress& stress, const TensorPattern<2>& pattern,
-                              const SparseMatrix& scalar, SparseMatrix& matrix) const {
-  const std::ptrdiff_t p = shape_.functions[0], q = shape_.functions[1];
+void ShellBlocks::find_hessians(std::span<const Block> blocks, const Points& x, const ShellStress& stress,
+                                double* to) const {
   std::vector<double> here(lanewise(3 * shape_.local())), work(static_cast<std::size_t>(shape_.work())),
-      resultants(lanewise(6 * shape_.gauss())), blocks(lanewise(9 * p * p * shape_.pairs()));
-  ShellBlockSum sum(pattern, scalar, matrix);
-  for (const Block& block : blocks_) {
+      resultants(lanewise(6 * shape_.gauss()));
+  for (const Block& block : blocks) {
     gather(block, x, here);
     for (std::size_t l = 0; l < lanes; ++l) {
       for (std::ptrdiff_t k = 0; k < 6 * shape_.gauss(); ++k) {
         resultants[lanewise(k) + l] = stress.data()[block.element[l] * 6 * shape_.gauss() + k];
       }
     }
-    kernels_->hessian(shape_, data(block), here.data(), resultants.data(), work.data(), blocks.data());
-    for (std::size_t l = 0; l < static_cast<std::size_t>(block.count); ++l) {
-      const int* node = nodes(block.element[l]);
-      const auto weight = [&](std::ptrdiff_t r) { return shape_.rational ? block.weight[lanewise(r) + l] : 1; };
-      for (std::ptrdiff_t j = 0; j < q; ++j) {
-        for (std::ptrdiff_t k = j; k < q; ++k) {
-          for (std::ptrdiff_t i = 0; i < p; ++i) {
-            for (std::ptrdiff_t n = j == k ? i : 0; n < p; ++n) {
-              const double* from = blocks.data() + lanewise(9 * ((shape_.pair(j, k) * p + i) * p + n)) + l;
-              const std::ptrdiff_t a = i * q + j, b = n * q + k;
-              const double w = weight(a) * weight(b);
-              std::array<double, 9> here_there, there_here;
-              for (std::size_t c = 0; c < 3; ++c) {
-                for (std::size_t e = 0; e < 3; ++e) {
-                  const std::size_t number = a == b && e < c ? 3 * e + c : 3 * c + e;  // symmetric to the last bit
-                  here_there[3 * c + e] = there_here[3 * e + c] = w * from[lanes * number];
-                }
+    kernels_->hessian(shape_, data(block), here.data(), resultants.data(), work.data(), to);
+    to += hessian_numbers();
+  }
+}
+
+template <class Owns>
+void ShellBlocks::add_entries(const Block& block, const double* numbers, const Owns& owns, ShellBlockSum& sum) const {
+  const std::ptrdiff_t p = shape_.functions[0], q = shape_.functions[1];
+  for (std::size_t l = 0; l < static_cast<std::size_t>(block.count); ++l) {
+    const int* node = nodes(block.element[l]);
+    const auto weight = [&](std::ptrdiff_t r) { return shape_.rational ? block.weight[lanewise(r) + l] : 1; };
+    for (std::ptrdiff_t j = 0; j < q; ++j) {
+      for (std::ptrdiff_t k = j; k < q; ++k) {
+        if (!owns(node[j]) && !owns(node[k])) continue;
+        for (std::ptrdiff_t i = 0; i < p; ++i) {
+          for (std::ptrdiff_t n = j == k ? i : 0; n < p; ++n) {
+            const double* from = numbers + lanewise(9 * ((shape_.pair(j, k) * p + i) * p + n)) + l;
+            const std::ptrdiff_t a = i * q + j, b = n * q + k;
+            const double w = weight(a) * weight(b);
+            std::array<double, 9> here_there, there_here;
+            for (std::size_t c = 0; c < 3; ++c) {
+              for (std::size_t e = 0; e < 3; ++e) {
+                const std::size_t number = a == b && e < c ? 3 * e + c : 3 * c + e;  // symmetric to the last bit
+                here_there[3 * c + e] = there_here[3 * e + c] = w * from[lanes * number];
               }
-              sum.add(node[a], node[b], here_there);
-              if (a != b) sum.add(node[b], node[a], there_here);
             }
+            if (owns(node[j])) sum.add(node[a], node[b], here_there);
+            if (a != b && owns(node[k])) sum.add(node[b], node[a], there_here);
           }
         }
       }
     }
+  }
+}
+
+void ShellBlocks::add_hessian(const Points& x, const ShellStress& stress, const TensorPattern<2>& pattern,
+                              const SparseMatrix& scalar, SparseMatrix& matrix) const {
+  const std::span<const Block> all = blocks_;
+  const bool shared = thread_count() > 1 && all.size() >= 8;
+  // Some blocks at a time: their numbers, by all threads; then the sums, each thread those of some rows of the matrix
+  // (of a share of the second direction), so that every entry is summed up in the order of the elements.
+  const std::size_t together = shared ? 32 : 1;
+  const std::ptrdiff_t shares = shared ? std::min(4, pattern.net[1]) : 1;
+  std::vector<double> numbers(std::min(together, all.size()) * hessian_numbers());
+  ShellBlockSum sum(pattern, scalar, matrix);
+  for (std::size_t first = 0; first < all.size(); first += together) {
+    const std::span<const Block> some = all.subspan(first, std::min(together, all.size() - first));
+    parallel_for(std::ssize(some), 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      find_hessians(some.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)), x, stress,
+                    numbers.data() + static_cast<std::size_t>(begin) * hessian_numbers());
+    });
+    parallel_for(shares, 1, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const auto n = static_cast<std::ptrdiff_t>(pattern.net[1]), from = begin * n / shares, to = end * n / shares;
+      const auto owns = [&](int node) { return from <= node % n && node % n < to; };
+      const auto every = [](int) { return true; };
+      for (std::size_t k = 0; k < some.size(); ++k) {
+        const double* own = numbers.data() + k * hessian_numbers();
+        if (end - begin == shares) {
+          add_entries(some[k], own, every, sum);
+        } else {
+          add_entries(some[k], own, owns, sum);
+        }
+      }
+    });
   }
 }
 

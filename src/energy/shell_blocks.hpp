@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "knead/energy/shell_energy.hpp"
@@ -10,6 +11,8 @@
 #include "tensor_pattern.hpp"
 
 namespace knead::detail {
+
+class ShellBlockSum;
 
 /// The elements of a shell, four side by side, as `ShellKernels` take them.
 class ShellBlocks {
@@ -41,6 +44,13 @@ class ShellBlocks {
   void pack_rest(Block& block, const std::vector<ShellRest>& rest) const;
   void measure_rest(const Points& x, std::vector<ShellRest>& rest);
   void pack_weights(Block& block, const Surface& surface, const std::array<BasisQuadrature, 2>& quadrature) const;
+  /// How many numbers the second derivatives of a block are, as the kernels give them.
+  [[nodiscard]] std::size_t hessian_numbers() const;
+  /// Those of these blocks, one after the other.
+  void find_hessians(std::span<const Block> blocks, const Points& x, const ShellStress& stress, double* to) const;
+  /// Adds those of a block to the rows of the matrix that owns(node) chooses.
+  template <class Owns>
+  void add_entries(const Block& block, const double* numbers, const Owns& owns, ShellBlockSum& sum) const;
   /// The control points of the numerators.
   void gather(const Block& block, const Points& x, std::vector<double>& to) const;
   [[nodiscard]] const int* nodes(int element) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/parallel_for.hpp"
 #include "simd/tensor_kernels.hpp"
 #include "tensor_pattern.hpp"
 
@@ -30,6 +31,97 @@ Expected<void> check_orders(const Energy<D>& energy) {
   }
   return {};
 }
+
+/// What writes the rows of K, some outer indices at a time.
+template <int D, class Term>
+struct RowWriter {
+  static constexpr std::size_t last = D - 1;
+  static constexpr auto spare = detail::TensorKernels::spare;
+
+  RowWriter(const TensorPattern<D>& entries, const std::array<std::vector<BandMatrix>, D>& matrices,
+            const std::vector<Term>& list)
+      : pattern(entries),
+        factors(matrices),
+        terms(list),
+        n(pattern.net[last]),
+        p(pattern.degree[last]),
+        kinds(factors[last].size()) {
+    // One row of zeros where the energy has no terms, so that there is something to point into.
+    band.assign(std::max<std::size_t>(kinds, 1) * static_cast<std::size_t>(stride()), 0.0);
+    for (std::size_t g = 0; g < kinds; ++g) {
+      double* to = band.data() + static_cast<std::ptrdiff_t>(g) * stride();
+      for (int i = 0; i < n; ++i) {
+        for (int c = 0; c < pattern.length(last, i); ++c) {
+          const int j = pattern.first(last, i) + c;
+          to[static_cast<std::ptrdiff_t>(i) * width() + j - i + p] = factors[last][g](i, j);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] int width() const { return 2 * p + 1; }
+  [[nodiscard]] std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(n) * width() + spare; }
+
+  /// For a pair of outer indices the terms collapse to one coefficient per factor of the last direction.
+  void find_weights(const std::array<int, D>& i, const std::vector<std::array<int, D>>& columns,
+                    std::vector<double>& weights) const {
+    weights.assign(columns.size() * kinds, 0.0);
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      for (const Term& term : terms) {
+        double product = term.coefficient;
+        for (std::size_t d = 0; d < last; ++d) {
+          product *= factors[d][static_cast<std::size_t>(term.factor[d])](i[d], columns[column][d]);
+        }
+        weights[column * kinds + static_cast<std::size_t>(term.factor[last])] += product;
+      }
+    }
+  }
+
+  /// Those of the outer indices begin … end − 1, and nothing else.
+  void write(int begin, int end, SparseMatrix& matrix) const {
+    const TensorPattern<D> rows = pattern.outer();
+    const detail::TensorKernels& kernels = detail::tensor_kernels();
+    std::vector<double> weights, last_values;
+    double* to = matrix.valuePtr() + matrix.outerIndexPtr()[begin * n];
+    const double* const behind = matrix.valuePtr() + matrix.outerIndexPtr()[end * n];
+    for (int row = begin; row < end; ++row) {
+      const std::array<int, D> i = rows.unpack(row);
+      const std::vector<std::array<int, D>> columns = rows.columns(i);
+      const auto count = static_cast<std::ptrdiff_t>(columns.size());
+      find_weights(i, columns, weights);
+      for (int line = 0; line < n;) {
+        // Away from the ends all rows are alike.
+        const int alike = line == p && n > 2 * p ? n - 2 * p : 1;
+        const std::ptrdiff_t length = pattern.length(last, line), values = alike * count * length;
+        const double* from =
+            band.data() + static_cast<std::ptrdiff_t>(line) * width() + pattern.first(last, line) - line + p;
+        const bool past_the_end = behind - to < values + spare;
+        if (past_the_end) last_values.resize(static_cast<std::size_t>(values + spare));
+        kernels.write_runs(from, stride(), width(), alike, weights.data(), static_cast<std::ptrdiff_t>(kinds), count,
+                           length, past_the_end ? last_values.data() : to);
+        if (past_the_end) std::copy_n(last_values.data(), values, to);
+        to += values;
+        line += alike;
+      }
+    }
+  }
+
+  /// All, by several threads where there are many.
+  void write_all(SparseMatrix& matrix) const {
+    const int count = pattern.outer().size();
+    const double work = static_cast<double>(matrix.nonZeros()) / count * static_cast<double>(kinds);
+    detail::parallel_for(count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      write(static_cast<int>(begin), static_cast<int>(end), matrix);
+    });
+  }
+
+  TensorPattern<D> pattern;
+  const std::array<std::vector<BandMatrix>, D>& factors;
+  const std::vector<Term>& terms;
+  int n, p;                  // of the last direction
+  std::size_t kinds;         // its factors
+  std::vector<double> band;  // as full rows of 2p + 1 numbers, row j from column j − p on
+};
 
 }  // namespace
 
@@ -108,59 +200,8 @@ void Stiffness<D>::refresh(SparseMatrix& matrix) const {
     std::copy_n(assembled_->valuePtr(), assembled_->nonZeros(), matrix.valuePtr());
     return;
   }
-  const TensorPattern<D> pattern{net_, degree_};
-  constexpr std::size_t last = D - 1;
-  constexpr auto spare = detail::TensorKernels::spare;
-  const int n = net_[last], p = degree_[last], width = 2 * p + 1;
-  const std::size_t kinds = factors_[last].size();
-  // The factors of the last direction as full rows of 2p + 1 numbers, row j from column j − p on.
-  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(n) * width + spare;
-  // One row of zeros where the energy has no terms, so that there is something to point into.
-  std::vector<double> band(std::max<std::size_t>(kinds, 1) * static_cast<std::size_t>(stride), 0.0);
-  for (std::size_t g = 0; g < kinds; ++g) {
-    double* to = band.data() + static_cast<std::ptrdiff_t>(g) * stride;
-    for (int i = 0; i < n; ++i) {
-      for (int c = 0; c < pattern.length(last, i); ++c) {
-        const int j = pattern.first(last, i) + c;
-        to[static_cast<std::ptrdiff_t>(i) * width + j - i + p] = factors_[last][g](i, j);
-      }
-    }
-  }
-
-  // For every pair of outer indices the terms collapse to one coefficient per factor of the last direction.
-  const TensorPattern<D> rows = pattern.outer();
-  const detail::TensorKernels& kernels = detail::tensor_kernels();
-  std::vector<double> weights, end;
-  double* to = matrix.valuePtr();
-  const double* const behind = to + matrix.nonZeros();
-  for (int row = 0; row < rows.size(); ++row) {
-    const std::array<int, D> i = rows.unpack(row);
-    const std::vector<std::array<int, D>> columns = rows.columns(i);
-    const auto count = static_cast<std::ptrdiff_t>(columns.size());
-    weights.assign(columns.size() * kinds, 0.0);
-    for (std::size_t column = 0; column < columns.size(); ++column) {
-      for (const Term& term : terms_) {
-        double product = term.coefficient;
-        for (std::size_t d = 0; d < last; ++d) {
-          product *= factors_[d][static_cast<std::size_t>(term.factor[d])](i[d], columns[column][d]);
-        }
-        weights[column * kinds + static_cast<std::size_t>(term.factor[last])] += product;
-      }
-    }
-    for (int k = 0; k < n;) {
-      // Away from the ends all rows are alike.
-      const int alike = k == p && n > 2 * p ? n - 2 * p : 1;
-      const std::ptrdiff_t length = pattern.length(last, k), values = alike * count * length;
-      const double* from = band.data() + static_cast<std::ptrdiff_t>(k) * width + pattern.first(last, k) - k + p;
-      const bool past_the_end = behind - to < values + spare;
-      if (past_the_end) end.resize(static_cast<std::size_t>(values + spare));
-      kernels.write_runs(from, stride, width, alike, weights.data(), static_cast<std::ptrdiff_t>(kinds), count, length,
-                         past_the_end ? end.data() : to);
-      if (past_the_end) std::copy_n(end.data(), values, to);
-      to += values;
-      k += alike;
-    }
-  }
+  const RowWriter<D, Term> rows({net_, degree_}, factors_, terms_);
+  rows.write_all(matrix);
 }
 
 template class Stiffness<1>;

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/parallel_for.hpp"
 #include "knead/energy/material_field.hpp"
 #include "knead/energy/stiffness.hpp"
 
@@ -74,16 +75,20 @@ struct TensorPattern {
       for (int k = 0; k < n; ++k, ++start) start[1] = start[0] + static_cast<int>(base.size()) * length(D - 1, k);
     }
     matrix.resizeNonZeros(*start);
-    auto* to = matrix.innerIndexPtr();
-    for (const std::vector<int>& base : bases) {
-      for (int k = 0; k < n; ++k) {
-        const int begin = first(D - 1, k), count = length(D - 1, k);
-        for (const int run : base) {
-          for (int c = 0; c < count; ++c) to[c] = run + begin + c;
-          to += count;
+    const std::ptrdiff_t outer_size = rows.size();
+    const double work = static_cast<double>(matrix.nonZeros()) / rows.size();
+    detail::parallel_for(outer_size, detail::block_size(outer_size, work), [&](std::ptrdiff_t row, std::ptrdiff_t end) {
+      auto* to = matrix.innerIndexPtr() + matrix.outerIndexPtr()[row * n];
+      for (; row < end; ++row) {
+        for (int k = 0; k < n; ++k) {
+          const int begin = first(D - 1, k), count = length(D - 1, k);
+          for (const int run : bases[static_cast<std::size_t>(row)]) {
+            for (int c = 0; c < count; ++c) to[c] = run + begin + c;
+            to += count;
+          }
         }
       }
-    }
+    });
     return matrix;
   }
 

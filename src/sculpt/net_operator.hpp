@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel_for.hpp"
+#include "knead/base/threads.hpp"
 #include "knead/energy/stiffness.hpp"
 
 namespace knead {
@@ -25,18 +27,24 @@ class NetOperator {
   }
   void add_identity(double factor) { identity_ += factor; }
 
-  /// The product with N × 3 coordinates.
+  /// The product with N × 3 coordinates. Where there are patches enough, threads share them out; otherwise they share
+  /// the lines of each.
   [[nodiscard]] Points operator*(const Points& x) const {
     Points y = identity_ * x;
-    for (const Block& block : blocks_) {
-      const int rows = block.stiffness.size();
-      if (rows == size_) {
-        y += block.factor * block.stiffness.apply(x);
-      } else {
-        y.middleRows(block.first, rows) +=
-            block.factor * block.stiffness.apply(Points(x.middleRows(block.first, rows)));
-      }
+    const std::vector<int> patches = first_rows();
+    const auto count = static_cast<std::ptrdiff_t>(patches.size());
+    if (count < 2 || count < thread_count()) {
+      for (const Block& block : blocks_) add_product(block, x, y);
+      return y;
     }
+    const double work = work_per_row * static_cast<double>(x.rows()) / static_cast<double>(count);
+    detail::parallel_for(count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (; begin < end; ++begin) {
+        for (const Block& block : blocks_) {
+          if (block.first == patches[static_cast<std::size_t>(begin)]) add_product(block, x, y);
+        }
+      }
+    });
     return y;
   }
 
@@ -73,6 +81,24 @@ class NetOperator {
     Stiffness<D> stiffness;
   };
 
+  /// Of every patch that blocks act on, ascending.
+  [[nodiscard]] std::vector<int> first_rows() const {
+    std::vector<int> first;
+    for (const Block& block : blocks_) first.push_back(block.first);
+    std::ranges::sort(first);
+    first.erase(std::ranges::unique(first).begin(), first.end());
+    return first;
+  }
+
+  void add_product(const Block& block, const Points& x, Points& y) const {
+    const int rows = block.stiffness.size();
+    if (rows == size_) {
+      y += block.factor * block.stiffness.apply(x);
+    } else {
+      y.middleRows(block.first, rows) += block.factor * block.stiffness.apply(Points(x.middleRows(block.first, rows)));
+    }
+  }
+
   static bool same_pattern(const SparseMatrix& a, const SparseMatrix& b) {
     return a.nonZeros() == b.nonZeros() &&
            std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1, b.outerIndexPtr()) &&
@@ -87,6 +113,8 @@ class NetOperator {
       }
     }
   }
+
+  static constexpr double work_per_row = 300;  ///< multiplications, roughly, of a cubic surface
 
   int size_;
   double identity_ = 0;

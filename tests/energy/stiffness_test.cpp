@@ -116,11 +116,22 @@ TEST(TensorKernels, GiveTheSameBitsByEveryInstructionSet) {
       double sum = 0, more = expected[(lines - 1) * apart + 70];
       for (std::ptrdiff_t k = 0; k < count; ++k) sum += f[k * lines + lines - 1] * x[k * length + 70];
       EXPECT_EQ(more, sum);
-      reference.add_band(f.data(), length, count, 3, length, x.data(), apart, lines, expected.data(), apart);
-      kernels.add_band(f.data(), length, count, 3, length, x.data(), apart, lines, y.data(), apart);
-      EXPECT_EQ(y, expected) << name(set) << lines;
-      for (std::ptrdiff_t k = 0; k < count; ++k) more += f[k * length + 70] * x[(lines - 1) * apart + 70 + 3 * k];
-      EXPECT_EQ(expected[(lines - 1) * apart + 70], more);
+      for (const bool from_zero : {false, true}) {
+        const double* const bands[] = {f.data(), f.data() + 3};
+        const auto add = [&](const detail::TensorKernels& k, Eigen::VectorXd& to) {
+          k.add_bands(bands, 2, length, count - 1, 3, length, x.data(), 11, apart, lines, from_zero, to.data(), apart);
+        };
+        add(reference, expected);
+        add(kernels, y);
+        EXPECT_EQ(y, expected) << name(set) << lines;
+        if (from_zero) more = 0;
+        for (std::ptrdiff_t g = 0; g < 2; ++g) {
+          for (std::ptrdiff_t k = 0; k < count - 1; ++k) {
+            more += bands[g][k * length + 70] * x[11 * g + (lines - 1) * apart + 70 + 3 * k];
+          }
+        }
+        EXPECT_EQ(expected[(lines - 1) * apart + 70], more);
+      }
       EXPECT_EQ(expected[lines * apart - 1], 0);  // nothing between lines
     }
     for (const std::ptrdiff_t run : {1, 3, 7, 11, 15, 41}) {

@@ -13,11 +13,12 @@ struct TensorKernels {
   /// once for three kinds.
   void (*combine)(const double* x, std::ptrdiff_t stride, const double* factors, std::ptrdiff_t kinds,
                   std::ptrdiff_t count, std::ptrdiff_t length, double* y, std::ptrdiff_t y_stride);
-  /// y[l · y_stride + m] += Σ_k diagonals[k · stride + m] x[l · x_stride + m + k · shift], 0 <= m < length,
-  /// 0 <= l < lines: the diagonals are read once for `lines_at_once` lines.
-  void (*add_band)(const double* diagonals, std::ptrdiff_t stride, std::ptrdiff_t count, std::ptrdiff_t shift,
-                   std::ptrdiff_t length, const double* x, std::ptrdiff_t x_stride, std::ptrdiff_t lines, double* y,
-                   std::ptrdiff_t y_stride);
+  /// y[l · y_stride + m] += Σ_g Σ_k diagonals[g][k · stride + m] x[g · x_kind + l · x_stride + m + k · shift],
+  /// 0 <= m < length, 0 <= l < lines, 0 <= g < kinds, 0 <= k < count; with `from_zero` = instead of +=. The diagonals
+  /// are read once for `lines_at_once` lines, and y once for all kinds.
+  void (*add_bands)(const double* const* diagonals, std::ptrdiff_t kinds, std::ptrdiff_t stride, std::ptrdiff_t count,
+                    std::ptrdiff_t shift, std::ptrdiff_t length, const double* x, std::ptrdiff_t x_kind,
+                    std::ptrdiff_t x_stride, std::ptrdiff_t lines, bool from_zero, double* y, std::ptrdiff_t y_stride);
   static constexpr std::ptrdiff_t lines_at_once = 4;
   /// For every row of `rows` and in it every column of `columns`: to[c] = Σ_g weights[g] band[g · stride + c],
   /// 0 <= c < length; the next column's weights are `kinds` further, the next row has the same and its band is `step`
