@@ -61,7 +61,7 @@ instructions: ## Count the instructions of key kernels, fail where they differ f
 bench-studio: ## Time the studio's steps, in node and in headless Chromium
 	@scripts/bench_studio.sh
 
-figures: ## Regenerate the thesis' tables and figures of Gramians: out/figures/
+figures: ## Regenerate the thesis' tables and figures of Gramians, and draw the roofline: out/figures/
 	@scripts/figures.sh
 
 examples: ## Run the examples and draw the thesis' sculpting figures: out/examples/

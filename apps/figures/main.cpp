@@ -8,6 +8,7 @@
 
 #include "figures/csv.hpp"
 #include "figures/figures.hpp"
+#include "figures/roofline.hpp"
 
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;
@@ -19,7 +20,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}/{}.csv: the published values are not there; run from a whole checkout\n", data, name);
     return 3;
   }
-  const Report report = whole_report(data);
+  Report report = whole_report(data);
+  add_roofline(report);
   auto files = report.pictures;
   files["README.md"] = report.page;
 

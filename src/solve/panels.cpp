@@ -21,6 +21,15 @@ std::vector<int> Panels::reach(std::span<const int> rows) const {
   return result;
 }
 
+std::size_t Panels::stored() const {
+  std::size_t sum = 0;
+  for (const Panel& p : panels_) {
+    const auto width = static_cast<std::size_t>(p.width);
+    sum += width * static_cast<std::size_t>(p.rows) + width * (width + 1) / 2;
+  }
+  return sum;
+}
+
 template <int columns>
 void Panels::forward(double* x, std::span<const int> panels) const {
   const auto& kernels = columns == 1 ? kernels_->down_one : kernels_->down_four;

@@ -36,6 +36,9 @@ class Panels {
   [[nodiscard]] std::vector<int> reach(std::span<const int> rows) const;
   [[nodiscard]] const std::vector<int>& all() const { return all_; }
 
+  /// Numbers, those zeros among them.
+  [[nodiscard]] std::size_t stored() const;
+
   /// L y = b and Lᵀ x = y, in place, `columns` values per row, by these panels: all of them, or a reach. Every row of
   /// the forward sweep sums in the order of the columns of L; rows of the backward sweep first sum the entries below
   /// their panel. `columns`: 1, or 4 for three (the last is carried along; x aligned to 16 bytes, better
