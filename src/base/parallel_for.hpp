@@ -33,7 +33,7 @@ void run_blocks(std::ptrdiff_t count, std::ptrdiff_t size, void (*body)(const vo
 /// throws is thrown here, once all threads have left it (of several the one of the first thread; which blocks have been
 /// done is unspecified). A process that forks gets new threads in the child; a body must not fork.
 template <class Body>
-void parallel_for(std::ptrdiff_t count, std::ptrdiff_t size, const Body& body) {
+void parallel_for(std::ptrdiff_t count, [[maybe_unused]] std::ptrdiff_t size, const Body& body) {
 #ifndef __wasm__
   if (count > size) {
     return run_blocks(

@@ -15,7 +15,7 @@ const detail::TensorKernels& detail::tensor_kernels(InstructionSet set) {
 
 namespace {
 
-constexpr std::ptrdiff_t coordinates = 3;
+constexpr std::ptrdiff_t per_point = 3;  // coordinates
 
 /// Numbers whose vectors do not straddle cache lines.
 using Aligned = std::vector<double, CacheLineAllocator<double>>;
@@ -27,13 +27,13 @@ struct PointBand {
   Aligned diagonals;
 
   PointBand(int size, int p)
-      : half_bandwidth(p), length(coordinates * size), diagonals(static_cast<std::size_t>((2 * p + 1) * length), 0.0) {}
+      : half_bandwidth(p), length(per_point * size), diagonals(static_cast<std::size_t>((2 * p + 1) * length), 0.0) {}
 
   void add(double factor, const BandMatrix& matrix) {
     for (int s = -half_bandwidth; s <= half_bandwidth; ++s) {
-      double* to = diagonals.data() + (s + half_bandwidth) * length + coordinates * std::max(0, -s);
+      double* to = diagonals.data() + (s + half_bandwidth) * length + per_point * std::max(0, -s);
       for (const double entry : matrix.diagonal(s)) {
-        for (std::ptrdiff_t c = 0; c < coordinates; ++c) *to++ += factor * entry;
+        for (std::ptrdiff_t c = 0; c < per_point; ++c) *to++ += factor * entry;
       }
     }
   }
@@ -51,14 +51,14 @@ class TensorProduct {
 
   /// \param p the degree of the last direction.
   TensorProduct(std::span<const int> net, int p)
-      : kernels_(detail::tensor_kernels()), net_(net), margin_(in_vectors(coordinates * p)) {
-    std::ptrdiff_t slab = coordinates;
+      : kernels_(detail::tensor_kernels()), net_(net), margin_(in_vectors(per_point * p)) {
+    std::ptrdiff_t slab = per_point;
     inner_.resize(net.size());
     for (std::size_t d = net.size(); d-- > 0;) {
       inner_[d] = slab;
       slab *= net[d];
     }
-    line_ = in_vectors(coordinates * net.back() + 2 * margin_);
+    line_ = in_vectors(per_point * net.back() + 2 * margin_);
     padded_.resize(static_cast<std::size_t>(line_), 0.0);
   }
 
@@ -73,7 +73,7 @@ class TensorProduct {
   void add(std::size_t d, const std::vector<Node>& nodes, int begin, int end, const double* x, bool from_zero,
            double* y) {
     if (d + 1 == net_.size()) {
-      std::copy_n(x, coordinates * net_[d], padded_.data() + margin_);
+      std::copy_n(x, per_point * net_[d], padded_.data() + margin_);
       bands_.assign(1, nodes.front().band.front().diagonals.data());
       return add_lines(nodes.front().band.front(), 0, 1, from_zero, y);
     }
@@ -124,8 +124,8 @@ class TensorProduct {
   /// The products of `bands_`, all of the shape of one, with lines that have zeros before and behind, those of the next
   /// one further by node_stride.
   void add_lines(const PointBand& shape, std::ptrdiff_t node_stride, int lines, bool from_zero, double* y) {
-    kernels_.add_bands(bands_.data(), std::ssize(bands_), shape.length, 2 * shape.half_bandwidth + 1, coordinates,
-                       shape.length, padded_.data() + margin_ - coordinates * shape.half_bandwidth, node_stride, line_,
+    kernels_.add_bands(bands_.data(), std::ssize(bands_), shape.length, 2 * shape.half_bandwidth + 1, per_point,
+                       shape.length, padded_.data() + margin_ - per_point * shape.half_bandwidth, node_stride, line_,
                        lines, from_zero, y, shape.length);
   }
 
@@ -142,7 +142,7 @@ void find_product(const std::vector<TensorProduct::Node>& root, std::span<const 
                   double* y) {
   double work = 0;  // of a slab of the first direction, which is not divided where it is the only one
   if (net.size() > 1) {
-    work = static_cast<double>(coordinates * 2 * (2 * degree + 1)) * static_cast<double>(root.size());
+    work = static_cast<double>(per_point * 2 * (2 * degree + 1)) * static_cast<double>(root.size());
     for (const int count : net.subspan(1)) work *= count;
   }
   const std::ptrdiff_t step = detail::TensorKernels::lines_at_once;
