@@ -124,8 +124,9 @@ void print_faces(const step::File& file) {
       print_region(s, *region);
     }
   }
-  for (const step::OtherSurface& s : step::other_surfaces(file)) {
-    const auto made = step::exact_spline(file, s.id);
+  const auto splines = step::exact_splines(file);
+  for (std::size_t k = 0; const step::OtherSurface& s : step::other_surfaces(file)) {
+    const auto& made = splines[k++];
     const std::string net = made ? fmt::format("can be converted, degree {} x {}, net {} x {}", made->knots(0).degree(),
                                                made->knots(1).degree(), made->net()[0], made->net()[1])
                                  : "cannot be converted: " + made.error().what;

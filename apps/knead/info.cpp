@@ -174,8 +174,9 @@ Expected<void> run(const InfoArguments& options) {
     return {};
   }
   Json others = Json::array();
+  const auto splines = file == nullptr ? std::vector<Expected<Surface>>() : step::exact_splines(*file);
   for (const step::OtherSurface& s : others_of(file)) {
-    const auto made = step::exact_spline(*file, s.id);
+    const auto& made = splines[others.size()];
     const bool step = (*source)->format() == "STEP";
     others.push_back({{"id", s.id}, {"form", s.form}, {"faces", s.faces}, {"convertible", step && made}});
     if (!made || !step)

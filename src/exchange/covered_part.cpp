@@ -7,7 +7,6 @@
 #include <map>
 
 #include "face_chart.hpp"
-#include "step_units.hpp"
 
 namespace knead::step {
 namespace {
@@ -146,8 +145,12 @@ Interval within_poles(const Interval& range, const Interval& covered, const std:
 /// Faces on one surface, their edges, and the surface.
 class CoveredPart {
  public:
-  CoveredPart(const Reader& reader, std::span<const Face> faces)
-      : reader_(reader), faces_(faces), sampler_(reader, {fine_chord}), angle_units_(plane_angle_units(reader)) {}
+  CoveredPart(const Reader& reader, std::span<const Face> faces, double uncertainty)
+      : reader_(reader),
+        faces_(faces),
+        uncertainty_(uncertainty),
+        sampler_(reader, {fine_chord}),
+        angle_units_(plane_angle_units(reader)) {}
 
   Expected<Surface> spline() {
     if (auto read = read_surface(); !read) return std::unexpected(read.error());
@@ -209,10 +212,7 @@ class CoveredPart {
     Eigen::AlignedBox3d box;
     for (const Point& p : points_) box.extend(p);
     const double size = points_.empty() ? 0 : box.diagonal().norm();
-    const auto contexts = read_unit_contexts(reader_);
-    const auto context = contexts_of(reader_, contexts, {faces_.front().surface}).front();
-    const double uncertainty = context < 0 ? 0 : contexts[std::size_t(context)].uncertainty;
-    const double near = std::clamp(uncertainty, on_line * size, most_on_line * size);
+    const double near = std::clamp(uncertainty_, on_line * size, most_on_line * size);
     for (int d = 0; d < 2; ++d) {
       Direction& direction = directions_[std::size_t(d)];
       if (direction.covered.empty()) return error("the faces on it cover no area");
@@ -254,6 +254,7 @@ class CoveredPart {
 
   const Reader& reader_;
   std::span<const Face> faces_;
+  double uncertainty_;
   EdgeSampler sampler_;
   std::vector<double> angle_units_;
   std::vector<CoveredEdge> edges_;
@@ -264,8 +265,8 @@ class CoveredPart {
 
 }  // namespace
 
-Expected<Surface> spline_of_faces(const Reader& reader, std::span<const Face> faces) {
-  return CoveredPart(reader, faces).spline();
+Expected<Surface> spline_of_faces(const Reader& reader, std::span<const Face> faces, double uncertainty) {
+  return CoveredPart(reader, faces, uncertainty).spline();
 }
 
 }  // namespace knead::step

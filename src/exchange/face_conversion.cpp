@@ -9,6 +9,7 @@
 #include "step_faces.hpp"
 #include "step_surfaces.hpp"
 #include "step_surgeon.hpp"
+#include "step_units.hpp"
 
 namespace knead::step {
 namespace {
@@ -100,7 +101,25 @@ Expected<Surface> exact_spline(const File& file, const std::string& id) {
   const Reader reader(file.data().records);
   const auto faces = faces_on(reader, id);
   if (!faces) return std::unexpected(faces.error());
-  return spline_of_faces(reader, *faces);
+  return spline_of_faces(reader, *faces, uncertainties_of(reader, {faces->front().surface}).front());
+}
+
+std::vector<Expected<Surface>> exact_splines(const File& file) {
+  const Reader reader(file.data().records);
+  std::vector<std::uint32_t> surfaces;
+  std::map<std::uint32_t, std::vector<Face>> faces_on;
+  for (const Face& face : read_faces(reader)) {
+    if (!is_other(reader, face)) continue;
+    auto& faces = faces_on[face.surface];
+    if (faces.empty()) surfaces.push_back(face.surface);
+    faces.push_back(face);
+  }
+  const auto uncertainties = uncertainties_of(reader, surfaces);
+  std::vector<Expected<Surface>> result;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    result.push_back(spline_of_faces(reader, faces_on[surfaces[k]], uncertainties[k]));
+  }
+  return result;
 }
 
 Expected<File> with_splines(const File& file, std::span<const std::string> surfaces) {
@@ -114,7 +133,7 @@ Expected<File> with_splines(const File& file, std::span<const std::string> surfa
     if (!faces) return std::unexpected(faces.error());
     const std::uint32_t instance = faces->front().surface;
     if (!converted.insert(instance).second) continue;
-    auto surface = spline_of_faces(reader, *faces);
+    auto surface = spline_of_faces(reader, *faces, uncertainties_of(reader, {instance}).front());
     if (!surface) return std::unexpected(surface.error());
     surgeon.become_spline(instance, *surface);
     for (const Face& face : *faces) {

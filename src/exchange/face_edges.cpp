@@ -108,12 +108,6 @@ class Course {
   double near_, extent_ = 0;
 };
 
-double uncertainty_of(const Reader& reader, std::uint32_t instance) {
-  const auto contexts = read_unit_contexts(reader);
-  const auto found = contexts_of(reader, contexts, {instance});
-  return found[0] < 0 ? 0 : contexts[static_cast<std::size_t>(found[0])].uncertainty;
-}
-
 }  // namespace
 
 Expected<VisibleRegion> visible_region(const step::File& file, const std::string& surface) {
@@ -127,7 +121,7 @@ Expected<VisibleRegion> visible_region(const step::File& file, const std::string
   if (!feet) return std::unexpected(feet.error());
 
   VisibleRegion result;
-  result.uncertainty = uncertainty_of(reader, data.surface_instances[k]);
+  result.uncertainty = uncertainties_of(reader, {data.surface_instances[k]}).front();
   for (std::size_t d = 0; d < 2; ++d) {
     result.closed[d] = feet->space().periods[d] > 0;
     for (std::size_t end = 0; end < 2; ++end) result.poles[d][end] = feet->space().poles[d][end].has_value();

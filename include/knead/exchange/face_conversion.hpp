@@ -32,8 +32,13 @@ struct OtherSurface {
 /// another edge along which the angle is constant, where there is one. A swept spline is covered as a whole.
 /// \param id of the surface, or of a face on it
 /// Errors (input): no such surface or face; a B-spline surface; a form without an exact B-spline form, or that is not
-/// known; edges that cannot be read or are off the surface. Cost: about that of the picture of its faces.
+/// known; edges that cannot be read or are off the surface. Cost: about that of the picture of its faces, and a pass
+/// over the file.
 [[nodiscard]] Expected<Surface> exact_spline(const File& file, const std::string& id);
+
+/// `exact_spline` of each of the `other_surfaces`, in their order. Cost: that of each one's faces and a pass over the
+/// file.
+[[nodiscard]] std::vector<Expected<Surface>> exact_splines(const File& file);
 
 /// The file with these surfaces, each given by its id or that of a face on it, replaced by their `exact_spline`, and
 /// every other byte as it was.
