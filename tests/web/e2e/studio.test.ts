@@ -207,7 +207,7 @@ describe('the studio', () => {
     const { page } = studio;
     await scene(page, 'Trampoline');
     await page.locator('button[aria-label^="Play"]').click();
-    await page.waitForTimeout(700);
+    await expect.poll(async () => (await commands(page)).find((c) => c.do === 'step')?.count ?? 0).toBeGreaterThan(3);
     await page.locator('button[aria-label^="Play"]').click();
     await settled(page);
     const steps = (await commands(page)).filter((c) => c.do === 'step');

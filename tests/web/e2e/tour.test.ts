@@ -23,18 +23,18 @@ describe('the tour', () => {
     await page.waitForTimeout(700);
     expect(await title()).toBe('Press'); // nothing has been pressed yet
     await stroke(page, [0, -20], [30, -20], [50, -20]);
-    await expect.poll(title, { timeout: 5_000 }).toBe('Take it back');
+    await expect.poll(title).toBe('Take it back');
     await page.keyboard.press('Control+z');
-    await expect.poll(title, { timeout: 5_000 }).toBe('Look around');
+    await expect.poll(title).toBe('Look around');
     await page.keyboard.press('3');
-    await expect.poll(title, { timeout: 5_000 }).toBe('Place a tool');
+    await expect.poll(title).toBe('Place a tool');
     await page.mouse.click(...(await spot(page, 20, -20)));
     await settled(page);
-    await expect.poll(title, { timeout: 5_000 }).toBe('Choose a material');
+    await expect.poll(title).toBe('Choose a material');
     await page.getByRole('button', { name: 'Rubber' }).click();
-    await expect.poll(title, { timeout: 5_000 }).toBe('Judge the surface');
+    await expect.poll(title).toBe('Judge the surface');
     await page.keyboard.press('z');
-    await expect.poll(title, { timeout: 5_000 }).toBe('Your own files');
+    await expect.poll(title).toBe('Your own files');
     await page.getByRole('button', { name: 'Done' }).click();
     expect(await card().count()).toBe(0);
     expect(await page.locator('.tour-target').count()).toBe(0);
