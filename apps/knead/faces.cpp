@@ -114,8 +114,9 @@ std::string edges_json(const SessionState& state) {
 }
 
 void print_faces(const step::File& file) {
+  const VisibleRegions regions(file);
   for (const step::SurfaceEntity& s : file.surfaces()) {
-    const auto region = visible_region(file, s.id);
+    const auto region = regions.of(s.id);
     if (!region) {
       fmt::print("  {:<8} its edges cannot be followed: {}\n", s.id, region.error().message());
     } else if (!region->edges.empty()) {

@@ -110,62 +110,98 @@ class Course {
 
 }  // namespace
 
-Expected<VisibleRegion> visible_region(const step::File& file, const std::string& surface) {
+/// The faces of a file by surface and by edge: one pass over it.
+struct VisibleRegions::Faces {
+  explicit Faces(const step::File& of)
+      : file(of), reader(of.data().records), shells(faces_in_shells(reader)), faces(read_faces(reader)) {
+    const step::File::Data& data = file.data();
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      edges.push_back(edges_around(reader, faces[k]));
+      surface_of[faces[k].instance] = faces[k].surface;
+      on_surface[faces[k].surface].push_back(k);
+      for (const auto edge : edges.back()) around[edge].push_back(faces[k].instance);
+    }
+    uncertainties = uncertainties_of(reader, data.surface_instances);
+  }
+
+  Expected<VisibleRegion> of(std::size_t k) const;
+  void tell_neighbours(std::uint32_t edge, TrimEdge& made) const;
+
+  step::File file;
+  Reader reader;
+  std::set<std::uint32_t> shells;  // faces in one
+  std::vector<Face> faces;
+  std::vector<std::vector<std::uint32_t>> edges;      // of every face
+  std::map<std::uint32_t, std::uint32_t> surface_of;  // of every face, by instance
+  std::map<std::uint32_t, std::vector<std::size_t>> on_surface;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> around;  // faces at every edge
+  std::vector<double> uncertainties;                           // of every surface
+};
+
+/// Of the surface with this position in the file.
+Expected<VisibleRegion> VisibleRegions::Faces::of(std::size_t k) const {
   const step::File::Data& data = file.data();
-  const auto index = data.surface_index.find(surface);
-  if (index == data.surface_index.end()) return input_error("there is no such surface", surface);
-  const std::size_t k = index->second;
-  const Reader reader(data.records);
   const double size = net_diagonal((*data.surfaces)[k].surface.control_points());
   const auto feet = SurfaceFoot::create((*data.surfaces)[k].surface);
   if (!feet) return std::unexpected(feet.error());
 
   VisibleRegion result;
-  result.uncertainty = uncertainties_of(reader, {data.surface_instances[k]}).front();
+  result.uncertainty = uncertainties[k];
   for (std::size_t d = 0; d < 2; ++d) {
     result.closed[d] = feet->space().periods[d] > 0;
     for (std::size_t end = 0; end < 2; ++end) result.poles[d][end] = feet->space().poles[d][end].has_value();
   }
-  const auto shells = faces_in_shells(reader);
   EdgeSampler sampler(reader, {edge_chord});
   Course course(*feet, size);
-  std::map<std::uint32_t, std::size_t> known;                    // edges of the result, by instance
-  std::map<std::uint32_t, std::vector<std::uint32_t>> faces_at;  // of every edge
-  std::map<std::uint32_t, std::uint32_t> surface_of;             // of every face
-  for (const Face& face : read_faces(reader)) {
-    const auto edges = edges_around(reader, face);
-    surface_of[face.instance] = face.surface;
-    for (const auto edge : edges) faces_at[edge].push_back(face.instance);
-    if (face.surface != data.surface_instances[k]) continue;
+  std::map<std::uint32_t, std::size_t> known;  // edges of the result, by instance
+  const auto on = on_surface.find(data.surface_instances[k]);
+  if (on == on_surface.end()) return result;
+  for (const std::size_t f : on->second) {
+    const Face& face = faces[f];
     result.in_shell = result.in_shell || shells.contains(face.instance);
     if ((*data.surfaces)[k].trimmed) {
       auto parts = region_of(reader, face, sampler, *feet, size);
       if (!parts) return std::unexpected(parts.error());
       for (const RegionPart& part : *parts) add_turns(part, feet->space(), result.faces);
     }
-    for (const auto edge : edges) {
-      if (known.contains(edge)) continue;
+    for (const auto edge : edges[f]) {
+      if (!known.emplace(edge, result.edges.size()).second) continue;
       const auto points = sampler.edge(edge);
       if (!points) return std::unexpected(points.error());
-      known.emplace(edge, result.edges.size());
       TrimEdge& made = result.edges.emplace_back(course.follow(**points));
       made.id = name_of(reader, edge);
     }
   }
-  for (const auto& [edge, at] : known) {
-    TrimEdge& made = result.edges[at];
-    const auto& around = faces_at[edge];
-    std::set<std::uint32_t> others;
-    for (const auto face : around) {
-      made.seam = made.seam || std::ranges::count(around, face) > 1;
-      others.insert(face);
-    }
-    for (const auto face : others) {
-      made.neighbours.push_back(name_of(reader, face));
-      made.supports.push_back(surface_of[face] == no_instance ? "no surface" : reader.label(surface_of[face]));
-    }
-  }
+  for (const auto& [edge, at] : known) tell_neighbours(edge, result.edges[at]);
   return result;
+}
+
+void VisibleRegions::Faces::tell_neighbours(std::uint32_t edge, TrimEdge& made) const {
+  const auto& at = around.at(edge);
+  std::set<std::uint32_t> others;
+  for (const auto face : at) {
+    made.seam = made.seam || std::ranges::count(at, face) > 1;
+    others.insert(face);
+  }
+  for (const auto face : others) {
+    const std::uint32_t surface = surface_of.at(face);
+    made.neighbours.push_back(name_of(reader, face));
+    made.supports.push_back(surface == no_instance ? "no surface" : reader.label(surface));
+  }
+}
+
+VisibleRegions::VisibleRegions(const step::File& file) : faces_(std::make_unique<const Faces>(file)) {}
+VisibleRegions::~VisibleRegions() = default;
+
+Expected<VisibleRegion> VisibleRegions::of(const std::string& surface) const {
+  const auto& index = faces_->file.data().surface_index;
+  const auto found = index.find(surface);
+  if (found == index.end()) return input_error("there is no such surface", surface);
+  return faces_->of(found->second);
+}
+
+Expected<VisibleRegion> visible_region(const step::File& file, const std::string& surface) {
+  return VisibleRegions(file).of(surface);
 }
 
 }  // namespace knead

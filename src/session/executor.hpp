@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 
+#include "knead/exchange/face_edges.hpp"
 #include "knead/scene/body_model.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/reshape.hpp"
@@ -64,8 +66,9 @@ struct Executor {
   std::optional<int> increments = {};  ///< of the load of a shell
   std::vector<SeamReport> shell_seams = {};
   std::vector<std::string> shell_notes = {};
-  bool may_stop = false;            ///< the command may end after any of its steps
-  std::optional<int> stopped = {};  ///< after so many steps
+  bool may_stop = false;                               ///< the command may end after any of its steps
+  std::optional<int> stopped = {};                     ///< after so many steps
+  std::unique_ptr<const VisibleRegions> regions = {};  ///< of the document, once one was asked for
 
   template <class C>
   Expected<void> execute(const C& command);

@@ -203,12 +203,16 @@ void Session::join() {
 void Session::know_faces() {
   std::map<std::string, std::shared_ptr<const VisibleRegion>> known;
   std::map<std::string, std::shared_ptr<const SharedEdge>> courses;
+  std::unique_ptr<const VisibleRegions> regions;
   const Document* last = nullptr;
   for (auto& state : states_) {
     const Document& document = document_of(*state);
     const step::File* const file = document.step_file();
     if (file == nullptr) return;
-    if (last != nullptr && last != &document) known.clear();  // neighbours lie on other surfaces
+    if (last != &document) {  // neighbours lie on other surfaces
+      known.clear();
+      regions.reset();
+    }
     last = &document;
     auto next = std::make_shared<SessionState>(*state);
     for (std::size_t k = 0; k < next->surfaces.size(); ++k) {
@@ -217,7 +221,8 @@ void Session::know_faces() {
       auto found = known.find(s.id);
       if (found == known.end()) {
         // If they cannot be followed the next step says so.
-        auto region = visible_region(*file, s.id);
+        if (!regions) regions = std::make_unique<const VisibleRegions>(*file);
+        auto region = regions->of(s.id);
         found = known.emplace(s.id, region ? std::make_shared<const VisibleRegion>(std::move(*region)) : nullptr).first;
       }
       s.visible = found->second;

@@ -66,7 +66,8 @@ Expected<const VisibleRegion*> Executor::visible(SceneSurface& surface) {
     if (file == nullptr || file->find_surface(surface.id) == nullptr) {
       surface.visible = std::make_shared<const VisibleRegion>();
     } else {
-      auto region = visible_region(*file, surface.id);
+      if (!regions) regions = std::make_unique<const VisibleRegions>(*file);
+      auto region = regions->of(surface.id);
       if (!region) {
         Error error = region.error();
         error.what = fmt::format("the edges of the faces on {} cannot be followed: {}", surface.id, error.what);

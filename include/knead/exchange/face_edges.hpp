@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "knead/exchange/step_file.hpp"
@@ -16,5 +17,22 @@ namespace knead {
 /// the whole surface is visible. Errors: no such surface; a face on it that cannot be followed, named with the reason
 /// (input). Cost: O((p + 1)²) per point and iteration, and a pass over the file.
 [[nodiscard]] Expected<VisibleRegion> visible_region(const step::File& file, const std::string& surface);
+
+/// The same of many surfaces of a file. Cost: the pass over the file is made once, by the constructor; `of` takes what
+/// the edges around that surface take. Immutable, const is thread-safe.
+class VisibleRegions {
+ public:
+  explicit VisibleRegions(const step::File& file);
+  ~VisibleRegions();
+  VisibleRegions(const VisibleRegions&) = delete;
+  VisibleRegions& operator=(const VisibleRegions&) = delete;
+
+  /// Errors: those of `visible_region`.
+  [[nodiscard]] Expected<VisibleRegion> of(const std::string& surface) const;
+
+ private:
+  struct Faces;
+  std::unique_ptr<const Faces> faces_;
+};
 
 }  // namespace knead
