@@ -1,7 +1,11 @@
 #include "knead/exchange/face_edges.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "exchange/face_builder.hpp"
 
@@ -91,6 +95,83 @@ TEST(FaceEdges, AStraightEdgeIsDividedWhereItsParametersAreCurved) {
       EXPECT_LE((on_surface - edge.points[k]).norm(), 1e-9) << edge.id;
     }
   }
+}
+
+/// Three patches on the unit square: on #10 is a square face, on #30 one with the same edges and, in a shell, a round
+/// one with a hole, on #50 none. One edge of the squares bounds a face on a plane too.
+step::File several_surfaces() {
+  FaceBuilder b;
+  const int a = b.vertex(1, 0, 0), c = b.vertex(1, 1, 0), d = b.vertex(0, 0, 0), e = b.vertex(0, 1, 0);
+  const int shared = b.line(a, c, {1, 0, 0}, {0, 1, 0});
+  const std::vector<int> around = {b.line(d, a, {0, 0, 0}, {1, 0, 0}), shared, b.line(c, e, {1, 1, 0}, {-1, 0, 0}),
+                                   b.line(e, d, {0, 1, 0}, {0, -1, 0})};
+  b.face(10, {b.bound(around)});
+  b.face(b.entity("PLANE('',#" + std::to_string(b.frame()) + ")"), {b.bound({-shared})});
+  const int round = b.face(30, {b.bound({b.circle(0.4, 0, 0.5, 0.5)}), b.bound({-b.circle(0.1, 0, 0.6, 0.5)})});
+  b.face(30, {b.bound(around)});
+  b.entity("OPEN_SHELL('',(#" + std::to_string(round) + "))");
+  std::string text = square;
+  for (const std::string id : {"#30=", "#50="}) {
+    std::string patch = testing::bilinear_patch();
+    text += patch.replace(0, 4, id);
+  }
+  return testing::parse_or_die(testing::step_text(text + b.text()));
+}
+
+TEST(VisibleRegions, AreThoseOfEachSurfaceInAnyOrderAndAsOftenAsAsked) {
+  const step::File file = several_surfaces();
+  const VisibleRegions regions(file);
+  for (const std::string id : {"#50", "#30", "#10", "#30", "#50", "#10", "#10"}) {
+    const auto region = regions.of(id);
+    const auto alone = visible_region(file, id);
+    ASSERT_TRUE(region && alone) << id;
+    EXPECT_EQ(*region, *alone) << id;
+    for (std::size_t k = 0; k < alone->edges.size(); ++k) {
+      const TrimEdge &edge = region->edges[k], &same = alone->edges[k];
+      EXPECT_EQ(edge.neighbours, same.neighbours) << id << " " << edge.id;
+      EXPECT_EQ(edge.supports, same.supports) << id << " " << edge.id;
+      EXPECT_EQ(edge.seam, same.seam) << id << " " << edge.id;
+    }
+  }
+  // And they are different.
+  EXPECT_EQ(regions.of("#10")->edges.size(), 4U);
+  EXPECT_FALSE(regions.of("#10")->in_shell);
+  EXPECT_EQ(regions.of("#30")->edges.size(), 6U);
+  EXPECT_TRUE(regions.of("#30")->in_shell);
+  EXPECT_TRUE(regions.of("#50")->edges.empty());
+}
+
+TEST(VisibleRegions, FacesAroundAnEdgeAreNeighboursOfAllSurfacesThere) {
+  const step::File file = several_surfaces();
+  const VisibleRegions regions(file);
+  std::vector<std::string> seen;
+  for (const std::string id : {"#10", "#30"}) {
+    const auto region = regions.of(id);
+    ASSERT_TRUE(region) << region.error().message();
+    for (const TrimEdge& edge : region->edges) {
+      if (edge.neighbours.size() != 3) continue;
+      seen.push_back(id + " " + edge.id);
+      EXPECT_EQ(edge.supports.size(), 3U);
+      for (const std::string support : {"#10 B_SPLINE_SURFACE_WITH_KNOTS", "#30 B_SPLINE_SURFACE_WITH_KNOTS"}) {
+        EXPECT_EQ(std::ranges::count(edge.supports, support), 1) << support;
+      }
+    }
+  }
+  ASSERT_EQ(seen.size(), 2U);
+  EXPECT_EQ(seen[0].substr(3), seen[1].substr(3));
+}
+
+TEST(VisibleRegions, AnUnknownSurfaceIsNamed) {
+  const auto region = VisibleRegions(several_surfaces()).of("#11");
+  ASSERT_FALSE(region);
+  EXPECT_EQ(region.error().where, "#11");
+}
+
+TEST(VisibleRegions, OutliveTheFileTheyWereMadeFrom) {
+  const auto regions = [] { return std::make_unique<const VisibleRegions>(several_surfaces()); }();
+  const auto region = regions->of("#30");
+  ASSERT_TRUE(region) << region.error().message();
+  EXPECT_EQ(*region, *visible_region(several_surfaces(), "#30"));
 }
 
 TEST(VisibleRegion, TheMiddleIsFarthestFromAllEdges) {
