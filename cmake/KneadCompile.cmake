@@ -15,8 +15,8 @@ function(knead_compile_settings target)
   endif()
 endfunction()
 
-# What nearly every source reads, compiled once for a target. Sources include what they use all the same: the build
-# without exceptions has none of this (CMAKE_DISABLE_PRECOMPILE_HEADERS), nor have sources with compiler options of their
+# What nearly every source reads, compiled once for a target. Sources include what they use all the same: the preset
+# noexcept-alone has none of this (CMAKE_DISABLE_PRECOMPILE_HEADERS), nor have sources with compiler options of their
 # own, which a precompiled header must share.
 set(KNEAD_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <expected> <functional> <limits> <memory> <optional> <span>
                          <string> <string_view> <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <Eigen/SparseCore>)
