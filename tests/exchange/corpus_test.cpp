@@ -10,6 +10,7 @@
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "support/long_run.hpp"
 
 namespace knead {
 namespace {
@@ -151,7 +152,7 @@ TEST_P(Corpus, SingleSurfacesMovedReadBackExactly) {
   const auto file = step::File::read(GetParam());
   ASSERT_TRUE(file) << file.error().message();
   const auto count = file->surfaces().size();
-  const std::size_t most = std::getenv("KNEAD_LONG") != nullptr ? count : 3;
+  const std::size_t most = testing::long_run() ? count : 3;
   for (std::size_t k = 0; k < std::min(most, count); ++k)
     edit_and_compare(*file, {k * count / std::min(most, count)}, "all");
 }

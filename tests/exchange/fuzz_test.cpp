@@ -10,6 +10,7 @@
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/trim_loops.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "support/long_run.hpp"
 
 namespace knead {
 namespace {
@@ -134,7 +135,7 @@ void damage(const std::string& whole, int times) {
   EXPECT_GT(readable, 0) << "no damaged file was read: the test does not reach what lies behind the parser";
 }
 
-int times(int in_short) { return std::getenv("KNEAD_LONG") != nullptr ? 50 * in_short : in_short; }
+int times(int in_short) { return testing::long_run() ? 50 * in_short : in_short; }
 
 const std::string everything = testing::step_text(
     testing::unit_square_points() + testing::bilinear_patch() +

@@ -6,6 +6,7 @@
 #include "support/gramian_error.hpp"
 #include "support/knot_families.hpp"
 #include "support/listed_families.hpp"
+#include "support/long_run.hpp"
 
 namespace knead {
 namespace {
@@ -27,10 +28,13 @@ TEST_P(OrdersOfDegree, are_right_by_gauss_and_gauss_reduced_on_every_family) {
     families.push_back({std::string(testing::listed_families[family]) + " seed " + std::to_string(seed),
                         testing::random_member(random, p, family)});
   }
+  // No number of pairs of orders has a factor in common with five: every knot vector has its turn, and every pair.
+  testing::Sample sample(p <= 7 ? 1 : 5);
   for (const auto& [name, knots] : families) {
     const bool cluster = name.find("cluster") != name.npos;
     for (int a = 0; a <= p; ++a) {
       for (int b = a <= 2 ? 0 : a; b <= p; ++b) {
+        if (!sample.next()) continue;
         const bool by_terms = cluster && std::max(a, b) > 2;
         const testing::QuadGramian exact =
             testing::quad_gramian(knots, a, b, by_terms ? testing::Terms::magnitudes : testing::Terms::values);

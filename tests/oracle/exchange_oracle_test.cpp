@@ -21,6 +21,7 @@
 #include "oracle/occt_gaps.hpp"
 #include "oracle/press.hpp"
 #include "oracle/step_oracle.hpp"
+#include "support/long_run.hpp"
 
 namespace knead::oracle {
 namespace {
@@ -34,7 +35,6 @@ constexpr std::array quick = {
     "wigley.iges", "tip.iges",       "shaft.iges",    "series_60.iges"};
 
 bool is_iges(const fs::path& path) { return path.extension() == ".igs" || path.extension() == ".iges"; }
-bool is_long() { return std::getenv("KNEAD_LONG") != nullptr; }
 
 /// The data of every entity of an IGES file but one, without the numbers of its lines: what an editor of another
 /// entity must leave alone.
@@ -80,7 +80,7 @@ class Exchange : public ::testing::TestWithParam<fs::path> {
  protected:
   void SetUp() override {
     const std::string name = GetParam().filename().string();
-    if (!is_long() && std::ranges::find(quick, name) == quick.end()) GTEST_SKIP() << "with KNEAD_LONG=1";
+    if (!testing::long_run() && std::ranges::find(quick, name) == quick.end()) GTEST_SKIP() << "with KNEAD_LONG=1";
     auto source = open_source(*read_file(GetParam()), GetParam().string());
     ASSERT_TRUE(source) << source.error().message();
     source_ = *std::move(source);

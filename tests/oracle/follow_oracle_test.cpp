@@ -12,6 +12,7 @@
 #include "oracle/occt_shells.hpp"
 #include "oracle/press.hpp"
 #include "oracle/pressed_edges.hpp"
+#include "support/long_run.hpp"
 
 namespace knead::oracle {
 namespace {
@@ -29,15 +30,21 @@ std::vector<fs::path> few_files() {
 class PressedPair : public StepOracle {};
 
 TEST_P(PressedPair, StaysClosedAlongTheEdgeThatFollows) {
-  for (const Pair& pair : pairs_of(*file_)) move(GetParam(), *file_, pair, Motion::press, directory_, 0);
+  // Its nets are the largest, and its edges are pressed with its planes converted, too.
+  if (GetParam().filename() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
+  testing::Sample sample(2);
+  for (const Pair& pair : pairs_of(*file_)) {
+    if (sample.next()) move(GetParam(), *file_, pair, Motion::press, directory_, 0);
+  }
 }
 
 class StrokedPair : public StepOracle {};
 
 TEST_P(StrokedPair, StaysClosedUnderStrokes) {
+  testing::Sample sample(3);  // of two motions: both have their turn
   for (const Pair& pair : pairs_of(*file_)) {
     for (const Motion motion : {Motion::groove, Motion::grab}) {
-      move(GetParam(), *file_, pair, motion, directory_, 0);
+      if (sample.next()) move(GetParam(), *file_, pair, motion, directory_, 0);
     }
   }
 }
@@ -55,7 +62,10 @@ TEST_P(PressedIgesPair, StaysClosedAlongTheEdgeThatFollows) {
   const step::File& file = *(*source)->step_file();
   const auto directory = fs::temp_directory_path() / ("knead-iges-" + std::to_string(getpid()));
   fs::create_directories(directory);
-  for (const Pair& pair : pairs_of(file)) move(GetParam(), file, pair, Motion::press, directory, 0);
+  testing::Sample sample(2);
+  for (const Pair& pair : pairs_of(file)) {
+    if (sample.next()) move(GetParam(), file, pair, Motion::press, directory, 0);
+  }
   fs::remove_all(directory);
 }
 

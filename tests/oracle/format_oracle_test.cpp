@@ -15,6 +15,7 @@
 #include "knead/session/session.hpp"
 #include "oracle/occt_file.hpp"
 #include "oracle/press.hpp"
+#include "support/long_run.hpp"
 
 namespace knead::oracle {
 namespace {
@@ -77,6 +78,8 @@ TEST_P(FormatOracle, FacesHaveTheAreaThatOpenCascadeFinds) {
 }
 
 TEST_P(FormatOracle, APressLeavesTopologyAndGapsAsTheyWere) {
+  // Its nets are the largest by far; what is written is of the same kinds as in the other .brep files.
+  if (GetParam().filename() == "terrain.brep" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
   const fs::path out =
       fs::temp_directory_path() / ("knead-format-" + std::to_string(getpid()) + GetParam().extension().string());
   for (const step::SurfaceEntity* s : chosen()) {

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <sstream>
 
 #include "sheet.hpp"
+#include "support/long_run.hpp"
 
 namespace knead {
 namespace {
@@ -93,7 +93,7 @@ double hem_stretch(const Session& session) {
 TEST(AnalysisScript, ADrapeHangsInFoldsAndTheLinearOneIsStretched) {
   const Session linear = session_after("drape_linear");
   EXPECT_GT(hem_stretch(linear), 0.02);
-  if (std::getenv("KNEAD_LONG") == nullptr) GTEST_SKIP() << "the drape itself takes 12 s: KNEAD_LONG";
+  if (!testing::long_run()) GTEST_SKIP() << "the drape itself takes 12 s: KNEAD_LONG";
   const Session folded = session_after("drape_in_folds");
   EXPECT_LT(std::abs(hem_stretch(folded)), 2e-3);
   // The hem of the linear one stays above its place; that in folds is drawn in, and corners hang lowest.
