@@ -64,11 +64,14 @@ void run(const Scene& scene, const SessionState& start, bool touches, Work& work
   }
 }
 
-void frame(benchmark::State& state, bool touches, StepAccuracy accuracy) {
+void frame(benchmark::State& state, bool touches, StepAccuracy accuracy, StepSolver solver = StepSolver::automatic) {
   SessionState start = sheet(static_cast<int>(state.range(0)));
   start.evolution.accuracy = accuracy;
+  start.evolution.solver = solver;
+  const double begun = bench::milliseconds();
   auto scene = make_model(model_input(start, start.evolution));
   check(scene.has_value(), "no model");
+  state.counters["made_ms"] = bench::milliseconds() - begun;
   Work work;
   for (auto _ : state) run(*scene, start, touches, work);
   state.counters["ms"] = bench::median(work.times);
@@ -81,6 +84,9 @@ void frame(benchmark::State& state, bool touches, StepAccuracy accuracy) {
 
 void contact(benchmark::State& state) { frame(state, true, StepAccuracy::interactive); }
 void contact_exact(benchmark::State& state) { frame(state, true, StepAccuracy::exact); }
+void contact_iterative(benchmark::State& state) {
+  frame(state, true, StepAccuracy::interactive, StepSolver::iterative);
+}
 void contact_free(benchmark::State& state) { frame(state, false, StepAccuracy::exact); }
 
 /// The same sheet as a shell whose sides are 50 thicknesses long, static.
@@ -103,6 +109,7 @@ void shell_contact(benchmark::State& state) { shell(state, StepAccuracy::interac
 void shell_contact_exact(benchmark::State& state) { shell(state, StepAccuracy::exact); }
 
 BENCHMARK(contact)->Arg(32)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(contact_iterative)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(contact_exact)->Arg(32)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(shell_contact)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(shell_contact_exact)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);

@@ -33,4 +33,6 @@ done
 # Alone, for the memory of its process.
 "$programs/contact_bench" --benchmark_filter='^contact/256$' --benchmark_out="$out/memory.json" \
   --benchmark_out_format=json >/dev/null
+"$programs/contact_bench" --benchmark_filter='^contact_iterative/256$' --benchmark_out="$out/memory_iterative.json" \
+  --benchmark_out_format=json >/dev/null
 "$programs/knead_bench_report" "$out"

@@ -145,6 +145,7 @@ Expected<BodyModel<D>> make_body_model(BodyInput<D> input) {
   settings.constraints = std::move(list->constraints);
   auto model = ActiveSpline<D>::create(*input.reference, settings);
   if (!model) return std::unexpected(model.error());
+  note_engine(model->engine(), notes);
   return BodyModel<D>{std::move(input), *std::move(model), std::move(notes)};
 }
 

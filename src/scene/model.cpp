@@ -232,6 +232,7 @@ Expected<SceneModel> make_model(ModelInput input) {
   set_evolution(input.evolution, input.scaling, input.detail, settings);
   auto model = ActiveSurface::create(std::move(patches), settings);
   if (!model) return std::unexpected(model.error());
+  note_engine(model->engine(), joined->notes);
   SceneModel made{std::move(input), std::move(*model), std::move(joined->seams), std::move(joined->notes)};
   if (auto loaded = keep_varying_load(made); !loaded) return std::unexpected(loaded.error());
   return made;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,9 +19,17 @@ void set_evolution(const EvolutionPolicy& evolution, ScalingMode scaling, double
   settings.time_step = evolution.time_step;
   settings.route = evolution.route;
   settings.accuracy = evolution.accuracy;
+  settings.solver = evolution.solver;
   settings.energy_tolerance = evolution.energy_tolerance;
   settings.raw = scaling == ScalingMode::raw;
   settings.detail = detail;
+}
+
+/// What is worth telling about how steps are solved.
+inline void note_engine(const StepEngine& engine, std::vector<std::string>& notes) {
+  if (engine.usual) return;
+  notes.push_back((engine.iterative ? "steps are solved by iteration: " : "steps are solved by a factor: ") +
+                  engine.reason);
 }
 
 /// A spring or a volcano on the point Σ R X of these terms.

@@ -7,7 +7,7 @@
 #include "knead/sculpt/active_spline.hpp"
 #include "net_operator.hpp"
 #include "potential.hpp"
-#include "solve/constrained_cholesky.hpp"
+#include "solve/step_inverse.hpp"
 #include "tool_load.hpp"
 
 namespace knead {
@@ -30,7 +30,8 @@ struct ActiveSpline<D>::Model {
   Points rest;
   NetOperator<D> stretch, bend, stiffness, weight, mass, damping, a;
   std::optional<double> energy_error;  // of rational patches
-  ConstrainedCholesky inverse;
+  StepInverse inverse;
+  StepEngine engine;
 
   /// The origin of X.
   [[nodiscard]] Points origin(const ActiveState& state) const {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "knead/energy/field_assembler.hpp"
 #include "solve/coordinate_map.hpp"
 #include "solve/eigen_problem.hpp"
+#include "step_engine.hpp"
 
 namespace knead {
 namespace {
@@ -205,54 +205,45 @@ Expected<ConstraintSpace> hold(const ActiveSettings<D>& settings, const RestShap
   return ConstraintSpace::create(size, constraints, settings.held);
 }
 
-/// Whether anything forbids a displacement of the whole model.
-bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held) {
-  if (std::ranges::find(held, true) != held.end()) return true;
-  Eigen::Matrix3d forbidden = Eigen::Matrix3d::Zero();  // directions in which it would violate a condition
-  for (const LinearConstraint& c : space.constraints()) {
-    double sum = 0;
-    for (const auto& [unknown, coefficient] : c.terms) sum += coefficient;
-    if (std::abs(sum) <= 1e-12) continue;
-    if (!c.normal) return true;
-    const Point n = c.normal->normalized();
-    forbidden += n * n.transpose();
+/// K + c W of polynomial patches of one material: as many distinct factors as K alone.
+template <int D>
+NetOperator<D> with_mass(const std::vector<Spline<D>>& patches, const ActiveSettings<D>& settings,
+                         const Assembly<D>& from, double mass, int size) {
+  NetOperator<D> a(size);
+  int first = 0;
+  for (std::size_t k = 0; k < patches.size(); first += patches[k++].size()) {
+    Energy<D> energy = stretch_and_bend<D>(settings.material);
+    for (EnergyTerm<D> term : mass_energy<D>()) {
+      term.coefficient *= mass;
+      energy.push_back(term);
+    }
+    const auto& factors = from.scalings[k].factors;
+    a.add(first, 1,
+          *Stiffness<D>::create(patches[k], on_scaled_domain<D>(energy, factors), {.method = settings.method}));
   }
-  return Eigen::FullPivLU<Eigen::Matrix3d>(forbidden).rank() == 3;
+  return a;
 }
 
 /// The operator A of a step (see `ActiveSpline`).
 template <int D>
-NetOperator<D> step_operator(const ActiveSettings<D>& settings, const Assembly<D>& from) {
+NetOperator<D> step_operator(const std::vector<Spline<D>>& patches, const ActiveSettings<D>& settings,
+                             const Assembly<D>& from, int size) {
   NetOperator<D> a = from.stiffness;
   if (settings.evolution == Evolution::stationary) return a;
+  const bool plain =
+      settings.fields.empty() && std::ranges::none_of(patches, [](const Spline<D>& patch) { return patch.rational(); });
   if (settings.evolution == Evolution::dynamic) {
-    const double tau = dynamic_stage * settings.time_step;
-    a.add(1 / tau, from.damping);
-    a.add(1 / (tau * tau), from.mass);
+    const double tau = dynamic_stage * settings.time_step, damping = 1 / tau, mass = 1 / (tau * tau);
+    if (plain) return with_mass<D>(patches, settings, from, damping * settings.damping + mass * settings.mass, size);
+    a.add(damping, from.damping);
+    a.add(mass, from.mass);
   } else if (settings.weight == StepWeight::mass) {
+    if (plain) return with_mass<D>(patches, settings, from, settings.lambda, size);
     a.add(settings.lambda, from.weight);
   } else {
     a.add_identity(settings.lambda);
   }
   return a;
-}
-
-/// A⁻¹ on the free unknowns.
-template <int D>
-Expected<ConstrainedCholesky> factor(SparseMatrix&& a, ConstraintSpace space, const ActiveSettings<D>& settings) {
-  const bool undamped =
-      settings.evolution == Evolution::stationary || (settings.evolution == Evolution::acm && settings.lambda == 0);
-  // Such a displacement costs no energy: there would be no equilibrium.
-  if (undamped && space.free_count() > 0 && !holds_in_place(space, settings.held)) {
-    return numerical_error("nothing holds the model in place, so it has no position of balance", "evolve",
-                           "hold an edge or pin points, or use another mode or a positive lambda");
-  }
-  auto inverse = ConstrainedCholesky::factor(std::move(a), std::move(space));
-  if (inverse || !undamped || inverse.error().kind != ErrorKind::numerical) return inverse;
-  Error error = inverse.error();
-  error.remedy =
-      "what is held leaves the model free to move or tilt: hold more, or use another mode or a positive lambda";
-  return std::unexpected(error);
 }
 
 }  // namespace
@@ -267,15 +258,29 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
   auto space = hold<D>(settings, rest, length);
   if (!space) return std::unexpected(space.error());
 
-  NetOperator<D> a = step_operator<D>(settings, *assembly);
-  auto inverse = factor<D>(a.assemble(), std::move(*space), settings);
-  if (!inverse) return std::unexpected(inverse.error());
-  return ActiveSpline(std::make_shared<const Model>(
-      Model{settings, std::move(patches), std::move(rest.rows), std::move(assembly->scalings),
-            std::move(assembly->loads), std::move(assembly->greville), length, rest.centre, rest.diagonal / length,
-            std::move(rest.points), std::move(assembly->stretch), std::move(assembly->bend),
-            std::move(assembly->stiffness), std::move(assembly->weight), std::move(assembly->mass),
-            std::move(assembly->damping), std::move(a), assembly->energy_error, std::move(*inverse)}));
+  NetOperator<D> a = step_operator<D>(patches, settings, *assembly, rest.rows.back());
+  auto chosen = invert<D>(a, std::move(*space), patches, assembly->scalings, settings);
+  if (!chosen) return std::unexpected(chosen.error());
+  return ActiveSpline(std::make_shared<const Model>(Model{settings,
+                                                          std::move(patches),
+                                                          std::move(rest.rows),
+                                                          std::move(assembly->scalings),
+                                                          std::move(assembly->loads),
+                                                          std::move(assembly->greville),
+                                                          length,
+                                                          rest.centre,
+                                                          rest.diagonal / length,
+                                                          std::move(rest.points),
+                                                          std::move(assembly->stretch),
+                                                          std::move(assembly->bend),
+                                                          std::move(assembly->stiffness),
+                                                          std::move(assembly->weight),
+                                                          std::move(assembly->mass),
+                                                          std::move(assembly->damping),
+                                                          std::move(a),
+                                                          assembly->energy_error,
+                                                          std::move(chosen->inverse),
+                                                          std::move(chosen->engine)}));
 }
 
 template <int D>
@@ -321,6 +326,11 @@ const DomainScaling<D>& ActiveSpline<D>::scaling(int patch) const {
 template <int D>
 const ActiveSettings<D>& ActiveSpline<D>::settings() const {
   return model_->settings;
+}
+
+template <int D>
+const StepEngine& ActiveSpline<D>::engine() const {
+  return model_->engine;
 }
 
 template <int D>

@@ -6,23 +6,15 @@
 #include <optional>
 
 #include "contact_anchor.hpp"
+#include "contact_krylov.hpp"
+#include "contact_limits.hpp"
 #include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {
 
-constexpr int max_newton_iterations = 60;
-constexpr int max_cg_iterations = 400;
 constexpr int max_solves = 1500;  // per minimisation: a step that needs more stops there and says so
-// The Newton decrement sqrt(gᵀ A⁻¹ g) is an error in the energy norm of the step. It is compared with the terms that
-// the step balances, |F|, |K X₀| and the first imbalance, in the same norm.
-constexpr double relative_tolerance = 1e-11;
-constexpr double followed_tolerance = 1e-8;  // for a tool followed along a path in many small steps
-constexpr double rounded_tolerance = 1e-9;   // where the rounding of recomputed forces does not allow more
 constexpr double cancellation = 1e-12;
-constexpr double sufficient_decrease = 1e-4;
-constexpr double rounding_of_potential = 1e-14;
-constexpr int max_rounded_steps = 4;
 // Stages of increasing stiffness towards a stiff tool.
 constexpr double soft_stiffness = 1e4;
 constexpr double stiffening = 30;
@@ -69,8 +61,13 @@ Direction newton_direction(const PotentialState& state, const Anchor& anchor, Co
 /// Newton's iteration on Φ.
 class Minimisation {
  public:
-  Minimisation(const StepProblem& problem, Potential& potential, Points& y)
-      : problem_(problem), potential_(potential), y_(y), x_(problem.start + y), state_(potential.evaluate(x_)) {}
+  Minimisation(const StepProblem& problem, const ConstrainedCholesky& inverse, Potential& potential, Points& y)
+      : problem_(problem),
+        inverse_(inverse),
+        potential_(potential),
+        y_(y),
+        x_(problem.start + y),
+        state_(potential.evaluate(x_)) {}
 
   ContactSummary summary;
 
@@ -156,6 +153,7 @@ class Minimisation {
   };
 
   const StepProblem& problem_;
+  const ConstrainedCholesky& inverse_;
   Potential& potential_;
   Points& y_;
   Points x_;              // start + Y, while a round lasts in its neighbourhood only
@@ -174,10 +172,10 @@ class Minimisation {
       r -= ay;
     }
     r += state_.force;
-    a.z = problem_.inverse.forward(problem_.inverse.space().lumped(r));
+    a.z = inverse_.forward(inverse_.space().lumped(r));
     ++summary.solves;
     a.rs = a.z.squared_norm;
-    View here{std::move(a), ContactNeighbourhood(problem_.inverse, potential_), {}, {}, 0};
+    View here{std::move(a), ContactNeighbourhood(inverse_, potential_), {}, {}, 0};
     here.quadratic = here.from.quadratic;
     here.au.e = here.u = here.from.force_here = Points(0, 3);
     take_in(here, state_);
@@ -188,7 +186,7 @@ class Minimisation {
   /// Extends the neighbourhood by the contacts of a state. Forces of the anchor beyond it are zero.
   void take_in(View& view, const PotentialState& state) {
     if (!view.near.extend(state)) return;
-    view.from.s_here = problem_.inverse.backward_within(view.near.part(), view.from.z);
+    view.from.s_here = inverse_.backward_within(view.near.part(), view.from.z);
     view.from.x_here = view.near.gather(problem_.start) + view.near.gather(view.from.y);
     view.from.force_here = view.near.grown(view.from.force_here);
     if (view.u.rows() > 0 || view.au.beta != 0) {
@@ -207,7 +205,7 @@ class Minimisation {
       const double both = dot(here.from.force_here, here.from.s_here);
       norm_of_b_ = std::sqrt(std::max(0.0, here.from.rs - 2 * both + force * force));
     } else {
-      norm_of_b_ = std::sqrt(problem_.inverse.forward(problem_.b).squared_norm);
+      norm_of_b_ = std::sqrt(inverse_.forward(problem_.b).squared_norm);
       ++summary.solves;
     }
     return norm_of_b_;
@@ -321,7 +319,7 @@ class Minimisation {
     const double before = view.quadratic + state_.potential;
     while (true) {
       const Round round = iterate_inside(view, progress);
-      y_ = view.from.y + problem_.inverse.backward(view.from.z, view.au.beta, view.near.part(), view.au.e);
+      y_ = view.from.y + inverse_.backward(view.from.z, view.au.beta, view.near.part(), view.au.e);
       ++summary.solves;
       x_ = problem_.start + y_;
       state_ = potential_.evaluate(x_);
@@ -342,10 +340,8 @@ class Minimisation {
   }
 };
 
-}  // namespace
-
-Minimum minimise_step(const StepProblem& problem, Potential& potential, Points& y) {
-  Minimisation minimisation(problem, potential, y);
+template <class M>
+Minimum minimise(const StepProblem& problem, Potential& potential, M minimisation) {
   // A very stiff tool is approached through softer ones: from afar its springs would throw the surface about. A step
   // that starts near equilibrium, as most do, gains nothing from that.
   const double stiffest = potential.stiffest();
@@ -360,6 +356,14 @@ Minimum minimise_step(const StepProblem& problem, Potential& potential, Points& 
   }
   minimisation.iterate(problem.near ? followed_tolerance : relative_tolerance, max_newton_iterations, true);
   return {minimisation.summary, minimisation.take_state()};
+}
+
+}  // namespace
+
+Minimum minimise_step(const StepProblem& problem, Potential& potential, Points& y) {
+  if (const ConstrainedMultigrid* multigrid = problem.inverse.multigrid())
+    return minimise(problem, potential, KrylovMinimisation(problem, *multigrid, potential, y));
+  return minimise(problem, potential, Minimisation(problem, *problem.inverse.factor(), potential, y));
 }
 
 }  // namespace knead

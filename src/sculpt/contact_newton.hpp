@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "potential.hpp"
-#include "solve/constrained_cholesky.hpp"
+#include "solve/step_inverse.hpp"
 
 namespace knead {
 
@@ -18,7 +18,7 @@ struct ContactSummary {
 /// One step as a minimisation over X = X₀ + Y:  Φ(Y) = ½ YᵀAY − Yᵀb + Ψ(x₀ + Y), Y + X₀ subject to constraints.
 struct StepProblem {
   std::function<Points(const Points&)> a;  // A Y
-  const ConstrainedCholesky& inverse;      // of A on the free unknowns
+  const StepInverse& inverse;              // of A on the free unknowns
   Points b;
   Points start;       // control points x₀ at which Ψ is evaluated for Y = 0
   double energy;      // ½ X₀ᵀ K X₀: the magnitude of the terms whose difference is Φ

@@ -67,9 +67,9 @@ class ElasticDescent {
 
   const ElasticStepProblem& problem_;
   Potential& potential_;
-  SparseMatrix inertia_;                        // of all coordinates
-  std::optional<ConstrainedCholesky> inverse_;  // of the last matrix that was factored
-  SparseMatrix parabola_;                       // its A, where that was the one of a parabola; else empty
+  SparseMatrix inertia_;                // of all coordinates
+  std::optional<StepInverse> inverse_;  // of the last matrix that was factored
+  SparseMatrix parabola_;               // its A, where that was the one of a parabola; else empty
   double residual_ = 0;
 };
 

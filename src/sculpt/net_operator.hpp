@@ -30,6 +30,8 @@ class NetOperator {
   /// The product with N × 3 coordinates. Where there are patches enough, threads share them out; otherwise they share
   /// the lines of each.
   [[nodiscard]] Points operator*(const Points& x) const {
+    if (blocks_.size() == 1 && identity_ == 0 && blocks_[0].factor == 1 && blocks_[0].stiffness.size() == size_)
+      return blocks_[0].stiffness.apply(x);
     Points y = identity_ * x;
     const std::vector<int> patches = first_rows();
     const auto count = static_cast<std::ptrdiff_t>(patches.size());

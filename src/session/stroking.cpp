@@ -176,6 +176,7 @@ Expected<void> Executor::prepare_stroke_model() {
   EvolutionPolicy evolution;
   evolution.lambda = stroke.lambda;
   evolution.accuracy = state.evolution.accuracy;
+  evolution.solver = state.evolution.solver;
   evolution.energy_tolerance = state.evolution.energy_tolerance;
   ModelInput input = model_input(state, evolution);
   for (std::size_t k = 0; k < input.surfaces.size(); ++k) {

@@ -38,6 +38,10 @@ class ConstraintSpace {
   /// Length of y: independent points, or independent coordinates where `coupled`.
   [[nodiscard]] int free_count() const { return static_cast<int>(free_.size()); }
   [[nodiscard]] bool coupled() const { return coupled_; }
+  /// The independent points, or coordinates where `coupled`: row k of y is that of independent()[k].
+  [[nodiscard]] std::span<const int> independent() const { return free_; }
+  /// Whether some unknown depends on others, so that X is more than y with zeros where points are held.
+  [[nodiscard]] bool tied() const { return rows_.nonZeros() > 0; }
   /// True if point i is held, or constrained to one place.
   [[nodiscard]] bool is_determined(int i) const;
 

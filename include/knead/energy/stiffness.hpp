@@ -12,6 +12,8 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// A X of a symmetric matrix with all of its entries stored, for N × 3 coordinates. Cost: that of reading A.
 [[nodiscard]] Points symmetric_product(const SparseMatrix& a, const Points& x);
+/// Aᵀ X of any matrix, whose columns are read as rows. Cost: likewise.
+[[nodiscard]] Points transposed_product(const SparseMatrix& a, const Points& x);
 
 /// The denominator of rational splines.
 enum class RationalDenominator {

@@ -78,6 +78,7 @@ struct EvolutionPolicy {
   StepWeight weight = StepWeight::mass;
   ForceRoute route = ForceRoute::gauss;
   StepAccuracy accuracy = StepAccuracy::exact;
+  StepSolver solver = StepSolver::automatic;
   double energy_tolerance = default_rational_tolerance;
 
   friend bool operator==(const EvolutionPolicy&, const EvolutionPolicy&) = default;

@@ -49,6 +49,20 @@ enum class StepAccuracy {
 
 inline constexpr double interactive_accuracy = 1e-6;
 
+/// How the linear systems of a step are solved.
+enum class StepSolver {
+  automatic,  ///< by counts and structure, see `StepEngine`
+  direct,     ///< A is factored
+  iterative,  ///< conjugate gradients on cycles of multigrid over nested nets (docs/multigrid.md)
+};
+
+/// How the systems of a model are solved, and why so.
+struct StepEngine {
+  bool iterative = false;
+  bool usual = true;   ///< what nets of ordinary size get; else worth telling
+  std::string reason;  ///< "asked for", or the counts that decided
+};
+
 /// Everything that determines the matrices of an `ActiveSpline`, and how its steps are solved.
 template <int D>
 struct ActiveSettings {
@@ -72,6 +86,7 @@ struct ActiveSettings {
   bool raw = false;  ///< no normalisation: the equations are taken on the knots as they are
   GramianMethod method = default_gramian_method;
   StepAccuracy accuracy = StepAccuracy::exact;
+  StepSolver solver = StepSolver::automatic;
   double energy_tolerance = default_rational_tolerance;  ///< of rational patches, see `StiffnessOptions`
 
   friend bool operator==(const ActiveSettings&, const ActiveSettings&) = default;
@@ -201,6 +216,7 @@ class ActiveSpline {
 
   [[nodiscard]] const DomainScaling<D>& scaling(int patch = 0) const;
   [[nodiscard]] const ActiveSettings<D>& settings() const;
+  [[nodiscard]] const StepEngine& engine() const;
   /// First row of every patch in the control points, and the end.
   [[nodiscard]] const std::vector<int>& rows() const;
   /// Unknowns that are free to move: control points, or coordinates where a constraint couples them.

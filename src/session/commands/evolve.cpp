@@ -36,6 +36,15 @@ std::span<const Choice> choices(StepAccuracy) {
   return list;
 }
 
+std::span<const Choice> choices(StepSolver) {
+  static constexpr Choice list[] = {
+      {"automatic", StepSolver::automatic, "by the number of control points, and by whether iteration converges fast"},
+      {"direct", StepSolver::direct, "with a factor of the matrix"},
+      {"iterative", StepSolver::iterative,
+       "by iteration over nested nets, with less memory ([multigrid.md](multigrid.md))"}};
+  return list;
+}
+
 void describe(EvolveCommand& c, Fields& fields) {
   fields.name("evolve", "what steps do; static solves at once");
   fields.add("mode", c.evolution.mode);
@@ -46,6 +55,7 @@ void describe(EvolveCommand& c, Fields& fields) {
   fields.add("weight", c.evolution.weight, {.help = "acm: the weights of a step"});
   fields.add("route", c.evolution.route, {.help = "how tool forces are integrated"});
   fields.add("accuracy", c.evolution.accuracy, {.help = "how exactly steps in contact are solved"});
+  fields.add("solver", c.evolution.solver, {.help = "how the systems of steps are solved"});
   fields.add(
       "energy_tolerance", c.evolution.energy_tolerance,
       {.help = "rational shapes: the largest error of an entry of the energy's matrix, relative to its diagonal"});

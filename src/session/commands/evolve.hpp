@@ -14,6 +14,7 @@ std::span<const Choice> choices(ForceRoute);
 std::span<const Choice> choices(Evolution);
 
 std::span<const Choice> choices(StepAccuracy);
+std::span<const Choice> choices(StepSolver);
 
 template <>
 Expected<void> Executor::execute(const EvolveCommand& c);

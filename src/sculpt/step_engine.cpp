@@ -1,0 +1,117 @@
+#include "step_engine.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "nested_nets.hpp"
+
+namespace knead {
+namespace {
+
+constexpr int coarsest_points = 4500;  // of the net whose matrix is factored
+constexpr int highest_degree = 5;      // above it cycles smooth too little
+constexpr int few_iterations = 40;     // more of them, and a factor is cheaper
+
+/// The most control points for which a matrix is factored without being asked: where the cost of both is about the
+/// same. A factor of a volume is much denser.
+template <int D>
+constexpr int direct_points = D == 3 ? 20000 : 90000;
+
+/// Whether anything forbids a displacement of the whole model.
+bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held) {
+  if (std::ranges::find(held, true) != held.end()) return true;
+  Eigen::Matrix3d forbidden = Eigen::Matrix3d::Zero();  // directions in which it would violate a condition
+  for (const LinearConstraint& c : space.constraints()) {
+    double sum = 0;
+    for (const auto& [unknown, coefficient] : c.terms) sum += coefficient;
+    if (std::abs(sum) <= 1e-12) continue;
+    if (!c.normal) return true;
+    const Point n = c.normal->normalized();
+    forbidden += n * n.transpose();
+  }
+  return Eigen::FullPivLU<Eigen::Matrix3d>(forbidden).rank() == 3;
+}
+
+Expected<StepInverse> factored(SparseMatrix&& a, ConstraintSpace space, bool undamped) {
+  auto inverse = ConstrainedCholesky::factor(std::move(a), std::move(space));
+  if (inverse) return StepInverse(std::move(*inverse));
+  if (!undamped || inverse.error().kind != ErrorKind::numerical) return std::unexpected(inverse.error());
+  Error error = inverse.error();
+  error.remedy =
+      "what is held leaves the model free to move or tilt: hold more, or use another mode or a positive lambda";
+  return std::unexpected(error);
+}
+
+/// Cycles over nested nets, or why there are none.
+template <int D>
+Expected<ConstrainedMultigrid> nested(const NetOperator<D>& a, const ConstraintSpace& space,
+                                      std::span<const Spline<D>> patches, std::span<const DomainScaling<D>> scalings) {
+  if (space.coupled()) return input_error("constraints couple the coordinates of points", "solver");
+  if (space.free_count() == 0) return input_error("nothing is free to move", "solver");
+  int degree = 0;
+  for (const Spline<D>& patch : patches) {
+    for (int d = 0; d < D; ++d) degree = std::max(degree, patch.knots(d).degree());
+  }
+  if (degree > highest_degree)
+    return input_error(fmt::format("the degree is {}, at most {} is iterated", degree, highest_degree), "solver");
+  const int enough = std::min(coarsest_points, space.size() / 2);
+  const auto prolongations = nested_prolongations<D>(patches, scalings, enough);
+  if (prolongations.empty()) {
+    return input_error(fmt::format("there are no coarser nets of at most {} control points", enough), "solver");
+  }
+  return ConstrainedMultigrid::create(
+      a.assemble(), [a](const Points& x) { return a * x; }, space, prolongations);
+}
+
+}  // namespace
+
+template <int D>
+Expected<ChosenInverse> invert(const NetOperator<D>& a, ConstraintSpace space, std::span<const Spline<D>> patches,
+                               std::span<const DomainScaling<D>> scalings, const ActiveSettings<D>& settings) {
+  const bool undamped =
+      settings.evolution == Evolution::stationary || (settings.evolution == Evolution::acm && settings.lambda == 0);
+  // Such a displacement costs no energy: there would be no equilibrium.
+  if (undamped && space.free_count() > 0 && !holds_in_place(space, settings.held)) {
+    return numerical_error("nothing holds the model in place, so it has no position of balance", "evolve",
+                           "hold an edge or pin points, or use another mode or a positive lambda");
+  }
+  const std::string points = fmt::format("{} control points", space.size());
+  StepEngine engine{false, true, "asked for"};
+  if (settings.solver == StepSolver::iterative ||
+      (settings.solver == StepSolver::automatic && space.size() > direct_points<D>)) {
+    engine.usual = false;
+    auto multigrid = nested<D>(a, space, patches, scalings);
+    const bool asked = settings.solver == StepSolver::iterative;
+    if (multigrid && (asked || multigrid->iterations() <= few_iterations)) {
+      engine.iterative = true;
+      engine.reason =
+          fmt::format("{}, {} iterations for eight digits", asked ? "asked for" : points, multigrid->iterations());
+      return ChosenInverse{StepInverse(std::move(*multigrid)), std::move(engine)};
+    }
+    if (asked) {
+      Error error = multigrid.error();
+      error.remedy = R"(use "solver": "automatic")";
+      return std::unexpected(error);
+    }
+    engine.reason = fmt::format(
+        "{}, but {}", points,
+        multigrid ? fmt::format("{} iterations for eight digits", multigrid->iterations()) : multigrid.error().what);
+  } else if (settings.solver == StepSolver::automatic) {
+    engine.reason = fmt::format("{}, at most {}", points, direct_points<D>);
+  }
+  auto inverse = factored(a.assemble(), std::move(space), undamped);
+  if (!inverse) return std::unexpected(inverse.error());
+  return ChosenInverse{std::move(*inverse), std::move(engine)};
+}
+
+template Expected<ChosenInverse> invert(const NetOperator<1>&, ConstraintSpace, std::span<const Spline<1>>,
+                                        std::span<const DomainScaling<1>>, const ActiveSettings<1>&);
+template Expected<ChosenInverse> invert(const NetOperator<2>&, ConstraintSpace, std::span<const Spline<2>>,
+                                        std::span<const DomainScaling<2>>, const ActiveSettings<2>&);
+template Expected<ChosenInverse> invert(const NetOperator<3>&, ConstraintSpace, std::span<const Spline<3>>,
+                                        std::span<const DomainScaling<3>>, const ActiveSettings<3>&);
+
+}  // namespace knead
