@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "knead/exchange/face_conversion.hpp"
@@ -45,7 +46,7 @@ Expected<std::vector<std::string>> neighbours(Executor& executor) {
 
 /// Neighbours are named with the surfaces on which they lie: regions beside the converted ones are found again.
 Expected<void> refresh_neighbours(SessionState& state, const std::vector<std::string>& ids) {
-  const VisibleRegions regions(*state.document->step_file());
+  std::unique_ptr<const VisibleRegions> regions;
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
     const auto& visible = std::as_const(state.surfaces)[k].visible;
     const bool beside = visible && std::ranges::any_of(visible->edges, [&](const TrimEdge& edge) {
@@ -55,7 +56,8 @@ Expected<void> refresh_neighbours(SessionState& state, const std::vector<std::st
                         });
     if (!beside) continue;
     SceneSurface& s = state.surfaces[k];
-    auto region = regions.of(s.id);
+    if (!regions) regions = std::make_unique<const VisibleRegions>(*state.document->step_file());
+    auto region = regions->of(s.id);
     if (!region) return std::unexpected(region.error());
     s.visible = std::make_shared<const VisibleRegion>(std::move(*region));
   }
