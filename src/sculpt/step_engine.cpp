@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knead/base/interruption.hpp"
 #include "nested_nets.hpp"
 
 namespace knead {
@@ -84,6 +85,7 @@ Expected<ChosenInverse> invert(const NetOperator<D>& a, ConstraintSpace space, s
       (settings.solver == StepSolver::automatic && space.size() > direct_points<D>)) {
     engine.usual = false;
     auto multigrid = nested<D>(a, space, patches, scalings);
+    if (Interruption::asked_for()) return interrupted_error();
     const bool asked = settings.solver == StepSolver::iterative;
     if (multigrid && (asked || multigrid->iterations() <= few_iterations)) {
       engine.iterative = true;
