@@ -50,10 +50,12 @@ double KrylovMinimisation::norm(const Points& force) {
   return std::sqrt(std::max(0.0, dot(on_free, inverse_.precondition(on_free))));
 }
 
-double KrylovMinimisation::imbalance() {
-  const double norm_of_b = norm(problem_.b);
-  return std::sqrt(std::max(0.0, residual().squared)) / norm_of_b;
+double KrylovMinimisation::norm_of_b() {
+  if (norm_of_b_ < 0) norm_of_b_ = norm(problem_.b);
+  return norm_of_b_;
 }
+
+double KrylovMinimisation::imbalance() { return std::sqrt(std::max(0.0, residual().squared)) / norm_of_b(); }
 
 /// (A + H) d = r by conjugate gradients preconditioned with B, to `tolerance` of the first preconditioned residual.
 /// If A + H turns out not to be positive, the result is the sum of the steps so far, or B r: a descent direction in
@@ -113,7 +115,7 @@ void KrylovMinimisation::advance(const Direction& to, bool rounded) {
 
 void KrylovMinimisation::iterate(double tolerance, int max_iterations, bool certain) {
   summary.converged = false;
-  double largest = std::max(norm(problem_.b), norm(state_.force));
+  double largest = std::max(norm_of_b(), norm(state_.force));
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0, rounded_steps = 0; !Interruption::asked_for();) {
     Residual at = residual();

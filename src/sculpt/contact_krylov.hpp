@@ -37,6 +37,7 @@ class KrylovMinimisation {
   [[nodiscard]] Points product(const Points& x) const;
   Residual residual();
   double norm(const Points& force);
+  double norm_of_b();
   Direction direction(Residual at, double tolerance);
   void advance(const Direction& to, bool rounded);
   [[nodiscard]] double quadratic() const;
@@ -48,6 +49,7 @@ class KrylovMinimisation {
   Points ay_;          // A Y
   bool fresh_ = true;  // ay_ was computed from Y, not from its steps
   PotentialState state_;
+  double norm_of_b_ = -1;  // below 0: not known yet
 };
 
 }  // namespace knead
