@@ -50,4 +50,18 @@ ActiveSpline<D> active(const Spline<D>& s, const ActiveSettings<D>& settings) {
   return std::move(*made);
 }
 
+/// A sheet over the unit square with two rows held, for the ball above it.
+inline ActiveSettings<2> sheet_settings(const Surface& s, StepAccuracy accuracy = StepAccuracy::exact) {
+  ActiveSettings<2> settings;
+  settings.held = rim(s, 2);
+  settings.detail = 0.15;
+  settings.lambda = 20;
+  settings.accuracy = accuracy;
+  return settings;
+}
+
+inline Tool ball_above_sheet(double stiffness) {
+  return {"ball", sphere_at(Point(0.5, 0.5, 0.16), 0.15), ToolMode::collision, stiffness, 1};
+}
+
 }  // namespace knead::testing

@@ -13,16 +13,9 @@ namespace knead {
 namespace {
 
 using testing::box;
+using testing::random_points;
 using testing::rim;
-
-/// A flat sheet over the unit square.
-Surface sheet_on(const KnotVector& u, const KnotVector& v) {
-  Points points(u.count() * v.count(), 3);
-  for (int i = 0; i < u.count(); ++i) {
-    for (int j = 0; j < v.count(); ++j) points.row(v.count() * i + j) << u.greville(i), v.greville(j), 0;
-  }
-  return *Surface::create({u, v}, points);
-}
+using testing::sheet;
 
 /// Spans of random length, the longest up to 20 times the shortest; every seventh knot is repeated so often.
 KnotVector uneven(int degree, int spans, unsigned seed, int repeated) {
@@ -60,13 +53,6 @@ Expected<ConstrainedMultigrid> iterated(const System& system, const ConstraintSp
       SparseMatrix(a), [a](const Points& x) { return symmetric_product(a, x); }, space, system.prolongations);
 }
 
-Points random_points(int rows, unsigned seed) {
-  std::mt19937 random(seed);
-  Points x(rows, 3);
-  for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = std::generate_canonical<double, 53>(random) - 0.5;
-  return x;
-}
-
 std::vector<bool> pinned(std::vector<bool> held, int every) {
   std::mt19937 random(7);
   for (std::size_t i = 0; i < held.size(); ++i) held[i] = held[i] || random() % static_cast<unsigned>(every) == 0;
@@ -75,7 +61,7 @@ std::vector<bool> pinned(std::vector<bool> held, int every) {
 
 TEST(NestedNets, EverySpaceContainsTheNext) {
   const KnotVector u = uneven(3, 30, 1, 2), v = *KnotVector::clamped_uniform(2, 25);
-  const Surface s = sheet_on(u, v);
+  const Surface s = sheet(u, v);
   const DomainScaling<2> scaling;
   const auto prolongations = nested_prolongations<2>({&s, 1}, {&scaling, 1}, 60);
   ASSERT_GE(prolongations.size(), 2U);
@@ -102,7 +88,7 @@ TEST(NestedNets, EverySpaceContainsTheNext) {
 
 TEST(NestedNets, KeepCreasesAndTheDirectionWithLongSpans) {
   const KnotVector creased = uneven(3, 40, 2, 3), coarse = *KnotVector::clamped_uniform(3, 8);
-  const Surface s = sheet_on(creased, coarse);
+  const Surface s = sheet(creased, coarse);
   DomainScaling<2> scaling;
   const auto prolongations = nested_prolongations<2>({&s, 1}, {&scaling, 1}, 300);
   ASSERT_EQ(prolongations.size(), 1U);
@@ -113,7 +99,7 @@ TEST(NestedNets, KeepCreasesAndTheDirectionWithLongSpans) {
 
 TEST(NestedNets, AreNoneWhereNothingCanBeLeftOut) {
   const KnotVector torn = *KnotVector::create(1, {0, 0, 1, 1, 2, 2, 3, 3});
-  const Surface s = sheet_on(torn, torn);
+  const Surface s = sheet(torn, torn);
   const DomainScaling<2> scaling;
   EXPECT_TRUE(nested_prolongations<2>({&s, 1}, {&scaling, 1}, 4).empty());
 }
@@ -195,7 +181,7 @@ TEST(Multigrid, TakesMembranesThinPlatesAndUnevenKnots) {
     EXPECT_LE(found.iterations, 25);
   }
   for (const int repeated : {1, 2}) {
-    const Surface s = sheet_on(uneven(3, 40, 3, repeated), uneven(3, 36, 4, repeated));
+    const Surface s = sheet(uneven(3, 40, 3, repeated), uneven(3, 36, 4, repeated));
     const Compared found = compared(system_of(s, {}, 20, 700), ConstraintSpace(rim(s, 2)));
     EXPECT_LE(found.off, 1e-8) << repeated;
   }

@@ -1,29 +1,17 @@
 // Steps by iteration over nested nets, beside the same steps by a factor.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "active.hpp"
+#include "knead/base/interruption.hpp"
 #include "knead/base/threads.hpp"
 
 namespace knead {
 namespace {
 
 using testing::active;
+using testing::ball_above_sheet;
 using testing::box;
-using testing::rim;
-
-ActiveSettings<2> settings_of(const Surface& s) {
-  ActiveSettings<2> settings;
-  settings.held = rim(s, 2);
-  settings.detail = 0.15;
-  settings.lambda = 20;
-  return settings;
-}
-
-Tool ball(double stiffness) {
-  return {"ball", testing::sphere_at(Point(0.5, 0.5, 0.16), 0.15), ToolMode::collision, stiffness, 1};
-}
+using testing::sheet_settings;
 
 /// The largest difference of control points after some steps by either solver, as a share of the largest displacement.
 template <int D>
@@ -63,55 +51,54 @@ double difference(std::vector<Spline<D>> patches, ActiveSettings<D> settings, To
   return (a.control_points - b.control_points).cwiseAbs().maxCoeff() / moved;
 }
 
+/// The same of a spline with its ends held and the tool at a place.
+template <int D>
+double held_difference(const Spline<D>& s, int rows, double detail, Tool tool, const Point& at) {
+  ActiveSettings<D> settings;
+  settings.held = testing::ends<D>(s, rows);
+  settings.detail = detail;
+  testing::move_to(tool, at);
+  return difference<D>({s}, settings, tool);
+}
+
 TEST(IterativeSteps, AreThoseOfAFactorUnderSoftStiffAndRigidTools) {
   const Surface s = box<2>(3, 40);
-  for (const double stiffness : {1e2, 1e4, 1e7}) EXPECT_LE(difference<2>({s}, settings_of(s), ball(stiffness)), 1e-7);
-  Tool rigid = ball(1e3);
+  for (const double stiffness : {1e2, 1e4, 1e7})
+    EXPECT_LE(difference<2>({s}, sheet_settings(s), ball_above_sheet(stiffness)), 1e-7);
+  Tool rigid = ball_above_sheet(1e3);
   rigid.rigid = true;
-  EXPECT_LE(difference<2>({s}, settings_of(s), rigid), 1e-6);
-  Tool rough = ball(1e4);
+  EXPECT_LE(difference<2>({s}, sheet_settings(s), rigid), 1e-6);
+  Tool rough = ball_above_sheet(1e4);
   rough.friction = 0.3;
   ActiveLoads loads;
   loads.force = Point(0.1, 0, -0.2);
-  EXPECT_LE(difference<2>({s}, settings_of(s), rough, loads), 1e-7);
+  EXPECT_LE(difference<2>({s}, sheet_settings(s), rough, loads), 1e-7);
 }
 
 TEST(IterativeSteps, AreThoseOfAFactorInEveryEvolution) {
   const Surface s = box<2>(3, 40);
-  ActiveSettings<2> settings = settings_of(s);
+  ActiveSettings<2> settings = sheet_settings(s);
   settings.evolution = Evolution::stationary;
-  EXPECT_LE(difference<2>({s}, settings, ball(1e3)), 1e-7);
+  EXPECT_LE(difference<2>({s}, settings, ball_above_sheet(1e3)), 1e-7);
   settings.evolution = Evolution::dynamic;
-  EXPECT_LE(difference<2>({s}, settings, ball(1e3)), 1e-7);
+  EXPECT_LE(difference<2>({s}, settings, ball_above_sheet(1e3)), 1e-7);
   settings.evolution = Evolution::acm;
   settings.weight = StepWeight::identity;
-  EXPECT_LE(difference<2>({s}, settings, ball(1e3)), 1e-7);
+  EXPECT_LE(difference<2>({s}, settings, ball_above_sheet(1e3)), 1e-7);
 }
 
 TEST(IterativeSteps, AreThoseOfAFactorForCurvesVolumesAndSeveralDegrees) {
   for (const int degree : {2, 4, 5}) {
     const Surface s = box<2>(degree, 36);
-    EXPECT_LE(difference<2>({s}, settings_of(s), ball(1e3)), 1e-7) << degree;
+    EXPECT_LE(difference<2>({s}, sheet_settings(s), ball_above_sheet(1e3)), 1e-7) << degree;
   }
-  const Curve curve = box<1>(3, 60);
-  ActiveSettings<1> on_curve;
-  on_curve.held = testing::ends<1>(curve, 2);
-  on_curve.detail = 0.15;
-  Tool beside = ball(1e3);
-  testing::move_to(beside, Point(0.42, 0.1, 0.1));
-  EXPECT_LE(difference<1>({curve}, on_curve, beside), 1e-7);
-  const Volume volume = box<3>(2, 9);
-  ActiveSettings<3> on_volume;
-  on_volume.held = testing::ends<3>(volume, 1);
-  on_volume.detail = 0.3;
-  Tool above = ball(1e2);
-  testing::move_to(above, Point(0.5, 0.5, 1.1));
-  EXPECT_LE(difference<3>({volume}, on_volume, above), 1e-7);
+  EXPECT_LE(held_difference<1>(box<1>(3, 60), 2, 0.15, ball_above_sheet(1e3), Point(0.42, 0.1, 0.1)), 1e-7);
+  EXPECT_LE(held_difference<3>(box<3>(2, 9), 1, 0.3, ball_above_sheet(1e2), Point(0.5, 0.5, 1.1)), 1e-7);
 }
 
 TEST(IterativeSteps, AreThoseOfAFactorWhereMaterialJumpsAndWeightsVary) {
   const Surface s = box<2>(3, 40);
-  ActiveSettings<2> settings = settings_of(s);
+  ActiveSettings<2> settings = sheet_settings(s);
   const auto jump =
       SplineField<2>::create({*KnotVector::create(1, {0, 0, 0.5, 0.5, 1, 1}), *KnotVector::create(1, {0, 0, 1, 1})},
                              {1, 1, 1, 1, 100, 100, 100, 100});
@@ -120,13 +107,13 @@ TEST(IterativeSteps, AreThoseOfAFactorWhereMaterialJumpsAndWeightsVary) {
   field.alpha[0] = field.alpha[2] = *jump;
   field.beta[0] = field.beta[1] = field.beta[2] = *jump;
   settings.fields = {field};
-  EXPECT_LE(difference<2>({s}, settings, ball(1e3)), 1e-7);
+  EXPECT_LE(difference<2>({s}, settings, ball_above_sheet(1e3)), 1e-7);
 
   std::vector<double> weights;
   for (int i = 0; i < s.size(); ++i) weights.push_back(1 + 3 * (i % 40) / 39.0);
   const auto rational = Surface::create({s.knots(0), s.knots(1)}, s.control_points(), weights);
   ASSERT_TRUE(rational);
-  EXPECT_LE(difference<2>({*rational}, settings_of(s), ball(1e3)), 1e-7);
+  EXPECT_LE(difference<2>({*rational}, sheet_settings(s), ball_above_sheet(1e3)), 1e-7);
 }
 
 TEST(IterativeSteps, AreThoseOfAFactorAcrossASeam) {
@@ -134,7 +121,7 @@ TEST(IterativeSteps, AreThoseOfAFactorAcrossASeam) {
   Points moved = left.control_points();
   moved.col(0).array() += 1;
   const Surface right = *left.with_control_points(moved);
-  ActiveSettings<2> settings = settings_of(left);
+  ActiveSettings<2> settings = sheet_settings(left);
   settings.held = testing::ends<2>(left, 1);
   std::vector<bool> beyond = settings.held;
   for (std::size_t j = 0; j < 28; ++j) settings.held[27 * 28 + j] = beyond[j] = false;
@@ -144,35 +131,16 @@ TEST(IterativeSteps, AreThoseOfAFactorAcrossASeam) {
     // and the tangents across it
     settings.constraints.push_back({"smooth seam", {{26 * 28 + j, 1.0}, {27 * 28 + j, -2.0}, {29 * 28 + j, 1.0}}});
   }
-  Tool tool = ball(1e3);
+  Tool tool = ball_above_sheet(1e3);
   testing::move_to(tool, Point(0.95, 0.5, 0.14));
   EXPECT_LE(difference<2>({left, right}, settings, tool), 1e-7);
 }
 
-TEST(IterativeSteps, ReachTheInteractiveAccuracy) {
-  const Surface s = box<2>(3, 40);
-  ActiveSettings<2> settings = settings_of(s);
-  settings.evolution = Evolution::stationary;  // its matrix is K
-  const auto exact = active<2>(s, settings);
-  settings.accuracy = StepAccuracy::interactive;
-  settings.solver = StepSolver::iterative;
-  const auto quick = active<2>(s, settings);
-  for (const double stiffness : {1e2, 1e4, 1e7}) {
-    Tool tool = ball(stiffness);
-    testing::move_to(tool, Point(0.45, 0.52, 0.09));
-    const auto a = exact.step(s.control_points(), {&tool, 1}), b = quick.step(s.control_points(), {&tool, 1});
-    ASSERT_TRUE(a && b);
-    const auto norm = [&](const Points& x) { return std::sqrt(exact.energy(s.control_points() + x)); };
-    const double step = norm(a->control_points - s.control_points());
-    EXPECT_LE(norm(b->control_points - a->control_points), 2 * interactive_accuracy * step) << stiffness;
-  }
-}
-
 TEST(IterativeSteps, RepeatBitForBitWithAnyNumberOfThreads) {
   const Surface s = box<2>(3, 70);
-  ActiveSettings<2> settings = settings_of(s);
+  ActiveSettings<2> settings = sheet_settings(s);
   settings.solver = StepSolver::iterative;
-  Tool tool = ball(1e3);
+  Tool tool = ball_above_sheet(1e3);
   testing::move_to(tool, Point(0.45, 0.52, 0.1));
   std::vector<Points> results;
   for (const int threads : {1, 2, 5}) {
@@ -184,9 +152,19 @@ TEST(IterativeSteps, RepeatBitForBitWithAnyNumberOfThreads) {
   EXPECT_TRUE(results[0] == results[2]);
 }
 
+TEST(StepEngine, SaysThatItWasStoppedInsteadOfThatItDoesNotConverge) {
+  const Surface s = box<2>(3, 40);
+  ActiveSettings<2> settings = sheet_settings(s);
+  settings.solver = StepSolver::iterative;
+  const Interruption stop([] { return false; });
+  const auto made = ActiveSurface::create(s, settings);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().what, interrupted_error().error().what);
+}
+
 TEST(StepEngine, IsChosenByCountsAndStructure) {
   const Surface small = box<2>(3, 20);
-  ActiveSettings<2> settings = settings_of(small);
+  ActiveSettings<2> settings = sheet_settings(small);
   EXPECT_EQ(active<2>(small, settings).engine().reason, "400 control points, at most 90000");
   EXPECT_TRUE(active<2>(small, settings).engine().usual);
   settings.solver = StepSolver::iterative;
@@ -197,7 +175,7 @@ TEST(StepEngine, IsChosenByCountsAndStructure) {
   EXPECT_NE(refused.error().message().find("automatic"), std::string::npos);
 
   const Surface large = box<2>(2, 301);
-  const auto chosen = active<2>(large, settings_of(large));
+  const auto chosen = active<2>(large, sheet_settings(large));
   EXPECT_TRUE(chosen.engine().iterative);
   EXPECT_EQ(chosen.engine().reason.substr(0, 22), "90601 control points, ");
 }
