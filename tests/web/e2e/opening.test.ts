@@ -1,7 +1,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { commands, distance, openFile, positions, question, ready, root, scene, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
+import { commands, distance, handled, openFile, positions, question, ready, root, scene, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
 /** How far undo goes back, what a script is applied to, and what becomes of the session before. */
 
@@ -173,8 +173,10 @@ describe('opening something else', () => {
   it('asks first where work is not saved, and not where nothing was done', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
+    const before = await handled(page);
     await page.locator('summary[aria-label^=Gallery]').click();
     await page.locator('details[open] .menu-item').first().click();
+    await expect.poll(() => handled(page)).toBe(before + 1);
     expect(await question(page).isVisible()).toBe(false);
     await settled(page);
     await page.keyboard.press('b');
@@ -253,10 +255,9 @@ describe('a file of another program', () => {
       Object.assign(window, { showOpenFilePicker: async () => [handle], here: handle });
     }, text);
     const onDisk = () => page.evaluate(async () => (await (window as never as { here: FileSystemFileHandle }).here.getFile()).text());
-    const opened = () => page.evaluate(() => (window as never as { studio: { documents: { handled: number } } }).studio.documents.handled);
-    const before = await opened();
+    const before = await handled(page);
     await page.locator('.top [aria-label^="Open"]').click();
-    await expect.poll(opened).toBe(before + 1);
+    await expect.poll(() => handled(page)).toBe(before + 1);
     await settled(page);
     await page.keyboard.press('b');
     await stroke(page, [0, 0]); // selects

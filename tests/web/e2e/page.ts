@@ -115,25 +115,30 @@ async function answer(page: Page, choice = 'Open without saving'): Promise<void>
   if (await question(page).isVisible()) await question(page).locator('button', { hasText: choice }).click();
 }
 
-/** Opens a scene of the gallery, whatever becomes of the one before. */
-export async function scene(page: Page, name: string): Promise<void> {
-  await page.locator('summary[aria-label^=Gallery]').click();
-  await page.locator('details[open] .menu-item').filter({ has: page.locator(`b:text-is("${name}")`) }).click();
-  await answer(page);
-  await settled(page);
-}
+/** How many files and scenes the page has opened or refused. */
+export const handled = (page: Page): Promise<number> =>
+  page.evaluate(() => (window as never as { studio: { documents: { handled: number } } }).studio.documents.handled);
 
-/** Opens a file, whatever becomes of the document before. `choice`: of what the page asks about a script. */
-export async function openFile(page: Page, path: string, choice?: string): Promise<void> {
-  const count = () => page.evaluate(() => (window as never as { studio: { documents: { handled: number } } }).studio.documents.handled);
-  const before = await count();
-  await page.locator('input[type=file]').setInputFiles(path);
+/** Acts, and waits until the page has opened or refused what that asks for, whatever becomes of the document before. */
+async function whenOpened(page: Page, act: () => Promise<void>, choice?: string): Promise<void> {
+  const before = await handled(page);
+  await act();
   await expect.poll(async () => {
     await answer(page, choice);
-    return count();
+    return handled(page);
   }).toBe(before + 1);
   await settled(page);
 }
+
+/** Opens a scene of the gallery. */
+export const scene = (page: Page, name: string): Promise<void> => whenOpened(page, async () => {
+  await page.locator('summary[aria-label^=Gallery]').click();
+  await page.locator('details[open] .menu-item').filter({ has: page.locator(`b:text-is("${name}")`) }).click();
+});
+
+/** Opens a file. `choice`: of what the page asks about a script. */
+export const openFile = (page: Page, path: string, choice?: string): Promise<void> =>
+  whenOpened(page, () => page.locator('input[type=file]').setInputFiles(path), choice);
 
 /** All positions that the page draws, file units, in one list. */
 export const positions = (page: Page): Promise<number[]> =>

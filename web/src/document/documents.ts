@@ -20,7 +20,7 @@ export class Documents {
   views: readonly SavedView[] = [];
   /** How many sessions there were: what was said about one before is of no use any more. */
   sessions = 0;
-  /** Files that the user gave, opened or refused. */
+  /** Files and scenes that the user chose, opened or refused. */
   handled = 0;
 
   constructor(private readonly host: Host) {
@@ -141,6 +141,12 @@ export class Documents {
 
   /** A ready scene: commands on an empty document, or on a file of the page; without them its first surface is chosen. False where the work before is to stay. */
   async openScene(name: string, commands: Command[], fetchFile?: () => Promise<Uint8Array | null>): Promise<boolean> {
+    const opened = await this.readScene(name, commands, fetchFile);
+    ++this.handled;
+    return opened;
+  }
+
+  private async readScene(name: string, commands: Command[], fetchFile?: () => Promise<Uint8Array | null>): Promise<boolean> {
     if (!(await this.mayLeave())) return false;
     if (!fetchFile) return (await this.startFresh(name, commands)) !== null;
     const bytes = await fetchFile();
