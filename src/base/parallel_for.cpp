@@ -1,6 +1,7 @@
 #include "parallel_for.hpp"
 
 #include <pthread.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "knead/base/threads.hpp"
+#include "parallel_order.hpp"
 
 namespace knead::detail {
 namespace {
@@ -156,6 +158,8 @@ Pool& pool() {
 }
 
 }  // namespace
+
+void give_way() { sched_yield(); }
 
 void run_blocks(std::ptrdiff_t count, std::ptrdiff_t size, void (*body)(const void*, std::ptrdiff_t, std::ptrdiff_t),
                 const void* context) {

@@ -287,7 +287,8 @@ Expected<void> ElasticModel<D>::complete(std::shared_ptr<const ElasticEnergy> of
   auto made = ConstraintSpace::create(rows.back(), constraints, settings.held, true);
   if (!made) return std::unexpected(made.error());
   space = std::move(*made);
-  restriction.emplace(space, energy->file_hessian(rest));
+  const GridPlaces places = grid_places<D>(patches);
+  restriction.emplace(space, energy->file_hessian(rest), &places);
   if (settings.evolution == Evolution::dynamic && own_mass.rows() > 0) {
     mass = units.length * units.length / units.energy * own_mass;
     return {};

@@ -36,8 +36,8 @@ bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held)
   return Eigen::FullPivLU<Eigen::Matrix3d>(forbidden).rank() == 3;
 }
 
-Expected<StepInverse> factored(SparseMatrix&& a, ConstraintSpace space, bool undamped) {
-  auto inverse = ConstrainedCholesky::factor(std::move(a), std::move(space));
+Expected<StepInverse> factored(SparseMatrix&& a, ConstraintSpace space, const GridPlaces& places, bool undamped) {
+  auto inverse = ConstrainedCholesky::factor(std::move(a), std::move(space), &places);
   if (inverse) return StepInverse(std::move(*inverse));
   if (!undamped || inverse.error().kind != ErrorKind::numerical) return std::unexpected(inverse.error());
   Error error = inverse.error();
@@ -104,7 +104,7 @@ Expected<ChosenInverse> invert(const NetOperator<D>& a, ConstraintSpace space, s
   } else if (settings.solver == StepSolver::automatic) {
     engine.reason = fmt::format("{}, at most {}", points, direct_points<D>);
   }
-  auto inverse = factored(a.assemble(), std::move(space), undamped);
+  auto inverse = factored(a.assemble(), std::move(space), grid_places<D>(patches), undamped);
   if (!inverse) return std::unexpected(inverse.error());
   return ChosenInverse{std::move(*inverse), std::move(engine)};
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "independent_places.hpp"
+
 namespace knead {
 namespace {
 
@@ -19,13 +21,16 @@ Expected<void> check_digits(const SparseCholesky& cholesky, const Values& forces
 
 }  // namespace
 
-Expected<ConstrainedCholesky> ConstrainedCholesky::factor(SparseMatrix&& a, ConstraintSpace space) {
+Expected<ConstrainedCholesky> ConstrainedCholesky::factor(SparseMatrix&& a, ConstraintSpace space,
+                                                          const GridPlaces* places) {
   std::optional<SparseCholesky> cholesky;
   if (space.free_count() > 0) {
     SparseMatrix reduced = space.restrict(a);
     SparseMatrix().swap(a);
     const Points forces = reduced * Points::Ones(reduced.rows(), 3);
-    auto factored = SparseCholesky::factor(std::move(reduced));
+    const auto unknowns = detail::independent_places(space, places);
+    auto factored =
+        unknowns ? SparseCholesky::factor(std::move(reduced), *unknowns) : SparseCholesky::factor(std::move(reduced));
     if (!factored) return std::unexpected(factored.error());
     if (auto checked = check_digits(*factored, forces); !checked) return std::unexpected(checked.error());
     cholesky = std::move(*factored);
@@ -39,8 +44,8 @@ Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a,
   if (space.free_count() > 0) {
     const SparseMatrix lower = restriction.lower(a);
     const Eigen::VectorXd in_order = lower.selfadjointView<Eigen::Lower>() * Eigen::VectorXd::Ones(lower.rows());
-    const Eigen::VectorXd forces = in_order(restriction.order());
-    auto factored = SparseCholesky::factor_in_order(lower, restriction.order());
+    const Eigen::VectorXd forces = in_order(restriction.dissection().order);
+    auto factored = SparseCholesky::factor_in_order(lower, restriction.dissection());
     if (!factored) return std::unexpected(factored.error());
     if (auto checked = check_digits(*factored, forces); !checked) return std::unexpected(checked.error());
     cholesky = std::move(*factored);

@@ -16,7 +16,9 @@ class ConstrainedCholesky {
   /// it to 1e-3. Errors (numerical): not positive definite, or too close to singular for the check.
   [[nodiscard]] static Expected<ConstrainedCholesky> factor(const SparseMatrix& a, ConstraintSpace space);
   /// The same where A is needed no longer: it is emptied before the factor is made.
-  [[nodiscard]] static Expected<ConstrainedCholesky> factor(SparseMatrix&& a, ConstraintSpace space);
+  /// \param places of the points, where they lie on grids: null where they do not.
+  [[nodiscard]] static Expected<ConstrainedCholesky> factor(SparseMatrix&& a, ConstraintSpace space,
+                                                            const GridPlaces* places = nullptr);
 
   /// The same of A over all 3N coordinates, of the pattern of the restriction, whose space this is: T Tᵀ A T instead of
   /// T Tᵀ (A ⊗ I) T. Errors: likewise.

@@ -1,10 +1,11 @@
 #include "coordinate_restriction.hpp"
 
-#include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <cassert>
 #include <numeric>
 #include <utility>
+
+#include "independent_places.hpp"
 
 namespace knead {
 namespace {
@@ -46,26 +47,27 @@ SparseMatrix restricted_pattern(const SparseMatrix& a, const std::vector<MapRow>
 
 }  // namespace
 
-CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const SparseMatrix& pattern) {
+CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const SparseMatrix& pattern,
+                                             const GridPlaces* places) {
   assert(space.coupled() && pattern.isCompressed() && pattern.rows() == 3 * space.size());
   const std::vector<MapRow> rows = map_rows(space);
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
+  const auto unknowns = detail::independent_places(space, places);
   {
     const SparseMatrix whole = restricted_pattern(pattern, rows, space.free_count());
-    Eigen::AMDOrdering<int>()(whole, inverse);
-    order_ = inverse.inverse().eval().indices();
+    dissection_ = unknowns ? dissect(whole, *unknowns) : minimum_degree(whole);
     zero_.resize(whole.rows(), whole.cols());
     zero_.selfadjointView<Eigen::Lower>() =
-        whole.selfadjointView<Eigen::Lower>().twistedBy(Eigen::PermutationMatrix<Eigen::Dynamic>(order_));
+        whole.selfadjointView<Eigen::Lower>().twistedBy(Eigen::PermutationMatrix<Eigen::Dynamic>(dissection_.order));
   }
   zero_.makeCompressed();
   for (Eigen::Index j = 0; j < zero_.outerSize(); ++j) {
     std::sort(zero_.innerIndexPtr() + zero_.outerIndexPtr()[j], zero_.innerIndexPtr() + zero_.outerIndexPtr()[j + 1]);
   }
   std::fill_n(zero_.valuePtr(), zero_.nonZeros(), 0.0);
+  const Eigen::VectorXi& order = dissection_.order;
   const int *start = zero_.outerIndexPtr(), *index = zero_.innerIndexPtr();
   each_restricted(pattern, rows, [&](int from, int p, int q, double coefficient) {
-    const int row = order_[p], column = order_[q];
+    const int row = order[p], column = order[q];
     if (row < column) return;  // its mirror image is visited too
     const int to = static_cast<int>(std::lower_bound(index + start[column], index + start[column + 1], row) - index);
     pieces_.push_back({from, to, coefficient});

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "constraint_space.hpp"
+#include "knead/solve/dissection.hpp"
 
 namespace knead {
 
@@ -11,13 +12,14 @@ namespace knead {
 class CoordinateRestriction {
  public:
   /// \param space of coordinates (`coupled`).
-  CoordinateRestriction(const ConstraintSpace& space, const SparseMatrix& pattern);
+  /// \param places of the points, where they lie on grids: null where they do not.
+  CoordinateRestriction(const ConstraintSpace& space, const SparseMatrix& pattern, const GridPlaces* places = nullptr);
 
   /// The lower triangle of Tᵀ A T in that order. Cost: one multiply-add per entry of A where nothing but coordinates is
   /// held.
   [[nodiscard]] SparseMatrix lower(const SparseMatrix& a) const;
-  /// order[i] is the place of unknown i.
-  [[nodiscard]] const Eigen::VectorXi& order() const { return order_; }
+  /// The order, and its nodes where places gave it.
+  [[nodiscard]] const Dissection& dissection() const { return dissection_; }
 
  private:
   struct Piece {
@@ -25,7 +27,7 @@ class CoordinateRestriction {
     double coefficient;
   };
 
-  Eigen::VectorXi order_;
+  Dissection dissection_;
   SparseMatrix zero_;  // the pattern of the result
   std::vector<Piece> pieces_;
 };

@@ -1,10 +1,14 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <span>
+#include <utility>
 
+#include "base/parallel_order.hpp"
 #include "knead/base/interruption.hpp"
+#include "knead/solve/dissection.hpp"
 #include "panels.hpp"
 #include "simd/panel_kernels.hpp"
 
@@ -65,7 +69,7 @@ class ColumnRows {
 
 }  // namespace
 
-void Panels::divide(const SparseMatrix& lower) {
+void Panels::divide(const SparseMatrix& lower, std::span<const int> breaks) {
   ColumnRows columns(lower);
   const auto size = static_cast<int>(lower.cols());
   std::vector<int> united, wider, merged;
@@ -75,7 +79,9 @@ void Panels::divide(const SparseMatrix& lower) {
     united = columns.of(first);
     wider = united;
     int width = 1, entries = static_cast<int>(united.size());
-    for (int next = 1; next < widest && first + next < size; ++next) {
+    const auto stop = std::ranges::upper_bound(breaks, first);
+    const int most = std::min(widest, (stop == breaks.end() ? size : *stop) - first);
+    for (int next = 1; next < most; ++next) {
       const int column = first + next;
       const std::vector<int>& more = columns.of(column);
       merged.clear();
@@ -120,45 +126,75 @@ void Panels::allocate() {
 }
 
 /// Panel after panel. Each finished one waits at the panel that holds the first of its rows that has not been served,
-/// which takes its product and passes it on.
+/// which takes its product and passes it on; what goes on to another task waits until that is made. Tasks that do not
+/// need each other are made by several threads, and the last ones, of large panels, one by one, where threads share the
+/// rows of a panel. Who adds what in which order does not depend on that.
 class Panels::Making {
  public:
   Making(Panels& panels, const SparseMatrix& lower)
       : p_(panels),
         a_(lower),
+        tasks_(p_.tasks_),
         waiting_(p_.panels_.size(), -1),
         next_(p_.panels_.size(), -1),
-        served_(p_.panels_.size(), 0),
-        place_(static_cast<std::size_t>(lower.cols()), -1) {}
+        served_(p_.panels_.size(), 0) {
+    if (tasks_.empty()) tasks_.push_back({0, static_cast<int>(p_.panels_.size()), -1, {}, 0, {}});
+    passed_.resize(tasks_.size());
+  }
 
   /// False: a pivot is not positive, or no number, or somebody asks to stop. Whatever is not finite in a row reaches
   /// the pivot of that row.
   bool run() {
-    for (const int k : p_.all_) {
-      if (Interruption::asked_for()) return false;
-      const Panel& panel = p_.panels_[static_cast<std::size_t>(k)];
-      const std::span<const int> below = p_.below(panel);
-      for (std::size_t i = 0; i < below.size(); ++i) place_[static_cast<std::size_t>(below[i])] = static_cast<int>(i);
-      put_entries(panel);
-      for (int earlier = waiting_[static_cast<std::size_t>(k)]; earlier >= 0;) {
-        const int following = next_[static_cast<std::size_t>(earlier)];
-        take_product(panel, earlier);
-        pass_on(earlier);
-        earlier = following;
-      }
-      if (!factor_triangle(panel)) return false;
-      divide_rows(panel);
-      for (const int row : below) place_[static_cast<std::size_t>(row)] = -1;
-      pass_on(k);
+    std::vector<int> shared, alone;
+    std::vector<int> depth(tasks_.size(), 0);
+    for (std::size_t k = tasks_.size(); k-- > 0;) {
+      if (tasks_[k].parent >= 0) depth[k] = depth[static_cast<std::size_t>(tasks_[k].parent)] + 1;
     }
-    return true;
+    for (std::size_t k = 0; k < tasks_.size(); ++k) {
+      if (depth[k] < last_levels) alone.push_back(static_cast<int>(k));
+    }
+    for (const int k : p_.work_order_) {
+      if (depth[static_cast<std::size_t>(k)] >= last_levels) shared.push_back(k);
+    }
+    const auto children = [&](int k) { return std::span(std::as_const(tasks_[static_cast<std::size_t>(k)].children)); };
+    detail::parallel_in_order(shared, tasks_.size(), true, children, [&](int k) { make(k); });
+    for (const int k : alone) make(k);
+    return !stopped_;
   }
 
  private:
+  static constexpr int last_levels = 2;  // of tasks that are made one by one
+
+  /// A task's panels. What goes wrong ends all tasks.
+  void make(int number) {
+    const Task& task = tasks_[static_cast<std::size_t>(number)];
+    std::vector<int>& passed = passed_[static_cast<std::size_t>(number)];
+    for (const int child : task.children) {
+      for (const int panel : passed_[static_cast<std::size_t>(child)]) pass_on(panel, task, passed);
+    }
+    std::vector<int> place(static_cast<std::size_t>(a_.cols()), -1);
+    for (int k = task.begin; k < task.end; ++k) {
+      if (Interruption::asked_for()) stopped_ = true;
+      if (stopped_) return;
+      const Panel& panel = p_.panels_[static_cast<std::size_t>(k)];
+      const std::span<const int> below = p_.below(panel);
+      for (std::size_t i = 0; i < below.size(); ++i) place[static_cast<std::size_t>(below[i])] = static_cast<int>(i);
+      put_entries(panel, place);
+      take_products(panel, k, place, task, passed);
+      if (!factor_triangle(panel)) {
+        stopped_ = true;
+        return;
+      }
+      divide_rows(panel);
+      for (const int row : below) place[static_cast<std::size_t>(row)] = -1;
+      pass_on(k, task, passed);
+    }
+  }
+
   [[nodiscard]] double* triangle(const Panel& panel) { return panel.value; }
   [[nodiscard]] double* rows(const Panel& panel) { return triangle(panel) + panel.width * (panel.width + 1) / 2; }
 
-  void put_entries(const Panel& panel) {
+  void put_entries(const Panel& panel, const std::vector<int>& place) {
     for (int j = 0; j < panel.width; ++j) {
       for (SparseMatrix::InnerIterator it(a_, panel.first + j); it; ++it) {
         const auto i = static_cast<int>(it.row()) - panel.first;
@@ -166,25 +202,72 @@ class Panels::Making {
         double& to =
             i < panel.width
                 ? triangle(panel)[i * (i + 1) / 2 + j]
-                : rows(
-                      panel)[static_cast<std::ptrdiff_t>(panel.width) * place_[static_cast<std::size_t>(it.row())] + j];
+                : rows(panel)[static_cast<std::ptrdiff_t>(panel.width) * place[static_cast<std::size_t>(it.row())] + j];
         to += it.value();
       }
     }
   }
 
-  /// Takes the product of an earlier panel's rows from the one that holds the first of them.
-  void take_product(const Panel& panel, int number) {
+  /// The rows of an earlier panel from the first on that is a column of a later one, and those of them that are, by
+  /// columns there.
+  struct Product {
+    const double* l;
+    std::span<const int> rows;
+    int width;
+    double factors[widest * widest];
+  };
+
+  /// Takes the products of all panels that wait at this one.
+  void take_products(const Panel& panel, int number, const std::vector<int>& place, const Task& task,
+                     std::vector<int>& passed) {
+    const int first = waiting_[static_cast<std::size_t>(number)];
+    double work = 0;
+    for (int k = first; k >= 0; k = next_[static_cast<std::size_t>(k)]) {
+      const Panel& earlier = p_.panels_[static_cast<std::size_t>(k)];
+      work += earlier.width * (earlier.rows - served_[static_cast<std::size_t>(k)]);
+    }
+    const std::ptrdiff_t size = detail::block_size(panel.rows, work * panel.width / (panel.rows + 1), 16);
+    const bool at_once = size >= panel.rows;
+    std::vector<Product> products;
+    for (int k = first; k >= 0;) {
+      const int following = next_[static_cast<std::size_t>(k)];
+      const Product product = begin_product(panel, k);
+      if (at_once) {
+        update(panel, product, place);
+      } else {
+        products.push_back(product);
+      }
+      pass_on(k, task, passed);
+      k = following;
+    }
+    if (at_once) return;
+    const std::span<const int> below = p_.below(panel);
+    detail::parallel_for(panel.rows, size, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (const Product& whole : products) {
+        const auto from = std::ranges::lower_bound(whole.rows, below[static_cast<std::size_t>(begin)]);
+        const auto to = end < panel.rows
+                            ? std::lower_bound(from, whole.rows.end(), below[static_cast<std::size_t>(end)])
+                            : whole.rows.end();
+        Product part = whole;
+        part.l += part.width * (from - whole.rows.begin());
+        part.rows = std::span(from, to);
+        update(panel, part, place);
+      }
+    });
+  }
+
+  /// Serves those rows of an earlier panel that are columns of this one, and takes their product from its triangle.
+  Product begin_product(const Panel& panel, int number) {
     const Panel& earlier = p_.panels_[static_cast<std::size_t>(number)];
     int& served = served_[static_cast<std::size_t>(number)];
     const std::span<const int> left = p_.below(earlier).subspan(static_cast<std::size_t>(served));
-    const double* l = rows(earlier) + static_cast<std::ptrdiff_t>(earlier.width) * served;
-    double factors[widest * widest] = {};  // the rows that are columns here, by columns there
+    Product product{rows(earlier) + static_cast<std::ptrdiff_t>(earlier.width) * served, {}, earlier.width, {}};
+    double* const factors = product.factors;
     int count = 0;
     for (; count < static_cast<int>(left.size()) && left[static_cast<std::size_t>(count)] < panel.first + panel.width;
-         ++count, l += earlier.width) {
+         ++count, product.l += earlier.width) {
       const int i = left[static_cast<std::size_t>(count)] - panel.first;
-      for (int j = 0; j < earlier.width; ++j) factors[j * panel.width + i] = l[j];
+      for (int j = 0; j < earlier.width; ++j) factors[j * panel.width + i] = product.l[j];
     }
     double* to = triangle(panel);
     for (int i = 0; i < panel.width; ++i) {
@@ -193,16 +276,26 @@ class Panels::Making {
       }
     }
     served += count;
-    p_.kernels_->update[earlier.width - 1][panel.width - 1](l, left.data() + count, earlier.rows - served,
-                                                            place_.data(), factors, rows(panel));
+    product.rows = left.subspan(static_cast<std::size_t>(count));
+    return product;
   }
 
-  void pass_on(int number) {
+  /// Takes a product from the rows below a panel.
+  void update(const Panel& panel, const Product& product, const std::vector<int>& place) {
+    p_.kernels_->update[product.width - 1][panel.width - 1](product.l, product.rows.data(),
+                                                            static_cast<std::ptrdiff_t>(product.rows.size()),
+                                                            place.data(), product.factors, rows(panel));
+  }
+
+  /// To the panel of the first row that has not been served; `passed`: if that is of another task than this.
+  void pass_on(int number, const Task& task, std::vector<int>& passed) {
     const Panel& panel = p_.panels_[static_cast<std::size_t>(number)];
     const int served = served_[static_cast<std::size_t>(number)];
     if (served == panel.rows) return;
     const int row = p_.rows_[static_cast<std::size_t>(panel.row + served)];
-    int& waiting = waiting_[static_cast<std::size_t>(p_.panel_of_[static_cast<std::size_t>(row)])];
+    const int at = p_.panel_of_[static_cast<std::size_t>(row)];
+    if (at >= task.end) return passed.push_back(number);
+    int& waiting = waiting_[static_cast<std::size_t>(at)];
     next_[static_cast<std::size_t>(number)] = waiting;
     waiting = number;
   }
@@ -238,17 +331,25 @@ class Panels::Making {
 
   Panels& p_;
   const SparseMatrix& a_;
-  std::vector<int> waiting_, next_;  // the first panel that waits at each, and the next one that waits there, too
-  std::vector<int> served_;          // how many of its rows have been columns
-  std::vector<int> place_;           // of the present panel's rows below it
+  std::vector<Task> tasks_;
+  std::vector<int> waiting_, next_;       // the first panel that waits at each, and the next one that waits there, too
+  std::vector<int> served_;               // how many of its rows have been columns
+  std::vector<std::vector<int>> passed_;  // by each task to those behind it
+  std::atomic<bool> stopped_ = false;
 };
 
-std::optional<Panels> Panels::factor(const SparseMatrix& lower, InstructionSet set) {
+std::optional<Panels> Panels::factor(const SparseMatrix& lower, InstructionSet set, const Dissection* dissection) {
   Panels panels;
   panels.kernels_ = &panel_kernels_of(set);
-  panels.divide(lower);
+  std::vector<int> breaks;
+  if (dissection != nullptr) {
+    for (const Dissection::Node& node : dissection->nodes) breaks.push_back(node.begin);
+  }
+  panels.divide(lower, breaks);
   if (Interruption::asked_for()) return std::nullopt;
+  if (dissection != nullptr && dissection->nodes.size() > 1) panels.make_tasks(*dissection);
   if (!Making(panels, lower).run()) return std::nullopt;
+  panels.separate_tasks();
   return panels;
 }
 

@@ -4,13 +4,15 @@
 #include <cstddef>
 #include <span>
 
-#include "simd/panel_kernels.hpp"
-
 namespace knead {
 
 std::vector<int> Panels::reach(std::span<const int> rows) const {
   std::vector<char> marked(panels_.size(), 0);
-  const auto mark = [&](int row) { marked[static_cast<std::size_t>(panel_of_[static_cast<std::size_t>(row)])] = 1; };
+  const auto size = static_cast<int>(panel_of_.size());
+  const auto mark = [&](int row) {
+    if (row >= size) row = original_[static_cast<std::size_t>(row - size)];
+    marked[static_cast<std::size_t>(panel_of_[static_cast<std::size_t>(row)])] = 1;
+  };
   for (const int row : rows) mark(row);
   std::vector<int> result;
   for (std::size_t k = 0; k < panels_.size(); ++k) {
@@ -31,24 +33,6 @@ std::size_t Panels::stored() const {
 }
 
 template <int columns>
-void Panels::forward(double* x, std::span<const int> panels) const {
-  const auto& kernels = columns == 1 ? kernels_->down_one : kernels_->down_four;
-  for (const int k : panels) {
-    const Panel& p = panels_[static_cast<std::size_t>(k)];
-    kernels[p.width - 1](p.value, rows_.data() + p.row, p.rows, x, x + columns * static_cast<std::ptrdiff_t>(p.first));
-  }
-}
-
-template <int columns>
-void Panels::backward(double* x, std::span<const int> panels) const {
-  const auto& kernels = columns == 1 ? kernels_->up_one : kernels_->up_four;
-  for (std::size_t k = panels.size(); k-- > 0;) {
-    const Panel& p = panels_[static_cast<std::size_t>(panels[k])];
-    kernels[p.width - 1](p.value, rows_.data() + p.row, p.rows, x, x + columns * static_cast<std::ptrdiff_t>(p.first));
-  }
-}
-
-template <int columns>
 void Panels::clear(double* x, std::span<const int> panels) const {
   for (const int k : panels) {
     const Panel& p = panels_[static_cast<std::size_t>(k)];
@@ -65,10 +49,6 @@ void Panels::copy(const double* from, double* to, std::span<const int> panels) c
   }
 }
 
-template void Panels::forward<1>(double*, std::span<const int>) const;
-template void Panels::forward<4>(double*, std::span<const int>) const;
-template void Panels::backward<1>(double*, std::span<const int>) const;
-template void Panels::backward<4>(double*, std::span<const int>) const;
 template void Panels::clear<1>(double*, std::span<const int>) const;
 template void Panels::clear<4>(double*, std::span<const int>) const;
 template void Panels::copy<1>(const double*, double*, std::span<const int>) const;

@@ -1,8 +1,8 @@
 #include "knead/solve/sparse_cholesky.hpp"
 
-#include <Eigen/OrderingMethods>
 #include <cstdint>
 
+#include "knead/solve/dissection.hpp"
 #include "panels.hpp"
 
 namespace knead {
@@ -12,30 +12,41 @@ struct SparseCholesky::Factor {
   Eigen::VectorXi order;  // order[i] = position of unknown i in the reordered system
 };
 
-Expected<SparseCholesky> SparseCholesky::factor(SparseMatrix&& a) {
-  using Order = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
-  Order inverse;
+namespace {
+
+/// In the order that `order` finds for the whole matrix, which is emptied.
+template <class Order>
+Expected<SparseCholesky> factor_by(SparseMatrix&& a, const Order& order) {
+  Dissection dissection;
   {
     const SparseMatrix whole = a.selfadjointView<Eigen::Lower>();
-    Eigen::AMDOrdering<int>()(whole, inverse);
+    dissection = order(whole);
   }
-  const Order order = inverse.inverse();
   SparseMatrix lower(a.rows(), a.cols());
-  lower.selfadjointView<Eigen::Lower>() = a.selfadjointView<Eigen::Lower>().twistedBy(order);
+  lower.selfadjointView<Eigen::Lower>() =
+      a.selfadjointView<Eigen::Lower>().twistedBy(Eigen::PermutationMatrix<Eigen::Dynamic>(dissection.order));
   SparseMatrix().swap(a);
-  return factor_in_order(lower, order.indices());
+  return SparseCholesky::factor_in_order(lower, std::move(dissection));
 }
 
-Expected<SparseCholesky> SparseCholesky::factor_in_order(const SparseMatrix& lower, Eigen::VectorXi order) {
-  auto panels = Panels::factor(lower);
+}  // namespace
+
+Expected<SparseCholesky> SparseCholesky::factor(SparseMatrix&& a) {
+  return factor_by(std::move(a), [](const SparseMatrix& whole) { return minimum_degree(whole); });
+}
+
+Expected<SparseCholesky> SparseCholesky::factor(SparseMatrix&& a, const GridPlaces& places) {
+  return factor_by(std::move(a), [&](const SparseMatrix& whole) { return dissect(whole, places); });
+}
+
+Expected<SparseCholesky> SparseCholesky::factor_in_order(const SparseMatrix& lower, Dissection dissection) {
+  auto panels = Panels::factor(lower, best_instruction_set(), &dissection);
   if (!panels) {
     return numerical_error("the system matrix is not positive definite", "Cholesky factorisation",
                            "hold more control points, or use a larger lambda or positive material coefficients");
   }
-  auto factor = std::make_shared<Factor>();
-  factor->order = std::move(order);
-  factor->panels = std::move(*panels);
-  return SparseCholesky(std::move(factor), static_cast<int>(lower.rows()));
+  return SparseCholesky(std::make_shared<const Factor>(std::move(*panels), std::move(dissection.order)),
+                        static_cast<int>(lower.rows()));
 }
 
 Expected<SparseCholesky> SparseCholesky::factor(const SparseMatrix& a) { return factor(SparseMatrix(a)); }
@@ -80,7 +91,7 @@ void take(const Work<Values>& y, int row, Values& x, Eigen::Index to) {
 
 template <class Values>
 Values whole(const Panels& panels, const Eigen::VectorXi& order, const Values& b) {
-  Work<Values> y(b.rows());
+  Work<Values> y(panels.work_rows());
   for (Eigen::Index i = 0; i < b.rows(); ++i) put<Values>(y, order[i], b, i);
   panels.forward<columns<Values>>(y.data(), panels.all());
   panels.backward<columns<Values>>(y.data(), panels.all());
@@ -90,8 +101,8 @@ Values whole(const Panels& panels, const Eigen::VectorXi& order, const Values& b
 }
 
 template <class Values>
-Values within(const Panels& panels, const SparseCholesky::Part& part, int size, const Values& b) {
-  Work<Values> y(size);
+Values within(const Panels& panels, const SparseCholesky::Part& part, const Values& b) {
+  Work<Values> y(panels.work_rows());
   panels.clear<columns<Values>>(y.data(), part.panels);
   for (std::size_t k = 0; k < part.rows.size(); ++k) put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
   panels.forward<columns<Values>>(y.data(), part.panels);
@@ -103,7 +114,7 @@ Values within(const Panels& panels, const SparseCholesky::Part& part, int size, 
 
 template <class Values>
 SparseCholesky::Half first_half(const Panels& panels, const Eigen::VectorXi& order, const Values& b) {
-  Work<Values> y(b.rows());
+  Work<Values> y(panels.work_rows());
   for (Eigen::Index i = 0; i < b.rows(); ++i) put<Values>(y, order[i], b, i);
   panels.forward<columns<Values>>(y.data(), panels.all());
   SparseCholesky::Half half;
@@ -115,7 +126,7 @@ SparseCholesky::Half first_half(const Panels& panels, const Eigen::VectorXi& ord
 template <class Values>
 void second_half_within(const Panels& panels, const SparseCholesky::Part& part, const SparseCholesky::Half& z,
                         Values& x) {
-  Work<Values> y(z.values.size() / columns<Values>);
+  Work<Values> y(panels.work_rows());
   panels.copy<columns<Values>>(z.values.data(), y.data(), part.panels);
   panels.backward<columns<Values>>(y.data(), part.panels);
   x.resize(static_cast<Eigen::Index>(part.rows.size()), x.cols());
@@ -125,7 +136,7 @@ void second_half_within(const Panels& panels, const SparseCholesky::Part& part, 
 template <class Values>
 void second_half(const Panels& panels, const Eigen::VectorXi& order, const SparseCholesky::Half& z, double share,
                  const SparseCholesky::Part& part, const Values& b, Values& x) {
-  Work<Values> y(order.size());
+  Work<Values> y(panels.work_rows());
   y.clear();
   for (std::size_t k = 0; k < part.rows.size(); ++k) put<Values>(y, part.rows[k], b, static_cast<Eigen::Index>(k));
   panels.forward<columns<Values>>(y.data(), part.panels);
@@ -150,10 +161,10 @@ SparseCholesky::Part SparseCholesky::part(std::span<const int> unknowns) const {
 }
 
 Points SparseCholesky::solve_within(const Part& part, const Points& b) const {
-  return within(factor_->panels, part, size_, b);
+  return within(factor_->panels, part, b);
 }
 Eigen::VectorXd SparseCholesky::solve_within(const Part& part, const Eigen::VectorXd& b) const {
-  return within(factor_->panels, part, size_, b);
+  return within(factor_->panels, part, b);
 }
 
 SparseCholesky::Half SparseCholesky::forward(const Points& b) const {

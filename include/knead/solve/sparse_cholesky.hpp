@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knead/energy/stiffness.hpp"
+#include "knead/solve/dissection.hpp"
 
 namespace knead {
 
@@ -16,9 +17,12 @@ class SparseCholesky {
   /// The same where A is needed no longer: it is emptied before L is made, which takes several times its memory.
   [[nodiscard]] static Expected<SparseCholesky> factor(SparseMatrix&& a);
 
-  /// The factor of a matrix that is in the order of its factor, in which unknown i has the place order[i]; its lower
-  /// triangle is used.
-  [[nodiscard]] static Expected<SparseCholesky> factor_in_order(const SparseMatrix& lower, Eigen::VectorXi order);
+  /// The same by nested dissection, where it is known on which grids the unknowns lie: of
+  /// large grids L has fewer entries, and threads share its making and its use, with the same bits for any number.
+  [[nodiscard]] static Expected<SparseCholesky> factor(SparseMatrix&& a, const GridPlaces& places);
+
+  /// The factor of a matrix that is in the order of its factor; its lower triangle is used.
+  [[nodiscard]] static Expected<SparseCholesky> factor_in_order(const SparseMatrix& lower, Dissection dissection);
 
   /// X with A X = B, three columns at once. Cost: O(nonzeros of L). const and thread-safe.
   [[nodiscard]] Points solve(const Points& b) const;
