@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "double_double.hpp"
 #include "methods.hpp"
 #include "simd/kernels.hpp"
 #include "span_basis.hpp"
@@ -8,32 +9,41 @@
 namespace knead::detail {
 namespace {
 
-/// Adds the contribution of span s to the terms of functions whose common support extends beyond the domain.
+using Values = SpanValues<double>[3];
+
+/// The functions on span s and their first two derivatives at t, of which the smaller of t and 1 − t is given.
 ///
-/// In extended precision: near the end of a support the two terms of a derivative nearly cancel, and their rounding
+/// In twice the precision: near the end of a support the two terms of a derivative nearly cancel, and their rounding
 /// errors would matter relative to the small remaining integral.
+void exact_values(const KnotVector& knots, int s, double t, double complement, Values& out) {
+  const DoubleDouble one = 1;
+  const DoubleDouble from_left = t < complement ? t : one - complement, from_right = one - from_left;
+  const int p = knots.degree(), orders[3] = {0, 1, 2};
+  SpanValues<DoubleDouble> values[3];
+  span_basis(knots, s, from_left, from_right, orders, 3, values);
+  for (int d = 0; d < 3; ++d) {
+    for (int r = 0; r <= p; ++r) out[d][r] = static_cast<double>(values[d][r]);
+  }
+}
+
+/// Adds the contribution of span s to the terms of functions whose common support extends beyond the domain.
 template <class Cut>
 void add_span(const KnotVector& knots, int s, GramianSet& set, Cut cut) {
-  using Real = long double;
-  const int p = knots.degree(), orders[3] = {0, 1, 2};
-  const UnitGaussRule<Real> rule = unit_gauss<Real>(p + 1);
-  const Real h = Real(knots[s + 1]) - Real(knots[s]);
-  SpanValues<Real> values[3];
+  const int p = knots.degree();
+  const UnitGaussRule<double> rule = unit_gauss<double>(p + 1);
+  Values values;
   for (std::size_t g = 0; g < rule.t.size(); ++g) {
-    span_basis(knots, s, rule.t[g], rule.complement[g], orders, 3, values);
-    const Real weight = h * rule.weights[g];
+    exact_values(knots, s, rule.t[g], rule.complement[g], values);
+    const double weight = (knots[s + 1] - knots[s]) * rule.weights[g];
     for (int b = 0; b <= p; ++b) {
       for (int a = 0; a <= b; ++a) {
         const int i = s - p + a, j = s - p + b;
         if (!cut(i, j)) continue;
-        const auto add = [&](BandMatrix& matrix, int row, int column, Real f, Real g_) {
-          matrix.at(row, column) += static_cast<double>(weight * f * g_);
-        };
-        add(set.g00, i, j, values[0][a], values[0][b]);
-        add(set.g11, i, j, values[1][a], values[1][b]);
-        add(set.g22, i, j, values[2][a], values[2][b]);
-        add(set.g10, i, j, values[1][a], values[0][b]);
-        if (i != j) add(set.g10, j, i, values[1][b], values[0][a]);
+        set.g00.at(i, j) += weight * values[0][a] * values[0][b];
+        set.g11.at(i, j) += weight * values[1][a] * values[1][b];
+        set.g22.at(i, j) += weight * values[2][a] * values[2][b];
+        set.g10.at(i, j) += weight * values[1][a] * values[0][b];
+        if (i != j) set.g10.at(j, i) += weight * values[1][b] * values[0][a];
       }
     }
   }

@@ -4,8 +4,8 @@
 
 namespace knead::detail {
 
-/// Gauss–Legendre on [0, 1]: t, 1 − t and the weight, each correct to a relative ulp (of extended precision up to a
-/// few). On short spans and for high degrees basis functions need 1 − t as exactly as t; taking it from the rule on
+/// Gauss–Legendre on [0, 1]: t, 1 − t and the weight, each correct to a relative ulp. On short spans and for high
+/// degrees basis functions need 1 − t as exactly as t; taking it from the rule on
 /// [-1, 1] would lose digits near both ends.
 template <class Real>
 struct UnitGaussRule {
@@ -14,11 +14,10 @@ struct UnitGaussRule {
 
 inline constexpr int max_unit_gauss_points = 64;
 
-/// 1 <= points <= max_unit_gauss_points (asserted), Real double or long double. Cost: a look-up after the first use.
+/// 1 <= points <= max_unit_gauss_points (asserted), Real double. Cost: a look-up after the first use.
 template <class Real>
 [[nodiscard]] UnitGaussRule<Real> unit_gauss(int points);
 
 extern template UnitGaussRule<double> unit_gauss<double>(int);
-extern template UnitGaussRule<long double> unit_gauss<long double>(int);
 
 }  // namespace knead::detail
