@@ -95,10 +95,13 @@ void read_gramians(const std::string& directory, Figures& figures) {
   std::ifstream file(directory + "/gramian.md");
   for (std::string line; std::getline(file, line);) {
     const auto row = cells(line);
-    if (row.size() < 7 || row[0] != "3" || row[1] != "10000") continue;
-    const double ratio = std::atof(row[6].c_str());
-    if (row[2] == "equal lengths") figures["gramian_vs_gauss_p3"] = ratio;
-    if (row[2] == "random lengths, exponential") figures["gramian_vs_gauss_p3_random"] = ratio;
+    if (row.size() < 8 || row[0] != "3" || row[1] != "10000") continue;
+    const auto figure = [&](const std::string& suffix) {
+      figures["gramian_vs_gauss_p3" + suffix] = std::atof(row[6].c_str());
+      figures["gramian_vs_gauss_reduced_p3" + suffix] = std::atof(row[7].c_str());
+    };
+    if (row[2] == "equal lengths") figure("");
+    if (row[2] == "random lengths, exponential") figure("_random");
   }
 }
 

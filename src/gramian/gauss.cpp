@@ -15,14 +15,15 @@ BandMatrix gauss_gramian(const KnotVector& knots, int a, int b, int points) {
   return result;
 }
 
-void reduced_gauss_gramians(const KnotVector& knots, GramianSet& set) {
-  const auto term = [&](int a, int b) { return gauss_gramian(knots, a, b, sufficient_points(knots.degree(), a, b)); };
-  set = {term(0, 0), term(1, 1), term(2, 2), term(1, 0)};
+bool has_gauss_kernels(const KnotVector& knots) {
+  constexpr int highest_kernel = 7;
+  return knots.degree() <= highest_kernel && within_kernel_range(knots);
 }
 
-GaussPoints gauss_points(int degree) {
+GaussPoints gauss_points(int count) {
   GaussPoints points{};
-  const UnitGaussRule<double> rule = unit_gauss<double>(degree + 1);
+  if (count == 0) return points;
+  const UnitGaussRule<double> rule = unit_gauss<double>(count);
   for (std::size_t g = 0; g < rule.t.size(); ++g) {
     points.t[g] = rule.t[g];
     points.complement[g] = rule.complement[g];
@@ -31,17 +32,33 @@ GaussPoints gauss_points(int degree) {
   return points;
 }
 
+std::array<GaussPoints, 3> reduced_gauss_points(int degree) {
+  return {gauss_points(degree + 1), gauss_points(degree), gauss_points(degree - 1)};
+}
+
 void gauss_gramians(const KnotVector& knots, InstructionSet instructions, GramianSet& set) {
-  constexpr int highest_kernel = 7;
   const int p = knots.degree();
-  if (p > highest_kernel || !within_kernel_range(knots)) {
+  if (!has_gauss_kernels(knots)) {
     const auto term = [&](int a, int b) { return gauss_gramian(knots, a, b, p + 1); };
     set = {term(0, 0), term(1, 1), term(2, 2), term(1, 0)};
     return;
   }
   resize(set, knots);
   const KernelCall call(knots, set);
-  kernels_of(instructions).gauss(call.knots(), p, gauss_points(p), call.output());
+  kernels_of(instructions).gauss(call.knots(), p, gauss_points(p + 1), call.output());
+  cut_to_domain(knots, set);
+}
+
+void reduced_gauss_gramians(const KnotVector& knots, InstructionSet instructions, GramianSet& set) {
+  const int p = knots.degree();
+  if (!has_gauss_kernels(knots)) {
+    const auto term = [&](int a, int b) { return gauss_gramian(knots, a, b, sufficient_points(p, a, b)); };
+    set = {term(0, 0), term(1, 1), term(2, 2), term(1, 0)};
+    return;
+  }
+  resize(set, knots);
+  const KernelCall call(knots, set);
+  kernels_of(instructions).gauss_reduced(call.knots(), p, reduced_gauss_points(p).data(), call.output());
   cut_to_domain(knots, set);
 }
 

@@ -63,7 +63,9 @@ Expected<BandMatrix> gramian(const KnotVector& knots, int a, int b, GramianMetho
     case GramianMethod::analytic:
       return detail::analytic_gramian(knots, a, b);
     case GramianMethod::gauss_reduced:
-      return detail::gauss_gramian(knots, a, b, detail::sufficient_points(knots.degree(), a, b));
+      return is_kernel_term(a, b) && detail::has_gauss_kernels(knots)
+                 ? by_kernel(knots, a, b, method)
+                 : detail::gauss_gramian(knots, a, b, detail::sufficient_points(knots.degree(), a, b));
     case GramianMethod::gauss:
       return is_kernel_term(a, b) ? by_kernel(knots, a, b, method) : detail::gauss_gramian(knots, a, b, full);
     case GramianMethod::recurrence:
@@ -83,7 +85,7 @@ void recompute_gramians(const KnotVector& knots, GramianMethod method, GramianSe
     case GramianMethod::gauss:
       return detail::gauss_gramians(knots, instructions, set);
     case GramianMethod::gauss_reduced:
-      return detail::reduced_gauss_gramians(knots, set);
+      return detail::reduced_gauss_gramians(knots, instructions, set);
     case GramianMethod::recurrence:
       return detail::recurrence_gramians(knots, instructions, set);
     case GramianMethod::analytic:

@@ -20,8 +20,11 @@ class KernelCall {
   KernelOutput output_;
 };
 
-/// The p + 1 points that the Gauss kernels need.
-[[nodiscard]] GaussPoints gauss_points(int degree);
+/// `count` points as the Gauss kernels need them.
+[[nodiscard]] GaussPoints gauss_points(int count);
+
+/// The rules of the reduced Gauss kernels.
+[[nodiscard]] std::array<GaussPoints, 3> reduced_gauss_points(int degree);
 
 /// Matrices of the right size for the four terms; those that already fit are kept, whatever their content.
 void resize(GramianSet& set, const KnotVector& knots);

@@ -14,8 +14,11 @@ namespace knead::detail {
   return a + b > 2 * degree ? 1 : (2 * degree - a - b) / 2 + 1;
 }
 
-/// All four terms, each with as many Gauss points as it needs.
-void reduced_gauss_gramians(const KnotVector& knots, GramianSet& set);
+/// All four terms, each with as many Gauss points as it needs, into matrices of any size.
+void reduced_gauss_gramians(const KnotVector& knots, InstructionSet instructions, GramianSet& set);
+
+/// Whether the Gauss kernels compute these Gramians: degrees to 7 whose knots are `within_kernel_range`.
+[[nodiscard]] bool has_gauss_kernels(const KnotVector& knots);
 
 /// G^ab for any a, b >= 0 from jumps and repeated integrals (thesis Alg. 5.5, corrected).
 [[nodiscard]] BandMatrix analytic_gramian(const KnotVector& knots, int a, int b);

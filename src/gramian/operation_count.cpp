@@ -10,6 +10,7 @@
 #define KNEAD_ISA isa_counting
 #define KNEAD_LANES 1
 #include "simd/gauss.inc"
+#include "simd/gauss_reduced.inc"
 #include "simd/kernels.inc"
 
 namespace knead {
@@ -21,7 +22,7 @@ OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
       detail::Analytic<Counted>(knots).accumulate(a, b, [](int, int, Counted) {});
       if (a != b) detail::Analytic<Counted>(knots).accumulate(b, a, [](int, int, Counted) {});
     }
-  } else if (method == GramianMethod::gauss_reduced) {
+  } else if (method == GramianMethod::gauss_reduced && !detail::has_gauss_kernels(knots)) {
     Counted sum = 0;
     for (const auto& [a, b] : {std::pair{0, 0}, {1, 1}, {2, 2}, {1, 0}}) {
       detail::accumulate_gauss<Counted>(knots, a, b, detail::sufficient_points(knots.degree(), a, b),
@@ -33,9 +34,12 @@ OperationCount count_operations(const KnotVector& knots, GramianMethod method) {
     const detail::KernelCall call(knots, set);
     if (method == GramianMethod::recurrence) {
       detail::isa_counting::kernels.recurrence(call.knots(), knots.degree(), call.output());
-    } else {
-      detail::isa_counting::kernels.gauss(call.knots(), knots.degree(), detail::gauss_points(knots.degree()),
+    } else if (method == GramianMethod::gauss) {
+      detail::isa_counting::kernels.gauss(call.knots(), knots.degree(), detail::gauss_points(knots.degree() + 1),
                                           call.output());
+    } else {
+      detail::isa_counting::kernels.gauss_reduced(call.knots(), knots.degree(),
+                                                  detail::reduced_gauss_points(knots.degree()).data(), call.output());
     }
   }
   return Counted::count();

@@ -21,6 +21,13 @@ TEST(OperationCount, of_the_recurrence_is_the_smallest_at_every_degree) {
   }
 }
 
+// One more point for one of the terms would cost at least 2 (p + 1)(p + 2)/2 operations.
+TEST(OperationCount, of_reduced_gauss_is_that_of_the_points_that_the_terms_need) {
+  EXPECT_NEAR(per_row(2, GramianMethod::gauss_reduced), 189, 3);
+  EXPECT_NEAR(per_row(3, GramianMethod::gauss_reduced), 499, 3);
+  EXPECT_NEAR(per_row(5, GramianMethod::gauss_reduced), 1884, 3);
+}
+
 TEST(OperationCount, of_a_cubic_row_is_that_of_the_formulas) {
   EXPECT_NEAR(per_row(3, GramianMethod::recurrence), 135, 15);
   const OperationCount count = count_operations(testing::uniform_clamped(3, 300), GramianMethod::recurrence);

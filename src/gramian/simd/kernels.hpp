@@ -30,7 +30,7 @@ struct KernelOutput {
   double* lower10[max_kernel_degree + 1];  ///< lower10[s − 1]
 };
 
-/// The p + 1 Gauss points on [0, 1]: t, 1 − t and the root of the weight.
+/// Up to p + 1 Gauss points on [0, 1]: t, 1 − t and the root of the weight.
 struct GaussPoints {
   double t[max_kernel_degree + 1], complement[max_kernel_degree + 1], root_weight[max_kernel_degree + 1];
 };
@@ -43,6 +43,8 @@ struct GramianKernels {
   /// All four terms by p + 1 Gauss points over spans p … n − 1, the domain; p = 1 … 7. The lower half of 10 is minus
   /// the upper one, which is correct except where an unclamped domain cuts both functions.
   void (*gauss)(const KernelKnots& knots, int degree, const GaussPoints& points, const KernelOutput& out);
+  /// The same by as many points as each term needs: `points` are three rules with p + 1, p and p − 1.
+  void (*gauss_reduced)(const KernelKnots& knots, int degree, const GaussPoints* points, const KernelOutput& out);
 };
 
 // Null if the compiler does not target the instruction set.
