@@ -1,5 +1,9 @@
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+#include <random>
+#include <vector>
+
 #include "knead/energy/field_assembler.hpp"
 
 namespace {
@@ -104,6 +108,33 @@ void rational(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(assembler.assemble(e)->valuePtr());
 }
 
+/// Knots of 1000 functions on [0, 1], of spans of random lengths.
+KnotVector random_knots(int p, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::exponential_distribution<double> length(1);
+  std::vector<double> knots(static_cast<std::size_t>(p + 1), 0.0);
+  for (int k = p + 1; k < 1000; ++k) knots.push_back(knots.back() + 0.01 + length(random));
+  const double last = knots.back() + 1;
+  for (double& knot : knots) knot /= last;
+  knots.insert(knots.end(), static_cast<std::size_t>(p + 1), 1.0);
+  return *KnotVector::create(p, knots);
+}
+
+/// Between two knot vectors that have no inner knot in common; the argument is the degree of both.
+void triple_gramians(benchmark::State& state) {
+  const int p = static_cast<int>(state.range(0));
+  const KnotVector knots = random_knots(p, 1), coefficient = random_knots(p, 2);
+  for (auto _ : state) benchmark::DoNotOptimize(triple_gramian(coefficient, knots, 1, 1)->coefficient_count());
+}
+
+void mixed_gramians(benchmark::State& state) {
+  const int p = static_cast<int>(state.range(0));
+  const KnotVector rows = random_knots(p, 1), columns = random_knots(p, 2);
+  for (auto _ : state) benchmark::DoNotOptimize(mixed_gramian(rows, 0, columns, 0)->nonZeros());
+}
+
+BENCHMARK(triple_gramians)->Arg(2)->Arg(3)->Arg(5)->Unit(benchmark::kMicrosecond);
+BENCHMARK(mixed_gramians)->Arg(2)->Arg(3)->Arg(5)->Unit(benchmark::kMicrosecond);
 BENCHMARK(triple_products)->Arg(64)->Arg(20)->Unit(benchmark::kMillisecond);
 BENCHMARK(triple_products_cold)->Arg(64)->Arg(20)->Unit(benchmark::kMillisecond);
 BENCHMARK(gauss)->Arg(64)->Arg(20)->Unit(benchmark::kMillisecond);

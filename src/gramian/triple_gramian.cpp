@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "piece_basis.hpp"
 #include "pieces.hpp"
-#include "span_basis.hpp"
-#include "unit_gauss.hpp"
 
 namespace knead {
 namespace detail {
@@ -31,6 +31,10 @@ Expected<std::vector<Piece>> common_pieces(const KnotVector& first, const KnotVe
   return pieces;
 }
 
+const PieceKernels& piece_kernels(InstructionSet set) {
+  return avx2_piece_kernels != nullptr && set >= InstructionSet::avx2 ? *avx2_piece_kernels : *vector128_piece_kernels;
+}
+
 }  // namespace detail
 
 namespace {
@@ -44,6 +48,8 @@ Expected<int> points_for(int degree, int a, int b) {
   }
   return std::max(0, degree - a - b) / 2 + 1;
 }
+
+using Numbers = std::vector<double>;
 
 }  // namespace
 
@@ -77,88 +83,157 @@ BandMatrix TripleGramian::contract(std::span<const double> coefficients) const {
   return result;
 }
 
-Expected<TripleGramian> triple_gramian(const KnotVector& coefficient_knots, const KnotVector& knots, int a, int b) {
-  const int p = knots.degree(), q = coefficient_knots.degree(), n = knots.count();
-  const Expected<int> points = points_for(2 * p + q, a, b);
-  if (!points) return std::unexpected(points.error());
-  const auto pieces = detail::common_pieces(knots, coefficient_knots);
-  if (!pieces) return std::unexpected(pieces.error());
+namespace {
 
-  TripleGramian result;
-  result.size_ = n;
-  result.degree_ = p;
-  result.coefficient_count_ = coefficient_knots.count();
-  result.symmetric_ = a == b;
-  // First the coefficient functions that overlap each pair, then their integrals.
-  const std::size_t entries = static_cast<std::size_t>(n) * static_cast<std::size_t>(2 * p + 1);
-  std::vector<int> last(entries, -1);
-  result.first_.assign(entries, 0);
-  for (const detail::Piece& piece : *pieces) {
-    for (int i = piece.first_span - p; i <= piece.first_span; ++i) {
-      for (int j = piece.first_span - p; j <= piece.first_span; ++j) {
-        const std::size_t at = result.entry(i, j);
-        if (last[at] < 0) result.first_[at] = piece.second_span - q;
-        last[at] = piece.second_span;
-      }
-    }
-  }
-  result.offset_.assign(entries + 1, 0);
-  for (std::size_t at = 0; at < entries; ++at) {
-    result.offset_[at + 1] =
-        result.offset_[at] + (last[at] < 0 ? 0 : static_cast<std::size_t>(last[at] - result.first_[at] + 1));
-  }
-  result.values_.assign(result.offset_.back(), 0.0);
+/// The content of a triple Gramian while it is made: for each entry of the band of N_i and N_j, row by row, the first
+/// coefficient function and where the values begin.
+struct Runs {
+  int size, degree;
+  std::vector<int> first = {};
+  std::vector<std::size_t> offset = {};
+  Numbers values = {};
 
-  const detail::UnitGaussRule<double> rule = detail::unit_gauss<double>(*points);
-  const int orders[2] = {a, b}, none[1] = {0};
-  detail::SpanValues<double> f[2], c[1];
-  for (const detail::Piece& piece : *pieces) {
-    for (std::size_t g = 0; g < rule.t.size(); ++g) {
-      const double t = rule.t[g], complement = rule.complement[g];
-      detail::span_basis(knots, piece.first_span, piece.lower, piece.upper, t, complement, orders, 2, f);
-      detail::span_basis(coefficient_knots, piece.second_span, piece.lower, piece.upper, t, complement, none, 1, c);
-      const double weight = (piece.upper - piece.lower) * rule.weights[g];
-      for (int i = 0; i <= p; ++i) {
-        for (int j = 0; j <= p; ++j) {
-          const double factor = weight * f[0][i] * f[1][j];
-          const std::size_t at = result.entry(piece.first_span - p + i, piece.first_span - p + j);
-          double* values = result.values_.data() + result.offset_[at] + (piece.second_span - q - result.first_[at]);
-          for (int k = 0; k <= q; ++k) values[k] += factor * c[0][k];
+  /// The coefficient functions that overlap each pair, with integrals of zero.
+  Runs(const KnotVector& knots, int coefficient_degree, const std::vector<detail::Piece>& pieces)
+      : size(knots.count()), degree(knots.degree()) {
+    const std::size_t entries = static_cast<std::size_t>(size) * static_cast<std::size_t>(2 * degree + 1);
+    std::vector<int> last(entries, -1);
+    first.assign(entries, 0);
+    for (const detail::Piece& piece : pieces) {
+      for (int i = piece.first_span - degree; i <= piece.first_span; ++i) {
+        for (int j = piece.first_span - degree; j <= piece.first_span; ++j) {
+          const std::size_t at = entry(i, j);
+          if (last[at] < 0) first[at] = piece.second_span - coefficient_degree;
+          last[at] = piece.second_span;
         }
       }
     }
+    offset.assign(entries + 1, 0);
+    for (std::size_t at = 0; at < entries; ++at) {
+      offset[at + 1] = offset[at] + (last[at] < 0 ? 0 : static_cast<std::size_t>(last[at] - first[at] + 1));
+    }
+    values.assign(offset.back(), 0.0);
   }
+
+  [[nodiscard]] std::size_t entry(int i, int j) const {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(2 * degree + 1) +
+           static_cast<std::size_t>(j - i + degree);
+  }
+
+  /// Where the integral of function k with N_i and N_j is.
+  [[nodiscard]] double* value(int i, int j, int k) {
+    const std::size_t at = entry(i, j);
+    return values.data() + offset[at] + (k - first[at]);
+  }
+
+  /// The lower half is the upper one.
+  void mirror() {
+    for (int i = 0; i < size; ++i) {
+      for (int j = i + 1; j <= std::min(size - 1, i + degree); ++j) {
+        const std::size_t at = entry(i, j);
+        std::copy_n(values.data() + offset[at], offset[at + 1] - offset[at], values.data() + offset[entry(j, i)]);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+Expected<TripleGramian> triple_gramian(const KnotVector& coefficient_knots, const KnotVector& knots, int a, int b) {
+  const int p = knots.degree(), q = coefficient_knots.degree();
+  const Expected<int> count = points_for(2 * p + q, a, b);
+  if (!count) return std::unexpected(count.error());
+  const auto pieces = detail::common_pieces(knots, coefficient_knots);
+  if (!pieces) return std::unexpected(pieces.error());
+
+  Runs runs(knots, q, *pieces);
+  const detail::PieceKernels& kernels = detail::piece_kernels();
+  const detail::PiecePoints points(*count);
+  const std::ptrdiff_t n = points.padded();
+  detail::PieceBasis f(knots, a, points, kernels), other(knots, b, points, kernels),
+      c(coefficient_knots, 0, points, kernels);
+  const detail::PieceBasis& g = a == b ? f : other;
+  const auto functions = static_cast<std::size_t>(p + 1), pairs = functions * functions;
+  Numbers weighted(functions * points.t.size()), products(pairs * points.t.size());
+  std::vector<double*> to(pairs);
+  for (const detail::Piece& piece : *pieces) {
+    f.enter(piece.first_span, piece.lower, piece.upper);
+    if (a != b) other.enter(piece.first_span, piece.lower, piece.upper);
+    c.enter(piece.second_span, piece.lower, piece.upper);
+    kernels.weigh(piece.upper - piece.lower, points.weights.data(), f.values(), p + 1, n, weighted.data());
+    kernels.multiply(weighted.data(), g.values(), p + 1, a == b, n, products.data());
+    const int first = piece.first_span - p;
+    std::size_t pair = 0;
+    for (int i = 0; i <= p; ++i) {
+      for (int j = a == b ? i : 0; j <= p; ++j) to[pair++] = runs.value(first + i, first + j, piece.second_span - q);
+    }
+    kernels.accumulate(products.data(), static_cast<std::ptrdiff_t>(pair), n, points.count, c.by_points(), q + 1,
+                       c.width(), to.data());
+  }
+  if (a == b) runs.mirror();
+
+  TripleGramian result;
+  result.size_ = runs.size;
+  result.degree_ = p;
+  result.coefficient_count_ = coefficient_knots.count();
+  result.symmetric_ = a == b;
+  result.first_ = std::move(runs.first);
+  result.offset_ = std::move(runs.offset);
+  result.values_ = std::move(runs.values);
   return result;
 }
 
-Expected<Eigen::SparseMatrix<double>> mixed_gramian(const KnotVector& rows, int a, const KnotVector& columns, int b) {
+namespace {
+
+/// A matrix of zeros: in column j the rows whose functions share a piece with it, which follow one another.
+Eigen::SparseMatrix<double> overlapping(const KnotVector& rows, const KnotVector& columns,
+                                        const std::vector<detail::Piece>& pieces) {
   const int p = rows.degree(), q = columns.degree();
-  const Expected<int> points = points_for(p + q, a, b);
-  if (!points) return std::unexpected(points.error());
-  const auto pieces = detail::common_pieces(rows, columns);
-  if (!pieces) return std::unexpected(pieces.error());
-  const detail::UnitGaussRule<double> rule = detail::unit_gauss<double>(*points);
-  detail::SpanValues<double> f[1], g[1];
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(pieces->size() * static_cast<std::size_t>((p + 1) * (q + 1)));
-  for (const detail::Piece& piece : *pieces) {
-    double local[max_degree + 1][max_degree + 1] = {};
-    for (std::size_t k = 0; k < rule.t.size(); ++k) {
-      const double t = rule.t[k], complement = rule.complement[k];
-      detail::span_basis(rows, piece.first_span, piece.lower, piece.upper, t, complement, &a, 1, f);
-      detail::span_basis(columns, piece.second_span, piece.lower, piece.upper, t, complement, &b, 1, g);
-      const double weight = (piece.upper - piece.lower) * rule.weights[k];
-      for (int i = 0; i <= p; ++i) {
-        for (int j = 0; j <= q; ++j) local[i][j] += weight * f[0][i] * g[0][j];
-      }
-    }
-    for (int i = 0; i <= p; ++i) {
-      for (int j = 0; j <= q; ++j)
-        triplets.emplace_back(piece.first_span - p + i, piece.second_span - q + j, local[i][j]);
+  std::vector<int> first(static_cast<std::size_t>(columns.count()), 0), end(first);
+  for (const detail::Piece& piece : pieces) {
+    for (int j = piece.second_span - q; j <= piece.second_span; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      if (end[at] == 0) first[at] = piece.first_span - p;
+      end[at] = piece.first_span + 1;
     }
   }
   Eigen::SparseMatrix<double> result(rows.count(), columns.count());
-  result.setFromTriplets(triplets.begin(), triplets.end());
+  int* outer = result.outerIndexPtr();
+  for (std::size_t j = 0; j < first.size(); ++j) outer[j + 1] = outer[j] + end[j] - first[j];
+  result.resizeNonZeros(outer[first.size()]);
+  for (std::size_t j = 0; j < first.size(); ++j) {
+    for (int k = outer[j]; k < outer[j + 1]; ++k) result.innerIndexPtr()[k] = first[j] + k - outer[j];
+  }
+  std::fill_n(result.valuePtr(), result.nonZeros(), 0.0);
+  return result;
+}
+
+}  // namespace
+
+Expected<Eigen::SparseMatrix<double>> mixed_gramian(const KnotVector& rows, int a, const KnotVector& columns, int b) {
+  const int p = rows.degree(), q = columns.degree();
+  const Expected<int> count = points_for(p + q, a, b);
+  if (!count) return std::unexpected(count.error());
+  const auto pieces = detail::common_pieces(rows, columns);
+  if (!pieces) return std::unexpected(pieces.error());
+  Eigen::SparseMatrix<double> result = overlapping(rows, columns, *pieces);
+  const detail::PieceKernels& kernels = detail::piece_kernels();
+  const detail::PiecePoints points(*count);
+  const std::ptrdiff_t n = points.padded();
+  detail::PieceBasis f(rows, a, points, kernels), g(columns, b, points, kernels);
+  Numbers weighted(static_cast<std::size_t>(q + 1) * points.t.size());
+  std::vector<double*> to(static_cast<std::size_t>(q + 1));
+  for (const detail::Piece& piece : *pieces) {
+    f.enter(piece.first_span, piece.lower, piece.upper);
+    g.enter(piece.second_span, piece.lower, piece.upper);
+    kernels.weigh(piece.upper - piece.lower, points.weights.data(), g.values(), q + 1, n, weighted.data());
+    const int row = piece.first_span - p, column = piece.second_span - q;
+    for (int j = 0; j <= q; ++j) {
+      const int begin = result.outerIndexPtr()[column + j];
+      to[static_cast<std::size_t>(j)] = result.valuePtr() + begin + (row - result.innerIndexPtr()[begin]);
+    }
+    kernels.accumulate(weighted.data(), q + 1, n, points.count, f.by_points(), p + 1, f.width(), to.data());
+  }
   return result;
 }
 

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "gramian/piece_basis.hpp"
+#include "gramian/span_basis.hpp"
 #include "knead/gramian/gramian.hpp"
 #include "support/knot_families.hpp"
 #include "support/numbers.hpp"
@@ -117,6 +120,67 @@ TEST(Gramian, of_the_coarse_basis_is_that_of_the_fine_one_between_its_knot_inser
     for (int a = 0; a <= 2; ++a) {
       const Eigen::MatrixXd direct = gramian(coarse, a, a)->dense(), fine_gramian = gramian(fine, a, a)->dense();
       EXPECT_LE(largest(refine.transpose() * fine_gramian * refine - direct), 1e-13 * largest(fine_gramian)) << p << a;
+    }
+  }
+}
+
+/// Everything that the kernels compute of one piece, for functions of a degree and their derivatives of an order.
+std::vector<double> by_kernels(const detail::PieceKernels& kernels, int p, int order) {
+  const KnotVector knots = testing::thesis_knots(p, 1);
+  const detail::PiecePoints points(p + 2);
+  const std::ptrdiff_t n = points.padded(), functions = p + 1;
+  detail::PieceBasis f(knots, order, points, kernels), c(knots, 0, points, kernels);
+  std::vector<double> result;
+  for (const int span : knots.spans()) {
+    const double lower = knots[span], upper = lower + 0.7 * (knots[span + 1] - lower);
+    f.enter(span, lower, upper);
+    c.enter(span, lower, upper);
+    std::vector<double> weighted(static_cast<std::size_t>(functions * n)), products(weighted.size() * (p + 1));
+    std::vector<double> sums(static_cast<std::size_t>(functions * functions * functions), 1.0);
+    std::vector<double*> to;
+    for (std::ptrdiff_t k = 0; k < functions * functions; ++k) to.push_back(sums.data() + k * functions);
+    kernels.weigh(upper - lower, points.weights.data(), f.values(), functions, n, weighted.data());
+    kernels.multiply(weighted.data(), f.values(), functions, false, n, products.data());
+    kernels.accumulate(products.data(), functions * functions, n, points.count, c.by_points(), functions, c.width(),
+                       to.data());
+    result.insert(result.end(), f.values(), f.values() + functions * n);
+    result.insert(result.end(), sums.begin(), sums.end());
+  }
+  return result;
+}
+
+TEST(PieceKernels, give_the_same_bits_on_every_instruction_set) {
+  for (int p = 1; p <= 12; ++p) {
+    for (int order = 0; order <= p; ++order) {
+      const std::vector<double> reference = by_kernels(detail::piece_kernels(InstructionSet::vector128), p, order);
+      for (const InstructionSet set : available_instruction_sets()) {
+        EXPECT_EQ(by_kernels(detail::piece_kernels(set), p, order), reference) << name(set) << p << order;
+      }
+    }
+  }
+}
+
+// Against the functions that every other Gauss method has; the degrees 2 and 3 are unrolled.
+TEST(PieceBasis, has_the_functions_of_a_span) {
+  const detail::PieceKernels& kernels = detail::piece_kernels();
+  for (int p = 1; p <= 7; ++p) {
+    const KnotVector knots = testing::thesis_knots(p, 2);
+    const detail::PiecePoints points(5);
+    for (int order = 0; order <= p + 1; ++order) {
+      detail::PieceBasis basis(knots, order, points, kernels);
+      detail::SpanValues<double> expected[1];
+      for (const int span : knots.spans()) {
+        basis.enter(span, knots[span], knots[span + 1]);
+        for (std::ptrdiff_t g = 0; g < points.count; ++g) {
+          const auto at = static_cast<std::size_t>(g);
+          detail::span_basis(knots, span, points.t[at], points.complement[at], &order, 1, expected);
+          const double size = std::abs(*std::ranges::max_element(expected[0], expected[0] + p + 1, {},
+                                                                 [](double value) { return std::abs(value); }));
+          for (int r = 0; r <= p; ++r) {
+            EXPECT_NEAR(basis.values()[r * points.padded() + g], expected[0][r], 1e-14 * size) << p << order << r;
+          }
+        }
+      }
     }
   }
 }
