@@ -5,6 +5,7 @@
 
 #include "rational_elements.hpp"
 #include "rational_rule.hpp"
+#include "simd/rational_kernels.hpp"
 
 namespace knead::detail {
 
@@ -16,10 +17,16 @@ class PairSums {
       : a_(static_cast<std::size_t>(multi_index_position<D>(a)) * functions),
         b_(static_cast<std::size_t>(multi_index_position<D>(b)) * functions),
         functions_(functions),
-        sums_(functions * functions) {}
+        lower_(functions * functions),
+        upper_(a == b ? 0 : functions * functions) {}
 
-  void clear() { std::ranges::fill(sums_, 0.0); }
-  [[nodiscard]] double operator()(std::size_t i, std::size_t j) const { return sums_[i * functions_ + j]; }
+  void clear() {
+    std::ranges::fill(lower_, 0.0);
+    std::ranges::fill(upper_, 0.0);
+  }
+  [[nodiscard]] double operator()(std::size_t i, std::size_t j) const {
+    return i >= j || a_ == b_ ? lower_[std::max(i, j) + std::min(i, j) * functions_] : upper_[j + i * functions_];
+  }
 
   /// Adds the rule with these points. False: the denominator is not positive.
   [[nodiscard]] bool add_rule(const RationalPiece<D>& piece, const std::array<int, D>& points) {
@@ -39,21 +46,23 @@ class PairSums {
  private:
   void add_line(const RationalLine<D>& line) {
     const std::size_t n = line.size();
+    const auto points = static_cast<std::ptrdiff_t>(n), functions = static_cast<std::ptrdiff_t>(functions_);
     const double outer = line.outer_weight();
-    for (std::size_t i = 0; i < functions_; ++i) {
-      const double* f = values_.data() + (a_ + i) * n;
-      for (std::size_t j = 0; j < functions_; ++j) {
-        const double* s = values_.data() + (b_ + j) * n;
-        double sum = 0;
-        for (std::size_t g = 0; g < n; ++g) sum += line.points[D - 1]->weights[g] * f[g] * s[g];
-        sums_[i * functions_ + j] += outer * sum;
-      }
-    }
+    factors_.resize(n);
+    for (std::size_t g = 0; g < n; ++g) factors_[g] = outer * line.points[D - 1]->weights[g];
+    weighted_.resize(functions_ * n);
+    const double* second = values_.data() + b_ * n;
+    kernels_.scale(factors_.data(), values_.data() + a_ * n, functions, points, points, weighted_.data());
+    kernels_.lower_products(weighted_.data(), second, points, points, functions, lower_.data());
+    if (a_ != b_) kernels_.lower_products(second, weighted_.data(), points, points, functions, upper_.data());
   }
 
   std::size_t a_, b_, functions_;
   std::array<RationalPoints, D> points_;
-  std::vector<double> values_, sums_;
+  std::vector<double> values_, factors_, weighted_;
+  /// The sum of functions i >= j at [i + j functions], of i < j at [j + i functions]; for equal orders both are lower_.
+  std::vector<double> lower_, upper_;
+  const RationalKernels& kernels_ = rational_kernels();
 };
 
 /// The rule that keeps the error of every pair within a bound.

@@ -26,6 +26,22 @@ const std::vector<MultiIndex<D>>& all_orders() {
 constexpr std::size_t longest_line = max_unit_gauss_points;
 static_assert(longest_line % RationalKernels::line_step == 0);
 
+/// The functions of a piece one after the other, last direction fastest: which one it is in every direction.
+template <int D>
+class FunctionCounter {
+ public:
+  explicit FunctionCounter(const std::array<const RationalAxis*, D>& axes) {
+    for (std::size_t d = 0; d < D; ++d) width_[d] = static_cast<std::size_t>(axes[d]->degree() + 1);
+  }
+  [[nodiscard]] std::size_t operator[](std::size_t d) const { return at_[d]; }
+  void next() {
+    for (std::size_t d = D; d-- > 0 && ++at_[d] == width_[d];) at_[d] = 0;
+  }
+
+ private:
+  std::array<std::size_t, D> at_{}, width_;
+};
+
 std::ptrdiff_t to_signed(std::size_t n) { return static_cast<std::ptrdiff_t>(n); }
 
 /// grow[k] >= |T_k| on the ellipse: (ρ^k + ρ^−k)/2.
@@ -221,14 +237,10 @@ std::array<double, RationalPiece<D>::orders> RationalPiece<D>::denominator_bound
   std::array<double, orders> w{};
   std::size_t inner = 1;
   for (std::size_t d = direction + 1; d < D; ++d) inner *= static_cast<std::size_t>(axes_[d]->degree() + 1);
-  for (std::size_t row = 0; row < functions_; ++row) {
+  FunctionCounter<D> at(axes_);
+  for (std::size_t row = 0; row < functions_; ++row, at.next()) {
     double product = 1;
-    std::size_t rest = row;
-    for (std::size_t d = D; d-- > 0;) {
-      const auto m = static_cast<std::size_t>(axes_[d]->degree() + 1);
-      product *= growth[d][rest % m];
-      rest /= m;
-    }
+    for (std::size_t d = D; d-- > 0;) product *= growth[d][at[d]];
     for (std::size_t o = 0; o < count; ++o) w[o] += std::abs(denominator_[o * functions_ + row]) * product;
   }
   // |W| >= the mean coefficient minus all others.
@@ -236,8 +248,8 @@ std::array<double, RationalPiece<D>::orders> RationalPiece<D>::denominator_bound
   const auto width = static_cast<std::size_t>(axes_[direction]->degree() + 1);
   for (int order = 0; order < 3; ++order) {
     double least = std::numeric_limits<double>::infinity(), most = 0;
-    for (std::size_t row = 0; row < functions_; ++row) {
-      if (row / inner % width != 0) continue;
+    // The rows whose function in this direction is the first.
+    for (std::size_t row = 0; row < functions_; row += row % inner + 1 == inner ? (width - 1) * inner + 1 : 1) {
       const double* c = along(direction, order) + row;
       double sum = 0;
       for (std::size_t k = 0; k < width; ++k) sum += std::abs(c[k * inner]) * growth[direction][k];
@@ -270,17 +282,12 @@ bool RationalPiece<D>::bounds(std::size_t direction, double rho, std::size_t cou
       table[d][r / width][r % width] = sum;
     }
   }
-  for (std::size_t row = 0; row < functions_; ++row) {
-    std::array<std::size_t, D> at;
-    std::size_t rest = row;
-    for (std::size_t d = D; d-- > 0;) {
-      const auto m = static_cast<std::size_t>(axes_[d]->degree() + 1);
-      at[d] = rest % m;
-      rest /= m;
-    }
+  const std::vector<MultiIndex<D>>& derivatives = all_orders<D>();
+  FunctionCounter<D> at(axes_);
+  for (std::size_t row = 0; row < functions_; ++row, at.next()) {
     for (std::size_t o = 0; o < count; ++o) {
       double product = std::abs(weights_[row]);
-      for (std::size_t d = 0; d < D; ++d) product *= table[d][all_orders<D>()[o][d]][at[d]];
+      for (std::size_t d = 0; d < D; ++d) product *= table[d][derivatives[o][d]][at[d]];
       out[o * functions_ + row] = product;
     }
   }
