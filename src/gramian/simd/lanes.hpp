@@ -72,12 +72,14 @@ KNEAD_INLINE bool any_not_positive(Lanes v) { return any(v <= splat(0)); }
 KNEAD_INLINE auto differs(Lanes a, Lanes b) { return a != b; }
 KNEAD_INLINE Lanes shifted(Lanes v, double next) {
   const Lanes after = {next};
-#if KNEAD_LANES == 2
+#if KNEAD_LANES == 8
+  // Unlike the permutation that compilers take, this leaves v as it was, and needs no copy of it.
+  const auto low = reinterpret_cast<__m512i>(v), high = reinterpret_cast<__m512i>(after);
+  return reinterpret_cast<Lanes>(_mm512_maskz_alignr_epi64(0xFF, high, low, 1));
+#elif KNEAD_LANES == 2
   return __builtin_shufflevector(v, after, 1, 2);
-#elif KNEAD_LANES == 4
-  return __builtin_shufflevector(v, after, 1, 2, 3, 4);
 #else
-  return __builtin_shufflevector(v, after, 1, 2, 3, 4, 5, 6, 7, 8);
+  return __builtin_shufflevector(v, after, 1, 2, 3, 4);
 #endif
 }
 #endif
