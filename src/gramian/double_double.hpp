@@ -44,10 +44,9 @@ struct DoubleDouble {
     return ordered(p.high, p.low + (a.high * b.low + a.low * b.high));
   }
   friend constexpr DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
-    const double first = a.high / b.high;
-    const DoubleDouble rest = a - first * b;
-    const double second = rest.high / b.high, third = (rest - second * b).high / b.high;
-    return ordered(first, second) + third;
+    const double quotient = a.high / b.high;
+    const DoubleDouble p = quotient * b;
+    return ordered(quotient, ((a.high - p.high) - p.low + a.low) / b.high);
   }
   /// Of small integers and the like: quicker.
   friend constexpr DoubleDouble operator*(double a, DoubleDouble b) {
