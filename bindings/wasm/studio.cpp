@@ -57,19 +57,9 @@ int answer(std::string text) {
   return 1;
 }
 
-/// The number in the open file of a surface of the session, which has converted ones last; the number of all where it
-/// is none of them.
-std::size_t place_in_file(int surface) {
-  const auto& surfaces = held().session->state().surfaces;
-  const auto& in_file = held().session->document().surfaces();
-  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) return in_file.size();
-  const auto found = std::ranges::find(in_file, surfaces[static_cast<std::size_t>(surface)].id, &DocumentSurface::id);
-  return static_cast<std::size_t>(found - in_file.begin());
-}
-
 /// What the faces of the open file show of a surface, once its trims have been asked for.
 std::shared_ptr<const VisibleRegion> visible_part(int surface) {
-  return held().shown.visible(held().session->document(), place_in_file(surface));
+  return held().shown.visible(held().session->document(), place_in_file(*held().session, surface));
 }
 
 int start(Document document) {
@@ -189,6 +179,15 @@ KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
   if (auto done = session->execute(*command, told); !done) return fail(done.error());
   if (first) held().origin = origin_near(session->state(), held().origin);
   if (join != 0) session->join();
+  return answer("{}");
+}
+
+/// The input is a script, which is rehearsed (`Session::rehearse`).
+KNEAD_EXPORT(knead_rehearse) int knead_rehearse() {
+  if (!held().session) return without_session();
+  const auto commands = parse_script(held().input, "");
+  if (!commands) return fail(commands.error());
+  if (auto done = held().session->rehearse(*commands); !done) return fail(done.error());
   return answer("{}");
 }
 
@@ -379,7 +378,7 @@ KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
   auto& session = held().session;
   if (!session || !session->document().step_file()) return answer("null");
   const auto& all = held().shown.trims(session->document());
-  const std::size_t k = place_in_file(surface);
+  const std::size_t k = place_in_file(*held().session, surface);
   return answer(k < all.size() ? trim_json(all[k]) : "null");
 }
 

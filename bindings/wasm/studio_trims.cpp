@@ -1,5 +1,7 @@
 #include "studio_trims.hpp"
 
+#include <algorithm>
+
 #include "studio_context.hpp"
 
 namespace knead::studio {
@@ -33,6 +35,14 @@ const std::shared_ptr<const Surroundings>& ShownParts::around(const Document& do
   trims(document);
   if (!around_) around_ = surroundings(*document.step_file(), visible_);
   return around_;
+}
+
+std::size_t place_in_file(const Session& session, int surface) {
+  const auto& surfaces = session.state().surfaces;
+  const auto& in_file = session.document().surfaces();
+  if (surface < 0 || surface >= static_cast<int>(surfaces.size())) return in_file.size();
+  const auto found = std::ranges::find(in_file, surfaces[static_cast<std::size_t>(surface)].id, &DocumentSurface::id);
+  return static_cast<std::size_t>(found - in_file.begin());
 }
 
 }  // namespace knead::studio

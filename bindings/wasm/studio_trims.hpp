@@ -8,6 +8,7 @@
 #include "knead/exchange/trim_loops.hpp"
 #include "knead/scene/display.hpp"
 #include "knead/session/document.hpp"
+#include "knead/session/session.hpp"
 
 namespace knead::studio {
 
@@ -28,5 +29,9 @@ class ShownParts {
   std::vector<std::string> converted_;                         // what of the file was when they were
   std::shared_ptr<const Surroundings> around_;
 };
+
+/// The number in the open file of a surface of the session, which has converted ones last; the number of all where it
+/// is none of them.
+[[nodiscard]] std::size_t place_in_file(const Session& session, int surface);
 
 }  // namespace knead::studio

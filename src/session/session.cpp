@@ -101,6 +101,23 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   return {};
 }
 
+Expected<void> Session::rehearse(std::span<const Command> commands, const GoOn& go_on) {
+  auto states = states_;
+  auto entries = std::exchange(entries_, {});
+  const std::size_t position = position_;
+  states_ = {states[position]};
+  position_ = 0;
+  Expected<void> done;
+  for (const Command& command : commands) {
+    done = execute(command, {}, go_on);
+    if (!done) break;
+  }
+  states_ = std::move(states);
+  entries_ = std::move(entries);
+  position_ = position;
+  return done;
+}
+
 std::vector<Command> Session::journal() const {
   std::vector<Command> commands = earlier_;
   for (std::size_t k = 0; k < position_; ++k) commands.insert(commands.end(), entries_[k].begin(), entries_[k].end());

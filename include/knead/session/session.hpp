@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,6 +80,11 @@ class Session {
   using GoOn = std::function<bool()>;
 
   [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {}, const GoOn& go_on = {});
+
+  /// Carries out commands without undo and redo, each after the one before, and leaves the session as it is, with what
+  /// can be redone: only the models that they made and factored are kept, so that the same commands take less time
+  /// later, with the same bits. Errors: that of the first command that fails.
+  [[nodiscard]] Expected<void> rehearse(std::span<const Command> commands, const GoOn& go_on = {});
 
   /// Merges the last entry of the history with the one before it: undo then reverts both at once, and the state between
   /// them is dropped. For many commands that are one action, such as a stroke that follows the pointer. Equal `step`
