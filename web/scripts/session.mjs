@@ -6,24 +6,29 @@ const kinds = ['inflate', 'pull', 'push', 'flatten', 'smooth', 'pinch', 'crease'
 const aboutPlaces = [{ kind: 'grab', by: [1, 2, 3.5] }, { kind: 'twist', angle: 20 }, { kind: 'scale', factor: 1.2 }];
 const displays = ['plain', 'deviation', 'mean_curvature', 'gaussian_curvature', 'zebra'];
 
-/** One command after the other, as one entry of the history. A step that would fold the surface is refused, as for users. */
-function act(engine, commands, join = false) {
-  for (const [k, command] of commands.entries()) {
-    try {
-      engine.execute(command, join || k > 0);
-    } catch (error) {
-      if (error.info?.kind !== 'numerical') throw error;
-    }
+/** A step that would fold the surface is refused, as for users. */
+function tried(does) {
+  try {
+    does();
+  } catch (error) {
+    if (error.info?.kind !== 'numerical') throw error;
   }
 }
 
+/** One command after the other, as one entry of the history. */
+function act(engine, commands, join = false) {
+  for (const [k, command] of commands.entries()) tried(() => engine.execute(command, join || k > 0));
+}
+
 function refused(engine, command) {
-  try {
-    engine.execute(command);
-  } catch {
-    return;
+  for (const does of [() => engine.execute(command), () => engine.rehearse([{ do: 'step' }, command])]) {
+    try {
+      does();
+    } catch {
+      continue;
+    }
+    throw new Error(`${JSON.stringify(command)} is not refused`);
   }
-  throw new Error(`${JSON.stringify(command)} is not refused`);
 }
 
 /** What a frame and the panels show. */
@@ -56,7 +61,9 @@ function pointOn(engine, k, [s, t]) {
 function strokes(engine, k, radius) {
   const points = [[0.4, 0.5], [0.44, 0.5], [0.5, 0.52]].map((at) => pointOn(engine, k, at));
   const ball = { do: 'tool', name: 'brush', shape: 'sphere', radius, mode: 'collision', plasticity: 1, touches: 'visible' };
-  act(engine, [{ ...ball, position: points[0] }, { do: 'stroke', tool: 'brush', path: [points[0]], open: true }]);
+  const pressed = [{ ...ball, position: points[0] }, { do: 'stroke', tool: 'brush', path: [points[0]], open: true }];
+  tried(() => engine.rehearse(pressed));
+  act(engine, pressed);
   act(engine, [{ do: 'stroke', tool: 'brush', path: points.slice(1), open: true }], true);
   look(engine);
   act(engine, [{ do: 'stroke', tool: 'brush', path: [] }, { do: 'remove', tool: 'brush' }], true);

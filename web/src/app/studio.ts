@@ -11,6 +11,7 @@ import { plain } from '../engine/displays';
 import type { Frame, PictureSettings } from '../engine/protocol';
 import { selected } from '../engine/session_state';
 import { type Command, EngineError, type EngineErrorInfo, type LatticeSettings, type SessionInfo, type StepInfo, type SurfaceNumbers } from '../engine/session_types';
+import { usualRadius } from '../engine/strokes';
 import type { App } from '../panels/app';
 import { openSnakes } from '../panels/snakes/door';
 import { Hand } from '../tools/hand';
@@ -115,7 +116,7 @@ export class Studio implements App {
     if (this.fresh) {
       this.fresh = false;
       this.hand.size.unit = 'length';
-      this.hand.brush.settings.radius = 0.08 * this.diagonal;
+      this.hand.brush.settings.radius = usualRadius * this.diagonal;
     }
     this.tellCreases(frame.state.notes);
     this.computedTime += frame.computeTime;
@@ -236,7 +237,7 @@ export class Studio implements App {
 
   sizeBrush(radius: number): void {
     if (this.hand.size.unit !== 'length') return; // it has a size of its own
-    this.hand.brush.settings.radius = Math.min(radius, 0.08 * this.diagonal);
+    this.hand.brush.settings.radius = Math.min(radius, usualRadius * this.diagonal);
     this.changed();
   }
 

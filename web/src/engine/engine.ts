@@ -22,6 +22,7 @@ interface Exports {
   knead_restore(sourceSize: number, nameSize: number): number;
   knead_snapshot(historyBytes: number): number;
   knead_execute(join: number): number;
+  knead_rehearse(): number;
   knead_state(): number;
   knead_steps(first: number): number;
   knead_journal(): number;
@@ -58,10 +59,10 @@ export class Engine {
   private constructor(private readonly wasm: Exports) {}
 
   /** `rest`: the second module, where the first is the core that was split from it. */
-  static async load(bytes: BufferSource | Promise<Response>, rest?: Rest): Promise<Engine> {
+  static async load(library: WebAssembly.Module | BufferSource, rest?: Rest): Promise<Engine> {
     let engine: Engine | null = null;
     const told = (done: number, total: number) => engine?.onProgress(done, total);
-    engine = new Engine(await start<Exports>(bytes, { studio: { progress: told } }, rest));
+    engine = new Engine(await start<Exports>(library, { studio: { progress: told } }, rest));
     return engine;
   }
 
@@ -91,6 +92,12 @@ export class Engine {
   execute(command: Command, join = false): void {
     this.give(new TextEncoder().encode(JSON.stringify(command)));
     this.json(this.wasm.knead_execute(join ? 1 : 0));
+  }
+
+  /** Carries out commands and leaves the session as it is; what was made for them is kept, so that they take less time later. */
+  rehearse(commands: readonly Command[]): void {
+    this.give(new TextEncoder().encode(JSON.stringify({ knead: 1, commands })));
+    this.json(this.wasm.knead_rehearse());
   }
 
   state(): SessionInfo {

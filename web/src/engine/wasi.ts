@@ -43,12 +43,12 @@ function wasiImports(module: WebAssembly.Module, memory: () => WebAssembly.Memor
   return imports;
 }
 
-/** Starts a compiled C++ library, as it arrives or from its bytes, and returns its exports. `rest`: what was split from it. */
+/** Starts a compiled C++ library, of its module or its bytes or as it arrives, and returns its exports. `rest`: what was split from it. */
 export async function start<Exports extends { memory: WebAssembly.Memory; _initialize(): void }>(
-  bytes: BufferSource | Promise<Response>, own: Imports = {}, rest?: Rest,
+  library: WebAssembly.Module | BufferSource | Promise<Response>, own: Imports = {}, rest?: Rest,
 ): Promise<Exports> {
   const module =
-    bytes instanceof Promise ? await WebAssembly.compileStreaming(bytes) : await WebAssembly.compile(bytes);
+    library instanceof WebAssembly.Module ? library : library instanceof Promise ? await WebAssembly.compileStreaming(library) : await WebAssembly.compile(library);
   let wasm: Exports | undefined;
   const instance = await WebAssembly.instantiate(module, wasiImports(module, () => wasm!.memory, own, rest));
   wasm = instance.exports as unknown as Exports;

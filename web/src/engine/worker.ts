@@ -4,18 +4,31 @@ import { History } from './history';
 import coreUrl from './knead_core.wasm?url';
 import restUrl from './knead_rest.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
+import { Preparation } from './preparation';
 import { Rest } from './rest';
 import { type Command, EngineError, type EngineErrorInfo, type Picture, type SessionInfo, type ToolInfo, type ToolPicture } from './session_types';
+import { rehearse } from './strokes';
 import { trimTree } from './trim_tree';
 
 /** The one place where the session lives. It works through the requests in order and draws what it has changed. */
 
 const rest = new Rest(() => new WebAssembly.Module(fetchNow(restUrl)));
-const engineLoaded = Engine.load(fetch(coreUrl), rest).then((engine) => {
+const core = WebAssembly.compileStreaming(fetch(coreUrl));
+const engineLoaded = core.then((module) => Engine.load(module, rest)).then((engine) => {
   history = new History(engine);
   engine.onProgress = tellProgress;
   return engine;
 });
+
+const preparation = new Preparation(core, () => new Worker(new URL('./warm_up.ts', import.meta.url), { type: 'module' }), async () => {
+  const engine = await engineLoaded;
+  try {
+    if (playing === 'no' && hasSession(engine)) rehearse(engine);
+  } catch (error) {
+    died(error);
+  }
+});
+const works = new Set<Request['kind']>(['open', 'fresh', 'restore', 'execute', 'play', 'save', 'mesh']);
 
 /** While the C++ session waits for it. */
 function fetchNow(url: string): ArrayBuffer {
@@ -123,6 +136,7 @@ function begin(engine: Engine, next: typeof source, act: () => void): void {
     throw error;
   }
   source = next;
+  preparation.renew();
   assemblyDue = true;
   shownSteps = 0;
 }
@@ -348,6 +362,7 @@ function hasSession(engine: Engine): boolean {
 self.onmessage = async (event: MessageEvent<{ id: number; request: Request }>) => {
   const { id, request } = event.data;
   const engine = await engineLoaded;
+  preparation.interrupt(works.has(request.kind));
   try {
     await handle(engine, id, request);
   } catch (error) {

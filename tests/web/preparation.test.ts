@@ -1,0 +1,164 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { Engine } from '@studio/engine/engine';
+import { Preparation } from '@studio/engine/preparation';
+import { Rest } from '@studio/engine/rest';
+import type { Command, Vector3 } from '@studio/engine/session_types';
+import { rehearse, strokes } from '@studio/engine/strokes';
+
+// What the worker does before the first stroke, while nobody asks for anything.
+
+const module = (name: string) => readFileSync(fileURLToPath(new URL(join('../../web/src/engine', `knead_${name}.wasm`), import.meta.url)));
+const core = module('core');
+
+async function sheet(net = 16): Promise<Engine> {
+  const engine = await Engine.load(core, new Rest(() => {
+    throw new Error('the second module is called');
+  }));
+  engine.fresh('sheet');
+  const commands: Command[] = [
+    { do: 'new', size: [100, 100], net: [net, net] }, { do: 'hold', rows: 2 },
+    { do: 'material', preset: 'clay' }, { do: 'evolve', mode: 'acm', lambda: 100, accuracy: 'interactive' },
+  ];
+  for (const command of commands) engine.execute(command);
+  return engine;
+}
+
+function press(engine: Engine, position: Vector3): void {
+  engine.execute({ do: 'tool', name: 'brush', radius: 20, position, mode: 'collision', plasticity: 1, touches: 'visible' });
+  engine.execute({ do: 'stroke', tool: 'brush', path: [position] }, true);
+  engine.execute({ do: 'remove', tool: 'brush' }, true);
+}
+
+const all = (engine: Engine) => ({ journal: engine.journal(), snapshot: engine.snapshot(2 ** 20), points: engine.controlPoints(0) });
+
+describe('a rehearsal', () => {
+  it('leaves the session as it is, with what can be redone, and what follows has the same bits', async () => {
+    const [engine, other] = [await sheet(), await sheet()];
+    for (const e of [engine, other]) {
+      press(e, [40, 50, 10]);
+      press(e, [60, 50, 10]);
+      e.execute({ do: 'undo' });
+    }
+    const before = all(engine);
+    rehearse(engine);
+    engine.rehearse([{ do: 'tool', name: 'ball', radius: 20, position: [50, 50, 5] }, { do: 'step', count: 2 }]);
+    expect(all(engine)).toEqual(before);
+    for (const e of [engine, other]) e.execute({ do: 'redo' });
+    expect(engine.controlPoints(0)).toEqual(other.controlPoints(0));
+    for (const e of [engine, other]) {
+      e.execute({ do: 'undo' });
+      press(e, [55, 45, 8]);
+    }
+    expect(engine.controlPoints(0)).toEqual(other.controlPoints(0));
+    expect(engine.controlPoints(0)).not.toEqual(before.points);
+  });
+
+  it('reports what is refused, and leaves the session as it is then, too', async () => {
+    const engine = await sheet();
+    const before = all(engine);
+    expect(() => engine.rehearse([{ do: 'tool', name: 'ball', radius: 20, position: [50, 50, 5] }, { do: 'select', surface: '#99' }])).toThrow('#99');
+    expect(all(engine)).toEqual(before);
+  });
+
+  it('is made of what strokes can press within the time of a frame, and of nothing else', async () => {
+    const rehearsed = async (change: (engine: Engine) => void, net = 16) => {
+      const engine = await sheet(net);
+      change(engine);
+      let count = 0;
+      engine.rehearse = () => void ++count;
+      rehearse(engine);
+      return count;
+    };
+    expect(await rehearsed(() => undefined)).toBe(1);
+    expect(await rehearsed(() => undefined, 64)).toBe(0);
+    expect(await rehearsed((engine) => void engine.fresh('nothing'))).toBe(0);
+    expect(await rehearsed((engine) => engine.execute({ do: 'tool', name: 'ball', radius: 10, position: [50, 50, 20] }))).toBe(0);
+  });
+});
+
+it('the strokes of a warm-up call the core alone, and change what they press', async () => {
+  const engine = await sheet();
+  let frames = 0;
+  for (const _ of strokes(engine)) ++frames;
+  expect(frames).toBeGreaterThan(50);
+  const heights = engine.controlPoints(0).filter((_, k) => k % 3 === 2);
+  expect(Math.min(...heights)).toBeLessThan(-1);
+});
+
+describe('the time of the preparation', () => {
+  beforeEach(() => void vi.useFakeTimers());
+  afterEach(() => void vi.useRealTimers());
+
+  class Warmer {
+    onmessage = () => {};
+    onerror = (_: unknown) => {};
+    ended = false;
+    postMessage = () => {};
+    terminate(): void {
+      this.ended = true;
+    }
+  }
+
+  function prepared() {
+    const workers: Warmer[] = [];
+    let rehearsals = 0;
+    const preparation = new Preparation(Promise.resolve({} as WebAssembly.Module), () => {
+      workers.push(new Warmer());
+      return workers.at(-1) as unknown as Worker;
+    }, () => void ++rehearsals);
+    return { preparation, workers, rehearsals: () => rehearsals };
+  }
+
+  it('begins when a session has been left alone, and ends with one rehearsal', () => {
+    const { preparation, workers, rehearsals } = prepared();
+    preparation.interrupt(false);
+    vi.advanceTimersByTime(10_000);
+    expect(workers).toHaveLength(0); // there is no session yet
+    preparation.renew();
+    preparation.interrupt(true);
+    vi.advanceTimersByTime(100);
+    preparation.interrupt(false);
+    vi.advanceTimersByTime(950);
+    expect(workers).toHaveLength(0);
+    vi.advanceTimersByTime(100);
+    expect(workers).toHaveLength(1);
+    workers[0]!.onmessage();
+    expect(workers[0]!.ended).toBe(true);
+    expect(rehearsals()).toBe(1);
+    preparation.interrupt(true);
+    vi.advanceTimersByTime(10_000);
+    expect([workers.length, rehearsals()]).toEqual([1, 1]);
+    preparation.renew();
+    preparation.interrupt(true);
+    vi.advanceTimersByTime(10_000);
+    expect([workers.length, rehearsals()]).toEqual([1, 2]);
+  });
+
+  it('is over at once when the user begins something, and is tried three times at most', () => {
+    const { preparation, workers, rehearsals } = prepared();
+    preparation.renew();
+    for (let k = 0; k < 5; ++k) {
+      preparation.interrupt(true);
+      vi.advanceTimersByTime(1100);
+    }
+    preparation.interrupt(true);
+    expect(workers.map((w) => w.ended)).toEqual([true, true, true]);
+    expect(rehearsals()).toBe(1);
+  });
+
+  it('goes on beside requests that are short, and waits with the rehearsal until they are over', () => {
+    const { preparation, workers, rehearsals } = prepared();
+    preparation.renew();
+    preparation.interrupt(true);
+    vi.advanceTimersByTime(1100);
+    preparation.interrupt(false);
+    expect(workers[0]!.ended).toBe(false);
+    workers[0]!.onerror({ preventDefault: () => undefined });
+    expect(rehearsals()).toBe(0);
+    vi.advanceTimersByTime(1100);
+    expect(rehearsals()).toBe(1);
+  });
+});

@@ -1,0 +1,62 @@
+const quiet = 1000; // milliseconds without a request: what the page draws first comes first
+const longest = 3000; // milliseconds of a warm-up
+const most = 3; // warm-ups that were stopped before they were done
+
+/**
+ * Uses the time in which nobody asks the engine for anything, so that the first frame of a stroke comes as fast as those that
+ * follow: strokes in another worker (warm_up.ts), which end when the user begins something, and then one in the session
+ * (`rehearse` of strokes.ts).
+ */
+export class Preparation {
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private worker: Worker | null = null;
+  private begun = 0;
+  private warm = false;
+  private due = false;
+
+  constructor(private readonly core: Promise<WebAssembly.Module>, private readonly makeWorker: () => Worker, private readonly rehearse: () => void) {}
+
+  /** Another session has begun. */
+  renew(): void {
+    this.due = true;
+  }
+
+  /** A request has come. `works`: it may take long, and should have the processor. */
+  interrupt(works: boolean): void {
+    if (works) this.end();
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => {
+      this.timer = undefined;
+      void this.goOn();
+    }, quiet);
+  }
+
+  private async goOn(): Promise<void> {
+    if (!this.due || this.worker) return;
+    if (this.warm || this.begun === most) {
+      this.due = false;
+      this.rehearse();
+      return;
+    }
+    ++this.begun;
+    const worker = (this.worker = this.makeWorker());
+    worker.onmessage = () => this.warmed();
+    // Where it fails everything is right, but slow.
+    worker.onerror = (event) => {
+      event.preventDefault();
+      this.warmed();
+    };
+    worker.postMessage({ module: await this.core, longest });
+  }
+
+  private warmed(): void {
+    this.end();
+    this.warm = true;
+    if (this.timer === undefined) void this.goOn();
+  }
+
+  private end(): void {
+    this.worker?.terminate();
+    this.worker = null;
+  }
+}
