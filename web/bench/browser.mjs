@@ -6,14 +6,11 @@ import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
 
 import { serve } from '../serve.mjs';
-import { least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
+import { chromiumOptions, least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
 
 const directories = process.argv.length > 2 ? process.argv.slice(2) : [fileURLToPath(new URL('../dist', import.meta.url))];
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking',
-    '--disable-component-update', '--disable-sync', '--no-first-run'],
-});
+const browser = await chromium.launch(chromiumOptions);
+
 /** Milliseconds from the request of the page until something is drawn, and until it can be sculpted. */
 async function start(url, page) {
   const begin = performance.now();

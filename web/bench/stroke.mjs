@@ -1,5 +1,5 @@
-// What the benchmarks do to the session: the studio's own stroke (src/tools/brush.ts), a ball of 0.08 diagonals, half sunk
-// into a sheet of clay and moved by 0.4 radii at a time, there and back so that it meets what it left.
+// What the benchmarks do to the session: steps under the ball of the studio's brush (src/tools/brush.ts), of 0.08 diagonals, half
+// sunk into a sheet of clay and moved by 0.4 radii at a time, there and back so that it meets what it left.
 export const size = 200;
 export const nets = [32, 64];
 export const detail = 96;
@@ -21,6 +21,20 @@ export const places = Array.from({ length: 60 }, (_, k) => {
     { do: 'step' },
   ];
 });
+
+/** What the page sends for one stroke: a ball put down, half sunk, and led on as far as the pointer moves in a frame. */
+export const firstStroke = Array.from({ length: 25 }, (_, k) => {
+  const at = [size * 0.3 + 0.2 * radius * k, size * 0.45, 0.5 * radius];
+  const stroke = { do: 'stroke', tool: 'brush', path: [at], open: true };
+  return k > 0 ? [stroke] : [{ do: 'tool', name: 'brush', shape: 'sphere', radius, position: at, mode: 'collision', plasticity: 1, touches: 'visible' }, stroke];
+});
+
+/** Headless, drawing by software. */
+export const chromiumOptions = {
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-background-networking',
+    '--disable-component-update', '--disable-sync', '--no-first-run'],
+};
 
 const sorted = (times) => [...times].sort((a, b) => a - b);
 export const median = (times) => sorted(times)[Math.floor(times.length / 2)];
