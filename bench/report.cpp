@@ -62,6 +62,8 @@ constexpr Source sources[] = {
     {"threads.json", "scattered", "ratio", "two_threads_scattered"},
     {"threads.json", "assembly/256", "ratio", "two_threads_assembly_256"},
     {"threads.json", "apply/256", "ratio", "two_threads_apply_256"},
+    {"threads.json", "factor/256", "ratio", "two_threads_factor_256"},
+    {"threads.json", "solve/256", "ratio", "two_threads_solve_256"},
     {"threads.json", "shell_hessian/64", "ratio", "two_threads_shell_hessian_64"},
     {"info.json", "info", "mb_per_s", "info_mb_per_s"},
 };

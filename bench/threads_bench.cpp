@@ -8,6 +8,7 @@
 #include "knead/base/threads.hpp"
 #include "knead/energy/shell_energy.hpp"
 #include "knead/energy/stiffness.hpp"
+#include "knead/solve/sparse_cholesky.hpp"
 #include "knead/spline/evaluator.hpp"
 #include "knead/spline/normals.hpp"
 #include "medians.hpp"
@@ -99,6 +100,32 @@ void apply(benchmark::State& state) {
   one_beside_several(state, [&] { benchmark::DoNotOptimize(k.apply(x).data()); });
 }
 
+struct System {
+  SparseMatrix a;
+  GridPlaces places;
+};
+
+System system(int net) {
+  const KnotVector k = *KnotVector::clamped_uniform(3, net);
+  const Surface sheet = *Surface::create({k, k}, Points::Random(net * net, 3));
+  return {stiffness(net).assemble() + Stiffness<2>::create({k, k}, mass_energy<2>())->assemble(),
+          grid_places<2>(std::span(&sheet, 1))};
+}
+
+void factor(benchmark::State& state) {
+  const System of = system(static_cast<int>(state.range(0)));
+  one_beside_several(state, [&] {
+    if (!SparseCholesky::factor(SparseMatrix(of.a), of.places)) std::abort();
+  });
+}
+
+void solve(benchmark::State& state) {
+  const System of = system(static_cast<int>(state.range(0)));
+  const auto factor = *SparseCholesky::factor(SparseMatrix(of.a), of.places);
+  const Points b = Points::Random(of.a.rows(), 3);
+  one_beside_several(state, [&] { benchmark::DoNotOptimize(factor.solve(b).data()); });
+}
+
 void shell_hessian(benchmark::State& state) {
   const KnotVector k = *KnotVector::clamped_uniform(3, static_cast<int>(state.range(0)));
   Points points(k.count() * k.count(), 3);
@@ -119,6 +146,8 @@ BENCHMARK(normals)->Unit(benchmark::kMillisecond);
 BENCHMARK(assembly)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(refresh)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(apply)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(factor)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(solve)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(shell_hessian)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -33,9 +33,9 @@ struct DoubleDouble {
   }
 
   friend constexpr DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
-    const DoubleDouble high = sum(a.high, b.high), low = sum(a.low, b.low);
-    const DoubleDouble once = ordered(high.high, high.low + low.high);
-    return ordered(once.high, once.low + low.low);
+    const DoubleDouble upper = sum(a.high, b.high), lower = sum(a.low, b.low);
+    const DoubleDouble once = ordered(upper.high, upper.low + lower.high);
+    return ordered(once.high, once.low + lower.low);
   }
   friend constexpr DoubleDouble operator-(DoubleDouble a) { return {-a.high, -a.low}; }
   friend constexpr DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }

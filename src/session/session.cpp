@@ -102,20 +102,25 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
 }
 
 Expected<void> Session::rehearse(std::span<const Command> commands, const GoOn& go_on) {
-  auto states = states_;
-  auto entries = std::exchange(entries_, {});
-  const std::size_t position = position_;
-  states_ = {states[position]};
-  position_ = 0;
-  Expected<void> done;
+  /// What stands now, which comes back whatever happens.
+  struct Kept {
+    Session& session;
+    decltype(states_) states;
+    decltype(entries_) entries;
+    std::size_t position;
+    ~Kept() {
+      session.states_ = std::move(states);
+      session.entries_ = std::move(entries);
+      session.position_ = position;
+    }
+  };
+  decltype(states_) alone = {states_[position_]};
+  const Kept kept{*this, std::exchange(states_, std::move(alone)), std::exchange(entries_, {}),
+                  std::exchange(position_, 0)};
   for (const Command& command : commands) {
-    done = execute(command, {}, go_on);
-    if (!done) break;
+    if (auto done = execute(command, {}, go_on); !done) return done;
   }
-  states_ = std::move(states);
-  entries_ = std::move(entries);
-  position_ = position;
-  return done;
+  return {};
 }
 
 std::vector<Command> Session::journal() const {

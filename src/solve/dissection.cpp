@@ -44,7 +44,7 @@ class Dissector {
       : a_(a),
         places_(places),
         node_size_(std::max(static_cast<std::size_t>(node_size), leaf)),
-        side_(static_cast<std::size_t>(a.cols()), outside) {
+        side_(static_cast<std::size_t>(a.cols()), Side::none) {
     result_.order.resize(a.cols());
   }
 
@@ -56,7 +56,7 @@ class Dissector {
   }
 
  private:
-  enum Side : char { outside, before, behind };
+  enum class Side : char { none, before, behind };
 
   /// Gives places to the unknowns of a part, and returns its last node. \param own it is or has nodes of its own.
   int divide(std::span<int> part, bool own) {
@@ -111,11 +111,11 @@ class Dissector {
       const std::size_t other = cut_near(part, before_of(part.size() - thick), direction);
       if (other > 0 && other != cut) mark(part, cut = other);
     }
-    const auto is_before = [&](int i) { return side_[static_cast<std::size_t>(i)] == before; };
-    const auto is_behind = [&](int i) { return side_[static_cast<std::size_t>(i)] == behind; };
+    const auto is_before = [&](int i) { return side_[static_cast<std::size_t>(i)] == Side::before; };
+    const auto is_behind = [&](int i) { return side_[static_cast<std::size_t>(i)] == Side::behind; };
     const auto rest = std::stable_partition(part.begin(), part.end(), is_before);
     const auto separator = std::stable_partition(rest, part.end(), is_behind);
-    for (const int i : part) side_[static_cast<std::size_t>(i)] = outside;
+    for (const int i : part) side_[static_cast<std::size_t>(i)] = Side::none;
     const auto first = static_cast<std::size_t>(rest - part.begin());
     const auto second = static_cast<std::size_t>(separator - rest);
     if (first == 0 || second == 0) {
@@ -140,18 +140,19 @@ class Dissector {
   /// Marks the sides of the first `cut` unknowns and of the others, and leaves out those of the others that depend on
   /// the first, whose number is returned.
   std::size_t mark(std::span<const int> part, std::size_t cut) {
-    for (std::size_t k = 0; k < part.size(); ++k) side_[static_cast<std::size_t>(part[k])] = k < cut ? before : behind;
+    for (std::size_t k = 0; k < part.size(); ++k)
+      side_[static_cast<std::size_t>(part[k])] = k < cut ? Side::before : Side::behind;
     std::size_t count = 0;
     for (const int i : part.subspan(cut)) {
       bool touches = false;
       for (SparseMatrix::InnerIterator it(a_, i); it && !touches; ++it) {
-        touches = side_[static_cast<std::size_t>(it.index())] == before;
+        touches = side_[static_cast<std::size_t>(it.index())] == Side::before;
       }
       if (!touches) continue;
       separator_.push_back(i);
       ++count;
     }
-    for (const int i : separator_) side_[static_cast<std::size_t>(i)] = outside;
+    for (const int i : separator_) side_[static_cast<std::size_t>(i)] = Side::none;
     separator_.clear();
     return count;
   }

@@ -173,6 +173,40 @@ void Panels::backward(double* x, std::span<const int> panels) const {
       });
 }
 
+template <class F>
+void Panels::for_each_range(std::span<const int> panels, const F& f) const {
+  const auto range = [&](int first, int last) {
+    f(panels_[at(first)].first, panels_[at(last)].first + panels_[at(last)].width);
+  };
+  if (tasks_.empty()) {
+    for (const int k : panels) range(k, k);
+    return;
+  }
+  // Tasks add to all rows that they know, and not to those of a reach alone.
+  Shares shares(*this, panels);
+  for (const int k : shares.order()) {
+    if (tasks_[at(k)].begin < tasks_[at(k)].end) range(tasks_[at(k)].begin, tasks_[at(k)].end - 1);
+  }
+}
+
+template <int columns>
+void Panels::clear(double* x, std::span<const int> panels) const {
+  for_each_range(panels, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::fill(x + columns * begin, x + columns * end, 0.0);
+  });
+}
+
+template <int columns>
+void Panels::copy(const double* from, double* to, std::span<const int> panels) const {
+  for_each_range(panels, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::copy(from + columns * begin, from + columns * end, to + columns * begin);
+  });
+}
+
+template void Panels::clear<1>(double*, std::span<const int>) const;
+template void Panels::clear<4>(double*, std::span<const int>) const;
+template void Panels::copy<1>(const double*, double*, std::span<const int>) const;
+template void Panels::copy<4>(const double*, double*, std::span<const int>) const;
 template void Panels::forward<1>(double*, std::span<const int>) const;
 template void Panels::forward<4>(double*, std::span<const int>) const;
 template void Panels::backward<1>(double*, std::span<const int>) const;

@@ -32,26 +32,4 @@ std::size_t Panels::stored() const {
   return sum;
 }
 
-template <int columns>
-void Panels::clear(double* x, std::span<const int> panels) const {
-  for (const int k : panels) {
-    const Panel& p = panels_[static_cast<std::size_t>(k)];
-    std::fill_n(x + columns * static_cast<std::ptrdiff_t>(p.first), columns * p.width, 0.0);
-  }
-}
-
-template <int columns>
-void Panels::copy(const double* from, double* to, std::span<const int> panels) const {
-  for (const int k : panels) {
-    const Panel& p = panels_[static_cast<std::size_t>(k)];
-    const std::ptrdiff_t at = columns * static_cast<std::ptrdiff_t>(p.first);
-    std::copy_n(from + at, columns * p.width, to + at);
-  }
-}
-
-template void Panels::clear<1>(double*, std::span<const int>) const;
-template void Panels::clear<4>(double*, std::span<const int>) const;
-template void Panels::copy<1>(const double*, double*, std::span<const int>) const;
-template void Panels::copy<4>(const double*, double*, std::span<const int>) const;
-
 }  // namespace knead

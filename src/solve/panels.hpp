@@ -59,10 +59,10 @@ class Panels {
   void forward(double* x, std::span<const int> panels) const;
   template <int columns>
   void backward(double* x, std::span<const int> panels) const;
-  /// Sets the rows of these panels to zero.
+  /// Sets the rows of these panels to zero, and those that their substitution adds to without need.
   template <int columns>
   void clear(double* x, std::span<const int> panels) const;
-  /// Copies the rows of these panels.
+  /// Copies the same rows.
   template <int columns>
   void copy(const double* from, double* to, std::span<const int> panels) const;
 
@@ -92,6 +92,9 @@ class Panels {
   /// Gives each task its rows, to which its panels then add.
   void separate_tasks();
   void separate(Task& task, std::vector<int>& place);
+  /// f(begin, end) for ranges of rows in which all rows are that substitution by some panels touches.
+  template <class F>
+  void for_each_range(std::span<const int> panels, const F& f) const;
   template <int columns>
   void substitute_forward(double* x, std::span<const int> panels) const;
   template <int columns>

@@ -1,5 +1,8 @@
 #include "knead/solve/sparse_cholesky.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdint>
 
 #include "knead/solve/dissection.hpp"
@@ -36,6 +39,12 @@ Expected<SparseCholesky> SparseCholesky::factor(SparseMatrix&& a) {
 }
 
 Expected<SparseCholesky> SparseCholesky::factor(SparseMatrix&& a, const GridPlaces& places) {
+  const auto wanted = static_cast<std::size_t>(a.cols()) * static_cast<std::size_t>(std::max(places.directions, 0));
+  if (places.directions < 1 || places.indices.size() != wanted) {
+    return usage_error(fmt::format("there are {} indices of places in {} directions for {} unknowns",
+                                   places.indices.size(), places.directions, a.cols()),
+                       "Cholesky factorisation", "give as many for each unknown as there are directions");
+  }
   return factor_by(std::move(a), [&](const SparseMatrix& whole) { return dissect(whole, places); });
 }
 

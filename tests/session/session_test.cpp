@@ -84,6 +84,35 @@ TEST(Session, ANewCommandForgetsWhatWasTakenBack) {
   EXPECT_EQ(session.journal().size(), press.size());
 }
 
+TEST(Session, ARehearsalChangesNothingAndWhatFollowsHasTheSameBits) {
+  Session rehearsed = open_sample(), other = open_sample();
+  for (Session* session : {&rehearsed, &other}) {
+    run(*session, press);
+    run(*session, {R"({"do":"undo"})"});
+  }
+  const std::vector<Command> commands = {*parse_command(R"({"do":"move","tool":"ball","by":[5,0,1]})"),
+                                         *parse_command(R"({"do":"step","count":2})")};
+  const auto points = [](const Session& session) {
+    return session.state().surfaces[static_cast<std::size_t>(*session.state().selected)].current->control_points();
+  };
+  const Points before = points(rehearsed);
+  ASSERT_TRUE(rehearsed.rehearse(commands));
+  EXPECT_EQ(points(rehearsed), before);
+  EXPECT_EQ(rehearsed.journal().size(), other.journal().size());
+  EXPECT_EQ(rehearsed.state().tools[0].shape.placement().position, other.state().tools[0].shape.placement().position);
+  // One that is refused, or stopped.
+  const std::vector<Command> wrong = {commands[0], *parse_command(R"({"do":"remove","tool":"none"})")};
+  EXPECT_FALSE(rehearsed.rehearse(wrong));
+  EXPECT_FALSE(rehearsed.rehearse(commands, [] { return false; }));
+  EXPECT_EQ(points(rehearsed), before);
+  for (Session* session : {&rehearsed, &other}) {
+    run(*session, {R"({"do":"redo"})"});
+    for (const Command& command : commands) ASSERT_TRUE(session->execute(command));
+  }
+  EXPECT_EQ(points(rehearsed), points(other));
+  EXPECT_EQ(rehearsed.journal().size(), other.journal().size());
+}
+
 TEST(Session, TheJournalReplaysToTheSameBits) {
   Session session = open_sample();
   run(session, press);

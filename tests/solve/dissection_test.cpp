@@ -93,7 +93,9 @@ TEST(Dissection, SeparatesWhatDoesNotDependOnEachOther) {
       for (const int size : {64, 100, 500}) {
         const Dissection d = dissect(p->a, p->places, size);
         expect_right(p->a, d);
-        if (p->a.cols() > 3 * size) EXPECT_GT(d.nodes.size(), 2U) << degree << " " << size;
+        if (p->a.cols() > 3 * size) {
+          EXPECT_GT(d.nodes.size(), 2U) << degree << " " << size;
+        }
         for (const Dissection::Node& node : d.nodes) EXPECT_LE(node.end - node.begin, std::max(size, 250));
       }
     }
@@ -213,6 +215,18 @@ TEST(DissectedPanels, SolveWithinAPartByTheBitsOfTheWhole) {
     dissected->backward(half, 0.25, part, here, all);
     EXPECT_LE((p.a * all - 1.25 * b).norm(), 1e-11 * b.norm());
   }
+}
+
+TEST(DissectedPanels, AreRefusedForPlacesOfOtherUnknowns) {
+  const PatchSystem p(3, {{9, 8}});
+  GridPlaces fewer = p.places;
+  fewer.indices.pop_back();
+  for (const GridPlaces& places : {fewer, GridPlaces{}}) {
+    const auto factor = SparseCholesky::factor(SparseMatrix(p.a), places);
+    ASSERT_FALSE(factor);
+    EXPECT_EQ(factor.error().kind, ErrorKind::usage);
+  }
+  EXPECT_TRUE(SparseCholesky::factor(SparseMatrix(p.a), p.places));
 }
 
 TEST(DissectedPanels, AreRefusedWhereAnyPivotIsNotPositive) {

@@ -102,13 +102,16 @@ describe('the time of the preparation', () => {
     }
   }
 
-  function prepared() {
+  function prepared(refused = 0) {
     const workers: Warmer[] = [];
     let rehearsals = 0;
     const preparation = new Preparation(Promise.resolve({} as WebAssembly.Module), () => {
       workers.push(new Warmer());
       return workers.at(-1) as unknown as Worker;
-    }, () => void ++rehearsals);
+    }, () => {
+      ++rehearsals;
+      return Promise.resolve(rehearsals !== refused);
+    });
     return { preparation, workers, rehearsals: () => rehearsals };
   }
 
@@ -147,6 +150,35 @@ describe('the time of the preparation', () => {
     preparation.interrupt(true);
     expect(workers.map((w) => w.ended)).toEqual([true, true, true]);
     expect(rehearsals()).toBe(1);
+  });
+
+  it('rehearses again later where it could not, and does without a worker where there is none', async () => {
+    const { preparation, rehearsals } = prepared(1);
+    const without = new Preparation(Promise.resolve({} as WebAssembly.Module), () => {
+      throw new Error('no workers within workers');
+    }, () => Promise.resolve(++alone > 0));
+    let alone = 0;
+    without.renew();
+    without.interrupt(true);
+    await vi.advanceTimersByTimeAsync(1100);
+    expect(alone).toBe(1);
+    preparation.renew();
+    for (let k = 0; k < 5; ++k) {
+      preparation.interrupt(true);
+      await vi.advanceTimersByTimeAsync(1100);
+    }
+    expect(rehearsals()).toBe(2);
+  });
+
+  it('is not ended by a worker that was ended before', () => {
+    const { preparation, workers, rehearsals } = prepared();
+    preparation.renew();
+    preparation.interrupt(true);
+    vi.advanceTimersByTime(1100);
+    preparation.interrupt(true);
+    vi.advanceTimersByTime(1100);
+    workers[0]!.onmessage();
+    expect([workers.length, workers[1]!.ended, rehearsals()]).toEqual([2, false, 0]);
   });
 
   it('goes on beside requests that are short, and waits with the rehearsal until they are over', () => {

@@ -43,7 +43,7 @@ struct Dissection {
 /// approximate minimum degree on large grids, and its parts can be eliminated side by side.
 /// \param a symmetric: its pattern, both triangles.
 /// \param node_size parts of at most so many unknowns are one node: some 0.1 ms of substitution for a thread.
-/// Cost: O(entries of A · log size).
+/// Cost: O((entries of A + size · log size) · log size).
 [[nodiscard]] Dissection dissect(const SparseMatrix& a, const GridPlaces& places, int node_size = 2000);
 
 /// Approximate minimum degree (Amestoy, Davis, Duff 1996), without nodes. The pattern of A, both triangles.

@@ -19,9 +19,11 @@ class SparseCholesky {
 
   /// The same by nested dissection, where it is known on which grids the unknowns lie: of
   /// large grids L has fewer entries, and threads share its making and its use, with the same bits for any number.
+  /// Error (usage): the places are not those of A's unknowns.
   [[nodiscard]] static Expected<SparseCholesky> factor(SparseMatrix&& a, const GridPlaces& places);
 
-  /// The factor of a matrix that is in the order of its factor; its lower triangle is used.
+  /// The factor of a matrix that is in the order of its factor; its lower triangle is used. The nodes must be what
+  /// `dissect` gives for a matrix with these entries, or none.
   [[nodiscard]] static Expected<SparseCholesky> factor_in_order(const SparseMatrix& lower, Dissection dissection);
 
   /// X with A X = B, three columns at once. Cost: O(nonzeros of L). const and thread-safe.

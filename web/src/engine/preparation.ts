@@ -14,14 +14,16 @@ export class Preparation {
   private warm = false;
   private due = false;
 
-  constructor(private readonly core: Promise<WebAssembly.Module>, private readonly makeWorker: () => Worker, private readonly rehearse: () => void) {}
+  /** `rehearse`: false where it could not be done now. */
+  constructor(private readonly core: Promise<WebAssembly.Module>, private readonly makeWorker: () => Worker,
+    private readonly rehearse: () => Promise<boolean>) {}
 
   /** Another session has begun. */
   renew(): void {
     this.due = true;
   }
 
-  /** A request has come. `works`: it may take long, and should have the processor. */
+  /** A request has come, or is done. `works`: it may take long, and should have the processor. */
   interrupt(works: boolean): void {
     if (works) this.end();
     clearTimeout(this.timer);
@@ -35,21 +37,28 @@ export class Preparation {
     if (!this.due || this.worker) return;
     if (this.warm || this.begun === most) {
       this.due = false;
-      this.rehearse();
+      if (!(await this.rehearse())) this.due = true;
       return;
     }
     ++this.begun;
-    const worker = (this.worker = this.makeWorker());
-    worker.onmessage = () => this.warmed();
     // Where it fails everything is right, but slow.
+    let worker: Worker;
+    try {
+      worker = this.worker = this.makeWorker();
+    } catch {
+      this.warmed(null);
+      return;
+    }
+    worker.onmessage = () => this.warmed(worker);
     worker.onerror = (event) => {
       event.preventDefault();
-      this.warmed();
+      this.warmed(worker);
     };
     worker.postMessage({ module: await this.core, longest });
   }
 
-  private warmed(): void {
+  private warmed(worker: Worker | null): void {
+    if (this.worker !== worker) return; // one that was ended
     this.end();
     this.warm = true;
     if (this.timer === undefined) void this.goOn();

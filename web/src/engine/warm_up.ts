@@ -7,10 +7,13 @@ import { strokes } from './strokes';
  * worker makes strokes in an instance of its own, which nobody sees and which ends with it.
  */
 self.onmessage = async ({ data }: MessageEvent<{ module: WebAssembly.Module; longest: number }>) => {
-  const engine = await Engine.load(data.module, new Rest(() => {
-    throw new Error('a stroke calls a function of the second module');
-  }));
-  const end = performance.now() + data.longest;
-  for (const _ of strokes(engine)) if (performance.now() > end) break;
-  self.postMessage('done');
+  try {
+    const engine = await Engine.load(data.module, new Rest(() => {
+      throw new Error('a stroke calls a function of the second module');
+    }));
+    const end = performance.now() + data.longest;
+    for (const _ of strokes(engine)) if (performance.now() > end) break;
+  } finally {
+    self.postMessage('done');
+  }
 };

@@ -23,10 +23,12 @@ const engineLoaded = core.then((module) => Engine.load(module, rest)).then((engi
 const preparation = new Preparation(core, () => new Worker(new URL('./warm_up.ts', import.meta.url), { type: 'module' }), async () => {
   const engine = await engineLoaded;
   try {
-    if (playing === 'no' && hasSession(engine)) rehearse(engine);
+    if (playing !== 'no' || !hasSession(engine)) return false;
+    rehearse(engine);
   } catch (error) {
     died(error);
   }
+  return true;
 });
 const works = new Set<Request['kind']>(['open', 'fresh', 'restore', 'execute', 'play', 'save', 'mesh']);
 
@@ -370,6 +372,7 @@ self.onmessage = async (event: MessageEvent<{ id: number; request: Request }>) =
     post({ kind: 'failed', id, error: errorInfo(error) });
     if (hasSession(engine)) sendFrame(engine); // part of an act may have taken effect
   }
+  preparation.interrupt(false);
 };
 
 /** A browser that ends a worker tells nobody; its locks are free then. */
