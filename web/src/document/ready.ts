@@ -1,5 +1,5 @@
+import { clay } from '../engine/clay';
 import { type Command, EngineError } from '../engine/session_types';
-import { clay } from './clay';
 import type { Host } from './host';
 
 /**

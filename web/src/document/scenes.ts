@@ -1,6 +1,6 @@
 import bonnetUrl from '../../../samples/bonnet.step?url';
+import { clay } from '../engine/clay';
 import type { Command, Vector3 } from '../engine/session_types';
-import { clay } from './clay';
 import { figureScenes } from './figures';
 import type { Scene } from './scene';
 

@@ -1,5 +1,5 @@
+import { clay } from '../engine/clay';
 import type { Command, EngineErrorInfo } from '../engine/session_types';
-import { clay } from './clay';
 
 /** What an error of the engine means for a user, and what can be done about it at once. */
 export interface Advice {

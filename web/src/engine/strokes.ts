@@ -1,4 +1,4 @@
-import { clay } from '../document/clay';
+import { clay } from './clay';
 import type { Engine } from './engine';
 import { type Command, EngineError, type Vector3 } from './session_types';
 

@@ -1,4 +1,4 @@
-import { clay } from '../document/clay';
+import { clay } from '../engine/clay';
 import { parseLength, parseNumber } from '../document/units';
 import type { NewCommand } from '../engine/generated';
 import type { Command, Vector3 } from '../engine/session_types';

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import { clay } from '../document/clay';
+import { clay } from '../engine/clay';
 import type { Command } from '../engine/session_types';
 import type { Viewport } from '../view/viewport';
 import { BodyHand } from './body_hand';

@@ -1,4 +1,4 @@
-import type { Command } from '../engine/session_types';
+import type { Command } from './session_types';
 
 /** A material that yields only where it is pressed, and stays deformed. */
 export const clay: Command[] = [
