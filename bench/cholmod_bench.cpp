@@ -8,6 +8,7 @@
 #include "knead/energy/stiffness.hpp"
 #include "knead/solve/sparse_cholesky.hpp"
 #include "medians.hpp"
+#include "solve/independent_places.hpp"
 
 namespace {
 
@@ -78,7 +79,8 @@ void solve(benchmark::State& state) {
   GridPlaces places{2, {}};  // two lines at each end of the first direction are held
   for (int i = 2 * net; i < 2 * net + a.rows(); ++i) places.indices.insert(places.indices.end(), {i / net, i % net});
   // As steps do: large nets are dissected.
-  const auto ours = a.rows() < 8000 ? SparseCholesky::factor(a) : SparseCholesky::factor(SparseMatrix(a), places);
+  const auto ours =
+      a.rows() < detail::least_dissected ? SparseCholesky::factor(a) : SparseCholesky::factor(SparseMatrix(a), places);
   if (!ours) std::abort();
   Cholmod theirs(a);
   const Points b = Points::Random(a.rows(), 3);

@@ -115,6 +115,12 @@ describe('the time of the preparation', () => {
     return { preparation, workers, rehearsals: () => rehearsals };
   }
 
+  /** Something is done, and nothing for so long after it that a preparation begins. */
+  const leaveAlone = (preparation: Preparation): void => {
+    preparation.interrupt(true);
+    vi.advanceTimersByTime(1100);
+  };
+
   it('begins when a session has been left alone, and ends with one rehearsal', () => {
     const { preparation, workers, rehearsals } = prepared();
     preparation.interrupt(false);
@@ -144,8 +150,7 @@ describe('the time of the preparation', () => {
     const { preparation, workers, rehearsals } = prepared();
     preparation.renew();
     for (let k = 0; k < 5; ++k) {
-      preparation.interrupt(true);
-      vi.advanceTimersByTime(1100);
+      leaveAlone(preparation);
     }
     preparation.interrupt(true);
     expect(workers.map((w) => w.ended)).toEqual([true, true, true]);
@@ -173,10 +178,8 @@ describe('the time of the preparation', () => {
   it('is not ended by a worker that was ended before', () => {
     const { preparation, workers, rehearsals } = prepared();
     preparation.renew();
-    preparation.interrupt(true);
-    vi.advanceTimersByTime(1100);
-    preparation.interrupt(true);
-    vi.advanceTimersByTime(1100);
+    leaveAlone(preparation);
+    leaveAlone(preparation);
     workers[0]!.onmessage();
     expect([workers.length, workers[1]!.ended, rehearsals()]).toEqual([2, false, 0]);
   });
@@ -184,8 +187,7 @@ describe('the time of the preparation', () => {
   it('goes on beside requests that are short, and waits with the rehearsal until they are over', () => {
     const { preparation, workers, rehearsals } = prepared();
     preparation.renew();
-    preparation.interrupt(true);
-    vi.advanceTimersByTime(1100);
+    leaveAlone(preparation);
     preparation.interrupt(false);
     expect(workers[0]!.ended).toBe(false);
     workers[0]!.onerror({ preventDefault: () => undefined });
