@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "figures/roofline.hpp"
+#include "knead/base/instruction_set.hpp"
 #include "knead/gramian/band_matrix.hpp"
-#include "knead/gramian/instruction_set.hpp"
 
 namespace knead::figures {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/parallel_for.hpp"
+#include "knead/base/instruction_set.hpp"
 #include "knead/base/threads.hpp"
-#include "knead/gramian/instruction_set.hpp"
 
 namespace knead::detail {
 namespace {

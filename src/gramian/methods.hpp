@@ -1,7 +1,7 @@
 #pragma once
 
+#include "knead/base/instruction_set.hpp"
 #include "knead/gramian/gramian.hpp"
-#include "knead/gramian/instruction_set.hpp"
 
 namespace knead::detail {
 

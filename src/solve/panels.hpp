@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "knead/base/instruction_set.hpp"
 #include "knead/energy/stiffness.hpp"
-#include "knead/gramian/instruction_set.hpp"
 
 namespace knead {
 namespace detail {

@@ -98,13 +98,5 @@ TEST(GramianKernels, write_nothing_but_the_band_into_storage_that_is_used_again)
   EXPECT_TRUE(same_bits(fresh.g10, set.g10));
 }
 
-TEST(InstructionSet, holds_at_least_the_portable_ones_slowest_first) {
-  const auto& sets = available_instruction_sets();
-  ASSERT_GE(sets.size(), 2u);
-  EXPECT_EQ(sets.front(), InstructionSet::scalar);
-  EXPECT_EQ(sets[1], InstructionSet::vector128);
-  EXPECT_EQ(best_instruction_set(), sets.back());
-}
-
 }  // namespace
 }  // namespace knead

@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "knead/base/error.hpp"
+#include "knead/base/instruction_set.hpp"
 #include "knead/gramian/band_matrix.hpp"
-#include "knead/gramian/instruction_set.hpp"
 #include "knead/spline/knot_vector.hpp"
 
 namespace knead {

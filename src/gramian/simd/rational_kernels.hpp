@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "knead/gramian/instruction_set.hpp"
+#include "knead/base/instruction_set.hpp"
 
 namespace knead::detail {
 

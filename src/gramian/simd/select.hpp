@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels.hpp"
-#include "knead/gramian/instruction_set.hpp"
+#include "knead/base/instruction_set.hpp"
 
 namespace knead::detail {
 

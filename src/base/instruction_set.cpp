@@ -1,9 +1,6 @@
-#include "knead/gramian/instruction_set.hpp"
+#include "knead/base/instruction_set.hpp"
 
 #include <cstdlib>
-
-#include "simd/kernels.hpp"
-#include "simd/select.hpp"
 
 namespace knead {
 namespace {
@@ -24,25 +21,20 @@ bool runs_here(InstructionSet set) {
 #endif
 }
 
-const detail::GramianKernels* compiled(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::scalar:
-      return detail::scalar_kernels;
-    case InstructionSet::vector128:
-      return detail::vector128_kernels;
-    case InstructionSet::avx2:
-      return detail::avx2_kernels;
-    case InstructionSet::avx512:
-      return detail::avx512_kernels;
-  }
-  return nullptr;
+/// Omitted (KNEAD_SCALAR_KERNELS=0) where only vectors are ever used: in WebAssembly.
+bool compiled([[maybe_unused]] InstructionSet set) {
+#if defined(KNEAD_SCALAR_KERNELS) && !KNEAD_SCALAR_KERNELS
+  return set != InstructionSet::scalar;
+#else
+  return true;
+#endif
 }
 
 std::vector<InstructionSet> find_available() {
   std::vector<InstructionSet> sets;
   for (const InstructionSet set :
        {InstructionSet::scalar, InstructionSet::vector128, InstructionSet::avx2, InstructionSet::avx512}) {
-    if (compiled(set) != nullptr && runs_here(set)) sets.push_back(set);
+    if (compiled(set) && runs_here(set)) sets.push_back(set);
   }
   return sets;
 }
@@ -83,11 +75,6 @@ const std::vector<InstructionSet>& available_instruction_sets() {
 InstructionSet best_instruction_set() {
   static const InstructionSet best = find_best();
   return best;
-}
-
-const detail::GramianKernels& detail::kernels_of(InstructionSet set) {
-  const GramianKernels* kernels = compiled(set);
-  return kernels != nullptr && runs_here(set) ? *kernels : *compiled(available_instruction_sets().front());
 }
 
 }  // namespace knead

@@ -5,13 +5,14 @@
 
 namespace knead {
 
-/// Instruction sets that the Gramian kernels are compiled for. They differ only in speed: all compute the same numbers
+/// Instruction sets that kernels are compiled for, each from one source; a room has them for some or all of these and
+/// takes the fastest up to the one that is asked for. They differ only in speed: all compute the same numbers
 /// bit for bit (the same operations in the same order, divisions correctly rounded, nothing fused).
 enum class InstructionSet {
-  scalar,     ///< one row at a time; everywhere
-  vector128,  ///< two rows: SSE2, NEON or WebAssembly SIMD, whatever the compiler's baseline offers
-  avx2,       ///< four rows, x86 with AVX2
-  avx512,     ///< eight rows, x86 with AVX-512 F, DQ and VL
+  scalar,     ///< one number at a time, Gramians only; everywhere
+  vector128,  ///< two numbers: SSE2, NEON or WebAssembly SIMD, whatever the compiler's baseline offers
+  avx2,       ///< four numbers, x86 with AVX2
+  avx512,     ///< eight numbers, x86 with AVX-512 F, DQ and VL
 };
 
 [[nodiscard]] std::string_view name(InstructionSet set);
