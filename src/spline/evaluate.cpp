@@ -159,7 +159,7 @@ Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTab
         for (std::size_t k = 0; k < indices.size(); ++k) {
           std::copy_n(homogeneous.data() + k * 3, 3, result.derivatives[k].data() + row * 3);
         }
-      } else if (!quotient.apply(homogeneous.data(), net.width(), row, result.derivatives)) {
+      } else if (!detail::divide_point<D>(quotient, homogeneous.data(), net.width(), row, result.derivatives)) {
         failed[static_cast<std::size_t>(begin / size)] = row;
         return;
       }

@@ -5,144 +5,97 @@
 #include <optional>
 
 #include "base/parallel_for.hpp"
+#include "evaluate_grid_by.hpp"
 #include "homogeneous.hpp"
-#include "knead/spline/evaluate.hpp"
 
 namespace knead {
+
+const detail::GridKernels& detail::grid_kernels(InstructionSet set) {
+  if (avx512_grid_kernels != nullptr && set >= InstructionSet::avx512) return *avx512_grid_kernels;
+  if (avx2_grid_kernels != nullptr && set >= InstructionSet::avx2) return *avx2_grid_kernels;
+  return *vector128_grid_kernels;
+}
+
 namespace {
 
-// Two doubles side by side: available on every 64-bit target. All arithmetic is lane by lane, in the order of the
-// scalar code, so results do not depend on the vector width.
-// A typedef: Clang ignores the alignment in an alias declaration, and then loads from odd addresses trap.
-typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));  // NOLINT(modernize-use-using)
-static_assert(alignof(Pair) == alignof(double));
-
 /// The last direction's basis with parameters side by side, so that neighbouring points of one span are computed at
-/// once: values(d, r)[k] = N^(d)_{first[k]+r}(u_k).
+/// once.
 class TransposedBasis {
  public:
   TransposedBasis(const BasisTable& table, int order)
-      : count_(static_cast<std::size_t>(table.size())), width_(static_cast<std::size_t>(table.degree + 1)) {
-    values_.resize(static_cast<std::size_t>(order + 1) * width_ * count_);
+      : count_(static_cast<std::size_t>(table.size())),
+        stride_(count_ + detail::GridKernels::spare),
+        width_(static_cast<std::size_t>(table.degree + 1)) {
+    values_.resize(static_cast<std::size_t>(order + 1) * width_ * stride_);
     for (std::size_t k = 0; k < count_; ++k) {
       for (int d = 0; d <= order; ++d) {
         const double* row = table.row(static_cast<int>(k), d);
         for (std::size_t r = 0; r < width_; ++r)
-          values_[(static_cast<std::size_t>(d) * width_ + r) * count_ + k] = row[r];
+          values_[(static_cast<std::size_t>(d) * width_ + r) * stride_ + k] = row[r];
       }
-      if (k == 0 || table.first[k] != table.first[k - 1])
-        runs_.push_back({static_cast<std::size_t>(table.first[k]), k});
+      const auto at = static_cast<std::ptrdiff_t>(k);
+      if (k == 0 || table.first[k] != table.first[k - 1]) runs_.push_back({table.first[k], at, at});
+      runs_.back().end = at + 1;
     }
   }
 
-  /// Parameters begin … (begin of the next run) − 1 lie in one span, whose first function is `first`.
-  struct Run {
-    std::size_t first, begin;
-  };
-  [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
-  [[nodiscard]] std::size_t end(std::size_t run) const {
-    return run + 1 < runs_.size() ? runs_[run + 1].begin : count_;
-  }
   [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] std::size_t stride() const { return stride_; }
+  [[nodiscard]] detail::GridRow row() const {
+    return {runs_.data(), std::ssize(runs_), static_cast<std::ptrdiff_t>(count_), static_cast<std::ptrdiff_t>(stride_),
+            static_cast<std::ptrdiff_t>(width_)};
+  }
+  /// The values of derivative d, as `GridRow` describes them.
   [[nodiscard]] const double* values(int d) const {
-    return values_.data() + static_cast<std::size_t>(d) * width_ * count_;
+    return values_.data() + static_cast<std::size_t>(d) * width_ * stride_;
   }
 
  private:
-  std::size_t count_, width_;
+  std::size_t count_, stride_, width_;
   std::vector<double> values_;
-  std::vector<Run> runs_;
+  std::vector<detail::SpanRun> runs_;
 };
 
-/// Σ_r basis[r · stride + k] coefficients[3 r + c] for k = 0 … count − 1, written to out[3 k + c].
-/// `Fixed` is the number of terms if known at compile time, else 0 and `terms` holds it.
-template <std::size_t Fixed>
-void sum_run(const double* coefficients, const double* basis, std::size_t stride, std::size_t terms, std::size_t count,
-             double* out) {
-  if constexpr (Fixed > 0) terms = Fixed;
-  std::size_t k = 0;
-  for (; k + 2 <= count; k += 2) {
-    Pair n = *reinterpret_cast<const Pair*>(basis + k);
-    Pair x = n * coefficients[0], y = n * coefficients[1], z = n * coefficients[2];
-    for (std::size_t r = 1; r < terms; ++r) {
-      n = *reinterpret_cast<const Pair*>(basis + r * stride + k);
-      const double* c = coefficients + 3 * r;
-      x += n * c[0];
-      y += n * c[1];
-      z += n * c[2];
+/// The terms of the quotient rule, one after the other; none for order 0, where there is only the division.
+class ListedQuotientRule {
+ public:
+  template <int D>
+  explicit ListedQuotientRule(const detail::QuotientRule<D>& rule) {
+    for (std::size_t a = 0; a < rule.size(); ++a) {
+      begin_.push_back(terms_.size());
+      for (const auto& term : rule.terms(a)) terms_.push_back({term.denominator, term.rest, term.factor});
     }
-    double* to = out + 3 * k;
-    *reinterpret_cast<Pair*>(to) = Pair{x[0], y[0]};
-    *reinterpret_cast<Pair*>(to + 2) = Pair{z[0], x[1]};
-    *reinterpret_cast<Pair*>(to + 4) = Pair{y[1], z[1]};
+    begin_.push_back(terms_.size());
   }
-  for (; k < count; ++k) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = basis[k] * coefficients[c];
-      for (std::size_t r = 1; r < terms; ++r) sum += basis[r * stride + k] * coefficients[3 * r + c];
-      out[3 * k + c] = sum;
-    }
-  }
-}
 
-/// The same with four numbers per control point.
-void sum_homogeneous_run(const double* coefficients, const double* basis, std::size_t stride, std::size_t terms,
-                         std::size_t count, double* out) {
-  for (std::size_t k = 0; k < count; ++k) {
-    Pair xy{}, zw{};
-    for (std::size_t r = 0; r < terms; ++r) {
-      const Pair* c = reinterpret_cast<const Pair*>(coefficients + 4 * r);
-      const Pair a = basis[r * stride + k] * c[0], b = basis[r * stride + k] * c[1];
-      xy = r == 0 ? a : xy + a;
-      zw = r == 0 ? b : zw + b;
-    }
-    *reinterpret_cast<Pair*>(out + 4 * k) = xy;
-    *reinterpret_cast<Pair*>(out + 4 * k + 2) = zw;
-  }
-}
+  [[nodiscard]] detail::QuotientTerms terms() const { return {terms_.data(), begin_.data(), begin_.size() - 1}; }
 
-using SumRun = void (*)(const double*, const double*, std::size_t, std::size_t, std::size_t, double*);
-
-SumRun sum_run_for(std::size_t width, std::size_t terms) {
-  if (width == 4) return sum_homogeneous_run;
-  switch (terms) {
-    case 2:
-      return sum_run<2>;
-    case 3:
-      return sum_run<3>;
-    case 4:
-      return sum_run<4>;
-    case 5:
-      return sum_run<5>;
-    case 6:
-      return sum_run<6>;
-    default:
-      return sum_run<0>;
-  }
-}
+ private:
+  std::vector<detail::QuotientTerm> terms_;
+  std::vector<std::size_t> begin_;
+};
 
 /// What all parts of a grid share.
 template <int D>
 struct GridTask {
-  GridTask(const Spline<D>& spline, const std::array<const BasisTable*, D>& given, int derivatives,
-           Evaluation<D>& evaluation)
-      : rational(spline.rational()),
+  GridTask(const detail::GridKernels& chosen, const Spline<D>& spline, const std::array<const BasisTable*, D>& given,
+           int derivatives, Evaluation<D>& evaluation)
+      : kernels(chosen),
+        rational(spline.rational()),
         net(spline),
         tables(given),
         order(derivatives),
         basis(*given[D - 1], derivatives),
-        quotient(rational ? derivatives : 0),
-        sum_run(sum_run_for(net.width(), basis.width())),
+        quotient(detail::QuotientRule<D>(rational ? derivatives : 0)),
         result(evaluation) {}
 
+  const detail::GridKernels& kernels;
   bool rational;
   detail::HomogeneousNet<D> net;
   const std::array<const BasisTable*, D>& tables;
   int order;
   TransposedBasis basis;
-  detail::QuotientRule<D> quotient;
-  SumRun sum_run;
+  ListedQuotientRule quotient;
   Evaluation<D>& result;
 };
 
@@ -153,7 +106,11 @@ class GridWalk {
  public:
   explicit GridWalk(const GridTask<D>& task) : task_(task) {
     for (std::size_t d = 0; d + 1 < D; ++d) nets_[d].resize(multi_indices<D>(task.order).size() * task.net.stride(d));
-    if (task.rational) homogeneous_.resize(task.result.derivatives.size() * task.basis.size() * 4);
+    if (!task.rational) return;
+    constexpr auto spare = static_cast<std::size_t>(detail::GridKernels::spare);
+    homogeneous_.resize(task.result.derivatives.size() * task.basis.stride() * 4 + spare);
+    work_.resize(task.result.derivatives.size() * 3 * spare);
+    for (Points& derivative : task.result.derivatives) divided_.push_back(derivative.data());
   }
 
   /// At parameters begin … end − 1 of the first direction; all of it where that is also the last. False if a
@@ -188,7 +145,8 @@ class GridWalk {
         for (const int order : a) left -= order;
         for (int m = 0; m <= left; ++m, to += stride) {
           a[d] = m;
-          contract(table.row(static_cast<int>(k), m), table.degree, from, stride, to);
+          task_.kernels.contract(table.row(static_cast<int>(k), m), table.degree + 1, from,
+                                 static_cast<std::ptrdiff_t>(stride), to);
           contracted.push_back({a, to});
         }
       }
@@ -197,17 +155,9 @@ class GridWalk {
     return true;
   }
 
-  static void contract(const double* values, int degree, const double* from, std::size_t stride, double* to) {
-    for (std::size_t c = 0; c < stride; ++c) to[c] = values[0] * from[c];
-    for (int r = 1; r <= degree; ++r) {
-      from += stride;
-      for (std::size_t c = 0; c < stride; ++c) to[c] += values[r] * from[c];
-    }
-  }
-
   bool sum_row(const std::vector<Partial>& partials) {
     const TransposedBasis& basis = task_.basis;
-    const std::size_t n = basis.size(), width = task_.net.width();
+    const auto sum = task_.rational ? task_.kernels.homogeneous : task_.kernels.points;
     for (const Partial& partial : partials) {
       MultiIndex<D> a = partial.a;
       int left = task_.order;
@@ -215,28 +165,30 @@ class GridWalk {
       for (int m = 0; m <= left; ++m) {
         a[D - 1] = m;
         const auto k = static_cast<std::size_t>(multi_index_position<D>(a));
-        double* to = task_.rational ? homogeneous_.data() + k * n * 4 : task_.result.derivatives[k].data() + row_ * 3;
-        for (std::size_t run = 0; run < basis.runs().size(); ++run) {
-          const auto [first, begin] = basis.runs()[run];
-          task_.sum_run(partial.net + first * width, basis.values(m) + begin, n, basis.width(), basis.end(run) - begin,
-                        to + begin * width);
-        }
+        double* to = task_.rational ? homogeneous_.data() + k * basis.stride() * 4
+                                    : task_.result.derivatives[k].data() + row_ * 3;
+        sum(basis.row(), basis.values(m), partial.net, to);
       }
     }
-    for (std::size_t k = 0; task_.rational && k < n; ++k) {
-      at_[D - 1] = k;
-      if (!task_.quotient.apply(homogeneous_.data() + k * 4, n * 4, static_cast<Eigen::Index>(row_ + k),
-                                task_.result.derivatives)) {
-        return false;
-      }
-    }
-    row_ += n;
+    if (task_.rational && !divide_row()) return false;
+    row_ += basis.size();
     return true;
+  }
+
+  bool divide_row() {
+    const auto size = static_cast<std::ptrdiff_t>(task_.basis.size());
+    const std::ptrdiff_t done = task_.kernels.divide(task_.quotient.terms(), homogeneous_.data(),
+                                                     static_cast<std::ptrdiff_t>(task_.basis.stride()), size,
+                                                     work_.data(), divided_.data(), static_cast<std::ptrdiff_t>(row_));
+    at_[D - 1] = static_cast<std::size_t>(done);
+    return done == size;
   }
 
   const GridTask<D>& task_;
   std::array<std::vector<double>, D> nets_;  ///< the net remaining after direction d, one per derivative
-  std::vector<double> homogeneous_;          ///< one row of a rational spline, by derivative and point
+  std::vector<double> homogeneous_;          ///< one row of a rational spline, by derivative, coordinate and point
+  std::vector<double> work_;                 ///< of the division
+  std::vector<double*> divided_;             ///< where its results go, by derivative
   std::size_t row_ = 0;
   std::array<std::size_t, D> at_{};
 };
@@ -249,6 +201,14 @@ double work_of_a_slab(const GridTask<D>& task, Eigen::Index points) {
   const double numbers = static_cast<double>(points) / task.tables[0]->size() *
                          static_cast<double>(task.result.derivatives.size() * task.net.width());
   return numbers * (task.tables[D - 1]->degree + 1 + (task.rational ? 4 : 0));
+}
+
+/// The fastest for so many points in a span: vectors of eight pay where a span has more than fit into one, in the mean.
+const detail::GridKernels& kernels_for(const BasisTable& last) {
+  std::ptrdiff_t runs = last.size() > 0 ? 1 : 0;
+  for (std::size_t k = 1; k < last.first.size(); ++k) runs += last.first[k] != last.first[k - 1] ? 1 : 0;
+  const InstructionSet best = best_instruction_set();
+  return detail::grid_kernels(last.size() > 8 * runs ? best : std::min(best, InstructionSet::avx2));
 }
 
 /// The whole grid, by several threads where it is large.
@@ -271,8 +231,9 @@ Expected<void> walk_all(const GridTask<D>& task, Eigen::Index points) {
 }  // namespace
 
 template <int D>
-Expected<void> evaluate_grid(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
-                             Evaluation<D>& result) {
+Expected<void> detail::evaluate_grid_by(const GridKernels& kernels, const Spline<D>& spline,
+                                        const std::array<const BasisTable*, D>& tables, int order,
+                                        Evaluation<D>& result) {
   Eigen::Index rows = 1;
   for (std::size_t d = 0; d < D; ++d) {
     assert(tables[d]->order >= order && tables[d]->degree == spline.knots()[d].degree());
@@ -282,7 +243,13 @@ Expected<void> evaluate_grid(const Spline<D>& spline, const std::array<const Bas
   result.derivatives.resize(multi_indices<D>(order).size());
   for (Points& derivative : result.derivatives) derivative.resize(rows, 3);
   if (rows == 0) return {};
-  return walk_all(GridTask<D>(spline, tables, order, result), rows);
+  return walk_all(GridTask<D>(kernels, spline, tables, order, result), rows);
+}
+
+template <int D>
+Expected<void> evaluate_grid(const Spline<D>& spline, const std::array<const BasisTable*, D>& tables, int order,
+                             Evaluation<D>& result) {
+  return detail::evaluate_grid_by<D>(kernels_for(*tables[D - 1]), spline, tables, order, result);
 }
 
 template <int D>
@@ -309,6 +276,8 @@ Expected<Evaluation<D>> evaluate_grid(const Spline<D>& spline, const std::array<
 }
 
 #define KNEAD_INSTANTIATE(D)                                                                                         \
+  template Expected<void> detail::evaluate_grid_by<D>(const GridKernels&, const Spline<D>&,                          \
+                                                      const std::array<const BasisTable*, D>&, int, Evaluation<D>&); \
   template Expected<void> evaluate_grid<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int,           \
                                            Evaluation<D>&);                                                          \
   template Expected<Evaluation<D>> evaluate_grid<D>(const Spline<D>&, const std::array<const BasisTable*, D>&, int); \

@@ -3,15 +3,6 @@
 #include <fmt/format.h>
 
 namespace knead::detail {
-namespace {
-
-double binomial(int n, int k) {
-  double value = 1;
-  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;  // exact: a binomial coefficient after every step
-  return value;
-}
-
-}  // namespace
 
 template <int D>
 HomogeneousNet<D>::HomogeneousNet(const Spline<D>& spline)
@@ -32,35 +23,16 @@ HomogeneousNet<D>::HomogeneousNet(const Spline<D>& spline)
 }
 
 template <int D>
-QuotientRule<D>::QuotientRule(int order) {
-  const auto indices = multi_indices<D>(order);
-  terms_.resize(indices.size());
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    for (std::size_t l = 1; l <= k; ++l) {
-      MultiIndex<D> rest;
-      double factor = 1;
-      bool below = true;
-      for (std::size_t d = 0; d < D && below; ++d) {
-        rest[d] = indices[k][d] - indices[l][d];
-        below = rest[d] >= 0;
-        if (below) factor *= binomial(indices[k][d], indices[l][d]);
-      }
-      if (below) terms_[k].push_back({l, static_cast<std::size_t>(multi_index_position<D>(rest)), factor});
-    }
-  }
-}
-
-template <int D>
-bool QuotientRule<D>::apply(const double* homogeneous, std::size_t stride, Eigen::Index row,
-                            std::vector<Points>& out) const {
+bool divide_point(const QuotientRule<D>& rule, const double* homogeneous, std::size_t stride, Eigen::Index row,
+                  std::vector<Points>& out) {
   const double denominator = homogeneous[3];
   if (!(denominator > 0)) return false;
-  for (std::size_t k = 0; k < terms_.size(); ++k) {
+  for (std::size_t k = 0; k < rule.size(); ++k) {
     const double* numerator = homogeneous + k * stride;
     double value[3] = {numerator[0], numerator[1], numerator[2]};
-    for (const Term& term : terms_[k]) {
-      const double factor = term.factor * homogeneous[term.weight * stride + 3];
-      const double* lower = out[term.lower].data() + row * 3;
+    for (const auto& term : rule.terms(k)) {
+      const double factor = term.factor * homogeneous[term.denominator * stride + 3];
+      const double* lower = out[term.rest].data() + row * 3;
       for (int c = 0; c < 3; ++c) value[c] -= factor * lower[c];
     }
     double* to = out[k].data() + row * 3;
@@ -75,9 +47,10 @@ std::unexpected<Error> denominator_error(const std::array<std::size_t, D>& at) {
                          "use positive weights");
 }
 
-#define KNEAD_INSTANTIATE(D)        \
-  template class HomogeneousNet<D>; \
-  template class QuotientRule<D>;   \
+#define KNEAD_INSTANTIATE(D)                                                                      \
+  template class HomogeneousNet<D>;                                                               \
+  template bool divide_point<D>(const QuotientRule<D>&, const double*, std::size_t, Eigen::Index, \
+                                std::vector<Points>&);                                            \
   template std::unexpected<Error> denominator_error<D>(const std::array<std::size_t, D>&);
 KNEAD_INSTANTIATE(1)
 KNEAD_INSTANTIATE(2)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "knead/spline/evaluate.hpp"
+#include "quotient_rule.hpp"
 
 namespace knead::detail {
 
@@ -26,26 +27,13 @@ class HomogeneousNet {
   std::array<std::size_t, D> stride_{};
 };
 
-/// Cartesian derivatives from homogeneous ones by the quotient rule (The NURBS Book, Eq. 4.20):
-/// ∂^a S = (∂^a A − Σ_{0 < b <= a} binom(a, b) ∂^b w ∂^{a−b} S) / w. Its terms are listed once for all points.
+/// Cartesian derivatives of one point from homogeneous ones, R = A / W, by the quotient rule.
+/// \param homogeneous (wx, wy, wz, w) of multi-index k at homogeneous + k · stride
+/// \param row         row of `out[k]` to write, for every k
+/// False, with nothing written, if w is not positive.
 template <int D>
-class QuotientRule {
- public:
-  explicit QuotientRule(int order);
-
-  /// \param homogeneous (wx, wy, wz, w) of multi-index k at homogeneous + k · stride
-  /// \param row         row of `out[k]` to write, for every k
-  /// False, with nothing written, if w is not positive.
-  bool apply(const double* homogeneous, std::size_t stride, Eigen::Index row, std::vector<Points>& out) const;
-
- private:
-  struct Term {
-    std::size_t weight;  ///< position of b
-    std::size_t lower;   ///< position of a − b
-    double factor;       ///< binom(a, b)
-  };
-  std::vector<std::vector<Term>> terms_;  ///< for each multi-index a
-};
+[[nodiscard]] bool divide_point(const QuotientRule<D>& rule, const double* homogeneous, std::size_t stride,
+                                Eigen::Index row, std::vector<Points>& out);
 
 /// The denominator at the parameters numbered `at` is not positive.
 template <int D>

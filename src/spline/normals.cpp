@@ -1,24 +1,11 @@
 #include "knead/spline/normals.hpp"
 
 #include <cassert>
-#include <cmath>
 
 #include "base/parallel_for.hpp"
+#include "simd/grid_kernels.hpp"
 
 namespace knead {
-namespace {
-
-void put_normal(const double* a, const double* b, double* to) {
-  const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-  const double length = std::sqrt(x * x + y * y + z * z);
-  const double speeds = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
-  const double factor = length > 1e-9 * speeds ? 1 / length : 0;
-  to[0] = factor * x;
-  to[1] = factor * y;
-  to[2] = factor * z;
-}
-
-}  // namespace
 
 void unit_normals(const Evaluation<2>& evaluation, Points& result) {
   assert(evaluation.order >= 1);
@@ -26,9 +13,10 @@ void unit_normals(const Evaluation<2>& evaluation, Points& result) {
   result.resize(u.rows(), 3);
   const double *from_u = u.data(), *from_v = v.data();
   double* to = result.data();
+  const detail::GridKernels& kernels = detail::grid_kernels();
   constexpr double work = 30;  // with a root and a division
   detail::parallel_for(u.rows(), detail::block_size(u.rows(), work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (std::ptrdiff_t k = 3 * begin; k < 3 * end; k += 3) put_normal(from_u + k, from_v + k, to + k);
+    kernels.normals(from_u + 3 * begin, from_v + 3 * begin, end - begin, to + 3 * begin);
   });
 }
 
