@@ -17,23 +17,70 @@ namespace {
 
 constexpr std::ptrdiff_t per_point = 3;  // coordinates
 
+/// Leaves what is not given a value as it is.
+struct UnsetAllocator : CacheLineAllocator<double> {
+  template <class T>
+  struct rebind {
+    using other = UnsetAllocator;
+  };
+  void construct(double* p) noexcept { ::new (p) double; }
+  void construct(double* p, const double& value) noexcept { *p = value; }
+};
+
 /// Numbers whose vectors do not straddle cache lines.
-using Aligned = std::vector<double, CacheLineAllocator<double>>;
+using Aligned = std::vector<double, UnsetAllocator>;
 
-/// A band matrix as its diagonals, every entry once per coordinate, for vectors of points.
-struct PointBand {
+/// How lines of points lie for the kernels: in segments, one per number of a vector, the last ones with zeros behind.
+struct Segments {
+  const detail::TensorKernels* kernels;
+  std::ptrdiff_t size, points, line;  // points of a line and of a segment; numbers of a line with its zeros
+
+  explicit Segments(int count)
+      : kernels(&detail::tensor_kernels()),
+        size(count),
+        points((count + kernels->lanes - 1) / kernels->lanes),
+        line(points * per_point * kernels->lanes) {}
+
+  void read(const double* x, std::ptrdiff_t lines, double* to) const {
+    const bool cut = per_point * size < line;
+    Aligned whole(static_cast<std::size_t>(cut ? line : 0), 0.0);
+    for (; lines > 0; --lines, x += per_point * size, to += line) {
+      if (cut) std::copy_n(x, per_point * size, whole.data());
+      kernels->to_segments(cut ? whole.data() : x, per_point * points, to);
+    }
+  }
+  void write(const double* from, std::ptrdiff_t lines, double* y) const {
+    const bool cut = per_point * size < line;
+    Aligned whole(static_cast<std::size_t>(cut ? line : 0));
+    for (; lines > 0; --lines, from += line, y += per_point * size) {
+      kernels->from_segments(from, per_point * points, cut ? whole.data() : y);
+      if (cut) std::copy_n(whole.data(), per_point * size, y);
+    }
+  }
+};
+
+/// A band matrix as `TensorKernels::add_bands` reads it, zeros outside the matrix.
+struct SegmentBand {
   int half_bandwidth;
-  std::ptrdiff_t length;  // of a diagonal: all points' coordinates, zeros outside the matrix
-  Aligned diagonals;
+  std::ptrdiff_t points, lanes;
+  Aligned entries;
 
-  PointBand(int size, int p)
-      : half_bandwidth(p), length(per_point * size), diagonals(static_cast<std::size_t>((2 * p + 1) * length), 0.0) {}
+  SegmentBand(const Segments& segments, int p)
+      : half_bandwidth(p),
+        points(segments.points),
+        lanes(segments.kernels->lanes),
+        entries(static_cast<std::size_t>((2 * p + 1) * points * lanes), 0.0) {}
 
   void add(double factor, const BandMatrix& matrix) {
+    const std::ptrdiff_t width = 2 * half_bandwidth + 1;
     for (int s = -half_bandwidth; s <= half_bandwidth; ++s) {
-      double* to = diagonals.data() + (s + half_bandwidth) * length + per_point * std::max(0, -s);
+      std::ptrdiff_t row = std::max(0, -s), lane = row / points, i = row % points;
       for (const double entry : matrix.diagonal(s)) {
-        for (std::ptrdiff_t c = 0; c < per_point; ++c) *to++ += factor * entry;
+        entries[static_cast<std::size_t>((i * width + s + half_bandwidth) * lanes + lane)] += factor * entry;
+        if (++i == points) {
+          i = 0;
+          ++lane;
+        }
       }
     }
   }
@@ -46,38 +93,69 @@ class TensorProduct {
   struct Node {
     const BandMatrix* matrix = nullptr;  // of this direction, unless it is the last
     std::vector<Node> next;              // of the following direction
-    std::vector<PointBand> band;         // one, in the last direction
+    std::vector<SegmentBand> band;       // one, in the last direction
   };
 
   /// \param p the degree of the last direction.
-  TensorProduct(std::span<const int> net, int p)
-      : kernels_(detail::tensor_kernels()), net_(net), margin_(in_vectors(per_point * p)) {
-    std::ptrdiff_t slab = per_point;
+  TensorProduct(std::span<const int> net, const Segments& segments, int p)
+      : kernels_(*segments.kernels), net_(net), segments_(segments), margin_(per_point * p * kernels_.lanes) {
     inner_.resize(net.size());
-    for (std::size_t d = net.size(); d-- > 0;) {
+    std::ptrdiff_t slab = segments.line;
+    for (std::size_t d = net.size() - 1; d-- > 0;) {
       inner_[d] = slab;
       slab *= net[d];
     }
-    line_ = in_vectors(per_point * net.back() + 2 * margin_);
-    padded_.resize(static_cast<std::size_t>(line_), 0.0);
+    padded_line_ = segments.line + 2 * margin_;
   }
 
   /// y = the product of x by the nodes of the first direction, at its indices begin … end − 1; at all where it is the
   /// only one.
   void part(const std::vector<Node>& nodes, int begin, int end, const double* x, double* y) {
-    add(0, nodes, begin, end, x, true, y);
+    const bool one_line = net_.size() == 1;
+    const int most = net_.size() == 2 ? lines_at_once : 1, count = one_line ? 1 : net_[0];
+    const int p = one_line ? 0 : nodes.front().matrix->half_bandwidth();
+    const std::ptrdiff_t inner = one_line ? segments_.line : inner_[0], lines = inner / segments_.line;
+    const std::ptrdiff_t numbers = lines * per_point * segments_.size;  // of x and y for each index
+    const int room = std::min(count, window_size * (2 * p + most));
+    Aligned window(static_cast<std::size_t>(room * inner)), result(static_cast<std::size_t>(most * inner));
+    int first = std::max(0, begin - p), known = first;  // indices in the window
+    for (int i = one_line ? 0 : begin; i < (one_line ? 1 : end); i += most) {
+      const int stop = std::min(i + most, end), needed = std::min(count, stop + p);
+      if (needed - first > room) {
+        const int kept = std::max(0, i - p);
+        std::copy(window.data() + (kept - first) * inner, window.data() + (known - first) * inner, window.data());
+        first = kept;
+      }
+      segments_.read(x + known * numbers, (needed - known) * lines, window.data() + (known - first) * inner);
+      known = needed;
+      ask_for(x + known * numbers, (std::min(count, known + most) - known) * numbers);
+      ask_for(y + i * numbers, one_line ? 0 : (stop - i) * numbers);
+      add(0, nodes, i, stop, window.data(), first, true, result.data());
+      segments_.write(result.data(), (one_line ? 1 : stop - i) * lines, y + i * numbers);
+    }
   }
 
+  static constexpr auto lines_at_once = static_cast<int>(detail::TensorKernels::lines_at_once);
+  static constexpr int window_size = 3;  // of x at a time in segments, as multiples of what a step needs
+
  private:
-  /// The same of one slab x of direction d, added to y unless that is to be taken for zero.
-  void add(std::size_t d, const std::vector<Node>& nodes, int begin, int end, const double* x, bool from_zero,
-           double* y) {
+  /// Has numbers brought near while others are worked on.
+  static void ask_for(const double* numbers, std::ptrdiff_t count) {
+    for (std::ptrdiff_t k = 0; k < count; k += 8) __builtin_prefetch(numbers + k, 0, 2);
+  }
+
+  /// The same of one slab x of direction d, whose first index is given, added to y unless that is to be taken for zero;
+  /// y begins at index begin. Lines lie in segments.
+  void add(std::size_t d, const std::vector<Node>& nodes, int begin, int end, const double* x, int x_first,
+           bool from_zero, double* y) {
     if (d + 1 == net_.size()) {
-      std::copy_n(x, per_point * net_[d], padded_.data() + margin_);
-      bands_.assign(1, nodes.front().band.front().diagonals.data());
-      return add_lines(nodes.front().band.front(), 0, 1, from_zero, y);
+      const SegmentBand& band = nodes.front().band.front();
+      make_room(1);
+      std::copy_n(x, segments_.line, padded_.data() + margin_);
+      bands_.assign(1, band.entries.data());
+      return add_lines(band, 1, from_zero, y);
     }
-    if (d + 2 == net_.size()) return add_by_lines(nodes, d, begin, end, x, from_zero, y);
+    if (d + 2 == net_.size()) return add_by_lines(nodes, d, begin, end, x, x_first, from_zero, y);
     const std::ptrdiff_t inner = inner_[d];
     Aligned slab(static_cast<std::size_t>(inner));
     std::vector<double> factors;
@@ -86,68 +164,93 @@ class TensorProduct {
         const int p = node.matrix->half_bandwidth(), first = std::max(0, i - p), stop = std::min(net_[d], i + p + 1);
         factors.clear();
         for (int j = first; j < stop; ++j) factors.push_back((*node.matrix)(i, j));
-        kernels_.combine(x + first * inner, inner, factors.data(), 1, stop - first, inner, slab.data(), 0);
-        add(d + 1, node.next, 0, net_[d + 1], slab.data(), from_zero && &node == &nodes.front(), y + i * inner);
+        kernels_.combine(x + (first - x_first) * inner, inner, factors.data(), 1, stop - first, inner, slab.data(), 0);
+        add(d + 1, node.next, 0, net_[d + 1], slab.data(), 0, from_zero && &node == &nodes.front(),
+            y + (i - begin) * inner);
       }
     }
   }
-
-  /// Rounded up, so that what follows is as aligned as what goes before.
-  static std::ptrdiff_t in_vectors(std::ptrdiff_t count) { return (count + 7) / 8 * 8; }
 
   /// The same for the last direction but one, some lines at a time: each is combined by all nodes at once, and each
   /// node's band is read once for all of them.
-  void add_by_lines(const std::vector<Node>& nodes, std::size_t d, int begin, int end, const double* x, bool from_zero,
-                    double* y) {
-    constexpr auto most = static_cast<int>(detail::TensorKernels::lines_at_once);
-    const std::ptrdiff_t inner = inner_[d], node_stride = most * line_;
+  void add_by_lines(const std::vector<Node>& nodes, std::size_t d, int begin, int end, const double* x, int x_first,
+                    bool from_zero, double* y) {
+    const std::ptrdiff_t inner = inner_[d], node_stride = lines_at_once * padded_line_;
     const auto kinds = static_cast<std::ptrdiff_t>(nodes.size());
-    padded_.resize(std::max(padded_.size(), static_cast<std::size_t>(kinds * node_stride)), 0.0);
-    bands_.clear();
-    for (const Node& node : nodes) bands_.push_back(node.next.front().band.front().diagonals.data());
+    make_room(kinds);
     const int p = nodes.front().matrix->half_bandwidth();
-    std::vector<double> factors;
-    for (; begin < end; begin += most) {
-      const int lines = std::min(most, end - begin);
+    if (known_ != &nodes) look_up(nodes);
+    for (; begin < end; begin += lines_at_once, y += lines_at_once * inner) {
+      const int lines = std::min(lines_at_once, end - begin);
       for (int i = begin; i < begin + lines; ++i) {
         const int first = std::max(0, i - p), stop = std::min(net_[d], i + p + 1);
-        factors.clear();
+        double* factor = factors_.data();
+        const double* const* diagonal = diagonals_.data() + (first - i + p) * kinds;
         for (int j = first; j < stop; ++j) {
-          for (const Node& node : nodes) factors.push_back((*node.matrix)(i, j));
+          for (std::ptrdiff_t g = 0; g < kinds; ++g) *factor++ = (*diagonal++)[std::min(i, j)];
         }
-        kernels_.combine(x + first * inner, inner, factors.data(), kinds, stop - first, inner,
-                         padded_.data() + (i - begin) * line_ + margin_, node_stride);
+        kernels_.combine(x + (first - x_first) * inner, inner, factors_.data(), kinds, stop - first, inner,
+                         padded_.data() + (i - begin) * padded_line_ + margin_, node_stride);
       }
-      add_lines(nodes.front().next.front().band.front(), node_stride, lines, from_zero, y + begin * inner);
+      add_lines(nodes.front().next.front().band.front(), lines, from_zero, y);
     }
   }
-  /// The products of `bands_`, all of the shape of one, with lines that have zeros before and behind, those of the next
-  /// one further by node_stride.
-  void add_lines(const PointBand& shape, std::ptrdiff_t node_stride, int lines, bool from_zero, double* y) {
-    kernels_.add_bands(bands_.data(), std::ssize(bands_), shape.length, 2 * shape.half_bandwidth + 1, per_point,
-                       shape.length, padded_.data() + margin_ - per_point * shape.half_bandwidth, node_stride, line_,
-                       lines, from_zero, y, shape.length);
+
+  /// What `add_by_lines` reads of its nodes for every line.
+  void look_up(const std::vector<Node>& nodes) {
+    known_ = &nodes;
+    bands_.clear();
+    diagonals_.clear();
+    for (const Node& node : nodes) bands_.push_back(node.next.front().band.front().entries.data());
+    const int p = nodes.front().matrix->half_bandwidth();
+    for (int s = -p; s <= p; ++s) {
+      for (const Node& node : nodes) diagonals_.push_back(std::as_const(*node.matrix).diagonal(s).data());
+    }
+    factors_.resize(diagonals_.size());
+  }
+
+  /// For so many lines of each of so many kinds.
+  void make_room(std::ptrdiff_t kinds) {
+    const auto numbers = static_cast<std::size_t>(kinds * lines_at_once * padded_line_);
+    if (padded_.size() < numbers) padded_.resize(numbers);
+  }
+
+  /// The products of `bands_`, all of the shape of one, with the lines in `padded_`.
+  void add_lines(const SegmentBand& shape, std::ptrdiff_t lines, bool from_zero, double* y) {
+    const std::ptrdiff_t node_stride = lines_at_once * padded_line_;
+    double* const from = padded_.data() + margin_;
+    for (std::ptrdiff_t g = 0; g < std::ssize(bands_); ++g) {
+      for (std::ptrdiff_t l = 0; l < lines; ++l) {
+        kernels_.surround(from + g * node_stride + l * padded_line_, shape.points, shape.half_bandwidth);
+      }
+    }
+    kernels_.add_bands(bands_.data(), std::ssize(bands_), shape.half_bandwidth, shape.points, from, node_stride,
+                       padded_line_, lines, from_zero, y, segments_.line);
   }
 
   const detail::TensorKernels& kernels_;
   std::span<const int> net_;
-  std::vector<std::ptrdiff_t> inner_;  // numbers per index of a direction
-  std::ptrdiff_t margin_, line_;       // zeros before and behind the points of a line, and all of it
-  Aligned padded_;                     // lines
-  std::vector<const double*> bands_;   // of the nodes at work
+  const Segments& segments_;
+  std::vector<std::ptrdiff_t> inner_;         // numbers per index of a direction, but the last
+  std::ptrdiff_t margin_, padded_line_;       // numbers before and behind the points of a line, and all of it
+  Aligned padded_;                            // lines
+  const std::vector<Node>* known_ = nullptr;  // the nodes at work
+  std::vector<const double*> bands_;          // theirs
+  std::vector<const double*> diagonals_;      // of their matrices, side by side
+  std::vector<double> factors_;               // of one line
 };
 
 /// y = the product of x by all nodes, by several threads where the net is large.
-void find_product(const std::vector<TensorProduct::Node>& root, std::span<const int> net, int degree, const double* x,
-                  double* y) {
+void find_product(const std::vector<TensorProduct::Node>& root, std::span<const int> net, const Segments& segments,
+                  int degree, const double* x, double* y) {
   double work = 0;  // of a slab of the first direction, which is not divided where it is the only one
   if (net.size() > 1) {
     work = static_cast<double>(per_point * 2 * (2 * degree + 1)) * static_cast<double>(root.size());
     for (const int count : net.subspan(1)) work *= count;
   }
-  const std::ptrdiff_t step = detail::TensorKernels::lines_at_once;
+  const std::ptrdiff_t step = TensorProduct::lines_at_once;
   detail::parallel_for(net[0], detail::block_size(net[0], work, step), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    TensorProduct(net, degree).part(root, static_cast<int>(begin), static_cast<int>(end), x, y);
+    TensorProduct(net, segments, degree).part(root, static_cast<int>(begin), static_cast<int>(end), x, y);
   });
 }
 
@@ -158,6 +261,7 @@ Points Stiffness<D>::apply(const Points& x) const {
   assert(x.rows() == size_);
   if (assembled_) return symmetric_product(*assembled_, x);
   constexpr std::size_t last = D - 1;
+  const Segments segments(net_[last]);
   std::vector<TensorProduct::Node> root;
   for (const Term& term : terms_) {
     std::vector<TensorProduct::Node>* nodes = &root;
@@ -167,13 +271,12 @@ Points Stiffness<D>::apply(const Points& x) const {
       if (found == nodes->end()) found = nodes->insert(nodes->end(), {matrix, {}, {}});
       nodes = &found->next;
     }
-    if (nodes->empty()) nodes->push_back({nullptr, {}, {PointBand(net_[last], degree_[last])}});
+    if (nodes->empty()) nodes->push_back({nullptr, {}, {SegmentBand(segments, degree_[last])}});
     nodes->front().band.front().add(term.coefficient, factors_[last][static_cast<std::size_t>(term.factor[last])]);
   }
   if (root.empty()) return Points::Zero(size_, 3);
   Points sum(size_, 3);
-  const Aligned from(x.data(), x.data() + x.size());
-  find_product(root, net_, degree_[last], from.data(), sum.data());
+  find_product(root, net_, segments, degree_[last], x.data(), sum.data());
   return sum;
 }
 
