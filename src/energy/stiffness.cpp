@@ -50,10 +50,11 @@ struct RowWriter {
     band.assign(std::max<std::size_t>(kinds, 1) * static_cast<std::size_t>(stride()), 0.0);
     for (std::size_t g = 0; g < kinds; ++g) {
       double* to = band.data() + static_cast<std::ptrdiff_t>(g) * stride();
-      for (int i = 0; i < n; ++i) {
-        for (int c = 0; c < pattern.length(last, i); ++c) {
-          const int j = pattern.first(last, i) + c;
-          to[static_cast<std::ptrdiff_t>(i) * width() + j - i + p] = factors[last][g](i, j);
+      for (int s = -p; s <= p; ++s) {
+        double* entry = to + std::max(0, -s) * static_cast<std::ptrdiff_t>(width()) + s + p;
+        for (const double value : factors[last][g].diagonal(s)) {
+          *entry = value;
+          entry += width();
         }
       }
     }
@@ -66,13 +67,15 @@ struct RowWriter {
   void find_weights(const std::array<int, D>& i, const std::vector<std::array<int, D>>& columns,
                     std::vector<double>& weights) const {
     weights.assign(columns.size() * kinds, 0.0);
-    for (std::size_t column = 0; column < columns.size(); ++column) {
-      for (const Term& term : terms) {
+    for (const Term& term : terms) {
+      double* to = weights.data() + term.factor[last];
+      for (const std::array<int, D>& column : columns) {
         double product = term.coefficient;
         for (std::size_t d = 0; d < last; ++d) {
-          product *= factors[d][static_cast<std::size_t>(term.factor[d])](i[d], columns[column][d]);
+          product *= factors[d][static_cast<std::size_t>(term.factor[d])](i[d], column[d]);
         }
-        weights[column * kinds + static_cast<std::size_t>(term.factor[last])] += product;
+        *to += product;
+        to += kinds;
       }
     }
   }
