@@ -141,11 +141,9 @@ void KrylovMinimisation::iterate(double tolerance, int max_iterations, bool cert
     summary.converged = false;
     ++iteration;
     ++summary.iterations;
-    // Loose while far away, tight near the end, where a step must not undo the gain of the previous one.
-    const double last = std::clamp(0.1 * enough / decrement, 1e-8, 1e-2);
     const double cg_tolerance = state_.contacts.empty()
                                     ? std::clamp(free_share * enough / decrement, smallest_tolerance, 1e-2)
-                                    : std::clamp(0.1 * decrement / largest, last, 1e-2);
+                                    : direction_tolerance(decrement, enough, largest, problem_.accuracy > 0);
     const Direction to = direction(std::move(at), cg_tolerance);
     const bool rounded = -to.slope <= rounding_of_potential * (problem_.energy + std::abs(quadratic()) +
                                                                std::abs(state_.potential) + decrement * decrement);

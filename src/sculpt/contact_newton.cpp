@@ -183,9 +183,9 @@ class Minimisation {
     return here;
   }
 
-  /// Extends the neighbourhood by the contacts of a state. Forces of the anchor beyond it are zero.
-  void take_in(View& view, const PotentialState& state) {
-    if (!view.near.extend(state)) return;
+  /// Extends the neighbourhood by the contacts of a state, if it is to be. Forces of the anchor beyond it are zero.
+  bool take_in(View& view, const PotentialState& state) {
+    if (!view.near.extend(state)) return false;
     view.from.s_here = inverse_.backward_within(view.near.part(), view.from.z);
     view.from.x_here = view.near.gather(problem_.start) + view.near.gather(view.from.y);
     view.from.force_here = view.near.grown(view.from.force_here);
@@ -196,6 +196,7 @@ class Minimisation {
     } else {
       view.au.e = view.u = Points::Zero(view.near.size(), 3);
     }
+    return true;
   }
 
   /// sqrt(bᵀ A⁻¹ b) over the free unknowns. \param force sqrt(Fᵀ A⁻¹ F)
@@ -242,12 +243,8 @@ class Minimisation {
   Direction direction(View& view, const Residual& at, const Progress& progress) {
     Direction to{at.r, at.image};
     if (!state_.contacts.empty()) {
-      // Loose while far away, tight near the end, where a step must not undo the gain of the previous one. Never below
-      // the convergence tolerance: the remainder is then only rounding, and directions made from it violate the
-      // constraints.
-      const double decrement = at.decrement();
-      const double cg_tolerance = std::clamp(0.1 * decrement / progress.largest,
-                                             std::clamp(0.1 * progress.enough / decrement, 1e-8, 1e-2), 1e-2);
+      const double cg_tolerance =
+          direction_tolerance(at.decrement(), progress.enough, progress.largest, problem_.accuracy > 0);
       to = newton_direction(state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
     }
     to.slope = -at.r.beta * to.ad.with_r(view.from) - dot(at.r.e, to.d);
@@ -285,7 +282,8 @@ class Minimisation {
       state_ = std::move(state);
       break;
     }
-    take_in(view, state_);
+    // What is watched from now on may touch already: the next direction has to reckon with it.
+    while (take_in(view, state_) && !Interruption::asked_for()) state_ = evaluate_inside(view, view.u);
   }
 
   /// Iterates inside the neighbourhood.
