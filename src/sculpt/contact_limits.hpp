@@ -18,13 +18,13 @@ inline constexpr int max_cg_iterations = 400;
 inline constexpr int max_rounded_steps = 4;
 inline constexpr double loosest_direction = 0.1;
 
-/// To what share of its first residual a direction of Newton's iteration is solved for (Eisenstat and Walker, 1996): loose
-/// while the iterate is far away, since which points touch will change, and tighter near the end, where a step must not
-/// undo the gain of the previous one; never tighter than what is enough of the whole, as the remainder is then only
-/// rounding, and directions made from it violate the constraints.
-/// \param decrement of the iterate. \param enough A decrement that ends the iteration.
-/// \param largest Of the terms that the step balances. \param interactive Whether an error of the displacement is
-/// allowed: what the last iteration gains too little of, the next one need not make up for.
+/// To what share of its first residual a direction of Newton's iteration is solved for (Eisenstat and Walker, 1996):
+/// loose while the iterate is far away, since which points touch will change, and tighter near the end, where a step
+/// must not undo the gain of the previous one; never tighter than what is enough of the whole, as the remainder is then
+/// only rounding, and directions made from it violate the constraints. \param decrement of the iterate. \param enough A
+/// decrement that ends the iteration. \param largest Of the terms that the step balances. \param interactive Whether an
+/// error of the displacement is allowed: what the last iteration gains too little of, the next one need not make up
+/// for.
 inline double direction_tolerance(double decrement, double enough, double largest, bool interactive) {
   const double last = std::clamp(0.1 * enough / decrement, 1e-8, 1e-2);
   return std::clamp((interactive ? 1 : 0.1) * decrement / largest, last, loosest_direction);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "contact_anchor.hpp"
+#include "contact_directions.hpp"
 #include "contact_krylov.hpp"
 #include "contact_limits.hpp"
 #include "knead/base/interruption.hpp"
@@ -21,42 +21,6 @@ constexpr double stiffening = 30;
 constexpr double far_from_balance = 1e-2;
 constexpr double stage_tolerance = 1e-4;
 constexpr int max_stage_iterations = 20;
-
-/// (A + H) d = r by conjugate gradients preconditioned with A⁻¹, to `tolerance` of the first preconditioned residual.
-/// If A + H turns out not to be positive, the result is the sum of the steps so far, or A⁻¹r: a descent direction in
-/// any case (Nocedal and Wright, Numerical Optimization, Alg. 7.1). \param image of r.
-Direction newton_direction(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near, Combination r,
-                           const Points& image, double tolerance, int& solves) {
-  Direction to{{0, Points::Zero(near.size(), 3)}, Points::Zero(near.size(), 3)};
-  Combination ap = r;
-  Points p = image;
-  double rs = r.norm(anchor, image);
-  const double target = tolerance * tolerance * rs;
-  for (int iteration = 0; iteration < max_cg_iterations && rs > target && rs > 0; ++iteration) {
-    if (Interruption::asked_for()) break;
-    const Points hp = near.hessian(state, p);
-    const double pap = ap.norm(anchor, p), curvature = pap + dot(p, hp);
-    if (curvature <= 1e-12 * pap) {
-      if (iteration == 0) to = {std::move(ap), std::move(p)};
-      break;
-    }
-    const double step = rs / curvature;
-    to.ad.add(step, ap);
-    to.d += step * p;
-    r.add(-step, ap);
-    r.e -= step * hp;
-    const Points s = r.image(anchor, near);
-    ++solves;
-    const double next = r.norm(anchor, s);
-    if (!(next < 1e6 * target / (tolerance * tolerance))) break;  // nothing but rounding is left
-    const double share = next / rs;
-    ap.beta = r.beta + share * ap.beta;
-    ap.e = r.e + share * ap.e;
-    p = s + share * p;
-    rs = next;
-  }
-  return to;
-}
 
 /// Newton's iteration on Φ.
 class Minimisation {
@@ -135,6 +99,7 @@ class Minimisation {
     Combination au;    // A u
     Points u;          // in the neighbourhood
     double quadratic;  // ½ YᵀAY − Yᵀb
+    ContactDirections directions;
 
     /// The same at another u.
     [[nodiscard]] double quadratic_at(const Combination& au_there, const Points& u_there) const {
@@ -175,7 +140,7 @@ class Minimisation {
     a.z = inverse_.forward(inverse_.space().lumped(r));
     ++summary.solves;
     a.rs = a.z.squared_norm;
-    View here{std::move(a), ContactNeighbourhood(inverse_, potential_), {}, {}, 0};
+    View here{std::move(a), ContactNeighbourhood(inverse_, potential_), {}, {}, 0, {}};
     here.quadratic = here.from.quadratic;
     here.au.e = here.u = here.from.force_here = Points(0, 3);
     take_in(here, state_);
@@ -186,6 +151,7 @@ class Minimisation {
   /// Extends the neighbourhood by the contacts of a state, if it is to be. Forces of the anchor beyond it are zero.
   bool take_in(View& view, const PotentialState& state) {
     if (!view.near.extend(state)) return false;
+    view.directions.forget();
     view.from.s_here = inverse_.backward_within(view.near.part(), view.from.z);
     view.from.x_here = view.near.gather(problem_.start) + view.near.gather(view.from.y);
     view.from.force_here = view.near.grown(view.from.force_here);
@@ -245,7 +211,7 @@ class Minimisation {
     if (!state_.contacts.empty()) {
       const double cg_tolerance =
           direction_tolerance(at.decrement(), progress.enough, progress.largest, problem_.accuracy > 0);
-      to = newton_direction(state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
+      to = view.directions.find(state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
     }
     to.slope = -at.r.beta * to.ad.with_r(view.from) - dot(at.r.e, to.d);
     return to;

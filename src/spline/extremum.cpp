@@ -249,11 +249,14 @@ class SampledSpans {
         spans.push_back({bound, i, j});
       }
     }
-    std::ranges::sort(spans, std::ranges::greater{}, &Span::bound);
+    std::ranges::make_heap(spans, {}, &Span::bound);  // of thousands of spans few are sampled
     std::vector<Peak> peaks;
     double best = -std::numeric_limits<double>::infinity();
     std::vector<double> samples(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-    for (const Span& span : spans) {
+    while (!spans.empty()) {
+      std::ranges::pop_heap(spans, {}, &Span::bound);
+      const Span span = spans.back();
+      spans.pop_back();
       if (in_hull_ && !(span.bound > best)) break;
       sample(f, span.i, span.j, samples);
       const auto at = [&](int k, int l) {
