@@ -1,0 +1,156 @@
+// Directions of Newton's iteration in contact, and how many substitutions steps under stiff tools take.
+#include "sculpt/contact_directions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "active.hpp"
+#include "support/surfaces.hpp"
+
+namespace knead {
+namespace {
+
+/// Stiff springs between a plane and some control points, each with a normal of its own.
+class Springs final : public Potential {
+ public:
+  Springs(std::vector<int> points, double stiffness, unsigned seed)
+      : points_(std::move(points)), stiffness_(stiffness), normals_(testing::random_points(64, seed)) {}
+
+  [[nodiscard]] PotentialState evaluate(const Points&, const WatchedElements*) const override { return {}; }
+  void apply_hessian(const PotentialState&, const Points& v, Points& out) const override {
+    for (std::size_t k = 0; k < points_.size(); ++k) out.row(points_[k]) += v.row(points_[k]) * hessian(k);
+  }
+  void append_hessian(const PotentialState&, std::vector<Eigen::Triplet<double>>& entries) const override {
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const Eigen::Matrix3d h = hessian(k);
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) entries.emplace_back(3 * points_[k] + i, 3 * points_[k] + j, h(i, j));
+      }
+    }
+  }
+  void mark(const PotentialState&, std::vector<char>& marks) const override {
+    for (const int i : points_) marks[static_cast<std::size_t>(i)] = 1;
+  }
+  void widen(std::vector<char>&) const override {}
+  [[nodiscard]] WatchedElements watch(const std::vector<char>&) const override { return {}; }
+  void soften(double cap) override { stiffness_ = std::min(stiffness_, cap); }
+  [[nodiscard]] double stiffest() const override { return stiffness_; }
+
+  [[nodiscard]] Eigen::Matrix3d hessian(std::size_t k) const {
+    const Point n = normals_.row(static_cast<Eigen::Index>(k)).normalized();
+    return stiffness_ * (1 + static_cast<double>(k)) * n * n.transpose();
+  }
+
+ private:
+  std::vector<int> points_;
+  double stiffness_;
+  Points normals_;
+};
+
+struct Contact {
+  Surface surface = testing::relief(testing::uniform_clamped(3, 9), testing::uniform_clamped(2, 8), 1);
+  SparseMatrix a = Stiffness<2>::create(surface, stretch_and_bend({}))->assemble() +
+                   Stiffness<2>::create(surface, mass_energy<2>())->assemble();
+  ConstrainedCholesky inverse =
+      *ConstrainedCholesky::factor(a, *ConstraintSpace::create(surface.size(), {}, std::vector<bool>()));
+  Springs springs{{20, 21, 22, 30, 31, 40, 44, 52}, 1e3, 5};
+  ContactNeighbourhood near{inverse, springs};
+  Points r = testing::random_points(surface.size(), 6);
+  Anchor anchor{{}, {}, 0, 0, 0, {}, {}, {}};
+
+  Contact() {
+    near.extend({});
+    anchor.z = inverse.forward(r);
+    anchor.rs = anchor.z.squared_norm;
+    anchor.s_here = inverse.backward_within(near.part(), anchor.z);
+  }
+
+  [[nodiscard]] Combination start() const { return {1, Points::Zero(near.size(), 3)}; }
+
+  /// (A + H)⁻¹ of forces, by a dense factor, in the neighbourhood.
+  [[nodiscard]] Points exact(const Points& forces) const {
+    const Eigen::Index n = 3 * a.rows();
+    Eigen::MatrixXd both = Eigen::MatrixXd::Zero(n, n);
+    for (int k = 0; k < a.outerSize(); ++k) {
+      for (SparseMatrix::InnerIterator it(a, k); it; ++it) {
+        for (int c = 0; c < 3; ++c) both(3 * it.row() + c, 3 * it.col() + c) = it.value();
+      }
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    springs.append_hessian({}, entries);
+    for (const auto& e : entries) both(e.row(), e.col()) += e.value();
+    const Eigen::VectorXd d = both.llt().solve(Eigen::Map<const Eigen::VectorXd>(forces.data(), n));
+    return near.gather(Eigen::Map<const Points>(d.data(), a.rows(), 3));
+  }
+};
+
+TEST(ContactDirections, SolveWithTheHessianOfContacts) {
+  Contact c;
+  const Points expected = c.exact(c.r);
+  ContactDirections directions;
+  int first = 0, again = 0, forgotten = 0;
+  const Direction d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-12, first);
+  EXPECT_LE((d.d - expected).norm(), 1e-10 * expected.norm());
+  EXPECT_LE((d.ad.image(c.anchor, c.near) - d.d).norm(), 1e-11 * d.d.norm()) << "A d is of d";
+  EXPECT_GT(first, 8) << "as many as there are springs: nothing is known of them at first";
+  // The same system once more is known, and where it is forgotten it is found as at first.
+  const Direction e = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-9, again);
+  EXPECT_LE((e.d - expected).norm(), 1e-7 * expected.norm());
+  EXPECT_LE(again, 3);
+  directions.forget();
+  const Direction f = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-12, forgotten);
+  EXPECT_EQ(f.d, d.d);
+  EXPECT_EQ(forgotten, first);
+}
+
+TEST(ContactDirections, CorrectByWhatWasShownOfAnotherSystem) {
+  Contact c;
+  ContactDirections directions;
+  int first = 0, alone = 0, after = 0;
+  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-12, first));
+  c.springs = Springs({20, 21, 22, 30, 31, 40, 44, 53}, 1.1e3, 5);  // one lets go, one touches; all a little stiffer
+  c.near.extend({});
+  c.anchor.s_here = c.inverse.backward_within(c.near.part(), c.anchor.z);
+  directions.forget();
+  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-8, alone));
+  c.springs = Springs({20, 21, 22, 30, 31, 40, 52, 53}, 1e3, 5);
+  const Points expected = c.exact(c.r);
+  const Direction d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-8, after);
+  EXPECT_LE((d.d - expected).norm(), 1e-6 * expected.norm());
+  EXPECT_LT(after, alone);
+}
+
+// A stroke presses a stiff ball into the same sheet at place after place, from a guess. What touches as the contact
+// travels is reckoned with at once, and a direction is not found more closely than the contacts are known.
+TEST(ContactDirections, FollowAStiffBall) {
+  const Surface s = testing::box<2>(3, 40);
+  ActiveSettings<2> settings = testing::sheet_settings(s, StepAccuracy::interactive);
+  settings.lambda = 1000;
+  const auto quick = testing::active<2>(s, settings);
+  settings.accuracy = StepAccuracy::exact;
+  const auto exact = testing::active<2>(s, settings);
+  Tool ball = testing::ball_above_sheet(5e5);
+  ActiveState from{s.control_points()};
+  from.balanced = true;
+  Points last = Points::Zero(s.size(), 3), older;
+  for (int k = 0; k < 8; ++k) {
+    testing::move_to(ball, Point(0.35 + 0.03 * k, 0.45, 0.075));
+    from.guess = k == 0 ? Points() : k == 1 ? last : Points(2 * last - older);
+    const auto step = quick.step(from, {&ball, 1});
+    ASSERT_TRUE(step && step->converged) << k;
+    older = std::exchange(last, step->control_points - s.control_points());
+    ActiveState alone = from;
+    alone.guess.resize(0, 3);
+    const auto expected = exact.step(alone, {&ball, 1});
+    ASSERT_TRUE(expected && expected->converged) << k;
+    const Points off = step->control_points - expected->control_points;
+    EXPECT_LE(off.cwiseAbs().maxCoeff(), 2e-6 * last.cwiseAbs().maxCoeff()) << k;
+    if (k < 2) continue;
+    EXPECT_LE(step->iterations, 8) << k;
+    EXPECT_LE(step->solves, 75) << k;
+  }
+}
+
+}  // namespace
+}  // namespace knead
