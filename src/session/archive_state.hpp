@@ -185,7 +185,7 @@ void pass(A& a, Of<A, OpenStroke::Before>& b) {
 
 template <class A>
 void pass(A& a, Of<A, OpenStroke>& s) {
-  auto& [tool, home, path, lambda, stiffness, tension, plasticity, before, history, last, older, share] = s;
+  auto& [tool, home, path, lambda, stiffness, tension, plasticity, before, history, last, share] = s;
   pass(a, tool);
   pass(a, home);
   pass(a, path.spacing);
@@ -194,7 +194,13 @@ void pass(A& a, Of<A, OpenStroke>& s) {
   pass(a, path.begun);
   for (auto* x : {&lambda, &stiffness, &tension, &plasticity.share, &plasticity.yield}) pass(a, *x);
   list(a, before, 16);
-  for (auto* x : {&history, &last, &older}) pass(a, *x);
+  for (auto* x : {&history, &last}) pass(a, *x);
+  if constexpr (!A::writing) {
+    if (a.version() < 11) {  // which had that of the place before, too
+      Points before_last;
+      pass(a, before_last);
+    }
+  }
   if (older_than(a, 6)) return;  // which had none
   pass(a, share);
 }

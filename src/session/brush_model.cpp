@@ -128,21 +128,6 @@ Expected<void> Executor::refine_for_brush(const std::vector<BrushPoint>& places)
   return {};
 }
 
-Expected<void> Executor::keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before) {
-  if (stroke_cache && stroke_cache->scene.input == input) return {};
-  stroke_cache.reset();
-  std::vector<GrevilleValues<2>> values;
-  for (const OpenStroke::Before& b : before) {
-    auto made = GrevilleValues<2>::create(*b.current);
-    if (!made) return std::unexpected(made.error());
-    values.push_back(std::move(*made));
-  }
-  auto made = make_model(std::move(input));
-  if (!made) return std::unexpected(made.error());
-  stroke_cache = StrokeModel{std::move(*made), std::move(values)};
-  return {};
-}
-
 /// The constraints, and a plate on a bed that tells how far they are felt.
 Expected<void> Executor::prepare_brush_model() {
   if (auto known = know_trims(); !known) return known;

@@ -12,6 +12,7 @@
 #include "knead/sculpt/greville_values.hpp"
 #include "knead/session/session.hpp"
 #include "scene/shell_model.hpp"
+#include "sculpt/travelled.hpp"
 
 namespace knead {
 
@@ -23,6 +24,8 @@ struct StrokeModel {
   /// Values at the abscissae of stacked control points, and back.
   [[nodiscard]] Points at_abscissae(const Points& x) const;
   [[nodiscard]] Points control_points(const Points& values) const;
+  /// A displacement of control points that the model's constraints allow, for one that they may not.
+  [[nodiscard]] Points allowed(const Points& x) const;
 };
 
 /// What an open brush has asked for so far: it follows from the scene.
@@ -226,8 +229,9 @@ struct Executor {
   /// Makes the model of this input, with the abscissae of the shapes from before the stroke, unless it is there.
   Expected<void> keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before);
   Expected<void> put_tool(const Point& place);
-  Expected<ActiveStep> press();
-  Expected<ActiveStep> press_shell_on_bed(const std::vector<Tool>& tools);
+  [[nodiscard]] Points stroke_guess(std::span<const Travel> travels) const;
+  Expected<ActiveStep> press(std::span<const Travel> travels);
+  Expected<ActiveStep> press_shell_on_bed(const std::vector<Tool>& tools, Points guess);
   Expected<void> unite_under_stroke();
   Expected<bool> refine_stroke(const ActiveStep* step);
   Expected<void> press_along(const std::vector<Point>& places);

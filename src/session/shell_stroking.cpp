@@ -4,7 +4,7 @@ namespace knead {
 
 /// What the tools of the open stroke ask of shells, on the stroke's bed. The shapes from before the stroke are those of
 /// no stress here: what they carry is in balance with the forces on them, which are therefore left out.
-Expected<ActiveStep> Executor::press_shell_on_bed(const std::vector<Tool>& tools) {
+Expected<ActiveStep> Executor::press_shell_on_bed(const std::vector<Tool>& tools, Points guess) {
   const OpenStroke& stroke = *state.stroke;
   Scene before = state;
   const std::vector<int> selection = before.selection();
@@ -24,7 +24,7 @@ Expected<ActiveStep> Executor::press_shell_on_bed(const std::vector<Tool>& tools
   const auto loads = shell_loads(before, *problem, 1);
   if (!loads) return std::unexpected(loads.error());
   ActiveState from = active_state(before);
-  from.guess = stroke.older.rows() > 0 ? Points(2 * stroke.last - stroke.older) : stroke.last;
+  from.guess = std::move(guess);
   auto step = shell_cache->model.step(from, tools, *loads);
   if (step) step->control_points -= from.control_points;  // the displacement
   return step;

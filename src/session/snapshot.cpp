@@ -11,14 +11,15 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-/// Of versions 1 to 10, in hexadecimal digits: without probes, open strokes and their results; without brushes, masks
+/// Of versions 1 to 11, in hexadecimal digits: without probes, open strokes and their results; without brushes, masks
 /// and edges that follow; without their tangent planes; without converted surfaces, brushes that pass from surface to
 /// surface, and tools that touch what is visible only; without stamps, and strokes that are kept from folding; without
 /// pens and shells; without fundamental forms and modes; without curves and volumes; without shells that vary, bodies
-/// that keep their forms and lattices that are pulled on; the present one.
-constexpr std::array<std::string_view, 10> magics = {
-    "Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n", "Knead snapshot 4\n", "Knead snapshot 5\n",
-    "Knead snapshot 6\n", "Knead snapshot 7\n", "Knead snapshot 8\n", "Knead snapshot 9\n", "Knead snapshot a\n"};
+/// that keep their forms and lattices that are pulled on; with two places of strokes; the present one.
+constexpr std::array<std::string_view, 11> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
+                                                     "Knead snapshot 4\n", "Knead snapshot 5\n", "Knead snapshot 6\n",
+                                                     "Knead snapshot 7\n", "Knead snapshot 8\n", "Knead snapshot 9\n",
+                                                     "Knead snapshot a\n", "Knead snapshot b\n"};
 constexpr std::string_view magic = magics.back();
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.
@@ -160,9 +161,7 @@ std::optional<Eigen::Index> rows_of(const std::vector<OpenStroke::Before>& shape
 bool fits(const OpenStroke& stroke, const Scene& scene) {
   const auto rows = rows_of(stroke.before, scene);
   if (!rows || !(stroke.path.spacing > 0)) return false;
-  for (const Points* x : {&stroke.last, &stroke.older}) {
-    if (x->rows() != 0 && x->rows() != *rows) return false;
-  }
+  if (stroke.last.rows() != 0 && stroke.last.rows() != *rows) return false;
   return stroke.history.rows() == *rows &&
          std::ranges::any_of(scene.tools, [&](const Tool& t) { return t.name == stroke.tool; });
 }

@@ -87,6 +87,13 @@ Expected<Surface> onto_net(Surface shape, const Surface& like) {
   return insert_knots<2>(shape, more);
 }
 
+std::vector<Travel> travels_of(const std::vector<Tool>& was, const std::vector<Tool>& is) {
+  std::vector<Travel> travels;
+  for (std::size_t t = 0; t < std::min(was.size(), is.size()); ++t)
+    travels.push_back({was[t].shape.placement().position, is[t].shape.placement().position});
+  return travels;
+}
+
 Points stacked(const std::vector<OpenStroke::Before>& shapes,
                std::shared_ptr<const Surface> OpenStroke::Before::*which) {
   Eigen::Index rows = 0;
@@ -101,26 +108,6 @@ Points stacked(const std::vector<OpenStroke::Before>& shapes,
 }
 
 }  // namespace
-
-Points StrokeModel::at_abscissae(const Points& x) const {
-  Points result(x.rows(), 3);
-  Eigen::Index first = 0;
-  for (const GrevilleValues<2>& patch : values) {
-    result.middleRows(first, patch.size()) = patch.values(x.middleRows(first, patch.size()));
-    first += patch.size();
-  }
-  return result;
-}
-
-Points StrokeModel::control_points(const Points& x) const {
-  Points result(x.rows(), 3);
-  Eigen::Index first = 0;
-  for (const GrevilleValues<2>& patch : values) {
-    result.middleRows(first, patch.size()) = patch.coefficients(x.middleRows(first, patch.size()));
-    first += patch.size();
-  }
-  return result;
-}
 
 Expected<void> Executor::begin_stroke(const std::string& name, double share) {
   auto surface = selected();
@@ -201,8 +188,8 @@ Expected<void> Executor::put_tool(const Point& place) {
   return {};
 }
 
-/// What the tool asks, where it is, of the shapes from before the stroke.
-Expected<ActiveStep> Executor::press() {
+/// What the tool asks, where it is after these travels, of the shapes from before the stroke.
+Expected<ActiveStep> Executor::press(std::span<const Travel> travels) {
   if (auto made = prepare_stroke_model(); !made) return std::unexpected(made.error());
   const OpenStroke& stroke = *state.stroke;
   auto tools = tools_and_images(state);
@@ -210,7 +197,7 @@ Expected<ActiveStep> Executor::press() {
   for (Tool& t : *tools) {
     if (t.collides()) t.stiffness = std::min(std::max(t.stiffness, stroke.stiffness), max_tool_stiffness);
   }
-  if (shells()) return press_shell_on_bed(*tools);
+  if (shells()) return press_shell_on_bed(*tools, stroke_guess(travels));
   const ActiveSurface& model = stroke_cache->scene.model;
   auto loads = active_loads(state, stroke_cache->scene);
   if (!loads) return std::unexpected(loads.error());
@@ -218,7 +205,7 @@ Expected<ActiveStep> Executor::press() {
   ActiveState from{stacked(stroke.before, &OpenStroke::Before::current),
                    stacked(stroke.before, &OpenStroke::Before::rest)};
   from.balanced = true;
-  from.guess = stroke.older.rows() > 0 ? Points(2 * stroke.last - stroke.older) : stroke.last;
+  from.guess = stroke_guess(travels);
   auto step = model.step(from, *tools, *loads);
   if (step) step->control_points -= from.control_points;  // the displacement
   return step;
@@ -238,8 +225,8 @@ Expected<bool> Executor::refine_stroke(const ActiveStep* step) {
     if (auto refined = refine_under(Tool(**tool), true); !refined) return refined;
     if (auto united = unite_followed(); !united) return std::unexpected(united.error());
   }
-  std::array<Points*, 3> fields = {&stroke.history, &stroke.last, &stroke.older};
-  std::array<std::vector<Points>, 3> finer;
+  std::array<Points*, 2> fields = {&stroke.history, &stroke.last};
+  std::array<std::vector<Points>, 2> finer;
   Eigen::Index first = 0;
   const std::vector<int> selection = state.selection();
   const auto shape = [&](std::size_t k) { return state.surfaces[static_cast<std::size_t>(selection[k])].current; };
@@ -291,18 +278,22 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
     s.current = state.stroke->before[k].current;
   }
   for (const Point& place : places) {
+    const auto was = tools_and_images(state);
+    if (!was) return std::unexpected(was.error());
     if (auto put = put_tool(place); !put) return put;
+    const auto is = tools_and_images(state);
+    if (!is) return std::unexpected(is.error());
+    const std::vector<Travel> travels = travels_of(*was, *is);
     if (auto refined = refine_stroke(nullptr); !refined) return std::unexpected(refined.error());
-    auto step = press();
+    auto step = press(travels);
     for (int k = 0; k < max_refinements && step; ++k) {
       const auto refined = refine_stroke(&*step);
       if (!refined) return std::unexpected(refined.error());
       if (!*refined) break;
-      step = press();
+      step = press(travels);
     }
     if (!step) return std::unexpected(step.error());
     OpenStroke& stroke = *state.stroke;
-    stroke.older = std::move(stroke.last);
     stroke.last = step->control_points;
     remember(stroke.history, stroke_cache->at_abscissae(stroke.last));
     iterations += step->iterations;
@@ -332,12 +323,7 @@ Expected<void> Executor::show_remembered(bool down) {
   if (down && stroke.last.rows() > 0) remember(shown, stroke.share * unmasked(model.at_abscissae(stroke.last)));
   const bool same = shown == stays;
   // The largest of many displacements is none that coupled surfaces allow on both sides; then the nearest one stays.
-  const auto couples = [](const SeamReport& seam) { return seam.continuity != SeamContinuity::none; };
-  const bool coupled = !model.scene.input.followed.empty() || std::ranges::any_of(model.scene.seams, couples);
-  const auto allowed = [&](const Points& values) {
-    const Points x = model.control_points(values);
-    return coupled ? model.scene.model.nearest_allowed(x) : model.scene.model.allowed(x);
-  };
+  const auto allowed = [&](const Points& values) { return model.allowed(model.control_points(values)); };
   const Points resting = allowed(stays);
   const Points showing = same ? resting : allowed(shown);
   Eigen::Index first = 0;

@@ -24,7 +24,7 @@ std::uint64_t checksum(std::string_view bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view content = fuzz::text_of(data + 1, size - 1);
-  std::string bytes = std::string("Knead snapshot ") + "123456789a"[data[0] % 10] + "\n";
+  std::string bytes = std::string("Knead snapshot ") + "123456789ab"[data[0] % 11] + "\n";
   const std::uint64_t sum = checksum(content);
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
   bytes += content;

@@ -102,9 +102,9 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
   }
   if (a.stroke.has_value() != b.stroke.has_value()) return differs("a tool that is down");
   if (a.stroke && (!same_bits(a.stroke->history, b.stroke->history) || !same_bits(a.stroke->last, b.stroke->last) ||
-                   !same_bits(a.stroke->older, b.stroke->older) || a.stroke->tool != b.stroke->tool ||
-                   !(a.stroke->path == b.stroke->path) || !(a.stroke->plasticity == b.stroke->plasticity) ||
-                   a.stroke->lambda != b.stroke->lambda || a.stroke->tension != b.stroke->tension))
+                   a.stroke->tool != b.stroke->tool || !(a.stroke->path == b.stroke->path) ||
+                   !(a.stroke->plasticity == b.stroke->plasticity) || a.stroke->lambda != b.stroke->lambda ||
+                   a.stroke->tension != b.stroke->tension))
     return differs("the open stroke");
   if (a.forces.size() != b.forces.size()) return differs("number of forces");
   if (!(a.load == b.load) || a.limit != b.limit) return differs("load or limit");

@@ -128,17 +128,17 @@ struct OpenStroke {
     std::shared_ptr<const Surface> rest, current;
   };
 
-  std::string tool;              ///< its name
-  Point home = Point::Zero();    ///< where the tool goes when it is lifted
-  ToolPath path;                 ///< of the tool's centre
-  double lambda = 1;             ///< of the bed that the surface is pressed against, normalised units
-  double stiffness = 0;          ///< minimum stiffness of tools
-  double tension = 0;            ///< added to α11 and α22, so that dents have no rim
-  Plasticity plasticity;         ///< the yield in file units
-  std::vector<Before> before;    ///< per selected surface
-  Points history;                ///< largest displacement so far at the Greville abscissae, file units
-  Points last = {}, older = {};  ///< displacements of the last two places; empty: none
-  double share = 1;              ///< of all this that is shown and stays: less where more would fold a face
+  std::string tool;            ///< its name
+  Point home = Point::Zero();  ///< where the tool goes when it is lifted
+  ToolPath path;               ///< of the tool's centre
+  double lambda = 1;           ///< of the bed that the surface is pressed against, normalised units
+  double stiffness = 0;        ///< minimum stiffness of tools
+  double tension = 0;          ///< added to α11 and α22, so that dents have no rim
+  Plasticity plasticity;       ///< the yield in file units
+  std::vector<Before> before;  ///< per selected surface
+  Points history;              ///< largest displacement so far at the Greville abscissae, file units
+  Points last = {};            ///< displacement of the last place; empty: none
+  double share = 1;            ///< of all this that is shown and stays: less where more would fold a face
 };
 
 /// A point of the path of a brush.
