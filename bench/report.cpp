@@ -27,6 +27,8 @@ constexpr Source sources[] = {
     {"contact.json", "contact_iterative/256", "ms", "contact_iterative_ms_256"},
     {"contact.json", "contact/256", "made_ms", "made_ms_256"},
     {"contact.json", "contact_iterative/256", "made_ms", "made_iterative_ms_256"},
+    {"contact.json", "stroke/32", "ms", "stroke_ms_32"},
+    {"contact.json", "stroke/64", "ms", "stroke_ms_64"},
     {"contact.json", "shell_contact/32", "ms", "shell_contact_ms_32"},
     {"contact.json", "shell_contact/64", "ms", "shell_contact_ms_64"},
     {"contact.json", "shell_contact_exact/32", "ms", "shell_contact_exact_ms_32"},

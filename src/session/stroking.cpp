@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 
 #include "executor.hpp"
 #include "knead/spline/spline_refinement.hpp"
@@ -35,16 +36,15 @@ Expected<Coefficient<2>> raised(const Coefficient<2>& c, double by) {
 
 /// The bed on which a dent in the selected surfaces is felt no further than `reach` (file units), but over one span at
 /// least: on a shorter length the net could not show it.
-Expected<Locality> bed_of(const Scene& scene, double reach) {
+Locality bed_of(const Scene& scene, const std::map<int, DomainScaling<2>>& scalings, double reach) {
   double unit = 0, beta = 0, alpha = 0;
   for (int k : scene.selection()) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    const auto scaling = normalised_scaling<2>(*s.reference);
-    if (!scaling) return std::unexpected(scaling.error());
-    if (unit == 0) unit = scaling->length;
+    const DomainScaling<2>& scaling = scalings.at(k);
+    if (unit == 0) unit = scaling.length;
     for (int d = 0; d < 2; ++d) {
       const KnotVector& knots = s.reference->knots(d);
-      const double side = scaling->length * scaling->factors[static_cast<std::size_t>(d)] * knots.domain().length();
+      const double side = scaling.length * scaling.factors[static_cast<std::size_t>(d)] * knots.domain().length();
       reach = std::max(reach, side / static_cast<double>(knots.spans().size()));
     }
     if (s.nonlinear()) alpha = std::max(alpha, 1.0);  // its membrane; bending is felt less far
@@ -60,17 +60,15 @@ Expected<Locality> bed_of(const Scene& scene, double reach) {
 }
 
 /// The square of how far a dent is felt on a bed, file units.
-Expected<double> felt_area(const Scene& scene, const OpenStroke& stroke) {
+double felt_area(const Scene& scene, const DomainScaling<2>& scaling, const OpenStroke& stroke) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(*scene.selected)];
-  const auto scaling = normalised_scaling<2>(*s.reference);
-  if (!scaling) return std::unexpected(scaling.error());
-  if (s.nonlinear()) return scaling->length * scaling->length / stroke.lambda;
+  if (s.nonlinear()) return scaling.length * scaling.length / stroke.lambda;
   double area = 0;
   for (std::size_t i : pure_terms) {
     area = std::max(
         {area, std::sqrt(mean(s.material.beta[i]) / stroke.lambda), mean(s.material.alpha[i]) / stroke.lambda});
   }
-  return area * scaling->length * scaling->length;
+  return area * scaling.length * scaling.length;
 }
 
 /// A shape on the net of another one, whose degrees are these or more, as are its knots then.
@@ -135,16 +133,20 @@ Expected<void> Executor::begin_stroke(const std::string& name, double share) {
   stroke.path.spacing = size / places_per_size;
   stroke.plasticity = {share * policy.share, policy.yield * unit};
   stroke.lambda = state.evolution.lambda > 0 ? state.evolution.lambda : 1;
+  std::map<int, DomainScaling<2>> scalings;
+  for (const int k : state.selection()) {
+    const auto scaling = normalised_scaling<2>(*state.surfaces[static_cast<std::size_t>(k)].reference);
+    if (!scaling) return std::unexpected(scaling.error());
+    scalings.emplace(k, *scaling);
+  }
   if (policy.locality > 0) {
-    const auto bed = bed_of(state, policy.locality * unit);
-    if (!bed) return std::unexpected(bed.error());
-    stroke.lambda = bed->lambda;
-    stroke.tension = bed->tension;
+    const Locality bed = bed_of(state, scalings, policy.locality * unit);
+    stroke.lambda = bed.lambda;
+    stroke.tension = bed.tension;
   }
   // The further a dent is felt, the more a tool has to bear.
-  const auto felt = felt_area(state, stroke);
-  if (!felt) return std::unexpected(felt.error());
-  stroke.stiffness = hard * stroke.lambda * std::max(1.0, 16 * *felt / (size * size));
+  const double felt = felt_area(state, scalings.at(*state.selected), stroke);
+  stroke.stiffness = hard * stroke.lambda * std::max(1.0, 16 * felt / (size * size));
   Eigen::Index rows = 0;
   for (int k : state.selection()) {
     const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];

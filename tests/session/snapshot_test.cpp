@@ -157,6 +157,10 @@ TEST(Snapshot, ReadsTheVersionBefore) {
   EXPECT_TRUE(same_state(restored->state(), session.state()));
 }
 
+std::string bytes_of(std::span<const double> numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
+}
+
 // An open brush at one place of one surface without a mask. Version 6 had neither pens nor shells, nor modes, nor
 // bodies.
 TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
@@ -180,8 +184,24 @@ TEST(Snapshot, ReadsOpenBrushesWithoutAPen) {
   EXPECT_TRUE(same_state(restored->state(), session.state()));
 }
 
-std::string bytes_of(std::span<const double> numbers) {
-  return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
+// Version 10 kept the displacement of the place before the last one, too.
+TEST(Snapshot, ReadsOpenStrokesOfTwoPlaces) {
+  Session session = fresh();
+  run(session,
+      {R"({"do":"new","size":[10,10],"net":[12,12]})",
+       R"({"do":"tool","name":"ball","shape":"sphere","radius":2,"position":[5,5,9],"mode":"collision","plasticity":1})",
+       R"({"do":"stroke","tool":"ball","path":[[4,5,1],[5,5,1]],"open":true})"});
+  ASSERT_TRUE(session.state().stroke);
+  const Points& last = session.state().stroke->last;
+  ASSERT_GT(last.rows(), 0);
+  std::string old = session.snapshot(0);
+  const std::string bytes = bytes_of({last.data(), static_cast<std::size_t>(last.size())});
+  const std::size_t at = old.rfind(bytes), count = sizeof(std::uint64_t);
+  ASSERT_NE(at, std::string::npos);
+  old.insert(at + bytes.size(), old.substr(at - count, count + bytes.size()));
+  const auto restored = Session::restore(Document::fresh("test"), sealed(old, 'a'));
+  ASSERT_TRUE(restored) << restored.error().message();
+  EXPECT_TRUE(same_state(restored->state(), session.state()));
 }
 
 TEST(Snapshot, RefusesAShapeWithAnotherDomainThanTheSurfaceAsOpened) {
