@@ -1,26 +1,31 @@
-// Times of the steps of a stroke in node, with all that a frame costs the worker:  node bench/steps.mjs [module.wasm ...]
+// Times of steps under a ball, and of the page's own strokes, in node, with all that a frame costs the worker:  node bench/steps.mjs [module.wasm ...]
 // Several modules take turns, place by place, and are compared with the first.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 import { engineClass } from './engine.mjs';
-import { detail, least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
+import { clay, detail, firstStroke, least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
 
 const modules =
   process.argv.length > 2 ? process.argv.slice(2) : [fileURLToPath(new URL('../src/engine/knead_studio.wasm', import.meta.url))];
 const Engine = await engineClass();
 
-for (const net of nets) {
+const kinds = [
+  { name: 'steps', prepare: sheet, frames: places },
+  { name: 'stroke', prepare: clay, frames: firstStroke },
+];
+
+for (const { net, name, prepare, frames } of nets.flatMap((net) => kinds.map((kind) => ({ net, ...kind })))) {
   const runs = [];
   for (const file of modules) {
     const engine = await Engine.load(readFileSync(file));
     engine.fresh('sheet');
-    for (const command of sheet(net)) engine.execute(command);
+    for (const command of prepare(net)) engine.execute(command);
     runs.push({ file, engine, first: [], step: [], frame: [], iterations: 0 });
   }
   // The first stroke warms up.
   for (const measured of [false, true]) {
-    for (const [k, commands] of places.entries()) {
+    for (const [k, commands] of frames.entries()) {
       for (const run of runs) {
         const { engine } = run;
         const begin = performance.now();
@@ -41,12 +46,12 @@ for (const net of nets) {
     }
     for (const { engine } of runs) engine.execute({ do: 'undo' });
   }
-  console.log(`${net} x ${net} control points, milliseconds`);
+  console.log(`${name}, ${net} x ${net} control points, milliseconds`);
   console.log('     step    frame: median    least    worst  of the first  Newton  ratio  module');
   for (const { file, first, step, frame, iterations } of runs) {
     console.log(
       `${ms(median(step))}        ${ms(median(frame))}${ms(least(frame))}${ms(worst(frame))}     ${ms(worst(first))}` +
-        `   ${(iterations / places.length).toFixed(2)}   ${(median(frame) / median(runs[0].frame)).toFixed(2)}   ${file}`,
+        `   ${(iterations / frames.length).toFixed(2)}   ${(median(frame) / median(runs[0].frame)).toFixed(2)}   ${file}`,
     );
   }
 }

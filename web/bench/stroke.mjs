@@ -12,6 +12,14 @@ export const sheet = (net) => [
   { do: 'evolve', mode: 'acm', lambda: 100 },
 ];
 
+/** The sheet that a new page shows, of what its strokes press. */
+export const clay = (net) => [
+  { do: 'new', size: [size, size], net: [net, net] },
+  { do: 'hold', rows: 2 },
+  { do: 'material', preset: 'clay' },
+  { do: 'evolve', mode: 'acm', lambda: 100, accuracy: 'interactive' },
+];
+
 /** The commands of every place. */
 export const places = Array.from({ length: 60 }, (_, k) => {
   const along = (k % 12) * 0.4 * radius, line = Math.floor(k / 12);
