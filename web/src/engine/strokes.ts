@@ -50,7 +50,7 @@ export function* strokes(engine: Engine): Generator<void> {
   }
 }
 
-const mostControlPoints = 1600; // a request waits for the rehearsal of one stroke, which takes some 20 milliseconds with so many
+const mostControlPoints = 5000; // a request waits for the rehearsal of one stroke, as long as the first frame would take without it
 
 /** The model that a stroke needs is made while nobody waits for it: by one that touches nothing, and is forgotten. */
 export function rehearse(engine: Engine): void {
