@@ -65,7 +65,8 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
     to.d += step * p;
     Combination y = ap;
     y.e += hp;
-    r.add(-step, y);
+    r.add(-step, ap);
+    r.e -= step * hp;
     Points next_image;
     m = precondition(anchor, r, [&](const Combination& rest, const std::vector<double>& alpha) {
       Points z = rest.image(anchor, near);

@@ -16,7 +16,6 @@ inline constexpr double rounding_of_potential = 1e-14;
 inline constexpr int max_newton_iterations = 60;
 inline constexpr int max_cg_iterations = 400;
 inline constexpr int max_rounded_steps = 4;
-inline constexpr double loosest_direction = 0.1;
 
 /// To what share of its first residual a direction of Newton's iteration is solved for (Eisenstat and Walker, 1996):
 /// loose while the iterate is far away, since which points touch will change, and tighter near the end, where a step
@@ -26,8 +25,9 @@ inline constexpr double loosest_direction = 0.1;
 /// error of the displacement is allowed: what the last iteration gains too little of, the next one need not make up
 /// for.
 inline double direction_tolerance(double decrement, double enough, double largest, bool interactive) {
+  const double loosest = interactive ? 0.1 : 1e-2, factor = interactive ? 1 : 0.1;
   const double last = std::clamp(0.1 * enough / decrement, 1e-8, 1e-2);
-  return std::clamp((interactive ? 1 : 0.1) * decrement / largest, last, loosest_direction);
+  return std::clamp(factor * decrement / largest, last, loosest);
 }
 
 }  // namespace knead

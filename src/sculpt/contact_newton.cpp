@@ -211,6 +211,8 @@ class Minimisation {
     if (!state_.contacts.empty()) {
       const double cg_tolerance =
           direction_tolerance(at.decrement(), progress.enough, progress.largest, problem_.accuracy > 0);
+      // Exact steps under the stiffest springs end before they converge: then every bit of a direction shows.
+      if (problem_.accuracy == 0) view.directions.forget();
       to = view.directions.find(state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
     }
     to.slope = -at.r.beta * to.ad.with_r(view.from) - dot(at.r.e, to.d);
