@@ -63,8 +63,6 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
     const double step = rs / curvature;
     to.ad.add(step, ap);
     to.d += step * p;
-    Combination y = ap;
-    y.e += hp;
     r.add(-step, ap);
     r.e -= step * hp;
     Points next_image;
@@ -75,8 +73,9 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
       return z;
     });
     ++solves;
-    Points y_image = (image - next_image) / step;
-    made.push_back({p, ap, ap.with_r(anchor), std::move(y), std::move(y_image), 1 / curvature});
+    if (corrects_) {
+      made.push_back({p, ap, ap.with_r(anchor), {ap.beta, ap.e + hp}, (image - next_image) / step, 1 / curvature});
+    }
     image = std::move(next_image);
     squared = r.norm(anchor, image);
     if (!(squared < 1e6 * first)) break;  // nothing but rounding is left

@@ -17,6 +17,9 @@ namespace knead {
 /// without: at a share of its first residual in the norm of A⁻¹.
 class ContactDirections {
  public:
+  /// \param corrects Whether directions use what those before have shown.
+  explicit ContactDirections(bool corrects) : corrects_(corrects) {}
+
   /// Call when the anchor or the neighbourhood changes: pairs are known there only.
   void forget() { pairs_.clear(); }
 
@@ -46,7 +49,8 @@ class ContactDirections {
   [[nodiscard]] Preconditioned precondition(const Anchor& anchor, const Combination& r, const Image& image_of) const;
   void keep(Pair pair);
 
-  std::vector<Pair> pairs_;  // the newest last
+  bool corrects_;
+  std::vector<Pair> pairs_;  // the newest last; none unless `corrects_`
 };
 
 }  // namespace knead

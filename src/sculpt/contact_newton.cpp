@@ -140,7 +140,9 @@ class Minimisation {
     a.z = inverse_.forward(inverse_.space().lumped(r));
     ++summary.solves;
     a.rs = a.z.squared_norm;
-    View here{std::move(a), ContactNeighbourhood(inverse_, potential_), {}, {}, 0, {}};
+    // Exact steps under the stiffest springs end before they converge: then every bit of a direction shows.
+    View here{
+        std::move(a), ContactNeighbourhood(inverse_, potential_), {}, {}, 0, ContactDirections(problem_.accuracy > 0)};
     here.quadratic = here.from.quadratic;
     here.au.e = here.u = here.from.force_here = Points(0, 3);
     take_in(here, state_);
@@ -211,8 +213,6 @@ class Minimisation {
     if (!state_.contacts.empty()) {
       const double cg_tolerance =
           direction_tolerance(at.decrement(), progress.enough, progress.largest, problem_.accuracy > 0);
-      // Exact steps under the stiffest springs end before they converge: then every bit of a direction shows.
-      if (problem_.accuracy == 0) view.directions.forget();
       to = view.directions.find(state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
     }
     to.slope = -at.r.beta * to.ad.with_r(view.from) - dot(at.r.e, to.d);

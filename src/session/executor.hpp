@@ -230,7 +230,7 @@ struct Executor {
   Expected<void> keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before);
   Expected<void> put_tool(const Point& place);
   [[nodiscard]] Points stroke_guess(std::span<const Travel> travels) const;
-  Expected<ActiveStep> press(std::span<const Travel> travels);
+  Expected<ActiveStep> press(std::vector<Tool> tools, std::span<const Travel> travels);
   Expected<ActiveStep> press_shell_on_bed(const std::vector<Tool>& tools, Points guess);
   Expected<void> unite_under_stroke();
   Expected<bool> refine_stroke(const ActiveStep* step);

@@ -4,24 +4,29 @@
 
 namespace knead {
 
-Points StrokeModel::at_abscissae(const Points& x) const {
+namespace {
+
+/// Stacked rows of all patches, those of patch k as f(k, its rows) makes them.
+template <class F>
+Points by_patch(const std::vector<GrevilleValues<2>>& patches, const Points& x, const F& f) {
   Points result(x.rows(), 3);
   Eigen::Index first = 0;
-  for (const GrevilleValues<2>& patch : values) {
-    result.middleRows(first, patch.size()) = patch.values(x.middleRows(first, patch.size()));
-    first += patch.size();
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const Eigen::Index rows = patches[k].size();
+    result.middleRows(first, rows) = f(k, x.middleRows(first, rows));
+    first += rows;
   }
   return result;
 }
 
+}  // namespace
+
+Points StrokeModel::at_abscissae(const Points& x) const {
+  return by_patch(values, x, [&](std::size_t k, const Points& part) { return values[k].values(part); });
+}
+
 Points StrokeModel::control_points(const Points& x) const {
-  Points result(x.rows(), 3);
-  Eigen::Index first = 0;
-  for (const GrevilleValues<2>& patch : values) {
-    result.middleRows(first, patch.size()) = patch.coefficients(x.middleRows(first, patch.size()));
-    first += patch.size();
-  }
-  return result;
+  return by_patch(values, x, [&](std::size_t k, const Points& part) { return values[k].coefficients(part); });
 }
 
 /// Where coupled surfaces are one, the nearest that they allow: elsewhere, what held points leave.
@@ -50,15 +55,10 @@ Expected<void> Executor::keep_stroke_model(ModelInput input, std::span<const Ope
 Points Executor::stroke_guess(std::span<const Travel> travels) const {
   const OpenStroke& stroke = *state.stroke;
   if (stroke.last.rows() == 0) return {};
-  Points result(stroke.last.rows(), 3);
-  Eigen::Index first = 0;
-  for (std::size_t k = 0; k < stroke.before.size(); ++k) {
-    const Surface& shape = *stroke.before[k].current;
-    result.middleRows(first, shape.size()) =
-        travelled(shape, stroke_cache->values[k], stroke.last.middleRows(first, shape.size()), travels);
-    first += shape.size();
-  }
-  return stroke_cache->allowed(result);
+  const std::vector<GrevilleValues<2>>& values = stroke_cache->values;
+  return stroke_cache->allowed(by_patch(values, stroke.last, [&](std::size_t k, const Points& part) {
+    return travelled(*stroke.before[k].current, values[k], part, travels);
+  }));
 }
 
 }  // namespace knead

@@ -190,16 +190,14 @@ Expected<void> Executor::put_tool(const Point& place) {
   return {};
 }
 
-/// What the tool asks, where it is after these travels, of the shapes from before the stroke.
-Expected<ActiveStep> Executor::press(std::span<const Travel> travels) {
+/// What these tools ask, which are there after these travels, of the shapes from before the stroke.
+Expected<ActiveStep> Executor::press(std::vector<Tool> tools, std::span<const Travel> travels) {
   if (auto made = prepare_stroke_model(); !made) return std::unexpected(made.error());
   const OpenStroke& stroke = *state.stroke;
-  auto tools = tools_and_images(state);
-  if (!tools) return std::unexpected(tools.error());
-  for (Tool& t : *tools) {
+  for (Tool& t : tools) {
     if (t.collides()) t.stiffness = std::min(std::max(t.stiffness, stroke.stiffness), max_tool_stiffness);
   }
-  if (shells()) return press_shell_on_bed(*tools, stroke_guess(travels));
+  if (shells()) return press_shell_on_bed(tools, stroke_guess(travels));
   const ActiveSurface& model = stroke_cache->scene.model;
   auto loads = active_loads(state, stroke_cache->scene);
   if (!loads) return std::unexpected(loads.error());
@@ -208,7 +206,7 @@ Expected<ActiveStep> Executor::press(std::span<const Travel> travels) {
                    stacked(stroke.before, &OpenStroke::Before::rest)};
   from.balanced = true;
   from.guess = stroke_guess(travels);
-  auto step = model.step(from, *tools, *loads);
+  auto step = model.step(from, tools, *loads);
   if (step) step->control_points -= from.control_points;  // the displacement
   return step;
 }
@@ -279,22 +277,23 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
     s.rest = state.stroke->before[k].rest;
     s.current = state.stroke->before[k].current;
   }
+  auto was = tools_and_images(state);
+  if (!was) return std::unexpected(was.error());
   for (const Point& place : places) {
-    const auto was = tools_and_images(state);
-    if (!was) return std::unexpected(was.error());
     if (auto put = put_tool(place); !put) return put;
-    const auto is = tools_and_images(state);
+    auto is = tools_and_images(state);
     if (!is) return std::unexpected(is.error());
     const std::vector<Travel> travels = travels_of(*was, *is);
     if (auto refined = refine_stroke(nullptr); !refined) return std::unexpected(refined.error());
-    auto step = press(travels);
+    auto step = press(*is, travels);
     for (int k = 0; k < max_refinements && step; ++k) {
       const auto refined = refine_stroke(&*step);
       if (!refined) return std::unexpected(refined.error());
       if (!*refined) break;
-      step = press(travels);
+      step = press(*is, travels);
     }
     if (!step) return std::unexpected(step.error());
+    was = std::move(is);
     OpenStroke& stroke = *state.stroke;
     stroke.last = step->control_points;
     remember(stroke.history, stroke_cache->at_abscissae(stroke.last));

@@ -89,7 +89,7 @@ struct Contact {
 TEST(ContactDirections, SolveWithTheHessianOfContacts) {
   Contact c;
   const Points expected = c.exact(c.r);
-  ContactDirections directions;
+  ContactDirections directions(true);
   int first = 0, again = 0, forgotten = 0;
   const Direction d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-12, first);
   EXPECT_LE((d.d - expected).norm(), 1e-10 * expected.norm());
@@ -107,7 +107,7 @@ TEST(ContactDirections, SolveWithTheHessianOfContacts) {
 
 TEST(ContactDirections, CorrectByWhatWasShownOfAnotherSystem) {
   Contact c;
-  ContactDirections directions;
+  ContactDirections directions(true);
   int first = 0, alone = 0, after = 0;
   static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-12, first));
   c.springs = Springs({20, 21, 22, 30, 31, 40, 44, 53}, 1.1e3, 5);  // one lets go, one touches; all a little stiffer
