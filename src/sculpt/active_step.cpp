@@ -51,18 +51,27 @@ void ActiveSpline<D>::Model::report(ActiveStep& result, const Points& x, const P
   const ConstraintSpace& space = inverse.space();
   // Forces on the free unknowns: from tools and loads, the free part of the net, and the held part. K
   // annihilates constants: without their mean the numbers are smaller, and so is the rounding.
-  const Points y = x.rowwise() - x.colwise().mean();
-  const Points stretching = stretch * y, bending = bend * y;
-  Points held_part = Points::Zero(x.rows(), 3);
-  for (int i = 0; i < space.size(); ++i) {
-    if (space.is_determined(i)) held_part.row(i) = x.row(i);
-  }
-  const Points from_held = (held_part.array() == 0).all() ? held_part : stiffness * held_part;
-  const Points from_free = stretching + bending - from_held;
-  const double scale = contact.force.norm() + external.norm() + from_free.norm() + from_held.norm();
-  result.residual = scale > 0 ? space.reduce(contact.force + external - from_free - from_held).norm() / scale : 0;
-  result.stretch = std::max(0.0, dot(y, stretching));
+  Points y = x.rowwise() - x.colwise().mean();
+  Points from_free = stretch * y;
+  result.stretch = std::max(0.0, dot(y, from_free));
+  const Points bending = bend * y;
   result.bend = std::max(0.0, dot(y, bending));
+  from_free += bending;
+  bool held = false;
+  for (int i = 0; i < space.size(); ++i) {
+    if (space.is_determined(i)) {
+      y.row(i) = x.row(i);
+      held = held || !(x.row(i).array() == 0).all();
+    } else {
+      y.row(i).setZero();
+    }
+  }
+  const Points from_held = held ? stiffness * y : y;
+  from_free -= from_held;
+  const double scale = contact.force.norm() + external.norm() + from_free.norm() + from_held.norm();
+  y = contact.force + external - from_free - from_held;
+  const double unbalanced = space.coupled() ? space.reduce(y).norm() : space.reduce_points(y).norm();
+  result.residual = scale > 0 ? unbalanced / scale : 0;
   result.energy = result.stretch + result.bend;
   result.contact = contact.potential;
   result.gap = contact.entry;

@@ -1,12 +1,16 @@
 #include "contact_directions.hpp"
 
+#include <cmath>
+
 #include "contact_limits.hpp"
 #include "knead/base/interruption.hpp"
 
 namespace knead {
 namespace {
 
-constexpr std::size_t max_pairs = 30;  // twice as many save 3 % more substitutions
+constexpr std::size_t max_pairs = 30;     // twice as many save 3 % more substitutions
+constexpr double contraction_margin = 6;  // of squared residuals: less takes more iterations, more saves less
+constexpr double least_curvature = 1e-3;  // of a pair, as a share of pᵀAp
 
 }  // namespace
 
@@ -39,7 +43,7 @@ ContactDirections::Preconditioned ContactDirections::precondition(const Anchor& 
 }
 
 Direction ContactDirections::find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near,
-                                  Combination r, Points image, double tolerance, int& solves) {
+                                  Combination r, Points image, double tolerance, bool settled, int& solves) {
   const auto product = [&](const Preconditioned& m) { return r.beta * m.az.with_r(anchor) + dot(r.e, m.z); };
   Direction to{{0, Points::Zero(near.size(), 3)}, Points::Zero(near.size(), 3)};
   Preconditioned m = precondition(anchor, r, [&](const Combination&, const std::vector<double>& alpha) {
@@ -52,6 +56,7 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
   double rs = product(m), squared = r.norm(anchor, image);
   const double first = squared, target = tolerance * tolerance * squared;
   std::vector<Pair> made;
+  int measured = 0;
   for (int iteration = 0; iteration < max_cg_iterations && squared > target && rs > 0; ++iteration) {
     if (Interruption::asked_for()) break;
     const Points hp = near.hessian(state, p);
@@ -65,6 +70,7 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
     to.d += step * p;
     r.add(-step, ap);
     r.e -= step * hp;
+    if (corrects_ && settled && contraction_margin * contraction_ * squared <= target) break;
     Points next_image;
     m = precondition(anchor, r, [&](const Combination& rest, const std::vector<double>& alpha) {
       Points z = rest.image(anchor, near);
@@ -78,6 +84,8 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
     }
     image = std::move(next_image);
     squared = r.norm(anchor, image);
+    ++measured;
+    contraction_ = std::pow(squared / first, 1.0 / measured);
     if (!(squared < 1e6 * first)) break;  // nothing but rounding is left
     const double next = product(m), share = next / rs;
     ap.beta = m.az.beta + share * ap.beta;
@@ -87,6 +95,21 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
   }
   for (Pair& pair : made) keep(std::move(pair));
   return to;
+}
+
+void ContactDirections::take(double step, const Direction& direction, const Anchor& anchor, const Combination& before,
+                             const Points& image_before, const Combination& after, const Points& image_after) {
+  if (!corrects_ || image_before.rows() != image_after.rows()) return;
+  Combination ap;
+  ap.e = Points::Zero(direction.d.rows(), 3);
+  ap.add(step, direction.ad);
+  Pair pair{step * direction.d, std::move(ap), 0, before, image_before - image_after, 0};
+  pair.with_r = pair.ap.with_r(anchor);
+  pair.y.add(-1, after);
+  const double curvature = pair.y.beta * pair.with_r + dot(pair.y.e, pair.p);
+  if (!(curvature > least_curvature * pair.ap.norm(anchor, pair.p))) return;
+  pair.scale = 1 / curvature;
+  keep(std::move(pair));
 }
 
 }  // namespace knead

@@ -15,20 +15,33 @@ namespace knead {
 /// changes little from one direction to the next near the minimum, and the stiff parts of it need not be found anew.
 /// Pairs are kept with A⁻¹ y, so that a correction costs no substitution, and so that a direction ends where it would
 /// without: at a share of its first residual in the norm of A⁻¹.
+///
+/// Measuring a residual costs a substitution. Where what touches has settled, and steps before have contracted
+/// residuals so much that the next one will be small enough by a wide margin, it is not measured: Newton's iteration
+/// measures the one that counts.
 class ContactDirections {
  public:
   /// \param corrects Whether directions use what those before have shown.
   explicit ContactDirections(bool corrects) : corrects_(corrects) {}
 
   /// Call when the anchor or the neighbourhood changes: pairs are known there only.
-  void forget() { pairs_.clear(); }
+  void forget() {
+    pairs_.clear();
+    contraction_ = 1;
+  }
 
   /// To `tolerance` of the first residual. If A + H turns out not to be positive, the result is the sum of the steps so
   /// far, or the preconditioned r: a descent direction in any case (Nocedal and Wright, Numerical Optimization,
   /// Alg. 7.1). The slope is left to be found.
-  /// \param image A⁻¹ r in the neighbourhood. \param solves Is raised by the number of substitutions.
+  /// \param image A⁻¹ r in the neighbourhood. \param settled Whether what touches changes little, so that what
+  /// residuals before have shown can be relied on. \param solves Is raised by the number of substitutions.
   [[nodiscard]] Direction find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near,
-                               Combination r, Points image, double tolerance, int& solves);
+                               Combination r, Points image, double tolerance, bool settled, int& solves);
+
+  /// A pair more: what a step of Newton's iteration along a direction has changed. `before` and `after` are residuals
+  /// with their images. A direction whose last step of conjugate gradients was not measured gets its pair from here.
+  void take(double step, const Direction& direction, const Anchor& anchor, const Combination& before,
+            const Points& image_before, const Combination& after, const Points& image_after);
 
  private:
   struct Pair {
@@ -50,6 +63,7 @@ class ContactDirections {
   void keep(Pair pair);
 
   bool corrects_;
+  double contraction_ = 1;   // of squared residuals by a step, in the mean over the last direction that measured it
   std::vector<Pair> pairs_;  // the newest last; none unless `corrects_`
 };
 

@@ -21,6 +21,7 @@ constexpr double stiffening = 30;
 constexpr double far_from_balance = 1e-2;
 constexpr double stage_tolerance = 1e-4;
 constexpr int max_stage_iterations = 20;
+constexpr double settled_share = 0.2;  // of the decrement: what a step leaves where what touches changes little
 
 /// Newton's iteration on Φ.
 class Minimisation {
@@ -60,10 +61,7 @@ class Minimisation {
     while (!Interruption::asked_for()) {
       View here = kept_ ? std::move(*kept_) : view();
       kept_.reset();
-      if (progress.largest < 0) {
-        const double force = norm_of_force(here);
-        progress.largest = std::max(norm_of_b(here, force), force);
-      }
+      if (progress.largest < 0) progress.largest = first_scale(here);
       const double decrement = std::sqrt(std::max(0.0, here.from.rs));
       if (finished(decrement, here, progress)) return;
       if (decrement > 0.5 * before && decrement <= rounded_tolerance * progress.largest) {
@@ -90,6 +88,7 @@ class Minimisation {
     double enough = 0;    // a decrement this small ends the iteration
     int iteration = 0;
     int rounded_steps = 0;  // steps taken where the gain is below rounding
+    bool settled = false;   // the last step shows that what touches changes little
   };
 
   /// The present iterate Y₀ + u relative to an anchor.
@@ -180,6 +179,14 @@ class Minimisation {
     return norm_of_b_;
   }
 
+  /// Of the terms that a step balances. Of a step that an error of the displacement ends, they need not be known: what
+  /// they may lose by rounding is known from the energy, whose root is no less than that of KX₀.
+  double first_scale(const View& here) {
+    if (problem_.accuracy > 0 && !problem_.near) return 0;
+    const double force = norm_of_force(here);
+    return std::max(norm_of_b(here, force), force);
+  }
+
   double norm_of_force(const View& here) {
     if (state_.contacts.empty()) return 0;
     ++summary.solves;
@@ -192,7 +199,8 @@ class Minimisation {
     progress.enough = progress.tolerance * progress.largest;
     if (problem_.accuracy > 0) {  // of √(YᵀAY), at the anchor if that is not zero
       const double squared = view.from.squared > 0 ? view.from.squared : view.au.norm(view.from, view.u);
-      progress.enough = std::max(progress.enough, problem_.accuracy * std::sqrt(std::max(0.0, squared)));
+      progress.enough = std::max({progress.enough, relative_tolerance * std::sqrt(2 * std::max(0.0, problem_.energy)),
+                                  problem_.accuracy * std::sqrt(std::max(0.0, squared))});
     }
     if (decrement > progress.enough && std::isfinite(decrement)) return false;
     summary.converged = summary.finite = std::isfinite(decrement);
@@ -213,7 +221,8 @@ class Minimisation {
     if (!state_.contacts.empty()) {
       const double cg_tolerance =
           direction_tolerance(at.decrement(), progress.enough, progress.largest, problem_.accuracy > 0);
-      to = view.directions.find(state_, view.from, view.near, at.r, at.image, cg_tolerance, summary.solves);
+      to = view.directions.find(state_, view.from, view.near, at.r, at.image, cg_tolerance, progress.settled,
+                                summary.solves);
     }
     to.slope = -at.r.beta * to.ad.with_r(view.from) - dot(at.r.e, to.d);
     return to;
@@ -231,10 +240,12 @@ class Minimisation {
     return potential_.evaluate(x_, &view.near.watched());
   }
 
-  /// Steps along the direction, halved until Φ decreases enough; a full step if values are not decisive.
-  void advance(View& view, const Direction& to, bool rounded) {
+  /// Steps along the direction, halved until Φ decreases enough; a full step if values are not decisive. Returns the
+  /// share of the direction.
+  double advance(View& view, const Direction& to, bool rounded) {
     const double here = view.quadratic + state_.potential;
-    for (double t = 1;; t /= 2) {
+    double t = 1;
+    for (;; t /= 2) {
       Points u = view.u + t * to.d;
       Combination au = view.au;
       au.add(t, to.ad);
@@ -252,6 +263,7 @@ class Minimisation {
     }
     // What is watched from now on may touch already: the next direction has to reckon with it.
     while (take_in(view, state_) && !Interruption::asked_for()) state_ = evaluate_inside(view, view.u);
+    return t;
   }
 
   /// Iterates inside the neighbourhood.
@@ -269,9 +281,12 @@ class Minimisation {
         summary.converged = true;
         return Round::over;
       }
-      advance(view, to, rounded);
+      const Residual before = at;
+      const double step = advance(view, to, rounded);
       ++progress.iteration;
       update(view, at);
+      progress.settled = at.decrement() <= settled_share * before.decrement();
+      view.directions.take(step, to, view.from, before.r, before.image, at.r, at.image);
       if (finished(at.decrement(), view, progress)) {
         return std::isfinite(at.decrement()) ? Round::small : Round::over;
       }
@@ -288,6 +303,8 @@ class Minimisation {
       y_ = view.from.y + inverse_.backward(view.from.z, view.au.beta, view.near.part(), view.au.e);
       ++summary.solves;
       x_ = problem_.start + y_;
+      // What acts inside is known already, but for the rounding of Y.
+      if (problem_.accuracy > 0 && y_.allFinite() && !potential_.acts_beyond(view.near.watched(), x_)) return round;
       state_ = potential_.evaluate(x_);
       if (view.near.contains(state_) || !y_.allFinite() || progress.iteration >= progress.max_iterations) return round;
       summary.converged = false;

@@ -57,19 +57,13 @@ class PatchPotential final : public Potential {
   [[nodiscard]] double stiffness(std::size_t k) const { return given_[k]; }
 
   [[nodiscard]] PotentialState evaluate(const Points& x, const WatchedElements* watched = nullptr) const override {
-    PotentialState state;
-    state.force = Points::Zero(x.rows(), 3);
-    for (std::size_t k = 0; k < loads_.size(); ++k) {
-      const auto friction = [&](const std::vector<FrictionAnchors>& of) { return of.empty() ? nullptr : &of[k]; };
-      const DisplacementLimit* limit = limits_.empty() ? nullptr : &limits_[k];
-      const int patch = static_cast<int>(k);
-      loads_[k].evaluate(x, rows_[k], patch, {tools_, friction(friction_), limit, ToolPass::all, watched}, state);
-      if (!loads_[k].hides()) continue;
-      loads_[k].evaluate(x, rows_[k], patch, {tools_, friction(visible_friction_), nullptr, ToolPass::visible, watched},
-                         state);
-    }
+    PotentialState state = on_elements(x, watched, nullptr);
     for (std::size_t k = 0; k < points_.size(); ++k) add_point(k, x, state);
     return state;
+  }
+
+  [[nodiscard]] bool acts_beyond(const WatchedElements& these, const Points& x) const override {
+    return !on_elements(x, nullptr, &these).contacts.empty();
   }
 
   void apply_hessian(const PotentialState& state, const Points& v, Points& out) const override {
@@ -122,6 +116,24 @@ class PatchPotential final : public Potential {
   }
 
  private:
+  /// What acts on elements: on all, on those that are watched, or on all others.
+  [[nodiscard]] PotentialState on_elements(const Points& x, const WatchedElements* watched,
+                                           const WatchedElements* beyond) const {
+    PotentialState state;
+    state.force = Points::Zero(x.rows(), 3);
+    for (std::size_t k = 0; k < loads_.size(); ++k) {
+      const auto friction = [&](const std::vector<FrictionAnchors>& of) { return of.empty() ? nullptr : &of[k]; };
+      const DisplacementLimit* limit = limits_.empty() ? nullptr : &limits_[k];
+      const int patch = static_cast<int>(k);
+      loads_[k].evaluate(x, rows_[k], patch, {tools_, friction(friction_), limit, ToolPass::all, watched, beyond},
+                         state);
+      if (!loads_[k].hides()) continue;
+      loads_[k].evaluate(x, rows_[k], patch,
+                         {tools_, friction(visible_friction_), nullptr, ToolPass::visible, watched, beyond}, state);
+    }
+    return state;
+  }
+
   /// on_patch(k, contacts) for contacts of one patch that follow one another, on_point(contact) for each of a force on
   /// one point.
   template <class F, class G>

@@ -45,6 +45,8 @@ class Potential {
   /// At the control points x (N × 3). With `watched`, contacts of those elements only: x is read at their control
   /// points, and the cost depends on their number.
   [[nodiscard]] virtual PotentialState evaluate(const Points& x, const WatchedElements* watched = nullptr) const = 0;
+  /// Whether a tool, friction or a limit acts on an element that is not among these.
+  [[nodiscard]] virtual bool acts_beyond(const WatchedElements& these, const Points& x) const = 0;
   /// Adds H v to `out`: the Hessian at `state` applied to N × 3 directions, both used only where contacts act. It may
   /// be indefinite.
   virtual void apply_hessian(const PotentialState& state, const Points& v, Points& out) const = 0;

@@ -85,6 +85,7 @@ class ToolLoad {
     const DisplacementLimit* limit = nullptr;
     ToolPass pass = ToolPass::all;
     const WatchedElements* watched = nullptr;  ///< null: all elements
+    const WatchedElements* beyond = nullptr;   ///< of all elements only those that are not among these
   };
 
   /// Adds potential, force and contacts at control points x (rows `first` … of all points) to `state`.

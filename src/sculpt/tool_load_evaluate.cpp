@@ -46,11 +46,25 @@ class ToolLoad<D>::Evaluation {
   }
 
   void run() {
+    if (actors_.beyond != nullptr) return run_beyond(actors_.beyond->elements[static_cast<std::size_t>(patch_)]);
     if (actors_.watched == nullptr) return load_.for_each_element([&](const Element& element) { visit(element); });
     for (const int number : actors_.watched->elements[static_cast<std::size_t>(patch_)]) visit(load_.element(number));
   }
 
  private:
+  /// All elements but some, which are given in ascending order.
+  void run_beyond(std::span<const int> within) {
+    int number = 0;
+    load_.for_each_element([&](const Element& element) {
+      const bool left_out = !within.empty() && within.front() == number++;
+      if (left_out) {
+        within = within.subspan(1);
+      } else {
+        visit(element);
+      }
+    });
+  }
+
   void visit(const Element& element) {
     if (Interruption::asked_for()) return;
     find_near(element);
@@ -88,25 +102,38 @@ class ToolLoad<D>::Evaluation {
     }
   }
 
-  /// On which sides of every tool's box each control point lies.
+  /// On which sides of every tool's box each control point lies; then, for the first control point of every element,
+  /// on which sides all of the element's do.
   void find_sides() {
     count_ = static_cast<std::size_t>(load_.control_points());
     sides_.resize(count_ * actors_.tools.size());
     for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
       const double* points = x_.data() + 3 * static_cast<std::ptrdiff_t>(first_);
-      for_each_used([&](std::size_t i) { sides_[t * count_ + i] = actors_.tools[t].sides(points + 3 * i); });
+      unsigned char* sides = sides_.data() + t * count_;
+      for_each_used([&](std::size_t i) { sides[i] = actors_.tools[t].sides(points + 3 * i); });
+      std::size_t stride = 1;
+      for (std::size_t d = D; d-- > 0;) {
+        const auto all = static_cast<std::size_t>(load_.quadrature_[d].basis.degree + 1);
+        for (std::size_t done = 1, more; done < all; done += more) {
+          more = std::min(done, all - done);
+          const unsigned char* further = sides + more * stride;
+          for (std::size_t i = 0; i + more * stride < count_; ++i) sides[i] &= further[i];
+        }
+        stride *= static_cast<std::size_t>(load_.net_[d]);
+      }
     }
   }
 
   /// The tools that may reach the element.
   void find_near(const Element& element) {
     near_.clear();
+    std::size_t first = 0;
+    for (std::size_t d = 0; d < D; ++d) {
+      first = first * static_cast<std::size_t>(load_.net_[d]) + static_cast<std::size_t>(element.first[d]);
+    }
     for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
       if (load_.pass_of(actors_.tools[t]) != actors_.pass) continue;
-      unsigned char beyond = 0xff;
-      load_.for_each_control_point(element,
-                                   [&](int row) { beyond &= sides_[t * count_ + static_cast<std::size_t>(row)]; });
-      if (!load_.in_hull_ || beyond == 0) near_.push_back(t);
+      if (!load_.in_hull_ || sides_[t * count_ + first] == 0) near_.push_back(t);
     }
     if (!load_.in_hull_ || near_.empty()) return;
     Point lower, upper;
@@ -213,7 +240,7 @@ class ToolLoad<D>::Evaluation {
   ForcesOfPoints forces_;
   std::optional<FieldAtPoints> original_;  // that the limit is measured from
   std::size_t count_ = 0;                  // of control points
-  std::vector<unsigned char> sides_;       // tool after tool
+  std::vector<unsigned char> sides_;       // by first control point of an element, tool after tool
   Eigen::VectorXd displacements_;          // of the control points: their hull bounds the displacement of every point
   std::vector<std::size_t> near_;
   Workspace workspace_;

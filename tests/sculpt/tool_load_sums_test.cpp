@@ -7,7 +7,7 @@
 
 #include "active.hpp"
 #include "knead/sculpt/lattice.hpp"
-#include "sculpt/tool_load.hpp"
+#include "sculpt/patch_potential.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
 
@@ -121,6 +121,34 @@ TEST(ToolLoadSums, LeapOverNoContactOfACurvedShape) {
     EXPECT_EQ(static_cast<long long>(leaping.contacts.size()), contacts);
     EXPECT_NEAR(leaping.potential, visiting.potential, 1e-13 * leaping.potential);
   }
+}
+
+TEST(ToolLoadSums, TellWhatActsBeyondSomeElements) {
+  const Surface s = testing::box<2>(3, 20);
+  auto load = ToolLoad<2>::create(s, DomainScaling<2>{}, 0.15);
+  ASSERT_TRUE(load);
+  const std::vector<ToolLoad<2>> loads = {*load};
+  const std::vector<int> rows = {0, s.size()};
+  const PatchPotential<2> potential(loads, rows, {round_tool({0.5, 0.4, 0.1}, 0.15)});
+  const Points x = s.control_points();
+  const PotentialState state = potential.evaluate(x);
+  ASSERT_GT(state.contacts.size(), 10U);
+  std::vector<char> marks(static_cast<std::size_t>(s.size()), 0);
+  potential.mark(state, marks);
+  const WatchedElements all = potential.watch(marks);
+  EXPECT_FALSE(potential.acts_beyond(all, x));
+  EXPECT_EQ(potential.evaluate(x, &all).force, state.force);
+  EXPECT_TRUE(potential.acts_beyond({{}, {{}}}, x));
+  int counted = 0;
+  for (std::size_t k = 0; k < all.elements[0].size(); ++k) {
+    WatchedElements others = all;
+    others.elements[0].erase(others.elements[0].begin() + static_cast<std::ptrdiff_t>(k));
+    const WatchedElements alone{all.rows, {{all.elements[0][k]}}};
+    const bool acts = !potential.evaluate(x, &alone).contacts.empty();
+    EXPECT_EQ(potential.acts_beyond(others, x), acts) << k;
+    counted += acts ? 1 : 0;
+  }
+  EXPECT_GT(counted, 10);
 }
 
 TEST(ToolLoadSums, RefuseALimitThatForcesExceedAfterOneRound) {
