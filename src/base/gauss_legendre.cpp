@@ -1,10 +1,11 @@
 #include "gauss_legendre.hpp"
 
+#include <array>
 #include <cassert>
 #include <cfloat>
 #include <cmath>
 #include <numbers>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace knead {
@@ -54,34 +55,40 @@ Node node(int n, int k) {
   return {static_cast<double>(x), static_cast<double>(2 / ((1 - x * x) * derivative * derivative))};
 }
 
-struct RuleTable {
-  // Rule n occupies n entries from offset n (n - 1) / 2.
+struct Rule {
   std::vector<double> abscissae, weights;
 
-  static std::size_t offset(int n) { return static_cast<std::size_t>(n) * static_cast<std::size_t>(n - 1) / 2; }
-
-  RuleTable() : abscissae(offset(max_gauss_points + 1)), weights(abscissae.size()) {
-    for (int n = 1; n <= max_gauss_points; ++n) {
-      // The rule is symmetric: nodes are found in the right half and mirrored exactly.
-      for (int k = n / 2; k < n; ++k) {
-        const Node right = node(n, k);
-        const std::size_t at = offset(n) + static_cast<std::size_t>(k);
-        const std::size_t mirrored = offset(n) + static_cast<std::size_t>(n - 1 - k);
-        abscissae[mirrored] = -right.abscissa;
-        abscissae[at] = right.abscissa;
-        weights[at] = weights[mirrored] = right.weight;
-      }
+  explicit Rule(int n) : abscissae(static_cast<std::size_t>(n)), weights(abscissae.size()) {
+    // The rule is symmetric: nodes are found in the right half and mirrored exactly.
+    for (int k = n / 2; k < n; ++k) {
+      const Node right = node(n, k);
+      const auto at = static_cast<std::size_t>(k), mirrored = static_cast<std::size_t>(n - 1 - k);
+      abscissae[mirrored] = -right.abscissa;
+      abscissae[at] = right.abscissa;
+      weights[at] = weights[mirrored] = right.weight;
     }
   }
 };
+
+/// Made when it is first asked for: all rules together would take longer than most commands.
+template <std::size_t N>
+const Rule& rule() {
+  static const Rule made(static_cast<int>(N) + 1);
+  return made;
+}
+
+template <std::size_t... N>
+constexpr auto all_rules(std::index_sequence<N...>) {
+  return std::array{&rule<N>...};
+}
 
 }  // namespace
 
 GaussRule gauss_legendre(int n) {
   assert(n >= 1 && n <= max_gauss_points);
-  static const RuleTable table;
-  const std::size_t at = RuleTable::offset(n), size = static_cast<std::size_t>(n);
-  return {std::span(table.abscissae).subspan(at, size), std::span(table.weights).subspan(at, size)};
+  constexpr auto rules = all_rules(std::make_index_sequence<max_gauss_points>());
+  const Rule& made = rules[static_cast<std::size_t>(n) - 1]();
+  return {made.abscissae, made.weights};
 }
 
 }  // namespace knead
