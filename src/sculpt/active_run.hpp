@@ -36,6 +36,7 @@ struct ActiveSpline<D>::Run {
   Points file_origin, before;     // the origin of X, and X₀
   Points external;                // G
   StepProblem problem;
+  FactorSource source;
   PatchPotential<D> potential;
   double limit;         // no point moves further than this from
   Points limit_origin;  // these control points

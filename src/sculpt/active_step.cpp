@@ -103,6 +103,7 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
               {},
               (file_origin.rowwise() - m.centre.transpose()) / m.length + before,
               0},
+      source{[&model] { return model.a.assemble(); }, [&model] { return grid_places<D>(model.patches); }},
       potential(m.loads, m.rows, scaled),
       limit(given_loads.limit / m.length),
       rounds(potential, m.patches, m.rows, summary, note) {
@@ -116,6 +117,7 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
   if (state.balanced) y = state.guess.rows() > 0 ? Points(state.guess / m.length) : Points::Zero(before.rows(), 3);
   if (m.settings.accuracy == StepAccuracy::interactive) problem.accuracy = interactive_accuracy;
   problem.near = state.balanced && state.guess.rows() > 0;
+  problem.source = &source;
 }
 
 template <int D>

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "contact_limits.hpp"
 #include "knead/base/interruption.hpp"
 
 namespace knead {
@@ -43,7 +42,7 @@ ContactDirections::Preconditioned ContactDirections::precondition(const Anchor& 
 }
 
 Direction ContactDirections::find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near,
-                                  Combination r, Points image, double tolerance, bool settled, int& solves) {
+                                  Combination r, Points image, const Wanted& wanted, int& solves) {
   const auto product = [&](const Preconditioned& m) { return r.beta * m.az.with_r(anchor) + dot(r.e, m.z); };
   Direction to{{0, Points::Zero(near.size(), 3)}, Points::Zero(near.size(), 3)};
   Preconditioned m = precondition(anchor, r, [&](const Combination&, const std::vector<double>& alpha) {
@@ -54,10 +53,10 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
   Combination ap = m.az;
   Points p = m.z;
   double rs = product(m), squared = r.norm(anchor, image);
-  const double first = squared, target = tolerance * tolerance * squared;
+  const double first = squared, target = wanted.tolerance * wanted.tolerance * squared;
   std::vector<Pair> made;
   int measured = 0;
-  for (int iteration = 0; iteration < max_cg_iterations && squared > target && rs > 0; ++iteration) {
+  for (int iteration = 0; iteration < wanted.most && squared > target && rs > 0; ++iteration) {
     if (Interruption::asked_for()) break;
     const Points hp = near.hessian(state, p);
     const double pap = ap.norm(anchor, p), curvature = pap + dot(p, hp);
@@ -70,7 +69,7 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
     to.d += step * p;
     r.add(-step, ap);
     r.e -= step * hp;
-    if (corrects_ && settled && contraction_margin * contraction_ * squared <= target) break;
+    if (corrects_ && wanted.settled && contraction_margin * contraction_ * squared <= target) break;
     Points next_image;
     m = precondition(anchor, r, [&](const Combination& rest, const std::vector<double>& alpha) {
       Points z = rest.image(anchor, near);

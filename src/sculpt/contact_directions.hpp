@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "contact_anchor.hpp"
+#include "contact_limits.hpp"
 
 namespace knead {
 
@@ -30,13 +31,19 @@ class ContactDirections {
     contraction_ = 1;
   }
 
-  /// To `tolerance` of the first residual. If A + H turns out not to be positive, the result is the sum of the steps so
+  struct Wanted {
+    double tolerance;  ///< of the first residual
+    /// Whether what touches changes little, so that what residuals before have shown can be relied on.
+    bool settled = false;
+    int most = max_cg_iterations;  ///< substitutions
+  };
+
+  /// To a share of the first residual. If A + H turns out not to be positive, the result is the sum of the steps so
   /// far, or the preconditioned r: a descent direction in any case (Nocedal and Wright, Numerical Optimization,
   /// Alg. 7.1). The slope is left to be found.
-  /// \param image A⁻¹ r in the neighbourhood. \param settled Whether what touches changes little, so that what
-  /// residuals before have shown can be relied on. \param solves Is raised by the number of substitutions.
+  /// \param image A⁻¹ r in the neighbourhood. \param solves Is raised by the number of substitutions.
   [[nodiscard]] Direction find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near,
-                               Combination r, Points image, double tolerance, bool settled, int& solves);
+                               Combination r, Points image, const Wanted& wanted, int& solves);
 
   /// A pair more: what a step of Newton's iteration along a direction has changed. `before` and `after` are residuals
   /// with their images. A direction whose last step of conjugate gradients was not measured gets its pair from here.

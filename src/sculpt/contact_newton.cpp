@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "contact_directions.hpp"
+#include "contact_factor.hpp"
 #include "contact_krylov.hpp"
 #include "contact_limits.hpp"
 #include "knead/base/interruption.hpp"
@@ -13,7 +14,8 @@
 namespace knead {
 namespace {
 
-constexpr int max_solves = 1500;  // per minimisation: a step that needs more stops there and says so
+constexpr int max_solves = 1500;        // per minimisation: a step that needs more stops there and says so
+constexpr int many_substitutions = 60;  // for one direction: from there on A + H is factored
 constexpr double cancellation = 1e-12;
 // Stages of increasing stiffness towards a stiff tool.
 constexpr double soft_stiffness = 1e4;
@@ -32,7 +34,8 @@ class Minimisation {
         potential_(potential),
         y_(y),
         x_(problem.start + y),
-        state_(potential.evaluate(x_)) {}
+        state_(potential.evaluate(x_)),
+        may_factor_(ContactFactor::is_possible(problem)) {}
 
   ContactSummary summary;
 
@@ -124,6 +127,8 @@ class Minimisation {
   PotentialState state_;  // at the present iterate
   std::optional<View> kept_;
   double norm_of_b_ = -1;
+  bool may_factor_;
+  bool factors_ = false;  // once conjugate gradients have taken many substitutions for one direction
 
   /// From the present Y, where `state_` is complete.
   View view() {
@@ -217,15 +222,42 @@ class Minimisation {
   }
 
   Direction direction(View& view, const Residual& at, const Progress& progress) {
-    Direction to{at.r, at.image};
-    if (!state_.contacts.empty()) {
-      const double cg_tolerance =
+    Direction to;
+    if (state_.contacts.empty()) {
+      to = {at.r, at.image};
+    } else {
+      const double tolerance =
           direction_tolerance(at.decrement(), progress.enough, progress.largest, problem_.accuracy > 0);
-      to = view.directions.find(state_, view.from, view.near, at.r, at.image, cg_tolerance, progress.settled,
+      if (directly(view, at, progress.settled, tolerance, to)) return to;
+      to = view.directions.find(state_, view.from, view.near, at.r, at.image, {tolerance, progress.settled},
                                 summary.solves);
     }
-    to.slope = -at.r.beta * to.ad.with_r(view.from) - dot(at.r.e, to.d);
+    to.slope = slope(view, at, to);
     return to;
+  }
+
+  static double slope(const View& view, const Residual& at, const Direction& to) {
+    return -at.r.beta * to.ad.with_r(view.from) - dot(at.r.e, to.d);
+  }
+
+  /// A direction of descent where a factor of A + H may be needed: by conjugate gradients as long as these need few
+  /// substitutions, and from then on by the factor. False: there is none.
+  bool directly(View& view, const Residual& at, bool settled, double tolerance, Direction& to) {
+    if (!may_factor_) return false;
+    if (!factors_) {
+      const int before = summary.solves;
+      to = view.directions.find(state_, view.from, view.near, at.r, at.image, {tolerance, settled, many_substitutions},
+                                summary.solves);
+      to.slope = slope(view, at, to);
+      if (summary.solves - before < many_substitutions) return true;
+      factors_ = true;
+      if (!problem_.source->last) problem_.source->last = std::make_shared<ContactFactor>(problem_, potential_);
+    }
+    may_factor_ =
+        problem_.source->last->find(state_, view.from, view.near, at.r, at.image, tolerance, to, summary.solves);
+    to.slope = slope(view, at, to);
+    may_factor_ = may_factor_ && to.slope < 0;
+    return may_factor_;
   }
 
   /// Whether the gain left is below the rounding of Φ, whose parts include rᵀA⁻¹r (see `View::quadratic_at`).

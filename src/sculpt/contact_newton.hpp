@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "potential.hpp"
 #include "solve/step_inverse.hpp"
@@ -15,6 +16,15 @@ struct ContactSummary {
   bool finite = true;  ///< false: a number overflowed on the way
 };
 
+class ContactFactor;
+
+/// What factors of A and a Hessian are made from, and the last of them, which serves all minimisations of a step.
+struct FactorSource {
+  std::function<SparseMatrix()> a;          // on one coordinate, N × N
+  std::function<GridPlaces()> places = {};  // of the control points
+  std::shared_ptr<ContactFactor> last = nullptr;
+};
+
 /// One step as a minimisation over X = X₀ + Y:  Φ(Y) = ½ YᵀAY − Yᵀb + Ψ(x₀ + Y), Y + X₀ subject to constraints.
 struct StepProblem {
   std::function<Points(const Points&)> a;  // A Y
@@ -25,6 +35,8 @@ struct StepProblem {
   bool near = false;  // Y starts close to the minimum: stiff tools are used at full stiffness
   /// Where above 0, an error of Y of this share of √(YᵀAY) is small enough.
   double accuracy = 0;
+  /// For directions by a factor of A and a Hessian; null: none are.
+  FactorSource* source = nullptr;
 };
 
 /// The minimum, and the potential there.

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "coordinate_sum.hpp"
 #include "knead/base/interruption.hpp"
 #include "knead/solve/eigenmodes.hpp"
 
@@ -59,11 +60,10 @@ SparseMatrix ElasticDescent::elastic(SparseMatrix hessian) const {
 }
 
 SparseMatrix ElasticDescent::with_contact(const Place& place, SparseMatrix hessian) const {
-  SparseMatrix sum = elastic(std::move(hessian));
-  std::vector<Eigen::Triplet<double>> entries;
-  potential_.append_hessian(place.contact, entries);
-  for (const auto& entry : entries) sum.coeffRef(entry.row(), entry.col()) += entry.value();
-  return sum;
+  CoordinateSum sum(elastic(std::move(hessian)));
+  potential_.each_hessian_block(
+      place.contact, [&](std::span<const int> points, const Eigen::MatrixXd& block) { sum.add(points, block); });
+  return std::move(sum).take_sum();
 }
 
 bool ElasticDescent::factor(const SparseMatrix& system) {

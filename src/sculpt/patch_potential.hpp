@@ -76,10 +76,10 @@ class PatchPotential final : public Potential {
         });
   }
 
-  void append_hessian(const PotentialState& state, std::vector<Eigen::Triplet<double>>& entries) const override {
+  void each_hessian_block(const PotentialState& state, const AddBlock& add) const override {
     for_each_patch(
-        state, [&](std::size_t k, auto contacts) { loads_[k].append_hessian(contacts, rows_[k], entries); },
-        [&](const ContactPoint& c) { append_point(c, entries); });
+        state, [&](std::size_t k, auto contacts) { loads_[k].each_hessian_block(contacts, rows_[k], add); },
+        [&](const ContactPoint& c) { add_point_block(c, add); });
   }
 
   void mark(const PotentialState& state, std::vector<char>& marks) const override {
@@ -157,15 +157,21 @@ class PatchPotential final : public Potential {
     return sum;
   }
 
-  void append_point(const ContactPoint& contact, std::vector<Eigen::Triplet<double>>& entries) const {
+  void add_point_block(const ContactPoint& contact, const AddBlock& add) const {
     const auto& terms = points_[static_cast<std::size_t>(contact.at[0])].terms;
+    std::vector<int> rows;
+    Eigen::VectorXd shares(static_cast<Eigen::Index>(terms.size()));
     for (const auto& [row, r] : terms) {
-      for (const auto& [column, s] : terms) {
-        for (int c = 0; c < 3; ++c) {
-          for (int e = 0; e < 3; ++e) entries.emplace_back(3 * row + c, 3 * column + e, r * s * contact.hessian(c, e));
-        }
+      shares[static_cast<Eigen::Index>(rows.size())] = r;
+      rows.push_back(row);
+    }
+    Eigen::MatrixXd block(3 * shares.size(), 3 * shares.size());
+    for (Eigen::Index i = 0; i < shares.size(); ++i) {
+      for (Eigen::Index j = 0; j < shares.size(); ++j) {
+        block.block<3, 3>(3 * i, 3 * j) = shares[i] * shares[j] * contact.hessian;
       }
     }
+    add(rows, block);
   }
 
   void add_point(std::size_t k, const Points& x, PotentialState& state) const {

@@ -1,7 +1,9 @@
 #pragma once
 
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 #include <array>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "knead/spline/spline.hpp"
@@ -37,6 +39,9 @@ struct WatchedElements {
   std::vector<std::vector<int>> elements;  ///< by patch, ascending
 };
 
+/// Takes a matrix between the coordinates of some points: row 3 k + c is coordinate c of points[k].
+using AddBlock = std::function<void(std::span<const int> points, const Eigen::MatrixXd& block)>;
+
 /// A potential of the positions of all control points: the solver's view of tools, friction and limits.
 class Potential {
  public:
@@ -50,8 +55,8 @@ class Potential {
   /// Adds H v to `out`: the Hessian at `state` applied to N × 3 directions, both used only where contacts act. It may
   /// be indefinite.
   virtual void apply_hessian(const PotentialState& state, const Points& v, Points& out) const = 0;
-  /// Appends the entries of that Hessian, unknown 3 i + c being coordinate c of control point i.
-  virtual void append_hessian(const PotentialState& state, std::vector<Eigen::Triplet<double>>& entries) const = 0;
+  /// Calls `add` with symmetric blocks whose sum is that Hessian.
+  virtual void each_hessian_block(const PotentialState& state, const AddBlock& add) const = 0;
   /// Sets marks[i] where a contact of `state` acts on control point i: elsewhere force and Hessian are zero.
   virtual void mark(const PotentialState& state, std::vector<char>& marks) const = 0;
   /// Marks the neighbours of marked control points in their nets too.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "element_hessian.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "tool_load_sums.hpp"
 
@@ -192,19 +193,10 @@ void ToolLoad<D>::apply_hessian(std::span<const ContactPoint> contacts, int firs
 }
 
 template <int D>
-void ToolLoad<D>::append_hessian(std::span<const ContactPoint> contacts, int first,
-                                 std::vector<Eigen::Triplet<double>>& entries) const {
-  std::vector<int> rows, last;
+void ToolLoad<D>::each_hessian_block(std::span<const ContactPoint> contacts, int first, const AddBlock& add) const {
+  std::vector<int> rows;
   std::vector<double> basis;
-  Eigen::MatrixXd block;
-  const auto flush = [&] {
-    for (Eigen::Index i = 0; i < block.rows(); ++i) {
-      for (Eigen::Index j = 0; j < block.cols(); ++j) {
-        entries.emplace_back(3 * last[static_cast<std::size_t>(i / 3)] + static_cast<int>(i % 3),
-                             3 * last[static_cast<std::size_t>(j / 3)] + static_cast<int>(j % 3), block(i, j));
-      }
-    }
-  };
+  ElementHessian sum;
   for (const ContactPoint& contact : contacts) {
     rows.clear();
     basis.clear();
@@ -212,20 +204,13 @@ void ToolLoad<D>::append_hessian(std::span<const ContactPoint> contacts, int fir
       rows.push_back(first + row);
       basis.push_back(n);
     });
-    const auto count = static_cast<Eigen::Index>(rows.size());
-    if (rows != last) {
-      flush();
-      last = rows;
-      block = Eigen::MatrixXd::Zero(3 * count, 3 * count);
+    if (rows != sum.rows()) {
+      sum.give(add);
+      sum.begin(rows);
     }
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Eigen::Matrix3d half = contact.factor * basis[static_cast<std::size_t>(i)] * contact.hessian;
-      for (Eigen::Index j = 0; j < count; ++j) {
-        block.block<3, 3>(3 * i, 3 * j) += basis[static_cast<std::size_t>(j)] * half;
-      }
-    }
+    sum.add(basis, contact.factor, contact.hessian);
   }
-  flush();
+  sum.give(add);
 }
 
 template <int D>

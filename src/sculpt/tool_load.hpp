@@ -94,10 +94,9 @@ class ToolLoad {
   /// Adds the Hessian at contact points of this patch, applied to v, to `out`: fastest in the order of `evaluate`.
   void apply_hessian(std::span<const ContactPoint> contacts, int first, const Points& v, Points& out) const;
 
-  /// Appends what that Hessian adds to the matrix of all coordinates, for contact points of this patch; those of one
-  /// element after another give one block.
-  void append_hessian(std::span<const ContactPoint> contacts, int first,
-                      std::vector<Eigen::Triplet<double>>& entries) const;
+  /// Calls `add` with blocks whose sum is that Hessian, for contact points of this patch: those of one element after
+  /// another give one block.
+  void each_hessian_block(std::span<const ContactPoint> contacts, int first, const AddBlock& add) const;
 
   /// Sets the marks of the control points that contact points of this patch depend on.
   void mark(std::span<const ContactPoint> contacts, int first, std::vector<char>& marks) const;

@@ -24,9 +24,11 @@ Expected<void> check_digits(const SparseCholesky& cholesky, const Values& forces
 Expected<ConstrainedCholesky> ConstrainedCholesky::factor(SparseMatrix&& a, ConstraintSpace space,
                                                           const GridPlaces* places) {
   std::optional<SparseCholesky> cholesky;
+  std::ptrdiff_t entries = 0;
   if (space.free_count() > 0) {
     SparseMatrix reduced = space.restrict(a);
     SparseMatrix().swap(a);
+    entries = reduced.nonZeros();
     const Points forces = reduced * Points::Ones(reduced.rows(), 3);
     const auto unknowns = detail::independent_places(space, places);
     auto factored =
@@ -35,14 +37,16 @@ Expected<ConstrainedCholesky> ConstrainedCholesky::factor(SparseMatrix&& a, Cons
     if (auto checked = check_digits(*factored, forces); !checked) return std::unexpected(checked.error());
     cholesky = std::move(*factored);
   }
-  return ConstrainedCholesky(std::move(space), std::move(cholesky));
+  return ConstrainedCholesky(std::move(space), std::move(cholesky), entries);
 }
 
 Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a, ConstraintSpace space,
                                                           const CoordinateRestriction& restriction) {
   std::optional<SparseCholesky> cholesky;
+  std::ptrdiff_t entries = 0;
   if (space.free_count() > 0) {
     const SparseMatrix lower = restriction.lower(a);
+    entries = lower.nonZeros();
     const Eigen::VectorXd in_order = lower.selfadjointView<Eigen::Lower>() * Eigen::VectorXd::Ones(lower.rows());
     const Eigen::VectorXd forces = in_order(restriction.dissection().order);
     auto factored = SparseCholesky::factor_in_order(lower, restriction.dissection());
@@ -50,7 +54,7 @@ Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a,
     if (auto checked = check_digits(*factored, forces); !checked) return std::unexpected(checked.error());
     cholesky = std::move(*factored);
   }
-  return ConstrainedCholesky(std::move(space), std::move(cholesky));
+  return ConstrainedCholesky(std::move(space), std::move(cholesky), entries);
 }
 
 Expected<ConstrainedCholesky> ConstrainedCholesky::factor(const SparseMatrix& a, ConstraintSpace space) {

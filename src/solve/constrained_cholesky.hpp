@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "constraint_space.hpp"
@@ -47,13 +48,16 @@ class ConstrainedCholesky {
   [[nodiscard]] Points backward(const Half& half, double share, const Part& part, const Points& b) const;
 
   [[nodiscard]] const ConstraintSpace& space() const { return space_; }
+  /// Of Tᵀ A T, both triangles; where A is given over coordinates, of one.
+  [[nodiscard]] std::ptrdiff_t entries() const { return entries_; }
 
  private:
-  ConstrainedCholesky(ConstraintSpace space, std::optional<SparseCholesky> cholesky)
-      : space_(std::move(space)), cholesky_(std::move(cholesky)) {}
+  ConstrainedCholesky(ConstraintSpace space, std::optional<SparseCholesky> cholesky, std::ptrdiff_t entries)
+      : space_(std::move(space)), cholesky_(std::move(cholesky)), entries_(entries) {}
 
   ConstraintSpace space_;
   std::optional<SparseCholesky> cholesky_;  // none if nothing is free
+  std::ptrdiff_t entries_;
 };
 
 }  // namespace knead

@@ -38,6 +38,8 @@ class ConstraintSpace {
   /// Length of y: independent points, or independent coordinates where `coupled`.
   [[nodiscard]] int free_count() const { return static_cast<int>(free_.size()); }
   [[nodiscard]] bool coupled() const { return coupled_; }
+  /// The same X with T over coordinates.
+  [[nodiscard]] ConstraintSpace on_coordinates() const;
   /// The independent points, or coordinates where `coupled`: row k of y is that of independent()[k].
   [[nodiscard]] std::span<const int> independent() const { return free_; }
   /// Whether some unknown depends on others, so that X is more than y with zeros where points are held.

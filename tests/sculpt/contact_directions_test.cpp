@@ -23,13 +23,8 @@ class Springs final : public Potential {
   void apply_hessian(const PotentialState&, const Points& v, Points& out) const override {
     for (std::size_t k = 0; k < points_.size(); ++k) out.row(points_[k]) += v.row(points_[k]) * hessian(k);
   }
-  void append_hessian(const PotentialState&, std::vector<Eigen::Triplet<double>>& entries) const override {
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      const Eigen::Matrix3d h = hessian(k);
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) entries.emplace_back(3 * points_[k] + i, 3 * points_[k] + j, h(i, j));
-      }
-    }
+  void each_hessian_block(const PotentialState&, const AddBlock& add) const override {
+    for (std::size_t k = 0; k < points_.size(); ++k) add({&points_[k], 1}, hessian(k));
   }
   void mark(const PotentialState&, std::vector<char>& marks) const override {
     for (const int i : points_) marks[static_cast<std::size_t>(i)] = 1;
@@ -79,9 +74,9 @@ struct Contact {
         for (int c = 0; c < 3; ++c) both(3 * it.row() + c, 3 * it.col() + c) = it.value();
       }
     }
-    std::vector<Eigen::Triplet<double>> entries;
-    springs.append_hessian({}, entries);
-    for (const auto& e : entries) both(e.row(), e.col()) += e.value();
+    springs.each_hessian_block({}, [&](std::span<const int> points, const Eigen::MatrixXd& block) {
+      both.block(3 * points[0], 3 * points[0], 3, 3) += block;
+    });
     const Eigen::VectorXd d = both.llt().solve(Eigen::Map<const Eigen::VectorXd>(forces.data(), n));
     return near.gather(Eigen::Map<const Points>(d.data(), a.rows(), 3));
   }
@@ -92,16 +87,16 @@ TEST(ContactDirections, SolveWithTheHessianOfContacts) {
   const Points expected = c.exact(c.r);
   ContactDirections directions(true);
   int first = 0, again = 0, forgotten = 0;
-  const Direction d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-12, true, first);
+  const Direction d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, first);
   EXPECT_LE((d.d - expected).norm(), 1e-10 * expected.norm());
   EXPECT_LE((d.ad.image(c.anchor, c.near) - d.d).norm(), 1e-11 * d.d.norm()) << "A d is of d";
   EXPECT_GT(first, 8) << "as many as there are springs: nothing is known of them at first";
   // The same system once more is known, and where it is forgotten it is found as at first.
-  const Direction e = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-9, true, again);
+  const Direction e = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-9, true}, again);
   EXPECT_LE((e.d - expected).norm(), 1e-7 * expected.norm());
   EXPECT_LE(again, 3);
   directions.forget();
-  const Direction f = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-12, true, forgotten);
+  const Direction f = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, forgotten);
   EXPECT_EQ(f.d, d.d);
   EXPECT_EQ(forgotten, first);
 }
@@ -110,15 +105,15 @@ TEST(ContactDirections, CorrectByWhatWasShownOfAnotherSystem) {
   Contact c;
   ContactDirections directions(true);
   int first = 0, alone = 0, after = 0;
-  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-12, true, first));
+  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, first));
   c.springs = Springs({20, 21, 22, 30, 31, 40, 44, 53}, 1.1e3, 5);  // one lets go, one touches; all a little stiffer
   c.near.extend({});
   c.anchor.s_here = c.inverse.backward_within(c.near.part(), c.anchor.z);
   directions.forget();
-  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-8, true, alone));
+  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, alone));
   c.springs = Springs({20, 21, 22, 30, 31, 40, 52, 53}, 1e3, 5);
   const Points expected = c.exact(c.r);
-  const Direction d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-8, true, after);
+  const Direction d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, after);
   EXPECT_LE((d.d - expected).norm(), 1e-6 * expected.norm());
   EXPECT_LT(after, alone);
 }
@@ -129,17 +124,17 @@ TEST(ContactDirections, MeasureNoResidualThatIsCertain) {
   const Points expected = c.exact(c.r);
   ContactDirections directions(true);
   int first = 0, again = 0;
-  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-12, true, first));
-  const Direction d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 0.2, true, again);
+  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-12, true}, first));
+  const Direction d = directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {0.2, true}, again);
   int measured = 0;
-  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 0.2, false, measured));
+  static_cast<void>(directions.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {0.2, false}, measured));
   EXPECT_EQ(again, 0);
   EXPECT_EQ(measured, 1);
   EXPECT_LE((d.d - expected).norm(), 0.2 * expected.norm());
   ContactDirections exact(false);
   first = again = 0;
-  static_cast<void>(exact.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-8, true, first));
-  static_cast<void>(exact.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, 1e-8, true, again));
+  static_cast<void>(exact.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, first));
+  static_cast<void>(exact.find({}, c.anchor, c.near, c.start(), c.anchor.s_here, {1e-8, true}, again));
   EXPECT_EQ(first, again) << "without corrections every residual is measured, and nothing remembered";
 }
 
@@ -149,10 +144,10 @@ TEST(ContactDirections, LearnFromAStepOfNewtonsIteration) {
   ContactDirections all(true), taught(true);
   int solves = 0, after = 0;
   const Combination r = c.start();
-  const Direction d = all.find({}, c.anchor, c.near, r, c.anchor.s_here, 1e-13, true, solves);
+  const Direction d = all.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-13, true}, solves);
   const Combination none{0, Points::Zero(c.near.size(), 3)};
   taught.take(1, d, c.anchor, r, c.anchor.s_here, none, none.e);
-  const Direction e = taught.find({}, c.anchor, c.near, r, c.anchor.s_here, 1e-8, true, after);
+  const Direction e = taught.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-8, true}, after);
   EXPECT_LE(after, 1);
   EXPECT_LE((e.d - d.d).norm(), 1e-8 * d.d.norm());
   // A step along which nothing stiffens tells nothing, and one of another neighbourhood is none.
@@ -160,7 +155,7 @@ TEST(ContactDirections, LearnFromAStepOfNewtonsIteration) {
   untaught.take(1, d, c.anchor, r, c.anchor.s_here, r, c.anchor.s_here);
   untaught.take(1, d, c.anchor, r, Points::Zero(1, 3), none, none.e);
   after = 0;
-  static_cast<void>(untaught.find({}, c.anchor, c.near, r, c.anchor.s_here, 1e-13, true, after));
+  static_cast<void>(untaught.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-13, true}, after));
   EXPECT_EQ(after, solves);
 }
 

@@ -30,11 +30,15 @@ PotentialState potential_at(const ToolLoad<D>& load, const Points& x, const std:
 /// The Hessian applied point by point, by its entries.
 template <int D>
 Points by_entries(const ToolLoad<D>& load, const PotentialState& state, const Points& v) {
-  std::vector<Eigen::Triplet<double>> entries;
-  load.append_hessian(state.contacts, 0, entries);
   Points result = Points::Zero(v.rows(), 3);
-  for (const auto& entry : entries)
-    result(entry.row() / 3, entry.row() % 3) += entry.value() * v(entry.col() / 3, entry.col() % 3);
+  load.each_hessian_block(state.contacts, 0, [&](std::span<const int> points, const Eigen::MatrixXd& block) {
+    for (Eigen::Index i = 0; i < block.rows(); ++i) {
+      for (Eigen::Index j = 0; j < block.cols(); ++j) {
+        const int row = points[static_cast<std::size_t>(i / 3)], column = points[static_cast<std::size_t>(j / 3)];
+        result(row, i % 3) += block(i, j) * v(column, j % 3);
+      }
+    }
+  });
   return result;
 }
 

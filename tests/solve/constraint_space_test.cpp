@@ -106,6 +106,22 @@ TEST(ConstraintSpace, HeldUnknownsKeepTheirBitsAndCarryOthers) {
   EXPECT_EQ(space->expand(Eigen::MatrixXd::Ones(1, 3)).row(1).norm(), 0);
 }
 
+TEST(ConstraintSpace, IsTheSameOverCoordinates) {
+  const std::vector<bool> held = {false, true, false, false, false};
+  const std::vector<LinearConstraint> constraints = {{"a", {{0, 1}, {1, -1}}, Point(1, 2, 3)}, {"b", {{2, 1}, {3, 2}}}};
+  const auto space = ConstraintSpace::create(5, constraints, held);
+  ASSERT_TRUE(space);
+  const ConstraintSpace coordinates = space->on_coordinates();
+  EXPECT_TRUE(coordinates.coupled());
+  ASSERT_EQ(coordinates.free_count(), 3 * space->free_count());
+  const Points x = random_points(5, 3), y = random_points(space->free_count(), 4);
+  EXPECT_EQ(coordinates.feasible(x), space->feasible(x));
+  EXPECT_EQ(coordinates.expand(Eigen::Map<const Eigen::VectorXd>(y.data(), y.size())), space->expand(y));
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(coordinates.is_determined(i), space->is_determined(i));
+  EXPECT_EQ(coordinates.on_coordinates().expand(Eigen::VectorXd::Ones(coordinates.free_count())),
+            coordinates.expand(Eigen::VectorXd::Ones(coordinates.free_count())));
+}
+
 TEST(ConstraintSpace, RedundantConstraintsAreFineAndContradictoryOnesAreNamed) {
   const LinearConstraint first{"edge u0", {{0, 1}}, Point(1, 0, 0)}, second{"seam", {{0, 1}, {1, -1}}},
       third{"pin", {{1, 2}}, Point(2, 0, 0)}, wrong{"pin at the corner", {{1, 1}}, Point(1, 1e-6, 0)};
