@@ -65,7 +65,7 @@ for round in 1 2 3; do
   while read -r suspect _; do
     benchmark=${suspect#*:}
     part=$(printf '%s' "$benchmark" | tr -c 'a-zA-Z0-9' _)
-    run "$round" "$part" "${suspect%%:*}" "^$(printf '%s' "$benchmark" | sed 's/[][.*+?(){}|^$\\]/\\&/g')\$"
+    run "$round" "$part" "${suspect%%:*}" "^$(printf '%s' "$benchmark" | sed 's/[].*+?(){}|^$\\[]/\\&/g')\$"
   done <"$results/suspects"
 done
 status=0
