@@ -1,11 +1,10 @@
 #include "gauss_legendre.hpp"
 
-#include <array>
 #include <cassert>
 #include <cfloat>
 #include <cmath>
 #include <numbers>
-#include <utility>
+#include <span>
 #include <vector>
 
 namespace knead {
@@ -55,40 +54,51 @@ Node node(int n, int k) {
   return {static_cast<double>(x), static_cast<double>(2 / ((1 - x * x) * derivative * derivative))};
 }
 
-struct Rule {
-  std::vector<double> abscissae, weights;
+/// The rules of `first` to `last` points.
+struct RuleTable {
+  std::vector<double> abscissae, weights;  // those of n points begin at place(n)
 
-  explicit Rule(int n) : abscissae(static_cast<std::size_t>(n)), weights(abscissae.size()) {
-    // The rule is symmetric: nodes are found in the right half and mirrored exactly.
-    for (int k = n / 2; k < n; ++k) {
-      const Node right = node(n, k);
-      const auto at = static_cast<std::size_t>(k), mirrored = static_cast<std::size_t>(n - 1 - k);
-      abscissae[mirrored] = -right.abscissa;
-      abscissae[at] = right.abscissa;
-      weights[at] = weights[mirrored] = right.weight;
+  std::size_t place(int n) const { return static_cast<std::size_t>(n * (n - 1) / 2 - before_); }
+
+  RuleTable(int first, int last) : before_(first * (first - 1) / 2) {
+    abscissae.resize(place(last + 1));
+    weights.resize(abscissae.size());
+    for (int n = first; n <= last; ++n) {
+      // The rule is symmetric: nodes are found in the right half and mirrored exactly.
+      for (int k = n / 2; k < n; ++k) {
+        const Node right = node(n, k);
+        const std::size_t at = place(n) + static_cast<std::size_t>(k);
+        const std::size_t mirrored = place(n) + static_cast<std::size_t>(n - 1 - k);
+        abscissae[mirrored] = -right.abscissa;
+        abscissae[at] = right.abscissa;
+        weights[at] = weights[mirrored] = right.weight;
+      }
     }
   }
+
+ private:
+  int before_;
 };
 
-/// Made when it is first asked for: all rules together would take longer than most commands.
-template <std::size_t N>
-const Rule& rule() {
-  static const Rule made(static_cast<int>(N) + 1);
-  return made;
-}
+/// All rules together would take longer than most commands, which need none of more points.
+constexpr int few_points = 16;
 
-template <std::size_t... N>
-constexpr auto all_rules(std::index_sequence<N...>) {
-  return std::array{&rule<N>...};
+const RuleTable& table_of(int n) {
+  if (n <= few_points) {
+    static const RuleTable few(1, few_points);
+    return few;
+  }
+  static const RuleTable many(few_points + 1, max_gauss_points);
+  return many;
 }
 
 }  // namespace
 
 GaussRule gauss_legendre(int n) {
   assert(n >= 1 && n <= max_gauss_points);
-  constexpr auto rules = all_rules(std::make_index_sequence<max_gauss_points>());
-  const Rule& made = rules[static_cast<std::size_t>(n) - 1]();
-  return {made.abscissae, made.weights};
+  const RuleTable& table = table_of(n);
+  const std::size_t at = table.place(n), size = static_cast<std::size_t>(n);
+  return {std::span(table.abscissae).subspan(at, size), std::span(table.weights).subspan(at, size)};
 }
 
 }  // namespace knead
