@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "contact_neighbourhood.hpp"
 
 namespace knead {
@@ -37,6 +40,20 @@ struct Combination {
     beta += t * other.beta;
     e += t * other.e;
   }
+};
+
+/// A residual r, A⁻¹ r in the neighbourhood, and rᵀA⁻¹r.
+struct Residual {
+  Combination r;
+  Points image;
+  double squared = 0;
+
+  /// Finds both of r.
+  void measure(const Anchor& anchor, const ContactNeighbourhood& near) {
+    image = r.image(anchor, near);
+    squared = r.norm(anchor, image);
+  }
+  [[nodiscard]] double decrement() const { return std::sqrt(std::max(0.0, squared)); }
 };
 
 /// A displacement d in the neighbourhood, A d, and the slope of Φ along d.

@@ -96,15 +96,15 @@ Direction ContactDirections::find(const PotentialState& state, const Anchor& anc
   return to;
 }
 
-void ContactDirections::take(double step, const Direction& direction, const Anchor& anchor, const Combination& before,
-                             const Points& image_before, const Combination& after, const Points& image_after) {
-  if (!corrects_ || image_before.rows() != image_after.rows()) return;
+void ContactDirections::take(double step, const Direction& direction, const Anchor& anchor, const Residual& before,
+                             const Residual& after) {
+  if (!corrects_ || before.image.rows() != after.image.rows()) return;
   Combination ap;
   ap.e = Points::Zero(direction.d.rows(), 3);
   ap.add(step, direction.ad);
-  Pair pair{step * direction.d, std::move(ap), 0, before, image_before - image_after, 0};
+  Pair pair{step * direction.d, std::move(ap), 0, before.r, before.image - after.image, 0};
   pair.with_r = pair.ap.with_r(anchor);
-  pair.y.add(-1, after);
+  pair.y.add(-1, after.r);
   const double curvature = pair.y.beta * pair.with_r + dot(pair.y.e, pair.p);
   if (!(curvature > least_curvature * pair.ap.norm(anchor, pair.p))) return;
   pair.scale = 1 / curvature;

@@ -45,10 +45,10 @@ class ContactDirections {
   [[nodiscard]] Direction find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near,
                                Combination r, Points image, const Wanted& wanted, int& solves);
 
-  /// A pair more: what a step of Newton's iteration along a direction has changed. `before` and `after` are residuals
-  /// with their images. A direction whose last step of conjugate gradients was not measured gets its pair from here.
-  void take(double step, const Direction& direction, const Anchor& anchor, const Combination& before,
-            const Points& image_before, const Combination& after, const Points& image_after);
+  /// A pair more: what a step of Newton's iteration along a direction has changed. A direction whose last step of
+  /// conjugate gradients was not measured gets its pair from here.
+  void take(double step, const Direction& direction, const Anchor& anchor, const Residual& before,
+            const Residual& after);
 
  private:
   struct Pair {

@@ -82,8 +82,7 @@ Combination ContactFactor::conjugate_gradients(const PotentialState& state, cons
     sum.add(step, p.ad);
     rest.r.add(-step, p.ad);
     rest.r.e -= step * hp;
-    rest.image = rest.r.image(anchor, near);
-    rest.squared = rest.r.norm(anchor, rest.image);
+    rest.measure(anchor, near);
     solves += 2;
     enough = rest.squared <= target;
     if (enough) break;
@@ -91,12 +90,11 @@ Combination ContactFactor::conjugate_gradients(const PotentialState& state, cons
   return sum;
 }
 
-bool ContactFactor::find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near, Combination r,
-                         Points image, double tolerance, Direction& to, int& solves) {
+bool ContactFactor::find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near, Residual rest,
+                         double tolerance, Direction& to, int& solves) {
   to.ad = {0, Points::Zero(near.size(), 3)};
   to.d = to.ad.e;
-  const double first = r.norm(anchor, image), target = tolerance * tolerance * first;
-  Residual rest{std::move(r), std::move(image), first};
+  const double first = rest.squared, target = tolerance * tolerance * first;
   bool fresh = false;
   if (inverse_ && !near.contains(factored_)) inverse_.reset();
   for (int round = 0; round < most_factor_rounds && !(rest.squared <= target); ++round) {
@@ -113,8 +111,7 @@ bool ContactFactor::find(const PotentialState& state, const Anchor& anchor, Cont
     Residual next{rest.r, {}, 0};
     next.r.add(-1, ad);
     next.r.e -= near.hessian(state, d);
-    next.image = next.r.image(anchor, near);
-    next.squared = next.r.norm(anchor, next.image);
+    next.measure(anchor, near);
     solves += 2;
     const bool gains = next.squared < least_gain * least_gain * rest.squared;
     if (gains) {

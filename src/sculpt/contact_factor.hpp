@@ -25,19 +25,12 @@ class ContactFactor {
 
   /// The direction to `tolerance` of the first residual in the norm of A⁻¹, or as near as rounding allows. False if
   /// A + H is not positive definite, or too close to singular. The slope is left to be found.
-  /// \param image A⁻¹ r in the neighbourhood. \param solves Is raised by the number of substitutions, and one per
+  /// \param solves Is raised by the number of substitutions, and one per
   /// factor.
-  [[nodiscard]] bool find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near, Combination r,
-                          Points image, double tolerance, Direction& to, int& solves);
+  [[nodiscard]] bool find(const PotentialState& state, const Anchor& anchor, ContactNeighbourhood& near, Residual rest,
+                          double tolerance, Direction& to, int& solves);
 
  private:
-  /// A residual, A⁻¹ of it in the neighbourhood, and its square in the norm of A⁻¹.
-  struct Residual {
-    Combination r;
-    Points image;
-    double squared;
-  };
-
   [[nodiscard]] bool factor(const PotentialState& state);
   [[nodiscard]] Direction precondition(const Residual& rest, ContactNeighbourhood& near) const;
   [[nodiscard]] Combination conjugate_gradients(const PotentialState& state, const Anchor& anchor,

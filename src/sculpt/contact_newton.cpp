@@ -110,15 +110,6 @@ class Minimisation {
     }
   };
 
-  /// The imbalance of forces r, A⁻¹ r in the neighbourhood, and rᵀA⁻¹r.
-  struct Residual {
-    Combination r;
-    Points image;
-    double rs = 0;
-
-    [[nodiscard]] double decrement() const { return std::sqrt(std::max(0.0, rs)); }
-  };
-
   const StepProblem& problem_;
   const ConstrainedCholesky& inverse_;
   Potential& potential_;
@@ -216,8 +207,7 @@ class Minimisation {
   void update(const View& view, Residual& at) {
     at.r.beta = 1 - view.au.beta;
     at.r.e = view.near.gather(state_.force) - view.from.force_here - view.au.e;
-    at.image = at.r.image(view.from, view.near);
-    at.rs = at.r.norm(view.from, at.image);
+    at.measure(view.from, view.near);
     ++summary.solves;
   }
 
@@ -253,8 +243,7 @@ class Minimisation {
       factors_ = true;
       if (!problem_.source->last) problem_.source->last = std::make_shared<ContactFactor>(problem_, potential_);
     }
-    may_factor_ =
-        problem_.source->last->find(state_, view.from, view.near, at.r, at.image, tolerance, to, summary.solves);
+    may_factor_ = problem_.source->last->find(state_, view.from, view.near, at, tolerance, to, summary.solves);
     to.slope = slope(view, at, to);
     may_factor_ = may_factor_ && to.slope < 0;
     return may_factor_;
@@ -313,17 +302,17 @@ class Minimisation {
         summary.converged = true;
         return Round::over;
       }
-      const Residual before = at;
+      const Residual before = std::move(at);
       const double step = advance(view, to, rounded);
       ++progress.iteration;
       update(view, at);
       progress.settled = at.decrement() <= settled_share * before.decrement();
-      view.directions.take(step, to, view.from, before.r, before.image, at.r, at.image);
+      view.directions.take(step, to, view.from, before, at);
       if (finished(at.decrement(), view, progress)) {
         return std::isfinite(at.decrement()) ? Round::small : Round::over;
       }
       // β r and E e cancel, and so do the squares under the root of the decrement.
-      if (at.rs < cancellation * at.r.beta * at.r.beta * view.from.rs) return Round::blurred;
+      if (at.squared < cancellation * at.r.beta * at.r.beta * view.from.rs) return Round::blurred;
     }
   }
 

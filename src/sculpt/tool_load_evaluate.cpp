@@ -56,12 +56,10 @@ class ToolLoad<D>::Evaluation {
   void run_beyond(std::span<const int> within) {
     int number = 0;
     load_.for_each_element([&](const Element& element) {
-      const bool left_out = !within.empty() && within.front() == number++;
-      if (left_out) {
-        within = within.subspan(1);
-      } else {
-        visit(element);
-      }
+      const bool left_out = !within.empty() && within.front() == number;
+      ++number;
+      if (!left_out) return visit(element);
+      within = within.subspan(1);
     });
   }
 

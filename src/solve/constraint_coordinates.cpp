@@ -1,4 +1,5 @@
 #include "constraint_space.hpp"
+#include "knead/solve/eigenmodes.hpp"
 
 namespace knead {
 namespace {
@@ -7,18 +8,7 @@ using CoordinateRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// M ⊗ I.
 CoordinateRows on_three_coordinates(const CoordinateRows& matrix) {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(3 * matrix.nonZeros()));
-  for (Eigen::Index row = 0; row < matrix.outerSize(); ++row) {
-    for (CoordinateRows::InnerIterator it(matrix, row); it; ++it) {
-      for (int c = 0; c < 3; ++c) {
-        entries.emplace_back(3 * static_cast<int>(row) + c, 3 * static_cast<int>(it.col()) + c, it.value());
-      }
-    }
-  }
-  CoordinateRows result(3 * matrix.rows(), 3 * matrix.cols());
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
+  return knead::on_coordinates(SparseMatrix(matrix));
 }
 
 std::vector<int> coordinates_of(const std::vector<int>& points) {

@@ -146,14 +146,15 @@ TEST(ContactDirections, LearnFromAStepOfNewtonsIteration) {
   const Combination r = c.start();
   const Direction d = all.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-13, true}, solves);
   const Combination none{0, Points::Zero(c.near.size(), 3)};
-  taught.take(1, d, c.anchor, r, c.anchor.s_here, none, none.e);
+  const Residual before{r, c.anchor.s_here}, balanced{none, none.e};
+  taught.take(1, d, c.anchor, before, balanced);
   const Direction e = taught.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-8, true}, after);
   EXPECT_LE(after, 1);
   EXPECT_LE((e.d - d.d).norm(), 1e-8 * d.d.norm());
   // A step along which nothing stiffens tells nothing, and one of another neighbourhood is none.
   ContactDirections untaught(true);
-  untaught.take(1, d, c.anchor, r, c.anchor.s_here, r, c.anchor.s_here);
-  untaught.take(1, d, c.anchor, r, Points::Zero(1, 3), none, none.e);
+  untaught.take(1, d, c.anchor, before, before);
+  untaught.take(1, d, c.anchor, {r, Points::Zero(1, 3)}, balanced);
   after = 0;
   static_cast<void>(untaught.find({}, c.anchor, c.near, r, c.anchor.s_here, {1e-13, true}, after));
   EXPECT_EQ(after, solves);
