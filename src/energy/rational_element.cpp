@@ -104,8 +104,9 @@ template <int D>
 RationalElement<D>::RationalElement(RationalCoefficients<D>& coefficients, std::size_t functions)
     : coefficients_(coefficients),
       functions_(static_cast<Eigen::Index>(functions)),
-      left_((chunk + detail::max_unit_gauss_points) * coefficients.count(), functions_),
-      right_(coefficients.sum_of_squares() ? 0 : left_.rows(), functions_),
+      rows_((chunk + detail::max_unit_gauss_points) * coefficients.count()),
+      left_(static_cast<std::size_t>(rows_) * functions),
+      right_(coefficients.sum_of_squares() ? 0 : left_.size()),
       block_(functions_, functions_),
       diagonal_(functions_) {}
 
@@ -194,7 +195,7 @@ void RationalElement<D>::add_squares(const detail::RationalLine<D>& line, std::s
     for (std::size_t g = 0; g < factor_.size(); ++g) {
       factor_[g] = std::sqrt(factor_[g] * (outer * line.points[D - 1]->weights[g]));
     }
-    detail::rational_kernels().scale(factor_.data(), derivative(a), functions_, n, left_.rows(), &left_(filled_, 0));
+    detail::rational_kernels().scale(factor_.data(), derivative(a), functions_, n, rows_, left_.data() + filled_);
     filled_ += n;
   }
   if (filled_ >= chunk * coefficients_.count()) flush();
@@ -207,11 +208,12 @@ void RationalElement<D>::add_products(const detail::RationalLine<D>& line, std::
   const Eigen::Map<const Eigen::ArrayXd> weights(line.points[D - 1]->weights.data(), n);
   const Eigen::Map<const Eigen::ArrayXd> factor(factor_.data(), n);
   for (int a = 0; a < coefficients_.count(); ++a) {
-    left_.middleRows(filled_, n) = Eigen::Map<const Eigen::MatrixXd>(derivative(a), n, functions_);
-    right_.middleRows(filled_, n).setZero();
+    next_rows(left_, n) = Eigen::Map<const Eigen::MatrixXd>(derivative(a), n, functions_);
+    auto right = next_rows(right_, n);
+    right.setZero();
     for (int b = 0; b < coefficients_.count(); ++b) {
       if (!coefficients_.at(a, b, k, factor_)) continue;
-      right_.middleRows(filled_, n).array() +=
+      right.array() +=
           Eigen::Map<const Eigen::ArrayXXd>(derivative(b), n, functions_).colwise() * (outer * factor * weights);
     }
     filled_ += n;
@@ -222,7 +224,7 @@ void RationalElement<D>::add_products(const detail::RationalLine<D>& line, std::
 template <int D>
 void RationalElement<D>::flush() {
   const double* right = coefficients_.sum_of_squares() ? left_.data() : right_.data();
-  detail::rational_kernels().lower_products(left_.data(), right, left_.rows(), filled_, functions_, block_.data());
+  detail::rational_kernels().lower_products(left_.data(), right, rows_, filled_, functions_, block_.data());
   filled_ = 0;
 }
 

@@ -7,6 +7,7 @@
 
 #include "gramian/rational_piece.hpp"
 #include "knead/energy/material_field.hpp"
+#include "knead/gramian/band_matrix.hpp"
 
 namespace knead {
 
@@ -82,6 +83,11 @@ class RationalElement {
   void add_squares(const detail::RationalLine<D>& line, std::size_t k);
   void add_products(const detail::RationalLine<D>& line, std::size_t k);
   void flush();
+  /// The next n rows of `left_` or `right_`, to be filled.
+  [[nodiscard]] auto next_rows(std::vector<double, CacheLineAllocator<double>>& columns, Eigen::Index n) const {
+    return Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>(columns.data() + filled_, n, functions_,
+                                                                Eigen::OuterStride<>(rows_));
+  }
   /// Derivative `a` of those used, along a line: function after function.
   [[nodiscard]] const double* derivative(int a) const {
     const std::size_t size = static_cast<std::size_t>(functions_) * factor_.size();
@@ -91,10 +97,12 @@ class RationalElement {
   RationalCoefficients<D>& coefficients_;
   Eigen::Index functions_;
   std::array<detail::RationalPoints, D> points_;
-  std::vector<double> values_, factor_;
-  /// A column for each function: derivatives along lines; those times weight and C. Of a sum of squares, derivatives
-  /// times the root of both.
-  Eigen::MatrixXd left_, right_;
+  std::vector<double, CacheLineAllocator<double>> values_;
+  std::vector<double> factor_;
+  /// A column of `rows_` for each function, vectors of which do not straddle cache lines: derivatives along lines; those
+  /// times weight and C. Of a sum of squares, derivatives times the root of both.
+  Eigen::Index rows_;
+  std::vector<double, CacheLineAllocator<double>> left_, right_;
   Eigen::Index filled_ = 0;  ///< rows of these
   Eigen::MatrixXd block_;
   Eigen::VectorXd diagonal_;

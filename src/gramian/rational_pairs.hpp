@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "knead/gramian/band_matrix.hpp"
 #include "rational_elements.hpp"
 #include "rational_rule.hpp"
 #include "simd/rational_kernels.hpp"
@@ -59,7 +60,8 @@ class PairSums {
 
   std::size_t a_, b_, functions_;
   std::array<RationalPoints, D> points_;
-  std::vector<double> values_, factors_, weighted_;
+  std::vector<double, CacheLineAllocator<double>> values_, weighted_;  // vectors do not straddle cache lines
+  std::vector<double> factors_;
   /// The sum of functions i >= j at [i + j functions], of i < j at [j + i functions]; for equal orders both are lower_.
   std::vector<double> lower_, upper_;
   const RationalKernels& kernels_ = rational_kernels();
