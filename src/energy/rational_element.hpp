@@ -99,8 +99,8 @@ class RationalElement {
   std::array<detail::RationalPoints, D> points_;
   std::vector<double, CacheLineAllocator<double>> values_;
   std::vector<double> factor_;
-  /// A column of `rows_` for each function, vectors of which do not straddle cache lines: derivatives along lines; those
-  /// times weight and C. Of a sum of squares, derivatives times the root of both.
+  /// A column of `rows_` for each function, vectors of which do not straddle cache lines: derivatives along lines;
+  /// those times weight and C. Of a sum of squares, derivatives times the root of both.
   Eigen::Index rows_;
   std::vector<double, CacheLineAllocator<double>> left_, right_;
   Eigen::Index filled_ = 0;  ///< rows of these

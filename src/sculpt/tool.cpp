@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace knead {
 
@@ -88,11 +89,16 @@ ModelTool::ModelTool(const Tool& tool, const Point& centre, double length)
   const double margin = tool.collides() ? 0 : range_;
   lower_ = (box.lower / length).array() - margin;
   upper_ = (box.upper / length).array() + margin;
+  centre_ = tool_.shape.placement().position / length;
+  radius_ = std::numeric_limits<double>::infinity();
+  if (const auto* sphere = std::get_if<SphereShape>(&tool_.shape.shape()))
+    radius_ = sphere->radius * *std::ranges::max_element(at.scale) / length + margin;
 }
 
 void ModelTool::set_offset(double offset) {
   lower_ = lower_.array() - (offset - offset_);
   upper_ = upper_.array() + (offset - offset_);
+  radius_ += offset - offset_;
   offset_ = offset;
 }
 

@@ -107,6 +107,17 @@ class ToolLoad<D>::EntrySearch {
     return candidates_.size() < refined ? -reach_ : std::max(-reach_, candidates_.back().depth);
   }
 
+  /// The longest step between neighbours in a row of control points.
+  [[nodiscard]] static double longest_step(std::span<const Homogeneous> row) {
+    double longest = 0;
+    for (std::size_t r = 1; r < row.size(); ++r) {
+      double squared = 0;
+      for (std::size_t c = 0; c < 3; ++c) squared += (row[r][c] - row[r - 1][c]) * (row[r][c] - row[r - 1][c]);
+      longest = std::max(longest, squared);
+    }
+    return std::sqrt(longest);
+  }
+
   /// Whether no sample between these control points can be kept.
   [[nodiscard]] bool all_shallow(std::span<const Homogeneous> row) const {
     Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;

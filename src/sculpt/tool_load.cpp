@@ -10,8 +10,15 @@
 #include "element_hessian.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "tool_load_sums.hpp"
+#include "tool_load_sweep.hpp"
 
 namespace knead {
+
+const detail::ElementKernels& detail::element_kernels(InstructionSet set) {
+  return avx2_element_kernels != nullptr && set >= InstructionSet::avx2 ? *avx2_element_kernels
+                                                                        : *vector128_element_kernels;
+}
+
 namespace {
 
 constexpr double points_per_detail = 6;
@@ -110,15 +117,36 @@ Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainS
     load.quadrature_[d] = gauss_basis(spline.knots()[d], per_piece, 0, counts[d]);
     for (double& w : load.quadrature_[d].weights) w *= scaling.factors[d];
     load.spans_[d].push_back(0);
-    for (int count : counts[d]) load.spans_[d].push_back(load.spans_[d].back() + count * per_piece);
+    for (int count : counts[d]) {
+      load.starts_[d].push_back(load.quadrature_[d].basis.first[static_cast<std::size_t>(load.spans_[d].back())]);
+      load.spans_[d].push_back(load.spans_[d].back() + count * per_piece);
+    }
     for (double& length : lengths[d]) length /= scaling.length;
     load.lengths_[d] = std::move(lengths[d]);
     load.knots_.push_back(spline.knots()[d]);
   }
-  for (std::size_t d = 0; d < D; ++d) load.progress_[d] = progress_along(load.quadrature_[d].basis);
+  load.progress_ = progress_along(load.quadrature_[D - 1].basis);
+  load.transpose();
   load.weights_.assign(spline.weights().begin(), spline.weights().end());
   load.in_hull_ = std::ranges::all_of(load.weights_, [](double w) { return w > 0; });
   return load;
+}
+
+template <int D>
+void ToolLoad<D>::transpose() {
+  const BasisTable& basis = quadrature_[D - 1].basis;
+  const std::vector<int>& starts = spans_[D - 1];
+  for (std::size_t s = 0; s + 1 < starts.size(); ++s) {
+    const std::ptrdiff_t count = starts[s + 1] - starts[s];
+    // Any point may be the first of a few that are read together.
+    TransposedBasis t{detail::ElementKernels::rounded_up(count) + detail::ElementKernels::step, {}};
+    t.values.resize(static_cast<std::size_t>((basis.degree + 1) * t.stride));
+    for (int k = 0; k < count; ++k) {
+      const double* n = basis.row(starts[s] + k, 0);
+      for (int j = 0; j <= basis.degree; ++j) t.values[static_cast<std::size_t>(j * t.stride + k)] = n[j];
+    }
+    transposed_.push_back(std::move(t));
+  }
 }
 
 template <int D>
@@ -260,11 +288,9 @@ std::vector<int> ToolLoad<D>::elements_of(int first, const std::vector<char>& ma
   }
   std::array<std::size_t, D> begin, end;
   for (std::size_t d = 0; d < D; ++d) {
-    const std::vector<int>& starts = quadrature_[d].basis.first;
     const int p = quadrature_[d].basis.degree;
     const auto inside = [&](std::size_t span) {
-      const int start = starts[static_cast<std::size_t>(spans_[d][span])];
-      return start >= lower[d] && start + p <= upper[d];
+      return starts_[d][span] >= lower[d] && starts_[d][span] + p <= upper[d];
     };
     const std::size_t count = spans_[d].size() - 1;
     for (begin[d] = 0; begin[d] < count && !inside(begin[d]);) ++begin[d];
@@ -283,37 +309,60 @@ std::vector<int> ToolLoad<D>::elements_of(int first, const std::vector<char>& ma
   return result;
 }
 
+/// The points of one element that a tool grips.
+template <int D>
+struct ToolLoad<D>::Gripping {
+  const ToolLoad& load;
+  const Points& x;
+  int first;
+  const ModelTool& tool;
+  bool cut;  // by the edges of the visible part
+  FrictionAnchors& result;
+
+  [[nodiscard]] bool skip(const Point&, const Point&) const { return false; }
+  [[nodiscard]] unsigned reached(const double*, std::ptrdiff_t) const { return ~0U; }
+  [[nodiscard]] double clear(const Sample&) const { return 0; }
+  [[nodiscard]] double act(const Sample& whole) const {
+    if (!cut) return at(whole);
+    const int state = load.mask_->state(whole.at[0], whole.at[1]);
+    if (state == VisibleMask::full) at(whole);
+    if (state >= 0) at(load.visible_part(whole, state, x, first));
+    return 0;
+  }
+
+ private:
+  double at(const Sample& s) const {
+    const ToolAction action = tool.action(s.place);
+    if (!action.active) return action.clear;
+    int& at = result.index[static_cast<std::size_t>(load.index(s.at))];
+    const FrictionAnchors::Anchor anchor{tool.tool().friction * action.force.norm(), action.normal, s.place};
+    if (at < 0) {
+      at = static_cast<int>(result.anchors.size());
+      result.anchors.push_back(anchor);
+    } else if (anchor.grip > result.anchors[static_cast<std::size_t>(at)].grip) {
+      result.anchors[static_cast<std::size_t>(at)] = anchor;  // of two tools the stronger one grips
+    }
+    return 0;
+  }
+};
+
 template <int D>
 FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const ModelTool> tools, double slip,
                                      ToolPass pass) const {
   FrictionAnchors result;
-  Workspace workspace;
   result.slip = slip;
   result.index.assign(static_cast<std::size_t>(points()), -1);
+  Sweep sweep(*this, x, first);
   for_each_element([&](const Element& element) {
+    const int visible = pass == ToolPass::all ? VisibleMask::full : visibility(element);
+    if (visible == VisibleMask::hidden) return;
     Point lower, upper;
-    box_of(element, x, first, lower, upper);
+    sweep.enter(element, lower, upper);
     for (const ModelTool& tool : tools) {
       if (!tool.tool().collides() || tool.tool().friction == 0 || pass_of(tool) != pass) continue;
       if (in_hull_ && !tool.may_reach(lower, upper)) continue;
-      const auto grip = [&](const Sample& s) {
-        const ToolAction action = tool.action(s.place);
-        if (!action.active) return action.clear;
-        int& at = result.index[static_cast<std::size_t>(index(s.at))];
-        const FrictionAnchors::Anchor anchor{tool.tool().friction * action.force.norm(), action.normal, s.place};
-        if (at < 0) {
-          at = static_cast<int>(result.anchors.size());
-          result.anchors.push_back(anchor);
-        } else if (anchor.grip > result.anchors[static_cast<std::size_t>(at)].grip) {
-          result.anchors[static_cast<std::size_t>(at)] = anchor;  // of two tools the stronger one grips
-        }
-        return 0.0;
-      };
-      if (pass == ToolPass::all) {
-        for_each_point(element, x, first, workspace, grip);
-      } else {
-        for_each_visible_point(element, x, first, workspace, grip);
-      }
+      Gripping gripping{*this, x, first, tool, visible != VisibleMask::full, result};
+      sweep.run(gripping);
     }
   });
   return result;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "knead/gramian/band_matrix.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
 #include "knead/sculpt/tool.hpp"
 #include "knead/spline/basis.hpp"
@@ -117,21 +118,31 @@ class ToolLoad {
   [[nodiscard]] long long points() const;
 
  private:
-  struct Element;     // one span per direction
-  struct Sample;      // one Gauss point
-  struct KeepAll {};  // no row of points is left out
+  struct Element;   // one span per direction
+  struct Sample;    // one Gauss point
+  class Sweep;      // over the Gauss points of an element
+  struct Gripping;  // what friction does in one
   class Evaluation;
   class EntrySearch;
+  class ElementLevels;
   class PointSums;  // over Gauss points, one direction at a time
   class FieldAtPoints;
   class ForcesOfPoints;
   using Homogeneous = std::array<double, 4>;
   using Workspace = std::array<std::vector<Homogeneous>, D + 1>;
 
+  /// The functions of the last direction on one span: function j at Gauss point k of it at [j stride + k], with zeros
+  /// behind the last.
+  struct TransposedBasis {
+    std::ptrdiff_t stride = 0;
+    std::vector<double> values;
+  };
+
   ToolLoad() = default;
 
   [[nodiscard]] int control_points() const { return std::accumulate(net_.begin(), net_.end(), 1, std::multiplies{}); }
 
+  void transpose();
   [[nodiscard]] Element element(std::array<std::size_t, D> span) const;
   [[nodiscard]] Element element(int number) const;
   template <class F>
@@ -140,18 +151,13 @@ class ToolLoad {
   void for_each_element(const std::array<std::size_t, D>& begin, const std::array<std::size_t, D>& end,
                         const F& f) const;
   template <class F>
+  void for_each_line(const std::array<int, D>& first, const F& f) const;
+  template <class F>
   void for_each_control_point(const Element& element, const F& f) const;
-  template <class F, class Skip = KeepAll>
-  void for_each_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f,
-                      const Skip& skip = {}) const;
-  template <class F, class Skip = KeepAll>
-  void for_each_visible_point(const Element& element, const Points& x, int first, Workspace& workspace, const F& f,
-                              const Skip& skip = {}) const;
+  [[nodiscard]] Sample visible_part(const Sample& whole, int part, const Points& x, int first) const;
   [[nodiscard]] ToolPass pass_of(const ModelTool& tool) const {
     return mask_ && tool.tool().touches == ToolTouch::visible ? ToolPass::visible : ToolPass::all;
   }
-  [[nodiscard]] static double longest_step(std::span<const Homogeneous> row);
-  [[nodiscard]] int last_within(double clear, std::size_t d, int k, int end, std::span<const Homogeneous> row) const;
   [[nodiscard]] int visibility(const Element& element) const;
   [[nodiscard]] const double* values(const std::array<int, 3>& at, int part, std::size_t d) const;
   [[nodiscard]] long long index(const std::array<int, 3>& at) const;
@@ -163,8 +169,10 @@ class ToolLoad {
   std::array<BasisQuadrature, D> quadrature_;
   std::vector<KnotVector> knots_;
   std::array<std::vector<int>, D> spans_;        // first Gauss point of every span, and the end
+  std::array<std::vector<int>, D> starts_;       // first function of every span
   std::array<std::vector<double>, D> lengths_;   // of every span, normalised
-  std::array<std::vector<double>, D> progress_;  // at every Gauss point, see `progress_along`
+  std::vector<double> progress_;                 // in the last direction, see `progress_along`
+  std::vector<TransposedBasis> transposed_;      // of every span of the last direction
   std::vector<double> weights_;                  // of the control points; empty for a polynomial spline
   bool in_hull_ = true;                          // all weights are positive
   std::shared_ptr<const VisibleRegion> region_;  // null: everything is visible

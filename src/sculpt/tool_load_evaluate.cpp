@@ -6,6 +6,7 @@
 
 #include "knead/base/interruption.hpp"
 #include "tool_load_sums.hpp"
+#include "tool_load_sweep.hpp"
 
 namespace knead {
 namespace {
@@ -21,6 +22,19 @@ Grip grip_at(double displacement, double grip, double slip) {
   return {grip * (displacement - 0.5 * slip), grip / displacement, 0};
 }
 
+/// A little more than where the tool acts, so that rounding leaves out nothing.
+detail::ToolReach reach_of(const ModelTool& tool) {
+  constexpr double slack = 1e-9;
+  const double radius = tool.radius() + slack * (tool.radius() + tool.centre().norm());
+  detail::ToolReach reach{{}, {}, {}, radius * radius};
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    reach.lower[c] = tool.lower()[c];
+    reach.upper[c] = tool.upper()[c];
+    reach.centre[c] = tool.centre()[c];
+  }
+  return reach;
+}
+
 }  // namespace
 
 /// One evaluation of the potential on a patch: which elements an actor may reach, and its effect at their points.
@@ -34,8 +48,10 @@ class ToolLoad<D>::Evaluation {
         patch_(patch),
         actors_(actors),
         state_(state),
+        sweep_(load, x, first),
         forces_(load, first, state.force) {
     find_sides();
+    for (const ModelTool& tool : actors.tools) reaches_.push_back(reach_of(tool));
     if (actors.limit == nullptr) return;
     original_.emplace(load, actors.limit->original, 0);
     displacements_.resize(static_cast<Eigen::Index>(count_));
@@ -46,47 +62,91 @@ class ToolLoad<D>::Evaluation {
   }
 
   void run() {
-    if (actors_.beyond != nullptr) return run_beyond(actors_.beyond->elements[static_cast<std::size_t>(patch_)]);
-    if (actors_.watched == nullptr) return load_.for_each_element([&](const Element& element) { visit(element); });
-    for (const int number : actors_.watched->elements[static_cast<std::size_t>(patch_)]) visit(load_.element(number));
+    if (actors_.beyond != nullptr) return run_but(actors_.beyond->elements[static_cast<std::size_t>(patch_)]);
+    if (actors_.watched == nullptr) return run_but({});
+    const std::vector<int>& watched = actors_.watched->elements[static_cast<std::size_t>(patch_)];
+    state_.contacts.reserve(state_.contacts.size() + 8 * watched.size());
+    for (const int number : watched) visit(load_.element(number));
   }
 
  private:
   /// All elements but some, which are given in ascending order.
-  void run_beyond(std::span<const int> within) {
+  void run_but(std::span<const int> left_out) {
     int number = 0;
-    load_.for_each_element([&](const Element& element) {
-      const bool left_out = !within.empty() && within.front() == number;
-      ++number;
-      if (!left_out) return visit(element);
-      within = within.subspan(1);
-    });
+    std::array<std::size_t, D> span;
+    const auto direction = [&](auto self, std::size_t d, std::size_t row) -> void {
+      const std::vector<int>& starts = load_.starts_[d];
+      for (span[d] = 0; span[d] < starts.size(); ++span[d]) {
+        const std::size_t first =
+            row * static_cast<std::size_t>(load_.net_[d]) + static_cast<std::size_t>(starts[span[d]]);
+        if (d + 1 < D) {
+          self(self, d + 1, first);
+        } else if (!left_out.empty() && left_out.front() == number++) {
+          left_out = left_out.subspan(1);
+        } else if (actors_.limit != nullptr || any_near(first)) {
+          visit(load_.element(span));
+        }
+      }
+    };
+    direction(direction, 0, 0);
   }
 
   void visit(const Element& element) {
     if (Interruption::asked_for()) return;
+    const int visible = actors_.pass == ToolPass::all ? VisibleMask::full : load_.visibility(element);
+    if (visible == VisibleMask::hidden) return;
     find_near(element);
     const bool limited = actors_.limit != nullptr && may_exceed(element);
+    if (near_.empty() && !limited) return;
+    Point lower, upper;
+    sweep_.enter(element, lower, upper);
+    if (load_.in_hull_) std::erase_if(near_, [&](std::size_t t) { return !actors_.tools[t].may_reach(lower, upper); });
     if (near_.empty() && !limited) return;
     double longest = 0;
     for (std::size_t d = 0; d < D; ++d)
       longest = std::max(longest, load_.lengths_[d][static_cast<std::size_t>(element.span[d])]);
-    // Of an element that a tool enters most points may be far from it. Friction and the limit act away from tools.
-    const bool everywhere = limited || actors_.friction != nullptr;
-    const auto act = [&](const Sample& s) {
-      ++state_.visited;
-      const double clear = press(s, longest);
-      if (actors_.friction != nullptr) rub(s);
-      if (limited) hold_back(s);
-      return everywhere ? 0 : clear;
-    };
-    const auto beyond = [&](std::span<const Homogeneous> row) { return !everywhere && beyond_all(row); };
-    if (actors_.pass == ToolPass::all) {
-      load_.for_each_point(element, x_, first_, workspace_, act, beyond);
-    } else {
-      load_.for_each_visible_point(element, x_, first_, workspace_, act, beyond);
-    }
+    Visitor visitor{*this, longest, limited, visible != VisibleMask::full, limited || actors_.friction != nullptr};
+    sweep_.run(visitor);
   }
+
+  /// What happens at the points of one element.
+  struct Visitor {
+    Evaluation& here;
+    double longest;   // of its spans
+    bool limited;     // a point may be further away than the limit allows
+    bool cut;         // by the edges of the visible part
+    bool everywhere;  // friction and the limit act away from tools
+
+    [[nodiscard]] bool skip(const Point& lower, const Point& upper) const {
+      // What is seen of a cell may lie beside the row of its Gauss point.
+      return !everywhere && !cut && here.beyond_all(lower, upper);
+    }
+    [[nodiscard]] unsigned reached(const double* places, std::ptrdiff_t count) const {
+      return everywhere || cut ? ~0U : here.reached(places, count);
+    }
+    [[nodiscard]] double act(const Sample& whole) const {
+      if (!cut) return at(whole);
+      const int state = here.load_.mask_->state(whole.at[0], whole.at[1]);
+      if (state == VisibleMask::full) at(whole);
+      if (state >= 0) at(here.load_.visible_part(whole, state, here.x_, here.first_));
+      return 0;  // the next point may stand elsewhere than its Gauss point
+    }
+    [[nodiscard]] double clear(const Sample& s) const {
+      ++here.state_.visited;
+      double clear = std::numeric_limits<double>::infinity();
+      for (const std::size_t t : here.near_) clear = std::min(clear, here.actors_.tools[t].action(s.place).clear);
+      return clear;
+    }
+
+   private:
+    double at(const Sample& s) const {
+      ++here.state_.visited;
+      const double clear = here.press(s, longest);
+      if (here.actors_.friction != nullptr) here.rub(s);
+      if (limited) here.hold_back(s);
+      return everywhere ? 0 : clear;
+    }
+  };
 
   /// f(i) for every control point of the patch that is used.
   template <class F>
@@ -122,7 +182,17 @@ class ToolLoad<D>::Evaluation {
     }
   }
 
-  /// The tools that may reach the element.
+  /// Whether a tool may reach the element with this first control point, by the sides of all its control points.
+  [[nodiscard]] bool is_near(std::size_t tool, std::size_t first) const {
+    return load_.pass_of(actors_.tools[tool]) == actors_.pass &&
+           (!load_.in_hull_ || sides_[tool * count_ + first] == 0);
+  }
+  [[nodiscard]] bool any_near(std::size_t first) const {
+    for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
+      if (is_near(t, first)) return true;
+    }
+    return false;
+  }
   void find_near(const Element& element) {
     near_.clear();
     std::size_t first = 0;
@@ -130,27 +200,23 @@ class ToolLoad<D>::Evaluation {
       first = first * static_cast<std::size_t>(load_.net_[d]) + static_cast<std::size_t>(element.first[d]);
     }
     for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
-      if (load_.pass_of(actors_.tools[t]) != actors_.pass) continue;
-      if (!load_.in_hull_ || sides_[t * count_ + first] == 0) near_.push_back(t);
+      if (is_near(t, first)) near_.push_back(t);
     }
-    if (!load_.in_hull_ || near_.empty()) return;
-    Point lower, upper;
-    load_.box_of(element, x_, first_, lower, upper);
-    std::erase_if(near_, [&](std::size_t t) { return !actors_.tools[t].may_reach(lower, upper); });
   }
 
-  /// Whether every tool that is near acts on nothing between the control points.
-  [[nodiscard]] bool beyond_all(std::span<const Homogeneous> row) const {
-    Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (const Homogeneous& h : row) {
-      const Point p = Point(h[0], h[1], h[2]) / h[3];
-      lower = lower.cwiseMin(p);
-      upper = upper.cwiseMax(p);
-    }
+  /// Whether every tool that is near acts on nothing in a box.
+  [[nodiscard]] bool beyond_all(const Point& lower, const Point& upper) const {
     return std::ranges::none_of(near_, [&](std::size_t t) {
       const ModelTool& tool = actors_.tools[t];
       return tool.jumps() ? tool.overlaps(lower, upper) : tool.may_reach(lower, upper);
     });
+  }
+
+  /// The places that a tool may act on.
+  [[nodiscard]] unsigned reached(const double* places, std::ptrdiff_t count) const {
+    unsigned result = 0;
+    for (const std::size_t t : near_) result |= kernels_.reached(places, count, reaches_[t]);
+    return result;
   }
 
   /// Whether a point of the element may be further away than the limit allows.
@@ -235,13 +301,15 @@ class ToolLoad<D>::Evaluation {
   int first_, patch_;
   const Actors& actors_;
   PotentialState& state_;
+  Sweep sweep_;
   ForcesOfPoints forces_;
+  const detail::ElementKernels& kernels_ = detail::element_kernels();
   std::optional<FieldAtPoints> original_;  // that the limit is measured from
   std::size_t count_ = 0;                  // of control points
   std::vector<unsigned char> sides_;       // by first control point of an element, tool after tool
   Eigen::VectorXd displacements_;          // of the control points: their hull bounds the displacement of every point
   std::vector<std::size_t> near_;
-  Workspace workspace_;
+  std::vector<detail::ToolReach> reaches_;  // of the tools
 };
 
 template <int D>

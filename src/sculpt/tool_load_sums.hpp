@@ -3,24 +3,40 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "simd/element_kernels.hpp"
 #include "tool_load_elements.hpp"
 
 namespace knead {
 
+/// Numbers that stand for the control points of an element or, of some first directions, for one index: by the indices
+/// of the other directions but the last, then coordinate, then index of the last. Level d holds those of directions
+/// d … D − 1; a line is level D − 1.
+template <int D>
+class ToolLoad<D>::ElementLevels {
+ public:
+  ElementLevels(const ToolLoad& load, std::ptrdiff_t coordinates) {
+    functions = load.quadrature_[D - 1].basis.degree + 1;
+    sizes[D - 1] = detail::ElementKernels::rounded_up(coordinates * functions);
+    for (std::size_t d = D - 1; d-- > 0;) sizes[d] = sizes[d + 1] * (load.quadrature_[d].basis.degree + 1);
+    for (std::size_t d = 0; d < D; ++d) numbers[d].resize(static_cast<std::size_t>(sizes[d]));
+  }
+
+  [[nodiscard]] double* operator[](std::size_t d) { return numbers[d].data(); }
+  [[nodiscard]] const double* operator[](std::size_t d) const { return numbers[d].data(); }
+  [[nodiscard]] std::ptrdiff_t line() const { return sizes[D - 1]; }
+
+  std::ptrdiff_t functions;             // of a line
+  std::array<std::ptrdiff_t, D> sizes;  // numbers of a level
+  std::array<std::vector<double, CacheLineAllocator<double>>, D> numbers;
+};
+
 /// Where sums over Gauss points stand that are made one direction at a time. Points that agree in their first d indices
-/// share what directions d … D−1 of the net have been summed to: with points in the order of `for_each_point`, a point
-/// costs p + 1 terms and not (p + 1)^D. Any order gives the same sums to rounding.
+/// share what directions d … D−1 of the net have been summed to: with points in the order of `Sweep`, a point costs
+/// p + 1 terms and not (p + 1)^D. Any order gives the same sums to rounding.
 template <int D>
 class ToolLoad<D>::PointSums {
  protected:
-  explicit PointSums(const ToolLoad& load) : load_(load) {
-    sizes_[D] = 1;
-    for (std::size_t d = D; d-- > 0;) {
-      sizes_[d] = sizes_[d + 1] * static_cast<std::size_t>(load.quadrature_[d].basis.degree + 1);
-    }
-    for (std::size_t d = 0; d <= D; ++d) level_[d].resize(sizes_[d], Homogeneous{});
-    last_.fill(-1);
-  }
+  explicit PointSums(const ToolLoad& load) : load_(load), levels_(load, 3) { last_.fill(-1); }
 
   /// The first direction in which a point differs from the last one; −1: other control points affect it.
   [[nodiscard]] int differs(const std::array<int, 3>& at) const {
@@ -35,23 +51,28 @@ class ToolLoad<D>::PointSums {
     return first;
   }
 
-  /// f(row) for the control points that affect the last point.
+  /// f(row of its first control point, line of level 0) for the lines of control points that affect the last point.
   template <class F>
-  void for_each_row(const F& f) const {
-    Element element;
-    for (std::size_t d = 0; d < D; ++d) {
-      element.first[d] = load_.quadrature_[d].basis.first[static_cast<std::size_t>(last_[d])];
-    }
-    load_.for_each_control_point(element, f);
+  void for_each_line(const F& f) {
+    std::array<int, D> first;
+    for (std::size_t d = 0; d < D; ++d) first[d] = load_.quadrature_[d].basis.first[static_cast<std::size_t>(last_[d])];
+    double* line = levels_[0];
+    load_.for_each_line(first, [&](std::ptrdiff_t row) {
+      f(row, line);
+      line += levels_.line();
+    });
   }
 
-  [[nodiscard]] double weight(int row) const {
+  [[nodiscard]] double weight(std::ptrdiff_t row) const {
     return load_.weights_.empty() ? 1 : load_.weights_[static_cast<std::size_t>(row)];
   }
+  /// The values of the functions of direction d at the last point.
+  [[nodiscard]] const double* functions(std::size_t d) const { return load_.quadrature_[d].basis.row(last_[d], 0); }
+  [[nodiscard]] std::ptrdiff_t count(std::size_t d) const { return load_.quadrature_[d].basis.degree + 1; }
 
   const ToolLoad& load_;
-  std::array<std::size_t, D + 1> sizes_;
-  std::array<std::vector<Homogeneous>, D + 1> level_;  // directions d … D−1 of level d are control points
+  const detail::ElementKernels& kernels_ = detail::element_kernels();
+  ElementLevels levels_;
   std::array<int, D> last_;
 };
 
@@ -63,32 +84,28 @@ class ToolLoad<D>::FieldAtPoints : private PointSums {
       : PointSums(load), v_(v.data() + 3 * static_cast<std::ptrdiff_t>(first)) {}
 
   [[nodiscard]] Point at(const std::array<int, 3>& at) {
-    int d = this->differs(at);
+    const int d = this->differs(at);
     std::copy_n(at.begin(), D, this->last_.begin());
+    auto& levels = this->levels_;
+    const std::ptrdiff_t functions = levels.functions;
     if (d < 0) {
-      std::size_t to = 0;
-      this->for_each_row([&](int row) {
-        const double w = this->weight(row), *from = v_ + 3 * static_cast<std::ptrdiff_t>(row);
-        this->level_[0][to++] = {w * from[0], w * from[1], w * from[2], 0};
-      });
-      d = 0;
-    }
-    for (auto e = static_cast<std::size_t>(d); e < D; ++e) {
-      const BasisTable& table = this->load_.quadrature_[e].basis;
-      const double* n = table.row(at[e], 0);
-      const std::size_t size = this->sizes_[e + 1];
-      const Homogeneous* from = this->level_[e].data();
-      Homogeneous* to = this->level_[e + 1].data();
-      for (std::size_t i = 0; i < size; ++i) {
-        Homogeneous sum = {0, 0, 0, 0};
-        for (std::size_t r = 0; r <= static_cast<std::size_t>(table.degree); ++r) {
-          for (std::size_t c = 0; c < 4; ++c) sum[c] += n[r] * from[r * size + i][c];
+      this->for_each_line([&](std::ptrdiff_t row, double* line) {
+        const double* from = v_ + 3 * row;
+        for (std::ptrdiff_t j = 0; j < functions; ++j, from += 3) {
+          const double w = this->weight(row + j);
+          for (std::ptrdiff_t c = 0; c < 3; ++c) line[c * functions + j] = w * from[c];
         }
-        to[i] = sum;
-      }
+      });
     }
-    const Homogeneous& h = this->level_[D][0];
-    return {h[0], h[1], h[2]};
+    for (auto e = static_cast<std::size_t>(std::max(d, 0)); e + 1 < D; ++e) {
+      this->kernels_.combine(this->functions(e), this->count(e), levels[e], levels.sizes[e + 1], levels[e + 1]);
+    }
+    const double *n = this->functions(D - 1), *line = levels[D - 1];
+    Point sum = Point::Zero();
+    for (std::ptrdiff_t j = 0; j < functions; ++j, ++line) {
+      sum += n[j] * Point(line[0], line[functions], line[2 * functions]);
+    }
+    return sum;
   }
 
  private:
@@ -110,38 +127,36 @@ class ToolLoad<D>::ForcesOfPoints : private PointSums {
   void add(const std::array<int, 3>& at, double factor, const Point& f) {
     const int d = this->differs(at);
     if (d < D) {
-      if (this->last_[0] >= 0) sum_from(d);
+      if (d + 1 < D && this->last_[0] >= 0) sum_from(d);
       std::copy_n(at.begin(), D, this->last_.begin());
     }
-    Homogeneous& here = this->level_[D][0];
-    for (std::size_t c = 0; c < 3; ++c) here[c] += factor * f[static_cast<Eigen::Index>(c)];
+    const std::ptrdiff_t functions = this->levels_.functions;
+    const double* n = this->functions(D - 1);
+    double* to = this->levels_[D - 1];
+    for (Eigen::Index c = 0; c < 3; ++c, to += functions) {
+      const double share = factor * f[c];
+      for (std::ptrdiff_t j = 0; j < functions; ++j) to[j] += n[j] * share;
+    }
   }
 
  private:
   /// Adds levels behind d to those before; −1: to the control points.
   void sum_from(int d) {
-    for (std::size_t e = D; e-- > static_cast<std::size_t>(std::max(d, 0));) {
-      const BasisTable& table = this->load_.quadrature_[e].basis;
-      const double* n = table.row(this->last_[e], 0);
-      const std::size_t size = this->sizes_[e + 1];
-      Homogeneous* from = this->level_[e + 1].data();
-      Homogeneous* to = this->level_[e].data();
-      for (std::size_t r = 0; r <= static_cast<std::size_t>(table.degree); ++r) {
-        for (std::size_t i = 0; i < size; ++i) {
-          for (std::size_t c = 0; c < 4; ++c) to[r * size + i][c] += n[r] * from[i][c];
-        }
-      }
-      std::fill_n(from, size, Homogeneous{});
+    auto& levels = this->levels_;
+    for (std::size_t e = D - 1; e-- > static_cast<std::size_t>(std::max(d, 0));) {
+      this->kernels_.spread(this->functions(e), this->count(e), levels[e + 1], levels.sizes[e + 1], levels[e]);
+      std::ranges::fill(levels.numbers[e + 1], 0.0);
     }
     if (d >= 0) return;
-    std::size_t from = 0;
-    this->for_each_row([&](int row) {
-      const double w = this->weight(row);
-      const Homogeneous& h = this->level_[0][from++];
-      double* to = to_ + 3 * static_cast<std::ptrdiff_t>(row);
-      for (std::size_t c = 0; c < 3; ++c) to[c] += w * h[c];
+    const std::ptrdiff_t functions = levels.functions;
+    this->for_each_line([&](std::ptrdiff_t row, double* line) {
+      double* to = to_ + 3 * row;
+      for (std::ptrdiff_t j = 0; j < functions; ++j, to += 3) {
+        const double w = this->weight(row + j);
+        for (std::ptrdiff_t c = 0; c < 3; ++c) to[c] += w * line[c * functions + j];
+      }
     });
-    std::ranges::fill(this->level_[0], Homogeneous{});
+    std::ranges::fill(levels.numbers[0], 0.0);
   }
 
   double* to_;

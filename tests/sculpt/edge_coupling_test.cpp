@@ -13,7 +13,7 @@
 namespace knead {
 namespace {
 
-Surface sheet(int columns, double x0) {
+Surface sheet_from(int columns, double x0) {
   const auto u = KnotVector::clamped_uniform(3, 7), v = KnotVector::clamped_uniform(3, columns);
   Points points(7 * columns, 3);
   for (int i = 0; i < 7; ++i) {
@@ -107,7 +107,8 @@ std::array<double, 2> largest_kink(const Pair& pair, const EdgeCoupling& couplin
 }
 
 TEST(EdgeCoupling, DerivativesThatAgreeKeepTangentPlanesCommonInLargeDisplacements) {
-  const Pair equal{sheet(9, 0), sheet(9, 1)}, other{sheet(17, 0), sheet(21, 1)}, over{sheet(17, 0), sheet(21, 0.5)};
+  const Pair equal{sheet_from(9, 0), sheet_from(9, 1)}, other{sheet_from(17, 0), sheet_from(21, 1)},
+      over{sheet_from(17, 0), sheet_from(21, 0.5)};
   for (const auto& [pair, inside] : {std::pair{&equal, false}, {&other, false}, {&over, true}}) {
     const CoupledEdge along = smooth_edge(inside ? 320 : 160, inside);
     const auto coupling = couple_edges(pair->patches, pair->rows, std::array{along}, {}, {}, {1e-8, 1e-8});
@@ -127,7 +128,7 @@ TEST(EdgeCoupling, DerivativesThatAgreeKeepTangentPlanesCommonInLargeDisplacemen
 }
 
 TEST(EdgeCoupling, EqualNetsLoseNothingByRoundingInTheParameters) {
-  const Pair pair{sheet(9, 0), sheet(9, 1)};
+  const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
   for (const double noise : {0.0, 1e-10, 1e-8}) {
     const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false, noise)}, {}, {}, {1e-6});
     ASSERT_TRUE(coupling) << coupling.error().message();
@@ -137,7 +138,7 @@ TEST(EdgeCoupling, EqualNetsLoseNothingByRoundingInTheParameters) {
 }
 
 TEST(EdgeCoupling, WhatSeamsKeepTogetherGetsNoConditions) {
-  const Pair pair{sheet(9, 0), sheet(9, 1)};
+  const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
   const auto found = find_seams(pair.patches, 1e-3);
   ASSERT_TRUE(found);
   const auto seams = couple_seams(pair.patches, pair.rows, found->seams);
@@ -150,7 +151,7 @@ TEST(EdgeCoupling, WhatSeamsKeepTogetherGetsNoConditions) {
 }
 
 TEST(EdgeCoupling, OtherNetsPartByNoMoreThanTheToleranceAndKeepSomeFreedom) {
-  const Pair pair{sheet(17, 0), sheet(21, 1)};
+  const Pair pair{sheet_from(17, 0), sheet_from(21, 1)};
   for (const bool inside : {false, true}) {
     int before = 0;
     for (const double tolerance : {1e-6, 1e-3, 1e-2, 0.1}) {
@@ -166,7 +167,7 @@ TEST(EdgeCoupling, OtherNetsPartByNoMoreThanTheToleranceAndKeepSomeFreedom) {
 }
 
 TEST(EdgeCoupling, HeldControlPointsStay) {
-  const Pair pair{sheet(9, 0), sheet(9, 1)};
+  const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
   std::vector<bool> held(static_cast<std::size_t>(pair.rows.back()), false);
   std::fill_n(held.begin(), pair.a.size(), true);
   const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false)}, {}, held, {1e-6});
@@ -175,7 +176,7 @@ TEST(EdgeCoupling, HeldControlPointsStay) {
 }
 
 TEST(EdgeCoupling, WhatCannotBeIsAnError) {
-  const Pair pair{sheet(9, 0), sheet(9, 1)};
+  const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
   EXPECT_FALSE(couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, {}, {0}));
   EXPECT_FALSE(couple_edges(pair.patches, pair.rows, std::array{smooth_edge(8, false)}, {}, {}, {1e-6, 2}));
   CoupledEdge outside = edge(8, false);

@@ -127,6 +127,51 @@ TEST(ToolLoadSums, LeapOverNoContactOfACurvedShape) {
   }
 }
 
+/// What is found where all points are visited, because a limit without force is exceeded at all of them.
+template <int D>
+void expect_every_contact_found(const Spline<D>& spline, const ModelTool& tool, double detail) {
+  const auto load = ToolLoad<D>::create(spline, DomainScaling<D>{}, detail);
+  ASSERT_TRUE(load);
+  const Points x = spline.control_points();
+  const DisplacementLimit visits{1e-3, 0, x.rowwise() + Eigen::RowVector3d(0, 0, 1)};
+  const PotentialState found = potential_at(*load, x, {tool}), all = potential_at(*load, x, {tool}, &visits);
+  ASSERT_EQ(all.visited, load->points());
+  EXPECT_LT(found.visited, load->points());
+  long long contacts = 0;
+  for (const ContactPoint& c : all.contacts) contacts += c.hessian.norm() > 0 ? 1 : 0;
+  ASSERT_GT(contacts, 0);
+  EXPECT_EQ(static_cast<long long>(found.contacts.size()), contacts);
+  EXPECT_NEAR(found.potential, all.potential, 1e-13 * std::abs(all.potential));
+  EXPECT_LE((found.force - all.force).norm(), 1e-13 * all.force.norm());
+  EXPECT_EQ(found.entry, all.entry);
+}
+
+TEST(ToolLoadSums, FindEveryContactAmongRowsOfAnyLength) {
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.4, Point(1, 2, 3).normalized()));
+  for (const int degree : {1, 3, 5}) {
+    for (const int spans : {1, 7}) {
+      const KnotVector u = testing::uniform_clamped(degree, spans), v = testing::uniform_clamped(3, spans);
+      for (const double spread : {1.0, 100.0}) {
+        for (const Surface& s : {testing::relief(u, v, 3, 0.05, spread), testing::relief(v, u, 4, 0.05, spread)}) {
+          SCOPED_TRACE(::testing::Message() << degree << " " << spans << " " << spread);
+          const Point at = s.control_points().colwise().mean();
+          const auto box = PlacedShape::create(BoxShape{{0.1, 0.2, 0.15}, 0.01}, {turn, at, {1, 1, 1}});
+          ASSERT_TRUE(box);
+          for (const auto mode : {ToolMode::collision, ToolMode::proximity}) {
+            expect_every_contact_found(s, round_tool(at, 0.1, mode), 0.03);
+            expect_every_contact_found(s, round_tool(at + Point(0, 0, 0.1), 0.25, mode), 0.1);
+            expect_every_contact_found(s, ModelTool{{"box", *box, mode, 10, 0.05}, Point::Zero(), 1}, 0.1);
+          }
+        }
+      }
+    }
+  }
+  const ModelTool ball = round_tool({0.5, 0, 0}, 0.03);
+  expect_every_contact_found(testing::box<1>(3, 7), ball, 0.03);
+  expect_every_contact_found(testing::box<1>(2, 3), ball, 0.01);
+  expect_every_contact_found(testing::box<3>(2, 3), round_tool({0.5, 0.4, 0.3}, 0.1), 0.1);
+}
+
 TEST(ToolLoadSums, TellWhatActsBeyondSomeElements) {
   const Surface s = testing::box<2>(3, 20);
   auto load = ToolLoad<2>::create(s, DomainScaling<2>{}, 0.15);

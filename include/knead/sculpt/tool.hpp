@@ -101,6 +101,11 @@ class ModelTool {
     }
     return static_cast<unsigned char>(result);
   }
+  /// The box outside which the tool acts on nothing, and a ball likewise, of infinite radius unless it is a sphere.
+  [[nodiscard]] const Point& lower() const { return lower_; }
+  [[nodiscard]] const Point& upper() const { return upper_; }
+  [[nodiscard]] const Point& centre() const { return centre_; }
+  [[nodiscard]] double radius() const { return radius_; }
   /// Whether the signed distance jumps where a collision tool is open (see `SplineShape`). Else it is 1-Lipschitz.
   [[nodiscard]] bool jumps() const {
     return tool_.collides() && std::holds_alternative<SplineShape>(tool_.shape.shape());
@@ -116,6 +121,8 @@ class ModelTool {
   Tool tool_;  // its shape moved by −centre, still in file units
   double length_, range_, size_, offset_ = 0;
   Point lower_, upper_;  // of what it acts on
+  Point centre_;
+  double radius_;
 };
 
 }  // namespace knead

@@ -69,6 +69,18 @@ KNEAD_INLINE bool any(decltype(Lanes{} < Lanes{}) mask) {
   return (mask[0] | mask[1]) != 0;
 #endif
 }
+/// Bit k: number k of a comparison is true.
+KNEAD_INLINE unsigned bits(decltype(Lanes{} < Lanes{}) mask) {
+#if KNEAD_LANES == 8
+  return static_cast<unsigned>(_mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)));
+#elif KNEAD_LANES == 4
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
+#else
+  return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2));
+#endif
+}
 KNEAD_INLINE bool any_not_positive(Lanes v) { return any(v <= splat(0)); }
 KNEAD_INLINE auto differs(Lanes a, Lanes b) { return a != b; }
 KNEAD_INLINE Lanes shifted(Lanes v, double next) {
