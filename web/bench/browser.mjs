@@ -6,7 +6,7 @@ import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
 
 import { serve } from '../serve.mjs';
-import { chromiumOptions, least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
+import { accuracies, chromiumOptions, least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
 
 const directories = process.argv.length > 2 ? process.argv.slice(2) : [fileURLToPath(new URL('../dist', import.meta.url))];
 const browser = await chromium.launch(chromiumOptions);
@@ -47,8 +47,8 @@ for (const [at, { directory }] of pages.entries()) {
   console.log(`          ${ms(median(of('paint')))}${ms(worst(of('paint')))}        ${ms(median(of('ready')))}${ms(worst(of('ready')))}  ${directory}`);
 }
 
-for (const net of nets) {
-  console.log(`${net} x ${net} control points, milliseconds`);
+for (const [net, accuracy] of nets.flatMap((n) => accuracies.map((a) => [n, a]))) {
+  console.log(`${accuracy} steps, ${net} x ${net} control points, milliseconds`);
   console.log('worker: median    least    worst   round trip  of the first  long tasks  ready  directory');
   for (const { directory, page, ready } of pages) {
     await page.bringToFront();
@@ -77,7 +77,7 @@ for (const net of nets) {
         observer.disconnect();
         return { worker, trip, first, long };
       },
-      [sheet(net), places],
+      [sheet(net, accuracy), places],
     );
     console.log(
       `     ${ms(median(times.worker))}${ms(least(times.worker))}${ms(worst(times.worker))}    ${ms(median(times.trip))}     ${ms(worst(times.first))}` +

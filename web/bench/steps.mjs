@@ -4,14 +4,14 @@ import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 import { engineClass } from './engine.mjs';
-import { clay, detail, firstStroke, least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
+import { accuracies, clay, detail, firstStroke, least, median, ms, nets, places, sheet, worst } from './stroke.mjs';
 
 const modules =
   process.argv.length > 2 ? process.argv.slice(2) : [fileURLToPath(new URL('../src/engine/knead_studio.wasm', import.meta.url))];
 const Engine = await engineClass();
 
 const kinds = [
-  { name: 'steps', prepare: sheet, frames: places },
+  ...accuracies.map((accuracy) => ({ name: `${accuracy} steps`, prepare: (net) => sheet(net, accuracy), frames: places })),
   { name: 'stroke', prepare: clay, frames: firstStroke },
 ];
 

@@ -5,12 +5,15 @@ export const nets = [32, 64];
 export const detail = 96;
 const radius = 0.08 * Math.hypot(size, size);
 
-export const sheet = (net) => [
+export const sheet = (net, accuracy = 'exact') => [
   { do: 'new', size: [size, size], net: [net, net] },
   { do: 'hold', rows: 2 },
   { do: 'material', alpha: [0.1, 0, 0.1], beta: [0.001, 0.001, 0.001] },
-  { do: 'evolve', mode: 'acm', lambda: 100 },
+  { do: 'evolve', mode: 'acm', lambda: 100, accuracy },
 ];
+
+/** Scripts are as exact as they can be; the page's strokes are interactive. */
+export const accuracies = ['exact', 'interactive'];
 
 /** The sheet that a new page shows, of what its strokes press. */
 export const clay = (net) => [
