@@ -21,7 +21,8 @@ constexpr double cancellation = 1e-12;
 constexpr double soft_stiffness = 1e4;
 constexpr double stiffening = 30;
 constexpr double far_from_balance = 1e-2;
-constexpr double stage_tolerance = 1e-4;
+constexpr double stage_tolerance = 1e-2;
+constexpr double limited_stage_tolerance = 1e-4;  // from further away a limit on displacements takes long
 constexpr int max_stage_iterations = 20;
 constexpr double settled_share = 0.2;  // of the decrement: what a step leaves where what touches changes little
 
@@ -350,10 +351,11 @@ Minimum minimise(const StepProblem& problem, Potential& potential, M minimisatio
   // that starts near equilibrium, as most do, gains nothing from that.
   const double stiffest = potential.stiffest();
   if (!problem.near && stiffest > soft_stiffness && minimisation.imbalance() > far_from_balance) {
+    const double tolerance = potential.limits() ? limited_stage_tolerance : stage_tolerance;
     for (double cap = soft_stiffness; cap < stiffest; cap *= stiffening) {
       potential.soften(cap);
       minimisation.renew();
-      minimisation.iterate(stage_tolerance, max_stage_iterations, false);
+      minimisation.iterate(tolerance, max_stage_iterations, false);
     }
     potential.soften(stiffest);
     minimisation.renew();

@@ -110,10 +110,12 @@ class PatchPotential final : public Potential {
   }
 
   [[nodiscard]] double stiffest() const override {
-    double result = limits_.empty() ? 0 : limit_stiffness_;
+    double result = limits() ? limit_stiffness_ : 0;
     for (double stiffness : given_) result = std::max(result, stiffness);
     return result;
   }
+
+  [[nodiscard]] bool limits() const override { return !limits_.empty(); }
 
  private:
   /// What acts on elements: on all, on those that are watched, or on all others.
@@ -123,7 +125,7 @@ class PatchPotential final : public Potential {
     state.force = Points::Zero(x.rows(), 3);
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       const auto friction = [&](const std::vector<FrictionAnchors>& of) { return of.empty() ? nullptr : &of[k]; };
-      const DisplacementLimit* limit = limits_.empty() ? nullptr : &limits_[k];
+      const DisplacementLimit* limit = limits() ? &limits_[k] : nullptr;
       const int patch = static_cast<int>(k);
       loads_[k].evaluate(x, rows_[k], patch, {tools_, friction(friction_), limit, ToolPass::all, watched, beyond},
                          state);

@@ -67,6 +67,8 @@ class Potential {
   virtual void soften(double cap) = 0;
   /// The largest stiffness of a spring.
   [[nodiscard]] virtual double stiffest() const = 0;
+  /// Whether there is a limit on displacements.
+  [[nodiscard]] virtual bool limits() const = 0;
 
  protected:
   Potential() = default;

@@ -33,6 +33,7 @@ class Springs final : public Potential {
   [[nodiscard]] WatchedElements watch(const std::vector<char>&) const override { return {}; }
   void soften(double cap) override { stiffness_ = std::min(stiffness_, cap); }
   [[nodiscard]] double stiffest() const override { return stiffness_; }
+  [[nodiscard]] bool limits() const override { return false; }
 
   [[nodiscard]] Eigen::Matrix3d hessian(std::size_t k) const {
     const Point n = normals_.row(static_cast<Eigen::Index>(k)).normalized();
