@@ -1,21 +1,30 @@
-import { commands, directoryOfFile, distance, engineOf, positions, saveAs, scene, settled, stroke, studioOfFile } from './page';
+import { commands, directoryOfFile, distance, engineOf, handled, positions, saveAs, scene, settled, stroke, studioOfFile } from './page';
 
 const studio = studioOfFile();
 const directory = directoryOfFile();
+
+/** Chooses in the panel that is open, and waits until the new document is there. */
+async function create(shape: string, fill?: () => Promise<void>): Promise<void> {
+  const { page } = studio;
+  await page.locator('select[aria-label="Shape to create"]').selectOption(shape);
+  await fill?.();
+  await settled(page); // the panel is made anew for every shape
+  const before = await handled(page);
+  await page.locator('.panel[data-panel=Create] button', { hasText: 'Create' }).first().click();
+  await expect.poll(() => handled(page)).toBe(before + 1);
+  await settled(page);
+}
 
 describe('panels', () => {
   it('create a surface, and change its knots', async () => {
     const { page } = studio;
     await page.locator('.panel[data-panel=Create] > summary').click();
-    await page.locator('select[aria-label="Shape to create"]').selectOption('torus');
-    await page.locator('.panel[data-panel=Create] button', { hasText: 'Create' }).click();
-    await settled(page);
+    await create('torus');
     expect((await commands(page))[0]).toMatchObject({ do: 'new', shape: 'torus' });
-    await page.locator('select[aria-label="Shape to create"]').selectOption('plane');
-    await page.locator('input[aria-label="Net u"]').fill('6');
-    await page.keyboard.press('Enter');
-    await page.locator('.panel[data-panel=Create] button', { hasText: 'Create' }).first().click();
-    await settled(page);
+    await create('plane', async () => {
+      await page.locator('input[aria-label="Net u"]').fill('6');
+      await page.keyboard.press('Enter');
+    });
     expect((await commands(page))[0]).toMatchObject({ do: 'new', shape: 'plane', net: [6, 12] });
     await page.locator('.panel[data-panel="Knots and net"] > summary').click();
     await settled(page);
@@ -55,12 +64,11 @@ describe('a curve', () => {
     const { page } = studio;
     const shape = page.locator('select[aria-label="Shape to create"]');
     if (!(await shape.isVisible())) await page.locator('.panel[data-panel=Create] > summary').click();
-    await shape.selectOption('helix');
-    await page.locator('.panel[data-panel=Create] button', { hasText: 'Create' }).first().click();
-    await settled(page);
+    await create('helix');
     expect((await commands(page))[0]).toMatchObject({ do: 'new', shape: 'curve', form: 'helix' });
     expect(await lit()).toBeGreaterThan(300);
     await shape.selectOption('box');
+    await settled(page);
     await page.locator('.panel[data-panel=Create] button', { hasText: 'Add to this document' }).click();
     await settled(page);
     const row = page.locator('.panel[data-panel=Surfaces] .item', { hasText: 'helix' });
