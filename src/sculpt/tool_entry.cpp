@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "knead/base/interruption.hpp"
-#include "tool_load_elements.hpp"
+#include "tool_load_sums.hpp"
 
 namespace knead {
 namespace {
@@ -21,7 +21,7 @@ template <int D>
 class ToolLoad<D>::EntrySearch {
  public:
   EntrySearch(const ToolLoad& load, const Points& x, int first, const ModelTool& tool)
-      : load_(load), x_(x), first_(first), tool_(tool) {
+      : load_(load), x_(x), first_(first), tool_(tool), levels_(load, 4) {
     for (std::size_t d = 0; d < D; ++d) spans_[d] = load.knots_[d].spans();
     masked_ = load.pass_of(tool) == ToolPass::visible;
     leaps_ = !tool.jumps();
@@ -51,7 +51,7 @@ class ToolLoad<D>::EntrySearch {
     double sum[3] = {0, 0, 0}, denominator = 0;
     std::size_t at = 0;
     load_.for_each_control_point(element, [&](int row) {
-      double product = load_.weights_.empty() ? 1 : load_.weights_[static_cast<std::size_t>(row)];
+      double product = load_.weight(row);
       std::size_t rest = at++;
       for (std::size_t d = D; d-- > 0;) {
         const auto width = static_cast<std::size_t>(load_.knots_[d].degree() + 1);
@@ -107,61 +107,47 @@ class ToolLoad<D>::EntrySearch {
     return candidates_.size() < refined ? -reach_ : std::max(-reach_, candidates_.back().depth);
   }
 
-  /// The longest step between neighbours in a row of control points.
-  [[nodiscard]] static double longest_step(std::span<const Homogeneous> row) {
-    double longest = 0;
-    for (std::size_t r = 1; r < row.size(); ++r) {
-      double squared = 0;
-      for (std::size_t c = 0; c < 3; ++c) squared += (row[r][c] - row[r - 1][c]) * (row[r][c] - row[r - 1][c]);
-      longest = std::max(longest, squared);
-    }
-    return std::sqrt(longest);
-  }
-
   /// Whether no sample between these control points can be kept.
-  [[nodiscard]] bool all_shallow(std::span<const Homogeneous> row) const {
-    Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (const Homogeneous& h : row) {
-      const Point p = Point(h[0], h[1], h[2]) / h[3];
-      lower = lower.cwiseMin(p);
-      upper = upper.cwiseMax(p);
-    }
+  [[nodiscard]] bool all_shallow(std::size_t d) const {
+    Point lower, upper;
+    levels_.bounds(d, lower, upper);
     return 0.5 * (upper - lower).norm() - tool_.distance(0.5 * (lower + upper)) < least_depth();
   }
 
   /// Visits the samples of directions d … D − 1, for which level d holds the control points. The last direction leaps
   /// over samples that are too near to a shallow one to be deep.
   void visit(std::size_t d, Candidate& c) {
-    if (d == D) {
-      ++visited_;
-      const Homogeneous& h = level_[D][0];
-      c.depth = -tool_.distance(Point(h[0], h[1], h[2]) / h[3]);
-      if (c.depth > least_depth() && touches(c.u)) keep(c);
-      return;
-    }
-    const std::span<const Homogeneous> row = level_[d];
-    if (leaps_ && load_.in_hull_ && d > 0 && all_shallow(row)) return;
+    if (leaps_ && load_.in_hull_ && d > 0 && all_shallow(d)) return;
     const Line& line = lines_[d];
-    const auto width = static_cast<std::size_t>(line.degree + 1);
-    const std::size_t inner = row.size() / width;
-    const double step = leaps_ && d + 1 == D && load_.weights_.empty() ? longest_step(row) : 0;
-    level_[d + 1].resize(inner);
+    const std::size_t width = static_cast<std::size_t>(line.degree + 1);
+    const double step = leaps_ && d + 1 == D && load_.weights_.empty() ? levels_.longest_step() : 0;
     for (std::size_t k = 0; k < line.u.size(); ++k) {
       c.u[d] = line.u[k];
       const double* n = line.values.data() + k * width;
-      for (std::size_t i = 0; i < inner; ++i) {
-        Homogeneous sum = {0, 0, 0, 0};
-        for (std::size_t r = 0; r < width; ++r) {
-          for (std::size_t e = 0; e < 4; ++e) sum[e] += n[r] * row[r * inner + i][e];
-        }
-        level_[d + 1][i] = sum;
+      if (d + 1 < D) {
+        kernels_.combine(n, line.degree + 1, levels_[d], levels_.sizes[d + 1], levels_[d + 1]);
+        visit(d + 1, c);
+        continue;
       }
-      visit(d + 1, c);
+      look(n, c);
       if (step == 0) continue;
       constexpr double safe = 1 - 1e-6;
       const double enough = line.progress[k] + safe * (least_depth() - c.depth) / step;
       while (k + 1 < line.u.size() && line.progress[k + 1] < enough) ++k;
     }
+  }
+
+  /// A sample on the line of control points, where the functions of the last direction have values n.
+  void look(const double* n, Candidate& c) {
+    ++visited_;
+    const std::ptrdiff_t functions = levels_.functions;
+    std::array<double, 4> sum{};
+    for (std::ptrdiff_t j = 0; j < functions; ++j) {
+      for (std::ptrdiff_t e = 0; e < 4; ++e)
+        sum[static_cast<std::size_t>(e)] += n[j] * levels_[D - 1][e * functions + j];
+    }
+    c.depth = -tool_.distance(Point(sum[0], sum[1], sum[2]) / sum[3]);
+    if (c.depth > least_depth() && touches(c.u)) keep(c);
   }
 
   /// Keeps the deepest samples of all elements.
@@ -171,17 +157,13 @@ class ToolLoad<D>::EntrySearch {
     if (visible == VisibleMask::hidden) return;
     in_cut_ = visible == VisibleMask::cut;
     Point lower, upper;
-    load_.box_of(element, x_, first_, lower, upper);
+    levels_.gather(element.first, x_.data() + 3 * static_cast<std::ptrdiff_t>(first_));
+    levels_.box(lower, upper);
     if (load_.in_hull_ && !tool_.may_reach(lower, upper)) return;
     // Between samples the shape may penetrate further, but by no more than the extent of its control points.
     reach_ = (upper - lower).norm();
+    levels_.multiply_by_weights(element.first);
     for (std::size_t d = 0; d < D; ++d) tabulate(element, d);
-    level_[0].clear();
-    load_.for_each_control_point(element, [&](int row) {
-      const double w = load_.weights_.empty() ? 1 : load_.weights_[static_cast<std::size_t>(row)];
-      const double* p = x_.data() + 3 * static_cast<std::ptrdiff_t>(first_ + row);
-      level_[0].push_back({w * p[0], w * p[1], w * p[2], w});
-    });
     Candidate c{0, element, {}, spacing_};
     visit(0, c);
   }
@@ -221,7 +203,8 @@ class ToolLoad<D>::EntrySearch {
   std::array<Line, D> lines_;  // of the present element, as are
   std::array<double, D> spacing_{};
   double reach_ = 0;
-  Workspace level_;  // directions d … D − 1 of level d are control points
+  ElementLevels levels_;  // in homogeneous coordinates
+  const detail::ElementKernels& kernels_ = detail::element_kernels();
   long long visited_ = 0;
   std::vector<Candidate> candidates_;  // deepest first
 };

@@ -324,9 +324,7 @@ struct ToolLoad<D>::Gripping {
   [[nodiscard]] double clear(const Sample&) const { return 0; }
   [[nodiscard]] double act(const Sample& whole) const {
     if (!cut) return at(whole);
-    const int state = load.mask_->state(whole.at[0], whole.at[1]);
-    if (state == VisibleMask::full) at(whole);
-    if (state >= 0) at(load.visible_part(whole, state, x, first));
+    load.for_what_is_seen(whole, x, first, [&](const Sample& s) { at(s); });
     return 0;
   }
 

@@ -128,8 +128,6 @@ class ToolLoad {
   class PointSums;  // over Gauss points, one direction at a time
   class FieldAtPoints;
   class ForcesOfPoints;
-  using Homogeneous = std::array<double, 4>;
-  using Workspace = std::array<std::vector<Homogeneous>, D + 1>;
 
   /// The functions of the last direction on one span: function j at Gauss point k of it at [j stride + k], with zeros
   /// behind the last.
@@ -154,6 +152,8 @@ class ToolLoad {
   void for_each_line(const std::array<int, D>& first, const F& f) const;
   template <class F>
   void for_each_control_point(const Element& element, const F& f) const;
+  template <class F>
+  void for_what_is_seen(const Sample& whole, const Points& x, int first, const F& f) const;
   [[nodiscard]] Sample visible_part(const Sample& whole, int part, const Points& x, int first) const;
   [[nodiscard]] ToolPass pass_of(const ModelTool& tool) const {
     return mask_ && tool.tool().touches == ToolTouch::visible ? ToolPass::visible : ToolPass::all;
@@ -163,7 +163,9 @@ class ToolLoad {
   [[nodiscard]] long long index(const std::array<int, 3>& at) const;
   template <class F>
   void for_each_function(const std::array<int, 3>& at, int part, const F& f) const;
-  void box_of(const Element& element, const Points& x, int first, Point& lower, Point& upper) const;
+  [[nodiscard]] double weight(std::ptrdiff_t row) const {
+    return weights_.empty() ? 1 : weights_[static_cast<std::size_t>(row)];
+  }
 
   std::array<int, D> net_{};
   std::array<BasisQuadrature, D> quadrature_;

@@ -106,19 +106,6 @@ void ToolLoad<D>::for_each_line(const std::array<int, D>& first, const F& f) con
   direction(direction, 0, 0);
 }
 
-template <int D>
-void ToolLoad<D>::box_of(const Element& element, const Points& x, int first, Point& lower, Point& upper) const {
-  lower.setConstant(std::numeric_limits<double>::infinity());
-  upper = -lower;
-  for_each_control_point(element, [&](int row) {
-    const double* p = x.data() + 3 * static_cast<std::ptrdiff_t>(first + row);
-    for (int c = 0; c < 3; ++c) {
-      lower[c] = std::min(lower[c], p[c]);
-      upper[c] = std::max(upper[c], p[c]);
-    }
-  });
-}
-
 /// The values of the basis functions of direction d at one Gauss point, or at the visible part of its cell.
 template <int D>
 const double* ToolLoad<D>::values(const std::array<int, 3>& at, int part, std::size_t d) const {
@@ -177,6 +164,16 @@ typename ToolLoad<D>::Sample ToolLoad<D>::visible_part(const Sample& whole, int 
   s.inverse = weights_.empty() ? 1 : 1 / denominator;
   s.place *= s.inverse;
   return s;
+}
+
+/// f(sample) for what stands for a Gauss point of an element that edges cut: the point, the visible part of its cell,
+/// or nothing.
+template <int D>
+template <class F>
+void ToolLoad<D>::for_what_is_seen(const Sample& whole, const Points& x, int first, const F& f) const {
+  const int state = mask_->state(whole.at[0], whole.at[1]);
+  if (state == VisibleMask::full) f(whole);
+  if (state >= 0) f(visible_part(whole, state, x, first));
 }
 
 }  // namespace knead

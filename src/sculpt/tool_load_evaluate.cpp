@@ -81,7 +81,10 @@ class ToolLoad<D>::Evaluation {
             row * static_cast<std::size_t>(load_.net_[d]) + static_cast<std::size_t>(starts[span[d]]);
         if (d + 1 < D) {
           self(self, d + 1, first);
-        } else if (!left_out.empty() && left_out.front() == number++) {
+          continue;
+        }
+        const int here = number++;
+        if (!left_out.empty() && left_out.front() == here) {
           left_out = left_out.subspan(1);
         } else if (actors_.limit != nullptr || any_near(first)) {
           visit(load_.element(span));
@@ -126,9 +129,7 @@ class ToolLoad<D>::Evaluation {
     }
     [[nodiscard]] double act(const Sample& whole) const {
       if (!cut) return at(whole);
-      const int state = here.load_.mask_->state(whole.at[0], whole.at[1]);
-      if (state == VisibleMask::full) at(whole);
-      if (state >= 0) at(here.load_.visible_part(whole, state, here.x_, here.first_));
+      here.load_.for_what_is_seen(whole, here.x_, here.first_, [&](const Sample& s) { at(s); });
       return 0;  // the next point may stand elsewhere than its Gauss point
     }
     [[nodiscard]] double clear(const Sample& s) const {

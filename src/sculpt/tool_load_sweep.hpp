@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 #include "tool_load_sums.hpp"
 
@@ -19,27 +18,14 @@ class ToolLoad<D>::Sweep {
         x_(x.data() + 3 * static_cast<std::ptrdiff_t>(first)),
         rational_(!load.weights_.empty()),
         levels_(load, rational_ ? 4 : 3),
-        functions_(levels_.functions),
-        lower_(static_cast<std::size_t>(levels_.line())),
-        upper_(lower_.size()) {}
+        functions_(levels_.functions) {}
 
   /// Turns to an element, and measures the box of its control points.
   void enter(const Element& element, Point& lower, Point& upper) {
     element_ = element;
-    double* line = levels_[0];
-    load_.for_each_line(element.first, [&](std::ptrdiff_t row) {
-      const double* from = x_ + 3 * row;
-      for (std::ptrdiff_t j = 0; j < functions_; ++j, from += 3) {
-        for (std::ptrdiff_t c = 0; c < 3; ++c) line[c * functions_ + j] = from[c];
-      }
-      line += levels_.line();
-    });
-    kernels_.bounds(levels_[0], levels_.sizes[0] / levels_.line(), levels_.line(), lower_.data(), upper_.data());
-    for (std::ptrdiff_t c = 0; c < 3; ++c) {
-      lower[c] = *std::min_element(lower_.data() + c * functions_, lower_.data() + (c + 1) * functions_);
-      upper[c] = *std::max_element(upper_.data() + c * functions_, upper_.data() + (c + 1) * functions_);
-    }
-    if (rational_) multiply_by_weights();
+    levels_.gather(element.first, x_);
+    levels_.box(lower, upper);
+    levels_.multiply_by_weights(element.first);
   }
 
   /// `visitor` is asked
@@ -62,18 +48,6 @@ class ToolLoad<D>::Sweep {
  private:
   using Kernels = detail::ElementKernels;
 
-  void multiply_by_weights() {
-    double* line = levels_[0];
-    load_.for_each_line(element_.first, [&](std::ptrdiff_t row) {
-      for (std::ptrdiff_t j = 0; j < functions_; ++j) {
-        const double w = load_.weights_[static_cast<std::size_t>(row + j)];
-        for (std::ptrdiff_t c = 0; c < 3; ++c) line[c * functions_ + j] *= w;
-        line[3 * functions_ + j] = w;
-      }
-      line += levels_.line();
-    });
-  }
-
   /// The points below one of direction d − 1, whose control points level d holds.
   template <class Visitor>
   void descend(std::size_t d, double weight, Visitor& visitor) {
@@ -90,15 +64,8 @@ class ToolLoad<D>::Sweep {
 
   template <class Visitor>
   [[nodiscard]] bool skips(std::size_t d, const Visitor& visitor) const {
-    Point lower = Point::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (const double* line = levels_[d]; line < levels_[d] + levels_.sizes[d]; line += levels_.line()) {
-      for (std::ptrdiff_t j = 0; j < functions_; ++j) {
-        const double w = rational_ ? line[3 * functions_ + j] : 1;
-        const Point p = Point(line[j], line[functions_ + j], line[2 * functions_ + j]) / w;
-        lower = lower.cwiseMin(p);
-        upper = upper.cwiseMax(p);
-      }
-    }
+    Point lower, upper;
+    levels_.bounds(d, lower, upper);
     return visitor.skip(lower, upper);
   }
 
@@ -146,19 +113,7 @@ class ToolLoad<D>::Sweep {
   /// The last point of the line that lies within `clear` of point k.
   [[nodiscard]] int last_within(double clear, int k) {
     constexpr double safe = 1 - 1e-6;
-    if (longest_step_ < 0) {
-      const double* line = levels_[D - 1];
-      double longest = 0;
-      for (std::ptrdiff_t j = 1; j < functions_; ++j) {
-        double squared = 0;
-        for (std::ptrdiff_t c = 0; c < 3; ++c) {
-          const double step = line[c * functions_ + j] - line[c * functions_ + j - 1];
-          squared += step * step;
-        }
-        longest = std::max(longest, squared);
-      }
-      longest_step_ = std::sqrt(longest);
-    }
+    if (longest_step_ < 0) longest_step_ = levels_.longest_step();
     const std::vector<double>& progress = load_.progress_;
     const double enough = progress[static_cast<std::size_t>(k)] + safe * clear / longest_step_;
     while (k + 1 < element_.end[D - 1] && progress[static_cast<std::size_t>(k + 1)] < enough) ++k;
@@ -169,10 +124,9 @@ class ToolLoad<D>::Sweep {
   const double* x_;
   bool rational_;
   ElementLevels levels_;
-  std::ptrdiff_t functions_;           // of a line
-  std::vector<double> lower_, upper_;  // of the numbers of a line
-  std::array<bool, D> asked_{};        // whether rows of a level may be left out
-  double longest_step_ = -1;           // from control point to control point of the line, once known
+  std::ptrdiff_t functions_;     // of a line
+  std::array<bool, D> asked_{};  // whether rows of a level may be left out
+  double longest_step_ = -1;     // from control point to control point of the line, once known
   Element element_{};
   Sample sample_{};
   const Kernels& kernels_ = detail::element_kernels();
