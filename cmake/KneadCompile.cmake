@@ -31,3 +31,19 @@ endfunction()
 function(knead_own_options)  # knead_own_options(files of the library with compiler options of their own...)
   set_source_files_properties(${ARGN} TARGET_DIRECTORY knead PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
+
+# knead_kernels(vector128|avx2|avx512 files of the library... [OPTIONS ...]): kernels compiled for an instruction set,
+# each from one source for all sets, which mostly are vectors already. Which of them runs is decided on the machine.
+function(knead_kernels set)
+  cmake_parse_arguments(PARSE_ARGV 1 kernels "" "" OPTIONS)
+  set(files ${kernels_UNPARSED_ARGUMENTS})
+  set(avx2 -mavx2)
+  set(avx512 -mavx512f -mavx512dq -mavx512vl)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|i.86")
+    list(APPEND kernels_OPTIONS ${${set}})
+  endif()
+  target_sources(knead PRIVATE ${files})
+  knead_own_options(${files})
+  set_source_files_properties(${files} TARGET_DIRECTORY knead
+    PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS "${kernels_OPTIONS}")
+endfunction()
