@@ -41,6 +41,8 @@ function(knead_kernels set)
   set(avx512 -mavx512f -mavx512dq -mavx512vl)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|i.86")
     list(APPEND kernels_OPTIONS ${${set}})
+  elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL wasm32)
+    list(APPEND kernels_OPTIONS -O3)  # the rest of a module is compiled for size
   endif()
   target_sources(knead PRIVATE ${files})
   knead_own_options(${files})
