@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <vector>
 
 #include "knead/spline/evaluate.hpp"
 
@@ -29,31 +30,41 @@ Expected<DomainScaling<D>> normalised_scaling(const Spline<D>& rest) {
     tables[d] = &q[d].basis;
     domain *= rest.knots()[d].domain().length();
   }
+  std::vector<double> weights = {1};  // of the points that have one index of the first direction
+  for (std::size_t d = 1; d < D; ++d) {
+    std::vector<double> further;
+    for (const double w : weights) {
+      for (const double own : q[d].weights) further.push_back(own * w);
+    }
+    weights = std::move(further);
+  }
   double total = 0;
   std::array<double, D> lengths{};
   // One span of the first direction at a time, so that a large net does not need much memory.
   const int block = rest.knots(0).degree() + 4;
+  Evaluation<D> grid;
   for (int begin = 0; begin < q[0].basis.size(); begin += block) {
     const BasisTable rows = q[0].basis.slice(begin, begin + block);
     tables[0] = &rows;
-    auto grid = evaluate_grid<D>(rest, tables, 1);
-    if (!grid) return std::unexpected(grid.error());
-    for (Eigen::Index row = 0; row < grid->points().rows(); ++row) {
-      double w = 1;
-      auto at = static_cast<std::size_t>(row);
-      for (std::size_t d = D; d-- > 0;) {
-        const auto size = d == 0 ? static_cast<std::size_t>(block) : q[d].weights.size();
-        w *= q[d].weights[(d == 0 ? static_cast<std::size_t>(begin) : 0) + at % size];
-        at /= size;
+    if (auto done = evaluate_grid<D>(rest, tables, 1, grid); !done) return std::unexpected(done.error());
+    std::array<const Points*, D> derivatives;
+    for (std::size_t d = 0; d < D; ++d) {
+      MultiIndex<D> first{};
+      first[d] = 1;
+      derivatives[d] = &grid.at(first);
+    }
+    Eigen::Index row = 0;
+    for (int k = begin; k < begin + block; ++k) {
+      for (const double inner : weights) {
+        const double w = inner * q[0].weights[static_cast<std::size_t>(k)];
+        std::array<Point, D> tangents;
+        for (std::size_t d = 0; d < D; ++d) {
+          tangents[d] = derivatives[d]->row(row);
+          lengths[d] += w * tangents[d].norm();
+        }
+        total += w * measure<D>(tangents);
+        ++row;
       }
-      std::array<Point, D> tangents;
-      for (std::size_t d = 0; d < D; ++d) {
-        MultiIndex<D> first{};
-        first[d] = 1;
-        tangents[d] = grid->at(first).row(row);
-        lengths[d] += w * tangents[d].norm();
-      }
-      total += w * measure<D>(tangents);
     }
   }
   if (!(total > 0) || !std::isfinite(total)) {
