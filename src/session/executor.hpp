@@ -1,8 +1,10 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "knead/exchange/face_edges.hpp"
 #include "knead/scene/body_model.hpp"
@@ -44,12 +46,19 @@ struct BrushRun {
   [[nodiscard]] bool reaches() const;
 };
 
+/// What is known of faces beyond the states: undone, rehearsed or not.
+struct KnownFaces {
+  std::shared_ptr<const Document> document = {};                             ///< as in `SessionState`
+  std::map<std::string, std::shared_ptr<const VisibleRegion>> visible = {};  ///< by surface
+};
+
 struct Session::ModelCache {
   std::optional<SceneModel> model;
   std::optional<StrokeModel> stroke;
   std::optional<BrushRun> brush;
   std::optional<AnyBodyModel> body;
   std::optional<ShellModel> shell;
+  KnownFaces faces;
 };
 
 /// Applies one command to a copy of the state, and has what commands share. Each command's file defines `execute` for
@@ -63,6 +72,7 @@ struct Executor {
   std::optional<BrushRun>& brush_cache;
   std::optional<AnyBodyModel>& body_cache;
   std::optional<ShellModel>& shell_cache;
+  KnownFaces& faces;  ///< of `document`
   SessionState& state;
   const Session::Progress& progress;
   bool allow_held = false;             ///< a tool may touch what is held alone

@@ -75,8 +75,9 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   Command meant = any.without ? make_command(*any.without) : command;
   auto next = std::make_shared<SessionState>(state());
   next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
-  Executor executor{document(),   cache_->model, cache_->stroke, cache_->brush,
-                    cache_->body, cache_->shell, *next,          progress};
+  if (cache_->faces.document != state().document) cache_->faces = {state().document};
+  Executor executor{document(),    cache_->model, cache_->stroke, cache_->brush, cache_->body,
+                    cache_->shell, cache_->faces, *next,          progress};
   if (!fields_of<StrokeCommand>(command)) {
     if (auto lifted = executor.lift(); !lifted) return lifted;
   }

@@ -61,10 +61,12 @@ const Surface* Executor::document_surface(const SceneSurface& surface) const {
 }
 
 Expected<const VisibleRegion*> Executor::visible(SceneSurface& surface) {
-  if (!surface.visible) {
+  if (surface.visible) return surface.visible.get();
+  std::shared_ptr<const VisibleRegion>& known = faces.visible[surface.id];
+  if (!known) {
     const step::File* const file = document.step_file();
     if (file == nullptr || file->find_surface(surface.id) == nullptr) {
-      surface.visible = std::make_shared<const VisibleRegion>();
+      known = std::make_shared<const VisibleRegion>();
     } else {
       if (!regions) regions = std::make_unique<const VisibleRegions>(*file);
       auto region = regions->of(surface.id);
@@ -74,9 +76,10 @@ Expected<const VisibleRegion*> Executor::visible(SceneSurface& surface) {
         error.remedy = R"(hold something else: {"do":"hold","rows":2}, or {"do":"hold","mode":"free"})";
         return std::unexpected(error);
       }
-      surface.visible = std::make_shared<const VisibleRegion>(std::move(*region));
+      known = std::make_shared<const VisibleRegion>(std::move(*region));
     }
   }
+  surface.visible = known;
   return surface.visible.get();
 }
 

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "knead/scene/model.hpp"
 #include "knead/spline/extremum.hpp"
 #include "support.hpp"
 
@@ -111,6 +112,20 @@ TEST(Session, ARehearsalChangesNothingAndWhatFollowsHasTheSameBits) {
   }
   EXPECT_EQ(points(rehearsed), points(other));
   EXPECT_EQ(rehearsed.journal().size(), other.journal().size());
+}
+
+TEST(Session, WhatIsKnownOfFacesIsKeptWhenACommandIsUndone) {
+  // A model is kept where what it is made of is the same; the region in which tools touch belongs to that.
+  Session session = open_sample();
+  run(session, {press[0], press[1], R"({"do":"tool","name":"ball","radius":160,"at":[0.4,0.5],"touches":"visible"})"});
+  const auto touched = [&] {
+    run(session, {R"({"do":"step"})"});
+    return model_input(session.state(), session.state().evolution).surfaces[0].touched;
+  };
+  const auto first = touched();
+  ASSERT_NE(first, nullptr);
+  run(session, {R"({"do":"undo"})"});
+  EXPECT_EQ(touched(), first);
 }
 
 TEST(Session, TheJournalReplaysToTheSameBits) {
