@@ -42,7 +42,7 @@ function(knead_kernels set)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|i.86")
     list(APPEND kernels_OPTIONS ${${set}})
   elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL wasm32)
-    list(APPEND kernels_OPTIONS -O3)  # the rest of a module is compiled for size
+    list(APPEND kernels_OPTIONS -O2)  # the rest of a module is compiled for size
   endif()
   target_sources(knead PRIVATE ${files})
   knead_own_options(${files})
