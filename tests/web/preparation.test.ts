@@ -116,84 +116,100 @@ describe('the time of the preparation', () => {
     return { preparation, workers, rehearsals: () => rehearsals };
   }
 
-  /** Something is done, and nothing for so long after it that a preparation begins. */
-  const leaveAlone = (preparation: Preparation): void => {
-    preparation.interrupt(true);
-    vi.advanceTimersByTime(1100);
-  };
+  const wait = (ms: number) => vi.advanceTimersByTimeAsync(ms);
 
-  it('begins when a session has been left alone, and ends with one rehearsal', () => {
+  /** Something is done, and nothing for so long after it that a preparation begins. */
+  async function leaveAlone(preparation: Preparation): Promise<void> {
+    preparation.interrupt(true);
+    await wait(1100);
+  }
+
+  it('begins with one rehearsal when a session has been left alone, and goes on with a warm-up', async () => {
     const { preparation, workers, rehearsals } = prepared();
-    preparation.interrupt(false);
-    vi.advanceTimersByTime(10_000);
-    expect(workers).toHaveLength(0); // there is no session yet
+    await leaveAlone(preparation);
+    expect([workers.length, rehearsals()]).toEqual([0, 0]); // there is no session yet
     preparation.renew();
     preparation.interrupt(true);
-    vi.advanceTimersByTime(100);
+    await wait(100);
     preparation.interrupt(false);
-    vi.advanceTimersByTime(950);
-    expect(workers).toHaveLength(0);
-    vi.advanceTimersByTime(100);
-    expect(workers).toHaveLength(1);
+    await wait(950);
+    expect([workers.length, rehearsals()]).toEqual([0, 0]);
+    await wait(100);
+    expect([workers.length, rehearsals()]).toEqual([1, 1]);
     workers[0]!.onmessage();
     expect(workers[0]!.ended).toBe(true);
-    expect(rehearsals()).toBe(1);
-    preparation.interrupt(true);
-    vi.advanceTimersByTime(10_000);
+    await wait(10_000);
+    await leaveAlone(preparation);
     expect([workers.length, rehearsals()]).toEqual([1, 1]);
     preparation.renew();
-    preparation.interrupt(true);
-    vi.advanceTimersByTime(10_000);
+    await leaveAlone(preparation);
     expect([workers.length, rehearsals()]).toEqual([1, 2]);
   });
 
-  it('is over at once when the user begins something, and is tried three times at most', () => {
+  it('is over at once when the user begins something, and warms up three times at most', async () => {
     const { preparation, workers, rehearsals } = prepared();
     preparation.renew();
-    for (let k = 0; k < 5; ++k) {
-      leaveAlone(preparation);
-    }
+    for (let k = 0; k < 5; ++k) await leaveAlone(preparation);
     preparation.interrupt(true);
     expect(workers.map((w) => w.ended)).toEqual([true, true, true]);
     expect(rehearsals()).toBe(1);
   });
 
   it('rehearses again later where it could not, and does without a worker where there is none', async () => {
-    const { preparation, rehearsals } = prepared(1);
+    const { preparation, workers, rehearsals } = prepared(1);
+    let alone = 0;
     const without = new Preparation(Promise.resolve({} as WebAssembly.Module), () => {
       throw new Error('no workers within workers');
     }, () => Promise.resolve(++alone > 0));
-    let alone = 0;
     without.renew();
-    without.interrupt(true);
-    await vi.advanceTimersByTimeAsync(1100);
+    for (let k = 0; k < 3; ++k) await leaveAlone(without);
     expect(alone).toBe(1);
     preparation.renew();
-    for (let k = 0; k < 5; ++k) {
-      preparation.interrupt(true);
-      await vi.advanceTimersByTimeAsync(1100);
-    }
-    expect(rehearsals()).toBe(2);
-  });
-
-  it('is not ended by a worker that was ended before', () => {
-    const { preparation, workers, rehearsals } = prepared();
-    preparation.renew();
-    leaveAlone(preparation);
-    leaveAlone(preparation);
+    await leaveAlone(preparation);
+    expect([workers.length, rehearsals()]).toEqual([1, 1]);
     workers[0]!.onmessage();
-    expect([workers.length, workers[1]!.ended, rehearsals()]).toEqual([2, false, 0]);
+    await wait(0);
+    expect(rehearsals()).toBe(2);
+    for (let k = 0; k < 3; ++k) await leaveAlone(preparation);
+    expect([workers.length, rehearsals()]).toEqual([1, 2]);
   });
 
-  it('goes on beside requests that are short, and waits with the rehearsal until they are over', () => {
-    const { preparation, workers, rehearsals } = prepared();
+  it('is not ended by a worker that was ended before', async () => {
+    const { preparation, workers } = prepared();
     preparation.renew();
-    leaveAlone(preparation);
+    await leaveAlone(preparation);
+    await leaveAlone(preparation);
+    workers[0]!.onmessage();
+    expect([workers.length, workers[1]!.ended]).toEqual([2, false]);
+  });
+
+  it('goes on beside requests that are short, and waits with a rehearsal until they are over', async () => {
+    const { preparation, workers, rehearsals } = prepared(1);
+    preparation.renew();
+    await leaveAlone(preparation);
     preparation.interrupt(false);
     expect(workers[0]!.ended).toBe(false);
     workers[0]!.onerror({ preventDefault: () => undefined });
-    expect(rehearsals()).toBe(0);
-    vi.advanceTimersByTime(1100);
+    await wait(0);
     expect(rehearsals()).toBe(1);
+    await wait(1100);
+    expect(rehearsals()).toBe(2);
+  });
+
+  it('does not warm up before a request that came during the rehearsal has been left alone', async () => {
+    let done = (_: boolean) => {};
+    const workers: Warmer[] = [];
+    const preparation = new Preparation(Promise.resolve({} as WebAssembly.Module), () => {
+      workers.push(new Warmer());
+      return workers[0] as unknown as Worker;
+    }, () => new Promise((resolve) => (done = resolve)));
+    preparation.renew();
+    await leaveAlone(preparation);
+    preparation.interrupt(true);
+    done(true);
+    await wait(500);
+    expect(workers).toHaveLength(0);
+    await wait(600);
+    expect(workers).toHaveLength(1);
   });
 });

@@ -4,15 +4,16 @@ const most = 3; // warm-ups that were stopped before they were done
 
 /**
  * Uses the time in which nobody asks the engine for anything, so that the first frame of a stroke comes as fast as those that
- * follow: strokes in another worker (warm_up.ts), which end when the user begins something, and then one in the session
- * (`rehearse` of strokes.ts).
+ * follow: one stroke in the session (`rehearse` of strokes.ts), which makes what is kept for the first one, and then, once,
+ * strokes in another worker (warm_up.ts), which end when the user begins something.
  */
 export class Preparation {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private worker: Worker | null = null;
   private begun = 0;
   private warm = false;
-  private due = false;
+  private open = false; // a session
+  private due = false; // its rehearsal
 
   /** `rehearse`: false where it could not be done now. */
   constructor(private readonly core: Promise<WebAssembly.Module>, private readonly makeWorker: () => Worker,
@@ -20,7 +21,7 @@ export class Preparation {
 
   /** Another session has begun. */
   renew(): void {
-    this.due = true;
+    this.open = this.due = true;
   }
 
   /** A request has come, or is done. `works`: it may take long, and should have the processor. */
@@ -34,12 +35,13 @@ export class Preparation {
   }
 
   private async goOn(): Promise<void> {
-    if (!this.due || this.worker) return;
-    if (this.warm || this.begun === most) {
+    if (this.worker) return;
+    if (this.due) {
       this.due = false;
       if (!(await this.rehearse())) this.due = true;
-      return;
+      if (this.timer !== undefined || this.worker) return; // a request has come meanwhile
     }
+    if (!this.open || this.warm || this.begun === most) return;
     ++this.begun;
     // Where it fails everything is right, but slow.
     let worker: Worker;
