@@ -18,12 +18,11 @@ const sheet: Command[] = [{ do: 'new', size: [200, 200], net: [64, 64] }, { do: 
 /** A stroke over the middle of the view, by so many moves of the pointer. */
 async function led(from: [number, number], to: [number, number], moves: number): Promise<void> {
   const { page } = studio;
-  await page.evaluate(async ({ list, settings }) => {
-    const app = (window as never as { studio: Page }).studio;
-    await app.documents.startFresh('sheet', list);
-    Object.assign(app.hand.brush.settings, settings);
-  }, { list: sheet, settings: { radius, strength: depth / radius } });
-  await settled(page);
+  await page.evaluate((list) => (window as never as { studio: Page }).studio.documents.startFresh('sheet', list), sheet);
+  await settled(page); // the first picture of a document chooses the radius
+  await page.evaluate((settings) => {
+    Object.assign((window as never as { studio: Page }).studio.hand.brush.settings, settings);
+  }, { radius, strength: depth / radius });
   await page.keyboard.press('b');
   await drag(page, from, to, moves);
 }
