@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
-#include <span>
 #include <vector>
 
 #include "knead/base/interruption.hpp"
@@ -119,7 +117,7 @@ class ToolLoad<D>::EntrySearch {
   void visit(std::size_t d, Candidate& c) {
     if (leaps_ && load_.in_hull_ && d > 0 && all_shallow(d)) return;
     const Line& line = lines_[d];
-    const std::size_t width = static_cast<std::size_t>(line.degree + 1);
+    const auto width = static_cast<std::size_t>(line.degree + 1);
     const double step = leaps_ && d + 1 == D && load_.weights_.empty() ? levels_.longest_step() : 0;
     for (std::size_t k = 0; k < line.u.size(); ++k) {
       c.u[d] = line.u[k];

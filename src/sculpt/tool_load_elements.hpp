@@ -1,10 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <concepts>
-#include <limits>
-#include <span>
-
 #include "tool_load.hpp"
 
 namespace knead {
