@@ -121,6 +121,7 @@ export const handled = (page: Page): Promise<number> =>
 
 /** Acts, and waits until the page has opened or refused what that asks for, whatever becomes of the document before. */
 async function whenOpened(page: Page, act: () => Promise<void>, choice?: string): Promise<void> {
+  await question(page).waitFor({ state: 'detached' }); // what was answered just now is counted when the question goes
   const before = await handled(page);
   await act();
   for (const end = Date.now() + 20_000; (await handled(page)) === before;) { // hooks may not poll by `expect`
