@@ -1,5 +1,4 @@
 // Reading a STEP file as `knead info` does: the sample a hundred times over in one file, entity names apart.
-#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -8,26 +7,11 @@
 #include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "medians.hpp"
+#include "support/renumbered.hpp"
 
 namespace {
 
 using namespace knead;
-
-/// The entities of a data section with `offset` added to their names.
-std::string renumbered(const std::string& data, long offset) {
-  std::string result;
-  bool quoted = false;
-  for (std::size_t i = 0; i < data.size(); ++i) {
-    result += data[i];
-    if (data[i] == '\'') quoted = !quoted;
-    if (data[i] != '#' || quoted) continue;
-    std::size_t end = i + 1;
-    while (end < data.size() && std::isdigit(static_cast<unsigned char>(data[end]))) ++end;
-    result += std::to_string(std::stol(data.substr(i + 1, end - i - 1)) + offset);
-    i = end - 1;
-  }
-  return result;
-}
 
 std::string large_file() {
   constexpr int copies = 100;
@@ -37,7 +21,7 @@ std::string large_file() {
   const std::size_t data = sample.find("DATA;"), end = sample.rfind("ENDSEC;");
   if (data == std::string::npos || end == std::string::npos) std::abort();
   std::string result = sample.substr(0, data + 5);
-  for (int k = 0; k < copies; ++k) result += renumbered(sample.substr(data + 5, end - data - 5), k * names);
+  for (int k = 0; k < copies; ++k) result += testing::renumbered(sample.substr(data + 5, end - data - 5), k * names);
   return result + sample.substr(end);
 }
 

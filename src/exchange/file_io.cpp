@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/large_memory.hpp"
+
 #ifndef __wasi__
 #include <poll.h>
 #include <sys/file.h>
@@ -151,7 +153,9 @@ Expected<std::string> read_file(const std::filesystem::path& path, std::size_t m
     expected = static_cast<std::size_t>(status.st_size);
   }
   // One byte more than the file has shows that it ends there, without room for what it might have grown by.
-  std::string bytes(expected + 1, '\0');
+  std::string bytes;
+  detail::reserve_large(bytes, expected + 1);
+  bytes.resize(expected + 1);
   std::size_t filled = 0;
 #ifndef __wasi__
   if (S_ISFIFO(status.st_mode)) bytes.clear();

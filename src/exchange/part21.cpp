@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "base/large_memory.hpp"
 #include "part21_parser.hpp"
 #include "part21_text.hpp"
 
@@ -125,6 +126,7 @@ void Part21Parser::sort_parts() {
     at += keyword.last;
     keyword.last = keyword.first;
   }
+  detail::reserve_large(file_.named_, parts_.size());
   file_.named_.resize(parts_.size());
   for (const auto& [number, instance] : parts_) file_.named_[keywords[number].last++] = instance;
   // Those within a &SCOPE come before the record that they belong to.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/large_memory.hpp"
 #include "part21.hpp"
 #include "part21_lexer.hpp"
 #include "part21_parser.hpp"
@@ -53,10 +54,11 @@ void Part21File::reserve(bool names_only) {
     if (first % line_block == 0) lines_before_.push_back(static_cast<std::uint32_t>(marks.lines));
     count_marks(bytes_.data() + first, std::min<std::size_t>(count_block, size - first), marks);
   }
-  if (names_only) return index_.reserve(std::min(marks.records, size / 12));
+  const std::size_t records = std::min(marks.records, size / 12);
+  if (names_only) return detail::reserve_large(index_, records);
   // In front of every value but the first of a list there is a comma; strings may hold any number of those.
-  values_.reserve(std::min(marks.commas + 2 * marks.lists, size / 3));
-  instances_.reserve(std::min(marks.records, size / 12));
+  detail::reserve_large(values_, std::min(marks.commas + 2 * marks.lists, size / 3));
+  detail::reserve_large(instances_, records);
 }
 
 std::uint32_t Part21File::end_of(std::uint32_t value) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/large_memory.hpp"
 #include "foreign_format.hpp"
 #include "part21_text.hpp"
 
@@ -16,6 +17,7 @@ constexpr std::string_view end_mark = "END-ISO-10303-21";
 }  // namespace
 
 Expected<void> Part21Parser::parse() {
+  if (!names_only_) detail::reserve_large(parts_, file_.instances_.capacity());
   if (!file_structure() || !sort_names()) return std::unexpected(error_);
   if (names_only_) return {};
   sort_parts();

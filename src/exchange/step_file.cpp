@@ -11,6 +11,7 @@
 #include "step_faces.hpp"
 #include "step_free_curves.hpp"
 #include "step_instances.hpp"
+#include "step_share.hpp"
 #include "step_surfaces.hpp"
 #include "step_trimming.hpp"
 #include "step_units.hpp"
@@ -49,13 +50,16 @@ Expected<File> File::parse(std::string bytes, std::string name) {
   data->schema = schema_of(data->records);
   if (auto few = check_loop_uses(reader); !few) return std::unexpected(std::move(few.error()));
 
+  const auto instances = b_spline_surfaces(reader);
+  auto all = read_b_spline_surfaces(reader, instances);
   std::vector<ReadSurface> read;
-  for (const auto k : b_spline_surfaces(reader)) {
-    if (auto surface = read_b_spline_surface(reader, k)) {
-      data->surface_instances.push_back(k);
-      read.push_back(*std::move(surface));
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k]) {
+      data->surface_instances.push_back(instances[k]);
+      read.push_back(*std::move(all[k]));
     } else {
-      data->unreadable.push_back({"#" + std::to_string(data->records.instance(k).id), std::move(surface.error())});
+      data->unreadable.push_back(
+          {"#" + std::to_string(data->records.instance(instances[k]).id), std::move(all[k].error())});
     }
   }
 
@@ -81,11 +85,19 @@ Expected<File> File::parse(std::string bytes, std::string name) {
   surfaces->reserve(read.size());
   for (std::size_t k = 0; k < read.size(); ++k) {
     const auto id = "#" + std::to_string(data->records.instance(read[k].instance).id);
-    const auto closed = closed_directions(read[k].surface);
     data->surface_index.emplace(id, k);
-    surfaces->push_back({id, reader.item_name(read[k].instance), unit_in(context_of[k]), std::move(read[k].surface),
-                         closed, uses[k].trimmed, uses[k].faces});
+    surfaces->push_back({id,
+                         reader.item_name(read[k].instance),
+                         unit_in(context_of[k]),
+                         std::move(read[k].surface),
+                         {},
+                         uses[k].trimmed,
+                         uses[k].faces});
   }
+  share(reader, surfaces->size(), [&](const Reader&, std::size_t k) {
+    SurfaceEntity& surface = (*surfaces)[k];
+    surface.closed = closed_directions(surface.surface);
+  });
   data->surfaces = surfaces;
   std::vector<ReadCurve> curves = free_curves(reader);
   for (const ReadCurve& c : curves) data->curve_instances.push_back(c.instance);

@@ -6,6 +6,7 @@
 
 #include "knead/exchange/source.hpp"
 #include "knead/spline/basis.hpp"
+#include "step_share.hpp"
 
 namespace knead::step {
 namespace {
@@ -151,6 +152,14 @@ Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t 
   auto surface = Surface::create(*std::move(knots), std::move(points), *std::move(weights));
   if (!surface) return reader.error(instance, surface.error().what, surface.error().remedy);
   return ReadSurface{instance, *std::move(surface)};
+}
+
+std::vector<Expected<ReadSurface>> read_b_spline_surfaces(const Reader& reader,
+                                                          std::span<const std::uint32_t> instances) {
+  std::vector<Expected<ReadSurface>> result(instances.size(), std::unexpected(Error{}));
+  share(reader, instances.size(),
+        [&](const Reader& own, std::size_t k) { result[k] = read_b_spline_surface(own, instances[k]); });
+  return result;
 }
 
 std::vector<std::uint32_t> control_point_values(const Reader& reader, std::uint32_t instance) {

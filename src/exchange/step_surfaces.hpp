@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "knead/spline/spline.hpp"
@@ -25,6 +26,10 @@ struct ReadSurface {
 
 /// Reads one (ISO 10303-42, b_spline_surface and its subtypes). Errors (input) with entity and line.
 [[nodiscard]] Expected<ReadSurface> read_b_spline_surface(const Reader& reader, std::uint32_t instance);
+
+/// Reads several, by several threads where the file is large.
+[[nodiscard]] std::vector<Expected<ReadSurface>> read_b_spline_surfaces(const Reader& reader,
+                                                                        std::span<const std::uint32_t> instances);
 
 /// The values that refer to its control points, in their order; it must be one that can be read.
 [[nodiscard]] std::vector<std::uint32_t> control_point_values(const Reader& reader, std::uint32_t instance);

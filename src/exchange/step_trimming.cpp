@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "knead/spline/evaluate.hpp"
 #include "step_curves.hpp"
+#include "step_share.hpp"
 
 namespace knead::step {
 namespace {
@@ -158,6 +160,26 @@ std::optional<std::uint32_t> cut_surface(const Reader& reader, std::uint32_t ins
   return std::nullopt;
 }
 
+using SurfaceFace = std::pair<std::size_t, std::uint32_t>;  // a surface's index, and the instance of a face on it
+
+// What all faces on one surface make of it.
+void use_surface(const Reader& reader, const Surface& surface, double uncertainty, std::span<const SurfaceFace> faces,
+                 FaceUse& use) {
+  const double diagonal = net_diagonal(surface.control_points());
+  const double tolerance = std::clamp(2 * uncertainty, 1e-5 * diagonal, 1e-4 * diagonal);
+  std::optional<NaturalBoundary> boundary;
+  for (const auto& [s, face] : faces) {
+    ++use.faces;
+    const auto bounds = reader.attributes(face, "FACE", 1, 1);
+    if (bounds.empty() || use.trimmed) continue;
+    if (!boundary) boundary = NaturalBoundary::create(surface, tolerance);
+    use.trimmed = true;
+    if (!boundary) continue;  // it cannot be evaluated
+    boundary->begin_face();
+    use.trimmed = !add_bounds(reader, bounds[0], *boundary) || !boundary->covered();
+  }
+}
+
 }  // namespace
 
 std::vector<FaceUse> face_uses(const Reader& reader, const std::vector<ReadSurface>& surfaces,
@@ -170,8 +192,7 @@ std::vector<FaceUse> face_uses(const Reader& reader, const std::vector<ReadSurfa
     const auto found = cut ? index.find(*cut) : index.end();
     if (found != index.end()) uses[found->second].trimmed = true;
   }
-  // Faces by their surfaces, so that what is computed for one surface does not outlive its faces.
-  std::vector<std::pair<std::size_t, std::uint32_t>> faces;
+  std::vector<SurfaceFace> faces;
   for (const auto k : reader.file().named({"ADVANCED_FACE", "FACE_SURFACE"})) {
     const auto geometry = reader.attributes(k, "FACE_SURFACE", 2, 1);
     const auto target = geometry.empty() ? std::nullopt : reader.reference(geometry[0]);
@@ -179,23 +200,16 @@ std::vector<FaceUse> face_uses(const Reader& reader, const std::vector<ReadSurfa
     if (found != index.end()) faces.emplace_back(found->second, k);
   }
   std::ranges::sort(faces);
-  std::optional<NaturalBoundary> boundary;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const auto [s, k] = faces[f];
-    if (f == 0 || faces[f - 1].first != s) boundary.reset();
-    ++uses[s].faces;
-    const auto bounds = reader.attributes(k, "FACE", 1, 1);
-    if (bounds.empty() || uses[s].trimmed) continue;
-    const auto& surface = surfaces[s].surface;
-    const double diagonal = net_diagonal(surface.control_points());
-    const double tolerance = std::clamp(2 * uncertainty[s], 1e-5 * diagonal, 1e-4 * diagonal);
-    if (!boundary) boundary = NaturalBoundary::create(surface, tolerance);
-    uses[s].trimmed = true;
-    if (boundary) {  // else it cannot be evaluated
-      boundary->begin_face();
-      uses[s].trimmed = !add_bounds(reader, bounds[0], *boundary) || !boundary->covered();
-    }
+  std::vector<std::span<const SurfaceFace>> of_surfaces;
+  for (auto first = faces.begin(); first != faces.end();) {
+    const auto last = std::find_if(first, faces.end(), [&](const SurfaceFace& f) { return f.first != first->first; });
+    of_surfaces.emplace_back(first, last);
+    first = last;
   }
+  share(reader, of_surfaces.size(), [&](const Reader& own, std::size_t k) {
+    const std::size_t s = of_surfaces[k].front().first;
+    use_surface(own, surfaces[s].surface, uncertainty[s], of_surfaces[k], uses[s]);
+  });
   return uses;
 }
 

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <sstream>
 
 #include "exchange/support.hpp"
+#include "support/renumbered.hpp"
+#include "support/thread_counts.hpp"
 
 namespace knead {
 namespace {
@@ -183,6 +186,39 @@ TEST(StepTrimming, CutSurfacesWithoutFaces) {
   EXPECT_TRUE(with("CURVE_BOUNDED_SURFACE('',#10,(#1),.F.)"));
   EXPECT_FALSE(with("CURVE_BOUNDED_SURFACE('',#10,(),.T.)"));
   EXPECT_FALSE(parse_or_die(step_text(square)).surfaces()[0].trimmed);
+}
+
+/// What a file of many surfaces is found to hold, in one text.
+std::string contents(const std::string& text) {
+  const step::File file = parse_or_die(text);
+  std::ostringstream all;
+  for (const step::SurfaceEntity& s : file.surfaces())
+    all << s.id << ' ' << s.name << ' ' << s.unit << s.closed[0] << s.closed[1] << s.trimmed << s.faces << ' '
+        << s.surface.control_points().row(3) << '\n';
+  for (const UnreadableSurface& s : file.unreadable_surfaces()) all << s.id << ' ' << s.reason.message() << '\n';
+  return all.str();
+}
+
+TEST(StepTrimming, ThreadsDoNotChangeWhatALargeFileHolds) {
+  Face whole, inset;
+  whole.polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  inset.polygon({{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}});
+  const std::array<std::string, 4> kinds = {square + whole.text(), square + inset.text(), square,
+                                            unit_square_points() + bilinear_patch("((#1,#2),(#3))")};
+  std::string data;
+  for (std::size_t k = 0; k < 200; ++k) {
+    std::string copy = kinds[k % 4];
+    copy.replace(copy.find("(1.,1.,0.)"), 10, "(1.,1.," + std::to_string(k % 3 * k) + ".)");
+    data += testing::renumbered(copy, static_cast<long>(k) * 10000);
+  }
+  const std::string text = step_text(data);
+  ASSERT_GT(text.size(), 60000U);  // worth several blocks
+  const std::string by_one = testing::with_threads(1, [&] { return contents(text); });
+  EXPECT_EQ(std::ranges::count(by_one, '\n'), 200);
+  EXPECT_NE(by_one.find("#10 "), std::string::npos);
+  EXPECT_NE(by_one.find("#1990010 "), std::string::npos);
+  for (const int threads : testing::thread_counts)
+    EXPECT_EQ(testing::with_threads(threads, [&] { return contents(text); }), by_one) << threads;
 }
 
 }  // namespace
