@@ -25,7 +25,7 @@ test-studio: ## Test the studio alone, in node and in headless Chromium
 test: ## Build everything and run all tests
 	@scripts/test.sh release
 
-asan: ## Run all tests under the address and undefined-behaviour sanitizers
+asan: ## Run most tests under the address and undefined-behaviour sanitizers
 	@scripts/test.sh asan
 
 fuzz: ## Run every fuzz target for KNEAD_FUZZ_SECONDS (default 20), with the objects of asan
