@@ -29,7 +29,7 @@ build_wasm_tests() {
 studio_tests() (cd web && npm run --silent "$1")
 
 timed "build" build
-timed "build for WebAssembly" build_wasm_tests
+if [ "$preset" = release ] || $long; then timed "build for WebAssembly" build_wasm_tests; fi
 chosen=()
 if [ "$preset" = asan ] && ! $long; then chosen=(--exclude-regex "$(grep -v '^#' tests/long_under_sanitizers.txt | paste -sd '|')"); fi
 timed "tests" ctest --preset "$preset" "${chosen[@]}" -j "${KNEAD_JOBS:-$(nproc)}"

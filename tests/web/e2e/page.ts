@@ -42,6 +42,15 @@ interface Visit {
   server?: Server;
 }
 
+/** In the page: every point of a picture is drawn once, not four times for smooth edges; the processor draws here. */
+function drawOnce(): void {
+  const prototype = HTMLCanvasElement.prototype as { getContext: (kind: string, settings?: object) => unknown };
+  const made = prototype.getContext;
+  prototype.getContext = function (kind, settings) {
+    return made.call(this, kind, kind.startsWith('webgl') ? { ...settings, antialias: false } : settings);
+  };
+}
+
 /** The page in a context of its own, so that nothing is kept from another file, in the browser of this worker. */
 export async function openStudio({ width = 900, height = 560, first = false, server }: Visit = {}): Promise<Studio> {
   const browsers = process.env.STUDIO_BROWSERS!.split(' '); // setup.ts
@@ -49,6 +58,7 @@ export async function openStudio({ width = 900, height = 560, first = false, ser
   const url = server?.url ?? process.env.STUDIO_PAGE!;
   const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
   if (!first) await context.addInitScript(() => localStorage.setItem('knead-tour', '1'));
+  await context.addInitScript(drawOnce);
   const page = await context.newPage();
   const problems: string[] = [];
   const foreign: string[] = [];
