@@ -229,8 +229,8 @@ TEST(Thickness, OfAPipeIsItsWallWhicheverOfItsFacesAreSplines) {
 }
 
 TEST(Thickness, OfARealSolidIsSomeLengthAtEveryPoint) {
-  const auto path = testing::collection() / "MAINBODY_BACK.stp";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
+  const auto path = testing::foreign_cad("MAINBODY_BACK.stp");
+  KNEAD_NEEDS(path);
   const auto document = Document::open(path);
   ASSERT_TRUE(document.has_value());
   const Scene scene = scene_of(document->surfaces());

@@ -239,10 +239,10 @@ TEST(ContextFaces, TheToleranceHasARange) {
   }
 }
 
-class ContextCorpus : public ::testing::TestWithParam<std::filesystem::path> {};
+class ContextCorpus : public testing::FileTest {};
 
 TEST_P(ContextCorpus, NoFaceOfARealFileIsSkipped) {
-  const auto file = step::File::read(GetParam());
+  const auto file = step::File::read(path_);
   ASSERT_TRUE(file) << file.error().message();
   const auto context = context_faces(*file);
   ASSERT_TRUE(context);
@@ -253,14 +253,7 @@ TEST_P(ContextCorpus, NoFaceOfARealFileIsSkipped) {
   }
 }
 
-std::vector<std::filesystem::path> all_files() {
-  auto files = testing::step_files_in(testing::collection());
-  for (auto& sample : testing::step_files_in(testing::samples())) files.push_back(std::move(sample));
-  return files;
-}
-
-INSTANTIATE_TEST_SUITE_P(Files, ContextCorpus, ::testing::ValuesIn(all_files()),
-                         [](const auto& instance) { return testing::test_name(instance.param.filename().string()); });
+INSTANTIATE_TEST_SUITE_P(Files, ContextCorpus, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
 
 }  // namespace
 }  // namespace knead

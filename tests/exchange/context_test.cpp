@@ -64,13 +64,13 @@ TEST(StepUnits, EachSurfaceHasTheUnitOfItsRepresentation) {
   EXPECT_EQ(file.find_surface("#99"), nullptr);
 }
 
-TEST(StepUnits, OfTheCollection) {
+TEST(StepUnits, OfForeignFiles) {
   const std::pair<const char*, const char*> known[] = {
       {"as1-oc-214.stp", "mm"},   {"NIST_MBE_PMI_5.stp", "inch"}, {"vsp.stp", "foot"},    {"goteborg.step", "m"},
       {"dm1-id-214.stp", "inch"}, {"MAINBODY_BACK.stp", "inch"},  {"linkrods.step", "mm"}};
-  if (!std::filesystem::exists(testing::collection())) GTEST_SKIP() << "no collection of CAD files beside the project";
   for (const auto& [name, unit] : known) {
-    const auto file = step::File::read(testing::collection() / name);
+    KNEAD_NEEDS(testing::foreign_cad(name));
+    const auto file = step::File::read(testing::foreign_cad(name));
     ASSERT_TRUE(file) << file.error().message();
     EXPECT_EQ(file->length_unit(), unit) << name;
     for (const auto& surface : file->surfaces()) EXPECT_EQ(surface.unit, unit) << name << surface.id;
@@ -141,9 +141,9 @@ TEST(StepInstances, MappedItemsPlaceARepresentation) {
   EXPECT_EQ(held.instances()[0].parent, "car");
 }
 
-TEST(StepInstances, OfTheCollection) {
-  const auto path = testing::collection() / "as1-oc-214.stp";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no collection of CAD files beside the project";
+TEST(StepInstances, OfAForeignFile) {
+  const auto path = testing::foreign_cad("as1-oc-214.stp");
+  KNEAD_NEEDS(path);
   const auto file = step::File::read(path);
   ASSERT_TRUE(file);
   ASSERT_EQ(file->instances().size(), 13U);

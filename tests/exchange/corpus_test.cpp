@@ -17,13 +17,7 @@ namespace {
 
 using testing::same_bits;
 
-class Corpus : public ::testing::TestWithParam<std::filesystem::path> {};
-
-std::vector<std::filesystem::path> all_files() {
-  auto files = testing::step_files_in(testing::collection());
-  for (auto& sample : testing::step_files_in(testing::samples())) files.push_back(std::move(sample));
-  return files;
-}
+class Corpus : public testing::FileTest {};
 
 // Points of a surface moved: all, or one, or one row, each by its own vector.
 Points moved(const Surface& surface, const std::string& pattern) {
@@ -129,9 +123,9 @@ void edit_and_compare(const step::File& file, const std::vector<std::size_t>& wh
 }
 
 TEST_P(Corpus, WithoutEditsComesBackByteForByte) {
-  const auto bytes = read_file(GetParam());
+  const auto bytes = read_file(path_);
   ASSERT_TRUE(bytes);
-  const auto file = step::File::read(GetParam());
+  const auto file = step::File::read(path_);
   ASSERT_TRUE(file) << file.error().message();
   EXPECT_EQ(file->bytes(), *bytes);
   EXPECT_EQ(file->with_control_points({}), *bytes);
@@ -141,7 +135,7 @@ TEST_P(Corpus, WithoutEditsComesBackByteForByte) {
 }
 
 TEST_P(Corpus, AllSurfacesMovedReadBackExactly) {
-  const auto file = step::File::read(GetParam());
+  const auto file = step::File::read(path_);
   ASSERT_TRUE(file) << file.error().message();
   std::vector<std::size_t> all(file->surfaces().size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
@@ -149,7 +143,7 @@ TEST_P(Corpus, AllSurfacesMovedReadBackExactly) {
 }
 
 TEST_P(Corpus, SingleSurfacesMovedReadBackExactly) {
-  const auto file = step::File::read(GetParam());
+  const auto file = step::File::read(path_);
   ASSERT_TRUE(file) << file.error().message();
   const auto count = file->surfaces().size();
   const std::size_t most = testing::long_run() ? count : 3;
@@ -158,7 +152,7 @@ TEST_P(Corpus, SingleSurfacesMovedReadBackExactly) {
 }
 
 TEST_P(Corpus, AllSurfacesRefinedReadBackExactly) {
-  const auto file = step::File::read(GetParam());
+  const auto file = step::File::read(path_);
   ASSERT_TRUE(file) << file.error().message();
   std::vector<step::Replacement> refined;
   std::set<std::string> ids;
@@ -194,13 +188,21 @@ TEST_P(Corpus, AllSurfacesRefinedReadBackExactly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Step, Corpus, ::testing::ValuesIn(all_files()),
-                         [](const auto& instance) { return testing::test_name(instance.param.filename().string()); });
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Corpus);
+INSTANTIATE_TEST_SUITE_P(Step, Corpus, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
 
-TEST(Collection, IsThere) {
-  if (!std::filesystem::exists(testing::collection())) GTEST_SKIP() << "no collection of CAD files beside the project";
-  EXPECT_EQ(testing::step_files_in(testing::collection()).size(), 16U);
+TEST(ForeignFiles, AreAllListed) {
+  const std::filesystem::path folder = testing::foreign_cad("");
+  KNEAD_NEEDS(testing::foreign_cad("INDEX.csv"));
+  std::set<std::string> listed = {"INDEX.csv"};
+  const auto list = [&listed](const auto& names) { listed.insert(names.begin(), names.end()); };
+  list(testing::foreign_step);
+  list(testing::foreign_iges);
+  list(testing::foreign_brep);
+  list(testing::foreign_text);
+  list(testing::foreign_rhino);
+  std::set<std::string> there;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) there.insert(entry.path().filename().string());
+  EXPECT_EQ(there, listed) << "tests/support/foreign_files.hpp lists them";
 }
 
 }  // namespace

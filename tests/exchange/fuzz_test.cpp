@@ -172,14 +172,15 @@ const std::string everything = testing::step_text(
 
 TEST(StepFuzz, DamagedTextsOfEveryKindOfEntity) { damage(everything, times(4000)); }
 
-TEST(StepFuzz, DamagedFilesOfTheCollection) {
-  if (!std::filesystem::exists(testing::collection())) GTEST_SKIP() << "no collection of CAD files beside the project";
+TEST(StepFuzz, DamagedForeignFiles) {
   for (const auto* name :
        {"ap203_part21_scope.stp", "ap214_repeated_distinct_surface_knots.stp", "ap214_vertex_loop_spline_pole.stp"}) {
-    damage(*read_file(testing::collection() / name), times(800));
+    KNEAD_NEEDS(testing::foreign_cad(name));
+    damage(*read_file(testing::foreign_cad(name)), times(800));
   }
   for (const auto* name : {"simple_wing.stp", "test_pipe.step", "ap203_periodic_bspline_triangular_cap.stp"}) {
-    damage(*read_file(testing::collection() / name), times(100));
+    KNEAD_NEEDS(testing::foreign_cad(name));
+    damage(*read_file(testing::foreign_cad(name)), times(100));
   }
 }
 
@@ -211,7 +212,7 @@ TEST(StepFuzz, DamagedFaces) {
 }
 
 TEST(StepFuzz, DamagedSamples) {
-  for (const auto& path : testing::step_files_in(testing::samples())) damage(*read_file(path), times(60));
+  for (const auto& path : testing::own_step_paths()) damage(*read_file(path), times(60));
 }
 
 }  // namespace

@@ -309,10 +309,10 @@ TEST(Iges, DamagedFilesAreErrorsOrStayAsTheyAre) {
   EXPECT_GT(opened, 500);
 }
 
-class IgesFile : public ::testing::TestWithParam<std::filesystem::path> {};
+class IgesFile : public testing::FileTest {};
 
 TEST_P(IgesFile, KeepsEveryByteWhereNothingChanges) {
-  const auto bytes = read_file(GetParam());
+  const auto bytes = read_file(path_);
   ASSERT_TRUE(bytes);
   const auto source = open_source(*bytes, "test.igs");
   ASSERT_TRUE(source) << source.error().message();
@@ -327,7 +327,7 @@ TEST_P(IgesFile, KeepsEveryByteWhereNothingChanges) {
 }
 
 TEST_P(IgesFile, ChangedAndRefinedSurfacesReadBack) {
-  const auto source = open_source(*read_file(GetParam()), "test.igs");
+  const auto source = open_source(*read_file(path_), "test.igs");
   ASSERT_TRUE(source);
   std::vector<std::shared_ptr<const Surface>> surfaces;
   for (std::size_t k = 0; k < (*source)->surfaces().size(); ++k) {
@@ -351,9 +351,7 @@ TEST_P(IgesFile, ChangedAndRefinedSurfacesReadBack) {
   }
 }
 
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(IgesFile);
-INSTANTIATE_TEST_SUITE_P(Files, IgesFile, ::testing::ValuesIn(testing::iges_files_in(testing::collection())),
-                         [](const auto& instance) { return testing::test_name(instance.param.stem().string()); });
+INSTANTIATE_TEST_SUITE_P(Files, IgesFile, ::testing::ValuesIn(testing::iges_files()), testing::file_test_name);
 
 }  // namespace
 }  // namespace knead

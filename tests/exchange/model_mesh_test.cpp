@@ -90,10 +90,10 @@ double off(const FaceMesh& mesh, const Surface& surface) {
   return result;
 }
 
-class ModelMeshFile : public ::testing::TestWithParam<std::filesystem::path> {};
+class ModelMeshFile : public testing::FileTest {};
 
 TEST_P(ModelMeshFile, TrianglesAreWithinTheToleranceOfTheirSurface) {
-  const auto file = step::File::read(GetParam());
+  const auto file = step::File::read(path_);
   ASSERT_TRUE(file);
   if (file->surfaces().empty()) GTEST_SKIP() << "there is no B-spline surface";
   for (const double share : {1e-3, 1e-4}) {
@@ -117,14 +117,7 @@ TEST_P(ModelMeshFile, TrianglesAreWithinTheToleranceOfTheirSurface) {
   }
 }
 
-std::vector<std::filesystem::path> files() {
-  auto result = testing::step_files_in(testing::collection());
-  for (auto& sample : testing::step_files_in(testing::samples())) result.push_back(std::move(sample));
-  return result;
-}
-
-INSTANTIATE_TEST_SUITE_P(Files, ModelMeshFile, ::testing::ValuesIn(files()),
-                         [](const auto& instance) { return testing::test_name(instance.param.stem().string()); });
+INSTANTIATE_TEST_SUITE_P(Files, ModelMeshFile, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
 
 TEST(ModelMesh, SaysWhatIsWrong) {
   const auto file = can(10, 30);

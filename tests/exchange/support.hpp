@@ -2,17 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <cstring>
-#include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/step_file.hpp"
+#include "support/own_files.hpp"
 
 namespace knead::testing {
 
@@ -50,33 +46,6 @@ inline std::shared_ptr<const Source> open_or_die(const std::string& bytes, const
   }
   return *std::move(source);
 }
-
-/// Files of a folder with one of two endings, in order; none where there is no such folder.
-inline std::vector<std::filesystem::path> files_in(const std::filesystem::path& directory,
-                                                   std::array<std::string_view, 2> endings) {
-  std::vector<std::filesystem::path> files;
-  if (!std::filesystem::exists(directory)) return files;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-    const auto extension = entry.path().extension();
-    if (extension == endings[0] || extension == endings[1]) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-inline std::vector<std::filesystem::path> step_files_in(const std::filesystem::path& directory) {
-  return files_in(directory, {".stp", ".step"});
-}
-inline std::vector<std::filesystem::path> iges_files_in(const std::filesystem::path& directory) {
-  return files_in(directory, {".igs", ".iges"});
-}
-/// The name of a file as part of a test's.
-inline std::string test_name(std::string name) {
-  std::ranges::replace_if(
-      name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
-}
-inline std::filesystem::path collection() { return std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad"; }
-inline std::filesystem::path samples() { return std::filesystem::path(KNEAD_SOURCE_DIR) / "samples"; }
 
 /// Equal to the last bit: tells 0 from -0.
 inline bool same_bits(const Points& a, const Points& b) {

@@ -13,7 +13,7 @@
 namespace knead {
 namespace {
 
-using testing::collection;
+using testing::foreign_cad;
 using testing::open_or_die;
 using testing::same_bits;
 
@@ -231,8 +231,7 @@ TEST(SurfaceTextErrors, SayWhereAndWhat) {
   EXPECT_NE(error("0,0,0;1,0,0\n0,1,0\n", "a.csv").find("row 2 has 1"), std::string::npos);
 }
 
-TEST(SurfaceTextFiles, OfTheCollectionHaveTheirSurfaces) {
-  if (!std::filesystem::exists(collection())) GTEST_SKIP() << "no collection of CAD files beside the project";
+TEST(SurfaceTextFiles, OfOthersHaveTheirSurfaces) {
   struct Expected {
     std::string file;
     std::size_t surfaces;
@@ -247,7 +246,8 @@ TEST(SurfaceTextFiles, OfTheCollectionHaveTheirSurfaces) {
                                {"terrain.brep", 1, {3, 3}, {312, 323}},
                                {"wing.brep", 4, {7, 1}, {8, 2}}};
   for (const auto& [name, count, degree, net] : expected) {
-    const auto bytes = read_file(collection() / name);
+    KNEAD_NEEDS(foreign_cad(name));
+    const auto bytes = read_file(foreign_cad(name));
     ASSERT_TRUE(bytes) << bytes.error().message();
     const auto source = open_or_die(*bytes, name);
     EXPECT_EQ(source->surfaces().size(), count) << name;
@@ -260,8 +260,8 @@ TEST(SurfaceTextFiles, OfTheCollectionHaveTheirSurfaces) {
 
 // Were the points taken for weighted ones, the sections would be no circles.
 TEST(SurfaceTextFiles, AnEggOfGismoIsRound) {
-  const auto bytes = read_file(collection() / "egg.xml");
-  if (!bytes) GTEST_SKIP() << "no collection of CAD files beside the project";
+  KNEAD_NEEDS(foreign_cad("egg.xml"));
+  const auto bytes = read_file(foreign_cad("egg.xml"));
   const auto source = open_or_die(*bytes, "egg.xml");
   const Surface& s = *source->surfaces().front().surface;
   const Interval u = s.knots(0).domain(), v = s.knots(1).domain();

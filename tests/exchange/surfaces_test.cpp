@@ -169,9 +169,9 @@ TEST(StepSurfaces, ClosedMeansThatTheBoundaryIsocurvesAreTheSame) {
 }
 
 // Figures established with another reader.
-TEST(StepSurfaces, TheCollectionHasTheSurfacesItsIndexLists) {
-  std::ifstream index(testing::collection() / "INDEX.csv");
-  if (!index) GTEST_SKIP() << "no collection of CAD files beside the project";
+TEST(StepSurfaces, ForeignFilesHaveTheSurfacesThatTheirIndexLists) {
+  KNEAD_NEEDS(testing::foreign_cad("INDEX.csv"));
+  std::ifstream index(testing::foreign_cad("INDEX.csv"));
   int files = 0;
   for (std::string line; std::getline(index, line);) {
     const auto name = line.substr(0, line.find(','));
@@ -189,7 +189,7 @@ TEST(StepSurfaces, TheCollectionHasTheSurfacesItsIndexLists) {
       }
       columns.push_back(cell);
     }
-    const auto file = step::File::read(testing::collection() / name);
+    const auto file = step::File::read(testing::foreign_cad(name));
     ASSERT_TRUE(file) << file.error().message();
     EXPECT_EQ(std::to_string(file->surfaces().size()), columns[2]) << name;
     EXPECT_TRUE(file->unreadable_surfaces().empty()) << name;

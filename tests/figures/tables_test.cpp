@@ -1,14 +1,16 @@
 // Every entry of the thesis' tables and matrices against exact values: those that the project carries (21 digits, held
-// here against quadruple precision), and those published beside the project where they are there.
+// here against quadruple precision), and those published, where a foreign folder has them.
 #include "figures/tables.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "figures/digits.hpp"
 #include "figures/thesis_knots.hpp"
+#include "support/foreign_files.hpp"
 #include "support/quad_gramian.hpp"
 
 namespace knead::figures {
@@ -17,7 +19,6 @@ namespace {
 using testing::Quad;
 
 const std::string data = KNEAD_FIGURES_DATA;
-const std::string reference = std::string(KNEAD_SHARED_DIR) + "/reference/";
 
 /// 21 digits are carried: what the rounding of the two numbers read may make of them.
 constexpr long double carried = 2e-19L;
@@ -126,7 +127,8 @@ TEST(Tables, are_carried_as_they_were_published) {
   };
   constexpr const char *tables = "tables_5_3_to_5_20.csv", *integrals = "table_5_15.csv", *diracs = "table_5_16.csv",
                        *matrices = "figures_5_50_to_5_57.csv";
-  if (read_csv(reference + tables).empty()) GTEST_SKIP() << "the published values are not at " << reference;
+  const std::filesystem::path reference = testing::foreign("reference");
+  for (const char* file : {tables, integrals, diracs, matrices}) KNEAD_NEEDS(reference / file);
   // Numbers to 21 digits, what the thesis prints letter by letter.
   for (const Pair& pair : {Pair{tables, "exact", "exact"},
                            {tables, "printed_exact", "thesis_exact"},
@@ -141,7 +143,7 @@ TEST(Tables, are_carried_as_they_were_published) {
                            {matrices, "exact", "exact"},
                            {matrices, "printed_gauss", "thesis_gauss"},
                            {matrices, "printed_analytic", "thesis_analytic"}}) {
-    const auto ours = read_csv(data + "/" + pair.file), published = read_csv(reference + pair.file);
+    const auto ours = read_csv(data + "/" + pair.file), published = read_csv((reference / pair.file).string());
     ASSERT_EQ(ours.size(), published.size()) << pair.file;
     const bool letters = std::string(pair.carried).starts_with("printed");
     for (std::size_t k = 0; k < ours.size(); ++k) {

@@ -12,6 +12,7 @@
 #include "knead/image/snake.hpp"
 #include "knead/image_file.hpp"
 #include "knead/session/snake_script.hpp"
+#include "support/foreign_files.hpp"
 
 namespace knead {
 namespace {
@@ -24,10 +25,11 @@ struct Nucleus {
 class Nuclei : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::string directory = std::string(KNEAD_SHARED_DIR) + "/data/images/";
-    if (!std::filesystem::exists(directory)) GTEST_SKIP() << "the collection of images is not there";
-    image = *cli::read_image(directory + "stardist_img2d.png");
-    labels = *cli::read_image(directory + "stardist_mask2d.png");
+    const std::filesystem::path picture = testing::foreign("data/images/stardist_img2d.png"),
+                                mask = testing::foreign("data/images/stardist_mask2d.png");
+    KNEAD_NEEDS((std::vector{picture, mask}));
+    image = *cli::read_image(picture.string());
+    labels = *cli::read_image(mask.string());
     std::map<int, Nucleus> all;
     for (int y = 0; y < labels.height; ++y) {
       for (int x = 0; x < labels.width; ++x) {

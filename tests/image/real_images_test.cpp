@@ -11,6 +11,7 @@
 #include "knead/image/snake.hpp"
 #include "knead/image_file.hpp"
 #include "knead/session/snake_script.hpp"
+#include "support/foreign_files.hpp"
 
 namespace knead {
 namespace {
@@ -19,10 +20,8 @@ using Places = std::vector<std::array<double, 2>>;
 
 class RealImage : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(directory())) GTEST_SKIP() << "the collection of images is not there";
-  }
-  static std::string directory() { return std::string(KNEAD_SHARED_DIR) + "/data/images/"; }
+  void SetUp() override { KNEAD_NEEDS(testing::foreign_paths(testing::foreign_images, "data/images/")); }
+  static std::string directory() { return testing::foreign("data/images/").string(); }
   static Image read(const std::string& name, ImageChannel channel = ImageChannel::grey) {
     const auto image = cli::read_image(directory() + name, channel);
     EXPECT_TRUE(image) << name;

@@ -106,7 +106,7 @@ double shown_share(const Surface& surface, const SurfaceTrim& trim) {
 class ContextOracle : public StepOracle {};
 
 TEST_P(ContextOracle, EveryFaceHasTheAreaThatOpenCascadeFinds) {
-  const auto areas = occt_face_areas(GetParam(), file_->length_unit());
+  const auto areas = occt_face_areas(path_, file_->length_unit());
   const auto context = context_faces(*file_);
   ASSERT_TRUE(context);
   expect_areas(*context, areas, 1e-3);
@@ -127,7 +127,7 @@ TEST_P(ContextOracle, TrimsShowTheShareOfTheSurfaceThatOpenCascadeFinds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, ContextOracle, ::testing::ValuesIn(all_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, ContextOracle, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

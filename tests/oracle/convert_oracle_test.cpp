@@ -112,10 +112,10 @@ class ConvertedFile : public StepOracle {};
 
 TEST_P(ConvertedFile, IsTheSameSolid) {
   if (step::other_surfaces(*file_).empty()) GTEST_SKIP() << "all of its faces lie on B-spline surfaces";
-  convert_some(GetParam(), *file_, directory_);
+  convert_some(path_, *file_, directory_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, ConvertedFile, ::testing::ValuesIn(all_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, ConvertedFile, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
 
 /// Gives the file that `write` makes of this name, with its path and a directory beside it, which are removed after.
 template <class F>
@@ -173,10 +173,11 @@ class PressedConvertedFile : public StepOracle {};
 
 TEST_P(PressedConvertedFile, StaysClosedAlongItsEdges) {
   if (step::other_surfaces(*file_).empty()) GTEST_SKIP() << "all of its faces lie on B-spline surfaces";
-  press_converted(GetParam(), *file_, directory_, 0);
+  press_converted(path_, *file_, directory_, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, PressedConvertedFile, ::testing::ValuesIn(all_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedConvertedFile, ::testing::ValuesIn(testing::step_files()),
+                         testing::file_test_name);
 
 class PressedConvertedShell : public ::testing::TestWithParam<std::string> {};
 

@@ -76,21 +76,24 @@ std::string count(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-class Exchange : public ::testing::TestWithParam<fs::path> {
+class Exchange : public testing::FileTest {
  protected:
   void SetUp() override {
-    const std::string name = GetParam().filename().string();
+    const std::string& name = GetParam();
     if (!testing::long_run() && std::ranges::find(quick, name) == quick.end()) GTEST_SKIP() << "with KNEAD_LONG=1";
-    auto source = open_source(*read_file(GetParam()), GetParam().string());
+    KNEAD_NEEDS(path_);
+    auto source = open_source(*read_file(path_), path_.string());
     ASSERT_TRUE(source) << source.error().message();
     source_ = *std::move(source);
     directory_ = fs::temp_directory_path() / ("knead-exchange-" + std::to_string(getpid()));
     fs::create_directories(directory_);
     if (name == "ap203_part21_scope.stp") GTEST_SKIP() << "Open CASCADE aborts on &SCOPE";
-    before_ = OcctFaces::read(GetParam());
+    before_ = OcctFaces::read(path_);
     ASSERT_TRUE(before_);
   }
-  void TearDown() override { fs::remove_all(directory_); }
+  void TearDown() override {
+    if (!directory_.empty()) fs::remove_all(directory_);
+  }
 
   [[nodiscard]] const step::File& file() const { return *source_->step_file(); }
   [[nodiscard]] std::vector<const step::SurfaceEntity*> chosen() const;
@@ -128,7 +131,7 @@ std::string Exchange::traits() const {
     degree = std::max({degree, s.surface.knots(0).degree(), s.surface.knots(1).degree()});
     net = std::max(net, static_cast<int>(s.surface.size()));
   }
-  std::string text = is_iges(GetParam()) ? "IGES" : file().schema().substr(0, file().schema().find(' '));
+  std::string text = is_iges(path_) ? "IGES" : file().schema().substr(0, file().schema().find(' '));
   const auto& surfaces = source_->surfaces();
   text += ", " + (surfaces.empty() ? file().length_unit() : surfaces[0].unit) + ", " +
           count(surfaces.size(), "surface", "surfaces") + " with " + count(faces, "face", "faces");
@@ -141,11 +144,11 @@ std::string Exchange::traits() const {
 }
 
 void Exchange::press_all(const std::string& held) {
-  const std::string name = GetParam().filename().string();
+  const std::string& name = GetParam();
   std::vector<std::shared_ptr<const Surface>> same;
   for (const SourceSurface& s : source_->surfaces()) same.push_back(s.surface);
   const auto unchanged = source_->save(same);
-  ASSERT_TRUE(unchanged && *unchanged == *read_file(GetParam())) << "zero steps";
+  ASSERT_TRUE(unchanged && *unchanged == *read_file(path_)) << "zero steps";
 
   std::string pressed_ids, refused;
   std::size_t lost = 0, smooth = 0;
@@ -163,7 +166,7 @@ void Exchange::press_all(const std::string& held) {
       continue;
     }
     pressed_ids += (pressed_ids.empty() ? "" : ", ") + s->id;
-    const auto path = directory_ / GetParam().filename();
+    const auto path = directory_ / name;
     ASSERT_TRUE(write_file_atomically(path, *bytes));
     const auto after = OcctFaces::read(path);
     ASSERT_TRUE(after);
@@ -174,7 +177,7 @@ void Exchange::press_all(const std::string& held) {
     EXPECT_LE(after->bad_faces(), before_->bad_faces());
     EXPECT_LE(after->bad_edges(), before_->bad_edges());
     bad = std::max(bad, after->bad_faces() + after->bad_edges() - before_->bad_faces() - before_->bad_edges());
-    const std::size_t gone = lost_of(*unchanged, *bytes, s->id, is_iges(GetParam()));
+    const std::size_t gone = lost_of(*unchanged, *bytes, s->id, is_iges(path_));
     EXPECT_EQ(gone, 0U) << "of the rest of the file";
     lost += gone;
 
@@ -230,14 +233,12 @@ TEST_P(Exchange, HoldsTheEdgesOfPressedFaces) { press_all("trim"); }
 
 TEST_P(Exchange, HoldsTheirTangentPlanesToo) { press_all("trim-g1"); }
 
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Exchange);
-std::vector<fs::path> exchange_files() {
-  auto files = all_files();
-  for (const auto& file : testing::iges_files_in(testing::collection())) files.push_back(file);
-  std::ranges::sort(files, {}, [](const fs::path& path) { return path.filename(); });
+std::vector<std::string> exchange_files() {
+  auto files = testing::with_own(testing::step_files(), testing::iges_files());
+  std::ranges::sort(files);  // as the rows of the page are
   return files;
 }
-INSTANTIATE_TEST_SUITE_P(Files, Exchange, ::testing::ValuesIn(exchange_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, Exchange, ::testing::ValuesIn(exchange_files()), testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cmath>
 
 #include "knead/exchange/format.hpp"
@@ -18,23 +19,18 @@ namespace knead::oracle {
 namespace {
 
 /// Files with smooth edges between B-spline faces, and with sharp ones that are not right angles.
-std::vector<fs::path> few_files() {
-  std::vector<fs::path> result;
-  for (const fs::path& file : all_files()) {
-    const auto name = file.filename();
-    if (name == "NIST_MBE_PMI_5.stp" || name == "as1-oc-214.stp") result.push_back(file);
-  }
-  return result;
+std::vector<std::string> few_files() {
+  return testing::with_own(testing::own_step(), std::array{"NIST_MBE_PMI_5.stp", "as1-oc-214.stp"});
 }
 
 class PressedPair : public StepOracle {};
 
 TEST_P(PressedPair, StaysClosedAlongTheEdgeThatFollows) {
   // Its nets are the largest, and its edges are pressed with its planes converted, too.
-  if (GetParam().filename() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
+  if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
   testing::Sample sample(2);
   for (const Pair& pair : pairs_of(*file_)) {
-    if (sample.next()) move(GetParam(), *file_, pair, Motion::press, directory_, 0);
+    if (sample.next()) move(path_, *file_, pair, Motion::press, directory_, 0);
   }
 }
 
@@ -44,33 +40,31 @@ TEST_P(StrokedPair, StaysClosedUnderStrokes) {
   testing::Sample sample(3);  // of two motions: both have their turn
   for (const Pair& pair : pairs_of(*file_)) {
     for (const Motion motion : {Motion::groove, Motion::grab}) {
-      if (sample.next()) move(GetParam(), *file_, pair, motion, directory_, 0);
+      if (sample.next()) move(path_, *file_, pair, motion, directory_, 0);
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, StrokedPair, ::testing::ValuesIn(few_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, StrokedPair, ::testing::ValuesIn(few_files()), testing::file_test_name);
 
-INSTANTIATE_TEST_SUITE_P(Files, PressedPair, ::testing::ValuesIn(all_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedPair, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
 
-class PressedIgesPair : public ::testing::TestWithParam<fs::path> {};
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PressedIgesPair);
+class PressedIgesPair : public testing::FileTest {};
 
 TEST_P(PressedIgesPair, StaysClosedAlongTheEdgeThatFollows) {
-  const auto source = open_source(*read_file(GetParam()), GetParam().string());
+  const auto source = open_source(*read_file(path_), path_.string());
   ASSERT_TRUE(source) << source.error().message();
   const step::File& file = *(*source)->step_file();
   const auto directory = fs::temp_directory_path() / ("knead-iges-" + std::to_string(getpid()));
   fs::create_directories(directory);
   testing::Sample sample(2);
   for (const Pair& pair : pairs_of(file)) {
-    if (sample.next()) move(GetParam(), file, pair, Motion::press, directory, 0);
+    if (sample.next()) move(path_, file, pair, Motion::press, directory, 0);
   }
   fs::remove_all(directory);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, PressedIgesPair, ::testing::ValuesIn(testing::iges_files_in(testing::collection())),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedIgesPair, ::testing::ValuesIn(testing::iges_files()), testing::file_test_name);
 
 class PressedShell : public ::testing::TestWithParam<std::string> {};
 
@@ -172,17 +166,15 @@ TEST_P(PressedShell, StaysClosedAsABrepFile) {
   fs::remove_all(directory);
 }
 
-class PressedBrepPair : public ::testing::TestWithParam<fs::path> {};
+class PressedBrepPair : public testing::FileTest {};
 
 TEST_P(PressedBrepPair, StaysClosedAlongTheEdgeThatFollows) {
-  const auto source = open_source(*read_file(GetParam()), GetParam().string());
+  const auto source = open_source(*read_file(path_), path_.string());
   ASSERT_TRUE(source) << source.error().message();
-  press_brep(GetParam(), pairs_of(*(*source)->step_file()));
+  press_brep(path_, pairs_of(*(*source)->step_file()));
 }
 
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PressedBrepPair);
-INSTANTIATE_TEST_SUITE_P(Files, PressedBrepPair,
-                         ::testing::ValuesIn(testing::files_in(testing::collection(), {".brep", ".brp"})), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedBrepPair, ::testing::ValuesIn(testing::brep_files()), testing::file_test_name);
 
 INSTANTIATE_TEST_SUITE_P(Shells, PressedShell, ::testing::ValuesIn(occt_shell_names()),
                          [](const auto& instance) { return instance.param; });

@@ -16,6 +16,7 @@
 #include "oracle/occt_file.hpp"
 #include "oracle/press.hpp"
 #include "support/long_run.hpp"
+#include "support/own_files.hpp"
 
 namespace knead::oracle {
 namespace {
@@ -35,13 +36,14 @@ Press anywhere(const std::string& id) {
   return result;
 }
 
-class FormatOracle : public ::testing::TestWithParam<fs::path> {
+class FormatOracle : public testing::FileTest {
  protected:
   void SetUp() override {
-    auto source = open_source(*read_file(GetParam()), GetParam().string());
+    KNEAD_NEEDS(path_);
+    auto source = open_source(*read_file(path_), path_.string());
     ASSERT_TRUE(source) << source.error().message();
     source_ = *std::move(source);
-    before_ = occt_read_file(GetParam());
+    before_ = occt_read_file(path_);
     ASSERT_TRUE(before_);
   }
 
@@ -70,8 +72,8 @@ TEST_P(FormatOracle, FacesHaveTheAreaThatOpenCascadeFinds) {
     EXPECT_NEAR(area * scale * scale, before_->area, 0.005 * before_->area);
   } else {
     // Two surfaces of revolution whose bounds consist of several meridians and arcs; a sphere without its pole.
-    const bool shaft = GetParam().filename() == "shaft.iges";
-    EXPECT_TRUE(shaft || GetParam().filename() == "Pump_TopCover.brep");
+    const bool shaft = GetParam() == "shaft.iges";
+    EXPECT_TRUE(shaft || GetParam() == "Pump_TopCover.brep");
     EXPECT_EQ(model->skipped.size(), shaft ? 2U : 1U);
     EXPECT_LT(area * scale * scale, before_->area);
   }
@@ -79,16 +81,16 @@ TEST_P(FormatOracle, FacesHaveTheAreaThatOpenCascadeFinds) {
 
 TEST_P(FormatOracle, APressLeavesTopologyAndGapsAsTheyWere) {
   // Its nets are the largest by far; what is written is of the same kinds as in the other .brep files.
-  if (GetParam().filename() == "terrain.brep" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
+  if (GetParam() == "terrain.brep" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
   const fs::path out =
-      fs::temp_directory_path() / ("knead-format-" + std::to_string(getpid()) + GetParam().extension().string());
+      fs::temp_directory_path() / ("knead-format-" + std::to_string(getpid()) + path_.extension().string());
   for (const step::SurfaceEntity* s : chosen()) {
     SCOPED_TRACE(s->id);
     const auto pressed = s->faces > 0 ? press(*source_->step_file(), *s, "trim") : Expected<Press>(anywhere(s->id));
     ASSERT_TRUE(pressed) << pressed.error().message();
     Session session(Document::from(source_));
     const auto bytes = carried_out(session, pressed->script);
-    if (GetParam().filename() == "curvesToSurfaceContinuous.brep") {  // its shortest span is 5.5e-12 of its domain
+    if (GetParam() == "curvesToSurfaceContinuous.brep") {  // its shortest span is 5.5e-12 of its domain
       ASSERT_FALSE(bytes);
       EXPECT_EQ(bytes.error().kind, ErrorKind::numerical) << bytes.error().message();
       continue;
@@ -112,20 +114,15 @@ TEST_P(FormatOracle, APressLeavesTopologyAndGapsAsTheyWere) {
     const double reached = (*there - pressed->place).norm() / pressed->depth;
     EXPECT_GE(reached, 0.9) << "of the depth that was asked for";
     const auto net = s->surface.net(), wider = now.current->net();
-    std::printf("| %s | %s | %d x %d | %d x %d | %.0f %% | %.2g |\n", GetParam().filename().c_str(), s->id.c_str(),
-                net[0], net[1], wider[0], wider[1], 100 * reached, worst);
+    std::printf("| %s | %s | %d x %d | %d x %d | %.0f %% | %.2g |\n", GetParam().c_str(), s->id.c_str(), net[0], net[1],
+                wider[0], wider[1], 100 * reached, worst);
   }
   fs::remove(out);
 }
 
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(FormatOracle);
-std::vector<fs::path> files() {
-  auto all = testing::iges_files_in(testing::collection());
-  for (const auto& file : testing::files_in(testing::collection(), {".brep", ".brep"})) all.push_back(file);
-  return all;
-}
-INSTANTIATE_TEST_SUITE_P(Files, FormatOracle, ::testing::ValuesIn(files()),
-                         [](const auto& instance) { return testing::test_name(instance.param.stem().string()); });
+INSTANTIATE_TEST_SUITE_P(Files, FormatOracle,
+                         ::testing::ValuesIn(testing::with_own(testing::iges_files(), testing::brep_files())),
+                         testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

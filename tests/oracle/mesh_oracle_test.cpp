@@ -79,10 +79,10 @@ TEST_P(MeshOracle, IsClosedAndHasTheVolumeThatOpenCascadeFinds) {
     for (const auto& row : s.surface.control_points().rowwise()) box.extend(Point(row.transpose()));
   }
   const double tolerance = box.diagonal().norm() / 2000;
-  expect_model(*file_, GetParam(), tolerance);
+  expect_model(*file_, path_, tolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, MeshOracle, ::testing::ValuesIn(all_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, MeshOracle, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

@@ -10,16 +10,11 @@
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "oracle/occt_model.hpp"
+#include "support/own_files.hpp"
 
 namespace knead::oracle {
 
 namespace fs = std::filesystem;
-
-inline std::vector<fs::path> all_files() {
-  auto files = knead::testing::step_files_in(knead::testing::collection());
-  for (auto& sample : knead::testing::step_files_in(knead::testing::samples())) files.push_back(std::move(sample));
-  return files;
-}
 
 /// The records of a file, without the ";" that ends them.
 inline std::multiset<std::string> records_of(const std::string& text) {
@@ -32,11 +27,12 @@ inline std::multiset<std::string> records_of(const std::string& text) {
   return result;
 }
 
-/// One file of the collection or the samples, and what Open CASCADE makes of it.
-class StepOracle : public ::testing::TestWithParam<fs::path> {
+/// One STEP file, and what Open CASCADE makes of it.
+class StepOracle : public testing::FileTest {
  protected:
   void SetUp() override {
-    auto read = step::File::read(GetParam());
+    KNEAD_NEEDS(path_);
+    auto read = step::File::read(path_);
     ASSERT_TRUE(read) << read.error().message();
     file_ = std::make_unique<step::File>(*std::move(read));
     directory_ = fs::temp_directory_path() / ("knead-oracle-" + std::to_string(getpid()));
@@ -46,7 +42,7 @@ class StepOracle : public ::testing::TestWithParam<fs::path> {
       const auto child = fork();
       if (child == 0) {
         static_cast<void>(freopen("/dev/null", "w", stderr));
-        static_cast<void>(occt_read(GetParam(), "mm"));
+        static_cast<void>(occt_read(path_, "mm"));
         _exit(0);
       }
       int status = 0;
@@ -54,15 +50,17 @@ class StepOracle : public ::testing::TestWithParam<fs::path> {
       if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         GTEST_SKIP() << "Open CASCADE aborts on &SCOPE; nothing is left to compare";
     }
-    before_ = occt_read(GetParam(), file_->length_unit());
+    before_ = occt_read(path_, file_->length_unit());
     ASSERT_TRUE(before_);
   }
-  void TearDown() override { fs::remove_all(directory_); }
+  void TearDown() override {
+    if (!directory_.empty()) fs::remove_all(directory_);
+  }
 
   OcctModel read_written(const Expected<std::string>& bytes) {
     EXPECT_TRUE(bytes) << bytes.error().message();
     if (!bytes) return {};
-    const auto path = directory_ / GetParam().filename();
+    const auto path = directory_ / path_.filename();
     EXPECT_TRUE(write_file_atomically(path, *bytes));
     auto model = occt_read(path, file_->length_unit());
     EXPECT_TRUE(model);
@@ -73,9 +71,5 @@ class StepOracle : public ::testing::TestWithParam<fs::path> {
   fs::path directory_;
   std::optional<OcctModel> before_;
 };
-
-inline std::string test_name(const ::testing::TestParamInfo<fs::path>& instance) {
-  return knead::testing::test_name(instance.param.filename().string());
-}
 
 }  // namespace knead::oracle

@@ -82,7 +82,7 @@ class PressedFace : public StepOracle {
 };
 
 void PressedFace::press_all(const std::string& mode) {
-  const auto before = OcctFaces::read(GetParam());
+  const auto before = OcctFaces::read(path_);
   ASSERT_TRUE(before);
   testing::Sample sample(2);
   for (const step::SurfaceEntity* s : chosen(*file_)) {
@@ -93,7 +93,7 @@ void PressedFace::press_all(const std::string& mode) {
     Session session(Document::from(*open_source(file_->bytes(), file_->name())));
     const auto bytes = carried_out(session, pressed->script);
     ASSERT_TRUE(bytes) << bytes.error().message();
-    const auto path = directory_ / GetParam().filename();
+    const auto path = directory_ / GetParam();
     ASSERT_TRUE(write_file_atomically(path, *bytes));
     const auto after = OcctFaces::read(path);
     ASSERT_TRUE(after);
@@ -131,7 +131,7 @@ void PressedFace::press_all(const std::string& mode) {
     char row[400];
     std::snprintf(row, sizeof row,
                   "| %s | %s | %s | %zu (%d smooth) | %d × %d | %d × %d | %.0f %% | %.2g | %.2g | %.1g |",
-                  GetParam().filename().c_str(), s->id.c_str(), mode.c_str(), edges_after.size(), smooth, m, n, m2, n2,
+                  GetParam().c_str(), s->id.c_str(), mode.c_str(), edges_after.size(), smooth, m, n, m2, n2,
                   100 * reached, gap_before, gap, turn);
     write_row(row);
   }
@@ -141,7 +141,7 @@ TEST_P(PressedFace, StaysWithItsNeighboursWhereItsEdgesAreHeld) { press_all("tri
 
 TEST_P(PressedFace, KeepsItsTangentPlanesToo) { press_all("trim-g1"); }
 
-INSTANTIATE_TEST_SUITE_P(Files, PressedFace, ::testing::ValuesIn(all_files()), test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedFace, ::testing::ValuesIn(testing::step_files()), testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

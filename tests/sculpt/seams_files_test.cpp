@@ -4,8 +4,9 @@
 
 #include "knead/exchange/step_file.hpp"
 #include "seams_support.hpp"
+#include "support/own_files.hpp"
 
-/// Seams of real CAD files, where there are any beside the project.
+/// Seams of CAD files.
 namespace knead {
 namespace {
 
@@ -17,36 +18,24 @@ std::vector<Surface> surfaces_of(const step::File& file) {
   return patches;
 }
 
-class SeamFiles : public ::testing::Test {
- protected:
-  std::vector<std::filesystem::path> paths;
-  void SetUp() override {
-    const std::filesystem::path directory = std::filesystem::path(KNEAD_SHARED_DIR) / "data/cad";
-    if (std::filesystem::exists(directory)) {
-      for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-        const auto extension = entry.path().extension();
-        if (extension == ".stp" || extension == ".step") paths.push_back(entry.path());
-      }
-    }
-    std::ranges::sort(paths);
-    if (paths.empty()) GTEST_SKIP() << "no CAD files in " << directory;
-  }
-};
+class SeamFiles : public FileTest {};
 
 double milliseconds(std::chrono::steady_clock::time_point since) {
   return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
 }
 
-TEST_F(SeamFiles, ClosedSurfacesAreSeamsWithThemselvesAndNoOthersAre) {
+/// Returns the number of seams of surfaces with themselves.
+int check_closed(const std::vector<std::filesystem::path>& paths) {
   int closed = 0;
   for (const auto& path : paths) {
     const auto file = step::File::read(path);
+    EXPECT_TRUE(file) << path;
     if (!file || file->surfaces().empty()) continue;
     const auto patches = surfaces_of(*file);
     const double tolerance = suggested_seam_tolerance(pointers(patches));
     const auto found = find_seams(pointers(patches), tolerance);
-    ASSERT_TRUE(found);
-    for (std::size_t k = 0; k < patches.size(); ++k) {
+    EXPECT_TRUE(found);
+    for (std::size_t k = 0; found && k < patches.size(); ++k) {
       for (int d = 0; d < 2; ++d) {
         bool itself = false;
         for (const Seam& s : found->seams) {
@@ -64,12 +53,20 @@ TEST_F(SeamFiles, ClosedSurfacesAreSeamsWithThemselvesAndNoOthersAre) {
       }
     }
   }
-  EXPECT_GT(closed, 20);
+  return closed;
 }
 
-TEST_F(SeamFiles, HolesMadeOfTwoHalvesHaveTwoSmoothSeamsEach) {
-  const auto path = paths.front().parent_path() / "as1-oc-214.stp";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+TEST(Seams, OfSurfacesWithThemselvesAreThoseOfClosedOnes) { check_closed(own_step_paths()); }
+
+TEST(Seams, OfForeignSurfacesWithThemselvesAreThoseOfClosedOnes) {
+  const auto paths = foreign_paths(foreign_step);
+  KNEAD_NEEDS(paths);
+  EXPECT_GT(check_closed(paths), 20);
+}
+
+TEST(Seams, HolesMadeOfTwoHalvesHaveTwoSmoothSeamsEach) {
+  const auto path = foreign_cad("as1-oc-214.stp");
+  KNEAD_NEEDS(path);
   const auto file = step::File::read(path);
   ASSERT_TRUE(file);
   const Coupled c(surfaces_of(*file), {}, suggested_seam_tolerance(pointers(surfaces_of(*file))));
@@ -83,47 +80,48 @@ TEST_F(SeamFiles, HolesMadeOfTwoHalvesHaveTwoSmoothSeamsEach) {
   for (int count : seams) EXPECT_EQ(count, 2);  // all its B-spline surfaces are halves of cylinders
 }
 
-TEST_F(SeamFiles, EveryCoupledSeamKeepsItsGapAndEverySmoothOneItsAngle) {
-  for (const auto& path : paths) {
-    const auto file = step::File::read(path);
-    if (!file || file->surfaces().empty()) continue;
-    const auto patches = surfaces_of(*file);
-    const double tolerance = suggested_seam_tolerance(pointers(patches)), size = 1e4 * tolerance;
-    auto begin = std::chrono::steady_clock::now();
-    const auto found = find_seams(pointers(patches), tolerance);
-    const double finding = milliseconds(begin);
-    begin = std::chrono::steady_clock::now();
-    const auto coupling = couple_seams(pointers(patches), first_rows(patches), found->seams);
-    ASSERT_TRUE(coupling);
-    const double coupled = milliseconds(begin);
-    begin = std::chrono::steady_clock::now();
-    const auto space = ConstraintSpace::create(first_rows(patches).back(), coupling->constraints);
-    ASSERT_TRUE(space) << path << space.error().message();
-    const double eliminated = milliseconds(begin);
+TEST_P(SeamFiles, EveryCoupledSeamKeepsItsGapAndEverySmoothOneItsAngle) {
+  const auto file = step::File::read(path_);
+  ASSERT_TRUE(file);
+  if (file->surfaces().empty()) GTEST_SKIP() << "no B-spline surfaces";
+  const auto patches = surfaces_of(*file);
+  const double tolerance = suggested_seam_tolerance(pointers(patches)), size = 1e4 * tolerance;
+  auto begin = std::chrono::steady_clock::now();
+  const auto found = find_seams(pointers(patches), tolerance);
+  const double finding = milliseconds(begin);
+  begin = std::chrono::steady_clock::now();
+  const auto coupling = couple_seams(pointers(patches), first_rows(patches), found->seams);
+  ASSERT_TRUE(coupling);
+  const double coupled = milliseconds(begin);
+  begin = std::chrono::steady_clock::now();
+  const auto space = ConstraintSpace::create(first_rows(patches).back(), coupling->constraints);
+  ASSERT_TRUE(space) << space.error().message();
+  const double eliminated = milliseconds(begin);
 
-    const auto after = displaced(patches, space->feasible(0.01 * size * random_points(space->size(), 5)));
-    int counts[4] = {}, whole = 0, partial = 0;
-    double gap = 0, angle = 0;
-    for (const SeamReport& report : coupling->reports) {
-      ++counts[static_cast<int>(report.continuity)];
-      whole += report.seam.kind == SeamKind::whole;
-      partial += report.seam.kind == SeamKind::partial;
-      if (report.continuity == SeamContinuity::none) continue;
-      gap = std::max(gap, gap_change(patches, after, report.seam) / size);
-      if (report.continuity >= SeamContinuity::g1 && report.deviation < 1e-12) {
-        angle = std::max(angle, angle_change(patches, after, report.seam));
-      }
+  const auto after = displaced(patches, space->feasible(0.01 * size * random_points(space->size(), 5)));
+  int counts[4] = {}, whole = 0, partial = 0;
+  double gap = 0, angle = 0;
+  for (const SeamReport& report : coupling->reports) {
+    ++counts[static_cast<int>(report.continuity)];
+    whole += report.seam.kind == SeamKind::whole;
+    partial += report.seam.kind == SeamKind::partial;
+    if (report.continuity == SeamContinuity::none) continue;
+    gap = std::max(gap, gap_change(patches, after, report.seam) / size);
+    if (report.continuity >= SeamContinuity::g1 && report.deviation < 1e-12) {
+      angle = std::max(angle, angle_change(patches, after, report.seam));
     }
-    EXPECT_LT(gap, 1e-12) << path;
-    EXPECT_LT(angle, 1e-6) << path;
-    std::printf(
-        "%-42s %3zu surfaces, %3d seams (%d partial, %zu poles): none %d, C0 %d, G1 %d; found %.1f ms, coupled %.1f "
-        "ms, "
-        "eliminated %.1f ms; gap %.1e, angle %.1e\n",
-        path.filename().c_str(), patches.size(), whole, partial, found->collapsed.size(), counts[0], counts[1],
-        counts[2], finding, coupled, eliminated, gap, angle);
   }
+  EXPECT_LT(gap, 1e-12);
+  EXPECT_LT(angle, 1e-6);
+  std::printf(
+      "%-42s %3zu surfaces, %3d seams (%d partial, %zu poles): none %d, C0 %d, G1 %d; found %.1f ms, coupled %.1f "
+      "ms, "
+      "eliminated %.1f ms; gap %.1e, angle %.1e\n",
+      GetParam().c_str(), patches.size(), whole, partial, found->collapsed.size(), counts[0], counts[1], counts[2],
+      finding, coupled, eliminated, gap, angle);
 }
+
+INSTANTIATE_TEST_SUITE_P(Files, SeamFiles, ::testing::ValuesIn(step_files()), file_test_name);
 
 }  // namespace
 }  // namespace knead

@@ -156,8 +156,8 @@ TEST(CurveFile, CurvesOfEdgesAreNotFree) {
 }
 
 TEST(CurveFile, OfRealWorkComesBackWithOneCurveChanged) {
-  const std::filesystem::path path = KNEAD_SHARED_DIR "/data/cad/IEA_15MW_CFD.stp";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const std::filesystem::path path = testing::foreign_cad("IEA_15MW_CFD.stp");
+  KNEAD_NEEDS(path);
   const auto document = Document::open(path);
   ASSERT_TRUE(document);
   Session session(*document);

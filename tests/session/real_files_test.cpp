@@ -46,13 +46,10 @@ double largest_crease(const Surface& s) {
   return largest;
 }
 
-TEST(RealFiles, SurfacesOfEveryKindBendWithoutCreasesAndKeepTheirConstraints) {
-  const std::filesystem::path folder = std::string(KNEAD_SHARED_DIR) + "/data/cad";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the collection of CAD files is not there";
-  int sculpted = 0, lines = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".stp" && entry.path().extension() != ".step") continue;
-    auto document = Document::open(entry.path());
+/// Counts the surfaces, and those of them with lines that could become creases.
+void bend(const std::vector<std::filesystem::path>& files, int& sculpted, int& lines) {
+  for (const auto& path : files) {
+    auto document = Document::open(path);
     ASSERT_TRUE(document) << document.error().message();
     Session session(std::move(*document));
     std::set<std::array<int, 5>> kinds;
@@ -63,7 +60,7 @@ TEST(RealFiles, SurfacesOfEveryKindBendWithoutCreasesAndKeepTheirConstraints) {
       const std::array<int, 5> kind = {s.surface->rational(), closed[0], closed[1], s.surface->knots(0).degree(),
                                        s.surface->knots(1).degree()};
       if (s.surface->size() > 600 || size == 0 || kinds.size() > 5 || !kinds.insert(kind).second) continue;
-      SCOPED_TRACE(entry.path().filename().string() + " " + s.id);
+      SCOPED_TRACE(path.filename().string() + " " + s.id);
       run(session, {R"({"do":"select","surface":")" + s.id + R"("})",
                     R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})",
                     R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
@@ -86,13 +83,26 @@ TEST(RealFiles, SurfacesOfEveryKindBendWithoutCreasesAndKeepTheirConstraints) {
       EXPECT_TRUE(step::File::parse(*bytes, "saved"));
     }
   }
+}
+
+TEST(RealFiles, SurfacesOfEveryKindBendWithoutCreasesAndKeepTheirConstraints) {
+  int sculpted = 0, lines = 0;
+  bend(testing::own_step_paths(), sculpted, lines);
+  EXPECT_GE(sculpted, 1);
+}
+
+TEST(RealFiles, ForeignSurfacesBendWithoutCreasesAndKeepTheirConstraints) {
+  const auto files = testing::foreign_paths(testing::foreign_step);
+  KNEAD_NEEDS(files);
+  int sculpted = 0, lines = 0;
+  bend(files, sculpted, lines);
   EXPECT_GE(sculpted, 20);
   EXPECT_GE(lines, 10);
 }
 
 TEST(RealFiles, CollapsedCapsOfAWingAreLeftOutOfWhatIsConnected) {
-  const std::filesystem::path file = std::string(KNEAD_SHARED_DIR) + "/data/cad/simple_wing.stp";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the collection of CAD files is not there";
+  const std::filesystem::path file = testing::foreign_cad("simple_wing.stp");
+  KNEAD_NEEDS(file);
   const auto document = Document::open(file);
   ASSERT_TRUE(document) << document.error().message();
   int moved = 0, refused = 0;

@@ -10,6 +10,7 @@
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "session/commands.hpp"
+#include "support/own_files.hpp"
 
 namespace knead::testing {
 

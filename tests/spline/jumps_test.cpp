@@ -82,8 +82,8 @@ TEST(DerivativeJumps, of_the_highest_order_sum_to_zero) {
 }
 
 TEST(DerivativeJumps, are_the_dirac_weights_of_thesis_table_5_16) {
-  const auto rows = figures::read_csv(std::string(KNEAD_SHARED_DIR) + "/reference/table_5_16.csv");
-  if (rows.empty()) GTEST_SKIP() << "the published values are not beside the project";
+  const auto rows = figures::read_csv(KNEAD_SOURCE_DIR "/apps/figures/data/table_5_16.csv");
+  ASSERT_FALSE(rows.empty());
   std::vector<double> breaks;
   for (int k = 0; k <= 17; ++k) breaks.push_back(k == 7 ? 6 + 1e-10 : k);
   const auto jumps = derivative_jumps(testing::clamped_knots(10, breaks), 15);
