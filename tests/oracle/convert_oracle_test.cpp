@@ -16,7 +16,7 @@
 namespace knead::oracle {
 namespace {
 
-constexpr std::size_t most_of_a_form = 6, few_of_a_form = 2;
+constexpr std::size_t most_of_a_form = 6, few_of_a_form = 1;
 constexpr double exact = 1e-12;       // of the size: the distances that Open CASCADE finds of points on equal surfaces
 constexpr double resolution = 2e-9;   // mm: its search ends at 1e-9
 constexpr double confusion = 1e-7;    // mm: within which it takes points for the same
@@ -86,7 +86,7 @@ std::vector<step::OtherSurface> convertible(const step::File& file) {
   return result;
 }
 
-/// Up to six of every form, spread over the file; up to two but in a long run.
+/// Up to six of every form, spread over the file; one but in a long run.
 std::vector<step::OtherSurface> spread(const std::vector<step::OtherSurface>& all) {
   std::map<std::string, std::vector<step::OtherSurface>> by_form;
   for (const auto& s : all) by_form[s.form].push_back(s);
@@ -111,6 +111,7 @@ void convert_some(const fs::path& path, const step::File& file, const fs::path& 
 class ConvertedFile : public StepOracle {};
 
 TEST_P(ConvertedFile, IsTheSameSolid) {
+  if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
   if (step::other_surfaces(*file_).empty()) GTEST_SKIP() << "all of its faces lie on B-spline surfaces";
   convert_some(path_, *file_, directory_);
 }
@@ -163,15 +164,15 @@ void press_converted(const fs::path& path, const step::File& file, const fs::pat
   const auto pairs = pairs_of(*converted, [&](const auto& surfaces) { return has_one_of(surfaces, others); });
   EXPECT_GE(pairs.size(), least_pairs);
   if (pairs.empty()) GTEST_SKIP() << "no edge has faces on both of its sides";
-  testing::Sample sample(2);
-  for (const Pair& pair : pairs) {
-    if (sample.next()) move(written, *converted, pair, Motion::press, directory / "pressed", least_reached);
+  for (const Pair& pair : each_kind(*converted, pairs)) {
+    move(written, *converted, pair, Motion::press, directory / "pressed", least_reached);
   }
 }
 
 class PressedConvertedFile : public StepOracle {};
 
 TEST_P(PressedConvertedFile, StaysClosedAlongItsEdges) {
+  if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
   if (step::other_surfaces(*file_).empty()) GTEST_SKIP() << "all of its faces lie on B-spline surfaces";
   press_converted(path_, *file_, directory_, 0);
 }
@@ -194,6 +195,9 @@ INSTANTIATE_TEST_SUITE_P(Shells, PressedConvertedShell, ::testing::ValuesIn(occt
 class PressedConvertedShape : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PressedConvertedShape, StaysClosedAlongItsEdges) {
+  // Balls and crossing edges have their turn in sphere_zone, drilled_sphere, drilled_torus and drilled_cone, too.
+  const bool slow = GetParam() == "hemisphere" || GetParam() == "crossing_cylinders";
+  if (slow && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
   on_made(GetParam(), occt_write_shape, [](const fs::path& path, const step::File& file, const fs::path& directory) {
     press_converted(path, file, directory, 0, 0);
   });

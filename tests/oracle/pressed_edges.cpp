@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "knead/exchange/face_edges.hpp"
@@ -17,6 +18,7 @@
 #include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "oracle/occt_gaps.hpp"
+#include "support/long_run.hpp"
 
 namespace knead::oracle {
 namespace {
@@ -165,7 +167,7 @@ std::vector<std::string> lost_entities(const std::string& before, const std::str
   const auto now = entities(after);
   std::vector<std::string> lost;
   for (const auto& [number, text] : entities(before)) {
-    const std::string type = text.substr(0, text.find(','));
+    const std::string type = text.substr(0, text.find_first_not_of("0123456789"));
     constexpr std::array moving = {"128", "100", "106", "110", "126", "502"};
     if (std::ranges::find(moving, type) != moving.end()) continue;
     if (!now.contains(number) || now.at(number) != text) lost.push_back(number + " " + text);
@@ -264,6 +266,18 @@ std::vector<Pair> pairs_of(const step::File& file,
   }
   std::ranges::copy(spread(closing, most_closing), std::back_inserter(result));
   return result;
+}
+
+std::vector<Pair> each_kind(const step::File& file, std::vector<Pair> pairs) {
+  if (testing::long_run()) return pairs;
+  std::set<int> known;
+  std::erase_if(pairs, [&](const Pair& pair) {
+    const bool closing = std::ranges::all_of(pair.surfaces, [&](const auto& id) { return id == pair.surfaces[0]; });
+    const auto edge = SharedEdge::create(file, pair.edges[0]);
+    const bool is_smooth = edge && edge->angle() * 180 / std::numbers::pi <= smooth;
+    return !known.insert(closing ? 2 : is_smooth ? 1 : 0).second;
+  });
+  return pairs;
 }
 
 Pair chain_of(const step::File& file, const Point& place) {

@@ -30,6 +30,9 @@ struct Pair {
 [[nodiscard]] std::vector<Pair> pairs_of(
     const step::File& file, const std::function<bool(const std::vector<std::string>& surfaces)>& wanted = {});
 
+/// One of each kind: an edge at which a surface meets itself, a smooth one and a sharp one; all of them in a long run.
+[[nodiscard]] std::vector<Pair> each_kind(const step::File& file, std::vector<Pair> pairs);
+
 /// All inner edges of a shell, pressed in its middle.
 [[nodiscard]] Pair chain_of(const step::File& file, const Point& place);
 
