@@ -5,7 +5,7 @@ find_path(KNEAD_OCCT_INCLUDE_DIR STEPCAFControl_Writer.hxx PATH_SUFFIXES opencas
 set(KNEAD_OCCT_LIBRARIES)
 set(KNEAD_OCCT_FOUND ${KNEAD_OCCT_INCLUDE_DIR})
 foreach(library TKFillet TKBool TKBO TKXDESTEP TKXDEIGES TKIGES TKSTEP TKSTEP209 TKSTEPAttr TKSTEPBase TKXSBase TKXCAF TKLCAF TKCDF TKCAF TKShHealing TKTopAlgo
-                TKPrim TKBRep TKGeomAlgo TKGeomBase TKG3d TKG2d TKMath TKernel)
+                TKPrim TKMesh TKBRep TKGeomAlgo TKGeomBase TKG3d TKG2d TKMath TKernel)
   find_library(KNEAD_OCCT_${library} ${library})
   mark_as_advanced(KNEAD_OCCT_${library})
   list(APPEND KNEAD_OCCT_LIBRARIES ${KNEAD_OCCT_${library}})

@@ -6,6 +6,7 @@
 
 #include "exchange/face_builder.hpp"
 #include "exchange/mesh_measures.hpp"
+#include "support/own_files.hpp"
 
 namespace knead {
 namespace {

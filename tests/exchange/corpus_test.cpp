@@ -11,6 +11,7 @@
 #include "knead/exchange/file_io.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "support/long_run.hpp"
+#include "support/own_files.hpp"
 
 namespace knead {
 namespace {

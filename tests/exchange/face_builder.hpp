@@ -20,7 +20,7 @@ class FaceBuilder {
   static std::string real(double x) {
     std::ostringstream text;
     text.precision(17);
-    text << std::scientific << x;
+    text << std::uppercase << std::scientific << x;  // as Part 21 has it
     return text.str();
   }
   int point(double x, double y, double z) {

@@ -10,6 +10,7 @@
 #include "knead/exchange/model_mesh.hpp"
 #include "knead/exchange/trim_loops.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "support/own_files.hpp"
 
 namespace knead {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/step_file.hpp"
-#include "support/own_files.hpp"
+#include "support/foreign_files.hpp"
 
 namespace knead::testing {
 

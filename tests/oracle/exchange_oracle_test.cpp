@@ -80,14 +80,16 @@ class Exchange : public testing::FileTest {
  protected:
   void SetUp() override {
     const std::string& name = GetParam();
-    if (!testing::long_run() && std::ranges::find(quick, name) == quick.end()) GTEST_SKIP() << "with KNEAD_LONG=1";
+    if (!is_made() && !testing::long_run() && std::ranges::find(quick, name) == quick.end()) {
+      GTEST_SKIP() << "with KNEAD_LONG=1";
+    }
     KNEAD_NEEDS(path_);
     auto source = open_source(*read_file(path_), path_.string());
     ASSERT_TRUE(source) << source.error().message();
     source_ = *std::move(source);
     directory_ = fs::temp_directory_path() / ("knead-exchange-" + std::to_string(getpid()));
     fs::create_directories(directory_);
-    if (name == "ap203_part21_scope.stp") GTEST_SKIP() << "Open CASCADE aborts on &SCOPE";
+    if ((*read_file(path_)).find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE aborts on &SCOPE";
     before_ = OcctFaces::read(path_);
     ASSERT_TRUE(before_);
   }
@@ -95,6 +97,8 @@ class Exchange : public testing::FileTest {
     if (!directory_.empty()) fs::remove_all(directory_);
   }
 
+  /// Made files have no rows on the page.
+  [[nodiscard]] bool is_made() const { return testing::file_makers().contains(GetParam()); }
   [[nodiscard]] const step::File& file() const { return *source_->step_file(); }
   [[nodiscard]] std::vector<const step::SurfaceEntity*> chosen() const;
   [[nodiscard]] std::string traits() const;
@@ -223,6 +227,7 @@ void Exchange::press_all(const std::string& held) {
            " |";
   }
   std::cout << row << "\n";
+  if (is_made()) return;
   if (std::getenv("KNEAD_EXCHANGE_TABLE") != nullptr) put_row(key, row);
   const auto stated = row_of_page(key);
   ASSERT_TRUE(stated) << "docs/exchange.md has no row for it";

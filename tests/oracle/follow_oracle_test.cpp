@@ -9,6 +9,7 @@
 
 #include "knead/exchange/format.hpp"
 
+#include "oracle/brep_files.hpp"
 #include "oracle/occt_file.hpp"
 #include "oracle/occt_shells.hpp"
 #include "oracle/press.hpp"
@@ -28,9 +29,8 @@ class PressedPair : public StepOracle {};
 TEST_P(PressedPair, StaysClosedAlongTheEdgeThatFollows) {
   // Its nets are the largest, and its edges are pressed with its planes converted, too.
   if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
-  testing::Sample sample(2);
-  for (const Pair& pair : pairs_of(*file_)) {
-    if (sample.next()) move(path_, *file_, pair, Motion::press, directory_, 0);
+  for (const Pair& pair : each_kind(*file_, pairs_of(*file_))) {
+    move(path_, *file_, pair, Motion::press, directory_, 0);
   }
 }
 
@@ -38,7 +38,7 @@ class StrokedPair : public StepOracle {};
 
 TEST_P(StrokedPair, StaysClosedUnderStrokes) {
   testing::Sample sample(3);  // of two motions: both have their turn
-  for (const Pair& pair : pairs_of(*file_)) {
+  for (const Pair& pair : each_kind(*file_, pairs_of(*file_))) {
     for (const Motion motion : {Motion::groove, Motion::grab}) {
       if (sample.next()) move(path_, *file_, pair, motion, directory_, 0);
     }
@@ -57,10 +57,7 @@ TEST_P(PressedIgesPair, StaysClosedAlongTheEdgeThatFollows) {
   const step::File& file = *(*source)->step_file();
   const auto directory = fs::temp_directory_path() / ("knead-iges-" + std::to_string(getpid()));
   fs::create_directories(directory);
-  testing::Sample sample(2);
-  for (const Pair& pair : pairs_of(file)) {
-    if (sample.next()) move(path_, file, pair, Motion::press, directory, 0);
-  }
+  for (const Pair& pair : each_kind(file, pairs_of(file))) move(path_, file, pair, Motion::press, directory, 0);
   fs::remove_all(directory);
 }
 
@@ -174,7 +171,7 @@ TEST_P(PressedBrepPair, StaysClosedAlongTheEdgeThatFollows) {
   press_brep(path_, pairs_of(*(*source)->step_file()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, PressedBrepPair, ::testing::ValuesIn(testing::brep_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, PressedBrepPair, ::testing::ValuesIn(brep_files()), testing::file_test_name);
 
 INSTANTIATE_TEST_SUITE_P(Shells, PressedShell, ::testing::ValuesIn(occt_shell_names()),
                          [](const auto& instance) { return instance.param; });

@@ -6,7 +6,9 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
 #include <GCE2d_MakeSegment.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
@@ -19,7 +21,9 @@
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array2OfPnt.hxx>
+#include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
@@ -28,6 +32,7 @@
 #include <functional>
 #include <gp_Ax3.hxx>
 #include <gp_Cylinder.hxx>
+#include <gp_Trsf.hxx>
 #include <numbers>
 
 namespace knead::oracle {
@@ -165,6 +170,16 @@ std::vector<TopoDS_Face> faces_of(const std::string& name) {
           whole(sheet(0, 50, 50, side, 5, 5, wavy, even)), whole(sheet(50, side, 50, side, 5, 5, wavy, even))};
 }
 
+TopoDS_Shape shell_of(const std::string& name) {
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
+  BRepBuilderAPI_Sewing sewing(1e-5);
+  for (const TopoDS_Face& face : faces_of(name)) sewing.Add(face);
+  sewing.Perform();
+  const TopoDS_Shape shape = sewing.SewedShape();
+  BRepLib::BuildCurves3d(shape);
+  return shape;
+}
+
 }  // namespace
 
 std::vector<std::string> occt_shell_names() {
@@ -176,19 +191,32 @@ std::vector<std::string> occt_mixed_shell_names() {
 }
 
 bool occt_write_shell(const std::string& name, const std::filesystem::path& path) {
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
-  BRepBuilderAPI_Sewing sewing(1e-5);
-  for (const TopoDS_Face& face : faces_of(name)) sewing.Add(face);
-  sewing.Perform();
-  if (path.extension() == ".brep") {
-    const TopoDS_Shape shape = sewing.SewedShape();
-    BRepLib::BuildCurves3d(shape);
-    return BRepTools::Write(shape, path.c_str());
-  }
+  const TopoDS_Shape shape = shell_of(name);
+  if (path.extension() == ".brep") return BRepTools::Write(shape, path.c_str());
   STEPControl_Writer writer;
   Interface_Static::SetCVal("write.step.unit", "MM");
-  return writer.Transfer(sewing.SewedShape(), STEPControl_AsIs) == IFSelect_RetDone &&
-         writer.Write(path.c_str()) == IFSelect_RetDone;
+  return writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone && writer.Write(path.c_str()) == IFSelect_RetDone;
+}
+
+std::vector<std::string> occt_brep_names() { return {"made_nested.brep", "made_triangulated.brep"}; }
+
+bool occt_write_brep(const std::string& name, const std::filesystem::path& path) {
+  if (name == "made_triangulated.brep") {
+    const TopoDS_Shape shape = shell_of("other_parameters");
+    BRepMesh_IncrementalMesh(shape, 1);
+    return BRepTools::Write(shape, path.c_str());
+  }
+  gp_Trsf turn, shift;
+  turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 2, 3)), 0.7);
+  shift.SetTranslation(gp_Vec(300, 20, 10));
+  const BRep_Builder builder;
+  TopoDS_Compound inner, outer;
+  builder.MakeCompound(inner);
+  builder.MakeCompound(outer);
+  builder.Add(inner, shell_of("matching").Moved(TopLoc_Location(turn)));
+  builder.Add(outer, inner.Moved(TopLoc_Location(shift)));
+  builder.Add(outer, shell_of("other_parameters"));
+  return BRepTools::Write(outer, path.c_str());
 }
 
 }  // namespace knead::oracle

@@ -23,4 +23,9 @@ namespace knead::oracle {
 /// Writes one of them as a STEP file in millimetres, or, where the name ends so, as a .brep file.
 [[nodiscard]] bool occt_write_shell(const std::string& name, const std::filesystem::path& path);
 
+/// .brep files: "made_nested.brep", shells in nested compounds, one of them moved and turned by a location;
+/// "made_triangulated.brep", a shell with its triangles.
+[[nodiscard]] std::vector<std::string> occt_brep_names();
+[[nodiscard]] bool occt_write_brep(const std::string& name, const std::filesystem::path& path);
+
 }  // namespace knead::oracle

@@ -7,6 +7,7 @@
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 #include "support.hpp"
+#include "support/own_files.hpp"
 
 namespace knead {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "exchange/support.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "session/commands.hpp"
-#include "support/own_files.hpp"
 
 namespace knead::testing {
 
@@ -42,11 +42,6 @@ inline Error refusal(Session& session, const std::string& json) {
     return {};
   }
   return done.error();
-}
-
-inline bool same_bits(const Points& a, const Points& b) {
-  return a.rows() == b.rows() &&
-         (a.size() == 0 || std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0);
 }
 
 inline bool same_bits(const Surface& a, const Surface& b) {
