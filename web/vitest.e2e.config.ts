@@ -5,6 +5,8 @@ import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
 import { BaseSequencer, type TestSpecification } from 'vitest/node';
 
+import { rhinoWithoutEval } from './plugins/rhino_without_eval.mjs';
+
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
 /** Begun first, so that the workers end together. */
@@ -25,9 +27,11 @@ export default defineConfig({
   root: here('..'),
   cacheDir: here('node_modules/.vite'),
   server: { fs: { allow: [here('..')] } }, // the tests stand outside of this directory
+  plugins: [rhinoWithoutEval({ forNode: true })],
   resolve: { alias: { '@studio': here('src'), 'playwright-core': here('node_modules/playwright-core') } },
   test: {
     globals: true,
+    server: { deps: { inline: ['rhino3dm'] } },
     include: ['tests/web/e2e/*.test.ts'],
     globalSetup: here('../tests/web/e2e/setup.ts'),
     pool: 'forks',

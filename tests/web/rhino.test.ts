@@ -1,16 +1,17 @@
-import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 import { crc32, exchanged, placesOf } from '@studio/document/rhino/archive';
-import { loadRhino, type Rhino, type RhinoBrep, type RhinoFile, type RhinoGeometry, type RhinoNurbs } from '@studio/document/rhino/module';
+import { loadRhino, type Rhino, type RhinoBrep, type RhinoNurbs } from '@studio/document/rhino/module';
 import { type Patch, patchOf, samePatch } from '@studio/document/rhino/patch';
 import { openRhino, readRhino } from '@studio/document/rhino/read';
 import { rewriteRhino, writeRhino } from '@studio/document/rhino/write';
 
+import { collected } from './collection';
+import { boxes } from './rhino_boxes';
+
 const root = fileURLToPath(new URL('../..', import.meta.url));
-const cad = join(root, '../shared/data/cad');
-const shared = [cad, join(root, '../../shared/data/cad')].find(existsSync);
 
 let rhino: Rhino;
 beforeAll(async () => {
@@ -118,12 +119,7 @@ describe('Rhino files', () => {
   });
 
   it('keep a solid that is made, but for its sculpted face', () => {
-    const made = rhino as never as { File3dm: new () => RhinoFile; Brep: { createFromBoundingBox(box: object): RhinoGeometry }; BoundingBox: new (lower: number[], upper: number[]) => object };
-    const file = new made.File3dm();
-    const attributes = new rhino.ObjectAttributes();
-    attributes.name = 'box';
-    file.objects().add(made.Brep.createFromBoundingBox(new made.BoundingBox([0, 0, 0], [1, 2, 3])), attributes);
-    const bytes = file.toByteArrayOptions(Object.assign(new rhino.File3dmWriteOptions(), { version: 7 }));
+    const bytes = boxes(rhino, ['box', [0, 0, 0], [1, 2, 3]]);
     const { surfaces } = readRhino(rhino, openRhino(rhino, bytes));
     expect(surfaces.length).toBe(6);
     const wanted = surfaces.map((s, k) => (k === 2 ? named(s.name, moved(s.patch, 0)) : s));
@@ -140,11 +136,17 @@ describe('Rhino files', () => {
   });
 });
 
-describe.skipIf(!shared)('real Rhino files', () => {
-  const files = shared ? readdirSync(shared).filter((f) => f.endsWith('.3dm')) : [];
+/** A statement about files: of boxes, made here, and of every Rhino file of the collection. */
+function ofFiles(statement: string, check: (source: Uint8Array) => void): void {
+  it(`two boxes: ${statement}`, () => check(boxes(rhino, ['large', [0, 0, 0], [7, 2, 3]], ['small', [10, 0, 0], [11, 5, 4]])));
+  const folder = collected();
+  const files = folder ? readdirSync(folder).filter((f) => f.endsWith('.3dm')) : [];
+  it.each(files)(`%s: ${statement}`, (name) => check(new Uint8Array(readFileSync(join(folder!, name)))));
+  if (files.length === 0) it.skip(`Rhino's own files: ${statement}`);
+}
 
-  it.each(files)('%s: surfaces read, one sculpted, all else as it was', (name) => {
-    const source = new Uint8Array(readFileSync(join(shared!, name)));
+describe('files of polysurfaces', () => {
+  ofFiles('surfaces read, one sculpted, all else as it was', (source) => {
     const file = openRhino(rhino, source);
     const { surfaces, unit, skipped } = readRhino(rhino, file);
     expect(unit).toBe('mm');
@@ -183,8 +185,7 @@ describe.skipIf(!shared)('real Rhino files', () => {
     expect([other.beside, other.within]).toEqual([[first.name], []]);
   });
 
-  it.each(files)('%s: faces of several polysurfaces are exchanged at once, beside a further surface', (name) => {
-    const source = new Uint8Array(readFileSync(join(shared!, name)));
+  ofFiles('faces of several polysurfaces are exchanged at once, beside a further surface', (source) => {
     const file = openRhino(rhino, source);
     const { surfaces } = readRhino(rhino, file);
     const chosen = (k: number) => k % 3 === 1;

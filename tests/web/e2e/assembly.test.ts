@@ -1,8 +1,9 @@
-import { existsSync, writeFileSync } from 'node:fs';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { assemblyStep } from '../assembly_step';
-import { commands, directoryOfFile, openFile, positions, root, settled, studioOfFile } from './page';
+import { assemblyStep, nestedStep } from '../assembly_step';
+import { collected } from '../collection';
+import { commands, directoryOfFile, openFile, positions, settled, studioOfFile } from './page';
 
 const studio = studioOfFile();
 const directory = directoryOfFile();
@@ -153,10 +154,25 @@ it('measures between places', async () => {
   expect(await page.locator('[data-reading] button[disabled]').getAttribute('title')).toContain('several places');
 });
 
-const as1 = join(root, '../shared/data/cad/as1-oc-214.stp');
-it.skipIf(!existsSync(as1))('shows as1 with all its nuts and bolts, and its tree', async () => {
+it('shows all parts of assemblies within assemblies, and their tree', async () => {
   const { page } = studio;
-  await openFile(page, as1);
+  const path = join(directory, 'door.step');
+  writeFileSync(path, nestedStep());
+  await openFile(page, path);
+  const tree = page.locator('.panel[data-panel=Assembly]');
+  await expect.poll(async () => (await tree.locator('.note').first().textContent()) ?? '').toContain('2 parts in 9 places');
+  expect(await tree.locator('.item span').allTextContents()).toEqual(['leaf × 2', 'pin × 6', 'pin']);
+  for (const [x, y] of [[0, 0], [20, 0], [60, 20], [0, 40]] as const) {
+    const model = (await picked(await onPage(x, y, 0)))!.model;
+    expect(Math.hypot(model[0]! - x, model[1]! - y, model[2]!)).toBeLessThan(1e-3);
+  }
+  expect(await picked(await onPage(20, 40, 0))).toBeNull();
+});
+
+const as1 = collected('as1-oc-214.stp');
+it.skipIf(!as1)('shows as1 with all its nuts and bolts, and its tree', async () => {
+  const { page } = studio;
+  await openFile(page, as1!);
   const tree = page.locator('.panel[data-panel=Assembly]');
   await expect.poll(async () => (await tree.locator('.note').first().textContent()) ?? '').toContain('5 parts in 18 places');
   expect(await tree.locator('.item span').allTextContents()).toEqual(expect.arrayContaining(['nut × 2', 'nut × 6', 'bolt × 6', 'rod', 'l-bracket × 2', 'plate']));

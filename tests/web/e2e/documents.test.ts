@@ -1,8 +1,11 @@
-import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
+import { loadRhino } from '@studio/document/rhino/module';
 import type { Page } from 'playwright-core';
 
+import { collected } from '../collection';
+import { boxes } from '../rhino_boxes';
 import { commands, distance, openFile as open, positions, ready, root, scene, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
 const studio = studioOfFile();
@@ -43,10 +46,20 @@ describe('Rhino files', () => {
     expect(distance(await nets(page), again)).toBeLessThan(1e-3);
   });
 
-  it.skipIf(!existsSync(join(root, '../shared/data/cad')) && !existsSync(join(root, '../../shared/data/cad')))('of polysurfaces open too', async () => {
-    const cad = [join(root, '../shared/data/cad'), join(root, '../../shared/data/cad')].find(existsSync)!;
+  it('of polysurfaces open too', async () => {
     const { page } = studio;
-    await open(page, join(cad, 'v2_HumanHead2.3dm'));
+    const rhino = await loadRhino(new Uint8Array(readFileSync(join(root, 'web/node_modules/rhino3dm/rhino3dm.wasm'))));
+    const path = join(directory, 'boxes.3dm');
+    writeFileSync(path, boxes(rhino, ['large', [0, 0, 0], [7, 2, 3]], ['small', [10, 0, 0], [11, 5, 4]]));
+    await open(page, path);
+    expect(await page.locator('.panel[data-panel=Surfaces] .item').count()).toBe(12);
+    await expect.poll(() => page.locator('.document-name').textContent()).toContain('boxes.3dm');
+  });
+
+  const head = collected('v2_HumanHead2.3dm');
+  it.skipIf(!head)('of polysurfaces of Rhino itself open too', async () => {
+    const { page } = studio;
+    await open(page, head!);
     expect(await page.locator('.panel[data-panel=Surfaces] .item').count()).toBe(10);
     await expect.poll(() => page.locator('.document-name').textContent()).toContain('v2_HumanHead2.3dm');
   });
