@@ -2,6 +2,7 @@ import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
 
 import { rhinoWithoutEval } from './plugins/rhino_without_eval.mjs';
+import { reporting } from './vitest.results';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -11,5 +12,8 @@ export default defineConfig({
   server: { fs: { allow: [here('..')] } }, // the tests stand outside of this directory
   plugins: [rhinoWithoutEval({ forNode: true })],
   resolve: { alias: { '@studio': here('src'), three: here('node_modules/three') } },
-  test: { globals: true, server: { deps: { inline: ['rhino3dm'] } }, include: ['tests/web/*.test.ts'], exclude: ['**/e2e/**'], testTimeout: 60_000 },
+  test: {
+    ...reporting('studio_node'),
+    globals: true, server: { deps: { inline: ['rhino3dm'] } }, include: ['tests/web/*.test.ts'], exclude: ['**/e2e/**'], testTimeout: 60_000,
+  },
 });

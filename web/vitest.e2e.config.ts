@@ -6,6 +6,7 @@ import { defineConfig } from 'vitest/config';
 import { BaseSequencer, type TestSpecification } from 'vitest/node';
 
 import { rhinoWithoutEval } from './plugins/rhino_without_eval.mjs';
+import { reporting } from './vitest.results';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -30,6 +31,7 @@ export default defineConfig({
   plugins: [rhinoWithoutEval({ forNode: true })],
   resolve: { alias: { '@studio': here('src'), 'playwright-core': here('node_modules/playwright-core') } },
   test: {
+    ...reporting('studio_chromium'),
     globals: true,
     server: { deps: { inline: ['rhino3dm'] } },
     include: ['tests/web/e2e/*.test.ts'],
