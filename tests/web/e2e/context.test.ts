@@ -2,7 +2,7 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { facesStep } from '../faces_step';
-import { directoryOfFile, settled, studioOfFile } from './page';
+import { directoryOfFile, picture, settled, studioOfFile } from './page';
 
 const studio = studioOfFile();
 const directory = directoryOfFile();
@@ -22,35 +22,27 @@ const show = async (change: Record<string, boolean>) => {
 };
 
 /** Colour of the scene at a place of the file, seen from the top. */
-const colourAt = (x: number, y: number, z: number) =>
-  studio.page.evaluate(async ([px, py, pz]) => {
+const colourAt = async (x: number, y: number, z: number) =>
+  (await picture(studio.page)).evaluate((image, [px, py, pz]) => {
     const { viewer } = (window as never as { studio: { viewer: {
-      picture(): Promise<Blob>; origin: number[]; main: { camera: { matrixWorldInverse: { elements: number[] }; projectionMatrix: { elements: number[] } } };
+      origin: number[]; main: { camera: { matrixWorldInverse: { elements: number[] }; projectionMatrix: { elements: number[] } } };
     } } }).studio;
-    const image = await createImageBitmap(await viewer.picture());
-    const canvas = new OffscreenCanvas(image.width, image.height);
-    const context = canvas.getContext('2d')!;
-    context.drawImage(image, 0, 0);
     const times = (m: number[], v: number[]) => [0, 1, 2, 3].map((r) => [0, 1, 2, 3].reduce((sum, c) => sum + m[4 * c + r]! * v[c]!, 0));
     const { camera } = viewer.main;
     const place = [px! - viewer.origin[0]!, py! - viewer.origin[1]!, pz! - viewer.origin[2]!, 1];
     const clip = times(camera.projectionMatrix.elements, times(camera.matrixWorldInverse.elements, place));
     const column = Math.round(((clip[0]! / clip[3]! + 1) / 2) * image.width);
     const row = Math.round(((1 - clip[1]! / clip[3]!) / 2) * image.height);
-    return [...context.getImageData(column, row, 1, 1).data].slice(0, 3);
+    const at = 4 * (row * image.width + column);
+    return [...image.data.subarray(at, at + 3)];
   }, [x, y, z]);
 
 /** Colours of the scene on a grid of places. */
-const pixels = (): Promise<number[][]> =>
-  studio.page.evaluate(async () => {
-    const { viewer } = (window as never as { studio: { viewer: { picture(): Promise<Blob> } } }).studio;
-    const image = await createImageBitmap(await viewer.picture());
-    const context = new OffscreenCanvas(image.width, image.height).getContext('2d')!;
-    context.drawImage(image, 0, 0);
-    const { data } = context.getImageData(0, 0, image.width, image.height);
+const pixels = async (): Promise<number[][]> =>
+  (await picture(studio.page)).evaluate(({ data, width, height }) => {
     const colours: number[][] = [];
-    for (let y = 0; y < image.height; y += 8) {
-      for (let x = 0; x < image.width; x += 8) colours.push([...data.slice(4 * (y * image.width + x), 4 * (y * image.width + x) + 3)]);
+    for (let y = 0; y < height; y += 8) {
+      for (let x = 0; x < width; x += 8) colours.push([...data.subarray(4 * (y * width + x), 4 * (y * width + x) + 3)]);
     }
     return colours;
   });

@@ -6,7 +6,7 @@ import type { Page } from 'playwright-core';
 
 import { collected } from '../collection';
 import { boxes } from '../rhino_boxes';
-import { commands, distance, openFile as open, positions, ready, root, scene, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
+import { commands, contextOf, distance, draws, openFile as open, positions, ready, root, scene, screen, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
 const studio = studioOfFile();
 const directory = directoryOfFile();
@@ -97,7 +97,21 @@ describe('saving', () => {
       const png = readFileSync(path);
       return [png.readUInt32BE(16), png.readUInt32BE(20)];
     };
-    const [width, height] = size(await save(page, 'Picture'));
+    await draws(page, true);
+    await settled(page);
+    const path = await save(page, 'Picture');
+    const [width, height] = size(path);
+    // What is seen.
+    const differing = await (await screen(page)).evaluate(async ({ data, width: columns, height: rows }, file) => {
+      const image = await createImageBitmap(new Blob([Uint8Array.from(atob(file), (c) => c.charCodeAt(0))], { type: 'image/png' }));
+      const context = new OffscreenCanvas(columns, rows).getContext('2d')!;
+      context.drawImage(image, 0, 0);
+      const saved = context.getImageData(0, 0, columns, rows).data;
+      return { colours: new Set(new Uint32Array(data.buffer)).size, share: data.reduce((sum, x, k) => sum + Number(Math.abs(x - saved[k]!) > 2), 0) / data.length };
+    }, readFileSync(path).toString('base64'));
+    await draws(page, false);
+    expect(differing.colours).toBeGreaterThan(100);
+    expect(differing.share).toBeLessThan(0.001);
     const stage = (await page.locator('.stage').boundingBox())!;
     expect([width, height]).toEqual([Math.floor(stage.width), Math.floor(stage.height)]);
     expect(size(await save(page, 'Picture, twice as large'))).toEqual([2 * width!, 2 * height!]);
@@ -147,8 +161,7 @@ describe('what a closed tab leaves behind', () => {
 
   it('is each tab its own', async () => {
     const { page, browser, url } = studio;
-    const context = await browser.newContext();
-    await context.addInitScript(() => localStorage.setItem('knead-tour', '1'));
+    const context = await contextOf(browser);
     const tabs = [await context.newPage(), await context.newPage()];
     const shapes: number[][] = [];
     for (const [k, tab] of tabs.entries()) {

@@ -3,7 +3,7 @@ import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-import { type Browser, chromium, type Download, type Page } from 'playwright-core';
+import { type Browser, type BrowserContext, chromium, type Download, type JSHandle, type Page } from 'playwright-core';
 
 import { Engine } from '@studio/engine/engine';
 import type { Command, Vector3 } from '@studio/engine/session_types';
@@ -42,13 +42,43 @@ interface Visit {
   server?: Server;
 }
 
-/** In the page: every point of a picture is drawn once, not four times for smooth edges; the processor draws here. */
-function drawOnce(): void {
-  const prototype = HTMLCanvasElement.prototype as { getContext: (kind: string, settings?: object) => unknown };
-  const made = prototype.getContext;
-  prototype.getContext = function (kind, settings) {
+/** What tests put into the page, and what they draw by. */
+interface Drawing {
+  /** Whether what the page draws reaches its canvas. */
+  drawing: boolean;
+  studio: { viewer: { draw(): void; redraw(): void } };
+}
+
+/**
+ * In the page: calls of WebGL that draw do nothing unless a test looks (`picture`, `draws`), since the processor draws here; shaders,
+ * buffers and textures are made as ever. What is drawn is drawn once per pixel, not four times for smooth edges.
+ */
+function drawWhenLookedAt(): void {
+  const page = window as never as Drawing;
+  page.drawing = false;
+  const canvas = HTMLCanvasElement.prototype as { getContext: (kind: string, settings?: object) => unknown };
+  const made = canvas.getContext;
+  canvas.getContext = function (kind, settings) {
     return made.call(this, kind, kind.startsWith('webgl') ? { ...settings, antialias: false } : settings);
   };
+  const context = WebGL2RenderingContext.prototype as never as Record<string, (...rest: unknown[]) => void>;
+  for (const name of ['clear', 'drawArrays', 'drawArraysInstanced', 'drawElements', 'drawElementsInstanced', 'drawRangeElements']) {
+    const draw = context[name]!;
+    context[name] = function (...rest) {
+      if (page.drawing) draw.apply(this, rest);
+    };
+  }
+}
+
+/** What the driver says where the picture is not drawn by a graphics card: so it is in this browser (setup.ts). */
+const readBack = /GL Driver Message \(OpenGL, Performance, .*GPU stall due to ReadPixels/;
+
+/** A context in which nothing was done yet. */
+export async function contextOf(browser: Browser, { width = 900, height = 560, first = false }: Visit = {}): Promise<BrowserContext> {
+  const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
+  if (!first) await context.addInitScript(() => localStorage.setItem('knead-tour', '1'));
+  await context.addInitScript(drawWhenLookedAt);
+  return context;
 }
 
 /** The page in a context of its own, so that nothing is kept from another file, in the browser of this worker. */
@@ -56,14 +86,12 @@ export async function openStudio({ width = 900, height = 560, first = false, ser
   const browsers = process.env.STUDIO_BROWSERS!.split(' '); // setup.ts
   const browser = await chromium.connect(browsers[(Number(process.env.VITEST_POOL_ID) - 1) % browsers.length]!);
   const url = server?.url ?? process.env.STUDIO_PAGE!;
-  const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
-  if (!first) await context.addInitScript(() => localStorage.setItem('knead-tour', '1'));
-  await context.addInitScript(drawOnce);
+  const context = await contextOf(browser, { width, height, first });
   const page = await context.newPage();
   const problems: string[] = [];
   const foreign: string[] = [];
   page.on('console', (m) => {
-    if (m.type() === 'error' || m.type() === 'warning') problems.push(m.text());
+    if ((m.type() === 'error' || m.type() === 'warning') && !readBack.test(m.text())) problems.push(m.text());
   });
   page.on('pageerror', (e) => problems.push(e.message));
   context.on('request', (r) => {
@@ -83,7 +111,7 @@ export async function openStudio({ width = 900, height = 560, first = false, ser
 
 /**
  * The page of all tests in a file: open before the first (and not usable earlier), closed after the last. A message on the
- * console or a request to another origin fails the test.
+ * console, a request to another origin, or something that cannot be drawn fails the test.
  */
 export function studioOfFile(visit: Visit = {}): Studio {
   const studio = {} as Studio;
@@ -91,7 +119,8 @@ export function studioOfFile(visit: Visit = {}): Studio {
     Object.assign(studio, await openStudio(visit));
   });
   afterAll(() => studio.close());
-  afterEach(() => {
+  afterEach(async () => {
+    expect(await drawingErrors(studio.page)).toBe(0);
     expect(studio.problems).toEqual([]);
     expect(studio.foreign).toEqual([]);
   });
@@ -107,13 +136,51 @@ export function directoryOfFile(): string {
 
 export const ready = (page: Page) => page.waitForSelector('html[data-ready]', { state: 'attached', timeout: 60_000 });
 
+/** From now on what the page draws is to be seen, or not. */
+export const draws = (page: Page, on: boolean): Promise<void> => page.evaluate((now) => {
+  const { studio } = Object.assign(window as never as Drawing, { drawing: now });
+  if (now) studio.viewer.redraw();
+}, on);
+
+/** The picture of the scene, drawn now, for functions in the page: its size, and the colours of its pixels, 4 numbers each. */
+export async function picture(page: Page): Promise<JSHandle<ImageData>> {
+  await page.evaluate(() => {
+    const it = window as never as Drawing;
+    const before = it.drawing;
+    it.drawing = true;
+    it.studio.viewer.draw();
+    it.drawing = before;
+  });
+  return screen(page);
+}
+
+/** What WebGL has to say of all that the page draws now: 0 for nothing. No pixel is filled. */
+export const drawingErrors = (page: Page): Promise<number> => page.evaluate(() => {
+  const it = window as never as Drawing;
+  const context = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!.getContext('webgl2')!;
+  const before = it.drawing;
+  context.enable(context.RASTERIZER_DISCARD);
+  it.drawing = true;
+  it.studio.viewer.draw();
+  it.drawing = before;
+  context.disable(context.RASTERIZER_DISCARD);
+  return context.getError();
+});
+
+/** As `picture`, but of what the page has drawn by itself: for tests of when it draws. */
+export const screen = (page: Page): Promise<JSHandle<ImageData>> => page.evaluateHandle(() => {
+  const canvas = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!;
+  const context = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d')!;
+  context.drawImage(canvas, 0, 0);
+  return context.getImageData(0, 0, canvas.width, canvas.height);
+});
+
 /** Number of commands that stand. */
 export const commands = (page: Page): Promise<Command[]> =>
   page.evaluate(async () => (JSON.parse(await (window as never as { studio: { client: { journal(): Promise<string> } } }).studio.client.journal()) as { commands: Command[] }).commands);
 
 interface App {
   frame: { origin: number[]; pictures: { positions: Float32Array; normals: Float32Array }[]; state: { selection: number[]; undo: boolean }; memory: number };
-  viewer: { picture(): Promise<Blob> };
   client: { followed(): Promise<void>; journal(): Promise<string> };
 }
 

@@ -1,4 +1,4 @@
-import { commands, directoryOfFile, distance, engineOf, handled, positions, saveAs, scene, settled, stroke, studioOfFile } from './page';
+import { commands, directoryOfFile, distance, engineOf, handled, picture, positions, saveAs, scene, settled, stroke, studioOfFile } from './page';
 
 const studio = studioOfFile();
 const directory = directoryOfFile();
@@ -47,12 +47,7 @@ describe('a curve', () => {
   const lines = (): Promise<number[]> => studio.page.evaluate(() =>
     [...(window as never as { studio: { frame: { bodies: { lines: Float32Array }[] } } }).studio.frame.bodies[0]!.lines]);
   /** How many pixels have nearly the colour of what is selected. */
-  const lit = (): Promise<number> => studio.page.evaluate(async () => {
-    const { viewer } = (window as never as { studio: { viewer: { picture(): Promise<Blob> } } }).studio;
-    const bitmap = await createImageBitmap(await viewer.picture());
-    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
-    canvas.drawImage(bitmap, 0, 0);
-    const { data } = canvas.getImageData(0, 0, bitmap.width, bitmap.height);
+  const lit = async (): Promise<number> => (await picture(studio.page)).evaluate(({ data }) => {
     let count = 0;
     for (let k = 0; k < data.length; k += 4) {
       if (data[k + 1]! - data[k]! > 60 && data[k + 2]! - data[k]! > 50) ++count;

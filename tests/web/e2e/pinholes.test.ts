@@ -2,12 +2,13 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { facesStep } from '../faces_step';
-import { directoryOfFile, openFile, settled, studioOfFile } from './page';
+import { directoryOfFile, draws, openFile, screen, settled, studioOfFile } from './page';
 
 /** Faces that meet along a slanted trim leave no hole between them in the picture. */
 
 const studio = studioOfFile({ width: 1100, height: 700 });
 const directory = directoryOfFile();
+beforeAll(() => draws(studio.page, true));
 
 /** Two flat patches of different size over each other; a triangle of each is shown, and both meet along a slanted edge. */
 function triangles(): string {
@@ -56,23 +57,17 @@ it('shows no background through an edge, from near or far', async () => {
       main.restore({ ...p, target: to, position: [to[0], to[1], to[2]! + 1], height: 90 / factor });
     }, zoom);
     await settled(page);
-    const holes = await page.evaluate(() => {
+    const holes = await (await screen(page)).evaluate(({ data, width, height }) => {
       const { main, origin, palette } = (window as never as { studio: { viewer: { origin: number[]; palette: { background: number }; main: { projectAll(p: number[]): Float32Array } } } }).studio.viewer;
-      const canvas = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!;
-      const box = canvas.getBoundingClientRect();
-      const copy = document.createElement('canvas');
-      [copy.width, copy.height] = [canvas.width, canvas.height];
-      const context = copy.getContext('2d')!;
-      context.drawImage(canvas, 0, 0);
-      const { data, width } = context.getImageData(0, 0, copy.width, copy.height);
+      const box = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!.getBoundingClientRect();
       const background = [palette.background >> 16, (palette.background >> 8) & 255, palette.background & 255];
       let [bad, seen] = [0, 0];
       for (let k = 0; k <= 4000; ++k) {
         const share = 0.02 + 0.96 * (k / 4000);
         const [x, y] = main.projectAll([-40 + 80 * share - origin[0]!, -30 + 67 * share - origin[1]!, -origin[2]!]);
-        const [col, row] = [Math.round((x! - box.left) * (canvas.width / box.width)), Math.round((y! - box.top) * (canvas.width / box.width))];
+        const [col, row] = [Math.round((x! - box.left) * (width / box.width)), Math.round((y! - box.top) * (width / box.width))];
         for (const [dx, dy] of [[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]] as const) {
-          if (col + dx < 1 || col + dx >= width - 1 || row + dy < 1 || row + dy >= copy.height - 1) continue;
+          if (col + dx < 1 || col + dx >= width - 1 || row + dy < 1 || row + dy >= height - 1) continue;
           const at = 4 * ((row + dy) * width + col + dx);
           ++seen;
           // Nearer to the background than to the clay.
@@ -97,23 +92,20 @@ it('ends faces within a pixel of their edges, from near or far', async () => {
   await page.keyboard.press('3');
   for (const zoom of [1, 5, 20]) {
     // About a point of the circle of radius 4, which is the edge.
-    const found = await page.evaluate(async (factor) => {
-      const { main, origin, palette } = (window as never as { studio: { viewer: { origin: number[]; palette: { background: number }; main: {
-        placement(): object; restore(p: object): void; projectAll(p: number[]): Float32Array } } } }).studio.viewer;
-      const angle = 0.7;
+    const angle = 0.7;
+    await page.evaluate(async ([factor, angle]) => {
+      const { main, origin } = (window as never as { studio: { viewer: { origin: number[]; main: { placement(): object; restore(p: object): void } } } }).studio.viewer;
       const to = [4 * Math.cos(angle) - origin[0]!, 4 * Math.sin(angle) - origin[1]!, -origin[2]!];
       main.restore({ ...main.placement(), target: to, position: [to[0], to[1], to[2]! + 1], height: 12 / factor });
       // The view stands still, and is drawn finely.
       const { viewer } = (window as never as { studio: { viewer: { surfaces: { picture: { window: object | null } }[] } } }).studio;
       for (let k = 0; k < 100 && factor > 10 && !viewer.surfaces[0]!.picture.window; ++k) await new Promise((resolve) => setTimeout(resolve, 100));
       await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
-      const canvas = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!;
-      const box = canvas.getBoundingClientRect();
-      const copy = document.createElement('canvas');
-      [copy.width, copy.height] = [canvas.width, canvas.height];
-      const context = copy.getContext('2d')!;
-      context.drawImage(canvas, 0, 0);
-      const { data, width, height } = context.getImageData(0, 0, copy.width, copy.height);
+    }, [zoom, angle] as const);
+    const found = await (await screen(page)).evaluate(({ data, width, height }, [factor, angle]) => {
+      const { main, origin, palette } = (window as never as { studio: { viewer: { origin: number[]; palette: { background: number }; main: {
+        projectAll(p: number[]): Float32Array } } } }).studio.viewer;
+      const box = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!.getBoundingClientRect();
       const background = [palette.background >> 16, (palette.background >> 8) & 255, palette.background & 255];
       // Inwards to the middle of the circle, in steps of a tenth of a pixel: the first pixel of the face, by its middle.
       const pixel = 12 / factor / box.height;
@@ -133,7 +125,7 @@ it('ends faces within a pixel of their edges, from near or far', async () => {
         }
       }
       return { farthest: Math.max(...places), nearest: Math.min(...places), count: places.length };
-    }, zoom);
+    }, [zoom, angle] as const);
     expect(found.count, `zoom ${zoom}`).toBeGreaterThan(200);
     expect(found.farthest, `zoom ${zoom}`).toBeLessThan(0.75); // half a pixel over the edge
     expect(found.nearest, `zoom ${zoom}`).toBeGreaterThan(-1.5); // the path meets a corner of the pixel (0.7), the loop has chords (0.5)

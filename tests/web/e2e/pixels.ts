@@ -1,8 +1,10 @@
 import type { Page } from 'playwright-core';
 
+import { picture } from './page';
+
 interface App {
   frame: { origin: number[]; pictures: { positions: Float32Array; net: Float32Array }[] };
-  viewer: { picture(): Promise<Blob>; main: { projectAll(points: ArrayLike<number>): Float32Array }; element: HTMLElement };
+  viewer: { main: { projectAll(points: ArrayLike<number>): Float32Array }; element: HTMLElement };
   display: Record<string, unknown>;
   theme: 'light' | 'dark';
   execute(commands: unknown[]): Promise<unknown>;
@@ -44,14 +46,10 @@ export interface Seen {
 }
 
 /** What is seen at each point of the surface's grid. */
-export const pixels = (page: Page): Promise<Seen[]> => page.evaluate(async () => {
+export const pixels = async (page: Page): Promise<Seen[]> => (await picture(page)).evaluate((image) => {
   const { studio: app } = window as never as { studio: App };
   const { origin, pictures: [{ positions, normals }] } = app.frame as never as { origin: number[]; pictures: [{ positions: Float32Array; normals: Float32Array }] };
-  const image = await createImageBitmap(await app.viewer.picture());
-  const canvas = new OffscreenCanvas(image.width, image.height);
-  const context = canvas.getContext('2d')!;
-  context.drawImage(image, 0, 0);
-  const { data } = context.getImageData(0, 0, image.width, image.height);
+  const { data } = image;
   const box = app.viewer.element.getBoundingClientRect();
   const places = app.viewer.main.projectAll(positions);
   const linear = (x: number) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);

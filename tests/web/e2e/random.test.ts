@@ -1,4 +1,4 @@
-import { openStudio, positions, settled, spot, type Studio } from './page';
+import { drawingErrors, openStudio, positions, settled, spot, type Studio } from './page';
 
 let studio: Studio;
 beforeAll(async () => {
@@ -45,6 +45,7 @@ it('survives random actions of a user', async () => {
       await page.mouse.move(...(await place()));
       await page.mouse.wheel(0, random() < 0.5 ? 120 : -120);
     }
+    if (k % 10 === 9) expect(await drawingErrors(page)).toBe(0);
     if (k === actions / 2) memory = await page.evaluate(() => (window as never as { studio: { frame: { memory: number } } }).studio.frame.memory);
   }
   if (await page.evaluate(() => (window as never as { studio: { playing(): boolean } }).studio.playing())) await page.keyboard.press('Space');

@@ -1,4 +1,4 @@
-import { commands, distance, positions, scene, settled, stroke, studioOfFile } from './page';
+import { commands, distance, draws, positions, scene, settled, stroke, studioOfFile } from './page';
 
 /** The engine stops, or the graphics are taken away: the page goes on. */
 
@@ -90,6 +90,7 @@ describe('an engine that stops', () => {
 
 it('draws again at once when the graphics come back', async () => {
   const { page } = studio;
+  await draws(page, true);
   await page.mouse.move(5, 300);
   await settled(page);
   const picture = () => page.locator('.viewer-canvas').screenshot();

@@ -2,7 +2,7 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { facesStep } from '../faces_step';
-import { directoryOfFile, openFile, scene, settled, studioOfFile } from './page';
+import { directoryOfFile, draws, openFile, scene, screen, settled, studioOfFile } from './page';
 
 /** A section: what lies before its plane is neither seen nor touched, and a line shows where it cuts. */
 
@@ -31,15 +31,11 @@ const cut = () => studio.page.evaluate(() => {
 });
 const on = () => studio.page.evaluate(() => (window as never as { studio: App }).studio.viewer.section.on);
 /** The colour that is drawn at a place of the page. */
-const drawn = ({ x, y }: { x: number; y: number }) => studio.page.evaluate(([px, py]) => {
-  const canvas = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!;
-  const box = canvas.getBoundingClientRect();
-  const copy = document.createElement('canvas');
-  [copy.width, copy.height] = [canvas.width, canvas.height];
-  const context = copy.getContext('2d')!;
-  context.drawImage(canvas, 0, 0);
-  const scale = canvas.width / box.width;
-  return [...context.getImageData(Math.round((px! - box.left) * scale), Math.round((py! - box.top) * scale), 1, 1).data].slice(0, 3);
+const drawn = async ({ x, y }: { x: number; y: number }) => (await screen(studio.page)).evaluate(({ data, width }, [px, py]) => {
+  const box = document.querySelector<HTMLCanvasElement>('.viewer-canvas')!.getBoundingClientRect();
+  const scale = width / box.width;
+  const at = 4 * (Math.round((py! - box.top) * scale) * width + Math.round((px! - box.left) * scale));
+  return [...data.subarray(at, at + 3)];
 }, [x, y]);
 const handle = () => studio.page.locator('.section-handle');
 const value = async () => Number(await handle().getAttribute('aria-valuenow'));
@@ -54,6 +50,8 @@ describe('a section across x', () => {
   it('hides what is on the side of the eye, and the pointer meets only the rest', async () => {
     const { page } = studio;
     const [near, far] = [[150, 100, 0], [50, 100, 0]];
+    await draws(page, true);
+    await settled(page);
     const before = [await drawn(await at(near)), await drawn(await at(far))];
     await page.keyboard.press('x');
     await settled(page);
@@ -86,6 +84,7 @@ describe('a section across x', () => {
     expect(Math.max(...ys)).toBeGreaterThan(199.9);
     const red = await drawn(await at([100, 60, 0]));
     expect(red[0]!).toBeGreaterThan(red[2]! + 60);
+    await draws(page, false);
   });
 
   it('moves by its handle, by keys, by its slider and by numbers', async () => {

@@ -3,7 +3,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 
-import { commands, distance, native, openFile as open, positions, ready, root, scene, settled, spot, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
+import { commands, distance, draws, native, openFile as open, positions, ready, root, scene, settled, spot, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
 const studio = studioOfFile();
 const directory = directoryOfFile();
@@ -14,7 +14,6 @@ const errors = () => studio.page.locator('.notice.error');
 
 const save = (entry: string) => saveAs(studio.page, directory, entry);
 
-/** Share of the pixels of the scene that differ. */
 const picture = async () => studio.page.locator('.stage').screenshot();
 
 /** Where a tool is on the page; its handle along z is above. */
@@ -66,6 +65,8 @@ describe('the studio', () => {
     await openFile(bonnet);
     await expect.poll(() => page.locator('.document-name').textContent()).toBe('bonnet.step');
     const before = await positions(page);
+    await draws(page, true);
+    await settled(page);
     const seen = await picture();
     await page.keyboard.press('b');
     await page.mouse.move(...(await spot(page)));
@@ -77,6 +78,7 @@ describe('the studio', () => {
     expect(distance(before, after)).toBeGreaterThan(1);
     expect(after.every(Number.isFinite)).toBe(true);
     expect(Buffer.compare(seen, await picture())).not.toBe(0);
+    await draws(page, false);
     const saved = await save('CAD file');
     // What is pressed goes on meeting its neighbours.
     await expect.poll(async () => (await page.locator('.notice').allTextContents()).join(' ')).toContain('All edges closed to 0.001 mm');
