@@ -17,7 +17,10 @@ interface App {
 /** When the views have stood still for long enough, chords are within a pixel: as many as are given back. */
 async function fine(): Promise<Awaited<ReturnType<typeof chordError>>> {
   let found: Awaited<ReturnType<typeof chordError>> | undefined;
-  await expect.poll(async () => (found = await chordError()).most).toBeLessThan(0.6);
+  await expect.poll(async () => {
+    found = await chordError();
+    return found.count > 10 ? found.most : Infinity; // of a coarse picture hardly an edge may lie in the view
+  }).toBeLessThan(0.6);
   return found!;
 }
 

@@ -181,7 +181,7 @@ export const commands = (page: Page): Promise<Command[]> =>
 
 interface App {
   frame: { origin: number[]; pictures: { positions: Float32Array; normals: Float32Array }[]; state: { selection: number[]; undo: boolean }; memory: number };
-  client: { followed(): Promise<void>; journal(): Promise<string> };
+  client: { followed(): Promise<void>; journal(): Promise<string>; busySince: number | null };
 }
 
 /** What the page asks before it opens something. */
@@ -226,14 +226,17 @@ export const positions = (page: Page): Promise<number[]> =>
     return pictures.flatMap((p) => [...p.positions].map((x, k) => x + origin[k % 3]!));
   });
 
-/** Waits until the session has done everything that the page has asked for. */
+/** Waits until the session has done everything that the page has asked for, and the page has shown it. */
 export async function settled(page: Page): Promise<void> {
   await page.evaluate(async () => {
     const { studio } = window as never as { studio: App };
-    for (let k = 0; k < 2; ++k) {
+    // Twice in a row nothing came of it; where steps run on, frames never end.
+    for (let k = 0, quiet = 0; k < 10 && quiet < 2; ++k) {
+      const before = studio.frame;
       await studio.client.followed();
       await studio.client.journal();
-      await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+      await new Promise(requestAnimationFrame);
+      quiet = studio.frame === before && studio.client.busySince === null ? quiet + 1 : 0;
     }
   });
 }
