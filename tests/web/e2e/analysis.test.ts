@@ -45,12 +45,13 @@ describe('stripes', () => {
       await settled(page);
       const turn = (angle * Math.PI) / 180;
       const place = ({ normal: [x, y, z] }: Seen) => Math.atan2(Math.cos(turn) * x + Math.sin(turn) * y, z) / ((5 * Math.PI) / 180) + 0.5;
-      const bump = (await pixels(page)).filter(({ r }) => r < 40 && r > 8);
+      const seen = await pixels(page);
+      const bump = seen.filter(({ r }) => r < 40 && r > 8);
       const on = bump.filter((p) => offWhole(place(p)) < 0.015);
       const off = bump.filter((p) => offWhole(place(p)) > 0.3);
       expect(on.length).toBeGreaterThan(20);
       expect(mean(on, ({ l }) => l) - mean(off, ({ l }) => l), `${view} ${angle}`).toBeGreaterThan(30);
-      expect(mean(await pixels(page).then((all) => all.filter(({ r }) => r > 90)), ({ l }) => l), 'level').toBeLessThan(50);
+      expect(mean(seen.filter(({ r }) => r > 90), ({ l }) => l), 'level').toBeLessThan(50);
     }
     await page.keyboard.press('Digit0');
     await look('studio');

@@ -219,12 +219,15 @@ export const scene = (page: Page, name: string): Promise<void> => whenOpened(pag
 export const openFile = (page: Page, path: string, choice?: string): Promise<void> =>
   whenOpened(page, () => page.locator('input[type=file]').setInputFiles(path), choice);
 
+/** Numbers that come out of the page as the bytes of a Float64Array: thousands of them one by one take the browser long. */
+export const numbersOf = (bytes: Uint8Array): number[] => Array.from(new Float64Array(bytes.slice().buffer));
+
 /** All positions that the page draws, file units, in one list. */
-export const positions = (page: Page): Promise<number[]> =>
-  page.evaluate(() => {
+export const positions = async (page: Page): Promise<number[]> =>
+  numbersOf(await page.evaluate(() => {
     const { pictures, origin } = (window as never as { studio: App }).studio.frame;
-    return pictures.flatMap((p) => [...p.positions].map((x, k) => x + origin[k % 3]!));
-  });
+    return new Uint8Array(Float64Array.from(pictures.flatMap((p) => [...p.positions].map((x, k) => x + origin[k % 3]!))).buffer);
+  }));
 
 /** Waits until the session has done everything that the page has asked for, and the page has shown it. */
 export async function settled(page: Page): Promise<void> {

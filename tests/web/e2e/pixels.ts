@@ -1,6 +1,6 @@
 import type { Page } from 'playwright-core';
 
-import { picture } from './page';
+import { numbersOf, picture } from './page';
 
 interface App {
   frame: { origin: number[]; pictures: { positions: Float32Array; net: Float32Array }[] };
@@ -46,19 +46,32 @@ export interface Seen {
 }
 
 /** What is seen at each point of the surface's grid. */
-export const pixels = async (page: Page): Promise<Seen[]> => (await picture(page)).evaluate((image) => {
-  const { studio: app } = window as never as { studio: App };
-  const { origin, pictures: [{ positions, normals }] } = app.frame as never as { origin: number[]; pictures: [{ positions: Float32Array; normals: Float32Array }] };
-  const { data } = image;
-  const box = app.viewer.element.getBoundingClientRect();
-  const places = app.viewer.main.projectAll(positions);
-  const linear = (x: number) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
-  return Array.from({ length: positions.length / 3 }, (_, k) => {
-    const at = 4 * (Math.round(places[2 * k + 1]! - box.top) * image.width + Math.round(places[2 * k]! - box.left));
-    const y = [0.2126, 0.7152, 0.0722].reduce((sum, w, c) => sum + w * linear(data[at + c]! / 255), 0);
-    return { rgb: [data[at]!, data[at + 1]!, data[at + 2]!] as [number, number, number], x: positions[3 * k]! + origin[0]!, z: positions[3 * k + 2]! + origin[2]!, normal: [...normals.subarray(3 * k, 3 * k + 3)] as [number, number, number], r: Math.hypot(positions[3 * k]! + origin[0]! - 100, positions[3 * k + 1]! + origin[1]! - 100), l: y > 0.008856 ? 116 * Math.cbrt(y) - 16 : 903.3 * y };
+export async function pixels(page: Page): Promise<Seen[]> {
+  const numbers = numbersOf(await (await picture(page)).evaluate(({ data, width }) => {
+    const { studio: app } = window as never as { studio: App };
+    const { origin, pictures: [{ positions, normals }] } = app.frame as never as { origin: number[]; pictures: [{ positions: Float32Array; normals: Float32Array }] };
+    const box = app.viewer.element.getBoundingClientRect();
+    const places = app.viewer.main.projectAll(positions);
+    const found: number[] = [];
+    for (let k = 0; 3 * k < positions.length; ++k) {
+      const at = 4 * (Math.round(places[2 * k + 1]! - box.top) * width + Math.round(places[2 * k]! - box.left));
+      for (let c = 0; c < 3; ++c) found.push(data[at + c]!);
+      for (let d = 0; d < 3; ++d) found.push(positions[3 * k + d]! + origin[d]!);
+      for (let d = 0; d < 3; ++d) found.push(normals[3 * k + d]!);
+    }
+    return new Uint8Array(Float64Array.from(found).buffer);
+  }));
+  return Array.from({ length: numbers.length / 9 }, (_, k) => {
+    const [red, green, blue, x, y, z, ...normal] = numbers.slice(9 * k, 9 * k + 9) as [number, number, number, number, number, number, number, number, number];
+    return { rgb: [red, green, blue], l: lightness(red, green, blue), r: Math.hypot(x - 100, y - 100), x, z, normal };
   });
-});
+}
+
+const linear = (x: number) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
+function lightness(red: number, green: number, blue: number): number {
+  const y = 0.2126 * linear(red / 255) + 0.7152 * linear(green / 255) + 0.0722 * linear(blue / 255);
+  return y > 0.008856 ? 116 * Math.cbrt(y) - 16 : 903.3 * y;
+}
 
 export const quantile = (list: number[], share: number): number => [...list].sort((a, b) => a - b)[Math.round(share * (list.length - 1))]!;
 /** Without the outermost twentieths. */
