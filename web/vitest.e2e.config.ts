@@ -1,26 +1,14 @@
 import { availableParallelism } from 'node:os';
-import { basename } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 import { defineConfig } from 'vitest/config';
-import { BaseSequencer, type TestSpecification } from 'vitest/node';
 
 import { rhinoWithoutEval } from './plugins/rhino_without_eval.mjs';
 import { reporting } from './vitest.results';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
-/** Begun first, so that the workers end together. */
-const longest = ['brushes', 'studio', 'hand', 'groove', 'random', 'appearance', 'documents', 'analysis', 'across'];
-
-class LongestFirst extends BaseSequencer {
-  override async sort(files: TestSpecification[]): Promise<TestSpecification[]> {
-    const rank = ({ moduleId }: TestSpecification) => (longest.indexOf(basename(moduleId, '.test.ts')) + longest.length + 1) % (longest.length + 1);
-    return [...files].sort((a, b) => rank(a) - rank(b));
-  }
-}
-
-// More browsers than cores that draw by software hinder each other.
+// Each has a browser of its own.
 const workers = Math.min(2, availableParallelism());
 process.env.STUDIO_WORKERS = String(workers);
 
@@ -37,8 +25,8 @@ export default defineConfig({
     include: ['tests/web/e2e/*.test.ts'],
     globalSetup: here('../tests/web/e2e/setup.ts'),
     pool: 'forks',
-    poolOptions: { forks: { minForks: workers, maxForks: workers } },
-    sequence: { sequencer: LongestFirst },
+    // Files share nothing but the modules that they read; longest first, by what they took last or by their size.
+    poolOptions: { forks: { minForks: workers, maxForks: workers, isolate: false } },
     testTimeout: 120_000,
     hookTimeout: 120_000,
     // What is waited for comes late on a busy machine.
