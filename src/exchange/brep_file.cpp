@@ -97,7 +97,9 @@ class Parser {
           const auto own = place(*index);
           const auto power = integer(-1000, 1000);
           if (!own || !power) return std::unexpected(!own ? own.error() : power.error());
-          for (int k = 0; k < std::abs(*power); ++k) result = result * (*power > 0 ? *own : own->inverse());
+          // The list begins with what is applied first (TopLoc_Location): each goes to the left of those before.
+          const Eigen::Affine3d factor = *power > 0 ? *own : own->inverse();
+          for (int k = 0; k < std::abs(*power); ++k) result = factor * result;
         }
       }
       places_.push_back(result);

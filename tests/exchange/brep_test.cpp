@@ -27,6 +27,25 @@ TEST(Brep, AFaceStandsWhereItsLocationPutsIt) {
   EXPECT_EQ(region->edges.size(), 4U);
 }
 
+/// Where a face with this location, made of a quarter turn about z (1) and 10 along x (2), has the corner (0, 1, 0).
+Point corner_at(const std::string& locations, int location) {
+  std::string text = square;
+  const std::string old = "Locations 1\n1\n1 0 0 10\n0 1 0 0\n0 0 1 0\n";
+  text.replace(text.find(old), old.size(),
+               "Locations 4\n1\n0 -1 0 0\n1 0 0 0\n0 0 1 0\n1\n1 0 0 10\n0 1 0 0\n0 0 1 0\n" + locations);
+  text.replace(text.rfind("+1 1 "), 5, "+1 " + std::to_string(location) + " ");
+  return open_or_die(text)->surfaces()[0].surface->control_points().row(1).transpose();
+}
+
+TEST(Brep, AProductOfLocationsAppliesTheFirstOfItsListFirst) {
+  const std::string turned_then_shifted = "2  1 1 2 1 0\n", shifted_then_turned = "2  2 1 1 1 0\n";
+  EXPECT_EQ(corner_at(turned_then_shifted + shifted_then_turned, 3), Point(9, 0, 0));
+  EXPECT_EQ(corner_at(turned_then_shifted + shifted_then_turned, 4), Point(-1, 10, 0));
+  EXPECT_EQ(corner_at("2  1 3 2 -2 0\n2  1 1 0\n", 3), Point(-19, 0, 0)) << "powers";
+  EXPECT_EQ(corner_at("2  1 -1 2 1 0\n2  2 1 3 -1 0\n", 4), Point(-1, 0, 0))
+      << "an inverse power of a product: 10 along x, back, and turned";
+}
+
 TEST(Brep, WhatIsMovedIsWrittenInTheCoordinatesOfTheFile) {
   const auto source = open_or_die(square);
   const Surface& s = *source->surfaces()[0].surface;
