@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ear_clipping.hpp"
+#include "orientation.hpp"
 
 namespace knead {
 namespace {

@@ -19,7 +19,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// \returns counter-clockwise triangles; indices count the points of `loops` in order, then `inside`. None if sides
 ///   cross so that no ear is left.
 ///
-/// Holes are bridged to the outline and ears cut off (Meisters 1975; Eberly, "Triangulation by ear clipping"), which
+/// Holes are bridged to the outline (`bridged`) and ears cut off (Meisters 1975), which is decided without rounding and
 /// needs no point outside and no tolerance; then sides that are not bounds are flipped until every circumcircle is
 /// empty (Lawson 1977), and further points are inserted one by one, each with its flips. Cost: O(n²) in the points of
 /// the loops at worst; about O(k) for k points inside given row by row.
