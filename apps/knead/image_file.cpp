@@ -157,13 +157,17 @@ Image grey(const Pixels& pixels, ImageChannel channel) {
 Expected<Image> read_image(const std::string& path, ImageChannel channel) {
   const auto bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
+  return image_in(*bytes, path, channel);
+}
+
+Expected<Image> image_in(std::string_view bytes, const std::string& path, ImageChannel channel) {
   Pixels pixels;
   std::vector<png_bytep> rows;
   ByteReader reader;
-  if (bytes->starts_with("\x89PNG")) {
-    decode_png(*bytes, pixels, rows, reader);
-  } else if (bytes->starts_with("\xff\xd8")) {
-    decode_jpeg(*bytes, pixels);
+  if (bytes.starts_with("\x89PNG")) {
+    decode_png(bytes, pixels, rows, reader);
+  } else if (bytes.starts_with("\xff\xd8")) {
+    decode_jpeg(bytes, pixels);
   } else {
     pixels.failure = "it is neither PNG nor JPEG";
   }

@@ -6,10 +6,13 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include "cli.hpp"
 #include "image_file.hpp"
 #include "knead/exchange/file_io.hpp"
+#include "knead/exchange/nrrd.hpp"
 #include "knead/session/snake_script.hpp"
 #include "knead/session/snake_text.hpp"
 #include "outputs.hpp"
@@ -59,8 +62,7 @@ Expected<void> write_results(const std::vector<SnakeResult>& snakes, const Snake
   return write_file_atomically(options.mask, *bytes);
 }
 
-Expected<void> run(const SnakeArguments& options) {
-  if (is_volume_file(options.image)) return run_volume_snake(options);
+Expected<void> run_image_snake(const SnakeArguments& options, std::string_view bytes) {
   const std::string ending = std::filesystem::path(options.output).extension().string();
   if (!options.output.empty() && ending != ".json" && ending != ".csv" && ending != ".svg") {
     return usage_error(fmt::format("\"{}\" is no kind of contour", ending), "--output", "name it .json, .csv or .svg");
@@ -77,7 +79,7 @@ Expected<void> run(const SnakeArguments& options) {
   Expected<SnakeScript> script;
   if (!options.script.empty()) script = script_in(options);
   if (!script) return std::unexpected(script.error());
-  const auto image = read_image(options.image, script->channel);
+  const auto image = image_in(bytes, options.image, script->channel);
   if (!image) return std::unexpected(image.error());
   if (options.script.empty()) script = default_script(*image);
   std::optional<Image> mask;
@@ -117,6 +119,14 @@ Expected<void> run(const SnakeArguments& options) {
             : "");
   }
   return write_results(*snakes, options, *image);
+}
+
+/// What is read says what it is: a pipe cannot be opened a second time.
+Expected<void> run(const SnakeArguments& options) {
+  auto bytes = read_file(options.image);
+  if (!bytes) return std::unexpected(bytes.error());
+  if (is_nrrd(*bytes)) return run_volume_snake(options, *std::move(bytes));
+  return run_image_snake(options, *bytes);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -152,15 +151,9 @@ std::string beside(const std::string& script, const std::string& file) {
   return (std::filesystem::path(script).parent_path() / file).string();
 }
 
-bool is_volume_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  char magic[4] = {};
-  return in.read(magic, sizeof magic) && is_nrrd(std::string_view(magic, sizeof magic));
-}
-
-Expected<void> run_volume_snake(const SnakeArguments& options) {
+Expected<void> run_volume_snake(const SnakeArguments& options, std::string bytes) {
   if (auto checked = check_arguments(options); !checked) return checked;
-  const auto file = read_nrrd(options.image);
+  const auto file = nrrd_file(std::move(bytes), options.image);
   if (!file) return std::unexpected(file.error());
   const auto script = script_of(options, file->volume);
   if (!script) return std::unexpected(script.error());

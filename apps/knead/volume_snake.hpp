@@ -14,10 +14,7 @@ struct SnakeArguments {
 /// Files that a script names are beside it.
 [[nodiscard]] std::string beside(const std::string& script, const std::string& file);
 
-/// Whether the file begins as a volume (NRRD) does.
-[[nodiscard]] bool is_volume_file(const std::string& path);
-
-/// `knead snake` in a volume.
-[[nodiscard]] Expected<void> run_volume_snake(const SnakeArguments& options);
+/// `knead snake` in a volume, whose bytes (NRRD) were read from `options.image`.
+[[nodiscard]] Expected<void> run_volume_snake(const SnakeArguments& options, std::string bytes);
 
 }  // namespace knead::cli

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <system_error>
 
+#include "knead/base/printable.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/nrrd.hpp"
 
@@ -69,6 +71,32 @@ void read_values(const NrrdHeader& header, std::string_view data, std::vector<do
   }
 }
 
+/// The file that a detached header names. Links are followed here, so that what is read later is what was judged.
+Expected<std::filesystem::path> data_file_of(const NrrdHeader& header, const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  const auto refused = [&](std::string what) {
+    return std::unexpected(Error{ErrorKind::input, fmt::format("\"{}\" {}", printable(header.data_file), what),
+                                 "data file", "put the data into the folder of the header", path.string(), 0});
+  };
+  const fs::path name = header.data_file;
+  if (name.is_absolute() || std::find(name.begin(), name.end(), fs::path("..")) != name.end()) {
+    return refused("may lie outside of the folder of the header");
+  }
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+#ifdef __wasi__  // without links
+  return folder / name;
+#else
+  std::error_code failed;
+  const fs::path inside = fs::canonical(folder, failed);
+  const fs::path file = failed ? fs::path() : fs::canonical(folder / name, failed);
+  if (failed) return folder / name;  // reading says why it cannot be found
+  if (std::mismatch(inside.begin(), inside.end(), file.begin(), file.end()).first != inside.end())
+    return refused("leads out of the folder of the header");
+  if (!fs::is_regular_file(file, failed)) return refused("is no regular file");
+  return file;
+#endif
+}
+
 std::string vector_text(const Eigen::Vector3d& v) { return fmt::format("({:.17g},{:.17g},{:.17g})", v[0], v[1], v[2]); }
 
 }  // namespace
@@ -112,18 +140,19 @@ Expected<VolumeImage> nrrd_volume(const NrrdHeader& header, std::string_view dat
   return volume;
 }
 
-Expected<NrrdFile> read_nrrd(const std::filesystem::path& path) {
-  auto bytes = read_file(path);
-  if (!bytes) return std::unexpected(bytes.error());
-  auto header = parse_nrrd_header(*bytes, path.string());
+Expected<NrrdFile> nrrd_file(std::string bytes, const std::filesystem::path& path) {
+  auto header = parse_nrrd_header(bytes, path.string());
   if (!header) return std::unexpected(header.error());
-  std::string_view data = std::string_view(*bytes).substr(header->data_at);
+  std::string_view data = std::string_view(bytes).substr(header->data_at);
   std::filesystem::path from = path;
   if (!header->data_file.empty()) {
-    from = path.parent_path() / header->data_file;
-    bytes = read_file(from);
-    if (!bytes) return std::unexpected(bytes.error());
-    data = *bytes;
+    auto found = data_file_of(*header, path);
+    if (!found) return std::unexpected(found.error());
+    from = *std::move(found);
+    auto read = read_file(from);
+    if (!read) return std::unexpected(read.error());
+    bytes = *std::move(read);
+    data = bytes;
   }
   auto volume = nrrd_volume(*header, data);
   if (!volume) {
@@ -132,6 +161,12 @@ Expected<NrrdFile> read_nrrd(const std::filesystem::path& path) {
     return std::unexpected(std::move(error));
   }
   return NrrdFile{std::move(*header), std::move(*volume)};
+}
+
+Expected<NrrdFile> read_nrrd(const std::filesystem::path& path) {
+  auto bytes = read_file(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  return nrrd_file(*std::move(bytes), path);
 }
 
 std::string nrrd_bytes(const VolumeImage& volume, std::string_view space) {

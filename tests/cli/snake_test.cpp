@@ -1,5 +1,11 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "knead/image_file.hpp"
 #include "program.hpp"
@@ -76,6 +82,31 @@ TEST_F(SnakeCommand, StartsAtBlobs) {
   const Json json = Json::parse(contents(file("contour.json")));
   ASSERT_EQ(json.at("snakes").size(), 1U);
   EXPECT_NEAR(json.at("snakes").at(0).at("area").get<double>(), 3.14159265 * 400, 25);
+}
+
+TEST_F(SnakeCommand, ReadsAPipeOnceFromItsStart) {
+  const std::string bytes = disc();
+  ASSERT_LT(bytes.size(), 65536U) << "the pipe holds all of it";
+  std::array<int, 2> ends = {};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  ASSERT_EQ(write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  close(ends[1]);
+  const Outcome out = knead({"snake", "/dev/fd/" + std::to_string(ends[0]), "-o", file("piped.svg")});
+  close(ends[0]);
+  ASSERT_EQ(out.code, 0) << out.err;
+  ASSERT_EQ(knead({"snake", file("disc.png"), "-o", file("read.svg")}).code, 0);
+  EXPECT_EQ(contents(file("piped.svg")), contents(file("read.svg")));
+}
+
+TEST_F(SnakeCommand, ReadsANamedPipeOnce) {
+  ASSERT_EQ(mkfifo(file("fifo").c_str(), 0600), 0);
+  std::thread writer([this] { std::ofstream(file("fifo"), std::ios::binary) << disc(); });
+  const Outcome out = knead({"snake", file("fifo"), "-o", file("contour.svg")});
+  const int reader = open(file("fifo").c_str(), O_RDONLY | O_NONBLOCK);  // lets the writer go where nobody read
+  writer.join();
+  close(reader);
+  EXPECT_EQ(out.code, 0) << out.err;
+  EXPECT_TRUE(std::filesystem::exists(file("contour.svg")));
 }
 
 TEST_F(SnakeCommand, SaysWhatIsWrong) {

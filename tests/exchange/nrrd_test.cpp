@@ -140,6 +140,31 @@ TEST_F(NrrdFiles, DetachedHeadersFindTheirDataBesideThem) {
   EXPECT_NE(at("line skip: 9\ndata file: v.raw\n").find("line skip"), std::string::npos);
 }
 
+TEST_F(NrrdFiles, DetachedHeadersNameNoFileOutsideOfTheirFolder) {
+  const std::string outside = write("v.raw", data);
+  fs::create_directories(fs::path(outside).parent_path() / "in" / "deeper");
+  write("in/deeper/v.raw", data);
+  const auto link = [&](const std::string& name, const fs::path& to) {
+    fs::create_symlink(to, fs::path(outside).parent_path() / "in" / name);
+  };
+  link("in.raw", "deeper/v.raw");
+  link("out.raw", outside);
+  link("up", "..");
+  const auto at = [&](const std::string& name) {
+    const auto file = read_nrrd(write("in/v.nhdr", header("uint8", "data file: " + name + "\n")));
+    return file ? std::string("read") : file.error().message();
+  };
+  EXPECT_EQ(at("deeper/v.raw"), "read");
+  EXPECT_EQ(at("in.raw"), "read");
+  for (const std::string& name : {outside, std::string("../v.raw"), std::string("deeper/../../v.raw"),
+                                  std::string("/dev/zero"), std::string("out.raw"), std::string("up/v.raw")}) {
+    const std::string message = at(name);
+    EXPECT_NE(message.find("v.nhdr: data file: \"" + name), std::string::npos) << message;
+    EXPECT_NE(message.find("folder of the header"), std::string::npos) << message;
+  }
+  EXPECT_NE(at("deeper").find("no regular file"), std::string::npos);
+}
+
 TEST(Nrrd, ErrorsNameTheLineAndWhatWouldBeRight) {
   const auto says = [](const std::string& file, const std::string& what) {
     const std::string message = refused(file);

@@ -42,13 +42,16 @@ struct NrrdHeader {
 /// than the sizes ask for; values that are not finite; 64-bit integers that a double cannot hold.
 [[nodiscard]] Expected<VolumeImage> nrrd_volume(const NrrdHeader& header, std::string_view data);
 
-/// A volume file, with its data from the file that a detached header names, beside it. Errors (input): those above and
-/// of `read_file`.
+/// A volume file, with its data from the file that a detached header names. That must be a regular file in the folder
+/// of `path` or below: a header from elsewhere cannot have other files read. Errors (input): those above and of
+/// `read_file`; a data file with an absolute path or "..", or with links that lead out of the folder.
 struct NrrdFile {
   NrrdHeader header;
   VolumeImage volume;
 };
 [[nodiscard]] Expected<NrrdFile> read_nrrd(const std::filesystem::path& path);
+/// The same from the bytes that were read from `path`, which is not read again.
+[[nodiscard]] Expected<NrrdFile> nrrd_file(std::string bytes, const std::filesystem::path& path);
 
 /// The bytes of an attached NRRD file of 8-bit numbers, values rounded and clamped to 0 to 255, in the same space.
 [[nodiscard]] std::string nrrd_bytes(const VolumeImage& volume, std::string_view space = {});
