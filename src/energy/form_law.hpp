@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
+#include "base/decompositions.hpp"
 #include "knead/energy/form_energy.hpp"
 
 namespace knead::detail {
@@ -63,10 +64,11 @@ struct FormPoint {
   /// `material` and the geometric part of positive principal stresses.
   [[nodiscard]] Eigen::Matrix<double, unknowns, unknowns> tense() const {
     Eigen::Matrix<double, unknowns, unknowns> sum = material;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> principal(stress);
-    const auto& axes = principal.eigenvectors();
-    const Eigen::Matrix<double, D, D> tension =
-        axes * principal.eigenvalues().cwiseMax(0).asDiagonal() * axes.transpose();
+    Eigen::Matrix<double, D, D> tension = stress;  // where it is not finite, neither is the result
+    if (const auto principal = detail::symmetric_eigen(stress)) {
+      const auto& axes = principal->vectors;
+      tension = axes * principal->values.cwiseMax(0).asDiagonal() * axes.transpose();
+    }
     for (int i = 0; i < D; ++i) {
       for (int k = 0; k < D; ++k) sum.template block<3, 3>(3 * i, 3 * k).diagonal().array() += tension(i, k);
     }

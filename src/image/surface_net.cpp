@@ -180,9 +180,14 @@ Expected<void> SurfaceNet::make_modes(double alpha, double beta) {
     Mode mode;
     mode.mass = t.transpose() * (g0 * v0) * t;
     const Eigen::MatrixXd stretch = t.transpose() * (g0 * v1 + g1 * across) * t;
-    const Eigen::MatrixXd bend = torus
-                                     ? Eigen::MatrixXd(g2 * v0 + 2 * g1 * v1 + g0 * v2)
-                                     : Eigen::MatrixXd(stretch * Eigen::LLT<Eigen::MatrixXd>(mode.mass).solve(stretch));
+    Eigen::MatrixXd bend;
+    if (torus) {
+      bend = g2 * v0 + 2 * g1 * v1 + g0 * v2;
+    } else {
+      const auto mass = detail::DenseCholesky::factor(mode.mass);
+      if (!mass) return std::unexpected(mass.error());
+      bend = stretch * mass->solve(stretch);
+    }
     mode.internal = alpha * stretch + beta * (bend + bend.transpose()) / 2;
     modes_.push_back(std::move(mode));
   }
@@ -193,10 +198,11 @@ Expected<void> SurfaceNet::factor(double gamma, bool mass_alone) {
   factors_.clear();
   for (const Mode& mode : modes_) {
     const Eigen::MatrixXd sum = gamma * mode.mass + (mass_alone ? 0 : 1) * mode.internal;
-    factors_.emplace_back(sum);
-    if (factors_.back().info() != Eigen::Success) {
+    auto factored = detail::DenseCholesky::factor(sum);
+    if (!factored) {
       return numerical_error("the matrix of the active surface is not positive definite", "", "use a larger gamma");
     }
+    factors_.push_back(std::move(*factored));
   }
   return {};
 }

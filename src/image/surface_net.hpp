@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <array>
 #include <vector>
 
+#include "base/decompositions.hpp"
 #include "knead/image/surface_snake.hpp"
 #include "knead/spline/basis.hpp"
 
@@ -96,7 +96,7 @@ class SurfaceNet {
   std::vector<int> wave_;  ///< of each column
   std::vector<Eigen::MatrixXd> allowed_;  ///< of the wave numbers 0, 1 and above
   std::vector<Mode> modes_;               ///< by wave number
-  std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
+  std::vector<detail::DenseCholesky> factors_;
 };
 
 /// The unknowns of places at the Gauss points of a net, by least squares on Ω.

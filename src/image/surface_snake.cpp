@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "base/decompositions.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "snake_motion.hpp"
 #include "surface_checks.hpp"
@@ -59,7 +59,7 @@ struct MovingSurface {
   }
 
   /// The move by forces on the unknowns, springs drawing at its end (Sherman, Morrison and Woodbury).
-  [[nodiscard]] Points moved_by(Points forces) const {
+  [[nodiscard]] Expected<Points> moved_by(Points forces) const {
     const auto count = std::ssize(settings.springs);
     if (count == 0) return net.solve(forces);
     Eigen::MatrixXd pull(count, 3);
@@ -71,7 +71,9 @@ struct MovingSurface {
     }
     const Points free = net.solve(forces);
     const Eigen::MatrixXd small = held.transpose() * spread + Eigen::MatrixXd(softness.asDiagonal());
-    return free + spread * small.partialPivLu().solve(pull - held.transpose() * free);
+    const auto drawn = detail::solve_square(small, pull - held.transpose() * free);
+    if (!drawn) return std::unexpected(drawn.error().within("springs"));
+    return Points(free + spread * *drawn);
   }
 
   [[nodiscard]] InsideSums inside(const VolumePotential& image) const {
@@ -135,7 +137,9 @@ struct MovingSurface {
   }
 
   Expected<void> step(const VolumePotential& image, double side, const std::optional<Greys>& greys) {
-    Points move = limited(moved_by(net.load(forces(image, side, greys)) - net.internal(c)), settings.max_move);
+    auto moved = moved_by(net.load(forces(image, side, greys)) - net.internal(c));
+    if (!moved) return std::unexpected(moved.error());
+    Points move = limited(std::move(*moved), settings.max_move);
     net.keep_poles(move);
     c += move;
     ++iterations;

@@ -1,10 +1,10 @@
 #include "knead/scene/edge_check.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "knead/exchange/shared_edge.hpp"
 #include "knead/spline/curvature.hpp"
 
@@ -55,17 +55,18 @@ struct Meeting {
   std::optional<double> angle, curvature;
 };
 
-void meet(const FaceSide& a, const FaceSide& b, Meeting& meeting) {
+Expected<void> meet(const FaceSide& a, const FaceSide& b, Meeting& meeting) {
   for (std::size_t k = 0; k < a.points.size(); ++k) {
     meeting.gap = std::max(meeting.gap, (a.points[k] - b.points[k]).norm());
     if (a.normals[k].isZero() || b.normals[k].isZero()) continue;
     const double angle = std::atan2(a.normals[k].cross(b.normals[k]).norm(), a.normals[k].dot(b.normals[k]));
     meeting.angle = std::max(meeting.angle.value_or(0), angle);
     if (angle > tangent_angle || a.bending.empty() || b.bending.empty()) continue;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> difference(a.bending[k] - b.bending[k],
-                                                                    Eigen::EigenvaluesOnly);
-    meeting.curvature = std::max(meeting.curvature.value_or(0), difference.eigenvalues().cwiseAbs().maxCoeff());
+    const auto difference = detail::symmetric_eigenvalues(a.bending[k] - b.bending[k]);
+    if (!difference) return std::unexpected(difference.error());
+    meeting.curvature = std::max(meeting.curvature.value_or(0), difference->cwiseAbs().maxCoeff());
   }
+  return {};
 }
 
 /// Either as it is or as it was opened.
@@ -83,10 +84,14 @@ Expected<Meeting> meeting_of(const Scene& scene, const EdgeContact& contact, boo
     sides.push_back(*std::move(side));
   }
   Meeting meeting;
-  if (sides.size() == 1)
-    meet(sides[0], {contact.points, std::vector<Point>(contact.points.size(), Point::Zero()), {}}, meeting);
+  if (sides.size() == 1) {
+    const FaceSide still{contact.points, std::vector<Point>(contact.points.size(), Point::Zero()), {}};
+    if (auto met = meet(sides[0], still, meeting); !met) return std::unexpected(met.error());
+  }
   for (std::size_t a = 0; a < sides.size(); ++a) {
-    for (std::size_t b = a + 1; b < sides.size(); ++b) meet(sides[a], sides[b], meeting);
+    for (std::size_t b = a + 1; b < sides.size(); ++b) {
+      if (auto met = meet(sides[a], sides[b], meeting); !met) return std::unexpected(met.error());
+    }
   }
   return meeting;
 }

@@ -1,8 +1,8 @@
 #include "smooth_seams.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 
+#include "base/decompositions.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -72,10 +72,11 @@ Expected<CoupledEdge> smooth_seam_edge(std::span<const Surface* const> patches, 
       Eigen::Vector2d d = Eigen::Vector2d::Zero();
       d[edge_across(seam.a.edge)] = 1;
       const Point way = on_a->jacobian * d;
-      const Eigen::Vector2d other = on_b->jacobian.colPivHouseholderQr().solve(way);
-      if (!(way.norm() > 0) || !((on_b->jacobian * other - way).norm() <= on_plane * way.norm())) continue;
+      const auto other = detail::least_squares(on_b->jacobian, way);
+      if (!other) return std::unexpected(other.error());
+      if (!(way.norm() > 0) || !((on_b->jacobian * *other - way).norm() <= on_plane * way.norm())) continue;
       edge.points.push_back({{seam.a.patch, on_a->at}, {seam.b.patch, on_b->at}});
-      edge.across.push_back({d, other});
+      edge.across.push_back({d, *other});
     }
   }
   return edge;

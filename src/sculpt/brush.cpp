@@ -1,12 +1,12 @@
 #include "knead/sculpt/brush.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
+#include "base/decompositions.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead {
@@ -182,10 +182,10 @@ BrushHistory::Frame BrushHistory::frame_at(const Brush& brush, const BrushSample
   if (brush.kind != BrushKind::flatten || count < fewest_of_plane) return lean();
   middle /= total;
   spread = spread / total - middle * middle.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  if (!(axes.eigenvalues()[1] > 1e-6 * axes.eigenvalues()[2])) return lean();  // on a line
+  const auto axes = detail::symmetric_eigen(spread);
+  if (!axes || !(axes->values[1] > 1e-6 * axes->values[2])) return lean();  // on a line
   frame.middle = place.at + middle;
-  const Point across = axes.eigenvectors().col(0);
+  const Point across = axes->vectors.col(0);
   frame.normal = across.dot(frame.normal) < 0 ? Point(-across) : across;
   return lean();
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "dense_decompositions.hpp"
+#include "base/decompositions.hpp"
 
 namespace knead::detail {
 
@@ -64,7 +64,7 @@ void append(ConstraintList& to, const std::string& name, Terms terms, const std:
   to.constraints.push_back({name, std::move(terms), Point::Zero(), normal});
 }
 
-SelectedRows select_rows(const std::vector<Terms>& rows, double tolerance) {
+Expected<SelectedRows> select_rows(const std::vector<Terms>& rows, double tolerance) {
   std::map<int, Eigen::Index> columns;
   for (const Terms& row : rows) {
     for (const auto& [unknown, c] : row) columns.try_emplace(unknown, 0);
@@ -76,19 +76,20 @@ SelectedRows select_rows(const std::vector<Terms>& rows, double tolerance) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     for (const auto& [unknown, c] : rows[k]) a(columns.at(unknown), static_cast<Eigen::Index>(k)) += c;
   }
-  const PivotedQr qr(a);
-  const Eigen::Index most = std::min(a.rows(), a.cols());
+  const auto qr = PivotedQr::create(a);
+  if (!qr) return std::unexpected(qr.error());
+  const Eigen::Index most = qr->pivots();
   const auto remainder_of = [&](Eigen::Index rank) {
-    return rank == most ? 0.0 : qr.remainder(rank).cwiseAbs().colwise().sum().maxCoeff();
+    return rank == most ? 0.0 : qr->remainder(rank).cwiseAbs().colwise().sum().maxCoeff();
   };
   // The diagonal of R decreases, and a remainder is at most √n times it; remainders of rounding are not independent.
   SelectedRows result;
   for (double threshold = tolerance;; threshold /= 4) {
     Eigen::Index rank = 0;
-    while (rank < most && qr.pivot(rank) > std::max(threshold, 1e-13)) ++rank;
+    while (rank < most && qr->pivot(rank) > std::max(threshold, 1e-13)) ++rank;
     result.remainder = remainder_of(rank);
     if (result.remainder > tolerance && threshold > 1e-13) continue;
-    for (Eigen::Index k = 0; k < rank; ++k) result.chosen.push_back(qr.order()[k]);
+    for (Eigen::Index k = 0; k < rank; ++k) result.chosen.push_back(qr->order()[k]);
     std::ranges::sort(result.chosen);  // neighbours together: elimination is then many times faster
     return result;
   }

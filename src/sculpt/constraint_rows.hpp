@@ -64,13 +64,13 @@ struct LocalBasis {
 /// control point without a normal becomes held. Appends nothing if all are zero.
 void append(ConstraintList& to, const std::string& name, Terms terms, const std::optional<Point>& normal = {});
 
-/// Rows of which all others are combinations, best conditioned first, and the largest |r|_1 of the others'
-/// remainders.
+/// Rows of which all others are combinations, ascending, and the largest |r|_1 of the others' remainders.
 struct SelectedRows {
   std::vector<int> chosen;
   double remainder = 0;
 };
-[[nodiscard]] SelectedRows select_rows(const std::vector<Terms>& rows, double tolerance);
+/// None of no rows, nor of rows without unknowns. Errors (numerical): a coefficient is not a finite number.
+[[nodiscard]] Expected<SelectedRows> select_rows(const std::vector<Terms>& rows, double tolerance);
 
 [[nodiscard]] Expected<void> check_parameter(const KnotVector& knots, double u, const char* name);
 [[nodiscard]] Expected<void> check_tolerance(double tolerance, const char* name);

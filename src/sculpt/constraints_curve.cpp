@@ -111,9 +111,10 @@ Expected<CurveHold> keep_curve(const Surface& rest, const Parameters<2>& polylin
     }
   }
   const double least = std::max(tolerance, least_tolerance) / all.growth;
-  const detail::SelectedRows selected = detail::select_rows(all.rows, least);
-  for (const int k : selected.chosen) detail::append(to, name, std::move(all.rows[static_cast<std::size_t>(k)]));
-  return CurveHold{static_cast<int>(selected.chosen.size()), all.growth * selected.remainder};
+  const auto selected = detail::select_rows(all.rows, least);
+  if (!selected) return std::unexpected(selected.error().within(name));
+  for (const int k : selected->chosen) detail::append(to, name, std::move(all.rows[static_cast<std::size_t>(k)]));
+  return CurveHold{static_cast<int>(selected->chosen.size()), all.growth * selected->remainder};
 }
 
 Expected<Parameters<2>> parameter_polyline(const Surface& rest, const Curve& parameter_curve, double tolerance) {

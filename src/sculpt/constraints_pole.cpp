@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/decompositions.hpp"
 #include "constraint_rows.hpp"
-#include "dense_decompositions.hpp"
 
 namespace knead {
 namespace {
@@ -15,16 +15,19 @@ struct RingRelation {
   Eigen::MatrixXd coefficients;  // rank × n
 };
 
-RingRelation relation(const Eigen::Matrix3Xd& ring, double flatness) {
+Expected<RingRelation> relation(const Eigen::Matrix3Xd& ring, double flatness) {
   RingRelation result;
-  const auto [vectors, singular] = detail::left_singular(ring);
+  const auto left = detail::left_singular(ring);
+  if (!left) return std::unexpected(left.error());
+  const auto& [vectors, singular] = *left;
   while (result.rank < std::min<Eigen::Index>(3, ring.cols()) && singular[result.rank] > flatness * singular[0])
     ++result.rank;
   if (result.rank == 0) return result;
   const Eigen::MatrixXd flat = vectors.leftCols(result.rank).transpose() * ring;
-  const detail::PivotedQr qr(flat);
-  for (int k = 0; k < result.rank; ++k) result.basis.push_back(qr.order()[k]);
-  result.coefficients = qr.coefficients(result.rank);
+  const auto qr = detail::PivotedQr::create(flat);
+  if (!qr) return std::unexpected(qr.error());
+  for (int k = 0; k < result.rank; ++k) result.basis.push_back(qr->order()[k]);
+  result.coefficients = qr->coefficients(result.rank);
   return result;
 }
 
@@ -51,21 +54,22 @@ Expected<std::vector<Pole>> keep_poles(const Surface& rest, double tolerance, do
     }
     if (!collapsed) continue;
     const std::string name = fmt::format("pole {}", edge_name(edge));
-    const RingRelation affine = relation(ring, flatness);
+    const auto affine = relation(ring, flatness);
+    if (!affine) return std::unexpected(affine.error().within(name));
     for (int j = 0; j < columns; ++j) {
       if (j > 0) detail::append(to, name, {{net.index(row, j), 1.0}, {net.index(row, 0), -1.0}});
       detail::Terms terms = {{net.index(next, j), 1.0}};
       double sum = 0;
       bool chosen = false;
-      for (int k = 0; k < affine.rank; ++k) {
-        chosen = chosen || affine.basis[static_cast<std::size_t>(k)] == j;
-        terms.emplace_back(net.index(next, affine.basis[static_cast<std::size_t>(k)]), -affine.coefficients(k, j));
-        sum += affine.coefficients(k, j);
+      for (int k = 0; k < affine->rank; ++k) {
+        chosen = chosen || affine->basis[static_cast<std::size_t>(k)] == j;
+        terms.emplace_back(net.index(next, affine->basis[static_cast<std::size_t>(k)]), -affine->coefficients(k, j));
+        sum += affine->coefficients(k, j);
       }
       terms.emplace_back(net.index(row, 0), sum - 1);
       if (!chosen) detail::append(to, name, std::move(terms));
     }
-    poles.push_back({edge, affine.rank});
+    poles.push_back({edge, affine->rank});
   }
   return poles;
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/decompositions.hpp"
 #include "constraint_rows.hpp"
-#include "dense_decompositions.hpp"
 
 namespace knead {
 namespace {
@@ -167,16 +167,17 @@ Expected<std::array<Terms, 3>> rows_at(const Line& line, double v, int span_acro
   return result;
 }
 
-void append_selected(std::vector<Terms> rows, const std::string& name, double tolerance, ConstraintList& to) {
+Expected<void> append_selected(std::vector<Terms> rows, const std::string& name, double tolerance, ConstraintList& to) {
   for (Terms& row : rows) {
     row = united(std::move(row));
     double sum = 0;
     for (const auto& [unknown, c] : row) sum += std::abs(c);
     for (auto& [unknown, c] : row) c /= sum > 0 ? sum : 1;
   }
-  for (const int k : detail::select_rows(rows, tolerance).chosen) {
-    detail::append(to, name, std::move(rows[static_cast<std::size_t>(k)]));
-  }
+  const auto selected = detail::select_rows(rows, tolerance);
+  if (!selected) return std::unexpected(selected.error().within(name));
+  for (const int k : selected->chosen) detail::append(to, name, std::move(rows[static_cast<std::size_t>(k)]));
+  return {};
 }
 
 /// C0 at samples, or D_u⁺ = λ D_u⁻ + μ D_v with λ and μ of the rest shape at each sample.
@@ -193,16 +194,16 @@ Expected<void> couple_samples(const Line& line, bool derivatives, const std::str
       const auto at = static_cast<Eigen::Index>(k);
       Eigen::MatrixXd frame(3, 2);
       frame << line.across_left.row(at).transpose(), line.tangent.row(at).transpose();
-      const Eigen::VectorXd factors = detail::least_squares(frame, line.across_right.row(at).transpose());
-      add(row, (*left)[1], -factors[0]);
-      add(row, (*left)[2], -factors[1]);
+      const auto factors = detail::least_squares(frame, Eigen::VectorXd(line.across_right.row(at).transpose()));
+      if (!factors) return std::unexpected(factors.error().within(name));
+      add(row, (*left)[1], -(*factors)[0]);
+      add(row, (*left)[2], -(*factors)[1]);
     } else {
       add(row, (*left)[0], -1);
     }
     rows.push_back(std::move(row));
   }
-  append_selected(std::move(rows), name, tolerance, to);
-  return {};
+  return append_selected(std::move(rows), name, tolerance, to);
 }
 
 Expected<void> couple_positions(const Line& line, const WeightRatios& weights, const std::string& name,

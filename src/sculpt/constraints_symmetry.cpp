@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "constraint_rows.hpp"
 
 namespace knead {
@@ -200,11 +200,12 @@ Expected<MirrorPlane> mirror_plane(const Surface& rest, int direction) {
   const auto points = partners(rest, direction);
   if (!points) return std::unexpected(points.error());
   const Points way = (*points)[1] - (*points)[0];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(way.transpose() * way);
-  if (!(axes.eigenvalues()[2] > 0)) {
+  const auto axes = detail::symmetric_eigen(Eigen::Matrix3d(way.transpose() * way));
+  if (!axes) return std::unexpected(axes.error());
+  if (!(axes->values[2] > 0)) {
     return numerical_error("partners do not lie apart, so no plane mirrors them", "mirror", "name the plane");
   }
-  return MirrorPlane{(0.5 * ((*points)[0] + (*points)[1])).colwise().mean().transpose(), axes.eigenvectors().col(2)};
+  return MirrorPlane{(0.5 * ((*points)[0] + (*points)[1])).colwise().mean().transpose(), axes->vectors.col(2)};
 }
 
 Expected<MirrorReport> keep_mirror(const Surface& rest, int direction, const MirrorPlane& plane, double tolerance,

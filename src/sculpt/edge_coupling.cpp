@@ -120,9 +120,10 @@ Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches, std
     if (!given) return std::unexpected(given.error());
     const auto space = ConstraintSpace::create(rows.back(), all, held);
     if (!space) return std::unexpected(space.error());
-    const detail::SelectedRows selected = detail::select_rows(reduced(*space, *given), to);
-    if (!derivatives) result.bound = std::max(result.bound, selected.remainder);
-    for (const int k : selected.chosen) {
+    const auto selected = detail::select_rows(reduced(*space, *given), to);
+    if (!selected) return std::unexpected(selected.error().within(edge.name));
+    if (!derivatives) result.bound = std::max(result.bound, selected->remainder);
+    for (const int k : selected->chosen) {
       result.constraints.push_back(constraint_of(edge.name, (*given)[static_cast<std::size_t>(k)]));
       all.push_back(result.constraints.back());
     }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "dense_decompositions.hpp"
+#include "base/decompositions.hpp"
 #include "knead/spline/basis.hpp"
 #include "seams_edge.hpp"
 
@@ -87,11 +87,13 @@ std::optional<RowMatrix> onto(int degree, const std::vector<double>& knots, int 
 
 /// The independent ones of the conditions R_a E_a = R_b E_b: their number, the columns of both minus the dimension of
 /// the intersection, is known. After a few dozen, elimination could not tell the others from rounding.
-std::vector<Eigen::Index> independent_rows(const RowMatrix& from_a, const RowMatrix& from_b, Eigen::Index common) {
+std::optional<std::vector<Eigen::Index>> independent_rows(const RowMatrix& from_a, const RowMatrix& from_b,
+                                                          Eigen::Index common) {
   Eigen::MatrixXd both(from_a.cols() + from_b.cols(), from_a.rows());
   both << Eigen::MatrixXd(from_a.transpose()), -Eigen::MatrixXd(from_b.transpose());
-  const detail::PivotedQr factors(both);
-  const Eigen::VectorXi& order = factors.order();
+  const auto factors = detail::PivotedQr::create(both);
+  if (!factors) return std::nullopt;
+  const Eigen::VectorXi& order = factors->order();
   std::vector<Eigen::Index> rows(order.data(), order.data() + (both.rows() - common));
   std::ranges::sort(rows);
   return rows;
@@ -190,7 +192,9 @@ std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b
     result.independent.resize(static_cast<std::size_t>(result.from_a.rows()));
     std::iota(result.independent.begin(), result.independent.end(), Eigen::Index{0});
   } else {
-    result.independent = independent_rows(result.from_a, result.from_b, shared);
+    auto independent = independent_rows(result.from_a, result.from_b, shared);
+    if (!independent) return std::nullopt;
+    result.independent = std::move(*independent);
   }
   if (reversed) {  // columns in b's own order
     std::vector<Eigen::Triplet<double>> entries;

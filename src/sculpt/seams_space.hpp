@@ -34,7 +34,8 @@ struct CommonSpace {
   double mismatch = 0;  ///< largest distance of knots that count as the same
 };
 
-/// None if normalised knots cannot be distinguished (spans of less than an ulp of the domain).
+/// None if normalised knots cannot be distinguished (spans of less than an ulp of the domain), or embedding the spaces
+/// loses all digits.
 [[nodiscard]] std::optional<CommonSpace> common_space(const KnotVector& a, const KnotVector& b, bool reversed,
                                                       double agreement);
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "knead/base/interruption.hpp"
 #include "nested_nets.hpp"
 
@@ -33,7 +33,7 @@ bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held)
     const Point n = c.normal->normalized();
     forbidden += n * n.transpose();
   }
-  return Eigen::FullPivLU<Eigen::Matrix3d>(forbidden).rank() == 3;
+  return detail::rank_of(forbidden) == 3;
 }
 
 Expected<StepInverse> factored(SparseMatrix&& a, ConstraintSpace space, const GridPlaces& places, bool undamped) {

@@ -1,10 +1,11 @@
 #include "travelled.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
 #include <vector>
 
+#include "base/decompositions.hpp"
 #include "knead/spline/closest_point.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "spline/surface_jet.hpp"
@@ -54,7 +55,9 @@ std::optional<Motion> motion_of(const SampledShape& on, const Travel& travel) {
   } else {
     Eigen::Matrix<double, 3, 2> tangents;
     tangents << b.d[1], b.d[2];
-    motion.way = tangents.colPivHouseholderQr().solve(travel.to - travel.from);
+    const auto way = detail::least_squares(tangents, travel.to - travel.from);
+    if (!way) return std::nullopt;
+    motion.way = *way;
   }
   motion.turn = Eigen::Quaterniond::FromTwoVectors(normal_a, normal_b).toRotationMatrix();
   if (!motion.way.allFinite() || !motion.turn.allFinite()) return std::nullopt;

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <optional>
 
+#include "base/decompositions.hpp"
 #include "coordinate_map.hpp"
 #include "eigen_problem.hpp"
 
@@ -47,17 +47,18 @@ struct RitzPairs {
 /// Block Lanczos for the operator A⁻¹ C, symmetric in the inner product of P.
 class Lanczos {
  public:
-  Lanczos(const Eigen::SimplicialLDLT<SparseMatrix>& a, const SparseMatrix& c, const SparseMatrix& p)
+  Lanczos(const detail::SparseLdlt& a, const SparseMatrix& c, const SparseMatrix& p)
       : a_(a), c_(c), p_(p), most_(std::min(most_vectors, p.rows())), basis_(p.rows(), most_), t_(most_, most_) {
     t_.setZero();
   }
 
   /// The wanted pairs that converged, best first, `count` at most.
-  RitzPairs find(Eigen::Index count, Wanted wanted) {
+  Expected<RitzPairs> find(Eigen::Index count, Wanted wanted) {
     count = std::min(count, most_);
     Eigen::MatrixXd next(p_.rows(), std::min(std::max(block_size, count / 2), most_));
     for (double& x : next.reshaped()) x = sequence_.next();
     orthonormalise(next);
+    if (next.cols() == 0) return RitzPairs{{}, Eigen::MatrixXd(p_.rows(), 0)};
     while (true) {
       const Eigen::Index first = size_, width = append(next);
       next = a_.solve(Eigen::MatrixXd(c_ * basis_.middleCols(first, width)));
@@ -68,9 +69,9 @@ class Lanczos {
       }
       t_.block(first, 0, width, first) = t_.block(0, first, first, width).transpose();
       const Eigen::MatrixXd r = orthonormalise(next);
-      const RitzPairs found = converged(count, wanted, r, first, width);
+      auto found = converged(count, wanted, r, first, width);
       const bool exhausted = size_ == most_ || next.cols() == 0;
-      if (found.values.size() >= count || exhausted) return found;
+      if (!found || found->values.size() >= count || exhausted) return found;
     }
   }
 
@@ -110,13 +111,14 @@ class Lanczos {
 
   [[nodiscard]] double length(const Eigen::VectorXd& x) const { return std::sqrt(std::max(0.0, x.dot(p_ * x))); }
 
-  [[nodiscard]] RitzPairs converged(Eigen::Index count, Wanted wanted, const Eigen::MatrixXd& r, Eigen::Index first,
-                                    Eigen::Index width) const {
+  [[nodiscard]] Expected<RitzPairs> converged(Eigen::Index count, Wanted wanted, const Eigen::MatrixXd& r,
+                                              Eigen::Index first, Eigen::Index width) const {
     const Eigen::MatrixXd t = t_.topLeftCorner(size_, size_);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz((t + t.transpose()) / 2);
+    const auto ritz = detail::symmetric_eigen(Eigen::MatrixXd((t + t.transpose()) / 2));
+    if (!ritz) return std::unexpected(ritz.error());
     std::vector<Eigen::Index> order(static_cast<std::size_t>(size_));
     std::iota(order.begin(), order.end(), Eigen::Index{0});
-    const Eigen::VectorXd& theta = ritz.eigenvalues();
+    const Eigen::VectorXd& theta = ritz->values;
     std::ranges::stable_sort(order, [&](Eigen::Index i, Eigen::Index j) {
       return wanted == Wanted::positive ? theta[i] > theta[j] : std::abs(theta[i]) > std::abs(theta[j]);
     });
@@ -125,7 +127,7 @@ class Lanczos {
     for (const Eigen::Index i : order) {
       if (static_cast<Eigen::Index>(good.size()) == count) break;
       if (wanted == Wanted::positive && theta[i] <= dependent * largest) break;
-      const double error = r.rows() == 0 ? 0 : (r * ritz.eigenvectors().col(i).segment(first, width)).norm();
+      const double error = r.rows() == 0 ? 0 : (r * ritz->vectors.col(i).segment(first, width)).norm();
       if (error > wanted_residual * std::abs(theta[i])) break;  // in order, so that none is skipped
       good.push_back(i);
     }
@@ -135,12 +137,12 @@ class Lanczos {
     for (Eigen::Index k = 0; k < result.values.size(); ++k) {
       const Eigen::Index i = good[static_cast<std::size_t>(k)];
       result.values[k] = theta[i];
-      result.vectors.col(k) = basis_.leftCols(size_) * ritz.eigenvectors().col(i);
+      result.vectors.col(k) = basis_.leftCols(size_) * ritz->vectors.col(i);
     }
     return result;
   }
 
-  const Eigen::SimplicialLDLT<SparseMatrix>& a_;
+  const detail::SparseLdlt& a_;
   const SparseMatrix &c_, &p_;
   Eigen::Index most_, size_ = 0;
   Eigen::MatrixXd basis_, t_;
@@ -212,20 +214,21 @@ Expected<std::vector<Eigenmode>> mapped_vibration_modes(const SparseMatrix& stif
   if (!(trace(m) > 0)) return input_error("there is no mass", "density", "give the material a density > 0");
   const double shift = relative_shift * std::max(trace(k), 0.0) / trace(m);
   const SparseMatrix shifted = k + shift * m;
-  Eigen::SimplicialLDLT<SparseMatrix> solver(shifted);
-  if (solver.info() != Eigen::Success) {
+  detail::SparseLdlt solver;
+  if (!solver.factor(shifted)) {
     return numerical_error("the stiffness cannot be factored", "modes",
                            "look for folds, and for a load that buckles it");
   }
   const auto wanted = std::min<Eigen::Index>(count, map.cols());
-  const RitzPairs pairs = Lanczos(solver, m, m).find(wanted, Wanted::largest);
-  if (pairs.values.size() < wanted) {
-    return numerical_error(fmt::format("{} of {} modes converged", pairs.values.size(), wanted), "count",
+  const auto pairs = Lanczos(solver, m, m).find(wanted, Wanted::largest);
+  if (!pairs) return std::unexpected(pairs.error());
+  if (pairs->values.size() < wanted) {
+    return numerical_error(fmt::format("{} of {} modes converged", pairs->values.size(), wanted), "count",
                            "ask for fewer");
   }
   std::vector<Eigenmode> modes;
   for (Eigen::Index i = 0; i < wanted; ++i) {
-    const Eigen::VectorXd y = pairs.vectors.col(i), ky = k * y, my = m * y;
+    const Eigen::VectorXd y = pairs->vectors.col(i), ky = k * y, my = m * y;
     const double value = y.dot(ky) / y.dot(my);
     modes.push_back({value, (ky - value * my).norm() / (ky + shift * my).norm(), shape_of(map, y)});
   }
@@ -237,15 +240,16 @@ Expected<std::vector<Eigenmode>> mapped_buckling_modes(const SparseMatrix& stiff
                                                        const SparseMatrix& map, int count) {
   if (auto ok = check(stiffness, geometric, map, count); !ok) return std::unexpected(ok.error());
   const SparseMatrix k = restricted(stiffness, map), g = -restricted(geometric, map);
-  Eigen::SimplicialLDLT<SparseMatrix> solver(k);
-  if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 1e-15 * solver.vectorD().maxCoeff())) {
+  detail::SparseLdlt solver;
+  if (!solver.factor(k) || !solver.positive()) {
     return numerical_error("the structure moves without strain, or is unstable without its load", "buckling",
                            "hold it so that no rigid motion is left");
   }
-  const RitzPairs pairs = Lanczos(solver, g, k).find(std::min<Eigen::Index>(count, map.cols()), Wanted::positive);
+  const auto pairs = Lanczos(solver, g, k).find(std::min<Eigen::Index>(count, map.cols()), Wanted::positive);
+  if (!pairs) return std::unexpected(pairs.error());
   std::vector<Eigenmode> modes;
-  for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
-    const Eigen::VectorXd y = pairs.vectors.col(i), ky = k * y, gy = g * y;
+  for (Eigen::Index i = 0; i < pairs->values.size(); ++i) {
+    const Eigen::VectorXd y = pairs->vectors.col(i), ky = k * y, gy = g * y;
     const double value = y.dot(ky) / y.dot(gy);
     modes.push_back({value, (ky - value * gy).norm() / ky.norm(), shape_of(map, y)});
   }

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/decompositions.hpp"
 #include "coordinate_map.hpp"
 #include "knead/base/interruption.hpp"
 
@@ -21,12 +21,6 @@ using FlatMap = Eigen::Map<const Eigen::VectorXd>;
 FlatMap flattened(const Points& x) { return {x.data(), x.size()}; }
 
 Points points_of(const Eigen::VectorXd& x) { return Eigen::Map<const Points>(x.data(), x.size() / 3, 3); }
-
-/// Whether a rigid motion, or a mechanism, is left.
-bool singular(const Eigen::SimplicialLDLT<SparseMatrix>& factor) {
-  const Eigen::ArrayXd pivots = factor.vectorD().array().abs();
-  return factor.info() != Eigen::Success || pivots.minCoeff() <= 1e-15 * pivots.maxCoeff();
-}
 
 std::unexpected<Error> moves_freely() {
   return numerical_error("the shell can move without strain", "constraints", "hold it so that no rigid motion is left");
@@ -73,10 +67,7 @@ class ShellNewton {
       SparseMatrix tangent = shell_.hessian(x, stress);
       for (const EdgeMoment& moment : loads_.moments) tangent -= factor * moment.stiffness(x);
       const SparseMatrix system = map_.transpose() * tangent * map_;
-      if (!analysed_) solver_.analyzePattern(system);
-      analysed_ = true;
-      solver_.factorize(system);
-      outcome.singular = singular(solver_);
+      outcome.singular = !solver_.factor(system) || !solver_.regular();  // a rigid motion, or a mechanism, is left
       if (outcome.singular) return outcome;
       const Points d = points_of(map_ * solver_.solve(reduced));
       ++outcome.iterations;
@@ -96,8 +87,7 @@ class ShellNewton {
   const Loads& loads_;
   const ShellStaticsOptions& options_;
   double extent_;
-  bool analysed_ = false;
-  Eigen::SimplicialLDLT<SparseMatrix> solver_;
+  detail::SparseLdlt solver_;
 };
 
 Expected<void> check(const ShellStructure& shell, const Points& rest, const Points& load,
@@ -171,8 +161,8 @@ Expected<Points> linear_displacement(const ShellStructure& shell, const Points& 
   if (!space) return std::unexpected(space.error());
   const SparseMatrix map = coordinate_map(*space), stiffness = shell.hessian(rest);
   const Points held = space->feasible(Points::Zero(rest.rows(), 3));
-  const Eigen::SimplicialLDLT<SparseMatrix> factor(SparseMatrix(map.transpose() * stiffness * map));
-  if (singular(factor)) return moves_freely();
+  detail::SparseLdlt factor;
+  if (!factor.factor(map.transpose() * stiffness * map) || !factor.regular()) return moves_freely();
   const Eigen::VectorXd imbalance = flattened(load) - stiffness * flattened(held);
   return held + points_of(map * factor.solve(Eigen::VectorXd(map.transpose() * imbalance)));
 }

@@ -98,6 +98,19 @@ TEST_F(Tree, ListedHeaderThatDoesNotExistIsFound) {
   expect_only("docs/api.md:1: include/knead/base/error.hpp does not exist");
 }
 
+TEST_F(Tree, DecompositionOutsideOfItsDoorIsFound) {
+  for (const auto& [code, name] : {std::pair{"Eigen::ColPivHouseholderQR<Matrix> qr(a);", "ColPivHouseholderQR"},
+                                   std::pair{"auto x = a.ldlt().solve(b);", "ldlt"},
+                                   std::pair{"Eigen::SimplicialLDLT<Sparse> factor;", "SimplicialLDLT"},
+                                   std::pair{"x = a.partialPivLu().solve(b);", "partialPivLu"}}) {
+    write("src/spline/basis.cpp", std::string("#include \"knead/spline/basis.hpp\"\n") + code + "\n");
+    expect_only("src/spline/basis.cpp:2: " + std::string(name) + " is used outside of base/decompositions.hpp");
+  }
+  write("src/spline/basis.cpp", "#include \"knead/spline/basis.hpp\"\n");
+  write("src/base/decompositions.cpp", "Eigen::LLT<Eigen::MatrixXd> llt;\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+}
+
 TEST_F(Tree, UnknownRoomIsFound) {
   write("src/attic/box.hpp", "#pragma once\n");
   expect_only("src/attic: there is no room of this name");

@@ -30,6 +30,10 @@ constexpr std::array<std::string_view, 2> files_of_long_functions = {"src/gramia
 /// Carries what a caller's function throws from one thread to another, where there are exceptions.
 constexpr std::string_view file_of_exceptions = "src/base/parallel_for.cpp";
 
+/// The door to Eigen's decompositions, which knows empty, rank-deficient and non-finite matrices.
+constexpr std::array<std::string_view, 2> files_of_decompositions = {"src/base/decompositions.hpp",
+                                                                     "src/base/decompositions.cpp"};
+
 std::optional<std::size_t> floor_of(std::string_view room) {
   const auto at = std::ranges::find(rooms, room);
   if (at == rooms.end()) return std::nullopt;
@@ -124,6 +128,12 @@ class Inspection {
     static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
     static const std::regex exception(R"(\b(throw|try|catch)\b)");
     const bool may_catch = fs::relative(file, root_).generic_string() == file_of_exceptions;
+    static const std::regex decomposition(
+        R"(\b(\w*(HouseholderQR|PivLU|LDLT|LLT|SVD|EigenSolver|SparseLU|SparseQR|OrthogonalDecomposition))"
+        R"(|Eigen::(Tridiagonalization|RealSchur|HessenbergDecomposition|\w*(Gradient|GRES|BiCGSTAB|Incomplete\w+)))"
+        R"(|(?:colPivH|fullPivH|h)ouseholderQr|(?:partial|full)PivLu|lu|llt|ldlt|(?:jacobi|bdc)Svd)\b(?=\s*[<({]))");
+    const bool may_decompose = std::ranges::find(files_of_decompositions, fs::relative(file, root_).generic_string()) !=
+                               files_of_decompositions.end();
     bool in_comment = false;
     std::string first_include;
     const auto lines = lines_of(file);
@@ -138,6 +148,9 @@ class Inspection {
       const std::string& code = codes[i] = code_of(lines[i], in_comment);
       if (!may_catch && std::regex_search(code, match, exception)) {
         report(file, i + 1, "the core must not " + match[1].str());
+      }
+      if (!may_decompose && std::regex_search(code, match, decomposition)) {
+        report(file, i + 1, match[0].str() + " is used outside of base/decompositions.hpp");
       }
     }
     if (std::ranges::find(rooms_of_short_functions, room) != rooms_of_short_functions.end()) {

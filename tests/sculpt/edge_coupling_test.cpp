@@ -175,6 +175,30 @@ TEST(EdgeCoupling, HeldControlPointsStay) {
   EXPECT_EQ(ConstraintSpace::create(pair.rows.back(), coupling->constraints, held)->free_count(), pair.b.size() - 9);
 }
 
+/// As beside a sliver, none of whose points has a tangent plane, or no points were found at all.
+TEST(EdgeCoupling, EdgeWithoutConditionsCouplesNothing) {
+  const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
+  const CoupledEdge without_points{"edge", {}, {{}}};
+  CoupledEdge without_planes = edge(8, false);
+  without_planes.across.assign(without_planes.points.size(), {});
+  const auto none = couple_edges(pair.patches, pair.rows, std::array{without_points}, {}, {}, {1e-6});
+  ASSERT_TRUE(none) << none.error().message();
+  EXPECT_TRUE(none->constraints.empty());
+  EXPECT_EQ(none->bound, 0);
+  const auto sharp = couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, {}, {1e-6});
+  const auto plain = couple_edges(pair.patches, pair.rows, std::array{without_planes}, {}, {}, {1e-6});
+  ASSERT_TRUE(sharp && plain);
+  EXPECT_EQ(free_count(pair, *plain), free_count(pair, *sharp));
+}
+
+TEST(EdgeCoupling, EdgeBetweenHeldPatchesCouplesNothing) {
+  const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
+  const std::vector<bool> held(static_cast<std::size_t>(pair.rows.back()), true);
+  const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, held, {1e-6});
+  ASSERT_TRUE(coupling) << coupling.error().message();
+  EXPECT_TRUE(coupling->constraints.empty());
+}
+
 TEST(EdgeCoupling, WhatCannotBeIsAnError) {
   const Pair pair{sheet_from(9, 0), sheet_from(9, 1)};
   EXPECT_FALSE(couple_edges(pair.patches, pair.rows, std::array{edge(8, false)}, {}, {}, {0}));
