@@ -2,13 +2,13 @@
 # Builds the fuzz targets on the library that the tests under sanitizers have (preset asan), and runs each for some seconds.
 #   scripts/fuzz.sh SECONDS [TARGET...]
 # What is found stays in build/asan/fuzz/found, what leads into new code in build/asan/fuzz/corpus. Without arguments:
-# KNEAD_FUZZ_SECONDS, or 20, of every target, from the seed KNEAD_FUZZ_SEED, or 1 (0: another each time). A run ends with an
+# KNEAD_FUZZ_SECONDS, or 10, of every target, from the seed KNEAD_FUZZ_SEED, or 1 (0: another each time). A run ends with an
 # error at a crash, a leak, undefined behaviour, an input that takes more than 60 s, 2 GB of memory, or 512 MB in one piece;
 # readers check how many bytes they held at once.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-seconds=${1:-${KNEAD_FUZZ_SECONDS:-20}}
+seconds=${1:-${KNEAD_FUZZ_SECONDS:-10}}
 shift || true
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=(step iges brep text script snapshot document)

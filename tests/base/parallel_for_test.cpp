@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "knead/base/threads.hpp"
+#include "support/sanitized.hpp"
 #include "support/thread_counts.hpp"
 
 namespace knead {
@@ -180,13 +181,7 @@ TEST(ParallelFor, ProcessMayEndWhileThreadsWait) {
 }
 
 TEST(ParallelFor, WhereNoThreadCanBeStartedFewerDoTheWork) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer needs more memory than this limit leaves";
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  GTEST_SKIP() << "a sanitizer needs more memory than this limit leaves";
-#endif
-#endif
+  if (testing::sanitized()) GTEST_SKIP() << "a sanitizer needs more memory than this limit leaves";
   EXPECT_EQ(in_child([] {
               const rlimit nothing_more{1 << 20, 1 << 20};
               if (setrlimit(RLIMIT_AS, &nothing_more) != 0) return 2;

@@ -5,13 +5,14 @@
 #include <cstdlib>
 
 #include "less_memory.hpp"
+#include "support/sanitized.hpp"
 #include "program.hpp"
 
 namespace knead::testing {
 namespace {
 
 TEST(Hostile, WithoutMemoryTheProgramSaysSo) {
-  if (sanitized) GTEST_SKIP() << "the sanitizer reserves more";
+  if (sanitized()) GTEST_SKIP() << "the sanitizer reserves more";
   const Workshop workshop;
   Json nets = Json::array();
   for (int k = 0; k < 5; ++k) nets.push_back(command("new", {{"net", {2000, 2000}}}));
@@ -90,7 +91,7 @@ TEST(Hostile, ALimitThatAStepCannotKeepIsAnError) {
 /// sends one signal; else another one follows to the whole group, and a second Ctrl+C ends the program at once.
 int interrupted(const std::string& arguments) {
   const std::string line =
-      "timeout --foreground -s INT 1 " KNEAD_PROGRAM " " + arguments + " >/dev/null 2>&1 </dev/null";
+      "timeout --foreground -s INT 1 " + program() + " " + arguments + " >/dev/null 2>&1 </dev/null";
   const int status = std::system(line.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "less_memory.hpp"
+#include "support/sanitized.hpp"
 #include "program.hpp"
 
 namespace knead::testing {
@@ -43,7 +44,7 @@ void write_surfaces(const std::string& path) {
 }
 
 TEST(LargeStep, IsListedAndChangedInFourTimesItsSize) {
-  if (sanitized) GTEST_SKIP() << "the sanitizer reserves more";
+  if (sanitized()) GTEST_SKIP() << "the sanitizer reserves more";
   const Workshop workshop;
   const std::string file = workshop / "large.step", out = workshop / "out.step";
   write_surfaces(file);

@@ -4,14 +4,6 @@
 
 namespace knead::testing {
 
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool sanitized = true;
-#elif defined(__has_feature)
-inline constexpr bool sanitized = __has_feature(address_sanitizer);
-#else
-inline constexpr bool sanitized = false;
-#endif
-
 /// Less memory for programs that are started, until the end of the scope.
 class LessMemory {
  public:

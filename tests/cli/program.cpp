@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -43,6 +44,11 @@ std::vector<std::string> Workshop::files() const {
   return names;
 }
 
+std::string program() {
+  const char* const other = std::getenv("KNEAD_PROGRAM");
+  return other != nullptr ? other : KNEAD_PROGRAM;
+}
+
 Outcome knead(const std::vector<std::string>& arguments) {
   const Workshop workshop;
   const std::string out = workshop / "out", err = workshop / "err";
@@ -51,18 +57,18 @@ Outcome knead(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
-  std::vector<std::string> all{KNEAD_PROGRAM};
+  std::vector<std::string> all{program()};
   all.insert(all.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& argument : all) argv.push_back(argument.data());
   argv.push_back(nullptr);
   Outcome run;
   pid_t child = 0;
-  const bool started = posix_spawn(&child, KNEAD_PROGRAM, &actions, nullptr, argv.data(), environ) == 0;
+  const bool started = posix_spawn(&child, all.front().c_str(), &actions, nullptr, argv.data(), environ) == 0;
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   if (!started || waitpid(child, &status, 0) != child) {
-    ADD_FAILURE() << "cannot run " << KNEAD_PROGRAM;
+    ADD_FAILURE() << "cannot run " << all.front();
     return run;
   }
   if (WIFEXITED(status)) run.code = WEXITSTATUS(status);

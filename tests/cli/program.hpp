@@ -40,6 +40,8 @@ struct Outcome {
 };
 
 /// Runs the command line with these arguments.
+/// The program that is tested: the environment's KNEAD_PROGRAM, or the one of this build.
+[[nodiscard]] std::string program();
 [[nodiscard]] Outcome knead(const std::vector<std::string>& arguments);
 
 [[nodiscard]] std::string content_of(const std::string& path);
