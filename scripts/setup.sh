@@ -3,7 +3,7 @@
 #   scripts/setup.sh build | test | sanitizers | bench | instructions | format | lint | wasm | studio | web
 set -euo pipefail
 
-build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev libpng-dev libjpeg62-turbo-dev)
+build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev libpng-dev libjpeg-dev)
 # The benchmarks are built with the tests, so that they keep compiling. OCCT is the oracle the tests compare STEP files
 # with; the product does not use it.
 tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
@@ -17,8 +17,9 @@ wasm=(clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-1
 # wasm-split of binaryen takes the engine apart.
 studio=("${wasm[@]}" binaryen)
 command -v npm >/dev/null || studio+=(npm)
-# And tested in a real browser.
-web=("${build[@]}" "${studio[@]}" chromium)
+# And tested in a real browser: the system's, or the one that CHROMIUM names.
+web=("${build[@]}" "${studio[@]}")
+[ -x "${CHROMIUM:-}" ] || web+=(chromium)
 
 case "${1:-}" in
   build) needed=("${build[@]}") ;;
@@ -35,7 +36,19 @@ case "${1:-}" in
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-  echo "setup: this is no Debian system; these packages, by Debian's names, must be there: ${needed[*]}" >&2
+  echo "setup: this system has no apt-get; these packages, by Debian's names, must be there: ${needed[*]}" >&2
+  if command -v dnf >/dev/null; then
+    declare -A fedora=([g++]=gcc-c++ [libeigen3-dev]=eigen3-devel [libfmt-dev]=fmt-devel [nlohmann-json3-dev]=json-devel
+      [libcli11-dev]=cli11-devel [libpng-dev]=libpng-devel [libjpeg-dev]=libjpeg-turbo-devel [libgtest-dev]=gtest-devel
+      [libgmp-dev]=gmp-devel [libbenchmark-dev]=google-benchmark-devel [libocct-data-exchange-dev]=opencascade-devel
+      [libsuitesparse-dev]=suitesparse-devel [clang-format]=clang-tools-extra [npm]=nodejs-npm)
+    names=() without=()
+    for package in "${needed[@]}"; do
+      case $package in *-19*|wasi-libc) without+=("$package") ;; *) names+=("${fedora[$package]:-$package}") ;; esac
+    done
+    echo "setup: by Fedora's names, not tried: dnf install ${names[*]}" >&2
+    [ ${#without[@]} -eq 0 ] || echo "setup: Fedora has no packages of these names and versions: ${without[*]}" >&2
+  fi
   exit 0
 fi
 
@@ -61,6 +74,18 @@ echo "setup: installing ${missing[*]}"
 # Package lists are fetched only where the present ones do not lead to every package.
 if ! apt-get install -s --no-install-recommends "${missing[@]}" >/dev/null 2>&1; then
   "${as_root[@]}" apt-get update -q
+fi
+# What this system does not have by these names is told before anything is installed.
+unknown=()
+for package in "${missing[@]}"; do
+  apt-cache show --no-all-versions "$package" >/dev/null 2>&1 || unknown+=("$package")
+done
+if [ ${#unknown[@]} -gt 0 ]; then
+  echo "setup: this system's package lists do not have: ${unknown[*]} (tried: Debian 12 and its names)" >&2
+  case " ${unknown[*]} " in *" chromium "*)
+    echo "setup: with another Chromium, say where it is: CHROMIUM=/path/to/chromium make test" >&2 ;;
+  esac
+  exit 1
 fi
 install_now() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}" </dev/null; }
 # Lists may be old enough to name versions that the mirror no longer holds.
