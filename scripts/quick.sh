@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# For every day: formats what was changed, builds it, and runs the tests of the rooms that the change touches, but those that
+# took more than two seconds when they last ran. A change is what differs from the last commit, or what that one brought.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source scripts/stages.sh
+
+changed=$(git diff --name-only --diff-filter=d HEAD; git ls-files --others --exclude-standard)
+[ -n "$changed" ] || changed=$(git show --name-only --diff-filter=d --pretty= HEAD)
+changes() { grep -E "$1" <<<"$changed" || true; }
+
+rooms=$(changes '^(src|include/knead|tests)/' | sed -nE 's!^(src|include/knead|tests)/([a-z]+)/.*!\2!p' | sort -u)
+[ -z "$(changes '^apps/knead/')" ] || rooms+=$'\n'cli
+[ -z "$(changes '^bindings/')" ] || rooms+=$'\n'bindings
+[ -z "$(changes '\.(cpp|hpp|txt|md)$')" ] || rooms+=$'\n'house
+rooms=$(for room in $rooms; do [ ! -f "tests/$room/CMakeLists.txt" ] || [ "$room" = fuzz ] || echo "$room"; done | sort -u)
+web=$(changes '^(web/src|tests/web)/')
+
+format() { changes '\.(cpp|hpp)$' | xargs -r clang-format --dry-run --Werror; }
+build() {
+  scripts/setup.sh test
+  scripts/configure.sh release KNEAD_BUILD_TESTS=ON
+  local targets=()
+  for room in $rooms; do targets+=("${room}_test"); done
+  cmake --build build/release --target knead_shared "${targets[@]}"
+}
+# What takes long, by the times that ctest keeps: its second number is the mean.
+long_tests() { awk '$3 > 2 { gsub(/[.[\]*^$()+?{}|\\]/, "\\\\&", $1); print "^" $1 "$" }' build/release/Testing/Temporary/CTestCostData.txt 2>/dev/null | paste -sd '|'; }
+native_tests() {
+  local long
+  long=$(long_tests)
+  ctest --preset release -j "$(nproc)" -L "^($(paste -sd '|' <<<"$rooms"))\$" ${long:+--exclude-regex "$long"}
+}
+studio_tests() { (cd web && npx tsc --noEmit && npx vitest related --run --config vitest.config.ts $(sed 's!^!../!' <<<"$web")); }
+
+stages quick $((2 + ($([ -n "$rooms" ]; echo $?) == 0) + ($([ -n "$web" ]; echo $?) == 0)))
+stage "format" "" "make format" format
+stage "build" "" "make quick" build
+[ -z "$rooms" ] || stage "tests of: $(echo $rooms)" "build" "make quick" native_tests
+[ -z "$web" ] || stage "studio in node" "" "(cd web && npm test)" studio_tests
+stages_end
