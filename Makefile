@@ -1,8 +1,8 @@
-# Knead's front door. Every target does all its own set-up; a second call does nothing twice.
+# Knead's front door. Every target does all its own set-up; a second call does nothing.
 # The work is done by CMake presets (CMakePresets.json) and the scripts in scripts/.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build run studio test test-studio asan fuzz noexcept wasm format format-check lint check-long bench bench-compare instructions bench-studio figures examples clean
+.PHONY: help setup build run studio test quick test-studio asan fuzz noexcept wasm format format-check lint check-long bench bench-compare instructions bench-studio figures examples clean
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -23,12 +23,15 @@ test-studio: ## Test the studio alone, in node and in headless Chromium
 	@scripts/studio_test.sh
 
 test: ## Build everything and run all tests
-	@scripts/test.sh release
+	@scripts/test.sh
+
+quick: ## After a small change: build it and run the tests of the rooms it touches
+	@scripts/quick.sh
 
 asan: ## Run most tests under the address and undefined-behaviour sanitizers
-	@scripts/test.sh asan
+	@scripts/asan.sh
 
-fuzz: ## Run every fuzz target for KNEAD_FUZZ_SECONDS (default 20), with the objects of asan
+fuzz: ## Run every fuzz target for KNEAD_FUZZ_SECONDS (default 10), with the objects of asan
 	@scripts/fuzz.sh
 
 noexcept: ## Build the core without exceptions and link a program against it

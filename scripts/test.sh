@@ -1,44 +1,98 @@
 #!/usr/bin/env bash
-# Builds everything in a preset and runs all its tests; in the release also those of the studio, under sanitizers also the
-# fuzz targets. Says what took how long. What takes long under sanitizers is checked where KNEAD_LONG is set.
-#   scripts/test.sh release | asan
+# Builds everything and runs all tests; goes on after a failed stage and ends with one table. Tests of CAD files of other
+# systems take them from the folder that KNEAD_SHARED names (unset: ../shared, where it is; empty: none) and are skipped
+# without it.
+#   scripts/test.sh            all
+#   scripts/test.sh skipped    after that, with such a folder: what was skipped for want of it
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source scripts/stages.sh
 
-preset=$1
-long=${KNEAD_LONG:+true}
-long=${long:-false}
-report=""
-timed() {  # timed NAME COMMAND...
-  local name=$1 start=$SECONDS
-  shift
-  "$@"
-  report+=$(printf '  %-28s %4d s' "$name" $((SECONDS - start)))$'\n'
-}
+jobs=${KNEAD_JOBS:-$(nproc)}
+root=$PWD
+results=$root/build/log
+mkdir -p "$results"
 
 build() {
-  if [ "$preset" = asan ]; then scripts/setup.sh sanitizers; else scripts/setup.sh test; fi
-  scripts/configure.sh "$preset" KNEAD_BUILD_TESTS=ON KNEAD_LONG_CHECKS=$($long && echo ON || echo OFF)
-  cmake --build "build/$preset"
+  scripts/setup.sh test
+  scripts/configure.sh release KNEAD_BUILD_TESTS=ON KNEAD_BUILD_BENCH=ON
+  cmake --build build/release
 }
-build_wasm_tests() {
+build_wasm() {
   scripts/setup.sh wasm
   scripts/configure.sh wasm KNEAD_BUILD_TESTS=ON
   cmake --build build/wasm --target gramian_values
 }
-studio_tests() (cd web && npm run --silent "$1")
-
-timed "build" build
-if [ "$preset" = release ] || $long; then timed "build for WebAssembly" build_wasm_tests; fi
-chosen=()
-if [ "$preset" = asan ] && ! $long; then chosen=(--exclude-regex "$(grep -v '^#' tests/long_under_sanitizers.txt | paste -sd '|')"); fi
-timed "tests" ctest --preset "$preset" "${chosen[@]}" -j "${KNEAD_JOBS:-$(nproc)}"
-if [ "$preset" = release ]; then
+build_studio() {
   scripts/setup.sh web
-  timed "build of the studio" scripts/studio.sh
-  timed "studio: in node" studio_tests test
-  timed "studio: in Chromium" studio_tests e2e
+  scripts/studio.sh
+}
+
+native_tests() {  # native_tests RESULTS [options of ctest...]
+  local xml=$results/$1.xml status=0
+  shift
+  rm -f "$xml"
+  ctest --preset release -j "$jobs" --output-junit "$xml" "$@" || status=$?
+  [ -f "$xml" ] || return 1
+  awk '
+    /^<testsuite / || /^\t(tests|failures|disabled|skipped)=/ {
+      while (match($0, /(tests|failures|skipped)="[0-9]+"/)) {
+        split(substr($0, RSTART, RLENGTH), pair, /="|"/); count[pair[1]] = pair[2]; $0 = substr($0, RSTART + RLENGTH)
+      }
+    }
+    END { print count["tests"] - count["failures"] - count["skipped"], count["failures"], count["skipped"] }' "$xml" >"$stage_counts"
+  sed -n 's/.*<testcase name="\([^"]*\)".*status="fail".*/\1/p' "$xml" |
+    sed 's/[.[\*^$()+?{|]/\\&/g; s/.*/ctest --preset release --output-on-failure -R '"'^&\$'"'/' >"$stage_failed"
+  return $status
+}
+
+# Names of tests that were skipped because a file of another system was not there.
+without_foreign_files() { awk '/<testcase name=/ { split($0, part, "\""); name = part[2] } /no foreign file/ && name { print name; name = "" }' "$results/native.xml"; }
+
+again_with_foreign_files() {
+  # ctest chooses by number; its list gives the number of each name.
+  local numbers
+  numbers=$(ctest --preset release -N | awk 'NR == FNR { wanted[$0] = 1; next } $1 == "Test" { number = $2; sub(/.*#[0-9]+: /, ""); gsub(/[^0-9]/, "", number); if ($0 in wanted) printf ",%s", number }' \
+    <(without_foreign_files) -)
+  [ -z "$numbers" ] || native_tests foreign -I "0,0,0$numbers"  # without a number it would run all
+}
+
+studio_tests() {  # studio_tests SCRIPT RESULTS [FOLDER [files of tests...]]
+  local script=$1 folder=$results/${3:-} status=0
+  local json=$folder/$2.json
+  rm -f "$json"
+  (cd web && KNEAD_TEST_RESULTS=$folder npm run --silent "$script" -- "${@:4}") || status=$?
+  [ -f "$json" ] || return 1
+  node scripts/vitest_counts.mjs counts "$json" "$script" "$stage_counts" "$stage_failed"
+  return $status
+}
+studio_again() {  # studio_again SCRIPT RESULTS: files of which a test was skipped
+  local files
+  files=$(node scripts/vitest_counts.mjs skipped "$results/$2.json")
+  [ -z "$files" ] || studio_tests "$1" "$2" foreign $files
+}
+
+if [ "${1:-}" = skipped ]; then
+  stages "test with files of other systems" 3
+  stage "native tests" "" "scripts/test.sh skipped" again_with_foreign_files
+  stage "studio in node" "" "scripts/test.sh skipped" studio_again test studio_node
+  stage "studio in Chromium" "" "scripts/test.sh skipped" studio_again e2e studio_chromium
+  stages_end
+  exit
 fi
-if [ "$preset" = asan ]; then timed "fuzz targets" scripts/fuzz.sh; fi
-echo "test: all passed"
-printf '%s' "$report"
+
+about=$([ -f build/release/build.ninja ] && echo "about 10 minutes where everything was built before" || echo "about 20 minutes from nothing")
+echo "test: builds the library, the command line and their tests; the engine for WebAssembly; the studio. Runs the native tests,"
+echo "test: the studio's in node and in Chromium. On two cores $about; logs in build/log."
+stages test 6
+stage "build" "" "make test" build
+stage "build for WebAssembly" "" "scripts/wasm.sh" build_wasm
+stage "native tests" "build" "ctest --preset release" native_tests native
+stage "build of the studio" "build for WebAssembly" "scripts/studio.sh" build_studio
+stage "studio in node" "build of the studio" "(cd web && npm test)" studio_tests test studio_node
+stage "studio in Chromium" "build of the studio" "(cd web && npm run e2e)" studio_tests e2e studio_chromium
+foreign=$(without_foreign_files | wc -l)
+if [ "$foreign" -gt 0 ]; then
+  stages_note="skipped: $foreign native tests are of CAD files of other systems, which are not part of the repository (KNEAD_SHARED names their folder)"
+fi
+stages_end
