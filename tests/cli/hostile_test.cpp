@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "less_memory.hpp"
-#include "support/sanitized.hpp"
 #include "program.hpp"
+#include "support/sanitized.hpp"
 
 namespace knead::testing {
 namespace {

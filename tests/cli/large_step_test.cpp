@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "less_memory.hpp"
-#include "support/sanitized.hpp"
 #include "program.hpp"
+#include "support/sanitized.hpp"
 
 namespace knead::testing {
 namespace {
