@@ -19,7 +19,7 @@ async function fine(): Promise<Awaited<ReturnType<typeof chordError>>> {
   let found: Awaited<ReturnType<typeof chordError>> | undefined;
   await expect.poll(async () => {
     found = await chordError();
-    return found.count > 10 ? found.most : Infinity; // of a coarse picture hardly an edge may lie in the view
+    return found.finer && found.count > 10 ? found.most : Infinity; // where it is coarse still, hardly an edge may lie in the view
   }).toBeLessThan(0.6);
   return found!;
 }
@@ -36,10 +36,10 @@ async function lookAt(at: [number, number], height: number): Promise<void> {
   }, [at, height] as const);
 }
 
-/** Of up to 300 edges of the picture's cells in the view: how far the middle is from the surface, across, pixels. */
-const chordError = (): Promise<{ most: number; count: number; points: number }> => studio.page.evaluate(async () => {
+/** Of up to 300 edges of the picture's cells in the view: how far the middle is from the surface, across, pixels; whether it is drawn finer there. */
+const chordError = (): Promise<{ most: number; count: number; points: number; finer: boolean }> => studio.page.evaluate(async () => {
   const { studio: app } = window as never as { studio: App };
-  const { positions, counts: [m, n], s, t } = app.frame.pictures[0]!;
+  const { positions, counts: [m, n], s, t, window: finer } = app.frame.pictures[0]!;
   const view = app.viewer.main;
   const box = document.querySelector('.view-perspective')!.getBoundingClientRect();
   const at = (k: number, l: number) => [...positions.subarray(3 * (k * n + l), 3 * (k * n + l) + 3)];
@@ -70,7 +70,7 @@ const chordError = (): Promise<{ most: number; count: number; points: number }> 
     const length = Math.hypot(bx! - ax!, by! - ay!);
     if (length > 1e-6) most = Math.max(most, Math.abs((bx! - ax!) * (py! - ay!) - (by! - ay!) * (px! - ax!)) / length);
   }
-  return { most, count, points: m * n };
+  return { most, count, points: m * n, finer: finer !== null };
 });
 
 it('is drawn finely where a view is near, and only there', async () => {
@@ -104,6 +104,7 @@ it('goes coarse while a stroke is under way, and fine again', async () => {
   const during = await chordError();
   await page.mouse.up();
   await settled(page);
+  expect(during.finer).toBe(false);
   expect(during.points).toBeLessThan(before.points);
   await fine();
 });
