@@ -17,6 +17,8 @@ namespace {
 constexpr int first_spans = 8;
 constexpr std::size_t most_spans = 4096;
 constexpr int per_span = 5;
+constexpr double beside_corner = 0.25;      // of a first span: divisions nearer to a corner are left out
+constexpr double least_span = 1e-10;        // of the edge's parameters
 constexpr double margin = 0.125;            // of the edge, at its ends
 constexpr double share_of_tolerance = 0.1;  // for the fit of a curve
 constexpr double least_tolerance = 1e-7;    // of the size, as for held edges
@@ -98,9 +100,36 @@ Expected<Curve> interpolated(const Path& path, const std::vector<double>& breaks
   return Curve::create({*std::move(vector)}, std::move(points));
 }
 
-/// The breaks, with those spans halved in which the curve is off the path.
-Expected<std::vector<double>> halved(const Path& path, const Curve& curve, const std::vector<double>& breaks,
-                                     double tolerance) {
+/// The ends, the corners and `first_spans` even divisions. A corner has a triple knot, so that an abscissa lies a third
+/// of a span beside it: where a division is only rounding away (of a circle of four arcs, every other one is), no
+/// number is left in between, and the conditions of Schoenberg and Whitney fail. The corner then takes its place.
+/// Corners that cannot be told from an end or from the one before have no knot of their own.
+std::vector<double> first_breaks(const SharedEdge& edge) {
+  const double from = edge.samples().front().parameter, to = edge.samples().back().parameter;
+  const double least = least_span * (to - from), span = (to - from) / first_spans;
+  std::vector<double> breaks = {from};
+  for (const double corner : edge.corners()) {
+    if (corner - breaks.back() > least && to - corner > least) breaks.push_back(corner);
+  }
+  const std::vector<double> corners(breaks.begin() + 1, breaks.end());
+  for (int k = 1; k < first_spans; ++k) {
+    const double t = std::lerp(from, to, static_cast<double>(k) / first_spans);
+    const auto beside = [&](double corner) { return std::abs(corner - t) < beside_corner * span; };
+    if (std::ranges::none_of(corners, beside)) breaks.push_back(t);
+  }
+  breaks.push_back(to);
+  std::ranges::sort(breaks);
+  return breaks;
+}
+
+std::unexpected<Error> not_followed(const SharedEdge& edge) {
+  return numerical_error("the moved edge cannot be followed by a spline", edge.id(),
+                         "undo the step and press less deep, or on a finer net");
+}
+
+/// The breaks, with those spans halved in which the curve is off the path. Errors: spans that cannot be halved further.
+Expected<std::vector<double>> halved(const SharedEdge& edge, const Path& path, const Curve& curve,
+                                     const std::vector<double>& breaks, double tolerance) {
   std::vector<double> result = {breaks.front()};
   for (std::size_t k = 1; k < breaks.size(); ++k) {
     bool off = false;
@@ -112,6 +141,7 @@ Expected<std::vector<double>> halved(const Path& path, const Curve& curve, const
       if (!is) return std::unexpected(is.error());
       off = (*is - *wanted).norm() > tolerance;
     }
+    if (off && breaks[k] - breaks[k - 1] < 2 * least_span * (breaks.back() - breaks.front())) return not_followed(edge);
     if (off) result.push_back(0.5 * (breaks[k - 1] + breaks[k]));
     result.push_back(breaks[k]);
   }
@@ -192,23 +222,14 @@ Expected<void> move_loop_vertices(const File& file, std::span<const Replacement>
 Expected<Curve> moved_curve(const SharedEdge& edge, std::span<const Surface* const> before,
                             std::span<const Surface* const> after, double tolerance) {
   const Path path(edge, before, after);
-  std::vector<double> breaks = edge.corners();
-  const double from = edge.samples().front().parameter, to = edge.samples().back().parameter;
-  for (int k = 0; k <= first_spans; ++k) {
-    const double t = k == first_spans ? to : std::lerp(from, to, static_cast<double>(k) / first_spans);
-    if (!std::ranges::binary_search(edge.corners(), t)) breaks.push_back(t);
-  }
-  std::ranges::sort(breaks);
+  std::vector<double> breaks = first_breaks(edge);
   while (true) {
     const auto curve = interpolated(path, breaks, edge.corners());
     if (!curve) return curve;
-    auto finer = halved(path, *curve, breaks, tolerance);
+    auto finer = halved(edge, path, *curve, breaks, tolerance);
     if (!finer) return std::unexpected(finer.error());
     if (finer->size() == breaks.size()) return recorded(edge, *curve);
-    if (finer->size() > most_spans) {
-      return numerical_error("the moved edge cannot be followed by a spline", edge.id(),
-                             "undo the step and press less deep, or on a finer net");
-    }
+    if (finer->size() > most_spans) return not_followed(edge);
     breaks = *std::move(finer);
   }
 }

@@ -2,9 +2,11 @@
 
 #include "knead/exchange/shared_edge.hpp"
 #include "exchange/two_sheets.hpp"
+#include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/spline_refinement.hpp"
+#include "support/own_files.hpp"
 
 namespace knead {
 namespace {
@@ -91,6 +93,59 @@ TEST_P(Written, AnEdgeLiesOnItsMovedSurfaces) {
 
 INSTANTIATE_TEST_SUITE_P(Curves, Written, ::testing::Bool(),
                          [](const auto& instance) { return instance.param ? "SharedSurfaceCurve" : "Line"; });
+
+/// The sheets, whose common edge has a corner at this parameter of [0, 1], as a spline of degree 1 that is straight.
+TwoSheets with_corner(double at) {
+  TwoSheets sheets = two_sheets();
+  const auto begin = sheets.text.find("#" + std::to_string(sheets.edge - 1) + "=LINE");
+  const std::string c = testing::FaceBuilder::real(at);
+  sheets.text.replace(begin, sheets.text.find(';', begin) - begin,
+                      "#41=CARTESIAN_POINT('',(1.,0.,0.));\n#42=CARTESIAN_POINT('',(1.," + c +
+                          ",0.));\n#43=CARTESIAN_POINT('',(1.,1.,0.));\n#" + std::to_string(sheets.edge - 1) +
+                          "=B_SPLINE_CURVE_WITH_KNOTS('',1,(#41,#42,#43),.UNSPECIFIED.,.F.,.F.,(2,1,2),(0.," + c +
+                          ",1.),.UNSPECIFIED.)");
+  return sheets;
+}
+
+TEST(SharedEdge, ACornerBesideAnEvenDivisionOfTheParametersIsFollowed) {
+  for (const double at : {std::nextafter(0.25, 0), 0.25, std::nextafter(0.25, 1), 0.5 - 1e-12, 0.75 + 1e-9,
+                          0.875 + 1e-6, 0.4, 0.03, std::nextafter(1, 0)}) {
+    const TwoSheets sheets = with_corner(at);
+    const std::string id = TwoSheets::name(sheets.edge);
+    const auto source = open_source(sheets.text, "sheets.step");
+    ASSERT_TRUE(source);
+    const auto bytes = (*source)->save(raised(**source, false), std::array{id});
+    ASSERT_TRUE(bytes) << at << ": " << bytes.error().message();
+    const auto edge = SharedEdge::create(parse_or_die(*bytes), id);
+    ASSERT_TRUE(edge) << edge.error().message();
+    EXPECT_LE(edge->gap(), 1e-7) << at;
+    EXPECT_NEAR(edge->at(0.5).point.z(), 0.1875, 1e-7) << at;
+  }
+}
+
+TEST(SharedEdge, EdgesOfFourArcsFollow) {
+  const auto source = open_source(*read_file(testing::samples() / "bonnet.step"), "bonnet.step");
+  ASSERT_TRUE(source);
+  for (const std::string id : {"#1017", "#1037"}) {
+    const auto edge = SharedEdge::create(*(*source)->step_file(), id);
+    ASSERT_TRUE(edge) << edge.error().message();
+    EXPECT_FALSE(edge->corners().empty());
+    std::vector<std::shared_ptr<const Surface>> moved;
+    for (const SourceSurface& s : (*source)->surfaces()) {
+      Points points = s.surface->control_points();
+      points.col(2).array() += 10;
+      const bool own = std::ranges::find(edge->surfaces(), s.id) != edge->surfaces().end();
+      moved.push_back(own ? std::make_shared<const Surface>(*s.surface->with_control_points(points)) : s.surface);
+    }
+    const auto bytes = (*source)->save(moved, std::array{id});
+    ASSERT_TRUE(bytes) << bytes.error().message();
+    const auto after = SharedEdge::create(parse_or_die(*bytes), id);
+    ASSERT_TRUE(after) << after.error().message();
+    const double middle = 0.5 * (edge->samples().front().parameter + edge->samples().back().parameter);
+    EXPECT_NEAR(after->at(middle).point.z(), edge->at(middle).point.z() + 10, 1e-3);
+    EXPECT_LE(after->gap(), edge->gap() + 1e-3);
+  }
+}
 
 TEST(SharedEdge, OnlyTheRecordsOfWhatMovedAreWritten) {
   const TwoSheets sheets = two_sheets();
