@@ -77,7 +77,13 @@ Expected<void> run(const MeshArguments& options) {
   const auto source = open_source(std::move(*input), options.file);
   if (!source) return std::unexpected(source.error());
   const step::File* step = options.untrimmed ? nullptr : (*source)->step_file();
-  return step != nullptr ? write_model(*step, **format, options) : write_surfaces(**source, **format, options);
+  if (step == nullptr) return write_surfaces(**source, **format, options);
+  auto done = write_model(*step, **format, options);
+  // Why a surface cannot be read says more than that faces on it are not drawn.
+  if (!done && done.error().kind == ErrorKind::input && step->surfaces().empty() && !(*source)->unreadable().empty()) {
+    return std::unexpected((*source)->unreadable().front().reason);
+  }
+  return done;
 }
 
 }  // namespace

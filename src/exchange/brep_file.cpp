@@ -102,6 +102,7 @@ class Parser {
           for (int k = 0; k < std::abs(*power); ++k) result = factor * result;
         }
       }
+      if (!(result.matrix().cwiseAbs().maxCoeff() <= largest_number)) return fail("a location is too large");
       places_.push_back(result);
       return {};
     });

@@ -65,8 +65,8 @@ std::optional<EdgeCurve::Conic> EdgeCurve::conic(const Reader& reader, std::uint
                                                        : "ELLIPSE";
   const auto own = reader.attributes(instance, entity, 2, one ? 1 : 2);
   if (!frame || own.empty()) return std::nullopt;
-  const auto a = reader.real(own[0]);
-  const auto b = one ? a : reader.real(own[1]);
+  const auto a = reader.length(own[0]);
+  const auto b = one ? a : reader.length(own[1]);
   if (!a || !b || !(*a > 0) || !(*b > 0)) return std::nullopt;
   return Conic{form, frame->origin, *a * frame->x, *b * frame->y};
 }
@@ -86,7 +86,7 @@ Expected<EdgeCurve> EdgeCurve::read_nested(const Reader& reader, std::uint32_t i
     const auto direction = orientation ? reader.direction(*orientation) : std::nullopt;
     if (!point || !direction || !(direction->norm() > 0)) return reader.error(instance, "it has no point or direction");
     const auto own = reader.attributes(*vector, "VECTOR", 1, 2);
-    const double magnitude = own.empty() ? 1 : reader.real(own[1]).value_or(1);
+    const double magnitude = own.empty() ? 1 : reader.length(own[1]).value_or(1);
     return EdgeCurve(Line{*point, direction->normalized(), magnitude > 0 ? magnitude : 1});
   }
   for (const auto& [entity, form] :

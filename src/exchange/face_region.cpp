@@ -1,5 +1,7 @@
 #include "face_region.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,14 +10,32 @@ namespace knead::step {
 
 using Eigen::Vector2d;
 
+namespace {
+
+double extent_of(std::span<const Loop> loops) {
+  Eigen::AlignedBox3d box;
+  for (const Loop& loop : loops) {
+    for (const Point& p : loop) box.extend(p);
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+}  // namespace
+
+Expected<void> check_extent(const Reader& reader, const Face& face, std::span<const Loop> loops, double size) {
+  const double extent = extent_of(loops);
+  if (extent == 0 || extent >= least_extent * size) return {};
+  return reader.error(face.instance,
+                      fmt::format("its edges, {:.3g} in extent, vanish on its surface, {:.3g} in size", extent, size),
+                      "look for a wrong coordinate or weight of the surface");
+}
+
 Expected<std::vector<RegionPart>> region_of(const Reader& reader, const Face& face, EdgeSampler& edges,
                                             const SurfaceFoot& feet, double size) {
   auto loops = edges.loops(face.bounds);
   if (!loops) return std::unexpected(std::move(loops.error()));
-  Eigen::AlignedBox3d box;
-  for (const Loop& loop : *loops) {
-    for (const Point& p : loop) box.extend(p);
-  }
+  if (auto checked = check_extent(reader, face, *loops, size); !checked) return std::unexpected(checked.error());
+  const double extent = extent_of(*loops);
   std::vector<std::vector<LoopPoint>> in_chart;
   for (Loop& loop : *loops) {
     if (!face.same_sense) std::reverse(loop.begin(), loop.end());
@@ -23,7 +43,7 @@ Expected<std::vector<RegionPart>> region_of(const Reader& reader, const Face& fa
     std::optional<Vector2d> hint;
     for (const Point& p : loop) {
       const auto found = feet.nearest(p, hint, on_surface * size);
-      if (!(found.distance <= off_surface * box.diagonal().norm() + on_surface * size)) {
+      if (!(found.distance <= off_surface * extent + on_surface * size)) {
         return reader.error(face.instance, "its edges do not lie on its surface");
       }
       hint.reset();

@@ -92,13 +92,13 @@ Expected<FaceSurface> FaceSurface::read_elementary(const Reader& reader, std::ui
   FaceSurface surface(form.kind, *frame);
   if (form.kind != Kind::plane) {
     const auto own = reader.attributes(instance, form.entity, 2, form.lengths);
-    const auto radius = own.empty() ? std::nullopt : reader.real(own[0]);
+    const auto radius = own.empty() ? std::nullopt : reader.length(own[0]);
     if (!radius || !(*radius > 0 || (*radius == 0 && form.kind == Kind::cone))) {
       return reader.error(instance, "its radius cannot be read");
     }
     surface.radius_ = *radius;
     if (form.lengths > 1) {
-      const auto second = reader.real(own[1]);
+      const auto second = reader.length(own[1]);
       if (!second || !(*second != 0)) return reader.error(instance, "its second measure cannot be read");
       surface.minor_ = *second;
     }

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <set>
 
+#include "face_region.hpp"
+#include "knead/exchange/source.hpp"
 #include "spline_face.hpp"
+#include "step_surfaces.hpp"
 #include "triangulate.hpp"
 
 namespace knead::step {
@@ -135,9 +138,16 @@ FaceTessellator::FaceTessellator(const File::Data& data, ChordLimit chord)
 Expected<std::unique_ptr<ChartedSurface>> FaceTessellator::surface_of(const Face& face,
                                                                       const std::vector<Loop>& loops) {
   if (const auto found = splines_.find(face.surface); found != splines_.end()) {
-    auto spline = SplineFace::create((*data_.surfaces)[found->second].surface);
+    const Surface& own = (*data_.surfaces)[found->second].surface;
+    const double size = net_diagonal(own.control_points());
+    if (auto checked = check_extent(reader_, face, loops, size); !checked) return std::unexpected(checked.error());
+    auto spline = SplineFace::create(own);
     if (!spline) return reader_.error(face.instance, spline.error().what);
     return std::make_unique<SplineFace>(*std::move(spline));
+  }
+  if (face.surface != no_instance) {
+    const auto known = std::ranges::find(data_.unreadable, name_of(reader_, face.surface), &UnreadableSurface::id);
+    if (known != data_.unreadable.end()) return std::unexpected(known->reason);
   }
   auto surface = face_surface(reader_, face, loops, angle_units_);
   if (!surface) return std::unexpected(std::move(surface.error()));

@@ -140,7 +140,8 @@ Expected<Eigen::Affine3d> transform_of(const File& file, int number) {
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 4; ++k) own.matrix()(i, k) = (*rows)[static_cast<std::size_t>(4 * i + k)];
     }
-    if (!own.matrix().allFinite() || !(std::abs(own.linear().determinant()) > 1e-12)) {
+    const bool small = own.matrix().cwiseAbs().maxCoeff() <= largest_number;
+    if (!own.matrix().allFinite() || !small || !(std::abs(own.linear().determinant()) > 1e-12)) {
       return file.error(matrix, "its numbers are not those of a transformation");
     }
     result = own * result;

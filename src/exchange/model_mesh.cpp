@@ -158,7 +158,8 @@ Expected<FaceMeshes> faces_of(const step::File& file, double tolerance, const As
   const double diagonal = diagonal_of(data, faces, reader, standing);
   if (faces.empty() && data.surfaces->empty())
     return input_error("the file has no faces", {}, "open a file with faces");
-  if (tolerance == 0) tolerance = default_tolerance * diagonal;
+  // Without any extent nothing can be read or drawn: the faces say why.
+  if (tolerance == 0) tolerance = diagonal > 0 ? default_tolerance * diagonal : 1;
   if (!std::isfinite(tolerance) || tolerance < least_tolerance * diagonal || !(tolerance > 0)) {
     return std::unexpected(
         Error{ErrorKind::usage, fmt::format("{} is not a tolerance for this model", tolerance), "tolerance",

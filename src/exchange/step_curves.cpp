@@ -57,8 +57,8 @@ std::optional<Points> conic(const Reader& reader, std::uint32_t instance, const 
   const auto own = reader.attributes(instance, circle ? "CIRCLE" : "ELLIPSE", 2, circle ? 1 : 2);
   const auto frame = position ? read_placement(reader, *position) : std::nullopt;
   if (!frame || own.empty()) return std::nullopt;
-  const auto a = reader.real(own[0]);
-  const auto b = circle ? a : reader.real(own[1]);
+  const auto a = reader.length(own[0]);
+  const auto b = circle ? a : reader.length(own[1]);
   if (!a || !b || *a <= 0 || *b <= 0) return std::nullopt;
   const Point z = frame->axis.normalized();
   const Point x = (frame->ref_direction - frame->ref_direction.dot(z) * z).normalized();

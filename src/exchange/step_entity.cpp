@@ -1,5 +1,7 @@
 #include "step_entity.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -40,6 +42,11 @@ std::optional<double> Reader::real(std::uint32_t value) const {
   const auto kind = file_->kind(value);
   if (kind != Part21Kind::real && kind != Part21Kind::integer) return std::nullopt;
   return parse_real(file_->text(value));
+}
+
+std::optional<double> Reader::length(std::uint32_t value) const {
+  const auto read = real(value);
+  return read && std::abs(*read) <= largest_number ? read : std::nullopt;
 }
 
 std::optional<int> Reader::integer(std::uint32_t value) const {
@@ -116,14 +123,22 @@ Expected<double> Reader::angle_unit(std::uint32_t instance) const {
 }
 
 /// CYLINDRICAL_POINT(name, *, r, theta, z) and SPHERICAL_POINT(name, *, r, theta, phi): the coordinates are derived.
+Expected<double> Reader::coordinate(std::uint32_t instance, std::uint32_t value, std::size_t k) const {
+  const auto read = real(value);
+  if (!read) return error(instance, fmt::format("coordinate {} is not a number a double can hold", k));
+  if (std::abs(*read) <= largest_number) return *read;
+  return error(instance, fmt::format("coordinate {} is {}, which is too large", k, *read),
+               fmt::format("correct it, or use a unit of length in which it is at most {}", largest_number));
+}
+
 Expected<Point> Reader::curved_point(std::uint32_t instance) const {
   const bool cylindrical = is(instance, "CYLINDRICAL_POINT");
   const auto own = attributes(instance, cylindrical ? "CYLINDRICAL_POINT" : "SPHERICAL_POINT", 2, 3);
   if (own.empty()) return error(instance, "it has no three coordinates");
   std::array<double, 3> v{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto value = real(own[k]);
-    if (!value) return error(instance, "coordinate " + std::to_string(k) + " is not a number a double can hold");
+    const auto value = coordinate(instance, own[k], k);
+    if (!value) return std::unexpected(value.error());
     v[k] = *value;
   }
   const auto unit = angle_unit(instance);
@@ -143,11 +158,9 @@ Expected<Point> Reader::point(std::uint32_t instance) const {
   if (!values) return std::unexpected(values.error());
   Point result;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto coordinate = real((*values)[k]);
-    if (!coordinate) {
-      return error(instance, "coordinate " + std::to_string(k) + " is not a number a double can hold");
-    }
-    result[static_cast<Eigen::Index>(k)] = *coordinate;
+    const auto value = coordinate(instance, (*values)[k], k);
+    if (!value) return std::unexpected(value.error());
+    result[static_cast<Eigen::Index>(k)] = *value;
   }
   return result;
 }
@@ -163,7 +176,10 @@ std::optional<Point> Reader::direction(std::uint32_t instance) const {
     if (!ratio) return std::nullopt;
     result[static_cast<Eigen::Index>(k)] = *ratio;
   }
-  return result;
+  // Its length means nothing, but must have a square.
+  const double largest = result.cwiseAbs().maxCoeff();
+  const bool extreme = largest > largest_number || (largest > 0 && largest < 1 / largest_number);
+  return extreme ? Point(result / largest) : result;
 }
 
 std::unexpected<Error> Reader::error(std::uint32_t instance, std::string what, std::string remedy) const {

@@ -43,6 +43,8 @@ class Reader {
   }
 
   [[nodiscard]] std::optional<double> real(std::uint32_t value) const;
+  /// A number of at most `largest_number`, of whose products with others none overflows.
+  [[nodiscard]] std::optional<double> length(std::uint32_t value) const;
   [[nodiscard]] std::optional<int> integer(std::uint32_t value) const;
   /// Index of the instance referred to; none for anything but a reference within the file.
   [[nodiscard]] std::optional<std::uint32_t> reference(std::uint32_t value) const {
@@ -61,8 +63,8 @@ class Reader {
   /// The values of the coordinates of a CARTESIAN_POINT with three of them.
   [[nodiscard]] Expected<std::array<std::uint32_t, 3>> coordinate_values(std::uint32_t instance) const;
   /// Of a CARTESIAN_POINT, CYLINDRICAL_POINT or SPHERICAL_POINT (ISO 10303-42); angles are in the unit of the contexts.
-  /// Errors (input): another entity, a POLAR_POINT, which lies in a plane; numbers that are none; contexts with several
-  /// units of angles where one is needed.
+  /// Errors (input): another entity, a POLAR_POINT, which lies in a plane; numbers that are none or above
+  /// `largest_number`; contexts with several units of angles where one is needed.
   [[nodiscard]] Expected<Point> point(std::uint32_t instance) const;
   [[nodiscard]] std::optional<Point> direction(std::uint32_t instance) const;
 
@@ -70,6 +72,8 @@ class Reader {
   [[nodiscard]] std::unexpected<Error> error(std::uint32_t instance, std::string what, std::string remedy = {}) const;
 
  private:
+  /// Number k of a point.
+  [[nodiscard]] Expected<double> coordinate(std::uint32_t instance, std::uint32_t value, std::size_t k) const;
   [[nodiscard]] Expected<Point> curved_point(std::uint32_t instance) const;
   [[nodiscard]] Expected<double> angle_unit(std::uint32_t instance) const;
 

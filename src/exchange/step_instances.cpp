@@ -50,7 +50,7 @@ std::optional<Eigen::Affine3d> read_operator(const Reader& reader, Index instanc
   const auto origin = location ? reader.point(*location) : Expected<Point>(input_error("no location"));
   if (!origin) return std::nullopt;
   const double scale = reader.real(own[3]).value_or(1);
-  if (!(std::isfinite(scale) && scale > 0)) return std::nullopt;
+  if (!(scale > 0 && scale <= largest_number)) return std::nullopt;
   const Point z = direction(4).value_or(Point::UnitZ());
   const bool upright = z.tail<2>().norm() > 1e-12 * z.norm();
   Eigen::Affine3d result = Eigen::Affine3d::Identity();

@@ -93,6 +93,7 @@ TEST(Brep, ErrorsNameTheLine) {
   EXPECT_NE(error("+10 0 -9", "+11 0 -9").find("shape"), std::string::npos);
   EXPECT_NE(error("+10 0 -9", "+1 0 -9").find("comes later"), std::string::npos);
   EXPECT_NE(error("1 0 0 10", "0 0 0 10").find("not invertible"), std::string::npos);
+  EXPECT_NE(error("1 0 0 10", "1 0 0 1e60").find("too large"), std::string::npos);
   EXPECT_NE(error("Topology V1", "Topology V4").find("versions 1 to 3"), std::string::npos);
 }
 

@@ -6,6 +6,7 @@
 
 #include "exchange/face_builder.hpp"
 #include "exchange/mesh_measures.hpp"
+#include "knead/exchange/model_mesh.hpp"
 #include "support/own_files.hpp"
 
 namespace knead {
@@ -53,6 +54,50 @@ TEST(ContextFaces, APlaneWithHolesHasTheAreaThatTheyLeave) {
   for (const double x : {-5.0, 0.0, 5.0}) bounds.push_back(b.bound({-b.circle(1, 0, x, 0.5)}));
   b.face(b.entity(on_frame(b, "PLANE", "")), bounds);
   expect_area(b, 97 * pi);
+}
+
+/// What a face on a plane with one wrong number is refused for; empty if it is not.
+std::string refusal_with(const std::string& right, const std::string& wrong) {
+  FaceBuilder b;
+  b.face(b.entity(on_frame(b, "PLANE", "")), {b.bound({b.circle(10, 0)})});
+  std::string text = b.text();
+  text.replace(text.find(right), right.size(), wrong);
+  const auto model = model_faces(testing::parse_or_die(testing::step_text(text)));
+  if (!model) return model.error().message();
+  return model->skipped.empty() ? "" : model->skipped[0].reason.message();
+}
+
+TEST(ContextFaces, LengthsWhoseProductsOverflowAreRefused) {
+  const std::string ten = FaceBuilder::real(10);
+  for (const char* large : {"1.E51", "1.E150", "1.E200", "1.E300"}) {
+    EXPECT_NE(refusal_with("(" + ten, "(" + std::string(large)).find("which is too large; correct it"),
+              std::string::npos);
+    EXPECT_NE(refusal_with("," + ten, "," + std::string(large)).find("lengths cannot be read"), std::string::npos);
+  }
+}
+
+TEST(ContextFaces, LengthsOfDirectionsMeanNothing) {
+  for (const char* length : {"1.E-310", "1.E-200", "1.E-6", "1.E6", "1.E200", "1.E300"}) {
+    FaceBuilder b;
+    const int direction = b.entity("DIRECTION('',(0.,0.," + std::string(length) + "))");
+    const int frame = b.entity("AXIS2_PLACEMENT_3D('',#" + std::to_string(b.point(0, 0, 0)) + ",#" +
+                               std::to_string(direction) + ",$)");
+    b.face(b.entity("PLANE('',#" + std::to_string(frame) + ")"), {b.bound({b.circle(10, 0)})});
+    expect_area(b, 100 * pi);
+  }
+}
+
+TEST(ContextFaces, AFaceThatVanishesOnItsSurfaceIsRefused) {
+  for (const char* far : {"1.E15", "1.E20", "1.E49"}) {
+    FaceBuilder b;
+    b.face(10, {b.bound({b.circle(0.25, 0, 0.5, 0.5)})});
+    std::string data = testing::square;
+    data.replace(data.find("(1.,1.,0.)"), 10, "(" + std::string(far) + ",1.,0.)");
+    const auto model = model_faces(testing::parse_or_die(testing::step_text(data + b.text())));
+    ASSERT_TRUE(model) << model.error().message();
+    ASSERT_EQ(model->skipped.size(), 1U);
+    EXPECT_NE(model->skipped[0].reason.message().find("vanish on its surface"), std::string::npos);
+  }
 }
 
 TEST(ContextFaces, DirectionsOfLoopsOnAPlaneNeedNotBeRight) {

@@ -45,14 +45,14 @@ TEST(StepText, RealsAreTheShortestThatReadBack) {
   constexpr int columns = 4000;
   std::mt19937_64 random(7);
   std::vector<double> weights = {1,    10,   1e4, 1e5,  123456, 0.1,   1e-4, 1e-5, 0.00012, 123456789012345680000.0,
-                                 1e21, 1e23, -1,  -0.5, 1e300,  1e-300};
+                                 1e21, 1e23, -1,  -0.5, 1e50,   1e-300};
   while (weights.size() < 2 * columns) {
     const auto bits = random();
     const double any = std::bit_cast<double>(bits);
     const double choices[] = {any, static_cast<double>(bits >> (bits % 64)),
                               static_cast<double>(bits % 10000000) * 1e-6};
     const double value = choices[weights.size() % 3];
-    if (std::isfinite(value) && value != 0) weights.push_back(value);
+    if (std::abs(value) <= largest_number && value != 0) weights.push_back(value);
   }
   const step::NewSurface surface{
       "", *Surface::create({*KnotVector::clamped_uniform(1, 2), *KnotVector::clamped_uniform(1, columns)},

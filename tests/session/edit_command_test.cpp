@@ -236,7 +236,8 @@ TEST(BasisCommands, RefuseWithThePlace) {
     EXPECT_EQ(e.where.substr(0, where.size()), where) << json << ": " << e.message();
     EXPECT_FALSE(e.remedy.empty()) << e.message();
   }
-  run(session, {R"({"do":"weights","which":[1],"by":1e300})"});
+  run(session, {R"({"do":"weights","which":[1],"by":1e30})"});
+  EXPECT_EQ(refusal(session, R"({"do":"weights","which":[1],"by":1e30})").where, "by");
   EXPECT_EQ(refusal(session, R"({"do":"weights","which":[1],"by":1e300})").where, "by");
   run(session, {R"({"do":"undo"})"});
   EXPECT_FALSE(first(session).current->rational());

@@ -1,5 +1,6 @@
 #include "knead/spline/spline.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -44,6 +45,36 @@ TEST(Spline, KeepsControlPointsAndWeightsToTheLastBit) {
   EXPECT_TRUE(std::ranges::equal(curve->weights(), weights));
   EXPECT_TRUE(curve->rational());
   EXPECT_FALSE(Curve::create({quadratic}, points)->rational());
+}
+
+TEST(Spline, NumbersWhoseProductsOverflowAreRefusedWithPlaceAndValue) {
+  for (const double large : {1.01e50, 1e150, 1e200, 1e300}) {
+    Points points = counted(4);
+    points(2, 1) = -large;
+    const auto far = Curve::create({quadratic}, points);
+    ASSERT_FALSE(far) << large;
+    EXPECT_EQ(far.error().where, "control point 2");
+    EXPECT_NE(far.error().message().find(fmt::format("coordinate {} is too large", large)), std::string::npos);
+    EXPECT_NE(far.error().message().find("1e+50"), std::string::npos);
+    const auto heavy = Curve::create({quadratic}, counted(4), {1, 1, 1, large});
+    ASSERT_FALSE(heavy) << large;
+    EXPECT_EQ(heavy.error().where, "control point 3");
+    EXPECT_NE(heavy.error().message().find(fmt::format("the weight {} is too large", large)), std::string::npos);
+    const auto long_domain = Curve::create({*KnotVector::create(1, {0, 0, large, large})}, counted(2));
+    EXPECT_EQ(long_domain.error().where, "knot 3");
+    EXPECT_FALSE(Curve::create({*KnotVector::create(1, {0, 0, 1 / large, 1 / large})}, counted(2)));
+    EXPECT_FALSE(Curve::create({quadratic}, counted(4), std::vector<double>(4, 1 / large)));
+  }
+}
+
+TEST(Spline, NumbersWithinTheRangeAndVanishingOnesAreKept) {
+  for (const double number : {1e50, 1e6, 1e-6, 1e-50, 1e-300, 5e-324, 0.0}) {
+    Points points = counted(4);
+    points(2, 1) = number;
+    EXPECT_TRUE(Curve::create({quadratic}, points)) << number;
+    EXPECT_TRUE(Curve::create({quadratic}, counted(4), {1, number, 1, 1})) << number;
+  }
+  EXPECT_TRUE(Curve::create({quadratic}, counted(4), {1e-6, 1e6, 1e-6, 1e6}));
 }
 
 TEST(Spline, NetThatDoesNotFitTheKnotsIsRefused) {

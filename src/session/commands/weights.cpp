@@ -35,9 +35,9 @@ Expected<void> Executor::execute(const WeightsCommand& c) {
   for (int row : *named) {
     double& weight = weights[static_cast<std::size_t>(row)];
     weight = c.weight ? value : weight * value;
-    if (!(std::isfinite(weight) && weight > 0)) {
+    if (!(weight > 0 && weight <= largest_number)) {
       return input_error(fmt::format("the weight of control point {} would be {}", row, weight), where,
-                         "weights are finite numbers > 0");
+                         fmt::format("weights are numbers > 0 of at most {}", largest_number));
     }
   }
   return change_basis(
