@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <unordered_map>
 
 #include "knead/spline/evaluate.hpp"
 
@@ -77,15 +79,18 @@ bool follows(const SceneSurface& surface, const std::string& edge) {
 std::vector<FollowedInput> followed_inputs(const Scene& scene) {
   std::vector<FollowedInput> result;
   const std::vector<int> selection = scene.selection();
+  std::unordered_map<std::string_view, int> place;  // in the selection
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    place.try_emplace(scene.surfaces[static_cast<std::size_t>(selection[k])].id, static_cast<int>(k));
+  }
   for (const FollowedEdge& edge : scene.followed) {
     if (!edge.course) continue;
     FollowedInput made{edge.course, {}};
     for (const std::string& id : edge.course->surfaces()) {
-      const auto found = std::ranges::find_if(selection, [&](int k) {
-        const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-        return s.id == id && follows(s, edge.id);
-      });
-      if (found != selection.end()) made.patches.push_back(static_cast<int>(found - selection.begin()));
+      const auto found = place.find(id);
+      if (found == place.end()) continue;
+      const int surface = selection[static_cast<std::size_t>(found->second)];
+      if (follows(scene.surfaces[static_cast<std::size_t>(surface)], edge.id)) made.patches.push_back(found->second);
     }
     if (made.patches.size() == edge.course->surfaces().size()) result.push_back(std::move(made));
   }

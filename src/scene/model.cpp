@@ -12,8 +12,10 @@
 #include "knead/scene/trims.hpp"
 #include "knead/sculpt/edge_coupling.hpp"
 #include "knead/sculpt/loads.hpp"
+#include "knead/spline/extremum.hpp"
 #include "scene_settings.hpp"
 #include "smooth_seams.hpp"
+#include "solve/constraint_space.hpp"
 
 namespace knead {
 namespace {
@@ -219,6 +221,52 @@ Expected<JoinedSurfaces> join_surfaces(const ModelInput& input) {
     for (const SurfaceInput& s : input.surfaces) settings.visible.push_back(s.touched);
   }
   return joined;
+}
+
+ModelInput part_of(const ModelInput& input, std::span<const int> surfaces) {
+  ModelInput part = input;
+  part.surfaces.clear();
+  part.followed.clear();
+  std::vector<const Surface*> all;
+  for (const SurfaceInput& s : input.surfaces) all.push_back(s.reference.get());
+  part.seams.tolerance = input.seams.tolerance.value_or(suggested_seam_tolerance(all));
+  std::vector<int> place(input.surfaces.size(), -1);
+  for (const int k : surfaces) {
+    place[static_cast<std::size_t>(k)] = static_cast<int>(part.surfaces.size());
+    part.surfaces.push_back(input.surfaces[static_cast<std::size_t>(k)]);
+  }
+  for (FollowedInput edge : input.followed) {
+    for (int& patch : edge.patches) patch = place[static_cast<std::size_t>(patch)];
+    if (std::ranges::find(edge.patches, -1) == edge.patches.end()) part.followed.push_back(std::move(edge));
+  }
+  return part;
+}
+
+bool asks_for_motion(const ModelInput& input) {
+  const auto asks = [](const SurfaceInput& s) {
+    return std::ranges::any_of(s.constraints, [&](const KeptConstraint& kept) {
+      const auto* pin = std::get_if<PointPin>(&kept.constraint);
+      if (pin != nullptr && pin->to) return true;
+      const bool keeps_place = pin != nullptr || std::holds_alternative<EdgeHold>(kept.constraint) ||
+                               std::holds_alternative<Keep>(kept.constraint);
+      return keeps_place && kept.where != s.rest;
+    });
+  };
+  return std::ranges::any_of(input.surfaces, asks);
+}
+
+Expected<void> check_conditions(const ModelInput& input) {
+  auto joined = join_surfaces(input);
+  if (!joined) return std::unexpected(joined.error());
+  if (!asks_for_motion(input)) return {};
+  double size = 0;
+  for (const SurfaceInput& s : input.surfaces) size = std::max(size, bounding_box(*s.reference).diagonal());
+  if (!(size > 0)) size = 1;
+  for (LinearConstraint& c : joined->settings.constraints) c.value /= size;
+  const auto met =
+      ConstraintSpace::eliminated(joined->rows.back(), joined->settings.constraints, joined->settings.held);
+  if (!met) return std::unexpected(met.error());
+  return {};
 }
 
 Expected<SceneModel> make_model(ModelInput input) {

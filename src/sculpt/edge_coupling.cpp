@@ -69,22 +69,29 @@ Expected<std::vector<Terms>> conditions(const Patches& patches, const CoupledEdg
   return result;
 }
 
-/// The conditions in the unknowns that a space leaves independent. Where a constraint along a normal couples the
-/// coordinates, those of x stand for all.
-std::vector<Terms> reduced(const ConstraintSpace& space, const std::vector<Terms>& conditions) {
+/// An unknown in those that are independent. Where a constraint along a normal couples the coordinates, those of x
+/// stand for all.
+Terms independent_terms(const detail::ConstraintElimination& elimination, int unknown) {
+  const int at = elimination.coupled() ? 3 * unknown : unknown;
+  const auto& definition = elimination.definition(at);
+  if (definition.held) return {};
+  if (!definition.dependent) return {{at, 1.0}};
+  Terms terms;
+  for (const auto& [other, c] : definition.terms) {
+    if (!elimination.definition(other).held) terms.emplace_back(other, c);
+  }
+  return terms;
+}
+
+/// The conditions in the unknowns that an elimination leaves independent.
+std::vector<Terms> reduced(const detail::ConstraintElimination& elimination, const std::vector<Terms>& conditions) {
   std::map<int, Terms> known;  // of every unknown
   std::vector<Terms> result;
   for (const Terms& condition : conditions) {
     std::map<int, double> sum;
     for (const auto& [unknown, c] : condition) {
       auto found = known.find(unknown);
-      if (found == known.end()) {
-        Terms terms;
-        for (const auto& term : space.terms(std::array{unknown})) {
-          if (term.row == 0) terms.emplace_back(term.unknown, term.coefficient);
-        }
-        found = known.emplace(unknown, std::move(terms)).first;
-      }
+      if (found == known.end()) found = known.emplace(unknown, independent_terms(elimination, unknown)).first;
       for (const auto& [y, a] : found->second) sum[y] += c * a;
     }
     result.emplace_back(sum.begin(), sum.end());
@@ -113,19 +120,18 @@ Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches, std
     if (t > 0 && t <= 1) continue;
     return input_error(fmt::format("{} is not a tolerance", t), "tolerance", "use a number above 0, up to 1");
   }
+  auto elimination = ConstraintSpace::eliminated(rows.back(), before, held);
+  if (!elimination) return std::unexpected(elimination.error());
   EdgeCoupling result;
-  std::vector<LinearConstraint> all(before.begin(), before.end());
   const auto couple = [&](const CoupledEdge& edge, bool derivatives, double to) -> Expected<void> {
     const auto given = conditions({patches, rows}, edge, derivatives);
     if (!given) return std::unexpected(given.error());
-    const auto space = ConstraintSpace::create(rows.back(), all, held);
-    if (!space) return std::unexpected(space.error());
-    const auto selected = detail::select_rows(reduced(*space, *given), to);
+    const auto selected = detail::select_rows(reduced(*elimination, *given), to);
     if (!selected) return std::unexpected(selected.error().within(edge.name));
     if (!derivatives) result.bound = std::max(result.bound, selected->remainder);
     for (const int k : selected->chosen) {
       result.constraints.push_back(constraint_of(edge.name, (*given)[static_cast<std::size_t>(k)]));
-      all.push_back(result.constraints.back());
+      if (auto added = elimination->add(result.constraints.back()); !added) return added;
     }
     return {};
   };

@@ -120,6 +120,12 @@ Expected<void> Executor::check_constraints() {
   return {};
 }
 
+Expected<void> Executor::check_constraints_on(std::span<const int> changed) {
+  if (auto known = know_trims(); !known) return known;
+  const ModelInput input = model_input(state, trial_evolution());
+  return check_conditions(asks_for_motion(input) ? input : part_of(input, changed));
+}
+
 Expected<void> Executor::change_basis(SceneSurface& surface, const SurfaceChange& change) {
   if (state.limit) {
     return input_error("a limit is measured on the weights and knots that the surface was opened with", "limit",

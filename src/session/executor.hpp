@@ -107,6 +107,10 @@ struct Executor {
   Expected<void> keep(const Constraint& constraint);
   /// Whether a model can be made under the constraints there are.
   Expected<void> check_constraints();
+  /// Whether the constraints can be made on some selected surfaces, of which those alone changed that ask for no motion
+  /// (edges that are held where they are, freed or followed); of all surfaces, where some constraint does. Whether the
+  /// model can be factored is found out by the next step. \param changed ascending numbers in the selection
+  Expected<void> check_constraints_on(std::span<const int> changed);
 
   /// The selected curve or volume; null if none is.
   SceneBody* body();

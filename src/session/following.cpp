@@ -108,6 +108,10 @@ Expected<void> Executor::unite_followed() {
 }
 
 Expected<void> Executor::check_followed(const Scene& before) {
+  if (std::ranges::equal(state.surfaces, before.surfaces,
+                         [](const SceneSurface& a, const SceneSurface& b) { return a.current == b.current; })) {
+    return {};  // nothing moved
+  }
   for (const FollowedEdge& edge : state.followed) {
     if (!edge.course) continue;
     bool following = true, changed = false;

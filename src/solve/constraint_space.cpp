@@ -5,129 +5,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <map>
-#include <set>
 
 namespace knead {
 namespace {
 
-constexpr double dependent_below = 1e-11;
-constexpr double contradictory_above = 1e-9;
-constexpr double pivot_threshold = 0.3;  // of the largest coefficient: room to choose an unknown that few others use
-
-std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
-  std::vector<int> result;
-  std::ranges::set_union(a, b, std::back_inserter(result));
-  return result;
-}
-
-}  // namespace
-
-/// Gaussian elimination that keeps every definition in terms of independent unknowns.
-struct ConstraintSpace::Elimination {
-  std::vector<Definition> definitions;
-  std::vector<std::set<int>> users;  // users[j]: dependent unknowns whose definition contains j
-  std::vector<std::string> names;
-  int width;  // right sides
-
-  struct Row {
-    std::map<int, double> terms;
-    double value[3] = {0, 0, 0};
-    std::vector<int> sources;
-    double scale = 0;  // largest coefficient before elimination
-    double size = 1;   // of the numbers that the right side was computed from
-  };
-
-  Elimination(int count, int columns) : definitions(at(count)), users(at(count)), width(columns) {}
-
-  void add_term(Row& row, int unknown, double c) const {
-    const Definition& d = definitions[at(unknown)];
-    if (!d.dependent) {
-      row.terms[unknown] += c;
-      return;
-    }
-    for (const auto& [j, a] : d.terms) row.terms[j] += c * a;
-    for (int k = 0; k < width; ++k) {
-      row.value[k] -= c * d.value[k];
-      row.size = std::max(row.size, std::abs(c * d.value[k]) / row.scale);
-    }
-    row.sources = united(row.sources, d.sources);
-  }
-
-  [[nodiscard]] std::string names_of(const std::vector<int>& sources, int without) const {
-    std::string text;
-    for (int s : sources) {
-      if (s != without) text += (text.empty() ? "" : ", ") + names[at(s)];
-    }
-    return text.empty() ? "itself" : text;
-  }
-
-  Expected<void> add(const std::vector<std::pair<int, double>>& terms, const double* value, int name) {
-    Row row;
-    for (const auto& [unknown, c] : terms) row.scale = std::max(row.scale, std::abs(c));
-    row.sources = {name};
-    for (int k = 0; k < width; ++k) {
-      row.value[k] = value[k];
-      row.size = std::max(row.size, row.scale > 0 ? std::abs(value[k]) / row.scale : std::abs(value[k]));
-    }
-    for (const auto& [unknown, c] : terms) add_term(row, unknown, c);
-    double largest = 0, largest_held = 0;
-    for (const auto& [j, c] : row.terms) {
-      double& of = definitions[at(j)].held ? largest_held : largest;
-      of = std::max(of, std::abs(c));
-    }
-    if (largest <= dependent_below * row.scale) {
-      if (largest_held > dependent_below * row.scale) return {};  // a condition on held unknowns: it stays, true or not
-      for (int k = 0; k < width; ++k) {
-        if (std::abs(row.value[k]) > contradictory_above * row.size * std::max(row.scale, 1e-300)) {
-          return input_error(fmt::format("the constraint contradicts {}", names_of(row.sources, name)), names[at(name)],
-                             "release one of them");
-        }
-      }
-      return {};
-    }
-    int pivot = -1;
-    for (const auto& [j, c] : row.terms) {
-      if (definitions[at(j)].held || std::abs(c) < pivot_threshold * largest) continue;
-      if (pivot < 0 || users[at(j)].size() < users[at(pivot)].size()) pivot = j;
-    }
-    define(pivot, row);
-    return {};
-  }
-
-  void define(int pivot, const Row& row) {
-    Definition& d = definitions[at(pivot)];
-    const double c = row.terms.at(pivot);
-    d.dependent = true;
-    d.sources = row.sources;
-    for (int k = 0; k < width; ++k) d.value[k] = row.value[k] / c;
-    for (const auto& [j, a] : row.terms) {
-      if (j == pivot || std::abs(a) <= 1e-15 * row.scale) continue;
-      d.terms.emplace_back(j, -a / c);
-      users[at(j)].insert(pivot);
-    }
-    for (int i : users[at(pivot)]) substitute(definitions[at(i)], i, pivot);
-    users[at(pivot)].clear();
-  }
-
-  void substitute(Definition& user, int index, int pivot) {
-    std::map<int, double> terms(user.terms.begin(), user.terms.end());
-    const double c = terms.extract(pivot).mapped();
-    const Definition& d = definitions[at(pivot)];
-    for (const auto& [j, a] : d.terms) {
-      terms[j] += c * a;
-      users[at(j)].insert(index);
-    }
-    for (int k = 0; k < width; ++k) user.value[k] += c * d.value[k];
-    user.terms.assign(terms.begin(), terms.end());
-    user.sources = united(user.sources, d.sources);
-  }
-};
-
-Expected<ConstraintSpace> ConstraintSpace::create(int size, std::span<const LinearConstraint> constraints,
-                                                  const std::vector<bool>& held, bool coordinates) {
-  assert(held.empty() || held.size() == at(size));
-  bool coupled = coordinates;
+/// Whether the numbers of constraints can be used, and whether any couples coordinates.
+Expected<bool> check(int size, std::span<const LinearConstraint> constraints) {
+  bool coupled = false;
   for (const LinearConstraint& c : constraints) {
     coupled = coupled || c.normal.has_value();
     if (!c.value.allFinite()) return input_error("a right side is not a finite number", c.name);
@@ -142,46 +26,39 @@ Expected<ConstraintSpace> ConstraintSpace::create(int size, std::span<const Line
       if (!std::isfinite(coefficient)) return input_error("a coefficient is not a finite number", c.name);
     }
   }
-  Elimination elimination(coupled ? 3 * size : size, coupled ? 1 : 3);
-  std::map<std::string, int> known;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    for (std::size_t k = 0; k < (coupled ? 3 : 1); ++k) {
-      elimination.definitions[coupled ? 3 * i + k : i].held = held[i];
-    }
-  }
-  for (const LinearConstraint& c : constraints) {
-    const auto [it, added] = known.try_emplace(c.name, static_cast<int>(known.size()));
-    if (added) elimination.names.push_back(c.name);
+  return coupled;
+}
+
+}  // namespace
+
+Expected<detail::ConstraintElimination> ConstraintSpace::eliminated(int size,
+                                                                    std::span<const LinearConstraint> constraints,
+                                                                    const std::vector<bool>& held, bool coordinates) {
+  assert(held.empty() || held.size() == at(size));
+  const auto coupled = check(size, constraints);
+  if (!coupled) return std::unexpected(coupled.error());
+  for (const bool sources : {false, true}) {  // who contradicts whom is found out only where somebody does
+    detail::ConstraintElimination elimination(size, held, *coupled || coordinates, sources);
     Expected<void> done;
-    if (!coupled) {
-      done = elimination.add(c.terms, c.value.data(), it->second);
-    } else if (c.normal) {
-      const Point n = c.normal->normalized();
-      std::vector<std::pair<int, double>> terms;
-      for (const auto& [unknown, a] : c.terms) {
-        for (int k = 0; k < 3; ++k) {
-          if (n[k] != 0) terms.emplace_back(3 * unknown + k, a * n[k]);
-        }
-      }
-      const double value = n.dot(c.value);
-      done = elimination.add(terms, &value, it->second);
-    } else {
-      for (int k = 0; k < 3 && done; ++k) {
-        std::vector<std::pair<int, double>> terms;
-        for (const auto& [unknown, a] : c.terms) terms.emplace_back(3 * unknown + k, a);
-        done = elimination.add(terms, &c.value[k], it->second);
-      }
-    }
-    if (!done) return std::unexpected(done.error());
+    for (std::size_t k = 0; k < constraints.size() && done; ++k) done = elimination.add(constraints[k]);
+    if (done) return elimination;
+    if (sources) return std::unexpected(done.error());
   }
+  return input_error("constraints contradict each other", "constraints", "release one of them");  // not reached
+}
+
+Expected<ConstraintSpace> ConstraintSpace::create(int size, std::span<const LinearConstraint> constraints,
+                                                  const std::vector<bool>& held, bool coordinates) {
+  auto elimination = eliminated(size, constraints, held, coordinates);
+  if (!elimination) return std::unexpected(elimination.error());
   ConstraintSpace space(0);
   space.size_ = size;
   space.constraints_.assign(constraints.begin(), constraints.end());
-  space.number_free(std::move(elimination.definitions), coupled);
+  space.number_free(elimination->take(), elimination->coupled());
   return space;
 }
 
-void ConstraintSpace::number_free(std::vector<Definition> definitions, bool coupled) {
+void ConstraintSpace::number_free(const std::vector<Definition>& definitions, bool coupled) {
   coupled_ = coupled;
   free_.clear();
   position_.assign(definitions.size(), -1);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "constraint_elimination.hpp"
 #include "knead/energy/stiffness.hpp"
 #include "knead/solve/linear_constraint.hpp"
 
@@ -33,6 +34,13 @@ class ConstraintSpace {
   /// model's size).
   [[nodiscard]] static Expected<ConstraintSpace> create(int size, std::span<const LinearConstraint> constraints,
                                                         const std::vector<bool>& held = {}, bool coordinates = false);
+
+  /// The elimination from which `create` makes the space, for those who add constraints to it one by one. Errors:
+  /// likewise.
+  [[nodiscard]] static Expected<detail::ConstraintElimination> eliminated(int size,
+                                                                          std::span<const LinearConstraint> constraints,
+                                                                          const std::vector<bool>& held = {},
+                                                                          bool coordinates = false);
 
   [[nodiscard]] int size() const { return size_; }
   /// Length of y: independent points, or independent coordinates where `coupled`.
@@ -79,16 +87,10 @@ class ConstraintSpace {
   [[nodiscard]] const std::vector<LinearConstraint>& constraints() const { return constraints_; }
 
  private:
-  struct Definition {
-    bool dependent = false, held = false;
-    std::vector<std::pair<int, double>> terms;  // over independent and held unknowns
-    double value[3] = {0, 0, 0};
-    std::vector<int> sources;  // constraints it was derived from, as indices of names
-  };
-  struct Elimination;
+  using Definition = detail::ConstraintElimination::Definition;
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  void number_free(std::vector<Definition> definitions, bool coupled);
+  void number_free(const std::vector<Definition>& definitions, bool coupled);
 
   int size_ = 0;
   bool coupled_ = false;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 
 #include "knead/sculpt/seam_coupling.hpp"
@@ -173,6 +174,57 @@ TEST(EdgeCoupling, HeldControlPointsStay) {
   const auto coupling = couple_edges(pair.patches, pair.rows, std::array{edge(64, false)}, {}, held, {1e-6});
   ASSERT_TRUE(coupling);
   EXPECT_EQ(ConstraintSpace::create(pair.rows.back(), coupling->constraints, held)->free_count(), pair.b.size() - 9);
+}
+
+/// Sheets side by side in a row, each with other knots than the one before.
+struct Row {
+  std::vector<Surface> sheets;
+  std::vector<const Surface*> patches;
+  std::vector<int> rows = {0};
+  std::vector<CoupledEdge> edges;
+
+  explicit Row(int count) {
+    for (int k = 0; k < count; ++k) sheets.push_back(sheet_from(9 + k % 3, k));
+    for (const Surface& sheet : sheets) {
+      patches.push_back(&sheet);
+      rows.push_back(rows.back() + sheet.size());
+    }
+    for (int k = 0; k + 1 < count; ++k) {
+      CoupledEdge along = edge(64, false);
+      along.name = "edge " + std::to_string(k);
+      for (SharedPoint& point : along.points) {
+        for (auto& [patch, at] : point) patch += k;
+      }
+      edges.push_back(std::move(along));
+    }
+  }
+};
+
+TEST(EdgeCoupling, EdgesTogetherGiveTheConditionsOfOneAfterAnother) {
+  const Row row(4);
+  const auto together = couple_edges(row.patches, row.rows, row.edges, {}, {}, {1e-3});
+  ASSERT_TRUE(together);
+  std::vector<LinearConstraint> before;
+  for (const CoupledEdge& along : row.edges) {
+    const auto next = couple_edges(row.patches, row.rows, std::array{along}, before, {}, {1e-3});
+    ASSERT_TRUE(next);
+    before.insert(before.end(), next->constraints.begin(), next->constraints.end());
+  }
+  EXPECT_FALSE(before.empty());
+  EXPECT_EQ(together->constraints, before);
+}
+
+/// What an edge adds depends on its own sheets, not on how many edges there are.
+TEST(EdgeCoupling, TermsOfTheEliminationGrowLinearlyWithTheEdges) {
+  const auto terms = [](int count) {
+    const Row row(count);
+    const auto coupling = couple_edges(row.patches, row.rows, row.edges, {}, {}, {1e-3});
+    const auto space = ConstraintSpace::create(row.rows.back(), coupling->constraints);
+    std::vector<int> all(static_cast<std::size_t>(row.rows.back()));
+    std::iota(all.begin(), all.end(), 0);
+    return static_cast<double>(space->terms(all).size()) / count;
+  };
+  EXPECT_NEAR(terms(40), terms(10), 0.1 * terms(10));
 }
 
 /// As beside a sliver, none of whose points has a tangent plane, or no points were found at all.

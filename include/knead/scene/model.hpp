@@ -65,6 +65,18 @@ inline constexpr Eigen::Index max_model_size = 1000000;
 /// The input for the model of the selected surfaces under this evolution.
 [[nodiscard]] ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution);
 
+/// The part of an input that concerns some of its surfaces: among them, the edges that follow whose surfaces are all
+/// there, and seams to the tolerance of the whole. \param surfaces ascending indices
+[[nodiscard]] ModelInput part_of(const ModelInput& input, std::span<const int> surfaces);
+
+/// Whether some constraint asks a surface to be elsewhere than at rest, so that constraints may contradict each other:
+/// the surfaces as they rest meet all others.
+[[nodiscard]] bool asks_for_motion(const ModelInput& input);
+
+/// Whether the constraints of a model can be made and met together. Errors: those of `make_model` about constraints,
+/// without making a matrix. Cost: one elimination where something asks for motion, else that of making constraints.
+[[nodiscard]] Expected<void> check_conditions(const ModelInput& input);
+
 /// A model of surfaces, coupled and constrained as requested.
 struct SceneModel {
   ModelInput input;

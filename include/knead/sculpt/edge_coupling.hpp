@@ -59,8 +59,8 @@ struct EdgeCoupling {
 /// \param rows   first unknown of every patch, and the end
 /// \param before constraints that hold anyway \param held one flag per unknown, or empty
 /// Errors: a parameter outside the domain, a tolerance out of range (input); a denominator that is not positive
-/// (numerical); those of the constraints so far. Cost per curve: O(m n min(m, n)) for m points and n unknowns near it,
-/// and an elimination of all constraints.
+/// (numerical); those of the constraints so far. Cost: one elimination of the constraints before, and per curve
+/// O(m n min(m, n)) for m points and n unknowns near it.
 [[nodiscard]] Expected<EdgeCoupling> couple_edges(std::span<const Surface* const> patches, std::span<const int> rows,
                                                   std::span<const CoupledEdge> edges,
                                                   std::span<const LinearConstraint> before,

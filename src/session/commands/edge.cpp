@@ -26,15 +26,16 @@ Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
   const bool follow = c.hold == EdgeCondition::follow;
   const int order = c.hold > EdgeCondition::curvature ? -1 : static_cast<int>(c.hold);
   std::string known;
-  bool found = false;
-  for (int k : executor.state.selection()) {
-    SceneSurface& s = executor.state.surfaces[static_cast<std::size_t>(k)];
+  std::vector<int> changed;
+  const std::vector<int> selection = executor.state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    SceneSurface& s = executor.state.surfaces[static_cast<std::size_t>(selection[k])];
     const auto visible = executor.visible(s);
     if (!visible) return std::unexpected(visible.error());
     for (const TrimEdge& edge : (*visible)->edges) {
       known += (known.empty() ? "" : ", ") + edge.id;
       if (edge.id != *c.edge) continue;
-      found = true;
+      if (changed.empty() || changed.back() != static_cast<int>(k)) changed.push_back(static_cast<int>(k));
       std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
         const auto* other = std::get_if<TrimEdgeHold>(&kept.constraint);
         return other != nullptr && other->id == edge.id;
@@ -43,7 +44,12 @@ Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
       s.constraints.push_back({TrimEdgeHold{edge.id, order, follow}, s.current});
     }
   }
-  if (found) return executor.check_constraints();
+  if (!changed.empty()) {
+    if (follow) {
+      if (auto can = executor.follow_edge(*c.edge); !can) return can;
+    }
+    return executor.check_constraints_on(changed);
+  }
   return input_error(fmt::format("no face on the selected surfaces has an edge {}", *c.edge), "which",
                      known.empty() ? "no face lies on them" : "their edges are: " + known);
 }
