@@ -80,10 +80,10 @@ inline Groove groove_of(const std::vector<const Surface*>& displaced, const std:
     g.width = std::max(g.width, left[k] + right[k]);
   }
   for (std::size_t k = 0; k < sum.size(); ++k) sum[k] /= std::max(count[k], 1.0);
-  for (const int side : {-1, 1}) {
+  for (const int sign : {-1, 1}) {
     double deepest = -1e300;  // from outside towards the bottom
     for (int k = m; k >= 0; --k) {
-      const double here = sum[static_cast<std::size_t>(m + side * k)];
+      const double here = sum[static_cast<std::size_t>(m + sign * k)];
       deepest = std::max(deepest, here);
       g.ripple = std::max(g.ripple, deepest - here);
     }
