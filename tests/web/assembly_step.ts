@@ -47,6 +47,7 @@ function stepFile() {
  */
 export function assemblyStep(): Uint8Array {
   const { add, point, triple, frame, product, use, patch, bytes, mm, inch, origin } = stepFile();
+  const flat = patch();
   const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]] as const;
   const places = corners.map(([x, y]) => point(x, y, 0));
   const vertices = places.map((p) => add(`VERTEX_POINT('',#${p})`));
@@ -57,7 +58,7 @@ export function assemblyStep(): Uint8Array {
   });
   const square = add(`ADVANCED_FACE('',(#${add(`FACE_OUTER_BOUND('',#${add(`EDGE_LOOP('',(${edges.join()}))`)},.T.)`)}),#${add(`PLANE('',#${origin})`)},.T.)`);
   const table = product('table', [origin], mm);
-  const plate = product('plate', [patch(), origin], mm);
+  const plate = product('plate', [flat, origin], mm);
   const foot = product('foot', [square, origin], inch);
   use(table, plate, frame([20, 0, 0], [1, 0, 0], [0, 1, 0]));
   use(table, plate, frame([0, 30, 0], [0, 0, 1], [0, 1, 0]));
