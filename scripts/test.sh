@@ -41,13 +41,17 @@ native_tests() {  # native_tests RESULTS [options of ctest...]
       }
     }
     END { print count["tests"] - count["failures"] - count["skipped"], count["failures"], count["skipped"] }' "$xml" >"$stage_counts"
-  sed -n 's/.*<testcase name="\([^"]*\)".*status="fail".*/\1/p' "$xml" |
+  sed -n 's/.*<testcase name="\([^"]*\)".*status="fail".*/\1/p' "$xml" | unescaped |
     sed 's/[.[\*^$()+?{|]/\\&/g; s/.*/ctest --preset release --output-on-failure -R '"'^&\$'"'/' >"$stage_failed"
   return $status
 }
 
 # Names of tests that were skipped because a file of another system was not there.
-without_foreign_files() { awk '/<testcase name=/ { split($0, part, "\""); name = part[2] } /no foreign file/ && name { print name; name = "" }' "$results/native.xml"; }
+without_foreign_files() {
+  awk '/<testcase name=/ { split($0, part, "\""); name = part[2] } /no foreign file/ && name { print name; name = "" }' \
+    "$results/native.xml" | unescaped
+}
+unescaped() { sed 's/&quot;/"/g; s/&apos;/'"'"'/g; s/&lt;/</g; s/&gt;/>/g; s/&amp;/\&/g'; }
 
 again_with_foreign_files() {
   # ctest chooses by number; its list gives the number of each name.
