@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# For every day: formats what was changed, builds it, and runs the tests of the rooms that the change touches, but those that
-# took more than two seconds when they last ran. A change is what differs from the last commit, or what that one brought.
+# For every day: checks the format of what was changed, builds it, and runs the tests of the rooms that the change touches, but
+# those that took more than two seconds when they last ran. A change is what differs from the last commit, or what that one brought.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/stages.sh
@@ -24,8 +24,11 @@ build() {
   for room in $rooms; do targets+=("${room}_test"); done
   cmake --build build/release --target knead_shared "${targets[@]}"
 }
-# What takes long, by the times that ctest keeps: its second number is the mean.
-long_tests() { awk '$3 > 2 { gsub(/[.[\]*^$()+?{}|\\]/, "\\\\&", $1); print "^" $1 "$" }' build/release/Testing/Temporary/CTestCostData.txt 2>/dev/null | paste -sd '|'; }
+# What takes long, by the times that ctest keeps once tests have run: its second number is the mean.
+long_tests() {
+  local times=build/release/Testing/Temporary/CTestCostData.txt
+  [ ! -f $times ] || awk '$3 > 2 { gsub(/[.[\]*^$()+?{}|\\]/, "\\\\&", $1); print "^" $1 "$" }' $times | paste -sd '|'
+}
 native_tests() {
   local long
   long=$(long_tests)
@@ -33,9 +36,14 @@ native_tests() {
 }
 studio_tests() { (cd web && npx tsc --noEmit && npx vitest related --run --config vitest.config.ts $(sed 's!^!../!' <<<"$web")); }
 
-stages quick $((2 + ($([ -n "$rooms" ]; echo $?) == 0) + ($([ -n "$web" ]; echo $?) == 0)))
+count=1
+[ -z "$rooms" ] || count=$((count + 2))
+[ -z "$web" ] || count=$((count + 1))
+stages quick $count
 stage "format" "" "make format" format
-stage "build" "" "make quick" build
-[ -z "$rooms" ] || stage "tests of: $(echo $rooms)" "build" "make quick" native_tests
-[ -z "$web" ] || stage "studio in node" "" "(cd web && npm test)" studio_tests
+if [ -n "$rooms" ]; then
+  stage "build" "" "make quick" build
+  stage "tests of: $(paste -sd ' ' <<<"$rooms")" "build" "make quick" native_tests
+fi
+if [ -n "$web" ]; then stage "studio in node" "" "(cd web && npm test)" studio_tests; fi
 stages_end

@@ -38,7 +38,7 @@ stage() {
   kill "$heartbeat" 2>/dev/null
   wait "$heartbeat" 2>/dev/null || true
   took=$((SECONDS - start))
-  if [ -s "$stage_counts" ]; then 
+  if [ -s "$stage_counts" ]; then
     read -r passed failed skipped <"$stage_counts"
     stages_totals=($((stages_totals[0] + passed)) $((stages_totals[1] + failed)) $((stages_totals[2] + skipped)))
   fi
@@ -57,7 +57,7 @@ stage() {
 
 # What of a log tells why its stage failed: all but what passed, at most 200 lines of it.
 stages_show() {
-  grep -vE '^ *Start +[0-9]+:|Passed +[0-9.]+ sec$|^\[ +(RUN|OK) +\]|^\[[0-9]+/[0-9]+\] ' "$1" | tail -n 200 | sed 's/^/    | /'
+  grep -vE '^ *Start +[0-9]+:|Passed +[0-9.]+ sec$|^\[ +(RUN|OK) +\]|^\[[0-9]+/[0-9]+\] ' "$1" | tail -n 200 | sed 's/^/    | /' || true  # of an empty log nothing
 }
 
 stages_end() {
