@@ -6,9 +6,9 @@
 #include <string>
 
 #include "knead/exchange/face_conversion.hpp"
-#include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
+#include "knead/session/document_regions.hpp"
 #include "studio_assembly.hpp"
 #include "studio_bodies.hpp"
 #include "studio_combs.hpp"
@@ -385,13 +385,11 @@ KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
 /// The edges of the faces of the open file on a surface: `face_edges_json`; none if they cannot be followed.
 KNEAD_EXPORT(knead_face_edges) int knead_face_edges(int surface) {
   auto& session = held().session;
-  if (!session || !session->document().step_file()) return answer("[]");
+  if (!session) return answer("[]");
   const auto& surfaces = session->state().surfaces;
   if (surface < 0 || surface >= static_cast<int>(surfaces.size())) return answer("[]");
   const SceneSurface& s = surfaces[static_cast<std::size_t>(surface)];
   if (s.visible) return answer(face_edges_json(*s.visible));
-  const step::File& file = *session->document().step_file();
-  if (file.find_surface(s.id) == nullptr) return answer("[]");
-  const auto region = visible_region(file, s.id);
+  const auto region = DocumentRegions(session->document()).of(s.id);
   return answer(region ? face_edges_json(*region) : "[]");
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "face_region.hpp"
+#include "knead/spline/evaluate.hpp"
 #include "step_data.hpp"
 #include "step_faces.hpp"
 #include "step_surfaces.hpp"
@@ -20,6 +21,42 @@ using Eigen::Vector2d;
 constexpr double edge_chord = 2e-4;  // of edges in space
 constexpr double straight = 2e-4;    // of an edge's extent: how far a chord may be from its course
 constexpr int max_halvings = 7;
+
+/// All of a surface, within its sides.
+VisibleRegion within_sides(const Surface& surface, const ParameterSpace& space) {
+  constexpr int chords = 4;  // of a side, per span
+  VisibleRegion result;
+  for (std::size_t d = 0; d < 2; ++d) {
+    result.closed[d] = space.periods[d] > 0;
+    for (std::size_t end = 0; end < 2; ++end) result.poles[d][end] = space.poles[d][end].has_value();
+  }
+  for (std::size_t d = 0; d < 2; ++d) {
+    const KnotVector& along = surface.knots()[1 - d];
+    const Interval domain = along.domain();
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (result.closed[d] || result.poles[d][end]) continue;
+      TrimEdge side;
+      side.id = {d == 0 ? 'u' : 'v', end == 0 ? '0' : '1'};
+      const auto append = [&](double fraction) {
+        Vector2d at;
+        at[static_cast<Eigen::Index>(d)] = static_cast<double>(end);
+        at[static_cast<Eigen::Index>(1 - d)] = fraction;
+        const auto place = evaluate_point<2>(surface, parameters_of(surface, at));
+        if (!place) return;
+        side.course.push_back(at);
+        side.points.push_back(*place);
+      };
+      for (const int span : along.spans()) {
+        for (int k = 0; k < chords; ++k) {
+          append((along[span] + (along[span + 1] - along[span]) * k / chords - domain.lower) / domain.length());
+        }
+      }
+      append(1);
+      result.edges.push_back(std::move(side));
+    }
+  }
+  return result;
+}
 
 /// Faces that belong to a shell.
 std::set<std::uint32_t> faces_in_shells(const Reader& reader) {
@@ -145,6 +182,12 @@ Expected<VisibleRegion> VisibleRegions::Faces::of(std::size_t k) const {
   const auto feet = SurfaceFoot::create((*data.surfaces)[k].surface);
   if (!feet) return std::unexpected(feet.error());
 
+  const auto on = on_surface.find(data.surface_instances[k]);
+  if (on == on_surface.end()) {
+    VisibleRegion bare = within_sides((*data.surfaces)[k].surface, feet->space());
+    bare.uncertainty = uncertainties[k];
+    return bare;
+  }
   VisibleRegion result;
   result.uncertainty = uncertainties[k];
   for (std::size_t d = 0; d < 2; ++d) {
@@ -154,8 +197,6 @@ Expected<VisibleRegion> VisibleRegions::Faces::of(std::size_t k) const {
   EdgeSampler sampler(reader, {edge_chord});
   Course course(*feet, size);
   std::map<std::uint32_t, std::size_t> known;  // edges of the result, by instance
-  const auto on = on_surface.find(data.surface_instances[k]);
-  if (on == on_surface.end()) return result;
   for (const std::size_t f : on->second) {
     const Face& face = faces[f];
     result.in_shell = result.in_shell || shells.contains(face.instance);
@@ -198,6 +239,12 @@ Expected<VisibleRegion> VisibleRegions::of(const std::string& surface) const {
   const auto found = index.find(surface);
   if (found == index.end()) return input_error("there is no such surface", surface);
   return faces_->of(found->second);
+}
+
+Expected<VisibleRegion> region_of_sides(const Surface& surface) {
+  const auto feet = SurfaceFoot::create(surface);
+  if (!feet) return std::unexpected(feet.error());
+  return within_sides(surface, feet->space());
 }
 
 Expected<VisibleRegion> visible_region(const step::File& file, const std::string& surface) {

@@ -82,7 +82,7 @@ Expected<void> change_mask(SceneSurface& surface, MaskChange change, double radi
   } else if (change == MaskChange::invert) {
     for (double& m : mask) m = 1 - m;
   } else {
-    const auto values = GrevilleValues<2>::create(*surface.current);
+    const auto values = SiteValues<2>::create(*surface.current, Sites::chebyshev);
     if (!values) return std::unexpected(values.error());
     BrushSamples samples;
     if (auto done = samples.append(*surface.current, *values); !done) return done;

@@ -129,6 +129,9 @@ void ActiveSpline<D>::Run::touch() {
     potential.add(std::move(point));
   }
   rounds.begin();
+  if (!(limit > 0) && loads.reach > 0) {
+    potential.limit(limit_origin, loads.reach / m.length, reach_stiffness * potential.stiffest());
+  }
 }
 
 template <int D>
@@ -187,7 +190,7 @@ Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
   result.converged = summary.converged;
   result.note = note;
   m.report(result, x, external, contact, tools);
-  result.limited = contact.limited;
+  result.limited = contact.limited && limit > 0;
   result.iterations = summary.iterations;
   result.solves = summary.solves;
   return result;

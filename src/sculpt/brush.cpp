@@ -97,13 +97,13 @@ bool acts_about_one_place(BrushKind kind) {
 }
 
 double brush_falloff(double distance, double radius, double core) {
-  const double s = (distance / radius - core) / (1 - core);
-  if (s <= 0) return 1;
-  if (s >= 1 - rim) return 0;
-  return 1 - s * s * s * (10 - s * (15 - 6 * s));
+  const double t =
+      (1 - distance / radius) / (1 - core);  // from the rim inwards, where it is small without cancellation
+  if (t >= 1) return 1;
+  return t <= rim ? 0 : t * t * t * (10 - t * (15 - 6 * t));
 }
 
-Expected<void> BrushSamples::append(const Surface& shape, const GrevilleValues<2>& values, double side) {
+Expected<void> BrushSamples::append(const Surface& shape, const SiteValues<2>& values, double side) {
   const std::array<const std::vector<double>*, 2> at = {&values.abscissae(0), &values.abscissae(1)};
   const auto jet = evaluate_grid<2>(shape, {std::span<const double>(*at[0]), std::span<const double>(*at[1])}, 1);
   if (!jet) return std::unexpected(jet.error());

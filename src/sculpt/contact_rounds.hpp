@@ -12,6 +12,7 @@ namespace knead {
 // What all steps have in common.
 inline constexpr double run_away = 1e4;            // a step longer than this many sizes of the model is refused
 inline constexpr double developed_slip = 1e-4;     // of friction: where it is fully developed, in lengths of the model
+inline constexpr double reach_stiffness = 30;      // of what holds points within reach, in those of the stiffest tool
 inline constexpr double missed_constraint = 1e-9;  // of the size of the model
 
 /// Minimisations in rounds: until no rigid tool is penetrated, at and between Gauss points, and a limit is kept.

@@ -7,7 +7,7 @@ namespace knead {
 template <int D>
 Expected<GrevilleForce<D>> GrevilleForce<D>::create(const Spline<D>& shape, const DomainScaling<D>& scaling,
                                                     const StiffnessOptions& options) {
-  auto values = GrevilleValues<D>::create(shape);
+  auto values = SiteValues<D>::create(shape, Sites::greville);
   if (!values) {
     Error error = values.error();
     if (error.kind == ErrorKind::input) error.remedy = "use the Gauss route";

@@ -4,7 +4,7 @@
 
 #include "knead/energy/stiffness.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
-#include "knead/sculpt/greville_values.hpp"
+#include "knead/sculpt/site_values.hpp"
 
 namespace knead {
 
@@ -54,10 +54,10 @@ class GrevilleForce {
   }
 
  private:
-  GrevilleForce(Stiffness<D> mass, GrevilleValues<D> values) : mass_(std::move(mass)), values_(std::move(values)) {}
+  GrevilleForce(Stiffness<D> mass, SiteValues<D> values) : mass_(std::move(mass)), values_(std::move(values)) {}
 
   Stiffness<D> mass_;
-  GrevilleValues<D> values_;
+  SiteValues<D> values_;
 };
 
 }  // namespace knead

@@ -16,7 +16,7 @@ namespace {
 /// A shape with its points at the abscissae.
 struct SampledShape {
   const Surface& shape;
-  const GrevilleValues<2>& values;
+  const SiteValues<2>& values;
   Points points;
 
   /// About the foot of a point: downhill from the nearest sample.
@@ -80,7 +80,7 @@ std::optional<Points> moved(const SampledShape& on, const Surface& displacement,
 
 }  // namespace
 
-Points travelled(const Surface& shape, const GrevilleValues<2>& values, const Points& displacement,
+Points travelled(const Surface& shape, const SiteValues<2>& values, const Points& displacement,
                  std::span<const Travel> travels) {
   const auto field = shape.with_control_points(displacement);
   if (!field || travels.empty()) return displacement;

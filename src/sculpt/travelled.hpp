@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "knead/sculpt/greville_values.hpp"
+#include "knead/sculpt/site_values.hpp"
 
 namespace knead {
 
@@ -17,7 +17,7 @@ struct Travel {
 /// even parameters. Where a foot is on the border, the way there follows from the tangents; outside of the domain the
 /// displacement is that of its border. `values` are those of the shape. Without travels, or where the shape has no
 /// tangents at a foot: as it is. Cost: O(N p) per travel, and a search for two feet.
-[[nodiscard]] Points travelled(const Surface& shape, const GrevilleValues<2>& values, const Points& displacement,
+[[nodiscard]] Points travelled(const Surface& shape, const SiteValues<2>& values, const Points& displacement,
                                std::span<const Travel> travels);
 
 }  // namespace knead

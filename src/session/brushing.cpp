@@ -203,9 +203,12 @@ Expected<Points> Executor::brushed() {
     copies.push_back(run.histories[i].displacement(brush, run.samples));
   }
   Points asked = blended(copies);
+  const bool grabs = open.brush.kind == BrushKind::grab;
+  const double most = std::max(std::sqrt(asked.rowwise().squaredNorm().maxCoeff()), grabs ? open.brush.by.norm() : 0);
+  ask_of_brush(most);
   const ActiveSurface& model = stroke_cache->scene.model;
   Points c = local_coefficients(*stroke_cache, asked);
-  if (open.brush.kind == BrushKind::grab && open.brush.by.squaredNorm() > 0) {
+  if (grabs && open.brush.by.squaredNorm() > 0) {
     // The point that is grabbed goes where it was asked to, whatever interpolation makes of the falloff
     const auto share = share_of_grab(c);
     if (!share) return std::unexpected(share.error());
@@ -214,6 +217,13 @@ Expected<Points> Executor::brushed() {
   const bool some = (asked.array() != 0).any();
   asked = unmasked(std::move(asked));
   c = local_coefficients(*stroke_cache, asked);
+  // Between the sites the spline goes further where what is asked has steep sides
+  const double reach = (1 + 0.5 * law_tolerance) * most;
+  for (Eigen::Index first = 0; const OpenStroke::Before& before : open.before) {
+    const Eigen::Index n = before.current->size();
+    c.middleRows(first, n) = within_reach(*before.current, c.middleRows(first, n), reach);
+    first += n;
+  }
   const double largest = c.rowwise().norm().maxCoeff();
   run.stuck = some && largest == 0;
   Points allowed = model.allowed(c);

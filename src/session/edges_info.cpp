@@ -1,9 +1,9 @@
 #include <numbers>
 
 #include "info_values.hpp"
-#include "knead/exchange/face_edges.hpp"
 #include "knead/scene/edge_check.hpp"
 #include "knead/scene/trims.hpp"
+#include "knead/session/document_regions.hpp"
 #include "knead/session/session_info.hpp"
 
 namespace knead {
@@ -41,20 +41,21 @@ void describe(CheckedEdgeInfo& e, Fields& fields) {
 
 std::string edges_json(const Session& session) {
   std::vector<EdgesInfo> infos;
-  const step::File* file = session.document().step_file();
-  for (std::size_t k = 0; file != nullptr && k < session.state().surfaces.size(); ++k) {
+  DocumentRegions regions(session.document());
+  for (std::size_t k = 0; k < session.state().surfaces.size(); ++k) {
     SceneSurface s = session.state().surfaces[k];
-    if (file->find_surface(s.id) == nullptr || session.moved_control_points(static_cast<int>(k)) == 0) continue;
-    EdgesInfo& info = infos.emplace_back();
-    info.surface = s.id;
+    if (session.moved_control_points(static_cast<int>(k)) == 0) continue;
     Expected<void> known;
     if (!s.visible) {
-      if (auto region = visible_region(*file, s.id)) {
+      if (auto region = regions.of(s.id)) {
         s.visible = std::make_shared<const VisibleRegion>(std::move(*region));
       } else {
         known = std::unexpected(region.error());
       }
     }
+    if (s.visible && s.visible->edges.empty()) continue;
+    EdgesInfo& info = infos.emplace_back();
+    info.surface = s.id;
     const auto report = known ? trim_report(s) : Expected<TrimReport>(std::unexpected(known.error()));
     if (!report) {
       info.unknown = report.error().message();
@@ -71,9 +72,9 @@ std::string edges_json(const Session& session) {
 std::string room_json(const Session& session, std::size_t surface) {
   const SceneSurface& s = session.state().surfaces[surface];
   std::shared_ptr<const VisibleRegion> region = s.visible;
-  const step::File* file = session.document().step_file();
-  if (!region && file != nullptr && file->find_surface(s.id) != nullptr) {
-    if (auto found = visible_region(*file, s.id)) region = std::make_shared<const VisibleRegion>(std::move(*found));
+  if (!region) {
+    if (auto found = DocumentRegions(session.document()).of(s.id))
+      region = std::make_shared<const VisibleRegion>(std::move(*found));
   }
   if (!region || region->edges.empty()) return "null";
   const auto middle = visible_middle(*s.current, *region);

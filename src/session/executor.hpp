@@ -6,13 +6,14 @@
 #include <span>
 #include <string>
 
-#include "knead/exchange/face_edges.hpp"
 #include "knead/scene/body_model.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/reshape.hpp"
 #include "knead/scene/trims.hpp"
-#include "knead/sculpt/greville_values.hpp"
+#include "knead/sculpt/site_values.hpp"
+#include "knead/session/document_regions.hpp"
 #include "knead/session/session.hpp"
+#include "motion_law.hpp"
 #include "scene/shell_model.hpp"
 #include "sculpt/travelled.hpp"
 
@@ -21,7 +22,8 @@ namespace knead {
 /// A model that strokes press, and the abscissae at which they are remembered.
 struct StrokeModel {
   SceneModel scene;
-  std::vector<GrevilleValues<2>> values;  // per selected surface
+  std::vector<SiteValues<2>> values;  // per selected surface
+  Points places;                      // at the abscissae of all of them, of the shapes from before the stroke
 
   /// Values at the abscissae of stacked control points, and back.
   [[nodiscard]] Points at_abscissae(const Points& x) const;
@@ -79,12 +81,19 @@ struct Executor {
   std::optional<int> increments = {};  ///< of the load of a shell
   std::vector<SeamReport> shell_seams = {};
   std::vector<std::string> shell_notes = {};
-  bool may_stop = false;                               ///< the command may end after any of its steps
-  std::optional<int> stopped = {};                     ///< after so many steps
-  std::unique_ptr<const VisibleRegions> regions = {};  ///< of the document, once one was asked for
+  bool may_stop = false;            ///< the command may end after any of its steps
+  std::optional<int> stopped = {};  ///< after so many steps
+  DocumentRegions regions = DocumentRegions(document);
+  std::optional<MotionLaw> law = {};  ///< what the command has asked for so far
+  bool unruled = false;               ///< what acts has another law
 
   template <class C>
   Expected<void> execute(const C& command);
+
+  /// The one door of all that moves surfaces: what has moved further than it was asked to, by more than
+  /// `law_tolerance`, is made smaller, and noted; a lever only where it moved further than the static solution of what
+  /// acts on it, and how far is noted. Forgets what was asked.
+  Expected<void> keep_law();
 
   /// The first selected surface, or an error that says how to select one.
   Expected<SceneSurface*> selected();
@@ -180,6 +189,21 @@ struct Executor {
   Expected<void> refine_at_trims(SceneSurface& surface, const Fractions& at, double size);
 
  private:
+  Expected<void> keep_law(MotionLaw& asked);
+  Expected<void> ask_of_motion(const EvolutionPolicy& evolution, const std::vector<PointForce>& grips);
+  void measure_from_rest();
+  void note_loose();
+  void ask_of_stroke(double asked, std::span<const Tool> tools);
+  void ask_of_brush(double asked);
+  [[nodiscard]] bool held_all_round(const SceneModel& model) const;
+  [[nodiscard]] bool goes_too_far(const ActiveStep& step, const ActiveLoads& loads);
+  [[nodiscard]] Points points_of_law() const;
+  [[nodiscard]] Expected<ActiveStep> within_depth(ActiveStep step, const ActiveState& from, std::span<const Tool> tools,
+                                                  ActiveLoads loads) const;
+  [[nodiscard]] double motion(double enough) const;
+  [[nodiscard]] double static_motion() const;
+  Expected<void> move_less(double share);
+  void note_motion(std::string_view begins, const std::string& note);
   template <int D>
   Expected<void> step_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution);
   template <int D>
@@ -245,6 +269,7 @@ struct Executor {
   Expected<void> put_tool(const Point& place);
   [[nodiscard]] Points stroke_guess(std::span<const Travel> travels) const;
   Expected<ActiveStep> press(std::vector<Tool> tools, std::span<const Travel> travels);
+  [[nodiscard]] double depth_at_sites(std::span<const Tool> tools) const;
   Expected<ActiveStep> press_shell_on_bed(const std::vector<Tool>& tools, Points guess);
   Expected<void> unite_under_stroke();
   Expected<bool> refine_stroke(const ActiveStep* step);

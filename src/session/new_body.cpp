@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "knead/sculpt/greville_values.hpp"
+#include "knead/sculpt/site_values.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/revolution.hpp"
 #include "knead/spline/spline_refinement.hpp"
@@ -74,7 +74,7 @@ Expected<Curve> helix(const NewCommand& c, const KnotVector& knots, double radiu
   };
   auto plain = Curve::create({knots}, Points::Zero(knots.count(), 3));
   if (!plain) return plain;
-  const auto interpolation = GrevilleValues<1>::create(*plain);
+  const auto interpolation = SiteValues<1>::create(*plain, Sites::greville);
   if (!interpolation) return std::unexpected(interpolation.error());
   Points values(knots.count(), 3);
   for (int i = 0; i < knots.count(); ++i) {

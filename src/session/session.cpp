@@ -10,8 +10,8 @@
 #include "body_commands.hpp"
 #include "commands.hpp"
 #include "knead/base/interruption.hpp"
-#include "knead/exchange/face_edges.hpp"
 #include "knead/scene/trims.hpp"
+#include "knead/session/document_regions.hpp"
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
@@ -80,10 +80,12 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
                     cache_->shell, cache_->faces, *next,          progress};
   if (!fields_of<StrokeCommand>(command)) {
     if (auto lifted = executor.lift(); !lifted) return lifted;
+    if (auto kept = executor.keep_law(); !kept) return kept;
   }
   if (!fields_of<BrushCommand>(command)) next->brush.reset();
   const auto execute = [&](const auto& fields) { return apply(executor, fields); };
   if (auto done = std::visit(execute, meant.any().fields); !done) return done;
+  if (auto kept = executor.keep_law(); !kept) return kept;
   if (auto closed = executor.check_followed(state()); !closed) return closed;
   if (executor.stopped) {
     StepCommand made = *fields_of<StepCommand>(meant);
@@ -226,7 +228,7 @@ void Session::join() {
 void Session::know_faces() {
   std::map<std::string, std::shared_ptr<const VisibleRegion>> known;
   std::map<std::string, std::shared_ptr<const SharedEdge>> courses;
-  std::unique_ptr<const VisibleRegions> regions;
+  std::optional<DocumentRegions> regions;
   const Document* last = nullptr;
   for (auto& state : states_) {
     const Document& document = document_of(*state);
@@ -244,7 +246,7 @@ void Session::know_faces() {
       auto found = known.find(s.id);
       if (found == known.end()) {
         // If they cannot be followed the next step says so.
-        if (!regions) regions = std::make_unique<const VisibleRegions>(*file);
+        if (!regions) regions.emplace(document);
         auto region = regions->of(s.id);
         found = known.emplace(s.id, region ? std::make_shared<const VisibleRegion>(std::move(*region)) : nullptr).first;
       }

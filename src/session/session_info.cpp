@@ -27,7 +27,7 @@ struct SurfaceInfo {
   LengthUnit lengths = LengthUnit::radii;
   RestMode rest = RestMode::shape;
   int faces = 0, hold = 0, pins = 0;
-  bool masked = false;
+  bool bare = false, masked = false;
   std::vector<std::array<int, 2>> pinned;
   std::vector<CommandVariant> constraints;
   int moved = 0;
@@ -70,6 +70,8 @@ static void describe(SurfaceInfo& s, Fields& fields) {
   fields.add("lengths", s.lengths, {.help = "what `yield` and `locality` count"});
   fields.add("rest", s.rest);
   fields.add("faces", s.faces, {.help = "of the file that lie on it"});
+  fields.add("bare", s.bare,
+             {.help = "whether it is of the file and no face lies on it: its sides are held as edges are"});
   fields.add("hold", s.hold, {.help = "outer rows of control points that do not move"});
   fields.add("pins", s.pins, {.help = "number of pinned control points"});
   fields.add("pinned", s.pinned, {.help = "the pinned control points [i, j]"});
@@ -278,6 +280,8 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
     const step::SurfaceEntity* in_file = file->find_surface(s.id);
     info.faces = in_file != nullptr ? in_file->faces : 0;
   }
+  const auto& opened = session.document().surfaces();
+  info.bare = info.faces == 0 && std::ranges::find(opened, s.id, &DocumentSurface::id) != opened.end();
   info.hold = s.hold_rows;
   info.masked = !s.mask.empty();
   info.pins = static_cast<int>(s.pins.size());

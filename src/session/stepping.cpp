@@ -6,6 +6,7 @@
 
 #include "executor.hpp"
 #include "knead/base/interruption.hpp"
+#include "knead/scene/anchors.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/spline/extremum.hpp"
 
@@ -85,6 +86,11 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
   std::optional<Attempts> tried;
   while (stepped < count) {
     double seconds = 0;
+    if (stepped == 0) {
+      if (auto known = know_what_holds(); !known) return known;
+      if (auto asked = ask_of_motion(evolution, more); !asked) return asked;
+      note_loose();
+    }
     const auto step = next_step(evolution, more, seconds);
     if (!step && Interruption::asked_for() && keeps_steps(stepped)) break;
     if (!step) return std::unexpected(step.error());
@@ -126,6 +132,23 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
   return {};
 }
 
+/// Notes where tools press on what nothing holds: it moves as a whole.
+void Executor::note_loose() {
+  if (!law || unruled || !(law->reach > 0)) return;
+  std::string loose;
+  for (const int k : state.selection()) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    if (holds_anything(s)) return;
+    loose += (loose.empty() ? "" : ", ") + s.id;
+  }
+  const std::string note = fmt::format(
+      "nothing holds {}: what presses on it moves all of it; hold its edges, {{\"do\":\"hold\",\"mode\":\"trim\"}}, or "
+      "its "
+      "outer rows, {{\"do\":\"hold\",\"rows\":2}}",
+      loose);
+  if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
+}
+
 Expected<void> Executor::check_limit() const {
   constexpr double tolerance = 1e-5;  // of the limit; steps keep it to 1e-6
   if (!state.limit) return {};
@@ -165,9 +188,17 @@ Expected<ActiveStep> Executor::one_step(const std::vector<PointForce>& more, dou
   if (!loads) return std::unexpected(loads.error());
   loads->points.insert(loads->points.end(), more.begin(), more.end());
   const ActiveState before = active_state(state);
+  auto anchored = anchors(state, model, before.control_points);
+  if (!anchored) return std::unexpected(anchored.error());
+  std::ranges::move(*anchored, std::back_inserter(loads->points));
   if (!state.energy_before) state.energy_before = model.energy(before);
   const auto start = std::chrono::steady_clock::now();
   auto step = model.step(before, *tools, *loads);
+  if (step && goes_too_far(*step, *loads)) {
+    loads->reach = law->reach;
+    loads->original = points_of_law();
+    step = model.step(before, *tools, *loads);
+  }
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return step;
 }

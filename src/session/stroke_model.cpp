@@ -8,7 +8,7 @@ namespace {
 
 /// Stacked rows of all patches, those of patch k as f(k, its rows) makes them.
 template <class F>
-Points by_patch(const std::vector<GrevilleValues<2>>& patches, const Points& x, const F& f) {
+Points by_patch(const std::vector<SiteValues<2>>& patches, const Points& x, const F& f) {
   Points result(x.rows(), 3);
   Eigen::Index first = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
@@ -39,23 +39,45 @@ Points StrokeModel::allowed(const Points& x) const {
 Expected<void> Executor::keep_stroke_model(ModelInput input, std::span<const OpenStroke::Before> before) {
   if (stroke_cache && stroke_cache->scene.input == input) return {};
   stroke_cache.reset();
-  std::vector<GrevilleValues<2>> values;
+  std::vector<SiteValues<2>> values;
   for (const OpenStroke::Before& b : before) {
-    auto made = GrevilleValues<2>::create(*b.current);
+    auto made = SiteValues<2>::create(*b.current, Sites::chebyshev);
     if (!made) return std::unexpected(made.error());
     values.push_back(std::move(*made));
   }
   auto made = make_model(std::move(input));
   if (!made) return std::unexpected(made.error());
-  stroke_cache = StrokeModel{std::move(*made), std::move(values)};
+  stroke_cache = StrokeModel{std::move(*made), std::move(values), {}};
+  Points shapes(stroke_cache->scene.model.rows().back(), 3);
+  Eigen::Index first = 0;
+  for (const OpenStroke::Before& b : before) {
+    shapes.middleRows(first, b.current->size()) = b.current->control_points();
+    first += b.current->size();
+  }
+  stroke_cache->places = stroke_cache->at_abscissae(shapes);
   return {};
+}
+
+/// How deep these tools stand in the shapes from before the stroke, at the sites.
+double Executor::depth_at_sites(std::span<const Tool> tools) const {
+  double deepest = 0;
+  for (const Tool& tool : tools) {
+    if (!tool.collides()) continue;
+    const BoundingBox box = tool.shape.bounding_box();
+    for (Eigen::Index i = 0; i < stroke_cache->places.rows(); ++i) {
+      const Point x = stroke_cache->places.row(i);
+      if ((x.array() < box.lower.array()).any() || (x.array() > box.upper.array()).any()) continue;
+      deepest = std::max(deepest, -tool.shape.nearest(x).distance);
+    }
+  }
+  return deepest;
 }
 
 /// Where the displacement of the last place is expected after these travels.
 Points Executor::stroke_guess(std::span<const Travel> travels) const {
   const OpenStroke& stroke = *state.stroke;
   if (stroke.last.rows() == 0) return {};
-  const std::vector<GrevilleValues<2>>& values = stroke_cache->values;
+  const std::vector<SiteValues<2>>& values = stroke_cache->values;
   return stroke_cache->allowed(by_patch(values, stroke.last, [&](std::size_t k, const Points& part) {
     return travelled(*stroke.before[k].current, values[k], part, travels);
   }));

@@ -201,13 +201,16 @@ Expected<ActiveStep> Executor::press(std::vector<Tool> tools, std::span<const Tr
   const ActiveSurface& model = stroke_cache->scene.model;
   auto loads = active_loads(state, stroke_cache->scene);
   if (!loads) return std::unexpected(loads.error());
-  loads->points.clear();  // they are in balance with the shape as it was
   ActiveState from{stacked(stroke.before, &OpenStroke::Before::current),
                    stacked(stroke.before, &OpenStroke::Before::rest)};
+  auto anchored = anchors(state, model, from.control_points);
+  if (!anchored) return std::unexpected(anchored.error());
+  loads->points = std::move(*anchored);  // other forces are in balance with the shape as it was
   from.balanced = true;
   from.guess = stroke_guess(travels);
   auto step = model.step(from, tools, *loads);
   if (step) step->control_points -= from.control_points;  // the displacement
+  if (step) step = within_depth(std::move(*step), from, tools, *loads);
   return step;
 }
 
@@ -237,7 +240,7 @@ Expected<bool> Executor::refine_stroke(const ActiveStep* step) {
     const SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
     const Surface old = *stroke.before[k].current, &like = *s.current;
     stroke.before[k] = {s.rest, s.current};
-    const auto from = GrevilleValues<2>::create(old), to = GrevilleValues<2>::create(like);
+    const auto from = SiteValues<2>::create(old, Sites::chebyshev), to = SiteValues<2>::create(like, Sites::chebyshev);
     if (!from) return std::unexpected(from.error());
     if (!to) return std::unexpected(to.error());
     for (std::size_t f = 0; f < fields.size(); ++f) {
@@ -296,13 +299,17 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
     was = std::move(is);
     OpenStroke& stroke = *state.stroke;
     stroke.last = step->control_points;
-    remember(stroke.history, stroke_cache->at_abscissae(stroke.last));
+    const Points asked = stroke_cache->at_abscissae(stroke.last);
+    remember(stroke.history, asked);
+    ask_of_stroke(std::sqrt(asked.rowwise().squaredNorm().maxCoeff()), *was);
     iterations += step->iterations;
     converged = converged && step->converged;
     if (note.empty()) note = note_of(*step);
     last = std::move(*step);
     if (auto on = carries_on(++done, static_cast<int>(places.size())); !on) return std::unexpected(on.error());
   }
+  ask_of_stroke(std::sqrt(state.stroke->history.rowwise().squaredNorm().maxCoeff()), *was);
+  note_loose();
   if (last.gap > 0 && (state.stroke->history.array() == 0).all()) return std::unexpected(all_held(last.gap_tool));
   if (auto shown = show_stroke(true); !shown) return shown;
   const auto shallower = keep_unfolded();

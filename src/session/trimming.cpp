@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "command_fields.hpp"
-#include "knead/exchange/face_edges.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -40,12 +39,12 @@ const TrimEdge* held_beside(const SceneSurface& s, const Eigen::Vector2d& at) {
 Error fold_error(const SceneSurface& s, const Eigen::Vector2d& at) {
   const std::string place = fmt::format("{} at [{:.4f}, {:.4f}]", s.id, at.x(), at.y());
   if (const TrimEdge* edge = held_beside(s, at)) {
-    return {
-        ErrorKind::numerical,
-        fmt::format("the step folds {} beside the edge {}, which is held, and was refused", place, edge->id), "step",
-        fmt::format(
-            R"(press less deep or farther from it, or let the edge follow: {{"do":"edge","edge":"{}","hold":"follow"}})",
-            edge->id)};
+    const bool side = edge->neighbours.empty();  // where nothing could follow
+    return {ErrorKind::numerical,
+            fmt::format("the step folds {} beside the edge {}, which is held, and was refused", place, edge->id),
+            "step",
+            fmt::format(R"(press less deep or farther from it, or {}: {{"do":"edge","edge":"{}","hold":"{}"}})",
+                        side ? "let it go" : "let the edge follow", edge->id, side ? "free" : "follow")};
   }
   return {ErrorKind::numerical, fmt::format("the step folds {} and was refused", place), "step",
           "press less deep, go there in several steps with a larger lambda, or use a stiffer material"};
@@ -64,20 +63,14 @@ Expected<const VisibleRegion*> Executor::visible(SceneSurface& surface) {
   if (surface.visible) return surface.visible.get();
   std::shared_ptr<const VisibleRegion>& known = faces.visible[surface.id];
   if (!known) {
-    const step::File* const file = document.step_file();
-    if (file == nullptr || file->find_surface(surface.id) == nullptr) {
-      known = std::make_shared<const VisibleRegion>();
-    } else {
-      if (!regions) regions = std::make_unique<const VisibleRegions>(*file);
-      auto region = regions->of(surface.id);
-      if (!region) {
-        Error error = region.error();
-        error.what = fmt::format("the edges of the faces on {} cannot be followed: {}", surface.id, error.what);
-        error.remedy = R"(hold something else: {"do":"hold","rows":2}, or {"do":"hold","mode":"free"})";
-        return std::unexpected(error);
-      }
-      known = std::make_shared<const VisibleRegion>(std::move(*region));
+    auto region = regions.of(surface.id);
+    if (!region) {
+      Error error = region.error();
+      error.what = fmt::format("the edges of the faces on {} cannot be followed: {}", surface.id, error.what);
+      error.remedy = R"(hold something else: {"do":"hold","rows":2}, or {"do":"hold","mode":"free"})";
+      return std::unexpected(error);
     }
+    known = std::make_shared<const VisibleRegion>(std::move(*region));
   }
   surface.visible = known;
   return surface.visible.get();

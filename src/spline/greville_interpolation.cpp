@@ -1,101 +1,31 @@
 #include "greville_interpolation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace knead {
 
-Expected<GrevilleInterpolation> GrevilleInterpolation::create(const KnotVector& knots) {
+std::vector<double> greville_sites(const KnotVector& knots) {
   const int n = knots.count(), p = knots.degree();
   const auto [lower, upper] = knots.domain();
-  GrevilleInterpolation result;
-  result.degree_ = p;
-  result.begin_ = 0;
-  while (knots[result.begin_ + p + 1] <= lower) ++result.begin_;
-  result.end_ = n;
-  while (knots[result.end_ - 1] >= upper) --result.end_;
+  const auto [begin, end] = functions_on_domain(knots);
+  std::vector<double> sites;
   for (int i = 0; i < n; ++i) {
     const auto clamped = [&, a = lower, b = upper](int k) { return std::clamp(knots[k], a, b); };
     const double first = clamped(i + 1);
     double sum = 0;
     for (int k = 2; k <= p; ++k) sum += clamped(i + k) - first;
     double g = std::clamp(first + sum / p, first, clamped(i + p));
-    if (i < result.begin_) g = lower;
-    if (i >= result.end_) g = upper;
-    result.abscissae_.push_back(g);
-    result.sides_.push_back(knots[i + 1] == knots[i + p + 1] ? Side::left : Side::right);
+    if (i < begin) g = lower;
+    if (i >= end) g = upper;
+    sites.push_back(g);
   }
-  result.basis_ = result.tabulate(knots);
-
-  const int width = 2 * p + 1;
-  result.lu_.assign(static_cast<std::size_t>(n) * static_cast<std::size_t>(width), 0.0);
-  const auto entry = [&](int i, int j) -> double& {
-    return result
-        .lu_[static_cast<std::size_t>(i) * static_cast<std::size_t>(width) + static_cast<std::size_t>(j - i + p)];
-  };
-  for (int i = result.begin_; i < result.end_; ++i) {
-    const int first = result.basis_.first[static_cast<std::size_t>(i)];
-    // Functions of the span outside the band or outside begin … end are zero here.
-    for (int r = 0; r <= p; ++r) {
-      const int j = first + r;
-      if (j >= std::max(result.begin_, i - p) && j < std::min(result.end_, i + p + 1)) {
-        entry(i, j) = result.basis_.row(i, 0)[r];
-      }
-    }
-  }
-  for (int k = result.begin_; k < result.end_; ++k) {
-    const double pivot = entry(k, k);
-    if (!(pivot > 0)) {
-      return numerical_error(
-          fmt::format("the Greville abscissa {} of function {} does not separate it from its neighbours",
-                      result.abscissae_[static_cast<std::size_t>(k)], k),
-          {}, "remove knots that lie closer together than rounding can tell apart");
-    }
-    const int last = std::min(result.end_ - 1, k + p);
-    for (int i = k + 1; i <= last; ++i) {
-      const double factor = entry(i, k) /= pivot;
-      if (factor == 0) continue;
-      for (int j = k + 1; j <= last; ++j) entry(i, j) -= factor * entry(k, j);
-    }
-  }
-  return result;
+  return sites;
 }
 
-BasisTable GrevilleInterpolation::tabulate(const KnotVector& other) const {
-  const auto width = static_cast<std::size_t>(other.degree() + 1);
-  BasisTable table{other.degree(), 0, std::vector<int>(abscissae_.size()),
-                   std::vector<double>(abscissae_.size() * width)};
-  for (std::size_t i = 0; i < abscissae_.size(); ++i) {
-    const int span = other.find_span(abscissae_[i], sides_[i]);
-    table.first[i] = span - other.degree();
-    basis_values(other, span, abscissae_[i], table.derivatives.data() + i * width);
-  }
-  return table;
-}
-
-void GrevilleInterpolation::solve(double* values, std::size_t outer, std::size_t inner) const {
-  const int n = size(), p = degree_;
-  const auto entry = [&](int i, int j) {
-    return lu_[static_cast<std::size_t>(i) * static_cast<std::size_t>(2 * p + 1) + static_cast<std::size_t>(j - i + p)];
-  };
-  for (std::size_t o = 0; o < outer; ++o, values += static_cast<std::size_t>(n) * inner) {
-    const auto row = [&](int i) { return values + static_cast<std::size_t>(i) * inner; };
-    const auto eliminate = [&](int i, int j) {
-      const double factor = entry(i, j);
-      for (std::size_t c = 0; c < inner; ++c) row(i)[c] -= factor * row(j)[c];
-    };
-    std::fill(row(0), row(begin_), 0.0);
-    std::fill(row(end_), row(n), 0.0);
-    for (int i = begin_; i < end_; ++i) {
-      for (int j = std::max(begin_, i - p); j < i; ++j) eliminate(i, j);
-    }
-    for (int i = end_; i-- > begin_;) {
-      for (int j = i + 1; j <= std::min(end_ - 1, i + p); ++j) eliminate(i, j);
-      const double pivot = entry(i, i);
-      for (std::size_t c = 0; c < inner; ++c) row(i)[c] /= pivot;
-    }
-  }
+Expected<GrevilleInterpolation> GrevilleInterpolation::create(const KnotVector& knots) {
+  auto made = SiteInterpolation::create(knots, greville_sites(knots));
+  if (!made) return std::unexpected(made.error());
+  return GrevilleInterpolation(std::move(*made));
 }
 
 }  // namespace knead

@@ -16,11 +16,21 @@ using testing::FaceBuilder;
 using testing::on_square;
 using testing::square;
 
-TEST(FaceEdges, ASurfaceWithoutAFaceIsWholeAndHasNoEdges) {
+TEST(FaceEdges, ASurfaceWithoutAFaceIsWholeWithinItsSides) {
   const auto region = visible_region(testing::parse_or_die(testing::step_text(square)), "#10");
   ASSERT_TRUE(region);
   EXPECT_TRUE(region->faces.empty());
-  EXPECT_TRUE(region->edges.empty());
+  std::vector<std::string> sides;
+  for (const TrimEdge& edge : region->edges) {
+    sides.push_back(edge.id);
+    EXPECT_TRUE(edge.neighbours.empty());
+    EXPECT_EQ(edge.deviation, 0);
+    const auto d = edge.id[0] == 'u' ? 0 : 1;
+    for (const auto& at : edge.course) EXPECT_EQ(at[d], edge.id[1] == '0' ? 0 : 1);
+    EXPECT_EQ(edge.course.front()[1 - d], 0);
+    EXPECT_EQ(edge.course.back()[1 - d], 1);
+  }
+  EXPECT_EQ(sides, (std::vector<std::string>{"u0", "u1", "v0", "v1"}));
   EXPECT_FALSE(region->in_shell);
 }
 
@@ -138,7 +148,7 @@ TEST(VisibleRegions, AreThoseOfEachSurfaceInAnyOrderAndAsOftenAsAsked) {
   EXPECT_FALSE(regions.of("#10")->in_shell);
   EXPECT_EQ(regions.of("#30")->edges.size(), 6U);
   EXPECT_TRUE(regions.of("#30")->in_shell);
-  EXPECT_TRUE(regions.of("#50")->edges.empty());
+  EXPECT_EQ(regions.of("#50")->edges.front().id, "u0");  // no face lies on it
 }
 
 TEST(VisibleRegions, FacesAroundAnEdgeAreNeighboursOfAllSurfacesThere) {

@@ -234,7 +234,7 @@ TEST(ContactDirections, FollowAStiffBallFromAPoorGuess) {
 TEST(ContactDirections, FollowAStiffBallFromWhereItHasTravelled) {
   const auto [iterations, solves, all] =
       follow([](const Surface& s, const ActiveSurface& model, const Points& last, const Points&, const Travel& travel) {
-        return model.allowed(travelled(s, *GrevilleValues<2>::create(s), last, {&travel, 1}));
+        return model.allowed(travelled(s, *SiteValues<2>::create(s, Sites::chebyshev), last, {&travel, 1}));
       });
   EXPECT_LE(iterations, 4);
   EXPECT_LE(solves, 36);

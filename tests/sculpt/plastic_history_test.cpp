@@ -4,7 +4,7 @@
 
 #include "active.hpp"
 #include "groove.hpp"
-#include "knead/sculpt/greville_values.hpp"
+#include "knead/sculpt/site_values.hpp"
 #include "knead/sculpt/tool_path.hpp"
 
 namespace knead {
@@ -15,7 +15,7 @@ constexpr double size = 200, radius = 20, depth = 8, locality = 0.25 * radius;
 /// A sheet of clay and a ball that is led over it.
 struct ClaySheet {
   Surface flat = testing::uniform_sheet(3, 64, 64, size, size);
-  GrevilleValues<2> values = *GrevilleValues<2>::create(flat);
+  SiteValues<2> values = *SiteValues<2>::create(flat, Sites::chebyshev);
   Locality bed = locality_of(1e-3, locality / size);
   ActiveSurface model = testing::active<2>(flat, settings());
   int places = 0;

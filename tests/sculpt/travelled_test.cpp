@@ -24,7 +24,7 @@ Points bump(const Surface& s, int row, int column, const Point& by) {
 TEST(Travelled, ShiftsADentOverAPlane) {
   // By two spans in u and one back in v: control points of the middle move with it, to rounding.
   const Surface s = testing::box<2>(3, 24);
-  const auto values = *GrevilleValues<2>::create(s);
+  const auto values = *SiteValues<2>::create(s, Sites::chebyshev);
   const double span = 1.0 / 21;
   const Travel travel{Point(8 * span, 9 * span, 0.3), Point(10 * span, 8 * span, 0.3)};
   const Points found = travelled(s, values, bump(s, 9, 10, Point(0.1, 0, -1)), {&travel, 1});
@@ -33,7 +33,7 @@ TEST(Travelled, ShiftsADentOverAPlane) {
 
 TEST(Travelled, LeavesWhatIsUnderAToolThatRests) {
   const Surface s = testing::box<2>(3, 24);
-  const auto values = *GrevilleValues<2>::create(s);
+  const auto values = *SiteValues<2>::create(s, Sites::chebyshev);
   const double span = 1.0 / 21;
   const Points before = bump(s, 4, 4, Point(0, 0, 1)) + bump(s, 18, 18, Point(0, 0, 2));
   const std::vector<Travel> travels = {{Point(4 * span, 4 * span, 0.2), Point(4 * span, 4 * span, 0.2)},
@@ -47,7 +47,7 @@ TEST(Travelled, LeavesWhatIsUnderAToolThatRests) {
 TEST(Travelled, GoesOnBesideTheBorder) {
   // A foot on the border shows no way through the domain; the tangents do.
   const Surface s = testing::box<2>(3, 24);
-  const auto values = *GrevilleValues<2>::create(s);
+  const auto values = *SiteValues<2>::create(s, Sites::chebyshev);
   const double span = 1.0 / 21;
   const Travel travel{Point(-0.1, 9 * span, 0), Point(-0.1 + span, 9 * span, 0)};
   const Points found = travelled(s, values, bump(s, 9, 10, Point(0, 0, 1)), {&travel, 1});
@@ -63,7 +63,7 @@ TEST(Travelled, TurnsWithTheNormal) {
     bent.row(i) = Point(std::sin(angle), bent(i, 1), std::cos(angle)).transpose();
   }
   const Surface s = *flat.with_control_points(bent);
-  const auto values = *GrevilleValues<2>::create(s);
+  const auto values = *SiteValues<2>::create(s, Sites::chebyshev);
   const auto radial = [](double angle) { return Point(std::sin(angle), 0, std::cos(angle)); };
   const double angle = std::numbers::pi / 6;
   const Travel travel{1.2 * radial(-angle / 2) + Point(0, 0.5, 0), 1.2 * radial(angle / 2) + Point(0, 0.5, 0)};
@@ -84,7 +84,7 @@ TEST(Travelled, StaysWhereTheShapeHasNoTangents) {
   const Surface point = *flat.with_control_points(Points::Zero(flat.size(), 3));
   const Points before = bump(flat, 3, 3, Point(0, 0, 1));
   const Travel travel{Point(1, 0, 0), Point(2, 0, 0)};
-  EXPECT_EQ(travelled(point, *GrevilleValues<2>::create(flat), before, {&travel, 1}), before);
+  EXPECT_EQ(travelled(point, *SiteValues<2>::create(flat, Sites::chebyshev), before, {&travel, 1}), before);
 }
 
 }  // namespace

@@ -172,5 +172,27 @@ TEST(Groove, WrongFieldsAreRefusedByName) {
   EXPECT_EQ(refusal(session, R"({"do":"stroke","path":[[0,0,12],[1e9,0,12]]})").where, "path");
 }
 
+// Pieces joined C0 and C1: their Greville abscissae are equidistant, and interpolation there swings by thousands.
+TEST(Groove, IsAsDeepOnBezierPiecesOfHighDegree) {
+  for (const int p : {10, 22, 25}) {
+    for (const int multiplicity : {p - 1, p}) {
+      std::string knots;
+      for (int k = 0; k <= 8; ++k) {
+        const int times = k == 0 || k == 8 ? p + 1 : multiplicity;
+        for (int i = 0; i < times; ++i) knots += fmt::format("{}{}", knots.empty() ? "" : ",", k);
+      }
+      Session session = fresh();
+      run(session, {fmt::format(R"({{"do":"new","size":[20,200],"degree":[1,{}],"knots_u":[0,0,1,2,3,4,5,6,7,7],)"
+                                R"("knots_v":[{}]}})",
+                                p, knots),
+                    R"({"do":"hold","rows":2})", R"({"do":"material","preset":"clay"})",
+                    R"({"do":"tool","name":"b","radius":10,"position":[10,100,30]})",
+                    R"({"do":"stroke","tool":"b","path":[[10,95,5],[10,105,5]]})"});
+      EXPECT_GE(session.largest_displacement(0), 0.9 * 5) << p << " " << multiplicity;
+      EXPECT_LE(session.largest_displacement(0), 1.05 * 5) << p << " " << multiplicity;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace knead

@@ -136,7 +136,7 @@ struct OpenStroke {
   double tension = 0;          ///< added to α11 and α22, so that dents have no rim
   Plasticity plasticity;       ///< the yield in file units
   std::vector<Before> before;  ///< per selected surface
-  Points history;              ///< largest displacement so far at the Greville abscissae, file units
+  Points history;              ///< largest displacement so far at the Chebyshev sites, file units
   Points last = {};            ///< displacement of the last place; empty: none
   double share = 1;            ///< of all this that is shown and stays: less where more would fold a face
 };

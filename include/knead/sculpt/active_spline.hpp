@@ -128,6 +128,9 @@ struct ActiveLoads {
   std::vector<PointForce> points = {};
   double limit = 0;      ///< no point moves further than this from `original`, file units; 0: no limit
   Points original = {};  ///< control points the limit is measured from; empty: the rest shape
+  /// Without a limit: how far from `original` tools are to move anything, file units; 0: as far as it goes. Springs
+  /// that are `reach_stiffness` times those of the stiffest tool hold what goes further, which is a few per cent.
+  double reach = 0;
 };
 
 /// One step of an `ActiveSpline`.

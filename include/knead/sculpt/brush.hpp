@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "knead/sculpt/greville_values.hpp"
+#include "knead/sculpt/site_values.hpp"
 #include "knead/sculpt/stamp.hpp"
 
 namespace knead {
@@ -77,7 +77,7 @@ struct BrushSamples {
 
   /// `side`: 1 or −1, by which the normals are multiplied.
   /// Errors: those of evaluation. Cost: that of an evaluation of first order at all abscissae.
-  [[nodiscard]] Expected<void> append(const Surface& shape, const GrevilleValues<2>& values, double side = 1);
+  [[nodiscard]] Expected<void> append(const Surface& shape, const SiteValues<2>& values, double side = 1);
 };
 
 /// A point of the surface on the path of a brush.

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "knead/exchange/face_conversion.hpp"
-#include "knead/exchange/face_edges.hpp"
+#include "knead/session/document_regions.hpp"
 
 namespace knead {
 namespace {
@@ -46,7 +46,7 @@ Expected<std::vector<std::string>> neighbours(Executor& executor) {
 
 /// Neighbours are named with the surfaces on which they lie: regions beside the converted ones are found again.
 Expected<void> refresh_neighbours(SessionState& state, const std::vector<std::string>& ids) {
-  std::unique_ptr<const VisibleRegions> regions;
+  DocumentRegions regions(*state.document);
   for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
     const auto& visible = std::as_const(state.surfaces)[k].visible;
     const bool beside = visible && std::ranges::any_of(visible->edges, [&](const TrimEdge& edge) {
@@ -56,8 +56,7 @@ Expected<void> refresh_neighbours(SessionState& state, const std::vector<std::st
                         });
     if (!beside) continue;
     SceneSurface& s = state.surfaces[k];
-    if (!regions) regions = std::make_unique<const VisibleRegions>(*state.document->step_file());
-    auto region = regions->of(s.id);
+    auto region = regions.of(s.id);
     if (!region) return std::unexpected(region.error());
     s.visible = std::make_shared<const VisibleRegion>(std::move(*region));
   }

@@ -25,6 +25,7 @@ void note_opening(SessionState& state, const SceneSurface& s, const TrimEdge& ed
 Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
   const bool follow = c.hold == EdgeCondition::follow;
   const int order = c.hold > EdgeCondition::curvature ? -1 : static_cast<int>(c.hold);
+  bool follows = false;
   std::string known;
   std::vector<int> changed;
   const std::vector<int> selection = executor.state.selection();
@@ -40,18 +41,34 @@ Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
         const auto* other = std::get_if<TrimEdgeHold>(&kept.constraint);
         return other != nullptr && other->id == edge.id;
       });
+      const bool side = edge.neighbours.empty();  // of a surface without faces: there is nothing to follow
       if (c.hold == EdgeCondition::free) note_opening(executor.state, s, edge);
-      s.constraints.push_back({TrimEdgeHold{edge.id, order, follow}, s.current});
+      s.constraints.push_back({TrimEdgeHold{edge.id, order, follow && !side}, s.current});
+      follows = follows || (follow && !side);
     }
   }
   if (!changed.empty()) {
-    if (follow) {
+    if (follows) {
       if (auto can = executor.follow_edge(*c.edge); !can) return can;
     }
     return executor.check_constraints_on(changed);
   }
   return input_error(fmt::format("no face on the selected surfaces has an edge {}", *c.edge), "which",
                      known.empty() ? "no face lies on them" : "their edges are: " + known);
+}
+
+/// Where a surface without faces holds its sides as faces do their edges, what is asked of one replaces that.
+void hold_bare_sides(Executor& executor, SceneSurface& s, const std::vector<SurfaceEdge>& sides, bool free) {
+  if (!holds_trims(s.constraints) || !executor.visible(s)) return;  // what cannot be followed has faces
+  for (const SurfaceEdge side : sides) {
+    const std::string id = edge_name(side);
+    if (std::ranges::find(s.visible->edges, id, &TrimEdge::id) == s.visible->edges.end()) continue;
+    std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
+      const auto* hold = std::get_if<TrimEdgeHold>(&kept.constraint);
+      return hold != nullptr && hold->id == id;
+    });
+    if (free) s.constraints.push_back({TrimEdgeHold{id, -1}, s.current});
+  }
 }
 
 }  // namespace
@@ -127,6 +144,7 @@ Expected<void> Executor::execute(const EdgeCommand& c) {
       for (std::size_t d = 0; d < 3; ++d) edge->components[d] = edge->components[d] && !(*components)[d];
       return std::ranges::none_of(edge->components, std::identity());
     });
+    if (*components == all_components) hold_bare_sides(*this, s, edges, c.hold == EdgeCondition::free);
     if (c.hold == EdgeCondition::free) continue;
     for (SurfaceEdge edge : edges) s.constraints.push_back({EdgeHold{edge, order, *components}, s.current});
   }

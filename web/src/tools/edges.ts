@@ -52,7 +52,7 @@ export class Edges implements PointerTool {
   /** Of the faces of the file on the selected surface; null as long as they are not known. */
   get faceEdges(): readonly FaceEdge[] | null {
     const { info } = this;
-    if (!info || info.faces === 0) return [];
+    if (!info || (info.faces === 0 && !info.bare)) return [];
     return this.known.get(info.id) ?? null;
   }
 

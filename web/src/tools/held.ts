@@ -19,13 +19,10 @@ export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
   let all: Continuity = 'free';
   let own: Continuity | null = null;
   for (const c of info.constraints) {
-    if (isSide(edge)) {
-      if (c.do === 'edge' && c.edge === undefined && (c.which === edge || c.which === 'all')) own = c.hold ?? 'position';
-      if (c.do === 'symmetry' && c.edge === edge) own = 'symmetry';
-    } else {
-      if (c.do === 'hold') all = ofMode[c.mode ?? 'rows'] ?? all;
-      if (c.do === 'edge' && c.edge === edge) own = c.hold ?? 'position';
-    }
+    const side = isSide(edge);
+    if (c.do === 'hold' && (!side || info.bare)) all = ofMode[c.mode ?? 'rows'] ?? all;
+    if (c.do === 'edge' && (c.edge === edge || (side && c.edge === undefined && (c.which === edge || c.which === 'all')))) own = c.hold ?? 'position';
+    if (c.do === 'symmetry' && side && c.edge === edge) own = 'symmetry';
   }
   return own ?? all;
 }
@@ -79,7 +76,9 @@ export function heldInWords(info: SurfaceInfo, faceEdges: readonly Edge[], open:
   const asked = faceEdges.length > 0 && info.constraints.some((c) => c.do === 'hold' || (c.do === 'edge' && c.edge !== undefined));
   const count = asked ? held(faceEdges) : 0;
   if (asked) parts.push(count === faceEdges.length ? counted(count, 'edge') : `${count} of ${faceEdges.length} edges`);
-  const sideCount = held(edgeNames);
+  // A closed surface without edges is held in its place.
+  if (!asked && faceEdges.length === 0 && (info.bare || info.faces > 0) && info.constraints.some((c) => c.do === 'hold')) parts.push('its place');
+  const sideCount = held(edgeNames.filter((e) => !faceEdges.includes(e)));
   if (sideCount > 0) parts.push(counted(sideCount, asked ? 'side' : 'edge'));
   if (info.pins > 0) parts.push(counted(info.pins, 'point'));
   if (info.constraints.some((c) => c.do === 'freeze')) parts.push('frozen spans');

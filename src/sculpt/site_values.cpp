@@ -1,9 +1,10 @@
-#include "knead/sculpt/greville_values.hpp"
+#include "knead/sculpt/site_values.hpp"
 
 #include <fmt/format.h>
 
 #include <cassert>
 
+#include "spline/chebyshev_interpolation.hpp"
 #include "spline/greville_interpolation.hpp"
 #include "spline/tensor_contraction.hpp"
 
@@ -11,7 +12,7 @@ namespace knead {
 namespace {
 
 template <int D>
-std::vector<double> at_abscissae(const std::vector<GrevilleInterpolation>& interpolation, const double* x,
+std::vector<double> at_abscissae(const std::vector<SiteInterpolation>& interpolation, const double* x,
                                  std::size_t components) {
   std::array<const BasisTable*, D> tables;
   std::array<int, D> net;
@@ -22,19 +23,24 @@ std::vector<double> at_abscissae(const std::vector<GrevilleInterpolation>& inter
   return contract_grid<D>(tables, net, x, components);
 }
 
+Expected<SiteInterpolation> interpolation_of(const KnotVector& knots, Sites sites) {
+  if (sites == Sites::greville) return GrevilleInterpolation::create(knots);
+  return ChebyshevInterpolation::create(knots);
+}
+
 }  // namespace
 
 template <int D>
-struct GrevilleValues<D>::Factors {
-  std::vector<GrevilleInterpolation> interpolation;
+struct SiteValues<D>::Factors {
+  std::vector<SiteInterpolation> interpolation;
   std::vector<double> weights, denominators;  // at control points and at the abscissae; empty for a polynomial spline
 };
 
 template <int D>
-Expected<GrevilleValues<D>> GrevilleValues<D>::create(const Spline<D>& shape) {
+Expected<SiteValues<D>> SiteValues<D>::create(const Spline<D>& shape, Sites sites) {
   Factors made;
   for (std::size_t d = 0; d < D; ++d) {
-    auto direction = GrevilleInterpolation::create(shape.knots()[d]);
+    auto direction = interpolation_of(shape.knots()[d], sites);
     if (!direction) return std::unexpected(direction.error().within(fmt::format("direction {}", d)));
     made.interpolation.push_back(std::move(*direction));
   }
@@ -48,26 +54,26 @@ Expected<GrevilleValues<D>> GrevilleValues<D>::create(const Spline<D>& shape) {
                          fmt::format("control point {}", i), "use weights > 0");
     }
     if (!(made.denominators[i] > 0)) {
-      return numerical_error("the rational denominator is not positive", "Greville abscissae", "use positive weights");
+      return numerical_error("the rational denominator is not positive", "sites", "use positive weights");
     }
   }
-  return GrevilleValues(std::make_shared<const Factors>(std::move(made)));
+  return SiteValues(std::make_shared<const Factors>(std::move(made)));
 }
 
 template <int D>
-int GrevilleValues<D>::size() const {
+int SiteValues<D>::size() const {
   int size = 1;
-  for (const GrevilleInterpolation& direction : factors_->interpolation) size *= direction.size();
+  for (const SiteInterpolation& direction : factors_->interpolation) size *= direction.size();
   return size;
 }
 
 template <int D>
-const std::vector<double>& GrevilleValues<D>::abscissae(int direction) const {
+const std::vector<double>& SiteValues<D>::abscissae(int direction) const {
   return factors_->interpolation[static_cast<std::size_t>(direction)].abscissae();
 }
 
 template <int D>
-Points GrevilleValues<D>::values(const Points& x) const {
+Points SiteValues<D>::values(const Points& x) const {
   assert(x.rows() == size());
   const auto& [interpolation, weights, denominators] = *factors_;
   if (weights.empty()) {
@@ -82,13 +88,13 @@ Points GrevilleValues<D>::values(const Points& x) const {
 }
 
 template <int D>
-Points GrevilleValues<D>::coefficients(Points v) const {
+Points SiteValues<D>::coefficients(Points v) const {
   assert(v.rows() == size());
   const auto& [interpolation, weights, denominators] = *factors_;
   const bool rational = !weights.empty();
   for (Eigen::Index i = 0; i < v.rows() && rational; ++i) v.row(i) *= denominators[static_cast<std::size_t>(i)];
   std::size_t outer = 1, inner = static_cast<std::size_t>(v.size());
-  for (const GrevilleInterpolation& direction : interpolation) {
+  for (const SiteInterpolation& direction : interpolation) {
     const auto n = static_cast<std::size_t>(direction.size());
     inner /= n;
     direction.solve(v.data(), outer, inner);
@@ -98,8 +104,8 @@ Points GrevilleValues<D>::coefficients(Points v) const {
   return v;
 }
 
-template class GrevilleValues<1>;
-template class GrevilleValues<2>;
-template class GrevilleValues<3>;
+template class SiteValues<1>;
+template class SiteValues<2>;
+template class SiteValues<3>;
 
 }  // namespace knead

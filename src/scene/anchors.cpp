@@ -1,0 +1,64 @@
+#include "knead/scene/anchors.hpp"
+
+#include <algorithm>
+
+#include "dead_loads.hpp"
+#include "knead/scene/trims.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double usual_stiffness = 1e4;  // of tools
+
+bool holds(const KeptConstraint& kept) {
+  return !std::holds_alternative<TrimHolds>(kept.constraint) &&
+         !std::holds_alternative<TrimEdgeHold>(kept.constraint) &&
+         !std::holds_alternative<MirrorSymmetry>(kept.constraint) &&
+         !std::holds_alternative<EdgeSymmetry>(kept.constraint);
+}
+
+bool holds_more_than_edges(const SceneSurface& s) {
+  return s.hold_rows > 0 || !s.pins.empty() || std::ranges::any_of(s.constraints, holds) ||
+         std::ranges::find(s.mask, 1.0) != s.mask.end();
+}
+
+}  // namespace
+
+bool holds_its_place(const SceneSurface& s) {
+  if (!s.visible || !s.visible->edges.empty() || !holds_trims(s.constraints) || holds_more_than_edges(s)) return false;
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (!s.visible->closed[d] && !(s.visible->poles[d][0] && s.visible->poles[d][1])) return false;
+  }
+  return true;
+}
+
+bool holds_anything(const SceneSurface& s) {
+  if (holds_more_than_edges(s) || holds_its_place(s)) return true;
+  if (!s.visible) return false;
+  return std::ranges::any_of(trim_orders(s.constraints, *s.visible), [](int order) { return order >= 0; });
+}
+
+Expected<std::vector<PointForce>> anchors(const Scene& scene, const ActiveSurface& model, const Points& points) {
+  double stiffest = usual_stiffness;
+  for (const Tool& tool : scene.tools) stiffest = std::max(stiffest, tool.stiffness);
+  std::vector<PointForce> result;
+  for (int patch = 0; const int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    const int first = model.rows()[static_cast<std::size_t>(patch)];
+    const DomainScaling<2>& scaling = model.scaling(patch++);
+    if (!holds_its_place(s)) continue;
+    const auto areas = area_forces(*s.reference, scaling, Point::UnitX());
+    if (!areas) return std::unexpected(areas.error());
+    PointForce& spring = result.emplace_back();
+    spring.strength = anchor_stiffness * stiffest;
+    const double area = areas->col(0).sum();
+    for (Eigen::Index i = 0; i < areas->rows(); ++i) {
+      const double share = (*areas)(i, 0) / area;
+      spring.terms.emplace_back(first + static_cast<int>(i), share);
+      spring.to += share * points.row(first + i).transpose();
+    }
+  }
+  return result;
+}
+
+}  // namespace knead

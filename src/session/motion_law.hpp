@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "knead/scene/scene.hpp"
+#include "knead/session/session.hpp"
+
+namespace knead {
+
+/// How much further than asked anything may move.
+inline constexpr double law_tolerance = 0.05;
+
+/// What one command asks of the selected surfaces (docs/clay.md, "How far anything moves").
+struct MotionLaw {
+  double reach = 0;                           ///< how far tools, grips and brushes ask any point to move, file units
+  std::vector<OpenStroke::Before> from = {};  ///< of each selected surface the shape from which that is measured
+  std::vector<Tool> tools = {};               ///< where they stood deepest
+  std::vector<PointForce> grips = {};         ///< that asked for most
+  void count_standing();
+  bool standing = false;  ///< `reach` counts how far the tools stand in the shapes
+};
+
+/// How deep the surface goes into the deepest of these tools, file units; 0: it touches none. Only what is visible
+/// counts where `visible` is given. Sampled at an abscissa per control point, between them where those are clear, and
+/// refined by a compass search to 1e-3 of the distance of samples.
+[[nodiscard]] double depth_in(const Surface& shape, std::span<const Tool> tools, const VisibleRegion* visible);
+
+/// How far tools stand in the surface: the longest way that a point of it inside a tool has along its normal out of the
+/// tool, to the nearer side. Of a blade that is its height, of which `depth_in` knows the thickness alone. Sampled at
+/// four by four points of every span, at most 400 of those inside, and refined by a compass search. 0: none.
+[[nodiscard]] double standing_in(const Surface& shape, std::span<const Tool> tools);
+
+/// The largest |a − b|, an upper bound where that is below `enough`: distances of control points. Of shapes on one
+/// basis it is sampled at (p + 3)(q + 3) points of every span that may go further.
+[[nodiscard]] double largest_motion(const Surface& a, const Surface& b, double enough);
+
+/// A displacement of a shape with what would go further than `reach` taken off: where it does, control points lose
+/// their part of the mean excess around them, in at most 12 rounds. Control points that do not move stay.
+[[nodiscard]] Points within_reach(const Surface& shape, Points way, double reach);
+
+/// Whether every side of every selected surface is held in position, joined or closed: what tools press into it goes no
+/// further than they go. Else it is a lever.
+[[nodiscard]] bool held_all_round(const Scene& scene, const std::vector<SeamReport>& seams);
+
+/// Whether tools that collide are all that acts on the selected surfaces at rest, so that nothing is drawn along, blown
+/// or swings.
+[[nodiscard]] bool only_pressed(const Scene& scene, const EvolutionPolicy& evolution);
+
+}  // namespace knead

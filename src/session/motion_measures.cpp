@@ -1,0 +1,325 @@
+#include "motion_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knead/scene/anchors.hpp"
+#include "knead/scene/trims.hpp"
+#include "knead/spline/basis_terms.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "knead/spline/extremum.hpp"
+
+namespace knead {
+namespace {
+
+constexpr int halvings = 10;  // of the distance of samples, by the search for the deepest place
+
+/// `pieces` parameters per span, and the end.
+std::vector<double> parameters_of(const KnotVector& knots, int pieces) {
+  std::vector<double> result;
+  for (const int span : knots.spans()) {
+    for (int k = 0; k < pieces; ++k) result.push_back(knots[span] + (knots[span + 1] - knots[span]) * k / pieces);
+  }
+  result.push_back(knots.domain().upper);
+  return result;
+}
+
+/// A surface as one tool meets it.
+struct Meeting {
+  const Surface& shape;
+  const Tool& tool;
+  const VisibleRegion* visible;
+  BoundingBox box = tool.shape.bounding_box();
+
+  [[nodiscard]] double depth(const Point& x) const {
+    if ((x.array() < box.lower.array()).any() || (x.array() > box.upper.array()).any()) return 0;
+    return std::max(0.0, -tool.shape.nearest(x).distance);
+  }
+  [[nodiscard]] bool sees(const std::array<double, 2>& u) const {
+    if (visible == nullptr) return true;
+    Eigen::Vector2d at;
+    for (int d = 0; d < 2; ++d) {
+      const Interval domain = shape.knots(d).domain();
+      at[d] = (u[static_cast<std::size_t>(d)] - domain.lower) / domain.length();
+    }
+    return visible->contains(at);
+  }
+  /// The depth at a place, 0 where it is not visible.
+  [[nodiscard]] double depth_at(const std::array<double, 2>& u) const {
+    const auto x = evaluate_point<2>(shape, u);
+    return x && sees(u) ? depth(*x) : 0;
+  }
+
+  [[nodiscard]] double deepest(int pieces) const {
+    const std::array<std::vector<double>, 2> at = {parameters_of(shape.knots(0), pieces),
+                                                   parameters_of(shape.knots(1), pieces)};
+    const auto grid = evaluate_grid<2>(shape, {std::span<const double>(at[0]), std::span<const double>(at[1])});
+    if (!grid) return 0;
+    double best = 0;
+    std::array<double, 2> place{};
+    for (Eigen::Index k = 0; k < grid->points().rows(); ++k) {
+      const double here = depth(grid->points().row(k));
+      const std::array<double, 2> u = {at[0][static_cast<std::size_t>(k) / at[1].size()],
+                                       at[1][static_cast<std::size_t>(k) % at[1].size()]};
+      if (here <= best || !sees(u)) continue;
+      best = here;
+      place = u;
+    }
+    return best > 0 ? refined(best, place, at, [this](const std::array<double, 2>& u) { return depth_at(u); }) : 0;
+  }
+
+  /// The longest way along the normal, to the nearer side, out of the tool.
+  [[nodiscard]] double longest_way_out(int pieces) const {
+    constexpr std::size_t most = 400;
+    const std::array<std::vector<double>, 2> at = {parameters_of(shape.knots(0), pieces),
+                                                   parameters_of(shape.knots(1), pieces)};
+    const auto grid = evaluate_grid<2>(shape, {std::span<const double>(at[0]), std::span<const double>(at[1])});
+    if (!grid) return 0;
+    std::vector<std::size_t> inside;
+    for (Eigen::Index k = 0; k < grid->points().rows(); ++k) {
+      if (depth(grid->points().row(k)) > 0) inside.push_back(static_cast<std::size_t>(k));
+    }
+    const auto way = [this](const std::array<double, 2>& u) { return way_out(u); };
+    double longest = 0;
+    std::array<double, 2> place{};
+    for (std::size_t i = 0; i < inside.size(); i += 1 + inside.size() / most) {
+      const std::array<double, 2> u = {at[0][inside[i] / at[1].size()], at[1][inside[i] % at[1].size()]};
+      const double here = way(u);
+      if (here <= longest) continue;
+      longest = here;
+      place = u;
+    }
+    return longest > 0 ? refined(longest, place, at, way) : 0;
+  }
+
+ private:
+  /// By steps as long as the distance from the tool's side, within which nothing is outside.
+  [[nodiscard]] double way_along(const Point& from, const Point& direction) const {
+    constexpr int most_steps = 64;
+    constexpr double outside = 1e-3;  // of the tool's size
+    double way = 0;
+    for (int k = 0; k < most_steps; ++k) {
+      const double here = depth(from + way * direction);
+      way += here;
+      if (here <= outside * tool.shape.size()) break;
+    }
+    return way;
+  }
+  [[nodiscard]] double way_out(const std::array<double, 2>& u) const {
+    const auto jet = evaluate<2>(shape, Parameters<2>(Eigen::Map<const Parameters<2>>(u.data(), 1, 2)), 1);
+    if (!jet) return 0;
+    const Point x = jet->points().row(0), a = jet->at({1, 0}).row(0), b = jet->at({0, 1}).row(0);
+    const Point normal = a.cross(b).stableNormalized();
+    return std::min(way_along(x, normal), way_along(x, -normal));
+  }
+
+  template <class F>
+  [[nodiscard]] double refined(double best, std::array<double, 2> place, const std::array<std::vector<double>, 2>& at,
+                               const F& value) const {
+    for (double h = 0.5; h > std::ldexp(1.0, -halvings); h /= 2) {
+      for (std::size_t d = 0; d < 2; ++d) {
+        const Interval domain = shape.knots()[d].domain();
+        const double step = domain.length() / static_cast<double>(at[d].size());
+        for (const double sign : {-1.0, 1.0}) {
+          std::array<double, 2> u = place;
+          u[d] = std::clamp(u[d] + sign * h * step, domain.lower, domain.upper);
+          const double here = value(u);
+          if (here <= best) continue;
+          best = here;
+          place = u;
+        }
+      }
+    }
+    return best;
+  }
+};
+
+/// Whether all control points of an edge are one.
+bool is_pole(const Surface& s, SurfaceEdge edge) {
+  const auto [m, n] = s.net();
+  const bool across_u = edge == SurfaceEdge::u0 || edge == SurfaceEdge::u1;
+  const int count = across_u ? n : m;
+  const auto row = [&](int k) {
+    switch (edge) {
+      case SurfaceEdge::u0:
+        return k;
+      case SurfaceEdge::u1:
+        return (m - 1) * n + k;
+      case SurfaceEdge::v0:
+        return k * n;
+      default:
+        return k * n + n - 1;
+    }
+  };
+  const Points& c = s.control_points();
+  const double size = 1e-9 * (c.colwise().maxCoeff() - c.colwise().minCoeff()).norm();
+  for (int k = 1; k < count; ++k) {
+    if ((c.row(row(k)) - c.row(row(0))).norm() > size) return false;
+  }
+  return true;
+}
+
+/// Whether both ends of a direction are one curve.
+bool is_closed(const Surface& s, int direction) {
+  constexpr int samples = 8;
+  const Interval along = s.knots(1 - direction).domain(), across = s.knots(direction).domain();
+  const BoundingBox box = bounding_box(s);
+  for (int k = 0; k <= samples; ++k) {
+    const double t = std::min(along.lower + along.length() * k / samples, along.upper);
+    const auto at = [&](double end) {
+      return evaluate_point<2>(s, direction == 0 ? std::array<double, 2>{end, t} : std::array<double, 2>{t, end});
+    };
+    const auto a = at(across.lower), b = at(across.upper);
+    if (!a || !b || (*a - *b).norm() > 1e-9 * box.diagonal()) return false;
+  }
+  return true;
+}
+
+bool side_is_held(const SceneSurface& s, SurfaceEdge edge) {
+  if (s.hold_rows > 0) return true;
+  for (const KeptConstraint& kept : s.constraints) {
+    const auto* hold = std::get_if<EdgeHold>(&kept.constraint);
+    if (hold != nullptr && hold->edge == edge && hold->components == all_components) return true;
+  }
+  return false;
+}
+
+/// Whether there are edges to hold and none of them is free, or its place is held.
+bool trims_are_held(const SceneSurface& s) {
+  if (holds_its_place(s)) return true;
+  return holds_trims(s.constraints) && s.visible && !s.visible->edges.empty() &&
+         std::ranges::none_of(s.constraints, [](const KeptConstraint& kept) {
+           const auto* edge = std::get_if<TrimEdgeHold>(&kept.constraint);
+           return edge != nullptr && edge->order < 0 && !edge->follow;
+         });
+}
+
+/// Values of a displacement at (p + 3)(q + 3) places of every span where a control point goes beyond `reach`.
+struct FarValues {
+  std::vector<std::array<double, 2>> places;
+  Points values;
+};
+
+std::optional<FarValues> values_beyond(const Surface& shape, const Points& way, double reach) {
+  const auto field = shape.with_control_points(way);
+  if (!field) return std::nullopt;
+  const KnotVector &u = shape.knots(0), &v = shape.knots(1);
+  const Eigen::VectorXd lengths = way.rowwise().norm();
+  const int columns = shape.net()[1], last_u = u.degree() + 2, last_v = v.degree() + 2;
+  FarValues result;
+  for (const int a : u.spans()) {
+    for (const int b : v.spans()) {
+      double largest = 0;
+      for (int i = a - u.degree(); i <= a; ++i) {
+        for (int j = b - v.degree(); j <= b; ++j) largest = std::max(largest, lengths[i * columns + j]);
+      }
+      for (int i = 0; largest > reach && i <= last_u; ++i) {
+        for (int j = 0; j <= last_v; ++j) {
+          result.places.push_back({std::lerp(u[a], u[a + 1], static_cast<double>(i) / last_u),
+                                   std::lerp(v[b], v[b + 1], static_cast<double>(j) / last_v)});
+        }
+      }
+    }
+  }
+  if (result.places.empty()) return std::nullopt;
+  const Eigen::Map<const Parameters<2>> at(result.places.front().data(), std::ssize(result.places), 2);
+  auto values = evaluate<2>(*field, Parameters<2>(at), 0);
+  if (!values) return std::nullopt;
+  result.values = values->points();
+  return result;
+}
+
+bool is_joined(const std::vector<SeamReport>& seams, int surface, SurfaceEdge edge) {
+  return std::ranges::any_of(seams, [&](const SeamReport& report) {
+    if (report.continuity == SeamContinuity::none) return false;
+    const auto at = [&](const PatchEdge& side) { return side.patch == surface && side.edge == edge; };
+    return at(report.seam.a) || at(report.seam.b);
+  });
+}
+
+}  // namespace
+
+double depth_in(const Surface& shape, std::span<const Tool> tools, const VisibleRegion* visible) {
+  double deepest = 0;
+  for (const Tool& tool : tools) {
+    if (!tool.collides()) continue;
+    const Meeting meeting{shape, tool, visible};
+    double here = meeting.deepest(1);
+    if (here == 0) here = meeting.deepest(std::max(shape.knots(0).degree(), shape.knots(1).degree()) + 1);
+    deepest = std::max(deepest, here);
+  }
+  return deepest;
+}
+
+double standing_in(const Surface& shape, std::span<const Tool> tools) {
+  constexpr int pieces = 4;
+  double longest = 0;
+  for (const Tool& tool : tools) {
+    if (tool.collides()) longest = std::max(longest, Meeting{shape, tool, nullptr}.longest_way_out(pieces));
+  }
+  return longest;
+}
+
+double largest_motion(const Surface& a, const Surface& b, double enough) {
+  if (&a == &b) return 0;
+  if (!same_basis(a, b) || std::ranges::any_of(a.weights(), [](double w) { return !(w > 0); })) {
+    return largest_distance(a, b);
+  }
+  const Points way = a.control_points() - b.control_points();
+  const double bound = way.rowwise().norm().maxCoeff();
+  if (bound <= enough) return bound;
+  const auto far = values_beyond(a, way, enough);
+  return far ? far->values.rowwise().norm().maxCoeff() : largest_distance(a, b);
+}
+
+Points within_reach(const Surface& shape, Points way, double reach) {
+  constexpr int most_rounds = 12;
+  for (int round = 0; round < most_rounds && way.rowwise().norm().maxCoeff() > reach; ++round) {
+    const auto far = values_beyond(shape, way, reach);
+    if (!far) break;
+    Points excess = Points::Zero(way.rows(), 3);
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(way.rows());
+    for (std::size_t k = 0; k < far->places.size(); ++k) {
+      const Point value = far->values.row(static_cast<Eigen::Index>(k));
+      const double length = value.norm();
+      if (length <= reach) continue;
+      for (const auto& [i, r] : basis_terms<2>(shape, far->places[k])) {
+        excess.row(i) += r * (1 - reach / length) * value.transpose();
+        weights[i] += r;
+      }
+    }
+    if ((weights.array() == 0).all()) break;
+    for (Eigen::Index i = 0; i < way.rows(); ++i) {
+      if (weights[i] > 0 && !way.row(i).isZero(0)) way.row(i) -= excess.row(i) / weights[i];
+    }
+  }
+  return way;
+}
+
+bool held_all_round(const Scene& scene, const std::vector<SeamReport>& seams) {
+  for (const int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    if (trims_are_held(s)) continue;
+    for (const SurfaceEdge edge : {SurfaceEdge::u0, SurfaceEdge::u1, SurfaceEdge::v0, SurfaceEdge::v1}) {
+      const int direction = edge == SurfaceEdge::u0 || edge == SurfaceEdge::u1 ? 0 : 1;
+      if (side_is_held(s, edge) || is_joined(seams, k, edge)) continue;
+      if (is_pole(*s.reference, edge) || is_closed(*s.reference, direction)) continue;
+      return false;
+    }
+  }
+  return true;
+}
+
+bool only_pressed(const Scene& scene, const EvolutionPolicy& evolution) {
+  if (evolution.mode == Evolution::dynamic || !scene.forces.empty() || !(scene.load == Load{})) return false;
+  if (std::ranges::any_of(scene.tools, [](const Tool& t) { return !t.collides() || t.friction > 0; })) return false;
+  return std::ranges::all_of(scene.selection(), [&](int k) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    return s.mode == RestMode::shape && std::ranges::none_of(s.constraints, [](const KeptConstraint& kept) {
+             const auto* pin = std::get_if<PointPin>(&kept.constraint);
+             return pin != nullptr && pin->to;
+           });
+  });
+}
+
+}  // namespace knead
