@@ -228,6 +228,20 @@ TEST(Thickness, OfAPipeIsItsWallWhicheverOfItsFacesAreSplines) {
   }
 }
 
+TEST(ShownParts, AreFoundAnewAfterAConversion) {
+  const step::File file = pipe();
+  const auto all = step::other_surfaces(file);
+  ASSERT_EQ(all.size(), 4U);
+  const Document one = converted(file, {all[0].id}), two = converted(file, {all[0].id, all[1].id});
+  ShownParts shown;
+  EXPECT_EQ(shown.trims(one).size(), 1U);
+  EXPECT_EQ(shown.around(one)->faces.size(), 3U);
+  EXPECT_EQ(shown.trims(two).size(), 2U);
+  EXPECT_EQ(shown.around(two)->faces.size(), 2U);
+  EXPECT_EQ(shown.trims(one).size(), 1U) << "undone";
+  EXPECT_EQ(shown.around(one)->faces.size(), 3U);
+}
+
 TEST(Thickness, OfARealSolidIsSomeLengthAtEveryPoint) {
   const auto path = testing::foreign_cad("MAINBODY_BACK.stp");
   KNEAD_NEEDS(path);

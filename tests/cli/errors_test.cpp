@@ -116,6 +116,16 @@ TEST(Errors, FilesThatCannotBeReadOrWrittenAreNamed) {
   EXPECT_EQ(workshop.files(), std::vector<std::string>{"script.json"});
 }
 
+TEST(Errors, AFullStandardOutputFails) {
+  const std::string full = "/dev/full";
+  if (!fs::exists(full)) GTEST_SKIP() << "this system has no " << full;
+  // What fits the buffer is lost when it is flushed, what does not before.
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"info", bonnet()}, {"schema"}}) {
+    EXPECT_TRUE(fails_with(knead(arguments, full), 3, {"standard output", "could not be written", "full"}))
+        << arguments[0];
+  }
+}
+
 TEST(Errors, NoOutputOverwritesAnotherFileOfTheCall) {
   const Workshop workshop;
   const std::string script = workshop.script(Json::array()), out = workshop / "out.step";

@@ -49,9 +49,9 @@ std::string program() {
   return other != nullptr ? other : KNEAD_PROGRAM;
 }
 
-Outcome knead(const std::vector<std::string>& arguments) {
+Outcome knead(const std::vector<std::string>& arguments, const std::string& output) {
   const Workshop workshop;
-  const std::string out = workshop / "out", err = workshop / "err";
+  const std::string out = output.empty() ? workshop / "out" : output, err = workshop / "err";
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -72,7 +72,7 @@ Outcome knead(const std::vector<std::string>& arguments) {
     return run;
   }
   if (WIFEXITED(status)) run.code = WEXITSTATUS(status);
-  run.out = content_of(out);
+  if (output.empty()) run.out = content_of(out);
   run.err = content_of(err);
   return run;
 }

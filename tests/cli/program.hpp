@@ -42,7 +42,8 @@ struct Outcome {
 /// Runs the command line with these arguments.
 /// The program that is tested: the environment's KNEAD_PROGRAM, or the one of this build.
 [[nodiscard]] std::string program();
-[[nodiscard]] Outcome knead(const std::vector<std::string>& arguments);
+/// \param output where its standard output goes instead of `Outcome::out`, if not empty
+[[nodiscard]] Outcome knead(const std::vector<std::string>& arguments, const std::string& output = {});
 
 [[nodiscard]] std::string content_of(const std::string& path);
 [[nodiscard]] std::string bonnet();

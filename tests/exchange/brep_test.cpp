@@ -2,7 +2,9 @@
 
 #include "exchange/brep_square.hpp"
 #include "exchange/support.hpp"
+#include "knead/exchange/face_conversion.hpp"
 #include "knead/exchange/face_edges.hpp"
+#include "knead/exchange/face_point.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/shared_edge.hpp"
 #include "knead/spline/spline_refinement.hpp"
@@ -44,6 +46,24 @@ TEST(Brep, AProductOfLocationsAppliesTheFirstOfItsListFirst) {
   EXPECT_EQ(corner_at("2  1 3 2 -2 0\n2  1 1 0\n", 3), Point(-19, 0, 0)) << "powers";
   EXPECT_EQ(corner_at("2  1 -1 2 1 0\n2  2 1 3 -1 0\n", 4), Point(-1, 0, 0))
       << "an inverse power of a product: 10 along x, back, and turned";
+}
+
+TEST(Brep, ALocationThatScalesScalesRadii) {
+  for (const std::string surface : {"2 0 0 0 0 0 1 1 0 0 0 1 0 3 \n", "4 0 0 0 0 0 1 1 0 0 0 1 0 3 \n"}) {
+    std::string text = square;
+    const std::size_t begin = text.find("9 0 0 0 0 1 1"), end = text.find("\nTriangulations");
+    text.replace(begin, end - begin, surface);
+    const std::string place = "1 0 0 10\n0 1 0 0\n0 0 1 0\n";
+    text.replace(text.find(place), place.size(), "2 0 0 10\n0 2 0 0\n0 0 2 0\n");
+    const auto source = open_or_die(text);
+    const auto others = step::other_surfaces(*source->step_file());
+    ASSERT_EQ(others.size(), 1U);
+    const auto found = point_on_face(*source->step_file(), others[0].faces.at(0), Point(20, 0, 0));
+    ASSERT_TRUE(found) << found.error().message();
+    EXPECT_LT((found->point - Point(16, 0, 0)).norm(), 1e-12) << surface;
+    ASSERT_TRUE(found->curvature);
+    EXPECT_NEAR(std::max(std::abs((*found->curvature)[0]), std::abs((*found->curvature)[1])), 1.0 / 6, 1e-12);
+  }
 }
 
 TEST(Brep, WhatIsMovedIsWrittenInTheCoordinatesOfTheFile) {
@@ -95,6 +115,9 @@ TEST(Brep, ErrorsNameTheLine) {
   EXPECT_NE(error("1 0 0 10", "0 0 0 10").find("not invertible"), std::string::npos);
   EXPECT_NE(error("1 0 0 10", "1 0 0 1e60").find("too large"), std::string::npos);
   EXPECT_NE(error("Topology V1", "Topology V4").find("versions 1 to 3"), std::string::npos);
+  // The file has one flat curve.
+  EXPECT_NE(error("2  1 1 0 0 1", "2  2 1 0 0 1").find("number that can stand here"), std::string::npos);
+  EXPECT_NE(error("2  1 1 0 0 1", "3  1 2CN 1 0 0 1").find("no such curve"), std::string::npos);
 }
 
 TEST(Brep, DamagedIsAnErrorOrAFile) {

@@ -161,6 +161,15 @@ TEST(Iges, MatricesAreAppliedAndTakenBack) {
   EXPECT_NE(text.find("1.0000000000000000E+00,0.,1.,0.,1.;"), std::string::npos) << text;
 }
 
+TEST(Iges, TheMatrixOfAMatrixIsAppliedAfterIt) {
+  IgesBuilder b;
+  const int shift = b.add(124, "1.,0.,0.,10.,0.,1.,0.,20.,0.,0.,1.,30.");
+  const int turn = b.add(124, "0.,-1.,0.,0.,1.,0.,0.,0.,0.,0.,1.,0.", shift);
+  b.add(128, plate(), turn);
+  const auto source = open_or_die(b.text());
+  EXPECT_EQ(Point(source->surfaces()[0].surface->control_points().row(5).transpose()), Point(10 - 2, 20 + 4, 30));
+}
+
 /// The plate with a hole: 144 on 128, with both kinds of boundaries.
 std::string trimmed(bool in_space) {
   IgesBuilder b;

@@ -42,6 +42,19 @@ TEST(SharedEdge, AFaceOnAnotherSurfaceThanABSplineIsNamed) {
   EXPECT_NE(edge.error().message().find("#20 PLANE"), std::string::npos) << edge.error().message();
 }
 
+TEST(SharedEdge, ItsUncertaintyIsInTheUnitOfTheSurfaces) {
+  TwoSheets sheets = two_sheets();
+  sheets.text.insert(sheets.text.rfind("ENDSEC;"),
+                     "#901=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
+                     "#902=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.));\n"
+                     "#903=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(2.E-6),#902,'distance_accuracy_value','');\n"
+                     "#904=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#903))"
+                     "GLOBAL_UNIT_ASSIGNED_CONTEXT((#901))REPRESENTATION_CONTEXT('',''));\n");
+  const auto edge = SharedEdge::create(parse_or_die(sheets.text), TwoSheets::name(sheets.edge));
+  ASSERT_TRUE(edge) << edge.error().message();
+  EXPECT_DOUBLE_EQ(edge->uncertainty(), 2e-3) << "2e-6 m on surfaces in mm";
+}
+
 TEST(SharedEdge, AnEdgeThatThereIsNotIsAnError) {
   EXPECT_FALSE(SharedEdge::create(parse_or_die(two_sheets().text), "#99999"));
 }

@@ -101,6 +101,25 @@ TEST(TrimHold, EdgesAtTheEndsOfTheDomainHoldOneRowForEachOrder) {
   }
 }
 
+TEST(TrimHold, ATangentPlaneIsHeldByOneMoreRowWhereTheEdgeOnlyRunsBesideTheLineOrALineIsAPole) {
+  const Surface s = sheet(3, 10);
+  for (int order = 0; order <= 1; ++order) {
+    VisibleRegion beside = whole(), pole = whole();
+    beside.edges[3] = edge_along("#4", {{1e-5, 1}, {1e-5, 0}});
+    pole.poles[0][0] = true;
+    const int free = 10 * (10 - (order == 0 ? 1 : 3));
+    ConstraintList list(s.size());
+    const auto held = hold_trims(s, beside, std::array{-1, -1, -1, order}, 1e-4, list);
+    ASSERT_TRUE(held);
+    EXPECT_TRUE(held->edges[3].along_lines);
+    EXPECT_EQ(held->free, free);
+    ConstraintList other(s.size());
+    const auto at_pole = hold_trims(s, pole, std::array{-1, -1, -1, order}, 0, other);
+    ASSERT_TRUE(at_pole);
+    EXPECT_EQ(at_pole->free, free);
+  }
+}
+
 TEST(TrimHold, AFreeEdgeHoldsNothing) {
   const Surface s = sheet(3, 10);
   ConstraintList list(s.size());

@@ -65,6 +65,17 @@ TEST(DeadLoads, ALineOfForceBalancesThePointForceOfItsResultantInSymmetricSheets
   EXPECT_NEAR(20 * mean, work_of_point, 1e-9 * std::abs(work_of_point));
 }
 
+TEST(DeadLoads, AMirrorReflectsForces) {
+  const std::string point = R"({"do":"force","name":"a","kind":"dead","at":[0.7,0.2],"vector":[1,2,3]})",
+                    line = R"({"do":"force","name":"b","kind":"line","edge":"v0","vector":[0.1,0.2,0.3]})";
+  const Points mirrored = displaced_by({R"({"do":"symmetry","mirror":"v"})", point, line});
+  const Points both =
+      displaced_by({point, R"({"do":"force","name":"c","kind":"dead","at":[0.7,0.8],"vector":[1,-2,3]})", line,
+                    R"({"do":"force","name":"d","kind":"line","edge":"v1","vector":[0.1,-0.2,0.3]})"});
+  EXPECT_GT(both.col(1).cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_LT(relative_difference(mirrored, both), 1e-9);
+}
+
 TEST(DeadLoads, AForceKeepsItsDirectionAndGoesWithRemove) {
   Session session = fresh();
   run(session, {new_sheet, R"({"do":"edge","which":"u0"})",

@@ -130,6 +130,23 @@ TEST(EdgeCheck, TheCurvatureOfAnotherSurfaceIsKnown) {
   EXPECT_LE(check_of(opened(flat.text), flat.edge).curvature.value_or(1), 1e-15);
 }
 
+TEST(EdgeCheck, CurvaturesCountTowardsTheNormalsOfTheFaces) {
+  // A cylinder of radius 4 falls away from the edge, the left sheet rises from it as z = (x - 1)².
+  TwoSheets sheets = two_sheets(false, true);
+  const std::string plane = "#20=PLANE('',#21);";
+  sheets.text.replace(sheets.text.find(plane), plane.size(),
+                      "#22=CARTESIAN_POINT('',(1.,0.,-4.));#23=DIRECTION('',(0.,1.,0.));#24=DIRECTION('',(1.,0.,0.));"
+                      "#25=AXIS2_PLACEMENT_3D('',#22,#23,#24);#20=CYLINDRICAL_SURFACE('',#25,4.);");
+  for (const bool turned : {false, true}) {
+    for (const std::string face : {"),#10,.T.)", "),#20,.T.)"}) {
+      if (turned) sheets.text.replace(sheets.text.find(face), face.size(), face.substr(0, 6) + ".F.)");
+    }
+    Session session = opened(sheets.text);
+    run(session, {R"({"do":"select","surface":"#10"})", parabola[0], R"({"do":"points","which":[0,1],"by":[0,0,1]})"});
+    EXPECT_NEAR(check_of(session, sheets.edge).curvature.value_or(0), 2.25, 1e-12) << turned;
+  }
+}
+
 TEST(EdgeCheck, ACreaseHasNoDifferenceInCurvature) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets.text);

@@ -66,6 +66,42 @@ TEST(FollowCommands, ASmoothEdgeStaysSmooth) {
   EXPECT_GT(angle_between_planes(*normal_at_foot(*s.current, {0.85, 0.5}), Point::UnitZ()), 0.05);
 }
 
+TEST(FollowCommands, DirectionsAcrossAnEdgeAreOneInSpaceWhateverTheParameters) {
+  // The right sheet is skewed, and its v runs to 3.
+  TwoSheets sheets = two_sheets();
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const auto at = sheets.text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    sheets.text.replace(at, from.size(), to);
+  };
+  replace("(2.,0.,0.)", "(2.,0.5,0.)");
+  replace("(2.,1.,0.)", "(2.,1.5,0.)");
+  const auto right = sheets.text.find("'right'");
+  sheets.text.replace(sheets.text.find("(0.,1.),.UNSPECIFIED.", right), 7, "(0.,3.)");
+  const step::File file = testing::parse_or_die(sheets.text);
+  const auto course = SharedEdge::create(file, TwoSheets::name(sheets.edge));
+  ASSERT_TRUE(course) << course.error().message();
+  std::vector<const Surface*> patches;
+  for (const auto& s : file.surfaces()) patches.push_back(&s.surface);
+  const auto edges = coupled_edges({{std::make_shared<const SharedEdge>(*course), {0, 1}}}, patches);
+  ASSERT_EQ(edges.size(), 1U);
+  ASSERT_EQ(edges[0].across.size(), edges[0].points.size());
+  for (std::size_t k = 0; k < edges[0].points.size(); ++k) {
+    std::array<Point, 2> ways;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto& [patch, u] = edges[0].points[k][side];
+      Parameters<2> here(1, 2);
+      here << u[0], u[1];
+      const auto jet = evaluate<2>(*patches[static_cast<std::size_t>(patch)], here, 1);
+      ASSERT_TRUE(jet);
+      const Eigen::Vector2d across = edges[0].across[k][side];
+      ways[side] = (across[0] * jet->at({1, 0}).row(0) + across[1] * jet->at({0, 1}).row(0)).transpose();
+      EXPECT_NEAR(std::abs(ways[side].x()), 1, 1e-12);
+    }
+    EXPECT_LT((ways[0] - ways[1]).norm(), 1e-12) << ways[0].transpose() << " and " << ways[1].transpose();
+  }
+}
+
 TEST(FollowCommands, WhatWouldCreaseASmoothEdgeIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);

@@ -52,6 +52,20 @@ TEST(TrimCommands, AScriptOfVersion2HoldsTheEdgesOfFacesAndRefinesForIt) {
   EXPECT_FALSE(session.state().notes.empty());
 }
 
+// Pins are numbers of control points, which a finer net would give to others.
+TEST(TrimCommands, ANetWithPinnedControlPointsStaysAsItIs) {
+  const std::string halves = R"({"do":"refine","region":[[0,1],[0,1]]},)";
+  const std::string finer = R"({"do":"elevate","by":[2,2]},)" + halves + halves + halves + halves;
+  for (const bool pinned : {true, false}) {
+    Session session(document(disc().file));
+    const std::string pin = R"({"do":"pin","control_points":[[0,0]]},)";
+    const auto done = run(session, finer + (pinned ? pin : "") + pressed);
+    ASSERT_TRUE(done) << done.error().message();
+    EXPECT_GT(session.largest_displacement(0), 0.005);
+    EXPECT_EQ(session.state().surfaces[0].current->net() == (std::array{19, 19}), pinned);
+  }
+}
+
 // The net of degree 1 gets a higher degree between tool and edges while the stroke is under way.
 TEST(TrimCommands, AStrokeInClayLeavesItsGrooveInAFlatFace) {
   Session session(document(disc().file));
