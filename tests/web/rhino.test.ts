@@ -4,7 +4,7 @@ import { fileURLToPath } from 'node:url';
 
 import { crc32, exchanged, placesOf } from '@studio/document/rhino/archive';
 import { loadRhino, type Rhino, type RhinoBrep, type RhinoNurbs } from '@studio/document/rhino/module';
-import { type Patch, patchOf, samePatch } from '@studio/document/rhino/patch';
+import { nurbsOf, type Patch, patchOf, samePatch } from '@studio/document/rhino/patch';
 import { openRhino, readRhino } from '@studio/document/rhino/read';
 import { rewriteRhino, writeRhino } from '@studio/document/rhino/write';
 
@@ -98,6 +98,21 @@ describe('Rhino files', () => {
     const { surfaces, unit } = readRhino(rhino, openRhino(rhino, written.bytes));
     expect(unit).toBe('m');
     expect(new Map(surfaces.map((s) => [s.name, s.patch]))).toEqual(new Map([['a', fine], ['b', patch(false)], ['new', patch(true)]]));
+  });
+
+  it.each([false, true])('keep the side of a face whose surface gets another net (turned: %s)', (turned) => {
+    const file = new rhino.File3dm();
+    const attributes = new rhino.ObjectAttributes();
+    attributes.name = 'sheet';
+    const brep = rhino.Brep.createFromSurface(nurbsOf(rhino, patch(false)));
+    if (turned) brep.flip();
+    file.objects().add(brep, attributes);
+    const bytes = file.toByteArrayOptions(Object.assign(new rhino.File3dmWriteOptions(), { version: 7 }));
+    const fine: Patch = { degree: [1, 1], net: [2, 2], knots_u: [0, 0, 1, 1], knots_v: [0, 0, 1, 1], points: [[0, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 1]], weights: null };
+    const written = openRhino(rhino, rewriteRhino(rhino, bytes, [named('sheet', fine)]).bytes);
+    const face = (written.objects().get(0).geometry() as RhinoBrep).faces().get(0);
+    expect(patchOf(face.underlyingSurface().toNurbsSurface()!)).toEqual(fine);
+    expect(face.orientationIsReversed).toBe(turned);
   });
 
   it('of a later version get other numbers in their place, and the sum over them', () => {
