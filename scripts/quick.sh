@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # For every day: checks the format of what was changed, builds it, and runs the tests of the rooms that the change touches, but
-# those that took more than two seconds when they last ran. A change is what differs from the last commit, or what that one brought.
+# those that took more than a second when they last ran. A change is what differs from the last commit, or what that one brought.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/stages.sh
+source scripts/native_tests.sh
 
 changed=$(git diff --name-only --diff-filter=d HEAD; git ls-files --others --exclude-standard)
 [ -n "$changed" ] || changed=$(git show --name-only --diff-filter=d --pretty= HEAD)
@@ -24,15 +25,17 @@ build() {
   for room in $rooms; do targets+=("${room}_test"); done
   cmake --build build/release --target knead_shared "${targets[@]}"
 }
-# What takes long, by the times that ctest keeps once tests have run: its second number is the mean.
+# What takes long, by the times that ctest keeps once tests have run: a name, which may have spaces, how often it ran, and the mean.
 long_tests() {
   local times=build/release/Testing/Temporary/CTestCostData.txt
-  [ ! -f $times ] || awk '$3 > 2 { gsub(/[.[\]*^$()+?{}|\\]/, "\\\\&", $1); print "^" $1 "$" }' $times | paste -sd '|'
+  [ ! -f $times ] || awk '
+    $0 == "---" { exit }
+    $NF > 1 { sub(/ [0-9]+ [^ ]+$/, ""); gsub(/[.[\]*^$()+?{}|\\]/, "\\\\&"); print "^" $0 "$" }' $times | paste -sd '|'
 }
-native_tests() {
+quick_tests() {
   local long
   long=$(long_tests)
-  ctest --preset release -j "$(nproc)" -L "^($(paste -sd '|' <<<"$rooms"))\$" ${long:+--exclude-regex "$long"}
+  native_tests quick -L "^($(paste -sd '|' <<<"$rooms"))\$" ${long:+--exclude-regex "$long"}
 }
 studio_tests() { (cd web && npx tsc --noEmit && npx vitest related --run --config vitest.config.ts $(sed 's!^!../!' <<<"$web")); }
 
@@ -43,7 +46,7 @@ stages quick $count
 stage "format" "" "make format" format
 if [ -n "$rooms" ]; then
   stage "build" "" "make quick" build
-  stage "tests of: $(paste -sd ' ' <<<"$rooms")" "build" "make quick" native_tests
+  stage "tests of: $(paste -sd ' ' <<<"$rooms")" "build" "make quick" quick_tests
 fi
 if [ -n "$web" ]; then stage "studio in node" "" "(cd web && npm test)" studio_tests; fi
 stages_end

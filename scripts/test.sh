@@ -7,11 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/stages.sh
-
-jobs=${KNEAD_JOBS:-$(nproc)}
-root=$PWD
-results=$root/build/log
-mkdir -p "$results"
+source scripts/native_tests.sh
 
 build() {
   scripts/setup.sh test
@@ -28,31 +24,12 @@ build_studio() {
   scripts/studio.sh
 }
 
-native_tests() {  # native_tests RESULTS [options of ctest...]
-  local xml=$results/$1.xml status=0
-  shift
-  rm -f "$xml"
-  ctest --preset release -j "$jobs" --output-junit "$xml" "$@" || status=$?
-  [ -f "$xml" ] || return 1
-  awk '
-    /^<testsuite / || /^\t(tests|failures|disabled|skipped)=/ {
-      while (match($0, /(tests|failures|skipped)="[0-9]+"/)) {
-        split(substr($0, RSTART, RLENGTH), pair, /="|"/); count[pair[1]] = pair[2]; $0 = substr($0, RSTART + RLENGTH)
-      }
-    }
-    END { print count["tests"] - count["failures"] - count["skipped"], count["failures"], count["skipped"] }' "$xml" >"$stage_counts"
-  sed -n 's/.*<testcase name="\([^"]*\)".*status="fail".*/\1/p' "$xml" | unescaped |
-    sed 's/[.[\*^$()+?{|]/\\&/g; s/.*/ctest --preset release --output-on-failure -R '"'^&\$'"'/' >"$stage_failed"
-  return $status
-}
-
 # Names of tests that were skipped because a file of another system was not there.
 without_foreign_files() {
   [ -f "$results/native.xml" ] || return 0  # where the build failed
   awk '/<testcase name=/ { split($0, part, "\""); name = part[2] } /no foreign file/ && name { print name; name = "" }' \
     "$results/native.xml" | unescaped
 }
-unescaped() { sed 's/&quot;/"/g; s/&apos;/'"'"'/g; s/&lt;/</g; s/&gt;/>/g; s/&amp;/\&/g'; }
 
 again_with_foreign_files() {
   # ctest chooses by number; its list gives the number of each name.
