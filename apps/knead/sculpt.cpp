@@ -57,12 +57,19 @@ struct Outcome {
   double time = 0, energy_before = 0, energy_after = 0, residual = 0, largest_displacement = 0, gap = 0;
   int moved = 0, surfaces = 0, bodies = 0;
   std::vector<RepeatedSurface> places;
+  std::vector<std::string> notes;  ///< of the session, and on edges that are open
 };
 
 Outcome outcome_of(Session& session) {
   const SessionState& state = session.state();
   Outcome o;
   o.places = repeated_surfaces(session);
+  o.notes = state.notes;
+  if (const auto parted = session.parted_edges()) {  // if they cannot be known, `save` says why
+    for (const PartedEdge& edge : *parted) {
+      if (edge.freed) o.notes.push_back(note_on(edge));
+    }
+  }
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   // Finished work is written even if its energy cannot be computed.
   if (const auto energy = session.energy()) {
@@ -141,7 +148,7 @@ std::string report_json(const SessionState& state, const Outcome& o, const std::
                         continuity_name(s.continuity), json_number(s.seam.gap), json_string(s.reason));
   }
   text += "],\n\"notes\":[";
-  for (std::size_t k = 0; k < state.notes.size(); ++k) text += (k == 0 ? "\n " : ",\n ") + json_string(state.notes[k]);
+  for (std::size_t k = 0; k < o.notes.size(); ++k) text += (k == 0 ? "\n " : ",\n ") + json_string(o.notes[k]);
   return text + "]" + modes_json(state) + probes + "}\n";
 }
 
@@ -212,7 +219,7 @@ void print_summary(const SculptArguments& options, const Session& session, const
     }
     print_tools(state);
   }
-  for (const std::string& note : state.notes) fmt::print("  {}\n", printable(note, 2000));
+  for (const std::string& note : o.notes) fmt::print("  {}\n", printable(note, 2000));
   print_edges(state);
   print_places(o.places);
   for (const SeamReport& s : state.seam_reports) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "face_loops.hpp"
 #include "face_region.hpp"
@@ -11,6 +12,7 @@
 #include "step_data.hpp"
 #include "step_faces.hpp"
 #include "step_surfaces.hpp"
+#include "step_units.hpp"
 
 namespace knead {
 
@@ -35,6 +37,7 @@ class Follower {
     EdgeContactFace result;
     result.id = name_of(reader_, face.instance);
     result.same_sense = face.same_sense;
+    if (points.empty()) return result;
     const auto& drawn = data_.surface_instances;
     const auto on = std::ranges::find(drawn, face.surface);
     if (on == drawn.end()) {
@@ -92,46 +95,73 @@ Expected<std::vector<Point>> points_along(const Reader& reader, std::uint32_t ed
   return result;
 }
 
+/// The faces of a file around the edges of some of them.
+struct EdgesOfFaces {
+  std::vector<std::uint32_t> edges;                              ///< of the faces on some surfaces, each once
+  std::map<std::uint32_t, std::vector<std::uint32_t>> faces_at;  ///< of every edge, by their numbers, ascending
+};
+
+EdgesOfFaces edges_of_faces(const Reader& reader, const std::vector<Face>& faces,
+                            const std::set<std::uint32_t>& surfaces) {
+  EdgesOfFaces result;
+  std::set<std::uint32_t> known;
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    for (const auto edge : edges_around(reader, faces[f])) {
+      result.faces_at[edge].push_back(f);
+      if (surfaces.contains(faces[f].surface) && known.insert(edge).second) result.edges.push_back(edge);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
-Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file, const std::string& surface, int samples) {
+Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file, std::span<const std::string> surfaces,
+                                                 int samples) {
   const step::File::Data& data = file.data();
-  const auto index = data.surface_index.find(surface);
-  if (index == data.surface_index.end()) return input_error("there is no such surface", surface);
+  std::set<std::uint32_t> on;
+  for (const std::string& surface : surfaces) {
+    const auto index = data.surface_index.find(surface);
+    if (index == data.surface_index.end()) return input_error("there is no such surface", surface);
+    on.insert(data.surface_instances[index->second]);
+  }
   Follower follower(data);
   const Reader& reader = follower.reader();
   const auto faces = read_faces(reader);
-  std::vector<std::uint32_t> edges;                              // of the faces on the surface, each once
-  std::map<std::uint32_t, std::vector<std::uint32_t>> faces_at;  // of every edge, by their numbers
-  for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    for (const auto edge : edges_around(reader, faces[f])) {
-      faces_at[edge].push_back(f);
-      if (faces[f].surface != data.surface_instances[index->second]) continue;
-      if (std::ranges::find(edges, edge) == edges.end()) edges.push_back(edge);
-    }
-  }
+  const auto found = edges_of_faces(reader, faces, on);
+  const auto uncertainties = uncertainties_of(reader, data.surface_instances);
   std::vector<EdgeContact> result;
-  for (const auto edge : edges) {
-    auto points = points_along(reader, edge, std::max(2, samples));
-    if (!points) return std::unexpected(points.error());
+  for (const auto edge : found.edges) {
     EdgeContact& made = result.emplace_back();
     made.id = name_of(reader, edge);
-    made.points = *std::move(points);
-    auto& around = faces_at[edge];
-    std::ranges::sort(around);
+    auto points = points_along(reader, edge, std::max(2, samples));
+    if (points)
+      made.points = *std::move(points);
+    else
+      made.unknown = points.error().message();
+    const auto& around = found.faces_at.at(edge);
     for (std::size_t k = 0; k < around.size(); ++k) {
+      const Face& at = faces[around[k]];
       if (k > 0 && around[k] == around[k - 1]) {
         made.seam = true;
         continue;
       }
-      auto face = follower.follow(faces[around[k]], made.points);
-      if (face)
-        made.faces.push_back(*std::move(face));
-      else
+      auto face = follower.follow(at, made.points);
+      if (!face) {
         made.unknown = face.error().message();
+        continue;
+      }
+      if (!face->surface.empty()) {
+        made.uncertainty = std::max(made.uncertainty, uncertainties[data.surface_index.at(face->surface)]);
+      }
+      made.faces.push_back(*std::move(face));
     }
   }
   return result;
+}
+
+Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file, const std::string& surface, int samples) {
+  return edge_contacts(file, std::span(&surface, 1), samples);
 }
 
 }  // namespace knead

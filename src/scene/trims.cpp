@@ -31,8 +31,20 @@ Expected<double> deviation_at(const SceneSurface& s, Eigen::Vector2d at) {
 
 bool holds_trims(const std::vector<KeptConstraint>& constraints) {
   return std::ranges::any_of(constraints, [](const KeptConstraint& kept) {
-    return std::holds_alternative<TrimHolds>(kept.constraint) || std::holds_alternative<TrimEdgeHold>(kept.constraint);
+    const auto* all = std::get_if<TrimHolds>(&kept.constraint);
+    return (all != nullptr && all->order >= 0) || std::holds_alternative<TrimEdgeHold>(kept.constraint);
   });
+}
+
+bool may_open(const std::vector<KeptConstraint>& constraints, const std::string& edge) {
+  bool all = false;
+  std::optional<bool> one;
+  for (const KeptConstraint& kept : constraints) {
+    if (const auto* trims = std::get_if<TrimHolds>(&kept.constraint)) all = trims->order < 0;
+    const auto* hold = std::get_if<TrimEdgeHold>(&kept.constraint);
+    if (hold != nullptr && hold->id == edge) one = hold->order < 0 && !hold->follow;
+  }
+  return one.value_or(all);
 }
 
 bool touches_visible(const Scene& scene) {
@@ -134,6 +146,64 @@ Expected<std::optional<Eigen::Vector2d>> first_fold(const Surface& before, const
     if (region.contains(at)) return at;
   }
   return std::nullopt;
+}
+
+namespace {
+
+/// The corners of a course and the points midway between them, in the parameters of a surface.
+Parameters<2> places_along(const TrimEdge& edge, const Surface& surface) {
+  const auto corners = static_cast<Eigen::Index>(edge.course.size());
+  Parameters<2> places(std::max<Eigen::Index>(0, 2 * corners - 1), 2);
+  for (Eigen::Index k = 0; k < places.rows(); ++k) {
+    const auto a = static_cast<std::size_t>(k / 2), b = static_cast<std::size_t>((k + 1) / 2);
+    const auto at = parameters_at_foot(surface, 0.5 * (edge.course[a] + edge.course[b]));
+    places.row(k) << at[0], at[1];
+  }
+  return places;
+}
+
+/// The angle between the normals of two evaluations at a row; 0 where one has none, as at a pole.
+double turn_at(const Evaluation<2>& before, const Evaluation<2>& after, Eigen::Index row) {
+  constexpr double least_sine = 1e-9;
+  const auto normal = [&](const Evaluation<2>& jet) -> Point {
+    const Point u = jet.at({1, 0}).row(row), v = jet.at({0, 1}).row(row);
+    const Point n = u.cross(v);
+    return n.norm() > least_sine * (u.squaredNorm() + v.squaredNorm()) ? n : Point(Point::Zero());
+  };
+  const Point a = normal(before), b = normal(after);
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace
+
+Expected<std::vector<MovedTrim>> moved_trims(const Surface& before, const Surface& after,
+                                             const std::vector<int>& orders, const VisibleRegion& region) {
+  std::vector<MovedTrim> result;
+  const double tolerance = trim_tolerance(before, region);
+  for (std::size_t e = 0; e < orders.size(); ++e) {
+    const TrimEdge& edge = region.edges[e];
+    if (orders[e] < 0) continue;
+    const int order = std::min(orders[e], 1);
+    const auto then = evaluate<2>(before, places_along(edge, before), order);
+    if (!then) return std::unexpected(then.error());
+    const auto now = evaluate<2>(after, places_along(edge, after), order);
+    if (!now) return std::unexpected(now.error());
+    MovedTrim moved;
+    moved.id = edge.id;
+    moved.neighbours = edge.neighbours;
+    Point turned = Point::Zero();
+    for (Eigen::Index k = 0; k < then->points().rows(); ++k) {
+      const double distance = (now->points().row(k) - then->points().row(k)).norm();
+      const double turn = order > 0 ? turn_at(*then, *now, k) : 0;
+      if (turn > moved.turn) turned = then->points().row(k);
+      if (distance > moved.distance) moved.place = then->points().row(k);
+      moved.turn = std::max(moved.turn, turn);
+      moved.distance = std::max(moved.distance, distance);
+    }
+    if (moved.distance <= tolerance) moved.place = turned;
+    if (moved.distance > tolerance || moved.turn > accepted_angle) result.push_back(std::move(moved));
+  }
+  return result;
 }
 
 Expected<TrimReport> trim_report(const SceneSurface& s) {

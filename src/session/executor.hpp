@@ -179,6 +179,13 @@ struct Executor {
   /// Whether all edges that follow are still closed after surfaces changed from `before`. Errors (numerical): one is
   /// not, and by how much; a vertex of it moved that another edge holds.
   Expected<void> check_followed(const Scene& before);
+  /// Holds the edges of faces on selected surfaces of which nothing is said as those of the first one that has its
+  /// edges held; what cannot be followed is noted.
+  void hold_likewise();
+  /// Whether the edges of faces that are held stayed where they were as surfaces changed from `before`: for commands
+  /// that place control points, as no model holds the edges there. Errors (numerical): an edge that moved, by how much,
+  /// and how it may follow.
+  Expected<void> check_held_edges(const Scene& before);
   /// The fractions of a place. Where edges of faces are held, a place that is not visible is an error which names the
   /// nearest one that is; elsewhere it is noted.
   Expected<Fractions> place_on(SceneSurface& surface, const SurfacePlace& place);

@@ -21,7 +21,7 @@ struct Restate {
   }
   Command operator()(const TrimHolds& c) const {
     HoldCommand hold;
-    hold.mode = static_cast<HoldMode>(static_cast<int>(HoldMode::trim) + c.order);
+    hold.mode = c.order < 0 ? HoldMode::free : static_cast<HoldMode>(static_cast<int>(HoldMode::trim) + c.order);
     return make_command(hold);
   }
   Command operator()(const TrimEdgeHold& c) const {
@@ -76,7 +76,8 @@ std::optional<Constraint> constraint_of(const Command& command) {
   }
   if (const auto* c = fields_of<HoldCommand>(command)) {
     const HoldMode mode = c->mode.value_or(HoldMode::rows);
-    if (mode == HoldMode::rows || mode == HoldMode::free) return std::nullopt;
+    if (mode == HoldMode::rows) return std::nullopt;
+    if (mode == HoldMode::free) return TrimHolds{-1};
     return TrimHolds{static_cast<int>(mode) - static_cast<int>(HoldMode::trim)};
   }
   if (const auto* c = fields_of<PinCommand>(command)) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <type_traits>
 #include <utility>
 
 #include "body_commands.hpp"
@@ -50,6 +51,14 @@ bool only_looks(const Command& command) {
   return fields_of<ModesCommand>(command) != nullptr || fields_of<BucklingCommand>(command) != nullptr;
 }
 
+/// Whether surfaces move only as a model lets them, which holds the edges of faces: nothing need be measured.
+bool moves_a_model(const Command& command) {
+  const auto any_of = [&]<class... C>(std::type_identity<C>...) { return ((fields_of<C>(command) != nullptr) || ...); };
+  return any_of(std::type_identity<StepCommand>(), std::type_identity<EvolveCommand>(),
+                std::type_identity<DragCommand>(), std::type_identity<StrokeCommand>(),
+                std::type_identity<BrushCommand>(), std::type_identity<RelaxCommand>());
+}
+
 }  // namespace
 
 Expected<void> Session::execute(const Command& command, const Progress& progress, const GoOn& go_on) {
@@ -87,6 +96,9 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   if (auto done = std::visit(execute, meant.any().fields); !done) return done;
   if (auto kept = executor.keep_law(); !kept) return kept;
   if (auto closed = executor.check_followed(state()); !closed) return closed;
+  if (!moves_a_model(meant)) {
+    if (auto closed = executor.check_held_edges(state()); !closed) return closed;
+  }
   if (executor.stopped) {
     StepCommand made = *fields_of<StepCommand>(meant);
     made.count = *executor.stopped;
@@ -364,7 +376,23 @@ std::vector<DocumentSurface> present_surfaces(const Session& session) {
 
 }  // namespace
 
+Expected<std::vector<PartedEdge>> Session::parted_edges() const {
+  const step::File* const file = document().step_file();
+  std::vector<std::string> moved;
+  for (std::size_t k = 0; file != nullptr && k < state().surfaces.size(); ++k) {
+    const std::string& id = state().surfaces[k].id;
+    if (file->find_surface(id) != nullptr && moved_control_points(static_cast<int>(k)) > 0) moved.push_back(id);
+  }
+  if (moved.empty()) return std::vector<PartedEdge>();
+  const auto contacts = edge_contacts(*file, moved);
+  if (!contacts) return std::unexpected(contacts.error());
+  return knead::parted_edges(state(), *contacts);
+}
+
 Expected<std::string> Session::save() const {
+  const auto parted = parted_edges();
+  if (!parted) return std::unexpected(parted.error());
+  if (auto none = check_parted(*parted); !none) return std::unexpected(none.error());
   std::vector<std::string> followed;
   for (const FollowedEdge& edge : state().followed) followed.push_back(edge.id);
   return document().save(present_surfaces(*this), followed, state().bodies);

@@ -93,7 +93,9 @@ TEST_P(StepFile, TakesADentInItsFirstSurface) {
   if (GetParam() == "simple_wing.stp") GTEST_SKIP() << "its first surface is collapsed to a line";
   const Workshop workshop;
   const std::string out = workshop / "out.step", report = workshop / "report.json";
-  const Json commands = {command("select", {{"surface", s.at("id")}}), command("hold", {{"rows", 1}}),
+  const Json commands = {command("select", {{"surface", s.at("id")}}),
+                         command("hold", {{"mode", "free"}}),
+                         command("hold", {{"rows", 1}}),
                          command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
                          command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
                          command("step", {{"lambda", 10}})};

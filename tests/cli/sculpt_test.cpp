@@ -22,8 +22,12 @@ Json dent(const std::string& id, int steps = 2) {
           command("step", {{"count", steps}, {"lambda", 10}})};
 }
 
-/// Sculpts the sample and returns the path of the result.
-std::string sculpted(const Workshop& workshop, const Json& commands, const std::string& name = "out.step") {
+/// Lets the edges of faces open: what was done is written all the same.
+const Json may_open = command("hold", {{"mode", "free"}, {"all", true}});
+
+/// Sculpts the sample, lets edges open and returns the path of the result.
+std::string sculpted(const Workshop& workshop, Json commands, const std::string& name = "out.step") {
+  commands.push_back(may_open);
   const Outcome run = knead({"sculpt", bonnet(), "-o", workshop / name, "--script", workshop.script(commands),
                              "--report", workshop / (name + ".json")});
   EXPECT_EQ(run.code, 0) << run.err;
@@ -287,7 +291,9 @@ TEST(Sculpt, TheSameScriptGivesTheSameBytes) {
 TEST(Sculpt, AFileMayBeSculptedInPlace) {
   const Workshop workshop;
   const std::string file = workshop.file("in.step", content_of(bonnet()));
-  const Outcome run = knead({"sculpt", file, "-o", file, "--script", workshop.script(dent(skin))});
+  Json commands = dent(skin);
+  commands.push_back(may_open);
+  const Outcome run = knead({"sculpt", file, "-o", file, "--script", workshop.script(commands)});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(identical(content_of(file), content_of(sculpted(workshop, dent(skin)))));
 }
@@ -332,6 +338,34 @@ TEST(Sculpt, TheReportHasMeasurementsAndWhatWasLeftOut) {
   EXPECT_EQ(refused.code, 3);
   EXPECT_NE(refused.err.find("commands[3].minor"), std::string::npos) << refused.err;
   EXPECT_FALSE(report_of(sculpted(workshop, dent(skin), "plain.step")).contains("measurements"));
+}
+
+TEST(Sculpt, AnEdgeIsLeftOpenOnlyWhereItIsFreed) {
+  const Workshop workshop;
+  const Json lift = command("points", {{"which", {20, 40, 41}}, {"by", {0, 0, 20}}});
+  const auto run = [&](const Json& commands) {
+    return knead({"sculpt", bonnet(), "-o", workshop / "open.step", "--script", workshop.script(commands), "--report",
+                  workshop / "open.step.json"});
+  };
+  const Outcome never_held = run({command("select", {{"surface", skin}}), lift});
+  EXPECT_EQ(never_held.code, 4);
+  EXPECT_NE(never_held.err.find("would be left 2.45 from the faces #39 and #807"), std::string::npos) << never_held.err;
+  EXPECT_FALSE(std::filesystem::exists(workshop / "open.step"));
+  EXPECT_FALSE(std::filesystem::exists(workshop / "open.step.json"));
+  const Outcome held = run({command("select", {{"surface", skin}}), command("hold", {{"mode", "trim"}}), lift});
+  EXPECT_EQ(held.code, 4);
+  EXPECT_NE(held.err.find("#203 on #285 between the faces #39 and #807 is held, and would open by 2.47"),
+            std::string::npos)
+      << held.err;
+  const Outcome freed = run({command("select", {{"surface", skin}}), command("hold", {{"mode", "free"}}), lift});
+  EXPECT_EQ(freed.code, 0) << freed.err;
+  const auto notes = report_of(workshop / "open.step").at("notes");
+  EXPECT_EQ(std::ranges::count_if(notes,
+                                  [](const Json& note) {
+                                    return note.get<std::string>().find("which was freed, is open") !=
+                                           std::string::npos;
+                                  }),
+            2);
 }
 
 TEST(Sculpt, MakesAndBendsACurve) {

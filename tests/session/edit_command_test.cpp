@@ -174,7 +174,8 @@ TEST(WeightsCommand, MakeAQuarterOfACylinderOfASheet) {
 
 TEST(WeightsCommand, OfAFilesSurfaceAreSavedAndReadBack) {
   Session session = open_sample();
-  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"weights","which":[60,61],"weight":3})"});
+  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"free"})",
+                R"({"do":"weights","which":[60,61],"weight":3})"});
   ASSERT_FALSE(first(session).opened->rational());
   const auto saved = step::File::parse(*session.save(), "saved");
   ASSERT_TRUE(saved) << saved.error().message();
@@ -185,7 +186,7 @@ TEST(WeightsCommand, OfAFilesSurfaceAreSavedAndReadBack) {
 
 TEST(KnotsCommand, ChangeTheShapeForGoodAndAreSaved) {
   Session session = open_sample();
-  run(session, {R"({"do":"select","surface":"#285"})"});
+  run(session, {R"({"do":"select","surface":"#285"})", R"({"do":"hold","mode":"free"})"});
   const KnotVector before = first(session).current->knots(0);
   std::vector<double> knots(before.knots().begin(), before.knots().end());
   const auto middle = static_cast<std::size_t>(before.count() + before.degree()) / 2;

@@ -244,7 +244,7 @@ TEST(TrimCommands, EveryHoldReplacesTheOneBefore) {
   ASSERT_TRUE(run(session, R"({"do":"hold","mode":"trim"})", 1));
   EXPECT_EQ(session.state().surfaces[0].hold_rows, 0);
   ASSERT_TRUE(run(session, R"({"do":"hold","mode":"free"})", 1));
-  EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
+  EXPECT_FALSE(holds_trims(session.state().surfaces[0].constraints));
 }
 
 TEST(TrimCommands, ASnapshotKeepsTheHold) {

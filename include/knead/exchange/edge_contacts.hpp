@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,14 +27,18 @@ struct EdgeContact {
   std::vector<Point> points;           ///< evenly along the parameter of its curve, ends included
   std::vector<EdgeContactFace> faces;  ///< by ascending id of their records; a face on both sides of a seam once
   bool seam = false;                   ///< a face is on both of its sides
+  double uncertainty = 0;              ///< the largest that the file states for a B-spline surface there; 0 if none
   std::string unknown;                 ///< why one of its faces cannot be followed there; empty: all are
 };
 
 /// The edges of the faces on a B-spline surface of a STEP file, with everything that meets there, in the order of
-/// `visible_region`. Feet are sought on the surfaces as they are in the file, each from the one before, on closed
+/// `visible_region`; of several surfaces, each edge once. Feet are sought on the surfaces as they are in the file, each from the one before, on closed
 /// surfaces a turn outside of 0 … 1 where the edge goes on there.
-/// Errors (input): no such surface; an edge whose curve cannot be followed. What fails for one face is said in
-/// `unknown`. Cost: a pass over the file, and `samples` searches for the nearest point per face and edge.
+/// Errors (input): no such surface. Where a curve or a face cannot be followed, `unknown` says why; such a face has no
+/// feet, and such an edge no points. Cost: a pass over the file, and `samples` searches for the nearest point per face
+/// and edge.
+[[nodiscard]] Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file,
+                                                               std::span<const std::string> surfaces, int samples = 33);
 [[nodiscard]] Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file, const std::string& surface,
                                                                int samples = 33);
 

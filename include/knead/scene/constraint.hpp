@@ -77,7 +77,7 @@ struct MirrorSymmetry {
 
 /// All edges of the faces on the surface, with the first `order` derivatives across them, as `EdgeHold`.
 struct TrimHolds {
-  int order = 0;
+  int order = 0;  ///< −1: they are free on purpose, and may open
   friend bool operator==(const TrimHolds&, const TrimHolds&) = default;
 };
 

@@ -20,7 +20,7 @@ namespace knead {
 [[nodiscard]] const SharedEdge* followed_at(const std::vector<FollowedInput>& followed, const Seam& seam);
 
 /// The angle in radians up to which an edge counts as smooth, and the tangent planes along it are kept common.
-inline constexpr double smooth_angle = 0.02 * std::numbers::pi / 180;
+inline constexpr double smooth_angle = 0.5 * std::numbers::pi / 180;
 
 /// Whether the surfaces at an edge have the same tangent planes all along it, as the file was opened.
 [[nodiscard]] bool is_smooth(const SharedEdge& edge);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "knead/scene/parted_edges.hpp"
 #include "knead/scene/scene.hpp"
 #include "knead/sculpt/seam_coupling.hpp"
 #include "knead/session/command.hpp"
@@ -107,7 +108,10 @@ class Session {
   /// Number of control points of one surface whose position or weight differs from the opened one, bit for bit; all of
   /// them if its knots differ.
   [[nodiscard]] int moved_control_points(int surface) const;
-  /// The document's file with the present surfaces.
+  /// The edges of faces on surfaces that moved which do not meet their faces any more, as `save` would write them. Cost:
+  /// that of `edge_contacts` where a surface has moved.
+  [[nodiscard]] Expected<std::vector<PartedEdge>> parted_edges() const;
+  /// The document's file with the present surfaces. Errors (numerical): one of `parted_edges` that was not freed.
   [[nodiscard]] Expected<std::string> save() const;
   /// A new file of this format with the present surfaces, whole, as `Document::save_as`; lengths of a file without a
   /// unit count as millimetres where the format must have one.

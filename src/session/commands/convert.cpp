@@ -68,7 +68,7 @@ int order_of_holds(const SessionState& state) {
   int order = 0;
   if (!state.selected) return order;
   for (const KeptConstraint& kept : state.surfaces[static_cast<std::size_t>(*state.selected)].constraints) {
-    if (const auto* holds = std::get_if<TrimHolds>(&kept.constraint)) order = holds->order;
+    if (const auto* holds = std::get_if<TrimHolds>(&kept.constraint)) order = std::max(0, holds->order);
   }
   return order;
 }

@@ -50,6 +50,7 @@ Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
   if (!changed.empty()) {
     if (follows) {
       if (auto can = executor.follow_edge(*c.edge); !can) return can;
+      executor.hold_likewise();
     }
     return executor.check_constraints_on(changed);
   }

@@ -12,7 +12,7 @@ std::span<const Choice> choices(HoldMode) {
                                      {"trim", HoldMode::trim, "the edges of the faces"},
                                      {"trim-g1", HoldMode::trim_g1, "with their tangent planes"},
                                      {"trim-g2", HoldMode::trim_g2, "with their curvatures too"},
-                                     {"free", HoldMode::free, "neither"}};
+                                     {"free", HoldMode::free, "neither: the edges of the faces may open"}};
   return names;
 }
 
@@ -40,12 +40,13 @@ Expected<void> Executor::execute(const HoldCommand& c) {
   for (int k : surfaces) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
     s.hold_rows = mode == HoldMode::rows ? c.rows : 0;
-    std::erase_if(s.constraints, [](const KeptConstraint& kept) {
-      return std::holds_alternative<TrimHolds>(kept.constraint) ||
-             std::holds_alternative<TrimEdgeHold>(kept.constraint);
+    std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
+      const auto* edges = std::get_if<TrimHolds>(&kept.constraint);
+      if (edges != nullptr) return mode != HoldMode::rows || edges->order >= 0;  // rows hold no edge that was freed
+      return std::holds_alternative<TrimEdgeHold>(kept.constraint);
     });
-    const int order = static_cast<int>(mode) - static_cast<int>(HoldMode::trim);
-    if (trims) s.constraints.push_back({TrimHolds{order}, s.current});
+    const int order = trims ? static_cast<int>(mode) - static_cast<int>(HoldMode::trim) : -1;
+    if (mode != HoldMode::rows) s.constraints.push_back({TrimHolds{order}, s.current});
   }
   return trims && !all ? know_trims() : Expected<void>();
 }

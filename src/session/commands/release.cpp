@@ -52,8 +52,10 @@ Expected<void> Executor::execute(const ReleaseCommand& c) {
     if (meant("hold")) s.hold_rows = 0;
     if (meant("pins")) s.pins.clear();
     if (meant("mask")) s.mask.clear();
-    std::erase_if(s.constraints,
-                  [&](const KeptConstraint& kept) { return meant(std::visit(KindOf{}, kept.constraint)); });
+    std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
+      const auto* edges = std::get_if<TrimHolds>(&kept.constraint);
+      return !(edges != nullptr && edges->order < 0) && meant(std::visit(KindOf{}, kept.constraint));
+    });
   }
   return {};
 }

@@ -100,6 +100,7 @@ Expected<void> Executor::execute(const SelectCommand& c) {
   state.body.reset();
   state.selected = chosen.front();
   state.together.assign(chosen.begin() + 1, chosen.end());
+  hold_likewise();
   return {};
 }
 

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+#include <ranges>
+
+#include "executor.hpp"
+#include "knead/scene/trims.hpp"
+
+namespace knead {
+namespace {
+
+constexpr std::size_t most_listed = 8;
+
+std::string place_of(const MovedTrim& edge) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", edge.place.x(), edge.place.y(), edge.place.z());
+}
+
+/// One command that lets an edge follow, for each.
+std::string all_follow(const std::vector<std::string>& ids) {
+  std::string text;
+  for (std::size_t k = 0; k < std::min(ids.size(), most_listed); ++k) {
+    text += fmt::format(R"({}{{"do":"edge","edge":"{}","hold":"follow"}})", k == 0 ? "" : ", ", ids[k]);
+  }
+  return ids.size() > most_listed ? text + ", …" : text;
+}
+
+/// \param worst moved farthest, of the surface with this id
+Error opened_edge(const MovedTrim& worst, const std::string& surface, const std::vector<std::string>& ids) {
+  std::string between;
+  if (worst.neighbours.size() > 1) between = fmt::format(" between the faces {}", fmt::join(worst.neighbours, " and "));
+  std::string what;
+  if (worst.distance > 0) {
+    what = fmt::format("the edge {} on {}{} is held, and would open by {:.3g} at {}", worst.id, surface, between,
+                       worst.distance, place_of(worst));
+  } else {
+    what = fmt::format("the tangent planes along the edge {} on {}{} are held, and would turn by {:.3g} degrees at {}",
+                       worst.id, surface, between, worst.turn * 180 / std::numbers::pi, place_of(worst));
+  }
+  if (ids.size() > 1) what += fmt::format("; {} other edge{} likewise", ids.size() - 1, ids.size() == 2 ? "" : "s");
+  return {ErrorKind::numerical, what + "; this was refused", "edge",
+          fmt::format(
+              R"(move less of the surface, or let what moves follow: {}; {{"do":"hold","mode":"free"}} lets it open)",
+              all_follow(ids))};
+}
+
+}  // namespace
+
+namespace {
+
+/// The order at which the edges of faces on a surface are held, all alike; none: nothing is said of them all.
+std::optional<int> order_of_all(const SceneSurface& s) {
+  std::optional<int> order;
+  for (const KeptConstraint& kept : s.constraints) {
+    if (const auto* trims = std::get_if<TrimHolds>(&kept.constraint)) order = trims->order;
+  }
+  return order;
+}
+
+/// Whether nothing is said of what holds a surface, but of edges that follow.
+bool nothing_said(const SceneSurface& s) {
+  return s.hold_rows == 0 && s.pins.empty() && std::ranges::all_of(s.constraints, [](const KeptConstraint& kept) {
+           const auto* edge = std::get_if<TrimEdgeHold>(&kept.constraint);
+           return edge != nullptr && edge->follow;
+         });
+}
+
+}  // namespace
+
+void Executor::hold_likewise() {
+  std::optional<int> order;
+  for (const int k : state.selection()) {
+    const auto own = order_of_all(std::as_const(state.surfaces)[static_cast<std::size_t>(k)]);
+    if (!order && own.value_or(-1) >= 0) order = own;
+  }
+  if (!order) return;
+  for (const int k : state.selection()) {
+    if (!nothing_said(std::as_const(state.surfaces)[static_cast<std::size_t>(k)])) continue;
+    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    const auto region = visible(s);
+    if (!region) {
+      state.notes.push_back(region.error().what + "; they are not held, and may open");
+      continue;
+    }
+    if ((*region)->edges.empty()) continue;
+    s.constraints.insert(s.constraints.begin(), {TrimHolds{*order}, s.current});
+  }
+}
+
+Expected<void> Executor::check_held_edges(const Scene& before) {
+  std::vector<std::string> ids;
+  MovedTrim worst;
+  std::string surface;
+  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
+    const SceneSurface& present = std::as_const(state.surfaces)[k];
+    const auto was = std::ranges::find(before.surfaces, present.id, &SceneSurface::id);
+    if (was == before.surfaces.end() || was->current == present.current || !holds_trims(present.constraints)) continue;
+    SceneSurface& s = state.surfaces[k];
+    const auto region = visible(s);
+    if (!region) return std::unexpected(region.error());
+    const auto moved = moved_trims(*was->current, *s.current, trim_orders(s.constraints, **region), **region);
+    if (!moved) return std::unexpected(moved.error());
+    for (const MovedTrim& edge : *moved) {
+      const bool more = edge.distance != worst.distance ? edge.distance > worst.distance : edge.turn > worst.turn;
+      if (ids.empty() || more) {
+        worst = edge;
+        surface = s.id;
+      }
+      if (std::ranges::find(ids, edge.id) == ids.end()) ids.push_back(edge.id);
+    }
+  }
+  if (ids.empty()) return {};
+  return std::unexpected(opened_edge(worst, surface, ids));
+}
+
+}  // namespace knead
