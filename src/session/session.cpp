@@ -376,19 +376,6 @@ std::vector<DocumentSurface> present_surfaces(const Session& session) {
 
 }  // namespace
 
-Expected<std::vector<PartedEdge>> Session::parted_edges() const {
-  const step::File* const file = document().step_file();
-  std::vector<std::string> moved;
-  for (std::size_t k = 0; file != nullptr && k < state().surfaces.size(); ++k) {
-    const std::string& id = state().surfaces[k].id;
-    if (file->find_surface(id) != nullptr && moved_control_points(static_cast<int>(k)) > 0) moved.push_back(id);
-  }
-  if (moved.empty()) return std::vector<PartedEdge>();
-  const auto contacts = edge_contacts(*file, moved);
-  if (!contacts) return std::unexpected(contacts.error());
-  return knead::parted_edges(state(), *contacts);
-}
-
 Expected<std::string> Session::save() const {
   const auto parted = parted_edges();
   if (!parted) return std::unexpected(parted.error());

@@ -1,5 +1,5 @@
 import type { SurfaceInfo } from '@studio/engine/session_types';
-import { heldInWords, meetingAt } from '@studio/tools/held';
+import { heldInWords, heldTogether, meetingAt } from '@studio/tools/held';
 
 const edge = (meets: [string, string, string][], seam = false) =>
   ({ id: '#7' as const, course: [], seam, meets: meets.map(([face, surface, form]) => ({ face, surface, form })) });
@@ -24,5 +24,17 @@ describe('an edge of a face', () => {
     expect(heldInWords(info('free'), ['#7', '#8'], ['#7', '#8'])).toBe('1 of 2 edges held, one opens when it moves');
     expect(heldInWords(info('free'), ['#7', '#8'], ['#8'])).toBe('1 of 2 edges held');
     expect(heldInWords(info('follow'), ['#7', '#8'], ['#7', '#8'])).toBe('1 of 2 edges held');
+  });
+
+  it('counts once where two selected faces meet, as held if neither lets it go', () => {
+    const held = (...constraints: object[]) => ({ hold: 0, pins: 0, constraints }) as unknown as SurfaceInfo;
+    const all = { do: 'hold', mode: 'trim' }, follow = { do: 'edge', edge: '#7', hold: 'follow' };
+    const pair = (first: SurfaceInfo, second: SurfaceInfo) => heldTogether([
+      { info: first, edges: ['#6', '#7'], open: ['#7'] }, { info: second, edges: ['#7', '#8', '#9'], open: ['#7', '#8'] }]);
+    expect(pair(held(all), held(all))).toBe('4 edges held');
+    expect(pair(held(all, follow), held(all, follow))).toBe('3 of 4 edges held');
+    expect(pair(held(all, follow), held(follow))).toBe('1 of 4 edges held, one opens when it moves');
+    expect(pair(held(all), held())).toBe('1 of 4 edges held, 2 open when it moves');
+    expect(pair(held(all), held({ do: 'hold', mode: 'free' }))).toBe('1 of 4 edges held, 2 open when it moves');
   });
 });

@@ -54,6 +54,7 @@ describe('a snapshot', () => {
     engine.openStep(bonnet, 'bonnet.step');
     const { id } = engine.state().surfaces[0]!;
     engine.execute({ do: 'select', surface: id });
+    engine.execute({ do: 'hold', mode: 'free' }); // the edges of the face may open
     engine.execute({ do: 'hold', rows: 2 });
     engine.execute({ do: 'drag', at: [0.5, 0.5], by: [0, 0, 20] });
     const other = await load();

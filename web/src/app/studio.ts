@@ -2,7 +2,7 @@ import * as THREE from 'three';
 
 import { Documents } from '../document/documents';
 import type { Notice, Question } from '../document/host';
-import { makeReady } from '../document/ready';
+import { hasSettings, makeReady } from '../document/ready';
 import { adviceOn, creaseIn, inOneLine } from '../document/words';
 import { Saving } from '../document/saving';
 import { Client, type End } from '../engine/client';
@@ -263,6 +263,18 @@ export class Studio implements App {
       await makeReady(this, surface, false);
       this.documents.pick();
       this.tellRepeated(surface);
+      this.changed();
+      this.documents.keeper.touch();
+    });
+  }
+
+  async selectTogether(surfaces: number[]): Promise<void> {
+    await this.attempt(async () => {
+      for (const k of surfaces) {
+        if (!hasSettings(this.state!.surfaces[k]!)) await makeReady(this, k, false);
+      }
+      await this.client.execute([{ do: 'select', surfaces: surfaces.map((k) => this.state!.surfaces[k]!.id) }]);
+      this.documents.pick();
       this.changed();
       this.documents.keeper.touch();
     });

@@ -1,6 +1,9 @@
 import { clay } from '../engine/clay';
-import { type Command, EngineError } from '../engine/session_types';
+import { type Command, EngineError, type SurfaceInfo } from '../engine/session_types';
 import type { Host } from './host';
+
+/** Whether something was said of what holds a surface, or it has moved. */
+export const hasSettings = ({ hold, pins, constraints, moved }: SurfaceInfo): boolean => hold > 0 || pins > 0 || constraints.length > 0 || moved > 0;
 
 /**
  * Selects a surface, and makes one as it came clay that is held at its edges. What faces lie on is held along their edges, so
@@ -13,14 +16,14 @@ export async function makeReady(host: Host, index: number, opening: boolean): Pr
   const run = (commands: Command[]) =>
     client.execute([{ do: 'select', surface: surface.id }, ...commands], false, opening);
   const room = surface.faces > 0 ? await client.room(index) : null;
-  if (surface.hold > 0 || surface.pins > 0 || surface.constraints.length > 0 || surface.moved > 0) await run([]);
+  if (hasSettings(surface)) await run([]);
   else if (surface.faces === 0) await run(alone(surface.net));
   else {
     try {
       await run([{ do: 'hold', mode: 'trim' }, ...clay]);
     } catch (error) {
       if (!(error instanceof EngineError)) throw error;
-      await run(alone(surface.net));
+      await run([{ do: 'hold', mode: 'free' }, ...alone(surface.net)]); // what cannot be followed cannot be held, which is said
       host.notify({ kind: 'info', text: `Only the outer rows of control points are held: ${error.info.what}. Neighbouring faces may part from this one.` });
     }
   }

@@ -44,6 +44,16 @@ const known: [RegExp, (found: RegExpExecArray, error: EngineErrorInfo) => Advice
     text: `The surface would fold over itself beside the held edge ${edge}, so nothing was done.`,
     remedy: 'Press less deep or farther from it, go there in several strokes, or let the edge follow.',
     actions: [{ label: 'Let the edge follow', commands: commandsIn(remedy) }] })],
+  [/^the edge (#\d+) on .* is held, and would open by (\S+) at/, ([, edge, distance], { remedy }) => ({
+    text: `The edge ${edge}, which is held, would open by ${distance}, so nothing was done.`, remedy: 'Move less of the surface, or let the edges follow.',
+    actions: [{ label: 'Let the edges follow', commands: commandsIn(remedy).filter((c) => c.do === 'edge') }] })],
+  [/^the tangent planes along the edge (#\d+) on .* are held, and would turn by (\S+) degrees/, ([, edge, angle], { remedy }) => ({
+    text: `The tangent planes along the edge ${edge}, which are held, would turn by ${angle} degrees, so nothing was done.`,
+    remedy: 'Move less of the surface, or let the edges follow.',
+    actions: [{ label: 'Let the edges follow', commands: commandsIn(remedy).filter((c) => c.do === 'edge') }] })],
+  [/^the edge (#\d+) would be left (\S+) from (the faces? .*?) at \(.*?; nothing is written/, ([, edge, distance, faces], { remedy }) => ({
+    text: `Nothing was saved: the edge ${edge} would be left ${distance} from ${faces}.`, remedy: 'Undo what moved them, and hold the edge or let it follow; or let it open.',
+    actions: [{ label: 'Let it open', commands: commandsIn(remedy).slice(-2) }] })],
   [/^the step folds/, () => ({
     text: 'The surface would fold over itself there, so nothing was done.', remedy: 'Press less deep or farther from held edges, go there in several strokes, or use a stiffer material.', actions: [] })],
   [/^the step (runs away|gives no finite result)/, () => ({

@@ -1,10 +1,10 @@
 import * as THREE from 'three';
 
-import { heldInWords } from '../tools/held';
+import { heldTogether } from '../tools/held';
 import type { App } from './app';
 import { h } from './dom';
 
-/** Beside the selected face: what of it is held. A click shows its edges, to hold others. */
+/** Beside the selected face: what of all selected ones is held. A click shows its edges, to hold others. */
 export function heldBadge(app: App): HTMLElement {
   const badge = h('button', { class: 'held-badge', type: 'button', hidden: true, title: 'Click to choose what the edges hold (D)', onclick: () => app.hand.choose('edges') });
   const { viewer } = app;
@@ -35,10 +35,10 @@ export function heldBadge(app: App): HTMLElement {
     const { state } = app;
     const k = state?.selection[0];
     const info = k === undefined ? undefined : state!.surfaces[k];
-    const edges = app.hand.edges.faceEdges;
-    badge.hidden = !info || viewer.waiting || edges === null || app.hand.active;
+    const held = app.hand.edges.held;
+    badge.hidden = !info || viewer.waiting || held === null || app.hand.active;
     if (badge.hidden || !info) return;
-    badge.textContent = heldInWords(info, edges!.map((e) => e.id), app.hand.edges.meetingOthers);
+    badge.textContent = heldTogether(held!);
     badge.classList.toggle('loose', badge.textContent.startsWith('Nothing held') || badge.textContent.endsWith('when it moves'));
     box = viewer.extent.seen(k!);
     place();

@@ -25,11 +25,9 @@ export function surfacesPanel(app: App): HTMLElement {
         const on = state.selection.includes(k);
         const pick = (e: MouseEvent) => {
           const together = e.ctrlKey || e.metaKey || e.shiftKey;
-          const ids = together
-            ? [...state.selection.map((i) => state.surfaces[i]!.id).filter((id) => id !== s.id), ...(on ? [] : [s.id])]
-            : [s.id];
-          if (ids.length === 1) void app.select(state.surfaces.findIndex((other) => other.id === ids[0]));
-          else if (ids.length > 1) void app.execute([{ do: 'select', surfaces: ids }]);
+          const all = together ? [...state.selection.filter((i) => i !== k), ...(on ? [] : [k])] : [k];
+          if (all.length === 1) void app.select(all[0]!);
+          else if (all.length > 1) void app.selectTogether(all);
         };
         return h('li', {}, h('button', { class: on ? 'item on' : 'item', type: 'button', onclick: pick, title: 'Ctrl-click selects several, which then move together',
           aria: { pressed: String(on) } },

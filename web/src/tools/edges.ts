@@ -7,7 +7,7 @@ import type { FaceEdge } from '../engine/context';
 import type { Picture, SurfaceInfo, Vector3 } from '../engine/session_types';
 import type { Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
-import { type Continuity, continuityOf, type Edge, edgeNames, isSide, type Meeting, meetingAt, type Side } from './held';
+import { type Continuity, continuityOf, type Edge, edgeNames, type HeldFace, isSide, type Meeting, meetingAt, type Side } from './held';
 import type { PointerTool } from './pointers';
 
 const colours: Record<Continuity, number> = {
@@ -69,14 +69,26 @@ export class Edges implements PointerTool {
     return info && known ? meetingAt(known, info.id) : null;
   }
 
-  /** The edges at which other faces stay behind if they are free. */
-  get meetingOthers(): Edge[] {
-    return this.edges.filter((e) => this.meeting(e)?.opens);
+  /** All selected surfaces and the edges of the faces on them; null as long as those of one are not known. */
+  get held(): HeldFace[] | null {
+    const faces: HeldFace[] = [];
+    for (const info of this.selected.map(([, s]) => s)) {
+      const known = info.faces === 0 ? [] : this.known.get(info.id);
+      if (!known) return null;
+      faces.push({ info, edges: known.map((e) => e.id), open: known.filter((e) => meetingAt(e, info.id).opens).map((e) => e.id) });
+    }
+    return faces;
   }
 
+  private get selected(): (readonly [number, SurfaceInfo])[] {
+    const state = this.viewer.frame?.state;
+    return state ? state.selection.map((k) => [k, state.surfaces[k]!] as const) : [];
+  }
+
+  /** One surface after the other: each that becomes known has the next one asked for. */
   private async learn(): Promise<void> {
-    const { info, surface } = this;
-    if (!info || surface === undefined || this.faceEdges || this.asked === info.id) return;
+    const [surface, info] = this.selected.find(([, s]) => s.faces > 0 && !this.known.has(s.id)) ?? [];
+    if (!info || surface === undefined || this.asked === info.id) return;
     this.asked = info.id;
     const edges = await this.fetchEdges(surface).catch(() => []);
     if (this.asked !== info.id) return; // another file, or another surface

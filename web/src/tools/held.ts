@@ -68,23 +68,41 @@ function listed(parts: string[]): string {
   return parts.length < 2 ? parts.join('') : `${parts.slice(0, -1).join(', ')} and ${parts.at(-1)!}`;
 }
 
+/** A surface, the ids of the edges of the faces on it, and those of them at which other faces would stay behind. */
+export interface HeldFace {
+  info: SurfaceInfo;
+  edges: readonly Edge[];
+  open: readonly Edge[];
+}
+
 /** What of a surface is held, in a few words. `faceEdges`: ids of the edges of the faces on it; `open`: those that would open. */
 export function heldInWords(info: SurfaceInfo, faceEdges: readonly Edge[], open: readonly Edge[] = []): string {
-  const held = (edges: readonly Edge[]) => edges.filter((e) => !['free', 'follow'].includes(continuityOf(info, e))).length;
+  return heldTogether([{ info, edges: faceEdges, open }]);
+}
+
+/** The same of surfaces that are selected together. An edge of several counts once, as held if none of them lets it go. */
+export function heldTogether(faces: readonly HeldFace[]): string {
+  const loose = ({ info }: HeldFace, edge: Edge) => ['free', 'follow'].includes(continuityOf(info, edge));
+  const any = (test: (info: SurfaceInfo) => boolean) => faces.some(({ info }) => test(info));
   const parts: string[] = [];
-  if (info.hold > 0) parts.push(counted(info.hold, 'outer row'));
-  const asked = faceEdges.length > 0 && info.constraints.some((c) => c.do === 'hold' || (c.do === 'edge' && c.edge !== undefined));
-  const count = asked ? held(faceEdges) : 0;
-  if (asked) parts.push(count === faceEdges.length ? counted(count, 'edge') : `${count} of ${faceEdges.length} edges`);
+  const rows = Math.min(...faces.map(({ info }) => info.hold));
+  if (rows > 0) parts.push(counted(rows, 'outer row'));
+  const name = ({ info }: HeldFace, edge: Edge) => (isSide(edge) ? `${info.id} ${edge}` : edge);
+  const all = new Set(faces.flatMap((face) => face.edges.map((e) => name(face, e))));
+  const gone = new Set(faces.flatMap((face) => face.edges.filter((e) => loose(face, e)).map((e) => name(face, e))));
+  const asked = all.size > 0 && any((info) => info.constraints.some((c) => c.do === 'hold' || (c.do === 'edge' && c.edge !== undefined)));
+  const count = all.size - gone.size;
+  if (asked) parts.push(count === all.size ? counted(count, 'edge') : `${count} of ${all.size} edges`);
   // A closed surface without edges is held in its place.
-  if (!asked && faceEdges.length === 0 && (info.bare || info.faces > 0) && info.constraints.some((c) => c.do === 'hold')) parts.push('its place');
-  const sideCount = held(edgeNames.filter((e) => !faceEdges.includes(e)));
+  if (all.size === 0 && faces.every(({ info }) => (info.bare || info.faces > 0) && info.constraints.some((c) => c.do === 'hold'))) parts.push('its place');
+  const sideCount = faces.reduce((sum, face) => sum + edgeNames.filter((e) => !face.edges.includes(e) && !loose(face, e)).length, 0);
   if (sideCount > 0) parts.push(counted(sideCount, asked ? 'side' : 'edge'));
-  if (info.pins > 0) parts.push(counted(info.pins, 'point'));
-  if (info.constraints.some((c) => c.do === 'freeze')) parts.push('frozen spans');
-  if (info.constraints.some((c) => c.do === 'keep')) parts.push('kept lines');
+  const pins = faces.reduce((sum, { info }) => sum + info.pins, 0);
+  if (pins > 0) parts.push(counted(pins, 'point'));
+  if (any((info) => info.constraints.some((c) => c.do === 'freeze'))) parts.push('frozen spans');
+  if (any((info) => info.constraints.some((c) => c.do === 'keep'))) parts.push('kept lines');
   const words = parts.length === 0 ? 'Nothing held' : `${listed(parts)} held`;
-  const opening = open.filter((e) => continuityOf(info, e) === 'free').length;
+  const opening = new Set(faces.flatMap(({ info, open }) => open.filter((e) => continuityOf(info, e) === 'free'))).size;
   return opening > 0 ? `${words}, ${opening === 1 ? 'one opens' : `${opening} open`} when it moves` : words;
 }
 
@@ -96,7 +114,7 @@ export function constraintInWords(c: Command): string {
       const edge = c.edge ?? c.which ?? 'all';
       return `${edge === 'all' ? 'All edges' : edgeTitle(edge as Edge)}: ${continuityTitles[c.hold ?? 'position'].toLowerCase()}`;
     }
-    case 'hold': return `Edges of the faces: ${continuityTitles[ofMode[c.mode ?? ''] ?? 'position'].toLowerCase()}`;
+    case 'hold': return `Edges of the faces: ${continuityTitles[c.mode === 'free' ? 'free' : ofMode[c.mode ?? ''] ?? 'position'].toLowerCase()}`;
     case 'freeze': {
       const [[a, b], [d, e]] = c.region;
       return `Frozen: u ${percent(a)} to ${percent(b)}, v ${percent(d)} to ${percent(e)}`;

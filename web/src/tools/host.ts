@@ -18,6 +18,8 @@ export interface ToolHost extends Host {
   latticePulled(): void;
   /** Selects a surface; one without settings is made ready to sculpt. */
   select(surface: number): Promise<void>;
+  /** Selects several surfaces; those without settings are made ready first. */
+  selectTogether(surfaces: number[]): Promise<void>;
 }
 
 /** What a click in the mode `place` adds to the scene. */
