@@ -8,6 +8,7 @@
 #include "net_operator.hpp"
 #include "potential.hpp"
 #include "solve/step_inverse.hpp"
+#include "standing_springs.hpp"
 #include "tool_load.hpp"
 
 namespace knead {
@@ -32,6 +33,7 @@ struct ActiveSpline<D>::Model {
   std::optional<double> energy_error;  // of rational patches
   StepInverse inverse;
   StepEngine engine;
+  std::shared_ptr<SprungSystems<D>> sprung = std::make_shared<SprungSystems<D>>();
 
   /// The origin of X.
   [[nodiscard]] Points origin(const ActiveState& state) const {
@@ -44,6 +46,8 @@ struct ActiveSpline<D>::Model {
     return std::max(0.0, dot(y, part * y));
   }
 
+  /// The system with these forces' `standing_springs` in it; null: there are none, or it cannot be inverted.
+  [[nodiscard]] std::shared_ptr<const SprungSystem<D>> with_springs(std::span<const PointForce> forces) const;
   Expected<Points> load_of(const ActiveState& state, const ActiveLoads& given) const;
   void report(ActiveStep& result, const Points& x, const Points& external, const PotentialState& contact,
               std::span<const Tool> tools) const;

@@ -23,6 +23,7 @@ struct ActiveSpline<D>::Run {
 
  private:
   void balance_dynamic();
+  [[nodiscard]] PointForce scaled_force(PointForce force) const;
   [[nodiscard]] PotentialState descend(const StepProblem& step);
   [[nodiscard]] PotentialState keep_within_limit(const StepProblem& step);
   [[nodiscard]] Points greville_correction(const Points& x) const;
@@ -32,9 +33,11 @@ struct ActiveSpline<D>::Run {
   const ActiveState& state;
   std::span<const Tool> tools;
   const ActiveLoads& loads;
-  std::vector<ModelTool> scaled;  // the tools, in the model's units
-  Points file_origin, before;     // the origin of X, and X₀
-  Points external;                // G
+  std::vector<ModelTool> scaled;                  // the tools, in the model's units
+  Points file_origin, before;                     // the origin of X, and X₀
+  Points external;                                // G
+  std::shared_ptr<const SprungSystem<D>> sprung;  // null: all springs act through the potential
+  std::vector<PointForce> springs;                // those in the matrix, in the model's units
   StepProblem problem;
   FactorSource source;
   PatchPotential<D> potential;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "active_model.hpp"
+#include "knead/base/interruption.hpp"
 #include "knead/energy/field_assembler.hpp"
 #include "solve/coordinate_map.hpp"
 #include "solve/eigen_problem.hpp"
@@ -281,6 +282,25 @@ Expected<ActiveSpline<D>> ActiveSpline<D>::create(std::vector<Spline<D>> patches
                                                           assembly->energy_error,
                                                           std::move(chosen->inverse),
                                                           std::move(chosen->engine)}));
+}
+
+template <int D>
+std::shared_ptr<const SprungSystem<D>> ActiveSpline<D>::Model::with_springs(std::span<const PointForce> forces) const {
+  std::vector<PointForce> springs = standing_springs<D>(forces, patches);
+  if (springs.empty()) return nullptr;
+  auto system = sprung->last();
+  if (!system || !same_stiffness(system->springs, springs)) {
+    SprungSystem<D> made{std::move(springs), a, std::nullopt};
+    made.a.add(spring_stiffness(rows.back(), made.springs));
+    ActiveSettings<D> same_engine = settings;
+    same_engine.solver = engine.iterative ? StepSolver::iterative : StepSolver::direct;
+    auto chosen = invert<D>(made.a, inverse.space(), patches, scalings, same_engine);
+    if (Interruption::asked_for()) return nullptr;
+    if (chosen) made.inverse.emplace(std::move(chosen->inverse));
+    system = std::make_shared<const SprungSystem<D>>(std::move(made));
+    sprung->keep(system);
+  }
+  return system->inverse ? system : nullptr;
 }
 
 template <int D>

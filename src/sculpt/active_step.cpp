@@ -98,12 +98,14 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
       file_origin(m.origin(from)),
       before((from.control_points - file_origin) / m.length),
       external(std::move(forces)),
-      problem{[&model](const Points& x) { return model.a * x; },
-              m.inverse,
+      sprung(model.with_springs(given_loads.points)),
+      problem{[a = sprung ? &sprung->a : &model.a](const Points& x) { return *a * x; },
+              sprung ? *sprung->inverse : m.inverse,
               {},
               (file_origin.rowwise() - m.centre.transpose()) / m.length + before,
               0},
-      source{[&model] { return model.a.assemble(); }, [&model] { return grid_places<D>(model.patches); }},
+      source{[a = sprung ? &sprung->a : &model.a] { return a->assemble(); },
+             [&model] { return grid_places<D>(model.patches); }},
       potential(m.loads, m.rows, scaled),
       limit(given_loads.limit / m.length),
       rounds(potential, m.patches, m.rows, summary, note) {
@@ -118,15 +120,27 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
   if (m.settings.accuracy == StepAccuracy::interactive) problem.accuracy = interactive_accuracy;
   problem.near = state.balanced && state.guess.rows() > 0;
   problem.source = &source;
+  for (const PointForce& force : loads.points) {
+    if (sprung && may_stand<D>(force, m.patches)) springs.push_back(scaled_force(force));
+  }
+  PotentialState at_start;
+  at_start.force = Points::Zero(before.rows(), 3);
+  add_springs(springs, problem.start, at_start);
+  problem.b += at_start.force;
+}
+
+template <int D>
+PointForce ActiveSpline<D>::Run::scaled_force(PointForce force) const {
+  force.to = (force.to - m.centre) / m.length;
+  force.core /= m.length;
+  return force;
 }
 
 template <int D>
 void ActiveSpline<D>::Run::touch() {
   potential.grip(problem.start, developed_slip);
-  for (PointForce point : loads.points) {
-    point.to = (point.to - m.centre) / m.length;
-    point.core /= m.length;
-    potential.add(std::move(point));
+  for (const PointForce& force : loads.points) {
+    if (!sprung || !may_stand<D>(force, m.patches)) potential.add(scaled_force(force));
   }
   rounds.begin();
   if (!(limit > 0) && loads.reach > 0) {
@@ -187,6 +201,7 @@ Expected<ActiveStep> ActiveSpline<D>::Run::accept() {
     result.velocity = m.length * velocity;
   }
   if (lagged.rows() > 0) external += lagged;
+  add_springs(springs, problem.start + y, contact);
   result.converged = summary.converged;
   result.note = note;
   m.report(result, x, external, contact, tools);

@@ -23,31 +23,18 @@ class NetOperator {
   }
   void add(double factor, const NetOperator& other) {
     for (const Block& block : other.blocks_) add(block.first, factor * block.factor, block.stiffness);
+    for (const SparseMatrix& matrix : other.matrices_) matrices_.emplace_back(factor * matrix);
     identity_ += factor * other.identity_;
   }
   void add_identity(double factor) { identity_ += factor; }
+  /// Adds a matrix between all control points, of which both triangles are stored.
+  void add(SparseMatrix matrix) { matrices_.push_back(std::move(matrix)); }
 
   /// The product with N × 3 coordinates. Where there are patches enough, threads share them out; otherwise they share
   /// the lines of each.
   [[nodiscard]] Points operator*(const Points& x) const {
-    if (blocks_.size() == 1 && identity_ == 0 && blocks_[0].factor == 1 && blocks_[0].stiffness.size() == size_)
-      return blocks_[0].stiffness.apply(x);
-    Points y = identity_ * x;
-    const std::vector<int> patches = first_rows();
-    const auto count = static_cast<std::ptrdiff_t>(patches.size());
-    if (count < 2 || count < thread_count()) {
-      for (const Block& block : blocks_) add_product(block, x, y);
-      return y;
-    }
-    const double work = work_per_row * static_cast<double>(x.rows()) / static_cast<double>(count);
-    detail::parallel_for(count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      for (; begin < end; ++begin) {
-        for (const Block& block : blocks_) {
-          if (block.first == patches[static_cast<std::size_t>(begin)]) add_product(block, x, y);
-        }
-      }
-    });
-    return y;
+    if (!matrices_.empty()) return product_of_blocks(x) + product_of_matrices(x);
+    return product_of_blocks(x);
   }
 
   /// All of it as one matrix.
@@ -70,6 +57,7 @@ class NetOperator {
       for (const Block& block : blocks_) append(block, entries);
       sum.setFromTriplets(entries.begin(), entries.end());
     }
+    for (const SparseMatrix& matrix : matrices_) sum = SparseMatrix(sum + matrix);
     if (identity_ == 0) return sum;
     if (sum.nonZeros() == 0) sum.setIdentity(), sum.coeffs().setZero();
     sum.diagonal() += Eigen::VectorXd::Constant(size_, identity_);
@@ -90,6 +78,33 @@ class NetOperator {
     std::ranges::sort(first);
     first.erase(std::ranges::unique(first).begin(), first.end());
     return first;
+  }
+
+  [[nodiscard]] Points product_of_matrices(const Points& x) const {
+    Points y = symmetric_product(matrices_.front(), x);
+    for (std::size_t k = 1; k < matrices_.size(); ++k) y += symmetric_product(matrices_[k], x);
+    return y;
+  }
+
+  [[nodiscard]] Points product_of_blocks(const Points& x) const {
+    if (blocks_.size() == 1 && identity_ == 0 && blocks_[0].factor == 1 && blocks_[0].stiffness.size() == size_)
+      return blocks_[0].stiffness.apply(x);
+    Points y = identity_ * x;
+    const std::vector<int> patches = first_rows();
+    const auto count = static_cast<std::ptrdiff_t>(patches.size());
+    if (count < 2 || count < thread_count()) {
+      for (const Block& block : blocks_) add_product(block, x, y);
+      return y;
+    }
+    const double work = work_per_row * static_cast<double>(x.rows()) / static_cast<double>(count);
+    detail::parallel_for(count, detail::block_size(count, work), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (; begin < end; ++begin) {
+        for (const Block& block : blocks_) {
+          if (block.first == patches[static_cast<std::size_t>(begin)]) add_product(block, x, y);
+        }
+      }
+    });
+    return y;
   }
 
   void add_product(const Block& block, const Points& x, Points& y) const {
@@ -121,6 +136,7 @@ class NetOperator {
   int size_;
   double identity_ = 0;
   std::vector<Block> blocks_;
+  std::vector<SparseMatrix> matrices_;
 };
 
 }  // namespace knead
