@@ -3,6 +3,7 @@
 #include <functional>
 #include <random>
 
+#include "exchange/brep_square.hpp"
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
@@ -229,6 +230,37 @@ TEST(SurfaceTextErrors, SayWhereAndWhat) {
   EXPECT_NE(error("0,0,0;1,0,1e999\n0,1,0;1,1,0\n", "a.csv").find("\"1e999\" is not a number"), std::string::npos);
   EXPECT_TRUE(open_source("0,0,0;1,0,1e-999\n0,1,0;1,1,0\n", "a.csv"));
   EXPECT_NE(error("0,0,0;1,0,0\n0,1,0\n", "a.csv").find("row 2 has 1"), std::string::npos);
+}
+
+/// A file of one surface with that surface's part of it, from one text up to another, twice; `count`: what says how
+/// many.
+std::string doubled(std::string text, const std::string& from, const std::string& to, const std::string& count,
+                    const std::string& two) {
+  const std::size_t begin = text.find(from), end = text.find(to, begin);
+  text.insert(end, text.substr(begin, end - begin));
+  return count.empty() ? text : text.replace(text.find(count), count.size(), two);
+}
+
+TEST(SurfaceTextFiles, OfSeveralSurfacesOneIsChangedAlone) {
+  const Surface plain = testing::relief(cubic(5), cubic(4), 5);
+  std::string gismo = doubled(gismo_file(plain), "<Geometry type=\"TensorBSpline2\" id=\"3\"", "<Matrix>", "", "");
+  gismo.replace(gismo.rfind("id=\"3\""), 6, "id=\"4\"");
+  const std::pair<std::string, std::string> files[] = {
+      {"a.xml", gismo},
+      {"a.dat", doubled(geopdes_file(plain), "PATCH", "SUBDOMAIN", "2 3 1", "2 3 2")},
+      {"a.brep", doubled(testing::brep_square, "9 0 0 0 0 1 1", "\nTriangulations", "Surfaces 1", "Surfaces 2")}};
+  for (const auto& [name, text] : files) {
+    const auto source = open_or_die(text, name);
+    ASSERT_EQ(source->surfaces().size(), 2U) << name;
+    const Surface &first = *source->surfaces()[0].surface, &second = *source->surfaces()[1].surface;
+    EXPECT_NE(source->surfaces()[0].id, source->surfaces()[1].id) << name;
+    EXPECT_EQ(saved(*source, first), text) << name;
+    Points points = first.control_points();
+    points(1, 2) += 0.25;
+    const auto again = open_or_die(saved(*source, *first.with_control_points(points)), name);
+    EXPECT_TRUE(same_bits(again->surfaces()[0].surface->control_points(), points)) << name;
+    EXPECT_TRUE(same_bits(again->surfaces()[1].surface->control_points(), second.control_points())) << name;
+  }
 }
 
 TEST(SurfaceTextFiles, OfOthersHaveTheirSurfaces) {
