@@ -41,6 +41,17 @@ std::optional<Parting> angles_at(const SessionState& state, const std::string& i
   return measured ? std::optional(*measured) : std::nullopt;
 }
 
+/// Whether edges of faces were freed, so that they may be open.
+bool frees_edges(const SessionState& state) {
+  const auto frees = [](const KeptConstraint& kept) {
+    const auto* all = std::get_if<TrimHolds>(&kept.constraint);
+    const auto* edge = std::get_if<TrimEdgeHold>(&kept.constraint);
+    return (all != nullptr && all->order < 0) || (edge != nullptr && edge->order < 0 && !edge->follow);
+  };
+  return std::ranges::any_of(state.surfaces,
+                             [&](const SceneSurface& s) { return std::ranges::any_of(s.constraints, frees); });
+}
+
 void print_region(const step::SurfaceEntity& s, const VisibleRegion& region) {
   const auto [lower, upper] = region.extent();
   fmt::print("           visible from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) of the domain", lower.x(), lower.y(),
@@ -65,6 +76,15 @@ void print_region(const step::SurfaceEntity& s, const VisibleRegion& region) {
 }
 
 }  // namespace
+
+std::vector<std::string> notes_on_open_edges(const Session& session) {
+  std::vector<std::string> notes;
+  const auto parted = frees_edges(session.state()) ? session.parted_edges() : Expected<std::vector<PartedEdge>>();
+  for (const PartedEdge& edge : parted.value_or(std::vector<PartedEdge>())) {
+    if (edge.freed) notes.push_back(note_on(edge));
+  }
+  return notes;
+}
 
 void print_edges(const SessionState& state) {
   for_each_report(state, [](const SceneSurface& s, const TrimReport& report) {

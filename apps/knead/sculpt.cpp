@@ -65,11 +65,8 @@ Outcome outcome_of(Session& session) {
   Outcome o;
   o.places = repeated_surfaces(session);
   o.notes = state.notes;
-  if (const auto parted = session.parted_edges()) {  // if they cannot be known, `save` says why
-    for (const PartedEdge& edge : *parted) {
-      if (edge.freed) o.notes.push_back(note_on(edge));
-    }
-  }
+  const std::vector<std::string> open = notes_on_open_edges(session);
+  o.notes.insert(o.notes.end(), open.begin(), open.end());
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   // Finished work is written even if its energy cannot be computed.
   if (const auto energy = session.energy()) {

@@ -8,6 +8,7 @@
 #include "knead/scene/parted_edges.hpp"
 #include "knead/scene/trims.hpp"
 #include "session/running.hpp"
+#include "support/made_files.hpp"
 
 namespace knead {
 namespace {
@@ -192,6 +193,36 @@ TEST(PartedEdges, OnAPlaneTheFaceStaysBehind) {
   EXPECT_EQ(*session.save(), sheets.text);
 }
 
+TEST(PartedEdges, BothSidesOfASeamCount) {
+  // The curved surfaces of a tube are closed; either side of the line where one meets itself is torn away.
+  for (const bool last : {false, true}) {
+    Session session(Document::from(*open_source(testing::tube_file(), "tube.step")));
+    int seams = 0;
+    for (std::size_t k = 0; k < session.state().surfaces.size(); ++k) {
+      const SceneSurface& s = session.state().surfaces[k];
+      const auto contacts = edge_contacts(*session.document().step_file(), s.id);
+      ASSERT_TRUE(contacts) << contacts.error().message();
+      const auto seam = std::ranges::find(*contacts, true, &EdgeContact::seam);
+      if (seam == contacts->end()) continue;
+      ++seams;
+      const int d = closed_directions(*s.opened)[0] ? 0 : 1;
+      const int row = last ? s.opened->net()[static_cast<std::size_t>(d)] - 1 : 0;
+      const auto done = run(session,
+                            fmt::format(R"({{"do":"select","surface":"{}"}},
+          {{"do":"points","rows_{}":[{}],"by":[0,0.1,0]}})",
+                                        s.id, d == 0 ? 'u' : 'v', row),
+                            1);
+      ASSERT_TRUE(done) << done.error().message();
+      const auto parted = session.parted_edges();
+      ASSERT_TRUE(parted);
+      const auto torn = std::ranges::find(*parted, seam->id, &PartedEdge::id);
+      ASSERT_NE(torn, parted->end());
+      EXPECT_NEAR(torn->distance, 0.1, 1e-9);
+    }
+    EXPECT_GE(seams, 1);
+  }
+}
+
 const std::string right_alone = R"({"do":"select","surface":"#20"})";
 
 std::vector<int> orders_of(const Session& session, std::size_t surface) {
@@ -262,6 +293,14 @@ TEST(SecondFace, ASeamThatWasNearlySmoothStaysSo) {
   EXPECT_NEAR(apart->angle_before, 0.34 * std::numbers::pi / 180, 1e-6);
   EXPECT_LE(apart->angle, 2 * apart->angle_before);
   EXPECT_GT(session.largest_displacement(0), 0.03);
+  // By hand it is not creased either.
+  Session other = opened(sheets);
+  const Error error =
+      refused(other,
+              both + R"(,{"do":"edge","edge":")" + TwoSheets::name(sheets.edge) + R"(","hold":"follow"},)" +
+                  right_alone + R"(,{"do":"points","which":[2,3],"by":[0,0,0.5]})",
+              1);
+  EXPECT_TRUE(says(error.what, "degrees")) << error.message();
 }
 
 }  // namespace
