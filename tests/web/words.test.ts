@@ -102,3 +102,24 @@ describe('what the engine refuses', () => {
     expect(adviceOn({ ...info, where: '#12 line 7', remedy: '' })).toEqual({ text: '#12 line 7: the net is odd', actions: [] });
   });
 });
+
+describe('an edge that would open', () => {
+  const advice = (what: string, remedy: string) => adviceOn({ kind: 'numerical', what, where: 'edge', remedy } as EngineErrorInfo);
+  const follow = '{"do":"edge","edge":"#7","hold":"follow"}', free = '{"do":"hold","mode":"free"}';
+
+  it('may follow what moves, all of them at once', () => {
+    const { text, actions } = advice('the edge #7 on #10 between the faces #1 and #2 is held, and would open by 0.25 at (1, 0, 0); 1 other edge likewise; this was refused',
+      `move less of the surface, or let what moves follow: ${follow}, {"do":"edge","edge":"#8","hold":"follow"}; ${free} lets it open`);
+    expect(text).toBe('The edge #7, which is held, would open by 0.25, so nothing was done.');
+    expect(actions[0]!.commands).toEqual([{ do: 'edge', edge: '#7', hold: 'follow' }, { do: 'edge', edge: '#8', hold: 'follow' }]);
+    const turned = advice('the tangent planes along the edge #7 on #10 are held, and would turn by 12 degrees at (1, 0, 0); this was refused', `let what moves follow: ${follow}`);
+    expect(turned.text).toContain('would turn by 12 degrees');
+  });
+
+  it('is saved once it is let go', () => {
+    const { text, actions } = advice('the edge #7 would be left 0.25 from the faces #1 and #2 at (1, 0, 0), 0 as opened, and 1e-06 is allowed; nothing is written',
+      `before it moves hold it, {"do":"hold","mode":"trim"}, or let it follow, ${follow}; or let it open: {"do":"select","surface":"#10"}, ${free}`);
+    expect(text).toBe('Nothing was saved: the edge #7 would be left 0.25 from the faces #1 and #2.');
+    expect(actions).toEqual([{ label: 'Let it open', commands: [{ do: 'select', surface: '#10' }, { do: 'hold', mode: 'free' }] }]);
+  });
+});

@@ -32,11 +32,10 @@ struct EdgeContact {
 };
 
 /// The edges of the faces on a B-spline surface of a STEP file, with everything that meets there, in the order of
-/// `visible_region`; of several surfaces, each edge once. Feet are sought on the surfaces as they are in the file, each from the one before, on closed
-/// surfaces a turn outside of 0 … 1 where the edge goes on there.
-/// Errors (input): no such surface. Where a curve or a face cannot be followed, `unknown` says why; such a face has no
-/// feet, and such an edge no points. Cost: a pass over the file, and `samples` searches for the nearest point per face
-/// and edge.
+/// `visible_region`; of several surfaces, each edge once. Feet are sought on the surfaces as they are in the file, each
+/// from the one before, on closed surfaces a turn outside of 0 … 1 where the edge goes on there. Errors (input): no
+/// such surface. Where a curve or a face cannot be followed, `unknown` says why; such a face has no feet, and such an
+/// edge no points. Cost: a pass over the file, and `samples` searches for the nearest point per face and edge.
 [[nodiscard]] Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file,
                                                                std::span<const std::string> surfaces, int samples = 33);
 [[nodiscard]] Expected<std::vector<EdgeContact>> edge_contacts(const step::File& file, const std::string& surface,

@@ -31,8 +31,8 @@ struct MovedTrim {
   std::string id;
   std::vector<std::string> neighbours;  ///< faces on the other side
   double distance = 0;                  ///< max |S_after − S_before| along it, file units
-  double turn = 0;                      ///< the largest angle between the normals, radians; 0 where only its place is held
-  Point place = Point::Zero();          ///< of that distance on `before`; of the turn where only that is too large
+  double turn = 0;              ///< the largest angle between the normals, radians; 0 where only its place is held
+  Point place = Point::Zero();  ///< of that distance on `before`; of the turn where only that is too large
 };
 
 /// The held edges that do not stay where they are when a surface changes from one shape to another: their distance is
@@ -40,8 +40,7 @@ struct MovedTrim {
 /// corner of a course and midway between corners. \param orders of `trim_orders`. Requires: the same domain. Errors:
 /// those of evaluation.
 [[nodiscard]] Expected<std::vector<MovedTrim>> moved_trims(const Surface& before, const Surface& after,
-                                                           const std::vector<int>& orders,
-                                                           const VisibleRegion& region);
+                                                           const std::vector<int>& orders, const VisibleRegion& region);
 
 /// Whether an edge of faces was freed by name on a surface, or with all its edges, to open where the surface moves.
 [[nodiscard]] bool may_open(const std::vector<KeptConstraint>& constraints, const std::string& edge);

@@ -108,8 +108,8 @@ class Session {
   /// Number of control points of one surface whose position or weight differs from the opened one, bit for bit; all of
   /// them if its knots differ.
   [[nodiscard]] int moved_control_points(int surface) const;
-  /// The edges of faces on surfaces that moved which do not meet their faces any more, as `save` would write them. Cost:
-  /// that of `edge_contacts` where a surface has moved.
+  /// The edges of faces on surfaces that moved which do not meet their faces any more, as `save` would write them.
+  /// Cost: that of `edge_contacts` where a surface has moved.
   [[nodiscard]] Expected<std::vector<PartedEdge>> parted_edges() const;
   /// The document's file with the present surfaces. Errors (numerical): one of `parted_edges` that was not freed.
   [[nodiscard]] Expected<std::string> save() const;
