@@ -99,7 +99,11 @@ Expected<void> Executor::check_held_edges(const Scene& before) {
     SceneSurface& s = state.surfaces[k];
     const auto region = visible(s);
     if (!region) return std::unexpected(region.error());
-    const auto moved = moved_trims(*was->current, *s.current, trim_orders(s.constraints, **region), **region);
+    std::vector<int> orders = trim_orders(s.constraints, **region);
+    for (std::size_t e = 0; e < orders.size(); ++e) {
+      if ((*region)->edges[e].neighbours.empty()) orders[e] = -1;  // a side where no face would part from another
+    }
+    const auto moved = moved_trims(*was->current, *s.current, orders, **region);
     if (!moved) return std::unexpected(moved.error());
     for (const MovedTrim& edge : *moved) {
       const bool more = edge.distance != worst.distance ? edge.distance > worst.distance : edge.turn > worst.turn;

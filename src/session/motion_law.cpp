@@ -1,3 +1,5 @@
+#include "motion_law.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -37,4 +37,15 @@ describe('an edge of a face', () => {
     expect(pair(held(all), held())).toBe('1 of 4 edges held, 2 open when it moves');
     expect(pair(held(all), held({ do: 'hold', mode: 'free' }))).toBe('1 of 4 edges held, 2 open when it moves');
   });
+
+  it('is a side of a surface of the file on which no face lies, and no edge at all of a closed one', () => {
+    const bare = (...constraints: object[]) => ({ id: '#5', hold: 0, pins: 0, faces: 0, bare: true, constraints }) as unknown as SurfaceInfo;
+    const all = { do: 'hold', mode: 'trim' }, sides = ['u0', 'u1', 'v0', 'v1'] as const;
+    expect(heldInWords(bare(all), sides)).toBe('4 edges held');
+    expect(heldInWords(bare(all, { do: 'edge', edge: 'u0', hold: 'free' }), sides)).toBe('3 of 4 edges held');
+    expect(heldTogether([{ info: bare(all), edges: sides, open: [] }, { info: { ...bare(all), id: '#6' }, edges: sides, open: [] }])).toBe('8 edges held');
+    expect(heldInWords(bare(all), [])).toBe('Its place held');
+    expect(heldInWords(bare({ do: 'hold', mode: 'free' }), [])).toBe('Nothing held');
+    expect(heldInWords({ ...bare(all), bare: false }, [])).toBe('Nothing held');
+  });
 });

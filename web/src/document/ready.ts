@@ -1,4 +1,5 @@
 import { clay } from '../engine/clay';
+import { hasEdges } from '../engine/context';
 import { type Command, EngineError, type SurfaceInfo } from '../engine/session_types';
 import type { Host } from './host';
 
@@ -7,7 +8,8 @@ export const hasSettings = ({ hold, pins, constraints, moved }: SurfaceInfo): bo
 
 /**
  * Selects a surface, and makes one as it came clay that is held at its edges. What faces lie on is held along their edges, so
- * that they go on meeting their neighbours, and the brush fits between them; a surface alone by its outer rows. `opening`:
+ * that they go on meeting their neighbours, and the brush fits between them; other surfaces of a file at their sides; what was
+ * made here by its outer rows. `opening`:
  * what is done belongs to the opened document.
  */
 export async function makeReady(host: Host, index: number, opening: boolean): Promise<void> {
@@ -15,9 +17,9 @@ export async function makeReady(host: Host, index: number, opening: boolean): Pr
   const surface = host.state!.surfaces[index]!;
   const run = (commands: Command[]) =>
     client.execute([{ do: 'select', surface: surface.id }, ...commands], false, opening);
-  const room = surface.faces > 0 ? await client.room(index) : null;
+  const room = hasEdges(surface) ? await client.room(index) : null;
   if (hasSettings(surface)) await run([]);
-  else if (surface.faces === 0) await run(alone(surface.net));
+  else if (!hasEdges(surface)) await run(alone(surface.net));
   else {
     try {
       await run([{ do: 'hold', mode: 'trim' }, ...clay]);

@@ -1,3 +1,5 @@
+import type { SurfaceInfo } from './session_types';
+
 /** A face of the file that is no surface of the session. `surface` and `form`: the entity on which it lies, "PLANE" and the like; empty if there is none. */
 export interface GreyFace {
   id: string;
@@ -61,6 +63,9 @@ export interface TrimTree {
 
 /** The loops of each face on a surface, s and t alternating: the parts enclosed by an odd number of loops are visible. Null: all. `tree`: the same for drawing, by `trimTree`. */
 export type Trim = { faces: number[][][]; tree?: TrimTree } | null;
+
+/** Whether the engine knows edges of a surface: those of faces on it, or the sides of one of a file on which no face lies. */
+export const hasEdges = ({ faces, bare }: Pick<SurfaceInfo, 'faces' | 'bare'>): boolean => faces > 0 || bare;
 
 /** An edge of a face: places along it, s and t in turn; on closed surfaces they may lie outside of 0 … 1. */
 export interface FaceEdge {

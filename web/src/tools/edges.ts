@@ -3,7 +3,7 @@ import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 
-import type { FaceEdge } from '../engine/context';
+import { type FaceEdge, hasEdges } from '../engine/context';
 import type { Picture, SurfaceInfo, Vector3 } from '../engine/session_types';
 import type { Viewer } from '../view/viewer';
 import type { Viewport } from '../view/viewport';
@@ -52,7 +52,7 @@ export class Edges implements PointerTool {
   /** Of the faces of the file on the selected surface; null as long as they are not known. */
   get faceEdges(): readonly FaceEdge[] | null {
     const { info } = this;
-    if (!info || (info.faces === 0 && !info.bare)) return [];
+    if (!info || !hasEdges(info)) return [];
     return this.known.get(info.id) ?? null;
   }
 
@@ -73,7 +73,7 @@ export class Edges implements PointerTool {
   get held(): HeldFace[] | null {
     const faces: HeldFace[] = [];
     for (const info of this.selected.map(([, s]) => s)) {
-      const known = info.faces === 0 ? [] : this.known.get(info.id);
+      const known = hasEdges(info) ? this.known.get(info.id) : [];
       if (!known) return null;
       faces.push({ info, edges: known.map((e) => e.id), open: known.filter((e) => meetingAt(e, info.id).opens).map((e) => e.id) });
     }
@@ -87,7 +87,7 @@ export class Edges implements PointerTool {
 
   /** One surface after the other: each that becomes known has the next one asked for. */
   private async learn(): Promise<void> {
-    const [surface, info] = this.selected.find(([, s]) => s.faces > 0 && !this.known.has(s.id)) ?? [];
+    const [surface, info] = this.selected.find(([, s]) => hasEdges(s) && !this.known.has(s.id)) ?? [];
     if (!info || surface === undefined || this.asked === info.id) return;
     this.asked = info.id;
     const edges = await this.fetchEdges(surface).catch(() => []);

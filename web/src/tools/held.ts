@@ -1,4 +1,4 @@
-import type { FaceEdge } from '../engine/context';
+import { type FaceEdge, hasEdges } from '../engine/context';
 import type { Command, SurfaceInfo } from '../engine/session_types';
 
 export const edgeNames = ['u0', 'u1', 'v0', 'v1'] as const;
@@ -94,14 +94,15 @@ export function heldTogether(faces: readonly HeldFace[]): string {
   const count = all.size - gone.size;
   if (asked) parts.push(count === all.size ? counted(count, 'edge') : `${count} of ${all.size} edges`);
   // A closed surface without edges is held in its place.
-  if (all.size === 0 && faces.every(({ info }) => (info.bare || info.faces > 0) && info.constraints.some((c) => c.do === 'hold'))) parts.push('its place');
+  if (all.size === 0 && faces.every(({ info }) => hasEdges(info) && info.constraints.some((c) => c.do === 'hold' && c.mode !== 'free'))) parts.push('its place');
   const sideCount = faces.reduce((sum, face) => sum + edgeNames.filter((e) => !face.edges.includes(e) && !loose(face, e)).length, 0);
   if (sideCount > 0) parts.push(counted(sideCount, asked ? 'side' : 'edge'));
   const pins = faces.reduce((sum, { info }) => sum + info.pins, 0);
   if (pins > 0) parts.push(counted(pins, 'point'));
   if (any((info) => info.constraints.some((c) => c.do === 'freeze'))) parts.push('frozen spans');
   if (any((info) => info.constraints.some((c) => c.do === 'keep'))) parts.push('kept lines');
-  const words = parts.length === 0 ? 'Nothing held' : `${listed(parts)} held`;
+  const text = listed(parts);
+  const words = parts.length === 0 ? 'Nothing held' : `${text.charAt(0).toUpperCase()}${text.slice(1)} held`;
   const opening = new Set(faces.flatMap(({ info, open }) => open.filter((e) => continuityOf(info, e) === 'free'))).size;
   return opening > 0 ? `${words}, ${opening === 1 ? 'one opens' : `${opening} open`} when it moves` : words;
 }
