@@ -15,11 +15,31 @@ namespace {
 constexpr int coarsest_points = 4500;  // of the net whose matrix is factored
 constexpr int highest_degree = 5;      // above it cycles smooth too little
 constexpr int few_iterations = 40;     // more of them, and a factor is cheaper
+constexpr int usual_iterations = 12;   // on cubic nets that are about even, for which `direct_points` was found
 
 /// The most control points for which a matrix is factored without being asked: where the cost of both is about the
 /// same. A factor of a volume is much denser.
 template <int D>
 constexpr int direct_points = D == 3 ? 20000 : 90000;
+
+template <int D>
+int highest_of(std::span<const Spline<D>> patches) {
+  int degree = 0;
+  for (const Spline<D>& patch : patches) {
+    for (int d = 0; d < D; ++d) degree = std::max(degree, patch.knots(d).degree());
+  }
+  return degree;
+}
+
+/// The most iterations for eight digits with which cycles are cheaper than a factor: on surfaces just above
+/// `direct_points` only the usual ones, since a factor costs n^1.5, and iterations n for each. Factors of higher degree
+/// are much denser.
+template <int D>
+int most_iterations(int points, int degree) {
+  if (D == 3 || degree > 3) return few_iterations;
+  const double share = static_cast<double>(points) / direct_points<D>;
+  return static_cast<int>(std::min<double>(few_iterations, usual_iterations * std::max(1.0, share)));
+}
 
 /// Whether anything forbids a displacement of the whole model.
 bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held) {
@@ -52,10 +72,7 @@ Expected<ConstrainedMultigrid> nested(const NetOperator<D>& a, const ConstraintS
                                       std::span<const Spline<D>> patches, std::span<const DomainScaling<D>> scalings) {
   if (space.coupled()) return input_error("constraints couple the coordinates of points", "solver");
   if (space.free_count() == 0) return input_error("nothing is free to move", "solver");
-  int degree = 0;
-  for (const Spline<D>& patch : patches) {
-    for (int d = 0; d < D; ++d) degree = std::max(degree, patch.knots(d).degree());
-  }
+  const int degree = highest_of<D>(patches);
   if (degree > highest_degree)
     return input_error(fmt::format("the degree is {}, at most {} is iterated", degree, highest_degree), "solver");
   const int enough = std::min(coarsest_points, space.size() / 2);
@@ -87,7 +104,7 @@ Expected<ChosenInverse> invert(const NetOperator<D>& a, ConstraintSpace space, s
     auto multigrid = nested<D>(a, space, patches, scalings);
     if (Interruption::asked_for()) return interrupted_error();
     const bool asked = settings.solver == StepSolver::iterative;
-    if (multigrid && (asked || multigrid->iterations() <= few_iterations)) {
+    if (multigrid && (asked || multigrid->iterations() <= most_iterations<D>(space.size(), highest_of<D>(patches)))) {
       engine.iterative = true;
       engine.reason =
           fmt::format("{}, {} iterations for eight digits", asked ? "asked for" : points, multigrid->iterations());
