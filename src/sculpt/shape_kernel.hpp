@@ -57,6 +57,10 @@ using Meridian = std::vector<MeridianPiece>;
 [[nodiscard]] Kernel superellipsoid_kernel(const SuperellipsoidShape& shape, const Point& scale);
 [[nodiscard]] Kernel supertoroid_kernel(const SupertoroidShape& shape, const Point& scale);
 
+/// Whether x lies outside of a solid of which that is known in a fraction of the time that its nearest point takes: a
+/// superellipsoid or a supertoroid. False: it does not, or nothing is known.
+[[nodiscard]] bool is_outside(const PlacedShape& placed, const Point& x);
+
 /// The surface scaled in its own coordinates. Errors: a Bézier weight that is not positive.
 [[nodiscard]] Expected<Kernel> spline_kernel(const Surface& surface, const Point& scale);
 

@@ -39,7 +39,29 @@ double superellipse_norm(double x, double y, double e) {
   return a == 0 ? 0 : a * std::pow(1 + std::pow(b / a, 2 / e), e / 2);
 }
 
+/// x / scale.
+bool in_superellipsoid(const SuperellipsoidShape& s, const Point& x) {
+  const auto& a = s.semi_axes;
+  return in_superellipse(superellipse_norm(x.x() / a[0], x.y() / a[1], s.e2), x.z() / a[2], s.e1);
+}
+
+bool in_supertoroid(const SupertoroidShape& s, const Point& x) {
+  return in_superellipse((superellipse_norm(x.x(), x.y(), s.e2) - s.major) / s.semi_axes[0], x.z() / s.semi_axes[1],
+                         s.e1);
+}
+
 }  // namespace
+
+bool is_outside(const PlacedShape& placed, const Point& x) {
+  const auto own = [&] {
+    const Placement& at = placed.placement();
+    const Point y = at.rotation.conjugate() * (x - at.position);
+    return Point(y.x() / at.scale[0], y.y() / at.scale[1], y.z() / at.scale[2]);
+  };
+  if (const auto* s = std::get_if<SuperellipsoidShape>(&placed.shape())) return !in_superellipsoid(*s, own());
+  if (const auto* s = std::get_if<SupertoroidShape>(&placed.shape())) return !in_supertoroid(*s, own());
+  return false;
+}
 
 Kernel scaled_revolution_kernel(const Shape& shape, const Meridian& pieces, const Point& scale) {
   const bool round = scale.x() == scale.y();
@@ -121,11 +143,7 @@ Kernel supertoroid_kernel(const SupertoroidShape& s, const Point& scale) {
       sweep(patches, MonotoneCurve::arc(Vector2(s.major, 0), tube, s.e1, exchanged), s.e2, scale, round);
     }
   }
-  const auto inside = [s, scale](const Point& x) {
-    const Point y = x.cwiseQuotient(scale);
-    return in_superellipse((superellipse_norm(y.x(), y.y(), s.e2) - s.major) / s.semi_axes[0], y.z() / s.semi_axes[1],
-                           s.e1);
-  };
+  const auto inside = [s, scale](const Point& x) { return in_supertoroid(s, x.cwiseQuotient(scale)); };
   const Point outer(scale.x() * (s.major + s.semi_axes[0]), scale.y() * (s.major + s.semi_axes[0]),
                     scale.z() * s.semi_axes[1]);
   const double feature = std::min({scale.x() * s.semi_axes[0], scale.y() * s.semi_axes[0], outer.z()});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "shape_kernel.hpp"
 
 namespace knead {
 
@@ -121,6 +122,7 @@ ToolAction ModelTool::action(const Point& x) const {
     action.clear = beyond.cwiseMax(0).norm();
     return action;
   }
+  if (tool_.collides() && offset_ == 0 && detail::is_outside(tool_.shape, length_ * x)) return action;
   const Nearest near = tool_.shape.nearest(Point(length_ * x));
   const double phi = near.distance / length_ - offset_, k = tool_.stiffness;
   double slope = 0, curvature = 0;  // ψ'(φ) and ψ''(φ)

@@ -81,9 +81,16 @@ class ToolLoad<D>::EntrySearch {
     std::vector<double> progress;   // see `progress_along`
   };
 
+  /// The Gauss points of a span, or as many as this tool would have if it were alone: a smaller one may need more.
+  [[nodiscard]] int points_for_tool(const Element& element, std::size_t d) const {
+    const int all = element.end[d] - element.begin[d], per_piece = load_.knots_[d].degree() + 1;
+    const double length = load_.lengths_[d][static_cast<std::size_t>(element.span[d])];
+    return static_cast<int>(std::min<double>(all, per_piece * pieces_of_span(length, per_piece, tool_.size())));
+  }
+
   void tabulate(const Element& element, std::size_t d) {
     const KnotVector& knots = load_.knots_[d];
-    const int at = span(element, d), count = samples_per_gauss_point[D - 1] * (element.end[d] - element.begin[d]);
+    const int at = span(element, d), count = samples_per_gauss_point[D - 1] * points_for_tool(element, d);
     const double begin = knots[at], end = knots[at + 1];
     Line& line = lines_[d];
     line.degree = knots.degree();
@@ -119,6 +126,7 @@ class ToolLoad<D>::EntrySearch {
     const Line& line = lines_[d];
     const auto width = static_cast<std::size_t>(line.degree + 1);
     const double step = leaps_ && d + 1 == D && load_.weights_.empty() ? levels_.longest_step() : 0;
+    if (Interruption::asked_for()) return;
     for (std::size_t k = 0; k < line.u.size(); ++k) {
       c.u[d] = line.u[k];
       const double* n = line.values.data() + k * width;

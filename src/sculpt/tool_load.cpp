@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "element_hessian.hpp"
+#include "knead/base/interruption.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "tool_load_sums.hpp"
 #include "tool_load_sweep.hpp"
@@ -21,7 +22,6 @@ const detail::ElementKernels& detail::element_kernels(InstructionSet set) {
 
 namespace {
 
-constexpr double points_per_detail = 6;
 constexpr double max_points_per_direction = 1e5;
 constexpr double max_points = 4e7;  // in all directions together
 
@@ -70,8 +70,7 @@ Expected<std::vector<int>> pieces(const std::vector<double>& lengths, int per_sp
   std::vector<int> result;
   double total = 0;
   for (double length : lengths) {
-    // Rounded up with a little slack, so that a length that is a whole multiple up to rounding counts as whole.
-    const double wanted = std::max(1.0, std::ceil(length * points_per_detail / (detail * per_span) * (1 - 1e-6)));
+    const double wanted = pieces_of_span(length, per_span, detail);
     total += wanted * per_span;
     if (total > max_points_per_direction) return too_small(detail);
     result.push_back(static_cast<int>(wanted));
@@ -80,6 +79,12 @@ Expected<std::vector<int>> pieces(const std::vector<double>& lengths, int per_sp
 }
 
 }  // namespace
+
+double pieces_of_span(double length, int per_piece, double detail) {
+  constexpr double points_per_detail = 6;
+  // Rounded up with a little slack, so that a length that is a whole multiple up to rounding counts as whole.
+  return std::max(1.0, std::ceil(length * points_per_detail / (detail * per_piece) * (1 - 1e-6)));
+}
 
 std::vector<double> progress_along(const BasisTable& basis) {
   std::vector<double> result(static_cast<std::size_t>(basis.size()), 0.0);
@@ -352,6 +357,7 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
   result.index.assign(static_cast<std::size_t>(points()), -1);
   Sweep sweep(*this, x, first);
   for_each_element([&](const Element& element) {
+    if (Interruption::asked_for()) return;
     const int visible = pass == ToolPass::all ? VisibleMask::full : visibility(element);
     if (visible == VisibleMask::hidden) return;
     Point lower, upper;

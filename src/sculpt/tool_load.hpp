@@ -28,6 +28,9 @@ struct Penetration {
   long long visited = 0;
 };
 
+/// Into how many pieces of `per_piece` Gauss points a span is cut so that these lie closer than a sixth of the detail.
+[[nodiscard]] double pieces_of_span(double length, int per_piece, double detail);
+
 /// How far along a row of control points the parameters of a table are, Σ r N_r(u) with r counted within a span:
 /// between two parameters of one span the shape moves by no more than the difference times the longest step from
 /// control point to control point of the row, since the sums N_r + … + N_p grow with u.

@@ -9,6 +9,35 @@
 #include "tool_load_sweep.hpp"
 
 namespace knead {
+
+namespace detail {
+
+/// Where a tool is known not to act: around a place that it was asked about. Points of rational splines are not leapt
+/// over, and where friction acts none are.
+struct ClearBall {
+  Point centre = Point::Zero();
+  double radius = -1;
+
+  /// The action of the tool at x, which is not asked within the ball.
+  [[nodiscard]] ToolAction action(const ModelTool& tool, const Point& x) {
+    constexpr double safe = 1 - 1e-6;
+    if (radius > 0) {
+      const double left = safe * radius - (x - centre).norm();
+      if (left > 0) {
+        ToolAction none;
+        none.clear = left;
+        return none;
+      }
+    }
+    ToolAction action = tool.action(x);
+    centre = x;
+    radius = action.active ? -1 : action.clear;
+    return action;
+  }
+};
+
+}  // namespace detail
+
 namespace {
 
 /// Potential, slope / displacement and curvature of friction that grips with force `grip` after `slip`: quadratic up to
@@ -49,7 +78,8 @@ class ToolLoad<D>::Evaluation {
         actors_(actors),
         state_(state),
         sweep_(load, x, first),
-        forces_(load, first, state.force) {
+        forces_(load, first, state.force),
+        clear_(actors.tools.size()) {
     find_sides();
     for (const ModelTool& tool : actors.tools) reaches_.push_back(reach_of(tool));
     if (actors.limit == nullptr) return;
@@ -135,7 +165,9 @@ class ToolLoad<D>::Evaluation {
     [[nodiscard]] double clear(const Sample& s) const {
       ++here.state_.visited;
       double clear = std::numeric_limits<double>::infinity();
-      for (const std::size_t t : here.near_) clear = std::min(clear, here.actors_.tools[t].action(s.place).clear);
+      for (const std::size_t t : here.near_) {
+        clear = std::min(clear, here.clear_[t].action(here.actors_.tools[t], s.place).clear);
+      }
       return clear;
     }
 
@@ -247,7 +279,7 @@ class ToolLoad<D>::Evaluation {
     double clear = std::numeric_limits<double>::infinity();
     for (std::size_t t : near_) {
       const ModelTool& tool = actors_.tools[t];
-      const ToolAction action = tool.action(s.place);
+      const ToolAction action = clear_[t].action(tool, s.place);
       clear = std::min(clear, action.clear);
       if (!action.active) continue;
       push(s, action.potential, action.force, action.hessian);
@@ -304,6 +336,7 @@ class ToolLoad<D>::Evaluation {
   PotentialState& state_;
   Sweep sweep_;
   ForcesOfPoints forces_;
+  std::vector<detail::ClearBall> clear_;  // by tool
   const detail::ElementKernels& kernels_ = detail::element_kernels();
   std::optional<FieldAtPoints> original_;  // that the limit is measured from
   std::size_t count_ = 0;                  // of control points

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "knead/base/interruption.hpp"
 #include "tool_load_sums.hpp"
 
 namespace knead {
@@ -84,6 +85,7 @@ class ToolLoad<D>::Sweep {
       unsigned left = visitor.reached(places, Kernels::rounded_up(count)) & all;
       int next = k + count;
       const bool tell = next < end && !rational_ && (left >> (count - 1) & 1U) == 0;
+      if (left != 0 && Interruption::asked_for()) return;
       while (left != 0) {
         const int g = std::countr_zero(left);
         left &= left - 1;

@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "sculpt/shape_cases.hpp"
+#include "sculpt/shape_kernel.hpp"
 
 namespace knead {
 namespace {
@@ -174,6 +175,29 @@ TEST(ShapeSearch, FarAwayNearbyOnTheAxesAndAtTheMiddle) {
           }
         }
       }
+    }
+  }
+}
+
+TEST(SearchedShapes, AreOutsideWhereTheirDistanceIsPositive) {
+  std::mt19937_64 random(7);
+  const std::vector<Shape> shapes = {SuperellipsoidShape{{1, 0.4, 0.7}, 0.3, 1.6}, SuperellipsoidShape{},
+                                     SupertoroidShape{}, SphereShape{1}};
+  for (const Shape& shape : shapes) {
+    const bool known = !std::holds_alternative<SphereShape>(shape);
+    for (const std::array<double, 3>& scale : {std::array<double, 3>{1, 1, 1}, {0.5, 2, 1.3}}) {
+      const Placement placement{Eigen::Quaterniond(0.7, 0.3, -0.5, 0.4).normalized(), Point(1, -2, 0.5), scale};
+      const auto placed = PlacedShape::create(shape, placement);
+      ASSERT_TRUE(placed);
+      int outside = 0;
+      for (int k = 0; k < 300; ++k) {
+        const Point x = random_point(random, Posed{placement});
+        const double distance = placed->nearest(x).distance;
+        if (std::abs(distance) < 1e-9) continue;
+        outside += detail::is_outside(*placed, x) ? 1 : 0;
+        EXPECT_EQ(detail::is_outside(*placed, x), known && distance > 0) << distance;
+      }
+      EXPECT_EQ(outside > 30, known);
     }
   }
 }

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <vector>
 
+#include "knead/base/interruption.hpp"
 #include "knead/sculpt/lattice.hpp"
 #include "support/surfaces.hpp"
 #include "support/tools.hpp"
@@ -160,6 +162,59 @@ TEST(ToolLoad, WithoutToolsIsZero) {
   const auto state = evaluate(*ToolLoad<2>::create(s, raw, 1), s.control_points(), {});
   EXPECT_EQ(state.force.norm(), 0);
   EXPECT_EQ(state.potential, 0);
+}
+
+/// A thin tool at a flat sheet of few spans: hundreds of Gauss points in each.
+Tool thin_tool(double friction) {
+  const auto shape =
+      PlacedShape::create(SuperellipsoidShape{{0.3, 0.02, 0.1}, 0.7, 1.4},
+                          {Eigen::Quaterniond(0.9, 0.1, 0.3, 0.2).normalized(), Point(0.5, 0.5, 0), {1, 1, 1}});
+  return {"thin", *shape, ToolMode::collision, 100, 1, false, friction};
+}
+
+TEST(ToolLoad, AsksWithinAnElementWhetherToGoOn) {
+  const Surface sheet = testing::uniform_sheet(3, 4, 4);
+  const auto load = ToolLoad<2>::create(sheet, raw, 0.02);
+  ASSERT_TRUE(load);
+  const std::vector<ModelTool> tools = {ModelTool(thin_tool(0.5), Point::Zero(), 1)};
+  const Points& x = sheet.control_points();
+  const auto elements = static_cast<long long>(sheet.knots(0).spans().size() * sheet.knots(1).spans().size());
+  const auto grip = [&] { return load->anchors(x, 0, tools, 1e-4).anchors.size(); };
+  const auto press = [&] {
+    PotentialState state;
+    state.force = Points::Zero(x.rows(), 3);
+    load->evaluate(x, 0, 0, {.tools = tools, .friction = nullptr, .limit = nullptr}, state);
+    return state.contacts.size();
+  };
+  const auto enter = [&] {
+    return load->deepest_entry(x, 0, tools.front()).depth > 0 ? std::size_t{1} : std::size_t{0};
+  };
+  for (const std::function<std::size_t()>& ask : {std::function<std::size_t()>(grip), {press}, {enter}}) {
+    long long asked = 0;
+    std::size_t whole = 0;
+    {
+      const Interruption counts([&] { return ++asked > 0; });
+      whole = ask();
+    }
+    EXPECT_GT(whole, 0U);
+    EXPECT_GT(asked, 10 * elements);
+    const Interruption stops([&] { return --asked > 0; });
+    asked = 4 * elements;
+    EXPECT_LE(ask(), whole);
+    EXPECT_TRUE(stops.happened());
+  }
+}
+
+TEST(ToolLoad, SamplesALargeToolBesideASmallOneAsIfItWereAlone) {
+  const Surface sheet = testing::uniform_sheet(3, 6, 6);
+  const auto alone = ToolLoad<2>::create(sheet, raw, 0.2), beside = ToolLoad<2>::create(sheet, raw, 0.01);
+  ASSERT_TRUE(alone && beside);
+  const ModelTool ball({"ball", testing::sphere_at(Point(0.5, 0.5, 0.15), 0.2)}, Point::Zero(), 1);
+  const Penetration a = alone->deepest_entry(sheet.control_points(), 0, ball),
+                    b = beside->deepest_entry(sheet.control_points(), 0, ball);
+  EXPECT_EQ(a.depth, b.depth);
+  EXPECT_EQ(a.visited, b.visited);
+  EXPECT_NEAR(a.depth, 0.05, 1e-9);
 }
 
 }  // namespace
