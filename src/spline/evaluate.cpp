@@ -49,15 +49,15 @@ class LocalContraction {
       reduced_[d].resize(block);
       block *= static_cast<std::size_t>(tables[d]->degree + 1);
     }
-    if (D > 2) local_.resize(block);
+    if (gathers()) local_.resize(block);
   }
 
   /// out[k · width + c] for multi-index k at point `row` of every table.
   void point(int row, double* out) {
     MultiIndex<D> a{};
-    if constexpr (D > 2) {
+    if (gathers()) {
       double* end = local_.data();
-      gather(0, row, net_.data(), end);
+      gather(0, row, 0, end);
       contract(0, row, local_.data(), reduced_[0].size(), order_, a, out);
     } else {  // the control points of one line of the last direction are neighbours in the net, too
       const double* from = net_.data();
@@ -69,11 +69,13 @@ class LocalContraction {
   }
 
  private:
-  void gather(std::size_t d, int row, const double* from, double*& to) const {
+  [[nodiscard]] bool gathers() const { return D > 2 || !net_.whole(); }
+
+  void gather(std::size_t d, int row, std::size_t from, double*& to) const {
     const BasisTable& table = *tables_[d];
     from += static_cast<std::size_t>(table.first[static_cast<std::size_t>(row)]) * net_.stride(d);
     if (d + 1 == D) {
-      to = std::copy_n(from, static_cast<std::size_t>(table.degree + 1) * net_.width(), to);
+      to = net_.copy(from / net_.width(), static_cast<std::size_t>(table.degree + 1), to);
       return;
     }
     for (int r = 0; r <= table.degree; ++r, from += net_.stride(d)) gather(d + 1, row, from, to);
@@ -105,7 +107,7 @@ class LocalContraction {
   const detail::HomogeneousNet<D>& net_;
   const std::array<const BasisTable*, D>& tables_;
   int order_;
-  std::vector<double> local_;                   ///< of volumes, whose lines are not in one place
+  std::vector<double> local_;  ///< of volumes, whose lines are not in one place, and of nets left apart
   std::array<std::vector<double>, D> reduced_;  ///< the remainder after direction d
 };
 
@@ -141,13 +143,14 @@ Expected<void> evaluate(const Spline<D>& spline, const std::array<const BasisTab
   result.order = order;
   result.derivatives.resize(indices.size());
   for (Points& derivative : result.derivatives) derivative.resize(rows, 3);
-  const detail::HomogeneousNet<D> net(spline);
-  const detail::QuotientRule<D> quotient(spline.rational() ? order : 0);
-  auto work = static_cast<double>(net.width() * indices.size());
+  double terms = 1;  // control points that affect a point
   for (const BasisTable* table : tables) {
     assert(table->order >= order && table->size() == rows);
-    work *= table->degree + 1;
+    terms *= table->degree + 1;
   }
+  const detail::HomogeneousNet<D> net(spline, static_cast<double>(rows) * terms >= spline.size());
+  const detail::QuotientRule<D> quotient(spline.rational() ? order : 0);
+  const double work = terms * static_cast<double>(net.width() * indices.size());
   const std::ptrdiff_t size = detail::block_size(rows, work);
   std::vector<std::ptrdiff_t> failed(static_cast<std::size_t>((rows + size - 1) / size), -1);
   detail::parallel_for(rows, size, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {

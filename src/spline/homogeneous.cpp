@@ -2,24 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace knead::detail {
 
 template <int D>
-HomogeneousNet<D>::HomogeneousNet(const Spline<D>& spline)
-    : width_(spline.rational() ? 4 : 3), cartesian_(spline.control_points().data()) {
-  if (spline.rational()) {
-    const auto weights = spline.weights();
-    premultiplied_.resize(weights.size() * width_);
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c) premultiplied_[i * 4 + c] = weights[i] * cartesian_[i * 3 + c];
-      premultiplied_[i * 4 + 3] = weights[i];
-    }
+HomogeneousNet<D>::HomogeneousNet(const Spline<D>& spline, bool whole)
+    : width_(spline.rational() ? 4 : 3), cartesian_(spline.control_points().data()), weights_(spline.weights().data()) {
+  if (spline.rational() && whole) {
+    std::vector<double> points(spline.weights().size() * width_);
+    copy(0, spline.weights().size(), points.data());
+    premultiplied_ = std::move(points);
   }
   std::size_t block = width_;
   for (std::size_t d = D; d-- > 0;) {
     stride_[d] = block;
     block *= static_cast<std::size_t>(spline.knots()[d].count());
   }
+}
+
+template <int D>
+double* HomogeneousNet<D>::copy(std::size_t first, std::size_t count, double* to) const {
+  if (whole()) return std::copy_n(data() + first * width_, count * width_, to);
+  for (std::size_t i = first; i < first + count; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) *to++ = weights_[i] * cartesian_[i * 3 + c];
+    *to++ = weights_[i];
+  }
+  return to;
 }
 
 template <int D>

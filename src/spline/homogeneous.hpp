@@ -13,16 +13,22 @@ namespace knead::detail {
 template <int D>
 class HomogeneousNet {
  public:
-  explicit HomogeneousNet(const Spline<D>& spline);
+  /// \param whole Whether `data` will be read. If not, a rational net is left as it is: where a few points are
+  ///              evaluated, all others of a large net need not be touched.
+  explicit HomogeneousNet(const Spline<D>& spline, bool whole = true);
 
   [[nodiscard]] std::size_t width() const { return width_; }
   /// Distance in memory of neighbours in `direction`.
   [[nodiscard]] std::size_t stride(std::size_t direction) const { return stride_[direction]; }
   [[nodiscard]] const double* data() const { return premultiplied_.empty() ? cartesian_ : premultiplied_.data(); }
+  [[nodiscard]] bool whole() const { return width_ == 3 || !premultiplied_.empty(); }
+  /// Copies `count` rows from `first` on, in the order of the net, of the same bits as in `data`. Returns where they
+  /// end.
+  double* copy(std::size_t first, std::size_t count, double* to) const;
 
  private:
   std::size_t width_;
-  const double* cartesian_;
+  const double *cartesian_, *weights_;
   std::vector<double> premultiplied_;
   std::array<std::size_t, D> stride_{};
 };

@@ -207,6 +207,41 @@ TEST(Evaluate, ParameterOutsideIsNamedByDirectionAndIndex) {
   EXPECT_FALSE(evaluate_point<2>(spline, {0.5, -1e-300}));
 }
 
+TEST(Evaluate, APointAloneHasTheBitsItHasAmongMany) {
+  const auto compare = [](const auto& spline, auto parameters) {
+    constexpr int D = decltype(parameters)::ColsAtCompileTime;
+    const auto all = evaluate<D>(spline, parameters, 2);
+    ASSERT_TRUE(all);
+    for (Eigen::Index k = 0; k < parameters.rows(); k += 7) {
+      const auto alone = evaluate<D>(spline, Parameters<D>(parameters.row(k)), 2);
+      ASSERT_TRUE(alone);
+      for (std::size_t d = 0; d < all->derivatives.size(); ++d) {
+        EXPECT_EQ(alone->derivatives[d].row(0), all->derivatives[d].row(k));
+      }
+    }
+  };
+  const KnotVector knots = *KnotVector::clamped_uniform(3, 12);
+  const auto net = [](int size) {
+    Points points(size, 3);
+    std::vector<double> weights;
+    for (int i = 0; i < size; ++i) {
+      points.row(i) << std::sin(i), std::cos(3 * i), std::sin(0.7 * i);
+      weights.push_back(1 + 0.3 * std::sin(2 * i));
+    }
+    return std::pair(points, weights);
+  };
+  const auto [p, v] = net(12 * 12);
+  Parameters<2> at(300, 2);
+  for (int k = 0; k < 300; ++k) at.row(k) << k / 300., std::fmod(0.37 * k, 1);
+  compare(*Surface::create({knots, knots}, p, v), at);
+  const auto [q, w] = net(12);
+  compare(*Curve::create({knots}, q, w), Parameters<1>(at.col(0)));
+  const auto [r, x] = net(12 * 12 * 12);
+  Parameters<3> in(300, 3);
+  in << at, at.col(0);
+  compare(*Volume::create({knots, knots, knots}, r, x), in);
+}
+
 TEST(Evaluate, NoParametersGiveNoPoints) {
   std::mt19937_64 random(5);
   const auto spline = testing::random_spline<1>(random, {testing::uniform_clamped(2, 1)});
