@@ -165,8 +165,9 @@ Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::
     const auto held = hold_face_edges(*s.reference, s.constraints, *s.visible, list);
     if (!held) return std::unexpected(held.error());
   }
+  const Surface& rest = s.rest ? *s.rest : *s.reference;
   for (const auto& [constraint, where] : s.constraints) {
-    if (auto done = std::visit(Asked{*s.reference, *s.rest, *where, list}, constraint); !done) {
+    if (auto done = std::visit(Asked{*s.reference, rest, *where, list}, constraint); !done) {
       return std::unexpected(done.error());
     }
   }

@@ -30,6 +30,16 @@ bool varies(const MaterialFieldOf<2>& material) {
          field(material.mass) || field(material.damping);
 }
 
+/// Whether some constraint is measured from the rest shape: edges of faces are held, and symmetries kept, on the
+/// reference, so that the same model serves while strokes leave their mark on the rest shape.
+bool measures_from_rest(const std::vector<KeptConstraint>& constraints) {
+  return std::ranges::any_of(constraints, [](const KeptConstraint& kept) {
+    const Constraint& c = kept.constraint;
+    return !std::holds_alternative<TrimHolds>(c) && !std::holds_alternative<TrimEdgeHold>(c) &&
+           !std::holds_alternative<EdgeSymmetry>(c) && !std::holds_alternative<MirrorSymmetry>(c);
+  });
+}
+
 /// Coefficients as constants if all surfaces have the same material, else as fields.
 void set_material(const std::vector<SurfaceInput>& surfaces, ActiveSettings<2>& settings) {
   const MaterialFieldOf<2>& material = surfaces.front().material;
@@ -155,7 +165,7 @@ ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
     input.surfaces.push_back({.id = s.id,
                               .reference = s.reference,
-                              .rest = s.constraints.empty() && !by_area ? nullptr : s.rest,
+                              .rest = measures_from_rest(s.constraints) || by_area ? s.rest : nullptr,
                               .mode = s.mode,
                               .material = s.material,
                               .hold_rows = s.hold_rows,

@@ -82,7 +82,7 @@ void list(A& a, T& x, std::size_t least = 4) {
   } else {
     x.resize(a.length(least));
   }
-  for (auto& element : x) pass(a, element);
+  for (std::size_t k = 0; k < x.size(); ++k) pass(a, x[k]);
 }
 
 /// The content of a command, as the JSON form of that command, which parses back to the same.

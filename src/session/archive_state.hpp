@@ -226,19 +226,25 @@ void pass(A& a, Of<A, BrushPoint>& p) {
   pass(a, p.pen.axis);
 }
 
-/// Until version 4 a path was on one surface.
-inline void read_path_on_one_surface(Reader& a, std::vector<BrushPoint>& path) {
-  int surface = 0;
-  std::vector<Fractions> points;
-  pass(a, surface);
-  list(a, points, 16);
-  path.clear();
-  for (const Fractions& at : points) path.push_back({surface, at, {}});
+inline void path(Writer& a, const SharedList<BrushPoint>& path) { list(a, path, 20); }
+inline void path(Reader& a, SharedList<BrushPoint>& path) {
+  path = {};
+  if (a.version() < 5) {  // which had paths on one surface
+    int surface = 0;
+    std::vector<Fractions> points;
+    pass(a, surface);
+    list(a, points, 16);
+    for (const Fractions& at : points) path.push_back({surface, at, {}});
+    return;
+  }
+  std::vector<BrushPoint> points;
+  list(a, points, 20);
+  for (const BrushPoint& at : points) path.push_back(at);
 }
 
 template <class A>
 void pass(A& a, Of<A, OpenBrush>& b) {
-  auto& [brush, images, rope, path, before, masks] = b;
+  auto& [brush, images, rope, points, before, masks] = b;
   auto& [kind, radius, height, strength, core, by, angle, factor, pattern, pressure] = brush;
   choice(a, kind, BrushKind::stamp);
   for (auto* x : {&radius, &height, &strength, &core, &angle, &factor, &rope}) pass(a, *x);
@@ -252,11 +258,7 @@ void pass(A& a, Of<A, OpenBrush>& b) {
     }
   }
   list(a, images, 96);
-  if (older_than(a, 5)) {
-    if constexpr (!A::writing) read_path_on_one_surface(a, path);
-  } else {
-    list(a, path, 20);
-  }
+  path(a, points);
   list(a, before, 16);
   list(a, masks, 8);
   if (older_than(a, 7)) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "brush_path.hpp"
 #include "executor.hpp"
@@ -128,15 +129,27 @@ Expected<void> Executor::refine_for_brush(const std::vector<BrushPoint>& places)
   return {};
 }
 
+/// Of the normalised scaling of the first selected surface, which the model from before may know.
+Expected<double> Executor::length_of_brush_model() const {
+  const auto& reference = std::as_const(state).surfaces[static_cast<std::size_t>(*state.selected)].reference;
+  if (stroke_cache && stroke_cache->scene.input.scaling == ScalingMode::normalised &&
+      stroke_cache->scene.input.surfaces.front().reference == reference) {
+    return stroke_cache->scene.model.scaling().length;
+  }
+  const auto scaling = normalised_scaling<2>(*reference);
+  if (!scaling) return std::unexpected(scaling.error());
+  return scaling->length;
+}
+
 /// The constraints, and a plate on a bed that tells how far they are felt.
 Expected<void> Executor::prepare_brush_model() {
   if (auto known = know_trims(); !known) return known;
   if (auto known = know_followed(); !known) return known;
   const OpenBrush& open = *state.brush;
-  const auto scaling = normalised_scaling<2>(*state.surfaces[static_cast<std::size_t>(*state.selected)].reference);
-  if (!scaling) return std::unexpected(scaling.error());
+  const auto length = length_of_brush_model();
+  if (!length) return std::unexpected(length.error());
   EvolutionPolicy evolution;
-  evolution.lambda = locality_of(1, felt_radii * open.brush.radius / scaling->length).lambda;
+  evolution.lambda = locality_of(1, felt_radii * open.brush.radius / *length).lambda;
   ModelInput input = model_input(state, evolution);
   input.scaling = ScalingMode::normalised;
   input.detail = 0;

@@ -76,7 +76,7 @@ Expected<void> Executor::start_brush_run() {
   const ModelInput& input = stroke_cache->scene.input;
   if (brush_cache && brush_cache->input == input && goes_on(brush_cache->open, open)) return {};
   BrushRun run{input, open, {}, {}, {}, {}, {}, false};
-  run.open.path.clear();
+  run.open.path = {};
   std::vector<Seam> seams;
   for (const SeamReport& report : stroke_cache->scene.seams) seams.push_back(report.seam);
   const std::vector<int> selection = state.selection();
@@ -115,7 +115,7 @@ Expected<void> Executor::brush_to(const std::vector<BrushPoint>& path) {
     s.mask = open.masks[k];
   }
   const std::size_t known = open.path.size();
-  open.path.insert(open.path.end(), path.begin(), path.end());
+  for (const BrushPoint& at : path) open.path.push_back(at);
   std::vector<BrushPoint> places;
   const BrushPath way = path_of(open, state);
   for (std::size_t k = known; k < open.path.size(); ++k) {

@@ -114,10 +114,7 @@ Expected<void> Executor::keep(const Constraint& constraint) {
 Expected<void> Executor::check_constraints() {
   if (auto known = know_trims(); !known) return known;
   if (auto known = know_followed(); !known) return known;
-  // What cannot be made is refused now, not at the next step.
-  auto model = make_model(model_input(state, trial_evolution()));
-  if (!model) return std::unexpected(model.error());
-  return {};
+  return check_conditions(model_input(state, trial_evolution()));
 }
 
 Expected<void> Executor::check_constraints_on(std::span<const int> changed) {

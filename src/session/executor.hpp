@@ -114,7 +114,8 @@ struct Executor {
 
   /// Keeps a constraint on the selected surfaces, after trying that it can be made.
   Expected<void> keep(const Constraint& constraint);
-  /// Whether a model can be made under the constraints there are.
+  /// Whether the constraints there are can be made, and met together: what cannot is refused now, not at the next step.
+  /// No matrix is factored.
   Expected<void> check_constraints();
   /// Whether the constraints can be made on some selected surfaces, of which those alone changed that ask for no motion
   /// (edges that are held where they are, freed or followed); of all surfaces, where some constraint does. Whether the
@@ -285,6 +286,7 @@ struct Executor {
   Expected<void> show_remembered(bool down);
   Expected<void> refine_for_brush(const std::vector<BrushPoint>& places);
   Expected<double> refine_under_brush(SceneSurface& surface, const Fractions& at, double pressure);
+  [[nodiscard]] Expected<double> length_of_brush_model() const;
   Expected<void> prepare_brush_model();
   Expected<void> start_brush_run();
   Expected<void> lead_brush();

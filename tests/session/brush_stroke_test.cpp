@@ -10,6 +10,19 @@
 namespace knead::testing {
 namespace {
 
+TEST(BrushStroke, StatesOfAnOpenStrokeShareItsPath) {
+  Session session = flat(12);
+  const auto step = [](int k) {
+    return fmt::format(R"({{"do":"brush","kind":"pull","radius":20,"path":[[{},0.5]],"open":true}})", 0.2 + 0.001 * k);
+  };
+  for (int k = 0; k < 300; ++k) run(session, {step(k)});
+  const BrushPoint* first = &session.state().brush->path.front();
+  EXPECT_EQ(session.state().brush->path.size(), 300U);
+  for (int k = 0; k < 100; ++k) run(session, {R"({"do":"undo"})"});
+  EXPECT_EQ(session.state().brush->path.size(), 200U);
+  EXPECT_EQ(&session.state().brush->path.front(), first);
+}
+
 TEST(BrushStroke, IsTheSameForManyEventsAndForFew) {
   const Point from(60, 97, 0), to(130, 110, 0);
   const int events = long_run() ? 480 : 120;  // pieces of 0.15 or 0.6: both are short beside the radius of 20

@@ -1,4 +1,4 @@
-#include "knead/session/shared_list.hpp"
+#include "knead/base/shared_list.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@ namespace knead {
 struct SurfaceInput {
   std::string id;
   std::shared_ptr<const Surface> reference;
-  std::shared_ptr<const Surface> rest;  ///< if there are constraints, or loads that vary per area; else null
+  std::shared_ptr<const Surface> rest;  ///< if constraints are measured from it, or loads vary per area; else null
   RestMode mode = RestMode::shape;
   MaterialFieldOf<2> material;
   int hold_rows = 0;

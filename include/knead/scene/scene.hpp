@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "knead/base/shared_items.hpp"
+#include "knead/base/shared_list.hpp"
 #include "knead/energy/shell_energy.hpp"
 #include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/body.hpp"
@@ -155,7 +156,7 @@ struct OpenBrush {
   Brush brush;
   std::vector<BrushImage> images;  ///< copies of the stroke, besides itself
   double rope = 0;                 ///< length of the rope by which the pointer draws the brush, file units; 0: none
-  std::vector<BrushPoint> path;    ///< all that it was given by
+  SharedList<BrushPoint> path;     ///< all that it was given by
   std::vector<OpenStroke::Before> before;  ///< per selected surface
   std::vector<std::vector<double>> masks;  ///< likewise, from before the stroke
 };
@@ -214,7 +215,7 @@ struct Scene {
   std::vector<int> together = {};    ///< the others selected with it
   SharedItems<SceneSurface> surfaces = {};
   std::vector<Tool> tools = {};  ///< lengths in file units; oriented by `PlacedShape::placement`
-  std::vector<SceneForce> forces = {};
+  SharedItems<SceneForce> forces = {};
   Load load = {};
   std::optional<double> limit = {};  ///< no point may be further than this from the surface as opened, file units
   EvolutionPolicy evolution = {};

@@ -13,7 +13,6 @@
 #include "knead/sculpt/seam_coupling.hpp"
 #include "knead/session/command.hpp"
 #include "knead/session/document.hpp"
-#include "knead/session/shared_list.hpp"
 
 namespace knead {
 

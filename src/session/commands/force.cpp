@@ -82,7 +82,7 @@ Expected<void> check_force(const SceneForce& force) {
 void put_force(Scene& scene, SceneForce force) {
   const auto same = std::ranges::find(scene.forces, force.name, &SceneForce::name);
   if (same != scene.forces.end()) {
-    *same = std::move(force);
+    scene.forces[static_cast<std::size_t>(same - scene.forces.begin())] = std::move(force);
   } else {
     scene.forces.push_back(std::move(force));
   }
