@@ -1,5 +1,4 @@
 import { clay } from '../engine/clay';
-import { hasEdges } from '../engine/context';
 import { type Command, EngineError, type SurfaceInfo } from '../engine/session_types';
 import type { Host } from './host';
 
@@ -8,18 +7,17 @@ export const hasSettings = ({ hold, pins, constraints, moved }: SurfaceInfo): bo
 
 /**
  * Selects a surface, and makes one as it came clay that is held at its edges. What faces lie on is held along their edges, so
- * that they go on meeting their neighbours, and the brush fits between them; other surfaces of a file at their sides; what was
- * made here by its outer rows. `opening`:
- * what is done belongs to the opened document.
+ * that they go on meeting their neighbours, and the brush fits between them; a surface alone by its outer rows, or at its
+ * sides where it has too few. `opening`: what is done belongs to the opened document.
  */
 export async function makeReady(host: Host, index: number, opening: boolean): Promise<void> {
   const { client } = host;
   const surface = host.state!.surfaces[index]!;
   const run = (commands: Command[]) =>
     client.execute([{ do: 'select', surface: surface.id }, ...commands], false, opening);
-  const room = hasEdges(surface) ? await client.room(index) : null;
+  const room = surface.faces > 0 ? await client.room(index) : null;
   if (hasSettings(surface)) await run([]);
-  else if (!hasEdges(surface)) await run(alone(surface.net));
+  else if (surface.faces === 0 && (!surface.bare || outerRows(surface.net) > 0)) await run(alone(surface.net));
   else {
     try {
       await run([{ do: 'hold', mode: 'trim' }, ...clay]);
@@ -32,8 +30,11 @@ export async function makeReady(host: Host, index: number, opening: boolean): Pr
   if (room) host.sizeBrush(0.5 * room);
 }
 
+/** Outer rows that can be held and leave two free. */
+const outerRows = (net: readonly number[]): number => Math.min(2, Math.floor((Math.min(...net) - 2) / 2));
+
 /** Clay that is held by its outer rows. */
 export function alone(net: readonly number[]): Command[] {
-  const rows = Math.min(2, Math.floor((Math.min(...net) - 2) / 2));
+  const rows = outerRows(net);
   return [...(rows > 0 ? [{ do: 'hold', rows } as const] : []), ...clay];
 }

@@ -95,7 +95,8 @@ export function heldTogether(faces: readonly HeldFace[]): string {
   if (asked) parts.push(count === all.size ? counted(count, 'edge') : `${count} of ${all.size} edges`);
   // A closed surface without edges is held in its place.
   if (all.size === 0 && faces.every(({ info }) => hasEdges(info) && info.constraints.some((c) => c.do === 'hold' && c.mode !== 'free'))) parts.push('its place');
-  const sideCount = faces.reduce((sum, face) => sum + edgeNames.filter((e) => !face.edges.includes(e) && !loose(face, e)).length, 0);
+  const alone = (face: HeldFace): HeldFace => ({ ...face, info: { ...face.info, bare: false } }); // a side that is no edge is held by itself alone
+  const sideCount = faces.reduce((sum, face) => sum + edgeNames.filter((e) => !face.edges.includes(e) && !loose(alone(face), e)).length, 0);
   if (sideCount > 0) parts.push(counted(sideCount, asked ? 'side' : 'edge'));
   const pins = faces.reduce((sum, { info }) => sum + info.pins, 0);
   if (pins > 0) parts.push(counted(pins, 'point'));
