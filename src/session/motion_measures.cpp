@@ -31,6 +31,14 @@ struct Meeting {
   const VisibleRegion* visible;
   BoundingBox box = tool.shape.bounding_box();
 
+  /// False only where no point of the surface is in the tool: it lies in the box of its net, whose weights are
+  /// positive.
+  [[nodiscard]] bool may_touch() const {
+    if (std::ranges::any_of(shape.weights(), [](double w) { return !(w > 0); })) return true;
+    const Points& net = shape.control_points();
+    const Point lower = net.colwise().minCoeff().transpose(), upper = net.colwise().maxCoeff().transpose();
+    return (lower.array() <= box.upper.array()).all() && (upper.array() >= box.lower.array()).all();
+  }
   [[nodiscard]] double depth(const Point& x) const {
     if ((x.array() < box.lower.array()).any() || (x.array() > box.upper.array()).any()) return 0;
     return std::max(0.0, -tool.shape.nearest(x).distance);
@@ -242,8 +250,8 @@ bool is_joined(const std::vector<SeamReport>& seams, int surface, SurfaceEdge ed
 double depth_in(const Surface& shape, std::span<const Tool> tools, const VisibleRegion* visible) {
   double deepest = 0;
   for (const Tool& tool : tools) {
-    if (!tool.collides()) continue;
     const Meeting meeting{shape, tool, visible};
+    if (!tool.collides() || !meeting.may_touch()) continue;
     double here = meeting.deepest(1);
     if (here == 0) here = meeting.deepest(std::max(shape.knots(0).degree(), shape.knots(1).degree()) + 1);
     deepest = std::max(deepest, here);
@@ -255,7 +263,8 @@ double standing_in(const Surface& shape, std::span<const Tool> tools) {
   constexpr int pieces = 4;
   double longest = 0;
   for (const Tool& tool : tools) {
-    if (tool.collides()) longest = std::max(longest, Meeting{shape, tool, nullptr}.longest_way_out(pieces));
+    const Meeting meeting{shape, tool, nullptr};
+    if (tool.collides() && meeting.may_touch()) longest = std::max(longest, meeting.longest_way_out(pieces));
   }
   return longest;
 }
