@@ -21,6 +21,14 @@ void note_opening(SessionState& state, const SceneSurface& s, const TrimEdge& ed
   }
 }
 
+/// What was asked of one edge of faces before.
+void forget(SceneSurface& s, const std::string& id) {
+  std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
+    const auto* hold = std::get_if<TrimEdgeHold>(&kept.constraint);
+    return hold != nullptr && hold->id == id;
+  });
+}
+
 /// Holds or frees one edge of the faces on those selected surfaces that have it.
 Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
   const bool follow = c.hold == EdgeCondition::follow;
@@ -37,10 +45,7 @@ Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
       known += (known.empty() ? "" : ", ") + edge.id;
       if (edge.id != *c.edge) continue;
       if (changed.empty() || changed.back() != static_cast<int>(k)) changed.push_back(static_cast<int>(k));
-      std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
-        const auto* other = std::get_if<TrimEdgeHold>(&kept.constraint);
-        return other != nullptr && other->id == edge.id;
-      });
+      forget(s, edge.id);
       const bool side = edge.neighbours.empty();  // of a surface without faces: there is nothing to follow
       if (c.hold == EdgeCondition::free) note_opening(executor.state, s, edge);
       s.constraints.push_back({TrimEdgeHold{edge.id, order, follow && !side}, s.current});
@@ -64,10 +69,7 @@ void hold_bare_sides(Executor& executor, SceneSurface& s, const std::vector<Surf
   for (const SurfaceEdge side : sides) {
     const std::string id = edge_name(side);
     if (std::ranges::find(s.visible->edges, id, &TrimEdge::id) == s.visible->edges.end()) continue;
-    std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
-      const auto* hold = std::get_if<TrimEdgeHold>(&kept.constraint);
-      return hold != nullptr && hold->id == id;
-    });
+    forget(s, id);
     if (free) s.constraints.push_back({TrimEdgeHold{id, -1}, s.current});
   }
 }
