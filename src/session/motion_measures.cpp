@@ -113,11 +113,13 @@ struct Meeting {
     }
     return way;
   }
+  /// At a pole, which has no normal, the distance from the nearest side: no way out is shorter.
   [[nodiscard]] double way_out(const std::array<double, 2>& u) const {
     const auto jet = evaluate<2>(shape, Parameters<2>(Eigen::Map<const Parameters<2>>(u.data(), 1, 2)), 1);
     if (!jet) return 0;
     const Point x = jet->points().row(0), a = jet->at({1, 0}).row(0), b = jet->at({0, 1}).row(0);
-    const Point normal = a.cross(b).stableNormalized();
+    const Point normal = a.stableNormalized().cross(b.stableNormalized()).stableNormalized();
+    if (normal.isZero(0)) return depth(x);
     return std::min(way_along(x, normal), way_along(x, -normal));
   }
 
