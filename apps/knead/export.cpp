@@ -15,7 +15,7 @@ namespace knead::cli {
 namespace {
 
 struct ExportArguments {
-  std::string file, output, schema = "ap214";
+  std::string file, output, schema = "ap214", unit;
   bool sets = false;
 };
 
@@ -38,6 +38,34 @@ void warn(const Source& source) {
   for (const UnreadableSurface& s : source.unreadable()) {
     fmt::print(stderr, "knead: warning: the surface {} is left out: {}\n", s.id, s.reason.message());
   }
+}
+
+/// The unit of what is written: the one of all shapes of the file or, where it has none, the one that is asked for.
+Expected<std::string> unit_of(const Source& source, const ExportArguments& options) {
+  std::string unit;
+  const auto takes = [&](const std::string& own) -> Expected<void> {
+    if (!unit.empty() && unit != own) {
+      return input_error(fmt::format("its shapes are in {} and in {}, and a new file has one unit", unit, own), {},
+                         "give their lengths one unit in the program that made the file");
+    }
+    unit = own;
+    return {};
+  };
+  for (const SourceSurface& s : source.surfaces()) {
+    if (auto taken = takes(s.unit); !taken) return std::unexpected(taken.error());
+  }
+  for (const SourceCurve& c : source.curves()) {
+    if (auto taken = takes(c.unit); !taken) return std::unexpected(taken.error());
+  }
+  const bool known = !unit.empty() && unit != "unknown";
+  if (known && !options.unit.empty() && options.unit != unit) {
+    return usage_error(fmt::format("{} is in {}, whose numbers are written as they are", options.file, unit), "--unit",
+                       "leave it out: it is for files that do not say what their lengths are");
+  }
+  if (known) return unit;
+  if (!options.unit.empty()) return options.unit;
+  fmt::print("lengths are written as millimetres: {} does not say what they are; --unit says so\n", options.file);
+  return "mm";
 }
 
 Expected<void> run(const ExportArguments& options) {
@@ -67,16 +95,16 @@ Expected<void> run(const ExportArguments& options) {
   for (const SourceSurface& s : (*source)->surfaces()) {
     NamedSurface& made = surfaces.emplace_back(NamedSurface{s.name.empty() ? s.id : s.name, *s.surface});
     if (const auto colour = colours.find(s.id); colour != colours.end()) made.colour = colour->second;
-    how.unit = s.unit;
   }
   for (const SourceCurve& c : (*source)->curves()) {
     how.curves.push_back({c.name.empty() ? c.id : c.name, *c.curve});
-    if (how.unit.empty()) how.unit = c.unit;
   }
-  if (how.unit.empty() || how.unit == "unknown") {
-    how.unit = "mm";
-    fmt::print("lengths are written as millimetres: {} does not say what they are\n", options.file);
+  auto unit = unit_of(**source, options);
+  if (!unit) {
+    if (unit.error().kind != ErrorKind::usage) unit.error().file = options.file;
+    return std::unexpected(std::move(unit.error()));
   }
+  how.unit = *std::move(unit);
   if (how.faces) {
     const auto left = without_faces(surfaces);
     if (!left) return std::unexpected(left.error());
@@ -113,6 +141,7 @@ Action add_export(CLI::App& app) {
   command->add_option("--schema", options->schema, "of a STEP file: ap214 or ap242")
       ->check(CLI::IsMember({"ap214", "ap242"}))
       ->capture_default_str();
+  command->add_option("--unit", options->unit, "of lengths, where FILE does not say it: mm, inch, …; without it mm");
   command->add_flag("--sets", options->sets, "write bare surfaces, without faces, edges and shells");
   command->footer(
       "Every B-spline surface, whole, as a face on its natural bounds with its name and colour; sides that are the\n"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,6 +41,10 @@ class ChartedSurface {
   }
   /// Where it closes on itself, and its poles, in parameters.
   [[nodiscard]] virtual ParameterSpace space() const = 0;
+
+  /// The same surface with its normal on the other side, for sheets of which files do not agree what their normal is:
+  /// ∂u × ∂v, or the one away from the axis. Null: there is no doubt.
+  [[nodiscard]] virtual std::shared_ptr<const ChartedSurface> other_sense() const { return nullptr; }
 
   /// Sets the steps of the chart, such that chords of one step are within the limit.
   virtual void set_steps(ChordLimit chord) = 0;

@@ -75,7 +75,7 @@ Expected<ChartedFace> charted_face(const Reader& reader, const Face& face, EdgeS
       feet.push_back(foot);
     }
   }
-  Chart chart(std::move(surface), feet);
+  Chart chart(surface, feet);
   std::vector<std::vector<LoopPoint>> in_chart;
   auto foot = feet.begin();
   for (const Loop& loop : *loops) {
@@ -83,7 +83,11 @@ Expected<ChartedFace> charted_face(const Reader& reader, const Face& face, EdgeS
     for (std::size_t k = 0; k < loop.size(); ++k, ++foot) points.push_back({chart.to(foot->parameters), foot->free});
   }
   auto parts = parameter_region(chart.space(), in_chart);
-  if (!parts) return reader.error(face.instance, parts.error().what);
+  if (!parts) {
+    // A loop that goes up to a pole winds round it the way that its normal says.
+    if (auto other = surface->other_sense()) return charted_face(reader, face, edges, std::move(other));
+    return reader.error(face.instance, parts.error().what);
+  }
   return ChartedFace{*std::move(loops), std::move(chart), *std::move(parts)};
 }
 

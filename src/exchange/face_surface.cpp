@@ -102,12 +102,13 @@ Expected<FaceSurface> FaceSurface::read_elementary(const Reader& reader, std::ui
       if (!second || !(*second != 0)) return reader.error(instance, "its second measure cannot be read");
       surface.minor_ = *second;
     }
-    surface.lemon_ = form.lengths == 3 && reader.enumeration(own[2]) == "F" && surface.minor_ > surface.radius_;
+    surface.inner_ = form.lengths == 3 && reader.enumeration(own[2]) == "F" && surface.minor_ > surface.radius_;
     surface.periods_[0] = turn;
   }
   if (form.kind == Kind::cone && !surface.find_half_angle(on_it, angle_units)) {
     return reader.error(instance, "its half angle is not below a right angle");
   }
+  surface.find_sheet(on_it);
   surface.set_poles();
   surface.set_reach(on_it);
   return surface;
@@ -131,6 +132,32 @@ bool FaceSurface::find_half_angle(std::span<const Point> on_it, std::span<const 
     minor_ = tangent;
   }
   return std::isfinite(best);
+}
+
+/// Which sheet is meant of a cone, whose nappes meet in its apex, and of a torus that crosses its axis: the one closer
+/// to the points on it. Only DEGENERATE_TOROIDAL_SURFACE says so itself, which few writers use.
+void FaceSurface::find_sheet(std::span<const Point> on_it) {
+  if (kind_ != Kind::cone && !(kind_ == Kind::torus && minor_ > radius_)) return;
+  std::array<double, 2> off = {0, 0};
+  for (const Point& p : on_it) {
+    const Point d = p - frame_.origin;
+    const double z = d.dot(frame_.z), rho = (d - z * frame_.z).norm();
+    for (const std::size_t inner : {0, 1}) {
+      const double side = inner == 1 ? -1 : 1;
+      const double away =
+          kind_ == Kind::cone ? rho - side * (radius_ + z * minor_) : std::hypot(rho - side * radius_, z) - minor_;
+      off[inner] = std::max(off[inner], std::abs(away));
+    }
+  }
+  if (off[0] != off[1]) inner_ = off[1] < off[0];
+}
+
+std::shared_ptr<const ChartedSurface> FaceSurface::other_sense() const {
+  if (!inner_ || mirrored_) return nullptr;
+  auto other = std::make_shared<FaceSurface>(*this);
+  other->frame_.y = -frame_.y;
+  other->mirrored_ = true;
+  return other;
 }
 
 Expected<FaceSurface> FaceSurface::read_swept(const Reader& reader, std::uint32_t instance, Kind kind,
@@ -182,16 +209,15 @@ void FaceSurface::set_poles() {
   constexpr double quarter = turn / 4;
   if (kind_ == Kind::sphere) poles_ = {-quarter, quarter};
   if (kind_ == Kind::cone) {
-    // One nappe: the one on which the radius is positive.
     const double apex = -radius_ / minor_;
-    poles_[minor_ > 0 ? 0 : 1] = apex;
+    poles_[(minor_ > 0) != inner_ ? 0 : 1] = apex;
   }
   if (kind_ == Kind::torus) {
     if (minor_ <= radius_) {
       periods_[1] = turn;
     } else {
       const double v = std::acos(-radius_ / minor_);
-      poles_ = lemon_ ? std::array<std::optional<double>, 2>{v, turn - v} : std::array<std::optional<double>, 2>{-v, v};
+      poles_ = inner_ ? std::array<std::optional<double>, 2>{v, turn - v} : std::array<std::optional<double>, 2>{-v, v};
     }
   }
   if (kind_ == Kind::revolution) {
@@ -231,17 +257,18 @@ Point FaceSurface::at(const Eigen::Vector2d& uv) const {
 Point FaceSurface::normal(const Eigen::Vector2d& uv) const {
   const double u = uv.x(), v = uv.y();
   const Point& z = frame_.z;
+  // On an inner sheet the distance from the axis, R + v tan α or R + r cos v, is negative, and turns ∂u × ∂v around.
+  const double side = inner_ != mirrored_ ? -1 : 1;
   switch (kind_) {
     case Kind::plane:
       return z;
     case Kind::cylinder:
       return around(u);
     case Kind::cone:
-      return (around(u) - minor_ * z).normalized();
+      return side * (around(u) - minor_ * z).normalized();
     case Kind::sphere:
     case Kind::torus:
-      // Within a lemon R + r cos v is negative, and turns ∂u × ∂v inwards.
-      return (lemon_ ? -1 : 1) * (std::cos(v) * around(u) + std::sin(v) * z);
+      return side * (std::cos(v) * around(u) + std::sin(v) * z);
     case Kind::extrusion: {
       const Point n = profile_->derivative(u).cross(z);
       return n.norm() > 0 ? Point(n.normalized()) : frame_.x;
@@ -286,11 +313,8 @@ Foot FaceSurface::foot(const Point& p, const std::optional<Eigen::Vector2d>& /*n
     v = std::atan2(z, rho);
   } else if (kind_ == Kind::torus) {
     size = radius_ + minor_;
-    v = std::atan2(z, (lemon_ ? -rho : rho) - radius_);
-    if (lemon_) {
-      if (v < 0) v += turn;
-      u += turn / 2;
-    }
+    v = std::atan2(z, (inner_ ? -rho : rho) - radius_);
+    if (inner_ && v < 0) v += turn;
   } else if (kind_ == Kind::revolution) {
     v = nearest({rho, z});
     const Point q = profile_->at(v) - frame_.origin;
@@ -298,6 +322,7 @@ Foot FaceSurface::foot(const Point& p, const std::optional<Eigen::Vector2d>& /*n
     size = std::max(rho, std::hypot(q.dot(frame_.x), q.dot(frame_.y)));
     for (const auto& s : samples_) size = std::max(size, std::abs(s.x()));
   }
+  if (inner_) u += turn / 2;
   foot.free[0] = rho <= 1e-7 * size;
   return foot;
 }

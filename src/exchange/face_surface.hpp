@@ -38,11 +38,16 @@ class FaceSurface final : public ChartedSurface {
   /// In closed form; on swept curves by a search and Newton's iteration. A point beside it is not needed.
   [[nodiscard]] Foot foot(const Point& p, const std::optional<Eigen::Vector2d>& near = {}) const override;
   [[nodiscard]] ParameterSpace space() const override;
+  /// Of the far nappe of a cone and the inner part of a torus that crosses its axis.
+  [[nodiscard]] std::shared_ptr<const ChartedSurface> other_sense() const override;
 
   /// Length of one turn in u, in v; 0 where it is not closed.
   [[nodiscard]] const std::array<double, 2>& periods() const { return periods_; }
   /// The lower and upper limits of v, at which the surface is a single point for all u.
   [[nodiscard]] const std::array<std::optional<double>, 2>& poles() const { return poles_; }
+
+  /// The largest distance from the axis of the surface, or of those of its points that were given.
+  [[nodiscard]] double reach() const { return reach_; }
 
   /// The domain of a direction that `patch` covers as a whole, as it is that of a spline; none elsewhere.
   [[nodiscard]] std::array<std::optional<Interval>, 2> whole() const;
@@ -75,6 +80,7 @@ class FaceSurface final : public ChartedSurface {
   [[nodiscard]] static Expected<FaceSurface> read_swept(const Reader& reader, std::uint32_t instance, Kind kind,
                                                         std::span<const Point> on_it);
   [[nodiscard]] bool find_half_angle(std::span<const Point> on_it, std::span<const double> angle_units);
+  void find_sheet(std::span<const Point> on_it);
   void set_poles();
   void set_reach(std::span<const Point> on_it);
   [[nodiscard]] Expected<void> tabulate(const Reader& reader, std::uint32_t instance, std::span<const Point> on_it);
@@ -89,8 +95,9 @@ class FaceSurface final : public ChartedSurface {
   Kind kind_;
   Frame frame_;
   double radius_ = 0,
-         minor_ = 0;    // minor: of a cone the tangent of its half angle; of an extrusion the length of v = 1
-  bool lemon_ = false;  // the inner part of a torus that crosses its axis
+         minor_ = 0;       // minor: of a cone the tangent of its half angle; of an extrusion the length of v = 1
+  bool inner_ = false;     // the nappe of a cone, the part of a torus, on which the distance from the axis is negative
+  bool mirrored_ = false;  // u runs the other way: `other_sense`
   std::optional<EdgeCurve> profile_;
   Interval range_ = {};                    // of the profile
   double waist_ = 0;                       // of the hyperboloid swept by a skew line: its smallest radius

@@ -34,6 +34,11 @@ class FaceTessellator {
   [[nodiscard]] Expected<FaceMesh> mesh(const FaceOnSurface& on);
 
   [[nodiscard]] const Reader& reader() const { return reader_; }
+  /// The B-spline surface that it lies on, or null.
+  [[nodiscard]] const SurfaceEntity* spline_of(const Face& face) const {
+    const auto found = splines_.find(face.surface);
+    return found == splines_.end() ? nullptr : &(*data_.surfaces)[found->second];
+  }
 
  private:
   struct Filling;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "format_list.hpp"
+#include "length_units.hpp"
 #include "surface_mesh.hpp"
 
 namespace knead::detail {
@@ -19,12 +20,8 @@ using Json = nlohmann::ordered_json;
 
 /// Metres per unit; glTF's lengths are metres. 1 if the unit is unknown.
 double metres(std::string_view unit) {
-  constexpr std::pair<std::string_view, double> known[] = {
-      {"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"dm", 0.1}, {"m", 1}, {"km", 1e3}, {"inch", 0.0254}, {"foot", 0.3048}};
-  for (const auto& [name, length] : known) {
-    if (name == unit) return length;
-  }
-  return 1;
+  const KnownLengthUnit* known = length_unit_named(unit);
+  return known != nullptr ? known->millimetres / 1000 : 1;
 }
 
 /// The chunk of numbers, and the JSON that describes it.

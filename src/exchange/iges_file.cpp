@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 
+#include "length_units.hpp"
 #include "part21_text.hpp"
 
 namespace knead::iges {
@@ -64,9 +65,10 @@ class Lexer {
 };
 
 std::string unit_of(int flag, std::string name) {
-  constexpr std::array<std::string_view, 12> names = {"",  "inch", "mm",  "",   "foot", "mile",
-                                                      "m", "km",   "mil", "um", "cm",   "microinch"};
-  if (flag >= 1 && flag <= 11 && flag != 3) return std::string(names[static_cast<std::size_t>(flag)]);
+  constexpr int named = 3;  // the name says it all
+  for (const KnownLengthUnit& unit : known_length_units()) {
+    if (flag > 0 && flag != named && unit.iges_flag == flag) return std::string(unit.name);
+  }
   for (char& c : name) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   if (name == "in") return "inch";
   if (name == "ft") return "foot";

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "iges_writer.hpp"
+#include "length_units.hpp"
 #include "natural_faces.hpp"
 #include "part21_text.hpp"
 
@@ -17,18 +18,6 @@ using Values = std::vector<std::string>;
 constexpr std::string_view line_break = "\n";
 constexpr std::size_t label_columns = 8;
 constexpr double resolution = 1e-7;  // of the surfaces that meet, as in STEP
-
-struct Unit {
-  std::string_view name, iges;
-  int flag;
-};
-constexpr std::array<Unit, 7> units = {{{"mm", "MM", 2},
-                                        {"inch", "IN", 1},
-                                        {"foot", "FT", 4},
-                                        {"m", "M", 6},
-                                        {"km", "KM", 7},
-                                        {"um", "UM", 9},
-                                        {"cm", "CM", 10}}};
 
 std::string ascii(std::string_view text) {
   std::string result;
@@ -127,12 +116,12 @@ Expected<void> add_shells(std::span<const NamedSurface> surfaces, const std::vec
   return {};
 }
 
-std::string global_section(const SaveOptions& options, const Unit& unit, double largest) {
+std::string global_section(const SaveOptions& options, const KnownLengthUnit& unit, double largest) {
   const std::string title = hollerith_of(options.title);
   return fmt::format(
       "1H,,1H;,{0},{0},5HKnead,5HKnead,32,38,6,308,15,{0},1.,{1},{2},1,0.1,15H20000101.000000,{3},{4},,,11,0,"
       "15H20000101.000000;",
-      title, unit.flag, hollerith_of(unit.iges), format_shortest_real(resolution), format_real(largest));
+      title, unit.iges_flag, hollerith_of(unit.iges_name), format_shortest_real(resolution), format_real(largest));
 }
 
 template <class Spline>
@@ -190,9 +179,10 @@ std::vector<std::string> surface_values(const Surface& s) {
 
 Expected<std::string> text_of(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   const std::string name = options.unit.empty() ? "mm" : options.unit;
-  const auto unit = std::ranges::find(units, name, &Unit::name);
-  if (unit == units.end()) {
-    return input_error("the unit " + name + " is not known", {}, "use um, mm, cm, m, km, inch or foot");
+  const KnownLengthUnit* unit = length_unit_named(name);
+  if (unit == nullptr || unit->iges_flag == 0) {
+    return input_error("the unit " + name + " is not known to IGES", {},
+                       "use " + list_of_units([](const KnownLengthUnit& u) { return u.iges_flag != 0; }));
   }
   if (surfaces.empty() && options.curves.empty()) return input_error("there is no surface to write");
   double largest = 0;

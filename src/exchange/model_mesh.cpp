@@ -81,11 +81,37 @@ class Standing {
   std::unordered_map<std::string, std::vector<const Part*>> parts_;  // by id
 };
 
-/// Of the model's box: round the points of the edges of its faces or, without faces, its control points.
+/// How far across the whole surface of a face is where that is closed, of which its edges may say nothing; else 0.
+double closed_extent(const FaceTessellator& faces, const Face& face, std::span<const Loop> loops) {
+  const Reader& reader = faces.reader();
+  if (const SurfaceEntity* spline = faces.spline_of(face)) {
+    return spline->closed[0] || spline->closed[1] ? net_diagonal(spline->surface.control_points()) : 0;
+  }
+  constexpr std::array closed = {"SPHERICAL_SURFACE", "TOROIDAL_SURFACE", "DEGENERATE_TOROIDAL_SURFACE"};
+  if (face.surface == no_instance) return 0;
+  if (std::ranges::none_of(closed, [&](const char* kind) { return reader.is(face.surface, kind); })) return 0;
+  const auto surface = face_surface(reader, face, loops, std::array{1.0});
+  return surface ? 2 * surface->reach() : 0;
+}
+
+/// Round the triangles of a face; empty where there are none.
+Eigen::AlignedBox3d box_of(FaceTessellator& coarse, const Face& face) {
+  Eigen::AlignedBox3d box;
+  const auto on = coarse.face_on_surface(face);
+  const auto mesh = on ? coarse.mesh(*on) : std::unexpected(on.error());
+  if (!mesh) return box;
+  for (const Point& p : mesh->points) box.extend(p);
+  return box;
+}
+
+/// Of the model's box: round the points of the edges of its faces or, without faces, its control points. Where the
+/// edges of a closed surface bound next to nothing, such as a vertex or a small hole, round the face.
 double diagonal_of(const step::File::Data& data, const std::vector<Face>& faces, const Reader& reader,
                    const Standing& standing) {
+  constexpr double bulging = 10;  // as wide as its edges
   Eigen::AlignedBox3d box;
   EdgeSampler edges(reader, {half_radian});
+  FaceTessellator coarse(data, {half_radian});
   for (const Face& face : faces) {
     const auto loops = edges.loops(face.bounds);
     if (!loops) continue;
@@ -93,6 +119,8 @@ double diagonal_of(const step::File::Data& data, const std::vector<Face>& faces,
     for (const Loop& loop : *loops) {
       for (const Point& p : loop) own.extend(p);
     }
+    const double width = own.isEmpty() ? 0 : own.diagonal().norm();
+    if (closed_extent(coarse, face, *loops) > bulging * width) own.extend(box_of(coarse, face));
     if (!own.isEmpty()) standing.extend(box, name_of(reader, face.instance), own);
   }
   if (box.isEmpty()) {

@@ -146,6 +146,27 @@ std::optional<Points> sample_curve(const Reader& reader, std::uint32_t instance,
 
 }  // namespace
 
+namespace {
+
+/// Leaves out functions with equal knots all along, [t_i, t_(i+p+1)), and their control points: they are zero
+/// everywhere. Some writers repeat the first knot and control point of a trimmed curve.
+void leave_out_empty(std::size_t degree, std::vector<double>& knots, Points& points, std::vector<double>& weights) {
+  for (std::size_t i = 0; i + degree + 1 < knots.size();) {
+    const auto rows = static_cast<std::size_t>(points.rows());
+    if (knots[i] != knots[i + degree + 1] || rows <= degree + 1) {
+      ++i;
+      continue;
+    }
+    knots.erase(knots.begin() + static_cast<std::ptrdiff_t>(i));
+    if (weights.size() == rows) weights.erase(weights.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto k = static_cast<Eigen::Index>(i), below = points.rows() - 1 - k;
+    points.middleRows(k, below) = points.bottomRows(below).eval();
+    points.conservativeResize(points.rows() - 1, Eigen::NoChange);
+  }
+}
+
+}  // namespace
+
 Expected<Curve> read_b_spline_curve(const Reader& reader, std::uint32_t instance) {
   constexpr std::size_t attributes_of_curve = 6;
   std::optional<ImpliedKnots> form;
@@ -168,9 +189,6 @@ Expected<Curve> read_b_spline_curve(const Reader& reader, std::uint32_t instance
   const int count = static_cast<int>(targets.size());
   const auto lists = reader.attributes(instance, "B_SPLINE_CURVE_WITH_KNOTS", attributes_of_curve, 2);
   if (listed && lists.empty()) return reader.error(instance, "it has no knots");
-  auto knots = listed ? read_knots(reader, instance, *degree, count, lists[0], lists[1], "")
-                      : implied_knots(*form, *degree, count);
-  if (!knots) return std::unexpected(std::move(knots.error()));
   std::vector<double> weights;
   if (reader.is(instance, "RATIONAL_B_SPLINE_CURVE")) {
     const auto rational = reader.attributes(instance, "RATIONAL_B_SPLINE_CURVE", attributes_of_curve, 1);
@@ -179,6 +197,14 @@ Expected<Curve> read_b_spline_curve(const Reader& reader, std::uint32_t instance
       weights.push_back(reader.real(k).value_or(std::numeric_limits<double>::quiet_NaN()));
     }
   }
+  const auto listed_knots = [&]() -> Expected<KnotVector> {
+    auto list = read_knot_list(reader, instance, *degree, count, lists[0], lists[1], "");
+    if (!list) return std::unexpected(std::move(list.error()));
+    leave_out_empty(static_cast<std::size_t>(*degree), *list, points, weights);
+    return knots_of_list(reader, instance, *degree, *std::move(list), "");
+  };
+  auto knots = listed ? listed_knots() : implied_knots(*form, *degree, count);
+  if (!knots) return std::unexpected(std::move(knots.error()));
   return Curve::create({*std::move(knots)}, std::move(points), std::move(weights));
 }
 

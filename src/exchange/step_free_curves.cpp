@@ -54,7 +54,9 @@ std::vector<ReadCurve> free_curves(const Reader& reader) {
     auto curve = read_b_spline_curve(reader, k);
     if (!curve) continue;
     const auto own = reader.attributes(k, "B_SPLINE_CURVE", 1, 2);
-    result.push_back({k, *std::move(curve), file.children(own[1])});
+    auto points = file.children(own[1]);
+    if (std::ssize(points) != curve->size()) continue;  // one of its functions is zero everywhere
+    result.push_back({k, *std::move(curve), std::move(points)});
   }
   return result;
 }

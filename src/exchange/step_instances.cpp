@@ -255,11 +255,12 @@ std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector
     for (auto value = record.first; value < record.last; ++value) {
       const auto target = reader.reference(value);
       const auto found = target ? result.find(*target) : result.end();
-      // A representation, and not a style or a layer: (name, items, context).
+      // A representation, and not a style, which has (name, styles, item), or a layer: (name, items, context).
       if (found == result.end() || found->second != no_instance) continue;
       if (!representation) {
         const auto own = reader.attributes(k, "REPRESENTATION", 0, 3);
-        representation = own.size() >= 3 && reader.is_list(own[1]) && reader.reference(own[2]);
+        const auto context = own.size() >= 3 && reader.is_list(own[1]) ? reader.reference(own[2]) : std::nullopt;
+        representation = context && !result.contains(*context);
       }
       if (*representation) found->second = k;
     }

@@ -33,9 +33,16 @@ Expected<KnotVector> implied_knots(ImpliedKnots form, int degree, int count) {
   return KnotVector::create(degree, std::move(knots));
 }
 
-Expected<KnotVector> read_knots(const Reader& reader, std::uint32_t instance, int degree, int count,
-                                std::uint32_t multiplicities, std::uint32_t values, const std::string& direction) {
-  const std::string prefix = direction.empty() ? std::string() : direction + " ";
+namespace {
+
+std::string prefix_of(const std::string& direction) { return direction.empty() ? std::string() : direction + " "; }
+
+}  // namespace
+
+Expected<std::vector<double>> read_knot_list(const Reader& reader, std::uint32_t instance, int degree, int count,
+                                             std::uint32_t multiplicities, std::uint32_t values,
+                                             const std::string& direction) {
+  const std::string prefix = prefix_of(direction);
   if (!reader.is_list(multiplicities) || !reader.is_list(values)) {
     return reader.error(instance, "its " + prefix + "knots or multiplicities are not a list");
   }
@@ -64,8 +71,21 @@ Expected<KnotVector> read_knots(const Reader& reader, std::uint32_t instance, in
                             std::to_string(count) + " control points of degree " + std::to_string(degree),
                         "they must add up to " + std::to_string(needed));
   }
-  auto result = KnotVector::create(degree, std::move(knots));
+  return knots;
+}
+
+Expected<KnotVector> read_knots(const Reader& reader, std::uint32_t instance, int degree, int count,
+                                std::uint32_t multiplicities, std::uint32_t values, const std::string& direction) {
+  auto list = read_knot_list(reader, instance, degree, count, multiplicities, values, direction);
+  if (!list) return std::unexpected(std::move(list.error()));
+  return knots_of_list(reader, instance, degree, *std::move(list), direction);
+}
+
+Expected<KnotVector> knots_of_list(const Reader& reader, std::uint32_t instance, int degree, std::vector<double> list,
+                                   const std::string& direction) {
+  auto result = KnotVector::create(degree, std::move(list));
   if (!result) {
+    const std::string prefix = prefix_of(direction);
     const auto& reason = result.error();
     return reader.error(instance,
                         prefix + "knots: " + reason.what + (reason.where.empty() ? "" : " (" + reason.where + ")"),

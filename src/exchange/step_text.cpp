@@ -3,27 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#include "length_units.hpp"
 #include "part21_text.hpp"
 #include "step_new_faces.hpp"
 #include "step_print.hpp"
 
 namespace knead::step {
 namespace {
-
-struct Unit {
-  std::string_view name;
-  std::string_view prefix;  // of the metre; empty for a conversion based unit
-  double millimetres = 0;   // of a conversion based unit
-  std::string_view label = {};
-};
-
-constexpr std::array<Unit, 7> units = {{{"mm", ".MILLI."},
-                                        {"um", ".MICRO."},
-                                        {"cm", ".CENTI."},
-                                        {"m", "$"},
-                                        {"km", ".KILO."},
-                                        {"inch", "", 25.4, "INCH"},
-                                        {"foot", "", 304.8, "FOOT"}}};
 
 struct Protocol {
   std::string_view schema, name, application;
@@ -60,15 +46,15 @@ class Records {
   int last_ = 0;
 };
 
-std::string add_length_unit(const AddRecord& add, const Unit& unit) {
+std::string add_length_unit(const AddRecord& add, const KnownLengthUnit& unit) {
   const auto metric = [&](std::string_view prefix) {
     return add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(" + std::string(prefix) + ",.METRE.))");
   };
-  if (!unit.prefix.empty()) return metric(unit.prefix);
+  if (!unit.si_prefix.empty()) return metric(unit.si_prefix);
   const auto exponents = add("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)");
   const auto factor = add("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(unit.millimetres) + ")," +
                           metric(".MILLI.") + ")");
-  return add("(CONVERSION_BASED_UNIT('" + std::string(unit.label) + "'," + factor + ")LENGTH_UNIT()NAMED_UNIT(" +
+  return add("(CONVERSION_BASED_UNIT('" + std::string(unit.step_name) + "'," + factor + ")LENGTH_UNIT()NAMED_UNIT(" +
              exponents + "))");
 }
 
@@ -119,7 +105,7 @@ Expected<void> whole(std::span<const NewSurface> surfaces, std::span<const NewCu
 }  // namespace
 
 std::string print_context(std::string_view unit, double uncertainty, const AddRecord& add) {
-  const auto length = add_length_unit(add, *std::ranges::find(units, unit, &Unit::name));
+  const auto length = add_length_unit(add, *length_unit_named(unit));
   const auto angle = add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
   const auto solid_angle = add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
   const auto gap = add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(" + format_shortest_real(uncertainty) + ")," +
@@ -129,13 +115,16 @@ std::string print_context(std::string_view unit, double uncertainty, const AddRe
              "))REPRESENTATION_CONTEXT('',''))");
 }
 
-bool is_unit(std::string_view name) { return std::ranges::find(units, name, &Unit::name) != units.end(); }
+bool is_unit(std::string_view name) { return length_unit_named(name) != nullptr; }
+
+std::string list_of_units() {
+  return knead::list_of_units([](const KnownLengthUnit&) { return true; });
+}
 
 Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options,
                               std::span<const NewCurve> curves) {
-  const auto unit = std::ranges::find(units, options.unit, &Unit::name);
-  if (unit == units.end()) {
-    return input_error("the unit " + options.unit + " is not known", {}, "use um, mm, cm, m, km, inch or foot");
+  if (!is_unit(options.unit)) {
+    return input_error("the unit " + options.unit + " is not known", {}, "use " + list_of_units());
   }
   if (surfaces.empty() && curves.empty()) return input_error("there is no surface to write");
   if (auto can = whole(surfaces, curves); !can) return std::unexpected(can.error());

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "length_units.hpp"
 #include "part21_text.hpp"
 
 namespace knead::step {
@@ -84,6 +85,8 @@ std::optional<LengthUnit> length_unit(const Reader& reader, std::uint32_t unit, 
   if (conversion && depth < max_conversions) {
     if (const auto base = length_unit(reader, conversion->unit, depth + 1)) {
       result.metres = conversion->value * base->metres;
+      // What files call a unit is anything: 'METRE', 'Inches', "IN". Its length says what it is.
+      if (const KnownLengthUnit* known = length_unit_of(1000 * result.metres)) result.name = known->name;
     }
   }
   return result;
@@ -103,11 +106,19 @@ double uncertainty(const Reader& reader, std::uint32_t context, const LengthUnit
   return largest;
 }
 
-// Marks everything reached from the items of one representation.
+// Marks everything reached from the items of one representation. Styles refer to what they colour; the contexts of
+// their representations say nothing of its lengths.
 class Reach {
  public:
   Reach(const Reader& reader, const std::vector<bool>& representation)
-      : reader_(&reader), representation_(&representation), mark_(reader.file().instances().size(), -1) {}
+      : reader_(&reader),
+        representation_(&representation),
+        mark_(reader.file().instances().size(), -1),
+        style_(reader.file().instances().size(), false) {
+    for (const auto k :
+         reader.file().named({"STYLED_ITEM", "OVER_RIDING_STYLED_ITEM", "CONTEXT_DEPENDENT_OVER_RIDING_STYLED_ITEM"}))
+      style_[k] = true;
+  }
 
   void follow(std::uint32_t from, int context) {
     stack_.assign(1, from);
@@ -117,7 +128,7 @@ class Reach {
       const auto& record = reader_->file().instance(instance);
       for (auto k = record.first; k < record.last; ++k) {
         const auto target = reader_->reference(k);
-        if (!target || (*representation_)[*target] || mark_[*target] == context) continue;
+        if (!target || (*representation_)[*target] || style_[*target] || mark_[*target] == context) continue;
         mark_[*target] = context;
         visited_.emplace_back(*target, context);
         stack_.push_back(*target);
@@ -131,9 +142,37 @@ class Reach {
   const Reader* reader_;
   const std::vector<bool>* representation_;
   std::vector<int> mark_;
+  std::vector<bool> style_;
   std::vector<std::uint32_t> stack_;
   std::vector<std::pair<std::uint32_t, int>> visited_;
 };
+
+/// Leaves those to which more refers than what only shows shapes: their lengths are of pens and texts.
+void leave_contexts_of_shapes(const Reader& reader, std::vector<UnitContext>& contexts) {
+  if (contexts.size() < 2) return;
+  std::vector<bool> shows(reader.file().instances().size(), false);
+  for (const std::string_view keyword : reader.file().keywords()) {
+    if (!keyword.contains("PRESENTATION_REPRESENTATION") && keyword != "DRAUGHTING_MODEL") continue;
+    for (const auto k : reader.file().named({keyword})) shows[k] = true;
+  }
+  std::vector<UnitContext> left;
+  for (const UnitContext& context : contexts) {
+    const auto refers = [&](std::uint32_t k) {
+      if (shows[k]) return false;
+      const auto& record = reader.file().instance(k);
+      for (auto value = record.first; value < record.last; ++value) {
+        if (reader.reference(value) == context.instance) return true;
+      }
+      return false;
+    };
+    for (std::uint32_t k = 0; k < shows.size(); ++k) {
+      if (!refers(k)) continue;
+      left.push_back(context);
+      break;
+    }
+  }
+  if (!left.empty()) contexts = std::move(left);
+}
 
 }  // namespace
 
@@ -151,6 +190,7 @@ std::vector<UnitContext> read_unit_contexts(const Reader& reader) {
       break;
     }
   }
+  leave_contexts_of_shapes(reader, result);
   return result;
 }
 

@@ -43,6 +43,24 @@ TEST(Export, RefusesOtherNamesAndSchemas) {
   EXPECT_TRUE(workshop.files().empty());
 }
 
+TEST(Export, TakesAUnitWhereTheFileHasNone) {
+  const Workshop workshop;
+  const std::string bare =
+      workshop.file("square.g2", "200 1 0 0\n3 0\n2 2\n0 0 1 1\n2 2\n0 0 1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
+  for (const std::string name : {"a.step", "b.igs"}) {
+    const std::string out = workshop / name;
+    const Outcome run = knead({"export", bare, "--out", out, "--unit", "inch"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.out.find("millimetres"), std::string::npos) << run.out;
+    EXPECT_EQ(knead({"info", out, "--json"}).json().at("units"), "inch");
+    EXPECT_NE(knead({"export", bare, "--out", out}).out.find("written as millimetres"), std::string::npos);
+  }
+  EXPECT_TRUE(
+      fails_with(knead({"export", bare, "--out", workshop / "c.step", "--unit", "ell"}), 3, {"ell", "mm", "inch"}));
+  EXPECT_TRUE(
+      fails_with(knead({"export", bonnet(), "--out", workshop / "c.step", "--unit", "m"}), 2, {"--unit", "in mm"}));
+}
+
 TEST(Export, LeavesOutWhatHasNoFaceAndSaysSo) {
   const Workshop workshop;
   const std::string script = workshop.script(Json::array(

@@ -123,6 +123,17 @@ TEST(Assembly, StylesAndViewsPlaceNothing) {
   EXPECT_EQ(model.parts[0].places.size(), 1U);
 }
 
+TEST(Assembly, AColouredMappedItemStandsWhereItIsWhicheverIsNamedFirst) {
+  for (const int style : {399, 450}) {
+    const auto model =
+        assembly(product(100, "car", "#403,#404") + fmt::format("#{}=STYLED_ITEM('',(#60),#403);\n", style) +
+                 "#401=SHAPE_REPRESENTATION('',(#10),#40);\n#402=REPRESENTATION_MAP(#60,#401);\n"
+                 "#403=MAPPED_ITEM('',#402,#62);\n#404=MAPPED_ITEM('',#402,#61);\n");
+    ASSERT_EQ(model.parts.size(), 1U);
+    EXPECT_EQ(model.parts[0].places.size(), 2U) << style;
+  }
+}
+
 TEST(Assembly, MappedItemsMayScaleAndMirror) {
   const auto model = assembly(product(100, "car", "#403,#404") +
                               "#401=SHAPE_REPRESENTATION('',(#10),#40);\n#402=REPRESENTATION_MAP(#60,#401);\n"

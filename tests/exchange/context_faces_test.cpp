@@ -188,6 +188,59 @@ TEST(ContextFaces, ToriThatCrossTheirAxisHaveTwoParts) {
   }
 }
 
+/// A closed shell of a lateral face and the discs below and above it; without a second radius the disc below.
+double volume_with_discs(FaceBuilder& b, double below, double radius, double above = 0, double second = 0) {
+  const auto plane = [&b](double z) { return b.entity("PLANE('',#" + std::to_string(b.frame(0, 0, z)) + ")"); };
+  b.face(plane(below), {b.bound({-b.circle(radius, below)})}, false);
+  if (second > 0) b.face(plane(above), {b.bound({b.circle(second, above)})});
+  return testing::volume_of(meshes(b));
+}
+
+TEST(ContextFaces, BothNappesOfAConeAreSheets) {
+  // r = 5 + v on a frame at z = 15: the frustum from z = 0, r = 10, to z = 5, r = 5 lies beyond the apex at z = 10. The
+  // near nappe is z = 15 to 20, r = 5 to 10.
+  const double volume = pi * 5 / 3 * (100 + 50 + 25);
+  for (const double tangent : {1.0, -1.0}) {  // the same cone from either side
+    for (const bool upper : {false, true}) {
+      FaceBuilder b;
+      const int cone = b.entity("CONICAL_SURFACE('',#" + std::to_string(b.frame(0, 0, tangent > 0 ? 15 : 5)) + ",5.," +
+                                FaceBuilder::real(std::atan(tangent)) + ")");
+      const double below = upper ? 15 : 0, above = upper ? 20 : 5, radius = upper ? 5 : 10, second = upper ? 10 : 5;
+      b.face(cone, {b.bound({b.circle(radius, below)}), b.bound({-b.circle(second, above)})});
+      EXPECT_NEAR(std::abs(volume_with_discs(b, below, radius, above, second)), volume, 0.01 * volume)
+          << tangent << " " << upper;
+    }
+  }
+}
+
+TEST(ContextFaces, ALensOfTheInnerPartOfATorusHasItsVolume) {
+  // R = 3, r = 10: the tip of the lemon above z = 8 is turned by the arc from (3, 0, 8) to (0, 0, √91).
+  const double tip = std::sqrt(91.0);
+  for (const char* form : {"DEGENERATE_TOROIDAL_SURFACE", "TOROIDAL_SURFACE"}) {
+    for (const bool away : {true, false}) {  // the normal that the file means
+      FaceBuilder b;
+      const bool flagged = form[0] == 'D';
+      const int torus = b.entity(on_frame(b, form, flagged ? ",3.,10.,.F." : ",3.,10."));
+      const int rim = b.vertex(3, 0, 8), apex = b.vertex(0, 0, tip);
+      const int circle = b.edge(rim, rim, "CIRCLE('',#" + std::to_string(b.frame(0, 0, 8)) + ",3.)");
+      const int at = b.point(-3, 0, 0), z = b.direction(0, -1, 0), x = b.direction(1, 0, 0);
+      const int frame = b.entity("AXIS2_PLACEMENT_3D('',#" + std::to_string(at) + ",#" + std::to_string(z) + ",#" +
+                                 std::to_string(x) + ")");
+      const int arc = b.edge(rim, apex, "CIRCLE('',#" + std::to_string(frame) + ",10.)");
+      const auto bound = away ? b.bound({circle, arc, -arc}) : b.bound({arc, -arc, -circle});
+      b.face(torus, {bound}, true);
+      const double z0 = 8;
+      // V = π ∫ (√(100 − z²) − 3)² dz, of which the antiderivative is 109 z − z³/3 − 3 (z √(100 − z²) + 100 asin(z/10))
+      const auto integral = [](double h) {
+        return 109 * h - h * h * h / 3 - 3 * (h * std::sqrt(100 - h * h) + 100 * std::asin(h / 10));
+      };
+      const double volume = pi * (integral(tip) - integral(z0));
+      EXPECT_NEAR(volume, 17.598, 1e-3);
+      EXPECT_NEAR(std::abs(volume_with_discs(b, 8, 3)), volume, 0.01 * volume) << form << away;
+    }
+  }
+}
+
 TEST(ContextFaces, ASkewLineRevolvesToAHyperboloid) {
   FaceBuilder b;
   const int at = b.point(2, 0, 0);

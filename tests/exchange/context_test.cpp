@@ -37,6 +37,42 @@ TEST(StepUnits, AreReadAndReported) {
   EXPECT_EQ(parse_or_die(step_text("#1=A();\n")).length_unit(), "unknown");
 }
 
+/// The unit of a file whose unit is called `name` and is `factor` millimetres long.
+std::string unit_called(const std::string& name, const std::string& factor) {
+  return parse_or_die(step_text(millimetre + "#32=(CONVERSION_BASED_UNIT('" + name +
+                                "',#33)LENGTH_UNIT()NAMED_UNIT(#34));\n#33=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(" +
+                                factor + "),#31);\n#34=DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n" +
+                                context(40, 32)))
+      .length_unit();
+}
+
+TEST(StepUnits, AreThoseOfTheirLengthWhateverTheirName) {
+  EXPECT_EQ(unit_called("METRE", "1000."), "m");
+  EXPECT_EQ(unit_called("Millimeter", "1."), "mm");
+  EXPECT_EQ(unit_called("IN", "25.400000000000002"), "inch");
+  EXPECT_EQ(unit_called("INCH", "304.8"), "foot");
+  EXPECT_EQ(unit_called("thou", "2.54E-2"), "mil");
+  EXPECT_EQ(unit_called("US SURVEY FOOT", "304.8006096012192"), "us survey foot");
+}
+
+TEST(StepUnits, ColoursAndViewsSayNothingOfLengths) {
+  const auto file = parse_or_die(
+      step_text(millimetre + inch + context(40, 31) + context(41, 32) + unit_square_points() + bilinear_patch() +
+                "#50=SHAPE_REPRESENTATION('',(#10),#41);\n#60=STYLED_ITEM('',(),#10);\n"
+                "#61=MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#60),#40);\n"
+                "#62=DRAUGHTING_MODEL('',(#60),#40);\n"));
+  EXPECT_EQ(file.length_unit(), "inch");
+  EXPECT_EQ(file.surfaces()[0].unit, "inch");
+}
+
+TEST(StepUnits, OfWhatOnlyAStyleRefersToAreTheUnitsOfTheFile) {
+  const auto file =
+      parse_or_die(step_text(millimetre + context(40, 31) + unit_square_points() + bilinear_patch() +
+                             "#60=STYLED_ITEM('',(),#10);\n"
+                             "#61=MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#60),#40);\n"));
+  EXPECT_EQ(file.surfaces()[0].unit, "mm");
+}
+
 TEST(StepUnits, AUnitDefinedByItselfIsNoCrash) {
   const auto file =
       parse_or_die(step_text("#32=(CONVERSION_BASED_UNIT('LOOP',#33)LENGTH_UNIT()NAMED_UNIT(#34));\n"

@@ -53,6 +53,49 @@ TEST(ModelMesh, AClosedShellGivesAClosedMesh) {
   }
 }
 
+/// Volume of the only face, meshed at the default tolerance.
+double default_volume(const FaceBuilder& b) { return volume_of(model_of(b.file(), 0).faces); }
+
+TEST(ModelMesh, WholeSpheresAndToriAreMeshedAtTheDefaultTolerance) {
+  FaceBuilder torus;
+  torus.face(torus.entity("TOROIDAL_SURFACE('',#" + std::to_string(torus.frame()) + ",10.,3.)"),
+             {torus.vertex_bound(13, 0, 0)});
+  EXPECT_NEAR(default_volume(torus), 2 * pi * pi * 90, 0.01 * 2 * pi * pi * 90);
+  for (const double radius : {1e-3, 1.0, 1e4}) {
+    FaceBuilder sphere;
+    sphere.face(sphere.entity("SPHERICAL_SURFACE('',#" + std::to_string(sphere.frame()) + "," +
+                              FaceBuilder::real(radius) + ")"),
+                {sphere.vertex_bound(0, 0, radius)});
+    const double exact = 4 * pi / 3 * radius * radius * radius;
+    EXPECT_NEAR(default_volume(sphere), exact, 0.01 * exact) << radius;
+  }
+}
+
+TEST(ModelMesh, ASmallHoleMakesNoFinerMesh) {
+  FaceBuilder b;
+  const double narrow = 0.001;
+  b.face(b.entity("SPHERICAL_SURFACE('',#" + std::to_string(b.frame()) + ",1.)"),
+         {b.bound({-b.circle(narrow, std::sqrt(1 - narrow * narrow))})});
+  const FaceMeshes model = model_of(b.file(), 0);
+  EXPECT_LT(model.faces[0].triangles.size(), 20000U);
+}
+
+TEST(ModelMesh, AnEdgeMayHaveFunctionsThatAreZeroEverywhere) {
+  // A cubic with the knot 0 six times: its first two functions have no support, and their control points no effect.
+  FaceBuilder b;
+  const int from = b.vertex(0, 0, 0), to = b.vertex(3, 0, 0), far = b.point(50, 60, 70);
+  std::string points =
+      FaceBuilder::list_of({far, far, b.point(0, 0, 0), b.point(1, 1, 0), b.point(2, 1, 0), b.point(3, 0, 0)});
+  const int arch =
+      b.edge(from, to,
+             "B_SPLINE_CURVE_WITH_KNOTS('',3,(" + points + "),.UNSPECIFIED.,.F.,.F.,(4,2,4),(0.,0.,1.),.UNSPECIFIED.)");
+  b.face(b.entity("PLANE('',#" + std::to_string(b.frame()) + ")"),
+         {b.bound({-arch, b.line(from, to, {0, 0, 0}, {1, 0, 0})})});
+  const FaceMeshes model = model_of(b.file(), 1e-4);
+  ASSERT_EQ(model.faces.size(), 1U);
+  EXPECT_NEAR(testing::area_of(model.faces[0]), 1.5, 1e-3);  // x = 3 t, y = 3 t (1 − t)
+}
+
 TEST(ModelMesh, AnOpenShellIsOpenAlongItsEdge) {
   FaceBuilder b;
   b.face(b.entity("PLANE('',#" + std::to_string(b.frame()) + ")"), {b.bound({b.circle(10, 0)})});

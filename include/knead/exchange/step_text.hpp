@@ -28,7 +28,7 @@ struct NewCurve {
 enum class Schema { ap214, ap242 };
 
 struct TextOptions {
-  std::string unit = "mm";           ///< "um", "mm", "cm", "m", "km", "inch" or "foot"
+  std::string unit = "mm";           ///< one of `is_unit`, "mm", "inch", …
   std::string product = "surfaces";  ///< name of the product and its representation, UTF-8
   std::string file_name = {};        ///< of the header, UTF-8
   std::string time_stamp = {};       ///< of the header, as in "2024-05-17T12:00:00"; the text depends on nothing else
@@ -38,6 +38,9 @@ struct TextOptions {
 
 /// Whether `text_of` can write this length unit.
 [[nodiscard]] bool is_unit(std::string_view name);
+
+/// All that it can, in words.
+[[nodiscard]] std::string list_of_units();
 
 /// A STEP file (ISO 10303-21, AP214 or AP242) that contains these surfaces and curves and nothing else.
 ///

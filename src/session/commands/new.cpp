@@ -213,7 +213,7 @@ void describe(NewCommand& c, Fields& fields) {
               .fallback = "none"});
   fields.add("position", c.position, {.help = "where the origin of the shape goes", .unit = Unit::length});
   fields.add("unit", c.unit,
-             {.help = "`um`, `mm`, `cm`, `m`, `km`, `inch` or `foot`; a document has one",
+             {.help = "`mm`, `um`, `cm`, `dm`, `m`, `km`, `inch`, `foot`, `yard`, `mile`, `mil` or `microinch`; a document has one",
               .fallback = "that of existing surfaces, otherwise `\"mm\"`"});
   fields.add("name", c.name, {.help = "its label in the file", .fallback = "its kind"});
 }
@@ -230,7 +230,7 @@ Expected<void> Executor::execute(const NewCommand& c) {
                                                        : state.surfaces.front().unit;
   const std::string unit = c.unit.value_or(present);
   if (!step::is_unit(unit)) {
-    return input_error(fmt::format("\"{}\" is not a unit", unit), "unit", "use um, mm, cm, m, km, inch or foot");
+    return input_error(fmt::format("\"{}\" is not a unit", unit), "unit", "use " + step::list_of_units());
   }
   if (unit != present && !first) {
     return input_error(fmt::format("the surfaces of this document are in {}", present), "unit",

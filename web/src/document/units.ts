@@ -1,6 +1,7 @@
 const metres: Record<string, number> = {
   m: 1, mm: 1e-3, cm: 1e-2, dm: 0.1, km: 1e3, um: 1e-6, µm: 1e-6, nm: 1e-9, in: 0.0254, inch: 0.0254, inches: 0.0254, '"': 0.0254,
-  '″': 0.0254, ft: 0.3048, foot: 0.3048, feet: 0.3048, "'": 0.3048, '′': 0.3048, yd: 0.9144, mil: 2.54e-5, thou: 2.54e-5,
+  '″': 0.0254, ft: 0.3048, foot: 0.3048, feet: 0.3048, "'": 0.3048, '′': 0.3048, yd: 0.9144, yard: 0.9144, mile: 1609.344, mil: 2.54e-5,
+  thou: 2.54e-5, microinch: 2.54e-8,
 };
 
 /** A typed number: "3", "-.5", "2,5", "1e-3", "3/4", "1 1/2". Null if it is not a number. */
