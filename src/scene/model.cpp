@@ -138,9 +138,8 @@ Expected<void> keep_varying_load(SceneModel& scene) {
 double detail_of(const std::vector<Tool>& tools) {
   double detail = 0;
   for (const Tool& t : tools) {
-    double size = t.shape.size();
-    if (!t.collides()) size = std::min(size, t.range);
-    if (std::isfinite(size) && (detail == 0 || size < detail)) detail = size;
+    const double own = t.detail();
+    if (std::isfinite(own) && (detail == 0 || own < detail)) detail = own;
   }
   return detail;
 }

@@ -23,7 +23,7 @@ struct ActiveSpline<D>::Model {
   std::vector<Spline<D>> patches;
   std::vector<int> rows;
   std::vector<DomainScaling<D>> scalings;
-  std::vector<ToolLoad<D>> loads;
+  std::vector<ToolGrids<D>> loads;
   std::vector<GrevilleForce<D>> greville;  // for the analytic route
   double length;
   Point centre;   // positions are relative to this point, to keep digits where coordinates are large

@@ -94,7 +94,7 @@ RestShape at_rest(const std::vector<Spline<D>>& patches) {
 template <int D>
 struct Assembly {
   std::vector<DomainScaling<D>> scalings;
-  std::vector<ToolLoad<D>> loads;
+  std::vector<ToolGrids<D>> loads;
   std::vector<GrevilleForce<D>> greville;  // for the analytic route
   NetOperator<D> stretch, bend, stiffness, weight, mass, damping;
   std::optional<double> energy_error;  // of rational patches
@@ -150,8 +150,8 @@ Expected<void> add_operators(const Spline<D>& patch, std::size_t k, int first, c
 template <int D>
 Expected<void> assemble_forces(const Spline<D>& patch, std::size_t k, const ActiveSettings<D>& settings,
                                const StiffnessOptions& options, Assembly<D>& to) {
-  auto load = ToolLoad<D>::create(patch, to.scalings[k],
-                                  settings.detail > 0 ? settings.detail : std::numeric_limits<double>::infinity());
+  auto load = ToolGrids<D>::create(patch, to.scalings[k],
+                                   settings.detail > 0 ? settings.detail : std::numeric_limits<double>::infinity());
   if (!load) return std::unexpected(load.error());
   if constexpr (D == 2) {
     if (k < settings.visible.size() && settings.visible[k] && settings.route == ForceRoute::gauss) {

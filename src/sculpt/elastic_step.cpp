@@ -265,7 +265,7 @@ Expected<ElasticModel<D>> ElasticModel<D>::create(std::vector<Spline<D>> patches
     if (!scaling) return std::unexpected(scaling.error());
     m.scalings.push_back(k == 0 ? *scaling : in_unit<D>(*scaling, m.scalings.front().length));
     const double detail = m.settings.detail > 0 ? m.settings.detail : std::numeric_limits<double>::infinity();
-    auto load = ToolLoad<D>::create(m.patches[k], m.scalings[k], detail);
+    auto load = ToolGrids<D>::create(m.patches[k], m.scalings[k], detail);
     if (!load) return std::unexpected(load.error());
     if constexpr (D == 2) {
       if (k < m.settings.visible.size() && m.settings.visible[k]) load->show(m.settings.visible[k]);

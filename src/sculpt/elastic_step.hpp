@@ -22,7 +22,7 @@ struct ElasticModel {
   std::vector<int> rows;           // first of every patch, and the end
   ActiveShellSettings settings;
   std::vector<DomainScaling<D>> scalings = {};
-  std::vector<ToolLoad<D>> loads = {};
+  std::vector<ToolGrids<D>> loads = {};
   ElasticEnergy::Units units = {};
   double extent = 1;
   Points rest = {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "knead/sculpt/active_spline.hpp"
@@ -12,7 +13,7 @@ namespace knead {
 template <int D>
 class PatchPotential final : public Potential {
  public:
-  PatchPotential(std::span<const ToolLoad<D>> loads, std::span<const int> rows, std::vector<ModelTool> tools)
+  PatchPotential(std::span<const ToolGrids<D>> loads, std::span<const int> rows, std::vector<ModelTool> tools)
       : loads_(loads), rows_(rows), tools_(std::move(tools)) {
     for (const ModelTool& tool : tools_) given_.push_back(tool.stiffness());
   }
@@ -22,9 +23,12 @@ class PatchPotential final : public Potential {
     if (std::ranges::none_of(tools_, [](const ModelTool& t) { return t.tool().friction > 0 && t.tool().collides(); }))
       return;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
-      friction_.push_back(loads_[k].anchors(x, rows_[k], tools_, slip));
-      visible_friction_.push_back(loads_[k].hides() ? loads_[k].anchors(x, rows_[k], tools_, slip, ToolPass::visible)
-                                                    : FrictionAnchors{});
+      friction_.emplace_back();
+      for (const ToolLoad<D>& grid : loads_[k]) {
+        friction_[k].push_back(
+            {grid.anchors(x, rows_[k], tools_, slip),
+             grid.hides() ? grid.anchors(x, rows_[k], tools_, slip, ToolPass::visible) : FrictionAnchors{}});
+      }
     }
   }
   /// No point may be further than `distance` from its position in `original`.
@@ -47,8 +51,10 @@ class PatchPotential final : public Potential {
   /// The deepest penetration of tool k itself, also between Gauss points.
   [[nodiscard]] double deepest_entry(std::size_t k, const Points& x) const {
     double deepest = 0;
-    for (std::size_t l = 0; l < loads_.size(); ++l)
-      deepest = std::max(deepest, loads_[l].deepest_entry(x, rows_[l], tools_[k]).depth);
+    for (std::size_t l = 0; l < loads_.size(); ++l) {
+      const auto grid = std::ranges::find_if(loads_[l], [&](const auto& g) { return g.takes(tools_[k]); });
+      deepest = std::max(deepest, grid->deepest_entry(x, rows_[l], tools_[k]).depth);
+    }
     return deepest;
   }
   [[nodiscard]] std::size_t tool_count() const { return tools_.size(); }
@@ -67,8 +73,8 @@ class PatchPotential final : public Potential {
   }
 
   void apply_hessian(const PotentialState& state, const Points& v, Points& out) const override {
-    for_each_patch(
-        state, [&](std::size_t k, auto contacts) { loads_[k].apply_hessian(contacts, rows_[k], v, out); },
+    for_each_grid(
+        state, [&](const ToolLoad<D>& grid, int first, auto contacts) { grid.apply_hessian(contacts, first, v, out); },
         [&](const ContactPoint& c) {
           const PointForce& force = points_[static_cast<std::size_t>(c.at[0])];
           const Point h = c.hessian * combined(force, v);
@@ -77,14 +83,15 @@ class PatchPotential final : public Potential {
   }
 
   void each_hessian_block(const PotentialState& state, const AddBlock& add) const override {
-    for_each_patch(
-        state, [&](std::size_t k, auto contacts) { loads_[k].each_hessian_block(contacts, rows_[k], add); },
+    for_each_grid(
+        state,
+        [&](const ToolLoad<D>& grid, int first, auto contacts) { grid.each_hessian_block(contacts, first, add); },
         [&](const ContactPoint& c) { add_point_block(c, add); });
   }
 
   void mark(const PotentialState& state, std::vector<char>& marks) const override {
-    for_each_patch(
-        state, [&](std::size_t k, auto contacts) { loads_[k].mark(contacts, rows_[k], marks); },
+    for_each_grid(
+        state, [&](const ToolLoad<D>& grid, int first, auto contacts) { grid.mark(contacts, first, marks); },
         [&](const ContactPoint& c) {
           for (const auto& [row, r] : points_[static_cast<std::size_t>(c.at[0])].terms)
             marks[static_cast<std::size_t>(row)] = 1;
@@ -92,7 +99,7 @@ class PatchPotential final : public Potential {
   }
 
   void widen(std::vector<char>& marks) const override {
-    for (std::size_t k = 0; k < loads_.size(); ++k) loads_[k].widen(rows_[k], marks);
+    for (std::size_t k = 0; k < loads_.size(); ++k) loads_[k].coarsest().widen(rows_[k], marks);
   }
 
   [[nodiscard]] WatchedElements watch(const std::vector<char>& marks) const override {
@@ -100,7 +107,8 @@ class PatchPotential final : public Potential {
     for (std::size_t i = 0; i < marks.size(); ++i) {
       if (marks[i]) watched.rows.push_back(static_cast<int>(i));
     }
-    for (std::size_t k = 0; k < loads_.size(); ++k) watched.elements.push_back(loads_[k].elements_of(rows_[k], marks));
+    for (std::size_t k = 0; k < loads_.size(); ++k)
+      watched.elements.push_back(loads_[k].coarsest().elements_of(rows_[k], marks));
     return watched;
   }
 
@@ -124,28 +132,32 @@ class PatchPotential final : public Potential {
     PotentialState state;
     state.force = Points::Zero(x.rows(), 3);
     for (std::size_t k = 0; k < loads_.size(); ++k) {
-      const auto friction = [&](const std::vector<FrictionAnchors>& of) { return of.empty() ? nullptr : &of[k]; };
-      const DisplacementLimit* limit = limits() ? &limits_[k] : nullptr;
-      const int patch = static_cast<int>(k);
-      loads_[k].evaluate(x, rows_[k], patch, {tools_, friction(friction_), limit, ToolPass::all, watched, beyond},
-                         state);
-      if (!loads_[k].hides()) continue;
-      loads_[k].evaluate(x, rows_[k], patch,
-                         {tools_, friction(visible_friction_), nullptr, ToolPass::visible, watched, beyond}, state);
+      for (std::size_t g = 0; g < loads_[k].size(); ++g) {
+        const ToolLoad<D>& grid = loads_[k][g];
+        const auto pass = [&](ToolPass which, const DisplacementLimit* limit) {
+          const FrictionAnchors* friction =
+              friction_.empty() ? nullptr : &friction_[k][g][which == ToolPass::all ? 0U : 1U];
+          if (friction && friction->anchors.empty()) friction = nullptr;
+          grid.evaluate(x, rows_[k], static_cast<int>(k), {tools_, friction, limit, which, watched, beyond}, state);
+        };
+        pass(ToolPass::all, limits() && &grid == &loads_[k].coarsest() ? &limits_[k] : nullptr);
+        if (grid.hides()) pass(ToolPass::visible, nullptr);
+      }
     }
     return state;
   }
 
-  /// on_patch(k, contacts) for contacts of one patch that follow one another, on_point(contact) for each of a force on
-  /// one point.
+  /// on_grid(grid, its patch's first row, contacts) for contacts of one grid that follow one another, on_point(contact)
+  /// for each of a force on one point.
   template <class F, class G>
-  static void for_each_patch(const PotentialState& state, const F& on_patch, const G& on_point) {
+  void for_each_grid(const PotentialState& state, const F& on_grid, const G& on_point) const {
     const std::span<const ContactPoint> all(state.contacts);
     for (std::size_t k = 0; k < all.size();) {
       std::size_t end = k + 1;
-      while (end < all.size() && all[end].patch == all[k].patch) ++end;
+      while (end < all.size() && all[end].patch == all[k].patch && all[end].grid == all[k].grid) ++end;
       if (all[k].patch >= 0) {
-        on_patch(static_cast<std::size_t>(all[k].patch), all.subspan(k, end - k));
+        const auto patch = static_cast<std::size_t>(all[k].patch);
+        on_grid(loads_[patch][static_cast<std::size_t>(all[k].grid)], rows_[patch], all.subspan(k, end - k));
       } else {
         for (std::size_t i = k; i < end; ++i) on_point(all[i]);
       }
@@ -197,11 +209,11 @@ class PatchPotential final : public Potential {
   }
 
   std::vector<PointForce> points_;
-  std::span<const ToolLoad<D>> loads_;
+  std::span<const ToolGrids<D>> loads_;  // of the patches
   std::span<const int> rows_;
   std::vector<ModelTool> tools_;
-  std::vector<double> given_;                                 // their stiffness, not softened
-  std::vector<FrictionAnchors> friction_, visible_friction_;  // of the tools of either pass, by patch
+  std::vector<double> given_;                                          // their stiffness, not softened
+  std::vector<std::vector<std::array<FrictionAnchors, 2>>> friction_;  // of either pass, by patch and grid
   std::vector<DisplacementLimit> limits_;
   double limit_stiffness_ = 0;  // not softened
 };

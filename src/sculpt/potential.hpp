@@ -19,6 +19,7 @@ struct ContactPoint {
   double factor = 0;        ///< Gauss weight / rational denominator²; the basis carries w N
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   int part = -1;  ///< the visible part of that point's cell, where an edge cuts it; −1: the Gauss point itself
+  int grid = 0;   ///< of the patch's `ToolGrids`
 };
 
 /// A potential Ψ, its force −∇Ψ and its linearisation at one position.

@@ -98,18 +98,21 @@ template <int D>
 Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainScaling<D>& scaling, double detail) {
   ToolLoad load;
   load.net_ = spline.net();
-  std::array<std::vector<double>, D> lengths;
+  load.detail_ = detail / scaling.length;
+  load.scale_ = scaling.factors;
   std::array<std::vector<int>, D> counts;
   double points = 1;
   for (std::size_t d = 0; d < D; ++d) {
     auto longest = span_lengths<D>(spline, d);
     if (!longest) return std::unexpected(longest.error());
-    lengths[d] = std::move(*longest);
     const int per_piece = spline.knots()[d].degree() + 1;
-    auto chosen = pieces(lengths[d], per_piece, detail);
+    auto chosen = pieces(*longest, per_piece, detail);
     if (!chosen) return std::unexpected(chosen.error());
     counts[d] = std::move(*chosen);
     points *= std::accumulate(counts[d].begin(), counts[d].end(), 0.0) * per_piece;
+    for (double& length : *longest) length /= scaling.length;
+    load.lengths_[d] = std::move(*longest);
+    load.knots_.push_back(spline.knots()[d]);
   }
   if (points > max_points && !std::isfinite(detail)) {
     return input_error(fmt::format("forces on this net would be integrated over {:.0f} points, more than {:.0f}",
@@ -117,30 +120,55 @@ Expected<ToolLoad<D>> ToolLoad<D>::create(const Spline<D>& spline, const DomainS
                        "net", "use a coarser net, or a lower degree");
   }
   if (points > max_points) return too_small(detail);
-  for (std::size_t d = 0; d < D; ++d) {
-    const int per_piece = spline.knots()[d].degree() + 1;
-    load.quadrature_[d] = gauss_basis(spline.knots()[d], per_piece, 0, counts[d]);
-    for (double& w : load.quadrature_[d].weights) w *= scaling.factors[d];
-    load.spans_[d].push_back(0);
-    for (int count : counts[d]) {
-      load.starts_[d].push_back(load.quadrature_[d].basis.first[static_cast<std::size_t>(load.spans_[d].back())]);
-      load.spans_[d].push_back(load.spans_[d].back() + count * per_piece);
-    }
-    for (double& length : lengths[d]) length /= scaling.length;
-    load.lengths_[d] = std::move(lengths[d]);
-    load.knots_.push_back(spline.knots()[d]);
-  }
-  load.progress_ = progress_along(load.quadrature_[D - 1].basis);
-  load.transpose();
+  load.divide(counts);
   load.weights_.assign(spline.weights().begin(), spline.weights().end());
   load.in_hull_ = std::ranges::all_of(load.weights_, [](double w) { return w > 0; });
   return load;
+}
+
+/// Lays out the grid, with every span cut into as many pieces of p + 1 points.
+template <int D>
+void ToolLoad<D>::divide(const std::array<std::vector<int>, D>& counts) {
+  for (std::size_t d = 0; d < D; ++d) {
+    const int per_piece = knots_[d].degree() + 1;
+    quadrature_[d] = gauss_basis(knots_[d], per_piece, 0, counts[d]);
+    for (double& w : quadrature_[d].weights) w *= scale_[d];
+    spans_[d] = {0};
+    starts_[d].clear();
+    for (int count : counts[d]) {
+      starts_[d].push_back(quadrature_[d].basis.first[static_cast<std::size_t>(spans_[d].back())]);
+      spans_[d].push_back(spans_[d].back() + count * per_piece);
+    }
+  }
+  progress_ = progress_along(quadrature_[D - 1].basis);
+  transpose();
+}
+
+template <int D>
+std::optional<ToolLoad<D>> ToolLoad<D>::split() {
+  std::array<std::vector<int>, D> counts;
+  bool coarsest = true;
+  for (std::size_t d = 0; d < D; ++d) {
+    const int per_piece = knots_[d].degree() + 1;
+    coarsest = coarsest && quadrature_[d].basis.size() == per_piece * static_cast<int>(lengths_[d].size());
+    for (double length : lengths_[d])
+      counts[d].push_back(static_cast<int>(pieces_of_span(length, per_piece, 2 * detail_)));
+  }
+  if (coarsest) return std::nullopt;
+  ToolLoad coarser = *this;
+  coarser.detail_ = 2 * detail_;
+  coarser.least_ = coarser.detail_;
+  coarser.grid_ = grid_ + 1;
+  coarser.divide(counts);
+  most_ = coarser.least_;
+  return coarser;
 }
 
 template <int D>
 void ToolLoad<D>::transpose() {
   const BasisTable& basis = quadrature_[D - 1].basis;
   const std::vector<int>& starts = spans_[D - 1];
+  transposed_.clear();
   for (std::size_t s = 0; s + 1 < starts.size(); ++s) {
     const std::ptrdiff_t count = starts[s + 1] - starts[s];
     // Any point may be the first of a few that are read together.
@@ -194,13 +222,6 @@ long long ToolLoad<D>::points() const {
   long long count = 1;
   for (const BasisQuadrature& q : quadrature_) count *= q.basis.size();
   return count;
-}
-
-template <int D>
-long long ToolLoad<D>::index(const std::array<int, 3>& at) const {
-  long long result = 0;
-  for (std::size_t d = 0; d < D; ++d) result = result * quadrature_[d].basis.size() + at[d];
-  return result;
 }
 
 template <int D>
@@ -306,10 +327,7 @@ std::vector<int> ToolLoad<D>::elements_of(int first, const std::vector<char>& ma
     bool all = true;
     for_each_control_point(element, [&](int row) { all = all && marks[static_cast<std::size_t>(first + row)] != 0; });
     if (!all) return;
-    std::size_t number = 0;
-    for (std::size_t d = 0; d < D; ++d)
-      number = number * (spans_[d].size() - 1) + static_cast<std::size_t>(element.span[d]);
-    result.push_back(static_cast<int>(number));
+    result.push_back(number(element));
   });
   return result;
 }
@@ -322,6 +340,7 @@ struct ToolLoad<D>::Gripping {
   int first;
   const ModelTool& tool;
   bool cut;  // by the edges of the visible part
+  Element element;
   FrictionAnchors& result;
 
   [[nodiscard]] bool skip(const Point&, const Point&) const { return false; }
@@ -337,7 +356,12 @@ struct ToolLoad<D>::Gripping {
   double at(const Sample& s) const {
     const ToolAction action = tool.action(s.place);
     if (!action.active) return action.clear;
-    int& at = result.index[static_cast<std::size_t>(load.index(s.at))];
+    std::ptrdiff_t& begin = result.elements[static_cast<std::size_t>(load.number(element))];
+    if (begin < 0) {
+      begin = static_cast<std::ptrdiff_t>(result.index.size());
+      result.index.resize(result.index.size() + static_cast<std::size_t>(points(element)), -1);
+    }
+    int& at = result.index[static_cast<std::size_t>(begin + index(element, s.at))];
     const FrictionAnchors::Anchor anchor{tool.tool().friction * action.force.norm(), action.normal, s.place};
     if (at < 0) {
       at = static_cast<int>(result.anchors.size());
@@ -354,7 +378,14 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
                                      ToolPass pass) const {
   FrictionAnchors result;
   result.slip = slip;
-  result.index.assign(static_cast<std::size_t>(points()), -1);
+  std::vector<const ModelTool*> rubbing;
+  for (const ModelTool& tool : tools) {
+    if (tool.tool().collides() && tool.tool().friction > 0 && takes_in_pass(tool, pass)) rubbing.push_back(&tool);
+  }
+  if (rubbing.empty()) return result;
+  std::size_t elements = 1;
+  for (std::size_t d = 0; d < D; ++d) elements *= starts_[d].size();
+  result.elements.assign(elements, -1);
   Sweep sweep(*this, x, first);
   for_each_element([&](const Element& element) {
     if (Interruption::asked_for()) return;
@@ -362,18 +393,37 @@ FrictionAnchors ToolLoad<D>::anchors(const Points& x, int first, std::span<const
     if (visible == VisibleMask::hidden) return;
     Point lower, upper;
     sweep.enter(element, lower, upper);
-    for (const ModelTool& tool : tools) {
-      if (!tool.tool().collides() || tool.tool().friction == 0 || pass_of(tool) != pass) continue;
-      if (in_hull_ && !tool.may_reach(lower, upper)) continue;
-      Gripping gripping{*this, x, first, tool, visible != VisibleMask::full, result};
+    for (const ModelTool* tool : rubbing) {
+      if (in_hull_ && !tool->may_reach(lower, upper)) continue;
+      Gripping gripping{*this, x, first, *tool, visible != VisibleMask::full, element, result};
       sweep.run(gripping);
     }
   });
   return result;
 }
 
+template <int D>
+Expected<ToolGrids<D>> ToolGrids<D>::create(const Spline<D>& spline, const DomainScaling<D>& scaling, double detail) {
+  auto finest = ToolLoad<D>::create(spline, scaling, detail);
+  if (!finest) return std::unexpected(finest.error());
+  ToolGrids result;
+  for (std::optional<ToolLoad<D>> next = std::move(*finest); next;) {
+    result.grids_.push_back(std::move(*next));
+    next = result.grids_.back().split();
+  }
+  return result;
+}
+
+template <int D>
+void ToolGrids<D>::show(const std::shared_ptr<const VisibleRegion>& region) {
+  for (ToolLoad<D>& grid : grids_) grid.show(region);
+}
+
 template class ToolLoad<1>;
 template class ToolLoad<2>;
 template class ToolLoad<3>;
+template class ToolGrids<1>;
+template class ToolGrids<2>;
+template class ToolGrids<3>;
 
 }  // namespace knead

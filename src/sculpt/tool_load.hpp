@@ -36,13 +36,15 @@ struct Penetration {
 /// control point to control point of the row, since the sums N_r + … + N_p grow with u.
 [[nodiscard]] std::vector<double> progress_along(const BasisTable& basis);
 
-/// Dry friction, lagged: the normal forces and positions of all points in contact at the start of a step.
+/// Dry friction, lagged: the normal forces and positions of all points in contact at the start of a step. What it keeps
+/// per Gauss point it keeps for elements in contact only.
 struct FrictionAnchors {
   struct Anchor {
     double grip = 0;  ///< Coulomb's coefficient times the normal force per parameter measure
     Point normal = Point::Zero(), place = Point::Zero();
   };
-  std::vector<int> index;  ///< per Gauss point: an anchor, or −1
+  std::vector<std::ptrdiff_t> elements;  ///< by number: where its points begin in `index`, or −1: none is in contact
+  std::vector<int> index;                ///< per Gauss point of these elements: an anchor, or −1
   std::vector<Anchor> anchors;
   double slip = 0;  ///< movement at which friction is fully developed
 };
@@ -58,7 +60,8 @@ struct DisplacementLimit {
 /// points in the parameter domain, R_i the (rational) basis. Everything is in the units of a `DomainScaling`.
 ///
 /// The Gauss grid depends on the knots and weights and on the size of the tools, and is kept from step to step: at
-/// least p + 1 points per span, and enough that they lie closer than a sixth of the smallest tool. Only spans whose
+/// least p + 1 points per span, and enough that they lie closer than a sixth of the smallest tool that is integrated on
+/// it (see `ToolGrids`). Only spans whose
 /// control points come near a tool are evaluated (the shape lies in their convex hull; with a weight that is not
 /// positive it may not, and all are), so the cost depends on the contact, not the grid.
 ///
@@ -71,11 +74,13 @@ template <int D>
 class ToolLoad {
  public:
   /// \param spline the rest shape, in file units; its spans are measured to choose the number of points.
-  /// \param detail the length to resolve, in file units (smallest size or range of the tools); infinite: p + 1 points
-  ///               per span.
+  /// \param detail the length to resolve, in file units (the least `Tool::detail`); infinite: p + 1 points per span.
   /// Error (input): the tool is so small that a direction would need more than 100,000 points.
   [[nodiscard]] static Expected<ToolLoad> create(const Spline<D>& spline, const DomainScaling<D>& scaling,
                                                  double detail);
+  /// The same on a grid that resolves twice the length, for tools of that detail and more; this one is left with those
+  /// of less. None where this one has p + 1 points on every span.
+  [[nodiscard]] std::optional<ToolLoad> split();
 
   /// The part of a surface that is visible, from now on. No effect if that is all of it. Surfaces only.
   void show(std::shared_ptr<const VisibleRegion> region);
@@ -119,6 +124,10 @@ class ToolLoad {
   [[nodiscard]] Penetration deepest_entry(const Points& x, int first, const ModelTool& tool) const;
 
   [[nodiscard]] long long points() const;
+  /// Whether a tool is integrated on this grid.
+  [[nodiscard]] bool takes(const ModelTool& tool) const {
+    return tool.detail() >= least_ && (!most_ || tool.detail() < *most_);
+  }
 
  private:
   struct Element;   // one span per direction
@@ -143,6 +152,7 @@ class ToolLoad {
 
   [[nodiscard]] int control_points() const { return std::accumulate(net_.begin(), net_.end(), 1, std::multiplies{}); }
 
+  void divide(const std::array<std::vector<int>, D>& counts);
   void transpose();
   [[nodiscard]] Element element(std::array<std::size_t, D> span) const;
   [[nodiscard]] Element element(int number) const;
@@ -161,15 +171,25 @@ class ToolLoad {
   [[nodiscard]] ToolPass pass_of(const ModelTool& tool) const {
     return mask_ && tool.tool().touches == ToolTouch::visible ? ToolPass::visible : ToolPass::all;
   }
+  [[nodiscard]] bool takes_in_pass(const ModelTool& tool, ToolPass pass) const {
+    return takes(tool) && pass_of(tool) == pass;
+  }
   [[nodiscard]] int visibility(const Element& element) const;
   [[nodiscard]] const double* values(const std::array<int, 3>& at, int part, std::size_t d) const;
-  [[nodiscard]] long long index(const std::array<int, 3>& at) const;
+  [[nodiscard]] int number(const Element& element) const;
+  [[nodiscard]] static std::ptrdiff_t index(const Element& element, const std::array<int, 3>& at);
+  [[nodiscard]] static std::ptrdiff_t points(const Element& element);
   template <class F>
   void for_each_function(const std::array<int, 3>& at, int part, const F& f) const;
   [[nodiscard]] double weight(std::ptrdiff_t row) const {
     return weights_.empty() ? 1 : weights_[static_cast<std::size_t>(row)];
   }
 
+  double detail_ = 0;              // that it resolves, normalised
+  double least_ = 0;               // detail of the tools that it takes
+  std::optional<double> most_;     // likewise; none: all from there on
+  int grid_ = 0;                   // of `ToolGrids`
+  std::array<double, D> scale_{};  // of the domain, see `DomainScaling`
   std::array<int, D> net_{};
   std::array<BasisQuadrature, D> quadrature_;
   std::vector<KnotVector> knots_;
@@ -183,6 +203,30 @@ class ToolLoad {
   std::shared_ptr<const VisibleRegion> region_;  // null: everything is visible
   std::shared_ptr<const VisibleMask> mask_;      // of the Gauss points' cells; null likewise
   std::vector<double> part_values_;  // of the basis at the centroid of every part, one direction after the other
+};
+
+/// The forces of tools of all sizes on one patch, each tool on a grid of its own fineness: grid k resolves 2^k times
+/// the smallest detail, and takes the tools of 2^k to 2^(k+1) times that; the last one has p + 1 points per span, and
+/// takes all larger ones. A small tool does not refine the grid of a large one: a tool is asked at no more than four
+/// times (in two directions) as many points as if it were alone. The limit on displacements, which is a spline itself,
+/// acts on the last grid.
+template <int D>
+class ToolGrids {
+ public:
+  /// As `ToolLoad::create`.
+  [[nodiscard]] static Expected<ToolGrids> create(const Spline<D>& spline, const DomainScaling<D>& scaling,
+                                                  double detail);
+  /// As `ToolLoad::show`.
+  void show(const std::shared_ptr<const VisibleRegion>& region);
+
+  [[nodiscard]] std::size_t size() const { return grids_.size(); }
+  [[nodiscard]] const ToolLoad<D>& operator[](std::size_t k) const { return grids_[k]; }
+  [[nodiscard]] const ToolLoad<D>& coarsest() const { return grids_.back(); }
+  [[nodiscard]] auto begin() const { return grids_.begin(); }
+  [[nodiscard]] auto end() const { return grids_.end(); }
+
+ private:
+  std::vector<ToolLoad<D>> grids_;  // finest first
 };
 
 }  // namespace knead

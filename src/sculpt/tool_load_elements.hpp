@@ -44,6 +44,29 @@ typename ToolLoad<D>::Element ToolLoad<D>::element(int number) const {
   return element(span);
 }
 
+/// Its number, in the order of `for_each_element`.
+template <int D>
+int ToolLoad<D>::number(const Element& element) const {
+  int result = 0;
+  for (std::size_t d = 0; d < D; ++d) result = result * static_cast<int>(starts_[d].size()) + element.span[d];
+  return result;
+}
+
+/// The place of a Gauss point among those of its element.
+template <int D>
+std::ptrdiff_t ToolLoad<D>::index(const Element& element, const std::array<int, 3>& at) {
+  std::ptrdiff_t result = 0;
+  for (std::size_t d = 0; d < D; ++d) result = result * (element.end[d] - element.begin[d]) + at[d] - element.begin[d];
+  return result;
+}
+
+template <int D>
+std::ptrdiff_t ToolLoad<D>::points(const Element& element) {
+  std::ptrdiff_t result = 1;
+  for (std::size_t d = 0; d < D; ++d) result *= element.end[d] - element.begin[d];
+  return result;
+}
+
 template <int D>
 template <class F>
 void ToolLoad<D>::for_each_element(const F& f) const {

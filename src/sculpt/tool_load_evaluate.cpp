@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -80,6 +81,9 @@ class ToolLoad<D>::Evaluation {
         sweep_(load, x, first),
         forces_(load, first, state.force),
         clear_(actors.tools.size()) {
+    for (std::size_t t = 0; t < actors.tools.size(); ++t) {
+      if (load.takes_in_pass(actors.tools[t], actors.pass)) taken_.push_back(t);
+    }
     find_sides();
     for (const ModelTool& tool : actors.tools) reaches_.push_back(reach_of(tool));
     if (actors.limit == nullptr) return;
@@ -138,17 +142,20 @@ class ToolLoad<D>::Evaluation {
     double longest = 0;
     for (std::size_t d = 0; d < D; ++d)
       longest = std::max(longest, load_.lengths_[d][static_cast<std::size_t>(element.span[d])]);
-    Visitor visitor{*this, longest, limited, visible != VisibleMask::full, limited || actors_.friction != nullptr};
+    const std::ptrdiff_t gripped = anchors_of(element);
+    Visitor visitor{*this, element, longest, gripped, limited, visible != VisibleMask::full};
     sweep_.run(visitor);
   }
 
   /// What happens at the points of one element.
   struct Visitor {
     Evaluation& here;
-    double longest;   // of its spans
-    bool limited;     // a point may be further away than the limit allows
-    bool cut;         // by the edges of the visible part
-    bool everywhere;  // friction and the limit act away from tools
+    const Element& element;
+    double longest;                             // of its spans
+    std::ptrdiff_t gripped;                     // where its points' anchors of friction begin; −1: none
+    bool limited;                               // a point may be further away than the limit allows
+    bool cut;                                   // by the edges of the visible part
+    bool everywhere = limited || gripped >= 0;  // friction and the limit act away from tools
 
     [[nodiscard]] bool skip(const Point& lower, const Point& upper) const {
       // What is seen of a cell may lie beside the row of its Gauss point.
@@ -175,11 +182,17 @@ class ToolLoad<D>::Evaluation {
     double at(const Sample& s) const {
       ++here.state_.visited;
       const double clear = here.press(s, longest);
-      if (here.actors_.friction != nullptr) here.rub(s);
+      if (gripped >= 0) here.rub(s, gripped + index(element, s.at));
       if (limited) here.hold_back(s);
       return everywhere ? 0 : clear;
     }
   };
+
+  /// Where the anchors of friction at an element's points begin; −1: it has none.
+  [[nodiscard]] std::ptrdiff_t anchors_of(const Element& element) const {
+    return actors_.friction == nullptr ? -1
+                                       : actors_.friction->elements[static_cast<std::size_t>(load_.number(element))];
+  }
 
   /// f(i) for every control point of the patch that is used.
   template <class F>
@@ -198,7 +211,7 @@ class ToolLoad<D>::Evaluation {
   void find_sides() {
     count_ = static_cast<std::size_t>(load_.control_points());
     sides_.resize(count_ * actors_.tools.size());
-    for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
+    for (const std::size_t t : taken_) {
       const double* points = x_.data() + 3 * static_cast<std::ptrdiff_t>(first_);
       unsigned char* sides = sides_.data() + t * count_;
       for_each_used([&](std::size_t i) { sides[i] = actors_.tools[t].sides(points + 3 * i); });
@@ -217,14 +230,10 @@ class ToolLoad<D>::Evaluation {
 
   /// Whether a tool may reach the element with this first control point, by the sides of all its control points.
   [[nodiscard]] bool is_near(std::size_t tool, std::size_t first) const {
-    return load_.pass_of(actors_.tools[tool]) == actors_.pass &&
-           (!load_.in_hull_ || sides_[tool * count_ + first] == 0);
+    return !load_.in_hull_ || sides_[tool * count_ + first] == 0;
   }
   [[nodiscard]] bool any_near(std::size_t first) const {
-    for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
-      if (is_near(t, first)) return true;
-    }
-    return false;
+    return std::ranges::any_of(taken_, [&](std::size_t t) { return is_near(t, first); });
   }
   void find_near(const Element& element) {
     near_.clear();
@@ -232,9 +241,7 @@ class ToolLoad<D>::Evaluation {
     for (std::size_t d = 0; d < D; ++d) {
       first = first * static_cast<std::size_t>(load_.net_[d]) + static_cast<std::size_t>(element.first[d]);
     }
-    for (std::size_t t = 0; t < actors_.tools.size(); ++t) {
-      if (is_near(t, first)) near_.push_back(t);
-    }
+    std::ranges::copy_if(taken_, std::back_inserter(near_), [&](std::size_t t) { return is_near(t, first); });
   }
 
   /// Whether every tool that is near acts on nothing in a box.
@@ -271,7 +278,7 @@ class ToolLoad<D>::Evaluation {
         for (int c = 0; c < 3; ++c) to[c] += s.weight * s.inverse * n * force[c];
       });
     }
-    state_.contacts.push_back({patch_, s.at, s.weight * s.inverse * s.inverse, hessian, s.part});
+    state_.contacts.push_back({patch_, s.at, s.weight * s.inverse * s.inverse, hessian, s.part, load_.grid_});
   }
 
   /// Tools. `longest` is the element's longest span. Returns how far around no tool acts.
@@ -293,9 +300,9 @@ class ToolLoad<D>::Evaluation {
     return clear;
   }
 
-  /// Friction.
-  void rub(const Sample& s) {
-    const int anchor = actors_.friction->index[static_cast<std::size_t>(load_.index(s.at))];
+  /// Friction at a point whose anchor stands at `index`.
+  void rub(const Sample& s, std::ptrdiff_t index) {
+    const int anchor = actors_.friction->index[static_cast<std::size_t>(index)];
     if (anchor < 0) return;
     const auto& a = actors_.friction->anchors[static_cast<std::size_t>(anchor)];
     const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - a.normal * a.normal.transpose();
@@ -338,17 +345,18 @@ class ToolLoad<D>::Evaluation {
   ForcesOfPoints forces_;
   std::vector<detail::ClearBall> clear_;  // by tool
   const detail::ElementKernels& kernels_ = detail::element_kernels();
-  std::optional<FieldAtPoints> original_;  // that the limit is measured from
-  std::size_t count_ = 0;                  // of control points
-  std::vector<unsigned char> sides_;       // by first control point of an element, tool after tool
-  Eigen::VectorXd displacements_;          // of the control points: their hull bounds the displacement of every point
-  std::vector<std::size_t> near_;
+  std::optional<FieldAtPoints> original_;   // that the limit is measured from
+  std::size_t count_ = 0;                   // of control points
+  std::vector<unsigned char> sides_;        // by first control point of an element, tool after tool
+  Eigen::VectorXd displacements_;           // of the control points: their hull bounds the displacement of every point
+  std::vector<std::size_t> taken_, near_;   // the tools of this grid and pass, and those near an element
   std::vector<detail::ToolReach> reaches_;  // of the tools
 };
 
 template <int D>
 void ToolLoad<D>::evaluate(const Points& x, int first, int patch, const Actors& actors, PotentialState& state) const {
-  if (actors.tools.empty() && actors.limit == nullptr) return;
+  const bool none = std::ranges::none_of(actors.tools, [&](const auto& t) { return takes_in_pass(t, actors.pass); });
+  if (none && actors.friction == nullptr && actors.limit == nullptr) return;
   Evaluation(*this, x, first, patch, actors, state).run();
 }
 

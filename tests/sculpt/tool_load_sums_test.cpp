@@ -174,9 +174,9 @@ TEST(ToolLoadSums, FindEveryContactAmongRowsOfAnyLength) {
 
 TEST(ToolLoadSums, TellWhatActsBeyondSomeElements) {
   const Surface s = testing::box<2>(3, 20);
-  auto load = ToolLoad<2>::create(s, DomainScaling<2>{}, 0.15);
+  auto load = ToolGrids<2>::create(s, DomainScaling<2>{}, 0.15);
   ASSERT_TRUE(load);
-  const std::vector<ToolLoad<2>> loads = {*load};
+  const std::vector<ToolGrids<2>> loads = {*load};
   const std::vector<int> rows = {0, s.size()};
   const PatchPotential<2> potential(loads, rows, {round_tool({0.5, 0.4, 0.1}, 0.15)});
   const Points x = s.control_points();

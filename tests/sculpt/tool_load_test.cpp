@@ -205,6 +205,71 @@ TEST(ToolLoad, AsksWithinAnElementWhetherToGoOn) {
   }
 }
 
+/// The forces of tools on a patch, each on its own grid.
+PotentialState on_grids(const ToolGrids<2>& grids, const Points& x, const std::vector<Tool>& tools) {
+  PotentialState state;
+  state.force = Points::Zero(x.rows(), 3);
+  std::vector<ModelTool> model;
+  for (const Tool& tool : tools) model.emplace_back(tool, Point::Zero(), 1);
+  for (const ToolLoad<2>& grid : grids) {
+    grid.evaluate(x, 0, 0, {.tools = model, .friction = nullptr, .limit = nullptr}, state);
+  }
+  return state;
+}
+
+TEST(ToolGrids, AskALargeToolNoMoreOftenBesideASmallOne) {
+  const Surface sheet = testing::uniform_sheet(3, 6, 6);
+  const Tool ball = {"ball", testing::sphere_at(Point(0.3, 0.3, 0.15), 0.2)},
+             pin = {"pin", testing::sphere_at(Point(0.8, 0.8, 0.001), 0.002), ToolMode::collision, 1e4, 0.5, false,
+                    0.4};
+  const auto beside = ToolGrids<2>::create(sheet, raw, pin.detail());
+  const auto alone = ToolLoad<2>::create(sheet, raw, ball.detail());
+  ASSERT_TRUE(beside && alone);
+  EXPECT_GT((*beside)[0].points(), 1000 * alone->points());
+  const Points& x = sheet.control_points();
+  const PotentialState of_ball = evaluate(*alone, x, {&ball, 1}), of_both = on_grids(*beside, x, {ball, pin}),
+                       of_pin = on_grids(*beside, x, {pin});
+  ASSERT_GT(of_ball.contacts.size(), 50U);
+  ASSERT_GT(of_pin.contacts.size(), 10U);
+  EXPECT_LE(of_both.visited - of_pin.visited, 4 * of_ball.visited);
+  // What each does is what it does alone on a grid that is fine enough for it.
+  EXPECT_LE((of_both.force - of_pin.force - of_ball.force).norm(), 0.01 * of_ball.force.norm());
+  const PotentialState of_ball_here = on_grids(*beside, x, {ball});
+  EXPECT_EQ(of_both.contacts.size(), of_ball_here.contacts.size() + of_pin.contacts.size());
+  // Their rows of anchors of friction are those of what they touch, not of the whole grid.
+  const ModelTool rubbing(pin, Point::Zero(), 1);
+  const FrictionAnchors anchors = (*beside)[0].anchors(x, 0, {&rubbing, 1}, 1e-4);
+  EXPECT_EQ(anchors.anchors.size(), of_pin.contacts.size());
+  EXPECT_LE(static_cast<long long>(anchors.index.size()), (*beside)[0].points() / 9);
+}
+
+TEST(ToolGrids, HaveOneForEveryToolAndOnlyOne) {
+  const Surface sheet = testing::uniform_sheet(3, 6, 6);
+  const auto grids = ToolGrids<2>::create(sheet, raw, 0.003);
+  ASSERT_TRUE(grids);
+  for (double radius : {1e-4, 0.003, 0.0059, 0.006, 0.0061, 0.1, 1.0, 1e9}) {
+    const ModelTool ball({"ball", testing::sphere_at(Point::Zero(), radius)}, Point::Zero(), 1);
+    EXPECT_EQ(std::ranges::count_if(*grids, [&](const auto& grid) { return grid.takes(ball); }), 1) << radius;
+  }
+  EXPECT_EQ(grids->coarsest().points(), 12 * 12);
+  EXPECT_TRUE(grids->coarsest().takes(plane_at(0)));
+}
+
+TEST(ToolGrids, ResolveTheRangeOfAProximityToolAndNotItsThickness) {
+  const Surface sheet = testing::uniform_sheet(3, 6, 6);
+  const auto thin = PlacedShape::create(EllipsoidShape{{0.3, 0.002, 0.2}},
+                                        {Eigen::Quaterniond::Identity(), Point(0.5, 0.5, 0), {1, 1, 1}});
+  ASSERT_TRUE(thin);
+  const Tool tool = {"thin", *thin, ToolMode::proximity, 10, 0.2};
+  EXPECT_EQ(tool.detail(), 0.2);
+  const auto coarse = ToolLoad<2>::create(sheet, raw, tool.detail()), fine = ToolLoad<2>::create(sheet, raw, 0.01);
+  ASSERT_TRUE(coarse && fine);
+  const Points& x = sheet.control_points();
+  const PotentialState a = evaluate(*coarse, x, {&tool, 1}), b = evaluate(*fine, x, {&tool, 1});
+  EXPECT_LE((a.force - b.force).norm(), 0.02 * b.force.norm());
+  EXPECT_LE(100 * a.visited, b.visited);
+}
+
 TEST(ToolLoad, SamplesALargeToolBesideASmallOneAsIfItWereAlone) {
   const Surface sheet = testing::uniform_sheet(3, 6, 6);
   const auto alone = ToolLoad<2>::create(sheet, raw, 0.2), beside = ToolLoad<2>::create(sheet, raw, 0.01);

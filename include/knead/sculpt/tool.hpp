@@ -37,6 +37,10 @@ struct Tool {
   ToolTouch touches = ToolTouch::all;
 
   [[nodiscard]] bool collides() const { return mode != ToolMode::proximity; }
+  /// The length over which its force changes, which points of integration must resolve: the smallest feature of what a
+  /// shape collides with, in units of the file (infinite: a plane); but the range of a proximity tool, however thin
+  /// that is: within it the force is at most stiffness times half the thickness.
+  [[nodiscard]] double detail() const { return collides() ? shape.size() : range; }
 };
 
 /// Above this, the rounding of positions alone causes forces larger than those of the material: the penetration is then
@@ -83,6 +87,8 @@ class ModelTool {
   void set_stiffness(double stiffness) { tool_.stiffness = stiffness; }
   /// The smallest feature of the shape, but at most 1.
   [[nodiscard]] double size() const { return size_; }
+  /// `Tool::detail`.
+  [[nodiscard]] double detail() const { return tool_.detail() / length_; }
 
   /// Collision keeps points this far from the tool (0 by default), in units of the model.
   void set_offset(double offset);

@@ -44,10 +44,7 @@ Expected<Points> pressed(Executor& executor, const LatticeCommand& c, const Latt
   ActiveSettings<3> settings;
   settings.lambda = c.lambda;
   if (!c.hold.empty()) settings.held = std::move(*held);
-  for (const Tool& tool : *tools) {
-    const double size = tool.collides() ? tool.shape.size() : std::min(tool.shape.size(), tool.range);
-    if (std::isfinite(size) && (settings.detail == 0 || size < settings.detail)) settings.detail = size;
-  }
+  settings.detail = detail_of(*tools);
   const auto model = ActiveSpline<3>::create(lattice.rest(), settings);
   if (!model) return std::unexpected(model.error());
   ActiveState active{lattice.rest().control_points()};
