@@ -131,8 +131,16 @@ struct Build {
     return detail::box_kernel(vector(s.half_sizes).cwiseProduct(scale), s.rounding * scale.x());
   }
   Expected<Kernel> operator()(const PlaneShape&) const { return detail::plane_kernel(); }
-  Expected<Kernel> operator()(const SuperellipsoidShape& s) const { return detail::superellipsoid_kernel(s, scale); }
-  Expected<Kernel> operator()(const SupertoroidShape& s) const { return detail::supertoroid_kernel(s, scale); }
+  // With round sections these are an ellipsoid and a torus, whose nearest points have a closed form.
+  Expected<Kernel> operator()(const SuperellipsoidShape& s) const {
+    if (s.e1 == 1 && s.e2 == 1) return (*this)(EllipsoidShape{s.semi_axes});
+    return detail::superellipsoid_kernel(s, scale);
+  }
+  Expected<Kernel> operator()(const SupertoroidShape& s) const {
+    if (s.e1 == 1 && s.e2 == 1 && s.semi_axes[0] == s.semi_axes[1] && equal())
+      return (*this)(TorusShape{s.major, s.semi_axes[0]});
+    return detail::supertoroid_kernel(s, scale);
+  }
   Expected<Kernel> operator()(const SplineShape& s) const { return detail::spline_kernel(*s.surface, scale); }
 
   Expected<Kernel> operator()(const BuildsItself auto& s) const { return detail::shape_kernel(s, scale); }

@@ -29,6 +29,7 @@ void sweep(Patches& patches, const MonotoneCurve& meridian, double e, const Poin
 }
 
 bool in_superellipse(double x, double y, double e) {
+  if (std::max(std::abs(x), std::abs(y)) > 1) return false;
   const double p = 2 / e;
   return std::pow(std::abs(x), p) + std::pow(std::abs(y), p) <= 1;
 }
@@ -42,6 +43,7 @@ double superellipse_norm(double x, double y, double e) {
 /// x / scale.
 bool in_superellipsoid(const SuperellipsoidShape& s, const Point& x) {
   const auto& a = s.semi_axes;
+  if (std::abs(x.z()) > a[2]) return false;
   return in_superellipse(superellipse_norm(x.x() / a[0], x.y() / a[1], s.e2), x.z() / a[2], s.e1);
 }
 

@@ -44,6 +44,26 @@ std::optional<Point> on_superquadric(const Shape& shape, const Point& y) {
   return std::nullopt;
 }
 
+TEST(ShapeSearch, OfRoundSuperquadricsIsThatOfAnEllipsoidAndATorus) {
+  std::mt19937_64 random(5);
+  const std::pair<Shape, Shape> pairs[] = {
+      {SuperellipsoidShape{{0.7, 0.7, 0.7}, 1, 1}, SphereShape{0.7}},
+      {SuperellipsoidShape{{0.7, 0.4, 0.2}, 1, 1}, EllipsoidShape{{0.7, 0.4, 0.2}}},
+      {SupertoroidShape{0.8, {0.3, 0.3}, 1, 1}, TorusShape{0.8, 0.3}},
+  };
+  for (const auto& [given, plain] : pairs) {
+    for (int k = 0; k < 20; ++k) {
+      const Posed pose{random_placement(random, k % 2 == 1)};
+      const auto a = PlacedShape::create(given, pose.placement), b = PlacedShape::create(plain, pose.placement);
+      ASSERT_TRUE(a && b);
+      EXPECT_NEAR(a->size(), b->size(), 1e-12 * b->size());
+      const Point x = random_point(random, pose);
+      EXPECT_NEAR(a->nearest(x).distance, b->nearest(x).distance, 1e-9 * extent(pose));
+      EXPECT_LE((a->nearest(x).point - b->nearest(x).point).norm(), 1e-6 * extent(pose));
+    }
+  }
+}
+
 TEST(ShapeSearch, DistanceIsThatOfBruteForce) {
   std::mt19937_64 random(11);
   for (const ShapeCase& c : shape_cases()) {
