@@ -5,6 +5,8 @@
 namespace knead::detail {
 namespace {
 
+constexpr int halves = 256;
+
 /// s^k for small whole k >= 0.
 double power(double s, int k) {
   double r = 1;
@@ -13,6 +15,17 @@ double power(double s, int k) {
 }
 
 }  // namespace
+
+/// The monotone factors of all derivatives; a power with exponent 0 is 1, also at σ = 0.
+struct MonotoneCurve::Factors {
+  double x, y;    ///< X, Y
+  double w1, w2;  ///< w^(−1/p−1), w^(−1/p−2), w = 1 + s^p; they fall
+  double z1, z2;  ///< σ^(mp−1), σ^(mp−2); they rise
+  double zz2;     ///< σ^(2mp−2)
+  double m1, m2;  ///< σ^(m−1), σ^(m−2)
+  double zm2;     ///< σ^(mp+m−2)
+  double r1 = 0, r2 = 0;  ///< for bounds: σ^(mp−1−k), σ^(m−1−k), k the smaller of mp − 1 and m − 1, where that is > 0
+};
 
 MonotoneCurve MonotoneCurve::segment(const Vector2& from, const Vector2& to) {
   MonotoneCurve c;
@@ -29,22 +42,26 @@ MonotoneCurve MonotoneCurve::arc(const Vector2& centre, const Vector2& size, dou
   c.size_ = size;
   c.p_ = 2 / exponent;
   c.m_ = c.p_ >= 2 || c.p_ == 1 ? 1 : static_cast<int>(std::ceil(exponent));
+  std::vector<Factors> table;
+  for (int k = 0; k <= halves; ++k) table.push_back(c.computed(static_cast<double>(k) / halves, true));
+  c.table_ = std::make_shared<const std::vector<Factors>>(std::move(table));
   return c;
 }
 
-/// The monotone factors of all derivatives; a power with exponent 0 is 1, also at σ = 0.
-struct MonotoneCurve::Factors {
-  double x, y;    ///< X, Y
-  double w1, w2;  ///< w^(−1/p−1), w^(−1/p−2), w = 1 + s^p; they fall
-  double z1, z2;  ///< σ^(mp−1), σ^(mp−2); they rise
-  double zz2;     ///< σ^(2mp−2)
-  double m1, m2;  ///< σ^(m−1), σ^(m−2)
-  double zm2;     ///< σ^(mp+m−2)
-};
+/// A search halves [0, 1] again and again: what it asks for was computed when the curve was made, but for descents.
+MonotoneCurve::Factors MonotoneCurve::factors(double sigma, bool bounds) const {
+  const double place = sigma * halves;
+  const int k = static_cast<int>(place);
+  return k == place ? (*table_)[static_cast<std::size_t>(k)] : computed(sigma, bounds);
+}
 
-MonotoneCurve::Factors MonotoneCurve::factors(double sigma) const {
+MonotoneCurve::Factors MonotoneCurve::computed(double sigma, bool bounds) const {
   Factors f;
   const double mp = m_ * p_, s = power(sigma, m_);
+  if (const double k = std::min<double>(mp, m_) - 1; k > 0 && bounds) {
+    f.r1 = std::pow(sigma, mp - 1 - k);
+    f.r2 = std::pow(sigma, m_ - 1 - k);
+  }
   f.m1 = power(sigma, m_ - 1);
   f.m2 = m_ >= 2 ? power(sigma, m_ - 2) : 0;
   if (sigma < 1e-100) {
@@ -70,7 +87,7 @@ MonotoneCurve::Factors MonotoneCurve::factors(double sigma) const {
 
 std::array<MonotoneCurve::Vector2, 3> MonotoneCurve::at(double sigma) const {
   if (straight_) return {origin_ + sigma * size_, size_, Vector2::Zero()};
-  const Factors f = factors(sigma);
+  const Factors f = factors(sigma, false);
   const double m = m_, mp = m * p_;
   std::array<Vector2, 3> c = {Vector2(f.x, f.y), m * f.w1 * Vector2(-f.z1, f.m1),
                               Vector2(-m * (mp - 1) * f.z2 * f.w1 + m * m * (p_ + 1) * f.zz2 * f.w2,
@@ -93,7 +110,7 @@ std::array<std::array<Range, 2>, 4> MonotoneCurve::over(const Range& sigma) cons
     }
     return r;
   }
-  const Factors a = factors(sigma.lower), b = factors(sigma.upper);
+  const Factors a = factors(sigma.lower, true), b = factors(sigma.upper, true);
   const double m = m_, mp = m * p_;
   const Range w1 = {b.w1, a.w1}, w2 = {b.w2, a.w2};
   r[0] = {Range{b.x, a.x}, Range{a.y, b.y}};
@@ -102,12 +119,7 @@ std::array<std::array<Range, 2>, 4> MonotoneCurve::over(const Range& sigma) cons
   if (mp != 1) r[2][0] = r[2][0] + -m * (mp - 1) * (Range{a.z2, b.z2} * w1);
   if (m_ > 1) r[2][1] = r[2][1] + m * (m - 1) * (Range{a.m2, b.m2} * w1);
   r[3] = r[1];
-  if (const double k = std::min(mp, m) - 1; k > 0) {
-    const auto rest = [&](double exponent) {
-      return Range{std::pow(sigma.lower, exponent - k), std::pow(sigma.upper, exponent - k)};
-    };
-    r[3] = {-m * (rest(mp - 1) * w1), m * (rest(m - 1) * w1)};
-  }
+  if (std::min(mp, m) > 1) r[3] = {-m * (Range{a.r1, b.r1} * w1), m * (Range{a.r2, b.r2} * w1)};
   for (std::size_t d = 0; d < 4; ++d) {
     if (exchanged_) std::swap(r[d][0], r[d][1]);
     for (int k = 0; k < 2; ++k) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "spline/foot_search.hpp"
 
 namespace knead::detail {
@@ -23,12 +26,14 @@ class MonotoneCurve {
 
  private:
   struct Factors;
-  [[nodiscard]] Factors factors(double sigma) const;
+  [[nodiscard]] Factors factors(double sigma, bool bounds) const;
+  [[nodiscard]] Factors computed(double sigma, bool bounds) const;
 
   bool straight_ = true, exchanged_ = false;
   Vector2 origin_ = Vector2::Zero(), size_ = Vector2::Zero();
   double p_ = 2;
   int m_ = 1;
+  std::shared_ptr<const std::vector<Factors>> table_;  // at whole multiples of 1/`halves`
 };
 
 /// S(u, v) = offset + scale ∘ (f g, f k, h) with (f, h)(u) and (g, k)(v) monotone curves: every surface of revolution

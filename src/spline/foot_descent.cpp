@@ -118,7 +118,8 @@ class Descent {
 
   /// Takes a step, shortened until it leads closer to x; returns its length in space, to second order.
   double advance(const Step& step, const std::array<bool, 2>& free) {
-    const double squared = (j_[0] - x_).squaredNorm();
+    const PatchJet before = j_;
+    const double squared = (before[0] - x_).squaredNorm();
     Eigen::Vector2d next = w_;
     double reach = 0;
     for (double t = 1;; t *= 0.25) {
@@ -129,12 +130,12 @@ class Descent {
       const Eigen::Vector2d moved = next - w_;
       reach = (moved[0] * j_[1] + moved[1] * j_[2]).norm() +
               0.5 * (moved[0] * moved[0] * j_[3].norm() + moved[1] * moved[1] * j_[5].norm());
-      if (step.newton && t == 1 && reach < 1e-4 * size_) break;
-      const PatchJet trial = patch_.jet(next[0], next[1]);
-      if ((trial[0] - x_).squaredNorm() < squared || t < 1e-12) break;
+      const bool sure = step.newton && t == 1 && reach < 1e-4 * size_;
+      j_ = patch_.jet(next[0], next[1]);
+      if (sure || (j_[0] - x_).squaredNorm() < squared || t < 1e-12) break;
+      j_ = before;
     }
     w_ = next;
-    j_ = patch_.jet(w_[0], w_[1]);
     return reach;
   }
 

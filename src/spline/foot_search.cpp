@@ -58,7 +58,7 @@ struct FootSearch::Query {
   double limit = bound;  ///< distances within rounding of `bound`
   double rounding = 0;   ///< a negligible length
 
-  int patch = 0;               ///< where `bound` was found
+  int patch = -1;              ///< where `bound` was found
   std::array<double, 2> at{};  ///< and at which parameters
 
   void lower(double squared, int on, const std::array<double, 2>& where) {
@@ -157,7 +157,8 @@ FootResult FootSearch::nearest(const Point& x) const {
   result.cells = q.cells;
   result.certified = q.certified && !q.feet.empty();
   if (q.feet.empty()) {
-    q.feet.push_back(descend(q, q.patch, patches_[index(q.patch)]->domain, q.at));
+    const int patch = std::max(q.patch, 0);  // squares that overflow found none
+    q.feet.push_back(descend(q, patch, patches_[index(patch)]->domain, q.at));
   }
   double least = std::numeric_limits<double>::infinity();
   for (const Foot& f : q.feet) least = std::min(least, f.squared);
@@ -225,18 +226,24 @@ void FootSearch::examine(Query& q, int patch, ParameterRectangle at, PatchBounds
     const double uv = (bounds[1].dot(bounds[2]) + way.dot(bounds[4])).magnitude();
     convex = uu.lower * vv.lower > uv * uv;
   }
+  const auto c = at.centre();
+  const PatchJet jet = p.jet(c[0], c[1]);
+  const Point middle_way = jet[0] - q.x;
+  const double middle = middle_way.squaredNorm();
   if (convex) {
-    record(q, descend(q, patch, at, at.centre()));
+    // A convex function lies above its tangent plane.
+    const double fall =
+        std::abs(middle_way.dot(jet[1])) * at.side[0].length() + std::abs(middle_way.dot(jet[2])) * at.side[1].length();
+    if (q.close(middle - fall)) record(q, descend(q, patch, at, q.patch == patch && at.holds(q.at) ? q.at : c));
     return;
   }
   // |x − S|² >= |x − S(centre)|² − 2 Σ max|∂| half side (mean value form).
-  const auto c = at.centre();
-  const double middle = (p.jet(c[0], c[1])[0] - q.x).squaredNorm();
+  const bool nearer = middle < q.bound;
   q.lower(middle, patch, c);
   const double fall =
       way.dot(bounds[1]).magnitude() * at.side[0].length() + way.dot(bounds[2]).magnitude() * at.side[1].length();
   if (!q.close(middle - fall)) return;
-  if (depth == 0) {
+  if (depth == 0 && nearer) {
     const Foot f = descend(q, patch, p.domain, c);
     q.lower(f.squared, patch, f.at);
   }

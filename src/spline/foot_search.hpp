@@ -21,6 +21,9 @@ struct ParameterRectangle {
   [[nodiscard]] std::array<double, 2> centre() const {
     return {0.5 * (side[0].lower + side[0].upper), 0.5 * (side[1].lower + side[1].upper)};
   }
+  [[nodiscard]] bool holds(const std::array<double, 2>& at) const {
+    return at[0] >= side[0].lower && at[0] <= side[0].upper && at[1] >= side[1].lower && at[1] <= side[1].upper;
+  }
 };
 
 /// A piece of surface, twice continuously differentiable over the rectangle `domain` (a side may have length 0: a
