@@ -17,11 +17,6 @@ constexpr int highest_degree = 5;      // above it cycles smooth too little
 constexpr int few_iterations = 40;     // more of them, and a factor is cheaper
 constexpr int usual_iterations = 12;   // on cubic nets that are about even, for which `direct_points` was found
 
-/// The most control points for which a matrix is factored without being asked: where the cost of both is about the
-/// same. A factor of a volume is much denser.
-template <int D>
-constexpr int direct_points = D == 3 ? 20000 : 90000;
-
 template <int D>
 int highest_of(std::span<const Spline<D>> patches) {
   int degree = 0;
@@ -29,16 +24,6 @@ int highest_of(std::span<const Spline<D>> patches) {
     for (int d = 0; d < D; ++d) degree = std::max(degree, patch.knots(d).degree());
   }
   return degree;
-}
-
-/// The most iterations for eight digits with which cycles are cheaper than a factor: on surfaces just above
-/// `direct_points` only the usual ones, since a factor costs n^1.5, and iterations n for each. Factors of higher degree
-/// are much denser.
-template <int D>
-int most_iterations(int points, int degree) {
-  if (D == 3 || degree > 3) return few_iterations;
-  const double share = static_cast<double>(points) / direct_points<D>;
-  return static_cast<int>(std::min<double>(few_iterations, usual_iterations * std::max(1.0, share)));
 }
 
 /// Whether anything forbids a displacement of the whole model.
@@ -85,6 +70,17 @@ Expected<ConstrainedMultigrid> nested(const NetOperator<D>& a, const ConstraintS
 }
 
 }  // namespace
+
+template <int D>
+int most_iterations(int points, int degree) {
+  if (D == 3 || degree > 3) return few_iterations;
+  const double share = static_cast<double>(points) / direct_points<D>;
+  return static_cast<int>(std::min<double>(few_iterations, usual_iterations * std::max(1.0, share)));
+}
+
+template int most_iterations<1>(int, int);
+template int most_iterations<2>(int, int);
+template int most_iterations<3>(int, int);
 
 template <int D>
 Expected<ChosenInverse> invert(const NetOperator<D>& a, ConstraintSpace space, std::span<const Spline<D>> patches,

@@ -4,6 +4,7 @@
 #include "active.hpp"
 #include "knead/base/interruption.hpp"
 #include "knead/base/threads.hpp"
+#include "sculpt/step_engine.hpp"
 
 namespace knead {
 namespace {
@@ -150,6 +151,19 @@ TEST(IterativeSteps, RepeatBitForBitWithAnyNumberOfThreads) {
   set_thread_count(0);
   EXPECT_TRUE(results[0] == results[1]);
   EXPECT_TRUE(results[0] == results[2]);
+}
+
+TEST(StepEngine, FactorsWhereCyclesTakeMoreIterationsThanAFactorIsWorth) {
+  // Just above the number of points that are factored unasked, only with the usual 12; a factor's cost per point grows
+  // as the root of their number.
+  EXPECT_EQ(most_iterations<2>(direct_points<2> + 1, 3), 12);
+  EXPECT_EQ(most_iterations<2>(2 * direct_points<2>, 3), 24);
+  EXPECT_EQ(most_iterations<1>(2 * direct_points<1>, 2), 24);
+  EXPECT_EQ(most_iterations<2>(10 * direct_points<2>, 3), 40);
+  EXPECT_EQ(most_iterations<2>(400, 3), 12);  // below it, where iteration is not tried unless asked for
+  // Denser factors: of degree 4 and more, and of volumes.
+  EXPECT_EQ(most_iterations<2>(direct_points<2> + 1, 4), 40);
+  EXPECT_EQ(most_iterations<3>(direct_points<3> + 1, 2), 40);
 }
 
 TEST(StepEngine, SaysThatItWasStoppedInsteadOfThatItDoesNotConverge) {
