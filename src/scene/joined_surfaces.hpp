@@ -11,6 +11,7 @@ struct JoinedSurfaces {
   std::vector<std::string> held_by;  ///< for each control point that is held, by what
   std::vector<SeamReport> seams;
   std::vector<std::string> notes;
+  bool entwined = false;  ///< conditions along edges or seams depend on all that come before them
 };
 
 /// Errors: surfaces of different rest modes, constraints that contradict each other (input); those of the coupling.

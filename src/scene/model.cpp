@@ -12,10 +12,9 @@
 #include "knead/scene/trims.hpp"
 #include "knead/sculpt/edge_coupling.hpp"
 #include "knead/sculpt/loads.hpp"
-#include "knead/spline/extremum.hpp"
+#include "met_conditions.hpp"
 #include "scene_settings.hpp"
 #include "smooth_seams.hpp"
-#include "solve/constraint_space.hpp"
 
 namespace knead {
 namespace {
@@ -59,7 +58,7 @@ void set_material(const std::vector<SurfaceInput>& surfaces, ActiveSettings<2>& 
 
 /// Appends the constraints of every surface, and the rows.
 Expected<void> hold_surfaces(const std::vector<SurfaceInput>& surfaces, JoinedSurfaces& joined) {
-  auto& [rows, settings, held_by, seams, notes] = joined;
+  auto& [rows, settings, held_by, seams, notes, entwined] = joined;
   rows = {0};
   for (const SurfaceInput& s : surfaces) {
     if (s.mode != surfaces.front().mode) {
@@ -220,9 +219,11 @@ Expected<JoinedSurfaces> join_surfaces(const ModelInput& input) {
       reports.insert(reports.end(), coupled->reports.begin(), coupled->reports.end());
     }
   }
+  const std::size_t before = settings.constraints.size();
   if (input.seams.smooth) {
     if (auto kept = keep_smooth(pointers, joined.rows, reports, settings); !kept) return std::unexpected(kept.error());
   }
+  joined.entwined = !input.followed.empty() || settings.constraints.size() > before;
   if (auto coupled = couple_followed(input, pointers, joined.rows, settings); !coupled) {
     return std::unexpected(coupled.error());
   }
@@ -264,19 +265,7 @@ bool asks_for_motion(const ModelInput& input) {
   return std::ranges::any_of(input.surfaces, asks);
 }
 
-Expected<void> check_conditions(const ModelInput& input) {
-  auto joined = join_surfaces(input);
-  if (!joined) return std::unexpected(joined.error());
-  if (!asks_for_motion(input)) return {};
-  double size = 0;
-  for (const SurfaceInput& s : input.surfaces) size = std::max(size, bounding_box(*s.reference).diagonal());
-  if (!(size > 0)) size = 1;
-  for (LinearConstraint& c : joined->settings.constraints) c.value /= size;
-  const auto met =
-      ConstraintSpace::eliminated(joined->rows.back(), joined->settings.constraints, joined->settings.held);
-  if (!met) return std::unexpected(met.error());
-  return {};
-}
+Expected<void> check_conditions(const ModelInput& input) { return MetConditions().check(input); }
 
 Expected<SceneModel> make_model(ModelInput input) {
   auto joined = join_surfaces(input);

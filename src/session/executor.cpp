@@ -114,7 +114,7 @@ Expected<void> Executor::keep(const Constraint& constraint) {
 Expected<void> Executor::check_constraints() {
   if (auto known = know_trims(); !known) return known;
   if (auto known = know_followed(); !known) return known;
-  return check_conditions(model_input(state, trial_evolution()));
+  return conditions.check(model_input(state, trial_evolution()));
 }
 
 Expected<void> Executor::check_constraints_on(std::span<const int> changed) {

@@ -14,6 +14,7 @@
 #include "knead/session/document_regions.hpp"
 #include "knead/session/session.hpp"
 #include "motion_law.hpp"
+#include "scene/met_conditions.hpp"
 #include "scene/shell_model.hpp"
 #include "sculpt/travelled.hpp"
 
@@ -60,6 +61,7 @@ struct Session::ModelCache {
   std::optional<BrushRun> brush;
   std::optional<AnyBodyModel> body;
   std::optional<ShellModel> shell;
+  MetConditions conditions;
   KnownFaces faces;
 };
 
@@ -74,7 +76,8 @@ struct Executor {
   std::optional<BrushRun>& brush_cache;
   std::optional<AnyBodyModel>& body_cache;
   std::optional<ShellModel>& shell_cache;
-  KnownFaces& faces;  ///< of `document`
+  MetConditions& conditions;  ///< those there are, as of the last check
+  KnownFaces& faces;          ///< of `document`
   SessionState& state;
   const Session::Progress& progress;
   bool allow_held = false;             ///< a tool may touch what is held alone

@@ -85,8 +85,8 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   auto next = std::make_shared<SessionState>(state());
   next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
   if (cache_->faces.document != state().document) cache_->faces = {state().document};
-  Executor executor{document(),    cache_->model, cache_->stroke, cache_->brush, cache_->body,
-                    cache_->shell, cache_->faces, *next,          progress};
+  Executor executor{document(),    cache_->model,      cache_->stroke, cache_->brush, cache_->body,
+                    cache_->shell, cache_->conditions, cache_->faces,  *next,         progress};
   if (!fields_of<StrokeCommand>(command)) {
     if (auto lifted = executor.lift(); !lifted) return lifted;
     if (auto kept = executor.keep_law(); !kept) return kept;

@@ -125,7 +125,7 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   std::optional<BrushRun> unused_run;
   std::optional<AnyBodyModel> unused_body;
   std::optional<ShellModel> unused_shell;
-  Executor own{document, model, unused, unused_run, unused_body, unused_shell, faces, trial, progress};
+  Executor own{document, model, unused, unused_run, unused_body, unused_shell, conditions, faces, trial, progress};
   if (auto done = own.run(1, plate); !done) return done;
 
   for (int index : state.selection()) {
