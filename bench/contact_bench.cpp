@@ -134,6 +134,22 @@ void stroke(benchmark::State& state) {
   state.counters["ms"] = bench::median(times);
 }
 
+/// A drag of a thin superellipsoid with friction within a sphere of few spans, which are 15 times the tool's size:
+/// every point in contact asks for a nearest point that is searched, as in no other of these.
+void thin_tool(benchmark::State& state) {
+  std::vector<double> times;
+  for (auto _ : state) {
+    Session session(Document::fresh("sphere"));
+    execute(session, R"({"do":"new","shape":"sphere","radius":1.4})");
+    execute(session, R"({"do":"tool","shape":"superellipsoid","relative":true,"sizes":[0.4,0.03,0.13],
+      "exponents":[0.2,1.54],"axis":[0.76,0.86,0.12],"position":[0.04,0.14,0.02],"friction":0.67})");
+    const double begun = bench::milliseconds();
+    execute(session, R"({"do":"drag","relative":true,"by":[0,0,0.2]})");
+    times.push_back(bench::milliseconds() - begun);
+  }
+  state.counters["ms"] = bench::median(times);
+}
+
 void shell_contact(benchmark::State& state) { shell(state, StepAccuracy::interactive); }
 void shell_contact_exact(benchmark::State& state) { shell(state, StepAccuracy::exact); }
 
@@ -141,6 +157,7 @@ BENCHMARK(contact)->Arg(32)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMilli
 BENCHMARK(contact_iterative)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(contact_exact)->Arg(32)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 BENCHMARK(stroke)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
+BENCHMARK(thin_tool)->Unit(benchmark::kMillisecond);
 BENCHMARK(shell_contact)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(shell_contact_exact)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(contact_free)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
