@@ -3,7 +3,7 @@ import { type Command, EngineError } from '../engine/session_types';
 import { autosave, type Kept } from './autosave';
 import { loadContext } from './context';
 import type { OnDisk } from './disk';
-import { cadFormat, readFormats } from './formats';
+import { cadFormat, isCompressed, readFormats } from './formats';
 import type { Host } from './host';
 import { Keeper } from './keeper';
 import { isNet, type KneadDocument, readKnead, type Source } from './knead_file';
@@ -156,7 +156,7 @@ export class Documents {
   private async openStep(bytes: Uint8Array, name: string, scene: Command[] | null = null): Promise<true | null> {
     const { host } = this;
     return host.attempt(async () => {
-      await this.begin(name, { kind: 'step', name, bytes }, () => host.client.open(bytes, name));
+      await this.begin(name, { kind: 'step', name, bytes }, async () => host.client.open(await plain(bytes), name));
       if (!scene) {
         await this.firstLook();
         return;
@@ -211,14 +211,14 @@ export class Documents {
   private replay(name: string, source: Source | null, commands: Command[]): Promise<void> {
     const { client } = this.host;
     // The surfaces of a Rhino file are among the commands.
-    return this.begin(name, source, () =>
-      source?.kind === 'step' ? client.open(source.bytes, source.name, commands, preparation(commands)) : client.fresh(name, commands, preparation(commands)));
+    return this.begin(name, source, async () =>
+      source?.kind === 'step' ? client.open(await plain(source.bytes), source.name, commands, preparation(commands)) : client.fresh(name, commands, preparation(commands)));
   }
 
   private async restored(name: string, source: Source | null, snapshot: Uint8Array, opened: number, again = false): Promise<boolean> {
     const step = source?.kind === 'step' ? source : null;
     try {
-      await this.begin(name, source, () => this.host.client.restore(step?.bytes ?? null, step?.name ?? name, snapshot, opened), again);
+      await this.begin(name, source, async () => this.host.client.restore(step && (await plain(step.bytes)), step?.name ?? name, snapshot, opened), again);
       return true;
     } catch {
       return false; // of another version, or damaged: the commands suffice
@@ -339,6 +339,9 @@ export class Documents {
     }
   }
 }
+
+/** The bytes for the engine, which unpacks nothing. */
+const plain = async (bytes: Uint8Array): Promise<Uint8Array> => (isCompressed(bytes) ? (await import('./compressed')).unpacked(bytes) : bytes);
 
 /** How many commands at the start only make and prepare what is sculpted: they are the document as it is opened. */
 function preparation(commands: readonly Command[]): number {

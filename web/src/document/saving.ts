@@ -3,7 +3,7 @@ import type { MeshFormat } from '../engine/session_types';
 import { closedEdges } from './closed_edges';
 import type { Documents } from './documents';
 import { changedSince, replaceFile } from './disk';
-import { cadFormat } from './formats';
+import { cadFormat, isCompressed, uncompressedName } from './formats';
 import type { Host } from './host';
 import { writeKnead } from './knead_file';
 import { scriptOf } from './script';
@@ -33,7 +33,7 @@ export class Saving {
       if (choice !== 'replace') return choice === 'copy' ? this.step() : null;
     }
     return this.work(async () => {
-      const { bytes, edges } = await host.client.save();
+      const { bytes, edges } = await this.saved();
       documents.place = await replaceFile(place, bytes);
       return [`Saved in “${name}”.`, closedEdges(edges, host.state!.surfaces[0]?.unit ?? '')].filter(Boolean).join(' ');
     });
@@ -43,15 +43,25 @@ export class Saving {
 
   private async download(): Promise<string | undefined> {
     const stem = this.stem();
-    const { bytes, edges } = await this.host.client.save();
+    const { bytes, edges } = await this.saved();
     const { file } = this.documents;
     const cad = file?.kind === 'step' ? cadFormat(file.name) : null; // it comes back as what it was
-    download(bytes, `${stem}-sculpted${cad?.ending ?? '.step'}`, cad?.format.media_type ?? 'model/step');
+    const type = isCompressed(bytes) ? (bytes[0] === 0x1f ? 'application/gzip' : 'application/zip') : cad?.format.media_type;
+    download(bytes, `${stem}-sculpted${cad?.ending ?? '.step'}`, type ?? 'model/step');
     return closedEdges(edges, this.host.state!.surfaces[0]?.unit ?? '');
   }
 
+  /** The file as it is now, compressed as it came. */
+  private async saved(): Promise<Awaited<ReturnType<Host['client']['save']>>> {
+    const saved = await this.host.client.save();
+    const { file } = this.documents;
+    if (file?.kind !== 'step' || !isCompressed(file.bytes)) return saved;
+    const { packedLike } = await import('./compressed');
+    return { ...saved, bytes: await packedLike(saved.bytes, file.bytes) };
+  }
+
   private stem(): string {
-    return this.documents.name.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'surface';
+    return uncompressedName(this.documents.name).replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_') || 'surface';
   }
 
   knead = () => this.work(async (stem) => {
