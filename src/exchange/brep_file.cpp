@@ -301,6 +301,14 @@ class Parser {
     return Use{word[0], shape, *at};
   }
 
+  /// What DRAW's command `save` writes behind the shape: the end of its list of values.
+  bool at_last_zero() {
+    const std::size_t here = words_.begin();
+    const bool last = words_.words(words_.next()) == "0" && words_.done();
+    if (!last) words_.go_to(here);
+    return last;
+  }
+
   Done shapes() {
     const auto count = section("TShapes");
     if (!count) return std::unexpected(count.error());
@@ -334,6 +342,7 @@ class Parser {
       file_.shapes.push_back(std::move(shape));
     }
     while (!words_.done()) {
+      if (at_last_zero()) break;
       const auto root = use(total, total);
       if (!root) return std::unexpected(root.error());
       file_.roots.push_back(*root);

@@ -9,6 +9,7 @@ namespace knead::brep {
 namespace {
 
 constexpr int intervals = 200;
+constexpr double rounding_share = 1e-13;  // of the largest coordinate
 
 template <int D>
 Point inside(const Spline<D>& spline, std::array<double, D> at) {
@@ -77,6 +78,7 @@ std::optional<EdgeGap> GapMeter::gap(const BrepShape& edge) {
     const auto own = point_of(curve, 3, std::lerp(edge.range[0], edge.range[1], share));
     if (!own) return std::nullopt;
     const Point p = edge.place * *own;
+    result.rounding = std::max(result.rounding, rounding_share * p.cwiseAbs().maxCoeff());
     const bool last = k == intervals, ends = k == 0 || last;
     if (ends) end(last, p);
     for (const BrepFlatCurve& flat : edge.flat) {

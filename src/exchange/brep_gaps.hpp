@@ -12,6 +12,7 @@ namespace knead::brep {
 struct EdgeGap {
   double along = 0;               ///< of its curve in space from its points on surfaces, at equal parameters
   std::vector<double> at_vertex;  ///< of the ends of all its curves from each of the edge's `uses`
+  double rounding = 0;            ///< what the distances may differ by alone: 1e-13 of the largest coordinate
 };
 
 /// Measures the edges of one file, as Open CASCADE's BRepCheck does: between curves at equal parameters, and at their

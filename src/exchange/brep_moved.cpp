@@ -114,9 +114,10 @@ TextChanges tolerance_changes(const BrepFile& file, const BrepFile& after, const
   }
   GapMeter was(file), is(after);
   std::map<std::size_t, double> wanted;  // by shape
-  const auto want = [&](std::size_t shape, double before, double now) {
+  const auto want = [&](std::size_t shape, double before, double now, double rounding) {
     const double tolerance = file.shapes[shape].tolerance;
-    if (now > std::max(tolerance, before)) wanted[shape] = std::max(wanted[shape], tolerance + now);
+    // A held edge is measured beside a surface whose points differ by roundings: that is no reason for the sum.
+    if (now > std::max(tolerance, before) + rounding) wanted[shape] = std::max(wanted[shape], tolerance + now);
   };
   for (std::size_t k = 0; k < file.shapes.size(); ++k) {
     const BrepShape& edge = file.shapes[k];
@@ -128,11 +129,11 @@ TextChanges tolerance_changes(const BrepFile& file, const BrepFile& after, const
     if (!moves) continue;
     const auto now = is.gap(after.shapes[k]), before = was.gap(edge);
     if (!now || !before) continue;
-    want(k, before->along, now->along);
+    want(k, before->along, now->along, now->rounding);
     for (std::size_t v = 0; v < edge.uses.size(); ++v) {
-      want(edge.uses[v].shape, before->at_vertex[v], now->at_vertex[v]);
+      want(edge.uses[v].shape, before->at_vertex[v], now->at_vertex[v], now->rounding);
       // A vertex is not known better than its edges.
-      if (const auto own = wanted.find(k); own != wanted.end()) want(edge.uses[v].shape, 0, own->second);
+      if (const auto own = wanted.find(k); own != wanted.end()) want(edge.uses[v].shape, 0, own->second, 0);
     }
   }
   TextChanges changes;

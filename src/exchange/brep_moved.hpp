@@ -17,9 +17,9 @@ namespace knead::brep {
                                                          const step::MovedEdges& moved);
 
 /// The changes of tolerances that moved edges, and those of changed surfaces, need: where an edge's curves are farther
-/// apart, or their ends farther from a vertex, than before and than the tolerance of the edge or vertex, it becomes the
-/// sum of both; that of a vertex is no less than its edges'. \param after the file with everything moved
-/// \param changed surfaces, from 1
+/// apart, or their ends farther from a vertex, than before and than the tolerance of the edge or vertex, and that by
+/// more than roundings, it becomes the sum of both; that of a vertex is no less than its edges'. \param after the file
+/// with everything moved \param changed surfaces, from 1
 [[nodiscard]] detail::TextChanges tolerance_changes(const BrepFile& file, const BrepFile& after,
                                                     const std::set<int>& changed, const step::MovedEdges& moved,
                                                     const BrepView::Sources& sources);

@@ -214,6 +214,42 @@ TEST(Brep, TheToleranceOfAnEdgeGrowsByWhatItsCurvesAreApart) {
   EXPECT_EQ(others.find("Ed\n 1e-7 1 1 0"), 0U) << others;
 }
 
+TEST(Brep, RoundingDoesNotChangeTheToleranceOfAHeldEdge) {
+  std::string text = square;
+  text.replace(text.find("1 0 0 1 0 \n"), 11, "7 0 0  2 3 2  0 0 1 0 1 0 \n 0 3 1 3\n");  // 0.25 away, as above
+  for (const std::string tolerance : {"1e-7", "0.25"}) {
+    std::string held = text;
+    held.replace(held.find("Ed\n 1e-7") + 4, 4, tolerance);
+    const auto source = open_or_die(held);
+    const Surface& s = *source->surfaces()[0].surface;
+    Points points = s.control_points();
+    ASSERT_EQ(points(0, 1), 0);
+    // The last bit of 10 across the edge's plane and along it: the points beside the edge move by as much.
+    points(0, 0) -= 1.8e-15;
+    points(2, 0) += 1.8e-15;
+    points(0, 2) = points(2, 2) = 1e-15;
+    points(3, 2) = 0.5;
+    const auto bytes = source->save(std::vector{std::make_shared<const Surface>(*s.with_control_points(points))});
+    ASSERT_TRUE(bytes) << bytes.error().message();
+    const std::string edge = bytes->substr(bytes->find("Ed\n"), 40);
+    EXPECT_EQ(edge.find("Ed\n " + tolerance + " 1 1 0"), 0U) << edge;
+  }
+}
+
+/// As DRAW's command `save` writes a shape, with its end behind it.
+TEST(Brep, AFileOfDrawIsReadWithTheZeroAtItsEnd) {
+  for (const std::string end : {"0\n", "\n0\n", "0"}) {
+    const auto source = open_or_die(square + end);
+    EXPECT_EQ(source->surfaces().size(), 1U);
+    EXPECT_EQ(*source->save(std::vector{source->surfaces()[0].surface}), square + end);
+  }
+  std::string inches = square;  // in another place, turned
+  inches.replace(inches.find("1 0 0 10\n0 1 0 0\n0 0 1 0\n"), 25, "0 -25.4 0 0\n25.4 0 0 0\n0 0 25.4 0\n");
+  EXPECT_EQ(open_or_die(inches + "0\n")->surfaces().size(), 1U);
+  EXPECT_FALSE(open_source(square + "0 0\n", "a.brep"));
+  EXPECT_FALSE(open_source(square + "1\n", "a.brep"));
+}
+
 TEST(Brep, AnEdgeWithCurvesAtDifferentParametersDoesNotFollow) {
   std::string text = square;
   text.replace(text.find(" 1e-7 1 1 0\n1  1"), 11, " 1e-7 0 0 0");
