@@ -28,12 +28,48 @@ int surface_of(const File& file, int face) {
   return parameters && parameters->values.size() > at ? integer(parameters->values[at]).value_or(0) : 0;
 }
 
+/// The faces (510) whose normals are opposite to those of their surfaces. A shell (514) lists its faces, each with a
+/// flag that is 0 then; a solid (186) its shell and the shells of its voids, each with a flag that is 0 where all of
+/// that is turned once more (IGES 5.3, § 4.147 and 4.49). Of several shells with the same face the first counts.
+std::set<int> turned_faces(const File& file) {
+  const auto pairs = [&](int number, int count_at, const auto& act) {  // pointer and flag, so often
+    const auto parameters = file.parameters(number);
+    if (!parameters) return;
+    const auto& values = parameters->values;
+    const auto value = [&](std::size_t k) { return k < values.size() ? integer(values[k]).value_or(0) : 0; };
+    std::size_t at = static_cast<std::size_t>(count_at) + 1;
+    for (int n = value(at - 1); n > 0 && at + 1 < values.size(); --n, at += 2) act(value(at), value(at + 1) == 0);
+  };
+  std::map<int, bool> shells, faces;
+  for (std::size_t k = 0; k < file.entities().size(); ++k) {
+    if (file.entities()[k].type != 186) continue;
+    const auto note = [&](int shell, bool turned) { shells.try_emplace(shell, turned); };
+    const auto parameters = file.parameters(File::number(k));
+    if (parameters && parameters->values.size() > 2) {
+      note(integer(parameters->values[1]).value_or(0), integer(parameters->values[2]).value_or(1) == 0);
+    }
+    pairs(File::number(k), 3, note);
+  }
+  for (std::size_t k = 0; k < file.entities().size(); ++k) {
+    if (file.entities()[k].type != 514) continue;
+    const auto shell = shells.find(File::number(k));
+    const bool all = shell != shells.end() && shell->second;
+    pairs(File::number(k), 1, [&](int face, bool turned) { faces.try_emplace(face, turned != all); });
+  }
+  std::set<int> result;
+  for (const auto& [face, turned] : faces) {
+    if (turned) result.insert(face);
+  }
+  return result;
+}
+
 class ViewBuilder {
  public:
   explicit ViewBuilder(const File& file)
       : file_(file),
         records_(File::number(file.entities().size())),
         curves_(file, records_),
+        turned_(turned_faces(file)),
         edges_(records_, std::ranges::find(file.entities(), 408, &Entity::type) == file.entities().end()) {}
 
   StepView build() {
@@ -117,14 +153,18 @@ class ViewBuilder {
       count = static_cast<std::size_t>(std::max(pointer(type == 143 ? 3 : 2), 0));
     }
     for (std::size_t k = first; k < first + count && k < values.size(); ++k) boundaries.push_back(pointer(k));
+    // Loops of IGES run round the normal of the surface, those of STEP round that of the face.
+    const std::string_view sense = turned_.contains(number) ? ".F." : ".T.";
     Ids bounds;
     for (const int boundary : boundaries) {
       const int loop = add_loop(boundary, surface, *move);
-      if (loop != 0) bounds.push_back(records_.add(fmt::format("FACE_BOUND('',#{},.T.)", loop)));
+      if (loop != 0) bounds.push_back(records_.add(fmt::format("FACE_BOUND('',#{},{})", loop, sense)));
     }
     const int below = splines_.contains(surface) ? surface : other_surface(surface);
     if (!bounds.empty()) shown_.insert(number);
-    if (!bounds.empty()) records_.put(number, fmt::format("ADVANCED_FACE('',{},#{},.T.)", list_of(bounds), below));
+    if (!bounds.empty()) {
+      records_.put(number, fmt::format("ADVANCED_FACE('',{},#{},{})", list_of(bounds), below, sense));
+    }
   }
 
   /// An EDGE_LOOP or VERTEX_LOOP; 0 if there is none.
@@ -208,10 +248,12 @@ class ViewBuilder {
     return {};
   }
 
-  /// Turns each piece so that it begins where the one before it ends.
-  static void chain(std::vector<Piece>& pieces) {
+  /// Turns each piece so that it begins where the one before it ends. One that is closed to `same` begins and ends
+  /// there both ways: it keeps its direction, in which roundings of its ends say nothing.
+  static void chain(std::vector<Piece>& pieces, double same) {
     for (std::size_t k = 0; k < pieces.size() && pieces.size() > 1; ++k) {
       Piece& piece = pieces[k];
+      if ((piece.from() - piece.to()).norm() <= same && (piece.at(0.5) - piece.from()).norm() > same) continue;
       if (k == 0) {
         const Piece& next = pieces[1];
         const auto gap = [&](const Point& p) { return std::min((next.from() - p).norm(), (next.to() - p).norm()); };
@@ -224,10 +266,11 @@ class ViewBuilder {
   }
 
   int edge_loop(std::vector<Piece>& pieces) {
-    if (pieces.size() != 2 || (pieces[0].to() - pieces[1].from()).norm() > 0) chain(pieces);
     Eigen::AlignedBox3d box;
     for (const Piece& piece : pieces) box.extend(piece.from()).extend(piece.at(0.5));
-    edges_.begin_loop(std::max(file_.global().resolution, 1e-6 * box.diagonal().norm()));
+    const double same = std::max(file_.global().resolution, 1e-6 * box.diagonal().norm());
+    if (pieces.size() != 2 || (pieces[0].to() - pieces[1].from()).norm() > 0) chain(pieces, same);
+    edges_.begin_loop(same);
     Ids oriented;
     for (const Piece& piece : pieces) {
       const auto [edge, back] = edges_.of(piece);
@@ -311,6 +354,7 @@ class ViewBuilder {
   const File& file_;
   StepRecords records_;
   CurveReader curves_;
+  std::set<int> turned_;
   Edges edges_;
   StepView view_;
   std::map<int, Eigen::Affine3d> outer_;

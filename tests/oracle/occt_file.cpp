@@ -69,6 +69,11 @@ std::optional<OcctFile> occt_read_file(const std::filesystem::path& path) {
   for (const auto& [name, kind] : kinds) {
     for (TopExp_Explorer at(shape, kind); at.More(); at.Next()) ++result.topology[name];
   }
+  for (TopExp_Explorer at(shape, TopAbs_SOLID); at.More(); at.Next()) {
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(at.Current(), properties);
+    result.volume += properties.Mass();
+  }
   for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
     const TopoDS_Face face = TopoDS::Face(at.Current());
     result.bad_faces += BRepCheck_Analyzer(face).IsValid() ? 0 : 1;

@@ -12,7 +12,7 @@ namespace knead::oracle {
 struct OcctFile {
   std::map<std::string, int> topology;  ///< numbers of faces, edges, … by name
   int bad_faces = 0;                    ///< that BRepCheck finds fault with
-  double area = 0;
+  double area = 0, volume = 0;          ///< of its faces, of its solids
   /// Of each edge of each face, in order: how far its curve in space is from the face, at 41 points of its own curve in
   /// parameters, or the tolerance of the edge, if that is larger.
   std::vector<double> gaps;
