@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.."
 seconds=${1:-${KNEAD_FUZZ_SECONDS:-10}}
 shift || true
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(step iges brep text script snapshot document)
+[ ${#targets[@]} -gt 0 ] || targets=(step iges brep text packed script snapshot document)
 
 scripts/setup.sh sanitizers
 scripts/configure.sh asan KNEAD_BUILD_TESTS=ON
@@ -22,7 +22,7 @@ mkdir -p "$work/found" "$work/seeds"
 
 fuzz() {  # fuzz TARGET
   local target=$1 dictionary=tests/fuzz/dictionaries/$1.dict
-  case $target in document) dictionary=tests/fuzz/dictionaries/step.dict ;; snapshot) dictionary= ;; esac
+  case $target in packed) dictionary= ;; document) dictionary=tests/fuzz/dictionaries/step.dict ;; snapshot) dictionary= ;; esac
   mkdir -p "$work/corpus/$target"
   UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=0 \
     "$programs/fuzz_$target" -seed="${KNEAD_FUZZ_SEED:-1}" -max_total_time="$seconds" -timeout=60 \

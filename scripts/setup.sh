@@ -3,7 +3,7 @@
 #   scripts/setup.sh build | test | sanitizers | bench | instructions | format | lint | wasm | studio | web
 set -euo pipefail
 
-build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev libpng-dev libjpeg-dev)
+build=(g++ cmake ninja-build libeigen3-dev libfmt-dev nlohmann-json3-dev libcli11-dev libpng-dev libjpeg-dev zlib1g-dev)
 # The benchmarks are built with the tests, so that they keep compiling. OCCT is the oracle the tests compare STEP files
 # with; the product does not use it.
 tests=(libgtest-dev libgmp-dev libbenchmark-dev libocct-data-exchange-dev)
@@ -39,7 +39,7 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "setup: this system has no apt-get; these packages, by Debian's names, must be there: ${needed[*]}" >&2
   if command -v dnf >/dev/null; then
     declare -A fedora=([g++]=gcc-c++ [libeigen3-dev]=eigen3-devel [libfmt-dev]=fmt-devel [nlohmann-json3-dev]=json-devel
-      [libcli11-dev]=cli11-devel [libpng-dev]=libpng-devel [libjpeg-dev]=libjpeg-turbo-devel [libgtest-dev]=gtest-devel
+      [libcli11-dev]=cli11-devel [libpng-dev]=libpng-devel [libjpeg-dev]=libjpeg-turbo-devel [zlib1g-dev]=zlib-devel [libgtest-dev]=gtest-devel
       [libgmp-dev]=gmp-devel [libbenchmark-dev]=google-benchmark-devel [libocct-data-exchange-dev]=opencascade-devel
       [libsuitesparse-dev]=suitesparse-devel [clang-format]=clang-tools-extra [npm]=nodejs-npm)
     names=() without=()

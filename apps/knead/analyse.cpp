@@ -17,6 +17,7 @@ namespace {
 struct AnalyseArguments {
   std::string file, script, results, vtu;
   bool fresh = false;
+  UnpackOption unpack;
   int samples = 41;
 };
 
@@ -103,7 +104,7 @@ Expected<void> run(const AnalyseArguments& options) {
   }
   const auto commands = read_script(options.script);
   if (!commands) return std::unexpected(commands.error());
-  auto document = open_document(options.file, options.fresh);
+  auto document = open_document(options.file, options.fresh, options.unpack);
   if (!document) return std::unexpected(document.error());
   Session session(std::move(*document));
   if (auto done = execute(session, *commands); !done) return std::unexpected(done.error());
@@ -134,6 +135,7 @@ Action add_analyse(CLI::App& app) {
   command->add_option("--results", options->results, "JSON file for the results, see below")->required();
   command->add_option("--vtu", options->vtu, "VTU file with the same fields, for ParaView");
   command->add_option("--samples", options->samples, "points per direction of each surface")->capture_default_str();
+  options->unpack.add_to(*command);
   command->footer(
       R"(The results are {"surfaces": [{"id", "counts", "points", "displacement", and of shells "membrane", "moment", "von_mises",
 "bending_strain", and after modes and buckling "mode_1", ..., "buckling_1", ...}], "reactions": [{"hold", "force"}],

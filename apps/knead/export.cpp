@@ -3,6 +3,7 @@
 #include <memory>
 #include <ranges>
 
+#include "cad_input.hpp"
 #include "cli.hpp"
 #include "knead/exchange/face_colours.hpp"
 #include "knead/exchange/face_conversion.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct ExportArguments {
   std::string file, output, schema = "ap214", unit;
   bool sets = false;
+  UnpackOption unpack;
 };
 
 /// What a new file of whole surfaces does not have.
@@ -81,9 +83,7 @@ Expected<void> run(const ExportArguments& options) {
                        "use a name that ends in one of " + endings);
   }
   if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
-  auto input = read_file(options.file);
-  if (!input) return std::unexpected(input.error());
-  const auto source = open_source(std::move(*input), options.file);
+  const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
 
   const auto colours = (*source)->step_file() != nullptr ? face_colours(*(*source)->step_file())
@@ -122,6 +122,8 @@ Expected<void> run(const ExportArguments& options) {
     bytes.error().file = options.file;
     return std::unexpected(std::move(bytes.error()));
   }
+  bytes = compressed_by_name(*std::move(bytes), options.output, options.file);
+  if (!bytes) return std::unexpected(std::move(bytes.error()));
   if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
   warn(**source);
   fmt::print("wrote {} ({}, {}, {} bytes)\n", options.output, (*format)->name,
@@ -134,15 +136,17 @@ Expected<void> run(const ExportArguments& options) {
 Action add_export(CLI::App& app) {
   auto options = std::make_shared<ExportArguments>();
   CLI::App* command = app.add_subcommand("export", "write the surfaces of a CAD file as a new STEP or IGES file");
-  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
-      ->required()
-      ->type_name("");
-  command->add_option("-o,--out", options->output, "new file; the ending selects the format: STEP or IGES")->required();
+  command->add_option("FILE", options->file, cad_file_help())->required()->type_name("");
+  command
+      ->add_option("-o,--out", options->output,
+                   "new file; the ending selects the format: STEP or IGES, compressed with .stpZ or .gz")
+      ->required();
   command->add_option("--schema", options->schema, "of a STEP file: ap214 or ap242")
       ->check(CLI::IsMember({"ap214", "ap242"}))
       ->capture_default_str();
   command->add_option("--unit", options->unit, "of lengths, where FILE does not say it: mm, inch, …; without it mm");
   command->add_flag("--sets", options->sets, "write bare surfaces, without faces, edges and shells");
+  options->unpack.add_to(*command);
   command->footer(
       "Every B-spline surface, whole, as a face on its natural bounds with its name and colour; sides that are the\n"
       "same curve become one edge, and faces that share edges a shell. Control points, knots and weights are the\n"

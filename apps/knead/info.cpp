@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cad_input.hpp"
 #include "cli.hpp"
 #include "faces.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/exchange/face_conversion.hpp"
-#include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/step_file.hpp"
 #include "knead/spline/extremum.hpp"
@@ -25,6 +25,7 @@ using Json = nlohmann::ordered_json;
 struct InfoArguments {
   std::string file;
   bool json = false, faces = false;
+  UnpackOption unpack;
 };
 
 Json to_json(const Point& p) { return {p.x(), p.y(), p.z()}; }
@@ -159,9 +160,7 @@ void print_text(const Source& source) {
 Expected<void> run(const InfoArguments& options) {
   std::optional<ProgressLine> line;
   announce_reading(line.emplace(), options.file);
-  auto bytes = read_file(options.file);
-  if (!bytes) return std::unexpected(std::move(bytes.error()));
-  const auto source = open_source(*std::move(bytes), options.file);
+  const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
   if (!options.json) line.reset();  // what is printed shows how far it is
   const step::File* const file = (*source)->step_file();
@@ -217,11 +216,10 @@ Expected<void> run(const InfoArguments& options) {
 Action add_info(CLI::App& app) {
   auto options = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand("info", "list the B-spline surfaces of a CAD file");
-  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
-      ->required()
-      ->type_name("");
+  command->add_option("FILE", options->file, cad_file_help())->required()->type_name("");
   command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");
   command->add_flag("--faces", options->faces, "list the visible parts of the surfaces, and the edges of their faces");
+  options->unpack.add_to(*command);
   command->footer(
       "Coordinates and boxes are in the surface's own frame and units; the box is that of the whole\n"
       "untrimmed surface; `net` counts control points; knots are listed with their multiplicity.\n" +

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cad_input.hpp"
 #include "cli.hpp"
 #include "knead/energy/stiffness.hpp"
 #include "knead/exchange/file_io.hpp"
@@ -23,6 +24,7 @@ using Json = nlohmann::ordered_json;
 struct MatricesArguments {
   std::string file, surface, out, degree = "3";
   PlainSurfaceOption knots;
+  UnpackOption unpack;
   std::string alpha = "1,0,1", beta = "0.01,0.01,0.01", load = "0,0,1", units = "raw";
   double mass = 1, damping = 1;
   int hold = 0;
@@ -50,9 +52,7 @@ Expected<Surface> read_shape(const MatricesArguments& options, std::string& id) 
     if (!degree) return std::unexpected(degree.error());
     return options.knots.read(*degree);
   }
-  auto bytes = read_file(options.file);
-  if (!bytes) return std::unexpected(std::move(bytes.error()));
-  const auto source = open_source(*std::move(bytes), options.file);
+  const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
   const auto& surfaces = (*source)->surfaces();
   if (options.surface.empty() && surfaces.size() != 1) {
@@ -245,8 +245,7 @@ Action add_matrices(CLI::App& app) {
   auto options = std::make_shared<MatricesArguments>();
   CLI::App* command =
       app.add_subcommand("matrices", "write stiffness, mass, damping and load of a surface for other programs");
-  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
-      ->type_name("");
+  command->add_option("FILE", options->file, cad_file_help())->type_name("");
   command->add_option("--surface", options->surface, "its surface, such as #285; may be left out where there is one");
   command->add_option("--degree", options->degree,
                       "without a file: degree, or one per direction as in 3x2 (default 3)");
@@ -261,6 +260,7 @@ Action add_matrices(CLI::App& app) {
   options->rational.add_to(*command);
   command->add_option("--hold", options->hold,
                       "rows of control points held on each side, which are left out (default 0)");
+  options->unpack.add_to(*command);
   command->footer(
       "Each matrix is written as Matrix Market text (lower triangle) and as NumPy's .npz for scipy.sparse.load_npz,\n"
       "F, the control points and the numbers of the free unknowns as .npy, all described in matrices.json.\n" +

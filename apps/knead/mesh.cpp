@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "cad_input.hpp"
 #include "cli.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
@@ -17,6 +18,7 @@ struct MeshArguments {
   double tolerance = 0;
   bool untrimmed = false;
   int detail = SaveOptions{}.detail;
+  UnpackOption unpack;
 };
 
 /// An error of an option in the words of the command line; others are the file's.
@@ -72,9 +74,7 @@ Expected<void> run(const MeshArguments& options) {
     return std::unexpected(std::move(error));
   }
   if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
-  auto input = read_file(options.file);
-  if (!input) return std::unexpected(input.error());
-  const auto source = open_source(std::move(*input), options.file);
+  const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
   const step::File* step = options.untrimmed ? nullptr : (*source)->step_file();
   if (step == nullptr) return write_surfaces(**source, **format, options);
@@ -91,9 +91,7 @@ Expected<void> run(const MeshArguments& options) {
 Action add_mesh(CLI::App& app) {
   auto options = std::make_shared<MeshArguments>();
   CLI::App* command = app.add_subcommand("mesh", "write the faces of a CAD file as triangles");
-  command->add_option("FILE", options->file, "CAD file: " + list_of_endings(FormatContent::surfaces, true))
-      ->required()
-      ->type_name("");
+  command->add_option("FILE", options->file, cad_file_help())->required()->type_name("");
   command
       ->add_option("-o,--out", options->output,
                    "mesh to write; the ending selects the format: " + list_of_endings(FormatContent::triangles))
@@ -111,6 +109,7 @@ Action add_mesh(CLI::App& app) {
       ->add_option("--detail", options->detail, "with --untrimmed: grid lines per direction of each surface, 1 to 2000")
       ->capture_default_str()
       ->needs(untrimmed);
+  options->unpack.add_to(*command);
   command->footer(
       "Every face of the model, cut along its edges, within the tolerance and in the file's units; parts of an\n"
       "assembly stand where it puts them, as often as they are used. Faces meet in\n"

@@ -49,11 +49,11 @@ Expected<void> check_source(const std::string& file, bool fresh) {
   return {};
 }
 
-Expected<Document> open_document(const std::string& file, bool fresh) {
+Expected<Document> open_document(const std::string& file, bool fresh, const UnpackOption& most) {
   if (fresh) return Document::fresh("sheet");
   ProgressLine line;
   announce_reading(line, file);
-  return Document::open(file);
+  return Document::open(file, most.options());
 }
 
 Expected<Execution> execute(Session& session, const Script& script, bool stops) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cad_input.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead::cli {
@@ -19,7 +20,7 @@ struct Script {
 /// A usage error where both a file and none, or neither, is asked for.
 [[nodiscard]] Expected<void> check_source(const std::string& file, bool fresh);
 /// Opens a CAD file, or begins without one.
-[[nodiscard]] Expected<Document> open_document(const std::string& file, bool fresh);
+[[nodiscard]] Expected<Document> open_document(const std::string& file, bool fresh, const UnpackOption& most);
 
 /// How far a script came.
 struct Execution {

@@ -14,6 +14,7 @@
 #include "cli.hpp"
 #include "faces.hpp"
 #include "knead/base/printable.hpp"
+#include "knead/exchange/compression.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/scene/shell_fields.hpp"
@@ -32,6 +33,7 @@ namespace {
 struct SculptArguments {
   std::string file, output, script, report, picture, schema = "ap214";
   bool fresh = false, keep_partial = false;
+  UnpackOption unpack;
   [[nodiscard]] const std::string& name() const { return fresh ? output : file; }
 };
 
@@ -259,6 +261,7 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
   SaveOptions how;
   how.schema = options.schema;
   auto bytes = other != nullptr ? session.save_as(*other, how) : session.save();
+  if (bytes) bytes = compressed_by_name(*std::move(bytes), options.output, options.file);
   if (!bytes) return std::unexpected(bytes.error());
   const auto& surfaces = session.document().surfaces();
   if (other != nullptr && !options.fresh && !surfaces.empty() && surfaces.front().unit == "unknown") {
@@ -298,8 +301,10 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
 /// Whether the name of the output promises what is written: it has no ending, that of the input, or one of a CAD
 /// format.
 Expected<void> check_ending(const SculptArguments& options, const Document& document) {
-  const auto ending = std::filesystem::path(options.output).extension();
-  if (ending.empty() || ending == std::filesystem::path(options.file).extension()) return {};
+  const auto ending_of = [](const std::string& name) {
+    return std::filesystem::path(uncompressed_name(name)).extension();
+  };
+  if (ending_of(options.output).empty() || ending_of(options.output) == ending_of(options.file)) return {};
   const auto wanted = format_of_name(options.output, FormatContent::surfaces);
   const std::string_view written = document.source() != nullptr ? document.source()->format() : "STEP";
   if (wanted && (*wanted)->name == written) return {};
@@ -325,7 +330,7 @@ Expected<void> run(const SculptArguments& options) {
   if (auto one = check_source(options.file, options.fresh); !one) return one;
   const auto commands = read_script(options.script);
   if (!commands) return std::unexpected(commands.error());
-  auto document = open_document(options.file, options.fresh);
+  auto document = open_document(options.file, options.fresh, options.unpack);
   if (!document) return std::unexpected(document.error());
   if (auto possible = check_ending(options, *document); !possible) return possible;
   const Format* made = other_format(options, *document);
@@ -366,6 +371,7 @@ Action add_sculpt(CLI::App& app) {
   command->add_option("--schema", options->schema, "of a new STEP file: ap214 or ap242")
       ->check(CLI::IsMember({"ap214", "ap242"}))
       ->capture_default_str();
+  options->unpack.add_to(*command);
   command->add_flag("--keep-partial", options->keep_partial,
                     "at Ctrl+C write what the steps done so far have made; a second Ctrl+C writes nothing");
   command->add_option("--report", options->report, "JSON file for the report, see below");

@@ -6,8 +6,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "compressed_source.hpp"
 #include "foreign_format.hpp"
 #include "format_list.hpp"
+#include "knead/exchange/compression.hpp"
 #include "surface_mesh.hpp"
 
 namespace knead {
@@ -64,8 +66,9 @@ std::string list_of_endings(FormatContent content, bool opened) {
 }
 
 Expected<const Format*> format_of_name(std::string_view file_name, FormatContent content) {
+  const std::string plain = content == FormatContent::surfaces ? uncompressed_name(file_name) : std::string(file_name);
   for (const Format& format : formats()) {
-    if (format.content == content && has_ending(format, file_name)) return &format;
+    if (format.content == content && has_ending(format, plain)) return &format;
   }
   return input_error(
       fmt::format("\"{}\" is not a {} file", file_name, content == FormatContent::triangles ? "mesh" : "CAD"), {},
@@ -85,7 +88,10 @@ Expected<std::shared_ptr<const Source>> Source::with_splines(std::span<const std
   return input_error("only faces of a STEP file can be converted", name());
 }
 
-Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name) {
+Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name, const OpenOptions& options) {
+  if (compression_of(bytes) != Compression::none) {
+    return detail::open_compressed(std::move(bytes), std::move(name), options);
+  }
   const Format* chosen = nullptr;
   std::vector<std::string> known;
   for (const Format& format : formats()) {
@@ -94,7 +100,7 @@ Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::stri
     if (chosen == nullptr && format.recognises(bytes)) chosen = &format;
   }
   for (const Format& format : formats()) {
-    if (chosen == nullptr && format.open != nullptr && has_ending(format, name)) chosen = &format;
+    if (chosen == nullptr && format.open != nullptr && has_ending(format, uncompressed_name(name))) chosen = &format;
   }
   if (chosen != nullptr) return chosen->open(std::move(bytes), std::move(name));
   Error error = detail::foreign_format(bytes).value_or(

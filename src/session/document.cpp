@@ -25,10 +25,10 @@ Document Document::fresh(std::string name, std::string unit) {
   return document;
 }
 
-Expected<Document> Document::open(const std::filesystem::path& path) {
+Expected<Document> Document::open(const std::filesystem::path& path, const OpenOptions& options) {
   auto bytes = read_file(path);
   if (!bytes) return std::unexpected(std::move(bytes.error()));
-  auto source = open_source(*std::move(bytes), path.string());
+  auto source = open_source(*std::move(bytes), path.string(), options);
   if (!source) return std::unexpected(std::move(source.error()));
   return from(*std::move(source));
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fuzz.hpp"
+#include "knead/exchange/compression.hpp"
 #include "knead/exchange/context_faces.hpp"
 #include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
@@ -50,6 +51,7 @@ inline void check_faces(const step::File& file) {
 
 /// All of it, on a file that may or may not be one.
 inline void read_and_write(std::string_view bytes, const std::string& name) {
+  if (compression_of(bytes) != Compression::none) return;  // the target `packed`
   PeakMemory::begin();
   const auto source = open_source(std::string(bytes), name);
   check_memory(bytes.size(), "reading");

@@ -7,8 +7,10 @@
 #include "exchange/face_builder.hpp"
 #include "exchange/iges_builder.hpp"
 #include "exchange/support.hpp"
+#include "knead/exchange/compression.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
+#include "support/made_iges_solids.hpp"
 
 namespace knead {
 namespace {
@@ -89,6 +91,12 @@ void readers(Corpus& corpus) {
   builder.add(128, plate());
   corpus.add("iges", builder.text());
   corpus.add("brep", brep_square);
+  corpus.add("brep", brep_square + "0\n");
+  corpus.add("iges", iges_box_of_turned_faces());
+  corpus.add("iges", iges_ring_in_mm());
+  for (const Compression packing : {Compression::none, Compression::gzip, Compression::zip}) {
+    corpus.add("packed", *compress(step_text(square + square_face.text()), packing, "a.stp"));
+  }
   const fs::path texts = fs::path(KNEAD_SOURCE_DIR) / "tests/fuzz/corpus/text";
   for (const char* ending : {".g2", ".xml", ".dat", ".csv", ".json"}) {  // in the order of fuzz_text.cpp
     for (const auto& file : fs::directory_iterator(texts)) {

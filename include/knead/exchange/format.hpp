@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "knead/base/error.hpp"
+#include "knead/exchange/file_io.hpp"
 #include "knead/exchange/source.hpp"
 
 namespace knead {
@@ -78,16 +79,23 @@ struct Format {
 /// The format of this id, or null.
 [[nodiscard]] const Format* find_format(std::string_view id);
 
-/// The format given by the ending of a file name, in any case, among those of this content. Error (input): an unknown
-/// ending; the remedy lists the endings.
+/// The format given by the ending of a file name, in any case, among those of this content; the endings of compression
+/// are taken off before, but for triangles. Error (input): an unknown ending; the remedy lists the endings.
 [[nodiscard]] Expected<const Format*> format_of_name(std::string_view file_name, FormatContent content);
 
 /// The endings of these formats for messages: ".stl, .obj or .ply"; if `opened`, of the formats that can be opened.
 [[nodiscard]] std::string list_of_endings(FormatContent content, bool opened = false);
 
+/// How to open a file.
+struct OpenOptions {
+  std::size_t max_unpacked = max_file_size;  ///< bytes that a compressed file may hold
+};
+
 /// Opens the bytes of a file of any format: the one that recognises them or, if none does, the one given by the ending
-/// of the name, whose reader then reports what is wrong. Errors (input): neither; the message names the formats.
-[[nodiscard]] Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name);
+/// of the name, whose reader then reports what is wrong. Compressed files are told by their content, opened as what
+/// they hold, and saved compressed (compression.hpp). Errors (input): no format; the message names them all.
+[[nodiscard]] Expected<std::shared_ptr<const Source>> open_source(std::string bytes, std::string name,
+                                                                  const OpenOptions& options = {});
 
 /// A table of the formats in Markdown, as docs/formats.md has it.
 [[nodiscard]] std::string format_table();

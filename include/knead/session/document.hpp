@@ -21,7 +21,7 @@ using DocumentSurface = SourceSurface;
 class Document {
  public:
   /// Errors (input): the file cannot be read, its format is unknown, or it violates its format.
-  [[nodiscard]] static Expected<Document> open(const std::filesystem::path& path);
+  [[nodiscard]] static Expected<Document> open(const std::filesystem::path& path, const OpenOptions& options = {});
   [[nodiscard]] static Document from(std::shared_ptr<const Source> source);
   /// Without a file: surfaces are made by commands, and saving writes a new one.
   [[nodiscard]] static Document fresh(std::string name, std::string unit = "mm");

@@ -1,5 +1,6 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { gunzipSync, gzipSync } from 'node:zlib';
 
 import { commands, distance, handled, openFile, positions, question, ready, root, scene, settled, stroke, studioOfFile, directoryOfFile, saveAs } from './page';
 
@@ -240,6 +241,22 @@ describe('a file of another program', () => {
     const saved = readFileSync(path, 'utf8');
     expect(saved.startsWith(text.slice(0, text.indexOf('0 0 0\n10 0 0')))).toBe(true);
     expect(saved).not.toBe(text);
+  });
+
+  it('that is compressed opens, comes back compressed with the same bytes, and is compressed again once it has changed', async () => {
+    const { page } = studio;
+    const packed = join(directory, 'sheet.g2.gz');
+    writeFileSync(packed, gzipSync(sheet(6)));
+    await openFile(page, packed);
+    const same = await saveAs(page, directory, 'CAD file');
+    expect(same.endsWith('sheet-sculpted.g2.gz')).toBe(true);
+    expect(readFileSync(same).equals(readFileSync(packed))).toBe(true);
+    await page.keyboard.press('b');
+    await stroke(page, [0, 0]); // selects
+    await stroke(page, [0, 0], [10, 0]);
+    const saved = gunzipSync(readFileSync(await saveAs(page, directory, 'CAD file'))).toString();
+    expect(saved.startsWith('200 1 0 0')).toBe(true);
+    expect(saved).not.toBe(sheet(6));
   });
 
   it('is replaced where it lies, unless another program has changed it', async () => {
