@@ -10,6 +10,10 @@
 namespace knead {
 namespace {
 
+// Of 16 bytes each. Conditions that tie a point to a hundred others, as those of rational creases of high degree, make
+// ten thousand of an entry.
+constexpr std::ptrdiff_t most_pieces = 20'000'000;
+
 using MapRow = std::vector<std::pair<int, double>>;  // of T: unknown, coefficient
 
 std::vector<MapRow> map_rows(const ConstraintSpace& space) {
@@ -35,13 +39,60 @@ void each_restricted(const SparseMatrix& a, const std::vector<MapRow>& rows, Vis
   }
 }
 
-/// Ones where Tᵀ A T has entries.
-SparseMatrix restricted_pattern(const SparseMatrix& a, const std::vector<MapRow>& rows, int size) {
+std::ptrdiff_t count_pieces(const SparseMatrix& a, const std::vector<MapRow>& rows) {
+  std::ptrdiff_t count = 0;
+  for (Eigen::Index j = 0; j < a.outerSize(); ++j) {
+    std::ptrdiff_t column = 0;
+    for (SparseMatrix::InnerIterator it(a, j); it; ++it)
+      column += std::ssize(rows[static_cast<std::size_t>(it.index())]);
+    count += column * std::ssize(rows[static_cast<std::size_t>(j)]);
+  }
+  return count;
+}
+
+SparseMatrix map_of(const std::vector<MapRow>& rows, int unknowns) {
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(a.nonZeros()));
-  each_restricted(a, rows, [&](int, int p, int q, double) { entries.emplace_back(p, q, 1.0); });
-  SparseMatrix pattern(size, size);
-  pattern.setFromTriplets(entries.begin(), entries.end());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const auto& [p, c] : rows[i]) entries.emplace_back(static_cast<int>(i), p, c);
+  }
+  SparseMatrix map(std::ssize(rows), unknowns);
+  map.setFromTriplets(entries.begin(), entries.end());
+  return map;
+}
+
+/// Numbers that are marked once each.
+struct Marks {
+  explicit Marks(Eigen::Index size) : marked(static_cast<std::size_t>(size), 0) {}
+  void mark(int k) {
+    if (std::exchange(marked[static_cast<std::size_t>(k)], 1) == 0) list.push_back(k);
+  }
+  void clear() {
+    for (const int k : list) marked[static_cast<std::size_t>(k)] = 0;
+    list.clear();
+  }
+  std::vector<char> marked;
+  std::vector<int> list;
+};
+
+/// Ones where Tᵀ A T has entries, column by column.
+SparseMatrix restricted_pattern(const SparseMatrix& a, const std::vector<MapRow>& rows, const SparseMatrix& map) {
+  SparseMatrix pattern(map.cols(), map.cols());
+  pattern.reserve(a.nonZeros());
+  Marks of_a(a.rows()), unknowns(map.cols());
+  for (Eigen::Index q = 0; q < map.cols(); ++q) {
+    of_a.clear();
+    unknowns.clear();
+    for (SparseMatrix::InnerIterator t(map, q); t; ++t) {
+      for (SparseMatrix::InnerIterator it(a, t.index()); it; ++it) of_a.mark(static_cast<int>(it.index()));
+    }
+    for (const int i : of_a.list) {
+      for (const auto& [p, c] : rows[static_cast<std::size_t>(i)]) unknowns.mark(p);
+    }
+    std::ranges::sort(unknowns.list);
+    pattern.startVec(q);
+    for (const int p : unknowns.list) pattern.insertBack(p, q) = 1;
+  }
+  pattern.finalize();
   return pattern;
 }
 
@@ -52,8 +103,9 @@ CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const
   assert(space.coupled() && pattern.isCompressed() && pattern.rows() == 3 * space.size());
   const std::vector<MapRow> rows = map_rows(space);
   const auto unknowns = detail::independent_places(space, places);
+  map_ = map_of(rows, space.free_count());
   {
-    const SparseMatrix whole = restricted_pattern(pattern, rows, space.free_count());
+    const SparseMatrix whole = restricted_pattern(pattern, rows, map_);
     dissection_ = unknowns ? dissect(whole, *unknowns) : minimum_degree(whole);
     zero_.resize(whole.rows(), whole.cols());
     zero_.selfadjointView<Eigen::Lower>() =
@@ -64,6 +116,8 @@ CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const
     std::sort(zero_.innerIndexPtr() + zero_.outerIndexPtr()[j], zero_.innerIndexPtr() + zero_.outerIndexPtr()[j + 1]);
   }
   std::fill_n(zero_.valuePtr(), zero_.nonZeros(), 0.0);
+  if (count_pieces(pattern, rows) > most_pieces) return;
+  map_.resize(0, 0);
   const Eigen::VectorXi& order = dissection_.order;
   const int *start = zero_.outerIndexPtr(), *index = zero_.innerIndexPtr();
   each_restricted(pattern, rows, [&](int from, int p, int q, double coefficient) {
@@ -74,7 +128,31 @@ CoordinateRestriction::CoordinateRestriction(const ConstraintSpace& space, const
   });
 }
 
+/// Column by column: A times a column of T, then the columns of T times that, where the pattern has entries.
+SparseMatrix CoordinateRestriction::product(const SparseMatrix& a) const {
+  SparseMatrix result = zero_;
+  const Eigen::VectorXi& order = dissection_.order;
+  std::vector<int> unknown(static_cast<std::size_t>(order.size()));
+  for (Eigen::Index p = 0; p < order.size(); ++p) unknown[static_cast<std::size_t>(order[p])] = static_cast<int>(p);
+  Eigen::VectorXd image(a.rows());
+  for (Eigen::Index column = 0; column < result.outerSize(); ++column) {
+    image.setZero();
+    for (SparseMatrix::InnerIterator t(map_, unknown[static_cast<std::size_t>(column)]); t; ++t) {
+      for (SparseMatrix::InnerIterator it(a, t.index()); it; ++it) image[it.index()] += t.value() * it.value();
+    }
+    for (SparseMatrix::InnerIterator entry(result, column); entry; ++entry) {
+      double sum = 0;
+      for (SparseMatrix::InnerIterator t(map_, unknown[static_cast<std::size_t>(entry.index())]); t; ++t) {
+        sum += t.value() * image[t.index()];
+      }
+      entry.valueRef() = sum;
+    }
+  }
+  return result;
+}
+
 SparseMatrix CoordinateRestriction::lower(const SparseMatrix& a) const {
+  if (map_.size() > 0) return product(a);
   SparseMatrix result = zero_;
   const double* from = a.valuePtr();
   double* to = result.valuePtr();

@@ -16,7 +16,8 @@ class CoordinateRestriction {
   CoordinateRestriction(const ConstraintSpace& space, const SparseMatrix& pattern, const GridPlaces* places = nullptr);
 
   /// The lower triangle of Tᵀ A T in that order. Cost: one multiply-add per entry of A where nothing but coordinates is
-  /// held.
+  /// held; where dependent coordinates have so many terms that the products of all pairs would fill the memory, one per
+  /// entry of T and unknown, without more memory than the result.
   [[nodiscard]] SparseMatrix lower(const SparseMatrix& a) const;
   /// The order, and its nodes where places gave it.
   [[nodiscard]] const Dissection& dissection() const { return dissection_; }
@@ -27,9 +28,12 @@ class CoordinateRestriction {
     double coefficient;
   };
 
+  [[nodiscard]] SparseMatrix product(const SparseMatrix& a) const;
+
   Dissection dissection_;
   SparseMatrix zero_;  // the pattern of the result
   std::vector<Piece> pieces_;
+  SparseMatrix map_;  // T, where pieces would be too many
 };
 
 }  // namespace knead

@@ -216,5 +216,33 @@ TEST(ConstrainedCholesky, OfCoordinatesSolvesInTheirSpace) {
   EXPECT_LT((inverse->solve(Eigen::Map<const Points>(b.data(), n, 3)) - x).norm(), 1e-11 * x.norm());
 }
 
+/// Entries everywhere: I + e eᵀ/n.
+SparseMatrix full_matrix(int size) {
+  return (Eigen::MatrixXd::Identity(size, size) + Eigen::MatrixXd::Constant(size, size, 1.0 / size)).sparseView();
+}
+
+// The products of all pairs of terms, 6 · 10⁹ of them, would fill 90 GB.
+TEST(ConstrainedCholesky, SolvesWhereDependentPointsHaveManyTerms) {
+  constexpr int n = 320, dependents = 100;
+  const Points shares = random_points(dependents * (n - dependents), 2);
+  std::vector<LinearConstraint> constraints;
+  for (int k = 0; k < dependents; ++k) {
+    LinearConstraint sum{"sum", {{k, 1.0}}};
+    for (int j = dependents; j < n; ++j) sum.terms.emplace_back(j, shares(k * (n - dependents) + j - dependents, 0));
+    constraints.push_back(std::move(sum));
+  }
+  constraints.push_back({"in a plane", {{n - 1, 1.0}}, {}, Point(1, 2, 3)});
+  const auto space = ConstraintSpace::create(n, constraints, std::vector<bool>(n, false), true);
+  ASSERT_TRUE(space);
+  ASSERT_TRUE(space->coupled());
+  const SparseMatrix a = full_matrix(3 * n);
+  const CoordinateRestriction restriction(*space, a);
+  const auto inverse = ConstrainedCholesky::factor(a, *space, restriction);
+  ASSERT_TRUE(inverse) << inverse.error().message();
+  const Points x = space->expand(Eigen::VectorXd(random_points(space->free_count(), 3).col(0)));
+  const Eigen::VectorXd b = a * Eigen::Map<const Eigen::VectorXd>(x.data(), x.size());
+  EXPECT_LT((inverse->solve(Eigen::Map<const Points>(b.data(), n, 3)) - x).norm(), 1e-9 * x.norm());
+}
+
 }  // namespace
 }  // namespace knead
