@@ -117,7 +117,9 @@ ActiveSpline<D>::Run::Run(const Model& model, const ActiveState& from, std::span
   limit_origin = (original.rowwise() - m.centre.transpose()) / m.length;
   y = m.inverse.space().feasible(before) - before;
   if (state.balanced) y = state.guess.rows() > 0 ? Points(state.guess / m.length) : Points::Zero(before.rows(), 3);
-  if (m.settings.accuracy == StepAccuracy::interactive) problem.accuracy = interactive_accuracy;
+  // Beyond the digits of A an exact step would look for what is not there.
+  const bool exact = m.settings.accuracy == StepAccuracy::exact && !m.inverse.rounded();
+  if (!exact) problem.accuracy = interactive_accuracy;
   problem.near = state.balanced && state.guess.rows() > 0;
   problem.source = &source;
   for (const PointForce& force : loads.points) {

@@ -10,6 +10,10 @@ namespace {
 // Of A + H: a cubic net of 100 × 100 has 4.3 million. There a factor takes 300 MB, and as long as hundreds of conjugate
 // gradients; on larger nets it takes longer.
 constexpr std::ptrdiff_t most_factor_entries = 5'000'000;
+// A row of A with so many entries, twice those of degree 5, is dense: no order saves anything of the 9 n³ operations of
+// a factor over all coordinates, and a substitution on the whole net takes 6 n². Below these it is worth hundreds of
+// them.
+constexpr std::ptrdiff_t dense_row = 200, most_dense_entries = 1'500'000;
 constexpr int most_factor_rounds = 6;
 constexpr int most_factor_iterations = 8;  // of conjugate gradients: more of them, and a new factor is cheaper
 constexpr double least_gain = 0.5;         // of the residual: a round that leaves more has met rounding
@@ -20,7 +24,9 @@ constexpr double poor_direction = 0.1;     // of the first residual: a factor th
 bool ContactFactor::is_possible(const StepProblem& problem) {
   const ConstrainedCholesky* inverse = problem.inverse.factor();
   if (problem.source == nullptr || inverse == nullptr) return false;
-  return (inverse->space().coupled() ? 3 : 9) * inverse->entries() <= most_factor_entries;
+  const bool dense = inverse->entries() > dense_row * inverse->space().free_count();
+  const std::ptrdiff_t entries = (inverse->space().coupled() ? 3 : 9) * inverse->entries();
+  return entries <= (dense ? most_dense_entries : most_factor_entries);
 }
 
 ContactFactor::ContactFactor(const StepProblem& problem, const Potential& potential)

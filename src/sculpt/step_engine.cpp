@@ -26,6 +26,17 @@ int highest_of(std::span<const Spline<D>> patches) {
   return degree;
 }
 
+template <int D>
+int highest_sum_of(std::span<const Spline<D>> patches) {
+  int most = 0;
+  for (const Spline<D>& patch : patches) {
+    int sum = 0;
+    for (int d = 0; d < D; ++d) sum += patch.knots(d).degree();
+    most = std::max(most, sum);
+  }
+  return most;
+}
+
 /// Whether anything forbids a displacement of the whole model.
 bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held) {
   if (std::ranges::find(held, true) != held.end()) return true;
@@ -41,7 +52,29 @@ bool holds_in_place(const ConstraintSpace& space, const std::vector<bool>& held)
   return detail::rank_of(forbidden) == 3;
 }
 
-Expected<StepInverse> factored(SparseMatrix&& a, ConstraintSpace space, const GridPlaces& places, bool undamped) {
+/// Of a matrix that is positive definite, but for the rounding of its entries. The condition of products of B-splines
+/// grows as 4^(p + q): from about 4^26 on there are combinations of them, of control points that alternate by as much
+/// as they may and show next to nothing, whose energy is less than that rounding. Each diagonal entry is raised by the
+/// least share of itself that makes them resist; of what shows that changes as small a share.
+Expected<StepInverse> inverse_of_rounded(const SparseMatrix& a, const ConstraintSpace& space,
+                                         const GridPlaces& places) {
+  constexpr double first_share = 1e-14, last_share = 1e-9;
+  auto inverse = ConstrainedCholesky::factor(SparseMatrix(a), space, &places);
+  if (inverse) return StepInverse(std::move(*inverse));
+  for (double share = first_share; !inverse && share < 2 * last_share; share *= 10) {
+    if (inverse.error().kind != ErrorKind::numerical || Interruption::asked_for()) break;
+    SparseMatrix raised = a;
+    for (Eigen::Index k = 0; k < a.rows(); ++k) raised.coeffRef(k, k) *= 1 + share;
+    inverse = ConstrainedCholesky::factor(std::move(raised), space, &places);
+  }
+  if (!inverse) return std::unexpected(inverse.error());
+  return StepInverse(std::move(*inverse), true);
+}
+
+Expected<StepInverse> factored(SparseMatrix&& a, ConstraintSpace space, const GridPlaces& places, bool undamped,
+                               int degrees) {
+  constexpr int lose_digits = 20;  // sums of degrees
+  if (!undamped && degrees >= lose_digits) return inverse_of_rounded(a, space, places);
   auto inverse = ConstrainedCholesky::factor(std::move(a), std::move(space), &places);
   if (inverse) return StepInverse(std::move(*inverse));
   if (!undamped || inverse.error().kind != ErrorKind::numerical) return std::unexpected(inverse.error());
@@ -117,7 +150,8 @@ Expected<ChosenInverse> invert(const NetOperator<D>& a, ConstraintSpace space, s
   } else if (settings.solver == StepSolver::automatic) {
     engine.reason = fmt::format("{}, at most {}", points, direct_points<D>);
   }
-  auto inverse = factored(a.assemble(), std::move(space), grid_places<D>(patches), undamped);
+  auto inverse =
+      factored(a.assemble(), std::move(space), grid_places<D>(patches), undamped, highest_sum_of<D>(patches));
   if (!inverse) return std::unexpected(inverse.error());
   return ChosenInverse{std::move(*inverse), std::move(engine)};
 }
