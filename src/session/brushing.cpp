@@ -15,6 +15,7 @@ namespace {
 constexpr double places_per_radius = 16;
 constexpr double feasible_share = 1e-9;  // of the largest displacement: what misses the constraints by less is allowed
 constexpr double dropped_share = 1e-3;   // corrections outside of the brush that are less are left out
+constexpr double amplified = 100;        // by conditions: of what is left out, so much of a correction undoes that
 constexpr double least_share = 0.5;      // of its way that a point goes by itself if it is to be brought to the goal
 constexpr double limit_share = 1e-6;     // by which a limit may be exceeded, as for steps
 
@@ -40,11 +41,20 @@ bool goes_on(const OpenBrush& from, const OpenBrush& to) {
          std::ranges::equal(from.before, to.before, same);
 }
 
-/// Coefficients of what is zero at an abscissa are zero: what lies outside of a brush keeps its bits.
+/// Coefficients of what is zero at an abscissa are zero: what lies outside of a brush keeps its bits. Of high degree
+/// that is so only of small ones.
 Points local_coefficients(const StrokeModel& model, const Points& values) {
   Points result = model.control_points(values);
+  const auto untouched = [&](Eigen::Index i) { return (values.row(i).array() == 0).all(); };
+  const double largest = std::sqrt(values.rowwise().squaredNorm().maxCoeff());
+  double dropped = 0;
   for (Eigen::Index i = 0; i < result.rows(); ++i) {
-    if ((values.row(i).array() == 0).all()) result.row(i).setZero();
+    if (untouched(i)) dropped = std::max(dropped, result.row(i).norm());
+  }
+  // Control points of high degree alternate by far more than what they show, and not only where a site is reached.
+  const double most = dropped > largest ? dropped_share * largest : dropped;
+  for (Eigen::Index i = 0; i < result.rows(); ++i) {
+    if (untouched(i) && result.row(i).norm() <= most) result.row(i).setZero();
   }
   return result;
 }
@@ -228,11 +238,14 @@ Expected<Points> Executor::brushed() {
   run.stuck = some && largest == 0;
   Points allowed = model.allowed(c);
   if ((allowed - c).cwiseAbs().maxCoeff() <= feasible_share * largest) return allowed;
-  Points nearest = model.nearest_allowed(c);
+  Points nearest = model.nearest_allowed(c), whole = nearest;
   for (Eigen::Index i = 0; i < nearest.rows(); ++i) {
     if ((c.row(i).array() == 0).all() && nearest.row(i).norm() < dropped_share * largest) nearest.row(i).setZero();
   }
   allowed = model.allowed(nearest);
+  if (!((allowed - nearest).cwiseAbs().maxCoeff() <= amplified * dropped_share * largest)) {
+    allowed = std::move(whole);  // dependent control points follow from what was left out with large coefficients
+  }
   run.stuck = (allowed.array() == 0).all();
   return allowed;
 }
@@ -268,8 +281,24 @@ Points Executor::unmasked(Points displacement) const {
   return displacement;
 }
 
-/// Makes the shapes and rest shapes those from before the stroke with this displacement; rows of zero keep their bits.
+/// Makes the shapes and rest shapes those from before the stroke with this displacement, or with what share of it folds
+/// no face. What is grabbed goes where it was asked to, or nowhere.
 Expected<void> Executor::show_brush(const Points& displacement) {
+  if (auto shown = displace_from_brush(displacement); !shown) return shown;
+  const bool grabs = state.brush->brush.kind == BrushKind::grab;
+  if (auto sound = check_folds(); !sound && grabs) return sound;
+  const auto smaller =
+      keep_unfolded("brush", 1, [&](double share) { return displace_from_brush(share * displacement); });
+  if (!smaller) return std::unexpected(smaller.error());
+  if (!smaller->empty() && std::ranges::find(state.notes, *smaller) == state.notes.end()) {
+    state.notes.push_back(*smaller);
+  }
+  note_model(stroke_cache->scene.seams, stroke_cache->scene.notes);
+  return {};
+}
+
+/// Rows of zero keep their bits.
+Expected<void> Executor::displace_from_brush(const Points& displacement) {
   const std::vector<int> selection = state.selection();
   Eigen::Index first = 0;
   for (std::size_t k = 0; k < selection.size(); ++k) {
@@ -302,8 +331,6 @@ Expected<void> Executor::show_brush(const Points& displacement) {
                          "brush", R"(move it less, or end the limit: {"do":"limit"})");
     }
   }
-  if (auto sound = check_folds(); !sound) return sound;
-  note_model(stroke_cache->scene.seams, stroke_cache->scene.notes);
   return {};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -89,6 +90,7 @@ struct Executor {
   DocumentRegions regions = DocumentRegions(document);
   std::optional<MotionLaw> law = {};  ///< what the command has asked for so far
   bool unruled = false;               ///< what acts has another law
+  bool at_fold = false;               ///< the last step was made smaller, as more would fold a face: none follows
 
   template <class C>
   Expected<void> execute(const C& command);
@@ -204,7 +206,8 @@ struct Executor {
   Expected<void> ask_of_motion(const EvolutionPolicy& evolution, const std::vector<PointForce>& grips);
   void measure_from_rest();
   void note_loose();
-  void ask_of_stroke(double asked, std::span<const Tool> tools);
+  void keep_what_stroke_left();
+  void ask_of_stroke(double moved, std::span<const Tool> tools);
   void ask_of_brush(double asked);
   [[nodiscard]] bool held_all_round(const SceneModel& model) const;
   [[nodiscard]] bool goes_too_far(const ActiveStep& step, const ActiveLoads& loads);
@@ -265,9 +268,17 @@ struct Executor {
   /// Whether the surfaces of which edges of faces are held have not folded: their normals point to the same side as at
   /// rest, at four points per span. Error (numerical): where they do not.
   Expected<void> check_folds();
-  /// Makes the open stroke shallower, everywhere alike, where it would fold a face. Returns the note on it; empty:
-  /// nothing folds. Errors: as above, where not even a tenth of it would be left.
-  Expected<std::string> keep_unfolded();
+  /// Makes a motion smaller, everywhere alike, where it would fold a face: what is held is linear in displacements, and
+  /// so holds for every share of them. \param shows shows this share of it; all of `whole` is shown. Returns the note
+  /// on it, in which `what` names it; empty: nothing folds. Errors: as above, where not even a tenth of it would be
+  /// left.
+  Expected<std::string> keep_unfolded(std::string_view what, double whole,
+                                      const std::function<Expected<void>(double)>& shows);
+  /// The same of the open stroke, and of a step from these shapes, but not of an equilibrium. Of a step that is not the
+  /// first, nothing may be left.
+  Expected<std::string> keep_stroke_unfolded();
+  Expected<std::string> keep_step_unfolded(std::span<const std::shared_ptr<const Surface>> from, bool first,
+                                           const EvolutionPolicy& evolution);
   /// Error (numerical): a selected surface is further from the surface as opened than `limit` allows.
   [[nodiscard]] Expected<void> check_limit() const;
   /// The error of a step in which nothing is free to move under a tool.
@@ -299,6 +310,7 @@ struct Executor {
   /// The displacement of control points as the masks of the selected surfaces lessen it.
   [[nodiscard]] Points unmasked(Points displacement) const;
   Expected<void> show_brush(const Points& displacement);
+  Expected<void> displace_from_brush(const Points& displacement);
 };
 
 inline constexpr double coarse = 0.5;      // spans longer than this share of a tool follow it less accurately

@@ -111,18 +111,35 @@ void Executor::measure_from_rest() {
   }
 }
 
-/// The same of places of a stroke of which `asked` is the largest displacement or depth.
-void Executor::ask_of_stroke(double asked, std::span<const Tool> tools) {
+/// What the open stroke has left so far may stay, whatever places asked for it.
+void Executor::keep_what_stroke_left() {
   if (!only_pressed(state, state.evolution)) {
     unruled = true;
     return;
   }
   if (!law) law.emplace();
   law->from = state.stroke->before;
-  asked /= 1 + 0.5 * law_tolerance;  // by which a place may go further than its tool; the rest is compared exactly
-  if (asked < law->reach) return;
-  law->reach = asked;
+  const double left = std::sqrt(state.stroke->history.rowwise().squaredNorm().maxCoeff());
+  law->reach = std::max(law->reach, left / (1 + 0.5 * law_tolerance));
+}
+
+/// What tools ask of the shapes from before the stroke, where they moved them so far: by no more than half the
+/// tolerance further than they stand in them, which is measured exactly only where they did.
+void Executor::ask_of_stroke(double moved, std::span<const Tool> tools) {
+  if (!law || unruled) return;
+  law->from = state.stroke->before;
+  const double asked = moved / (1 + 0.5 * law_tolerance);
+  if (asked <= law->reach) return;
+  double depth = depth_at_sites(tools);
+  if (asked > depth) {
+    for (const OpenStroke::Before& before : state.stroke->before) {
+      depth = std::max({depth, depth_in(*before.current, tools, nullptr), standing_in(*before.current, tools)});
+    }
+  }
+  if (std::min(asked, depth) <= law->reach) return;
+  law->reach = std::min(asked, depth);
   law->tools.assign(tools.begin(), tools.end());
+  for (Tool& tool : law->tools) harden(tool, *state.stroke);
 }
 
 /// The same of a brush.

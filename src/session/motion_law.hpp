@@ -28,9 +28,12 @@ struct MotionLaw {
 /// refined by a compass search to 1e-3 of the distance of samples.
 [[nodiscard]] double depth_in(const Surface& shape, std::span<const Tool> tools, const VisibleRegion* visible);
 
-/// How far tools stand in the surface: the longest way that a point of it inside a tool has along its normal out of the
-/// tool, to the nearer side. Of a blade that is its height, of which `depth_in` knows the thickness alone. Sampled at
-/// four by four points of every span, at most 400 of those inside, and refined by a compass search. 0: none.
+/// How far tools stand in the surface: of each the shorter of two ways out, that of the points inside it, each along
+/// its normal to the nearer side, of which the longest counts, and that of the whole surface by one translation. Of a
+/// blade both are its height, of which `depth_in` knows the thickness alone; a closed surface within a tool leaves it
+/// by a translation, and one within a ring by the other. Sampled at four by four points of every span, at most 400 of
+/// those inside, and refined by a compass search; translations along the tool's normal at the deepest point, and along
+/// the surface's at eight. 0: none.
 [[nodiscard]] double standing_in(const Surface& shape, std::span<const Tool> tools);
 
 /// The largest |a − b|, an upper bound where that is below `enough`: distances of control points. Of shapes on one
@@ -48,5 +51,8 @@ struct MotionLaw {
 /// Whether tools that collide are all that acts on the selected surfaces at rest, so that nothing is drawn along, blown
 /// or swings.
 [[nodiscard]] bool only_pressed(const Scene& scene, const EvolutionPolicy& evolution);
+
+/// Makes a tool as hard as the open stroke needs it, unless it is, or does not collide.
+void harden(Tool& tool, const OpenStroke& stroke);
 
 }  // namespace knead

@@ -83,6 +83,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
   if (auto refined = refine_trims(); !refined) return refined;
   if (auto united = unite_followed(); !united) return united;
   int refinements = 0, stepped = 0;
+  at_fold = false;
   std::optional<Attempts> tried;
   while (stepped < count) {
     double seconds = 0;
@@ -118,11 +119,14 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     const auto taken = take_together(*step, *tried);
     if (!taken) return std::unexpected(taken.error());
     if (!*taken) continue;
+    const auto smaller = keep_step_unfolded(tried->before, done + stepped == 0, evolution);
+    if (!smaller) return std::unexpected(smaller.error());
+    if (!smaller->empty()) note = *smaller;
     tried.reset();
-    if (auto sound = check_folds(); !sound) return sound;
     if (auto within = check_limit(); !within) return within;
     record(*step, seconds, std::move(note));
     ++stepped;
+    if (at_fold) break;
     const auto on = carries_on(done + stepped, total > 0 ? total : count);
     if (!on) return std::unexpected(on.error());
     if (!*on) break;

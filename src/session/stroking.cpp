@@ -190,13 +190,15 @@ Expected<void> Executor::put_tool(const Point& place) {
   return {};
 }
 
+void harden(Tool& tool, const OpenStroke& stroke) {
+  if (tool.collides()) tool.stiffness = std::min(std::max(tool.stiffness, stroke.stiffness), max_tool_stiffness);
+}
+
 /// What these tools ask, which are there after these travels, of the shapes from before the stroke.
 Expected<ActiveStep> Executor::press(std::vector<Tool> tools, std::span<const Travel> travels) {
   if (auto made = prepare_stroke_model(); !made) return std::unexpected(made.error());
   const OpenStroke& stroke = *state.stroke;
-  for (Tool& t : tools) {
-    if (t.collides()) t.stiffness = std::min(std::max(t.stiffness, stroke.stiffness), max_tool_stiffness);
-  }
+  for (Tool& tool : tools) harden(tool, stroke);
   if (shells()) return press_shell_on_bed(tools, stroke_guess(travels));
   const ActiveSurface& model = stroke_cache->scene.model;
   auto loads = active_loads(state, stroke_cache->scene);
@@ -282,6 +284,7 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
   }
   auto was = tools_and_images(state);
   if (!was) return std::unexpected(was.error());
+  keep_what_stroke_left();
   for (const Point& place : places) {
     if (auto put = put_tool(place); !put) return put;
     auto is = tools_and_images(state);
@@ -308,11 +311,10 @@ Expected<void> Executor::press_along(const std::vector<Point>& places) {
     last = std::move(*step);
     if (auto on = carries_on(++done, static_cast<int>(places.size())); !on) return std::unexpected(on.error());
   }
-  ask_of_stroke(std::sqrt(state.stroke->history.rowwise().squaredNorm().maxCoeff()), *was);
   note_loose();
   if (last.gap > 0 && (state.stroke->history.array() == 0).all()) return std::unexpected(all_held(last.gap_tool));
   if (auto shown = show_stroke(true); !shown) return shown;
-  const auto shallower = keep_unfolded();
+  const auto shallower = keep_stroke_unfolded();
   if (!shallower) return std::unexpected(shallower.error());
   if (!shallower->empty()) note = *shallower;
   note_model(stroke_cache->scene.seams, stroke_cache->scene.notes);

@@ -176,26 +176,61 @@ Expected<void> Executor::check_folds() {
   return {};
 }
 
-Expected<std::string> Executor::keep_unfolded() {
+Expected<std::string> Executor::keep_unfolded(std::string_view what, double whole,
+                                              const std::function<Expected<void>(double)>& shows) {
   constexpr int halvings = 6;
   constexpr double safe = 0.9, least = 0.1;
   const auto sound = check_folds();
   if (sound) return std::string();
-  // What is held is linear in the displacement, and so holds for every share of it.
-  double flat = 0, folded = state.stroke->share;
-  const auto shows = [&](double share) {
-    state.stroke->share = share;
-    return show_stroke(true);
-  };
+  double flat = 0, folded = whole;
   for (int k = 0; k < halvings; ++k) {
     const double middle = 0.5 * (flat + folded);
     if (auto shown = shows(middle); !shown) return std::unexpected(shown.error());
     (check_folds() ? flat : folded) = middle;
   }
-  if (safe * flat < least) return std::unexpected(sound.error());
+  if (safe * flat < least * whole) return std::unexpected(sound.error());
   if (auto shown = shows(safe * flat); !shown) return std::unexpected(shown.error());
   if (auto still = check_folds(); !still) return std::unexpected(still.error());
-  return fmt::format("the stroke keeps {:.0f} % of its depth, as more would fold a face", 100 * safe * flat);
+  return fmt::format("the {} keeps {:.0f} % of its depth, as more would fold a face", what, 100 * safe * flat);
+}
+
+Expected<std::string> Executor::keep_stroke_unfolded() {
+  return keep_unfolded("stroke", state.stroke->share, [this](double share) {
+    state.stroke->share = share;
+    return show_stroke(true);
+  });
+}
+
+Expected<std::string> Executor::keep_step_unfolded(std::span<const std::shared_ptr<const Surface>> from, bool first,
+                                                   const EvolutionPolicy& evolution) {
+  if (evolution.mode == Evolution::stationary) {
+    if (auto sound = check_folds(); !sound) return std::unexpected(sound.error());
+    return std::string();
+  }
+  const Scene whole = state;
+  const auto shows = [&](double share) -> Expected<void> {
+    for (const int k : state.selection()) {
+      const auto at = static_cast<std::size_t>(k);
+      const SceneSurface& moved = whole.surfaces[at];
+      SceneSurface& s = state.surfaces[at];
+      const Points& start = from[at]->control_points();
+      if (moved.current->control_points() == start) continue;
+      auto nearer = moved.current->with_control_points(start + share * (moved.current->control_points() - start));
+      if (!nearer) return std::unexpected(nearer.error());
+      s.current = std::make_shared<const Surface>(std::move(*nearer));
+      if (moved.rest == moved.current) s.rest = s.current;
+      s.velocity = share * moved.velocity;
+    }
+    return {};
+  };
+  auto note = keep_unfolded("step", 1, shows);
+  if (note || first) {
+    at_fold = note && !note->empty();
+    return note;
+  }
+  at_fold = true;
+  if (auto back = shows(0); !back) return std::unexpected(back.error());
+  return "the step is not made, as it would fold a face";
 }
 
 bool Executor::holds_edges() const {

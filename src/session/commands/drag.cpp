@@ -114,7 +114,7 @@ Expected<void> Executor::execute(const DragCommand& c) {
   }
   const auto grip = footprint(*surface.current, first, *at, radius, c.strength);
   if (!grip) return std::unexpected(grip.error());
-  for (int k = 0; k < c.steps; ++k) {
+  for (int k = 0; k < c.steps && !at_fold; ++k) {
     std::vector<PointForce> forces = *grip;
     const double share = static_cast<double>(k + 1) / c.steps;
     for (PointForce& force : forces) force.to += share * unit * Point(c.by[0], c.by[1], c.by[2]);
