@@ -59,7 +59,7 @@ struct Meeting {
   }
   [[nodiscard]] static Point normal_of(const Evaluation<2>& jet) {
     const Point a = jet.at({1, 0}).row(0), b = jet.at({0, 1}).row(0);
-    return a.cross(b).stableNormalized();
+    return a.stableNormalized().cross(b.stableNormalized()).stableNormalized();
   }
 
   [[nodiscard]] double deepest(int pieces) const {
@@ -173,10 +173,12 @@ struct Meeting {
     }
     return way;
   }
+  /// At a pole, which has no normal, the distance from the nearest side: no way out is shorter.
   [[nodiscard]] double way_out(const std::array<double, 2>& u) const {
     const auto jet = jet_at(u);
     if (!jet) return 0;
     const Point x = jet->points().row(0), normal = normal_of(*jet);
+    if (normal.isZero(0)) return depth(x);
     return std::min(way_along(x, normal), way_along(x, -normal));
   }
 
