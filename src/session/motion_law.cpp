@@ -74,7 +74,9 @@ Points Executor::points_of_law() const {
   return result;
 }
 
-/// What the tools and these grips ask, of the surfaces as they stand.
+/// What the tools and these grips ask: at first of the surfaces as they stand, beyond what moved them before; where the
+/// command goes on with others, of the shapes that motion is measured from, so that what one step moved too far does
+/// not count for the next.
 Expected<void> Executor::ask_of_motion(const EvolutionPolicy& evolution, const std::vector<PointForce>& grips) {
   if (!only_pressed(state, evolution)) {
     unruled = true;
@@ -82,20 +84,23 @@ Expected<void> Executor::ask_of_motion(const EvolutionPolicy& evolution, const s
   }
   const auto tools = tools_and_images(state);
   if (!tools) return std::unexpected(tools.error());
-  if (!law) law.emplace();
+  const bool first = !law;
+  if (first) law.emplace();
   measure_from_rest();
   double deepest = 0, way = 0;
-  for (const int k : state.selection()) {
-    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    deepest = std::max(deepest, depth_in(*s.current, *tools, holds_trims(s.constraints) ? s.visible.get() : nullptr));
+  const std::vector<int> selection = state.selection();
+  for (std::size_t k = 0; k < selection.size(); ++k) {
+    const SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
+    const Surface& shape = first ? *s.current : *law->from[k].current;
+    deepest = std::max(deepest, depth_in(shape, *tools, holds_trims(s.constraints) ? s.visible.get() : nullptr));
   }
-  const Points now = active_state(state).control_points;
+  const Points places = first ? active_state(state).control_points : points_of_law();
   for (const PointForce& grip : grips) {
     Point at = Point::Zero();
-    for (const auto& [row, share] : grip.terms) at += share * now.row(row).transpose();
+    for (const auto& [row, share] : grip.terms) at += share * places.row(row).transpose();
     way = std::max(way, (grip.to - at).norm());
   }
-  const double reach = motion(0) + std::max(deepest, way);
+  const double reach = (first ? motion(0) : 0) + std::max(deepest, way);
   if (reach >= law->reach) *law = {reach, std::move(law->from), *tools, grips};
   return {};
 }

@@ -103,7 +103,7 @@ struct Meeting {
       place = u;
     }
     if (!(longest > 0)) return 0;
-    std::vector<Point> directions = {tool.shape.nearest(deepest_of(grid->points(), inside)).normal};
+    std::vector<Point> directions = {tool.shape.nearest(deepest_point(grid->points(), inside, at)).normal};
     for (std::size_t i = 0; i < inside.size(); i += 1 + inside.size() / most_normals) {
       const std::array<double, 2> u = {at[0][inside[i] / at[1].size()], at[1][inside[i] % at[1].size()]};
       const auto jet = jet_at(u);
@@ -117,10 +117,15 @@ struct Meeting {
  private:
   static constexpr std::size_t most_normals = 8;  // of which translations are tried
 
-  [[nodiscard]] Point deepest_of(const Points& points, const std::vector<std::size_t>& rows) const {
-    const auto deepest = std::ranges::max_element(
-        rows, {}, [&](std::size_t k) { return depth(points.row(static_cast<Eigen::Index>(k))); });
-    return points.row(static_cast<Eigen::Index>(*deepest));
+  /// The deepest of samples, refined.
+  [[nodiscard]] Point deepest_point(const Points& points, const std::vector<std::size_t>& rows,
+                                    const std::array<std::vector<double>, 2>& at) const {
+    const auto at_row = [&](std::size_t k) { return depth(points.row(static_cast<Eigen::Index>(k))); };
+    const std::size_t deepest = *std::ranges::max_element(rows, {}, at_row);
+    std::array<double, 2> place = {at[0][deepest / at[1].size()], at[1][deepest % at[1].size()]};
+    refined(at_row(deepest), place, at, [this](const std::array<double, 2>& u) { return depth_at(u); });
+    const auto x = evaluate_point<2>(shape, place);
+    return x ? *x : Point(points.row(static_cast<Eigen::Index>(deepest)));
   }
 
   /// The least over these directions of the way after which no point is in the tool; `known`, where none is shorter.
@@ -183,8 +188,8 @@ struct Meeting {
   }
 
   template <class F>
-  [[nodiscard]] double refined(double best, std::array<double, 2> place, const std::array<std::vector<double>, 2>& at,
-                               const F& value) const {
+  double refined(double best, std::array<double, 2>& place, const std::array<std::vector<double>, 2>& at,
+                 const F& value) const {
     for (double h = 0.5; h > std::ldexp(1.0, -halvings); h /= 2) {
       for (std::size_t d = 0; d < 2; ++d) {
         const Interval domain = shape.knots()[d].domain();
