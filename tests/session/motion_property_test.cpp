@@ -192,5 +192,15 @@ TEST(MotionLaw, HoldsForRandomActsOnShapesOfEveryKind) {
   EXPECT_LE(tally.refused, testing::long_run() ? 0.02 * count : 2);
 }
 
+// Strokes and steps with balls around a sphere, and a drag on a rational sheet whose first part moves too far.
+TEST(MotionLaw, HoldsForActsThatAskLessThanTheyWouldMove) {
+  Tally tally;
+  for (const unsigned seed : {224U, 337U, 326U, 138U, 723U, 880U, 1184U}) {
+    Random random{std::mt19937_64(seed)};
+    act(random, seed, tally);
+  }
+  EXPECT_EQ(tally.refused, 0);
+}
+
 }  // namespace
 }  // namespace knead
