@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "buffers.hpp"
-#include "knead/exchange/assembly.hpp"
 #include "knead/exchange/face_conversion.hpp"
 
 namespace knead::studio {
@@ -72,29 +71,6 @@ ContextPicture context_picture(const step::File& file, const Point& origin) {
   }
   picture.skipped = std::move(context.skipped);
   return picture;
-}
-
-std::shared_ptr<const Surroundings> surroundings(const step::File& file,
-                                                 std::span<const std::shared_ptr<const VisibleRegion>> visible) {
-  constexpr double fine = 2.5e-4;
-  auto result = std::make_shared<Surroundings>();
-  if (auto faces = context_faces(file, fine)) result->faces = std::move(faces->faces);
-  if (const auto assembly = step::assembly_of(file); assembly && assembly->parts.size() > 1) {
-    for (std::size_t k = 0; k < assembly->parts.size(); ++k) {
-      for (const auto* ids : {&assembly->parts[k].surfaces, &assembly->parts[k].faces}) {
-        for (const std::string& id : *ids) result->parts.emplace(id, k);
-      }
-    }
-    // Converted surfaces have the names of what was below their faces.
-    for (const step::OtherSurface& s : step::other_surfaces(file)) {
-      if (!s.faces.empty()) result->parts.emplace(s.id, result->part_of(s.faces.front()));
-    }
-  }
-  const auto senses = face_senses(file);
-  for (std::size_t k = 0; k < senses.size(); ++k) {
-    result->shown[file.surfaces()[k].id] = {k < visible.size() ? visible[k] : nullptr, senses[k]};
-  }
-  return result;
 }
 
 std::string context_json(const ContextPicture& context) {

@@ -45,11 +45,6 @@ struct ContextPicture {
 /// "#12", "reason": "…"}, …]}
 [[nodiscard]] std::string context_json(const ContextPicture& context);
 
-/// The faces around the surfaces in full precision, four times as fine as drawn, and what is shown of each surface.
-/// \param visible of each surface of the file, in its order; null: all of it
-[[nodiscard]] std::shared_ptr<const Surroundings> surroundings(
-    const step::File& file, std::span<const std::shared_ptr<const VisibleRegion>> visible);
-
 /// {"faces": [[[s, t, s, t, …], …], …]}: the loops of each face, in fractions of the domain; null for a whole surface.
 [[nodiscard]] std::string trim_json(const SurfaceTrim& trim);
 

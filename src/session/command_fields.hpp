@@ -13,6 +13,13 @@ namespace knead {
 //   void describe(C&, Fields&)                   its fields
 // and its .cpp file defines both.
 
+/// What a command that moves surfaces may do where they come to another face of their model (`Executor::meet_faces`).
+enum class ThroughAllowance { through, nothing };
+
+std::span<const Choice> choices(ThroughAllowance);
+/// The field `allow` of such a command.
+void describe_allowance(std::optional<ThroughAllowance>& allow, Fields& fields);
+
 std::span<const Choice> choices(StepWeight);
 std::span<const Choice> choices(EdgeChoice);
 

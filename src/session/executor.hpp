@@ -50,10 +50,16 @@ struct BrushRun {
   [[nodiscard]] bool reaches() const;
 };
 
+class ModelWalls;
+
+/// What happens where a surface comes to another face of its model: it is noted, allowed, or as far as it goes.
+enum class Through { note, allow, stop };
+
 /// What is known of faces beyond the states: undone, rehearsed or not.
 struct KnownFaces {
   std::shared_ptr<const Document> document = {};                             ///< as in `SessionState`
   std::map<std::string, std::shared_ptr<const VisibleRegion>> visible = {};  ///< by surface
+  std::shared_ptr<ModelWalls> walls = {};                                    ///< null until a surface has moved
 };
 
 struct Session::ModelCache {
@@ -91,6 +97,8 @@ struct Executor {
   std::optional<MotionLaw> law = {};  ///< what the command has asked for so far
   bool unruled = false;               ///< what acts has another law
   bool at_fold = false;               ///< the last step was made smaller, as more would fold a face: none follows
+  Through through = Through::note;    ///< what the command may do at other faces
+  bool stopped_at_face = false;       ///< it was made smaller there
 
   template <class C>
   Expected<void> execute(const C& command);
@@ -99,6 +107,12 @@ struct Executor {
   /// `law_tolerance`, is made smaller, and noted; a lever only where it moved further than the static solution of what
   /// acts on it, and how far is noted. Forgets what was asked.
   Expected<void> keep_law();
+
+  /// Compares what moved from the surfaces of `before`, of an open stroke or brush from those before it, with the other
+  /// faces of the model (`ModelWalls::first_contact`). What comes within the larger of the uncertainty of the file and
+  /// 1e-6 of the size of the model is noted, with the place and how far it had come there, or made smaller alike, so
+  /// that twice that distance is left.
+  Expected<void> meet_faces(const Scene& before);
 
   /// The first selected surface, or an error that says how to select one.
   Expected<SceneSurface*> selected();
@@ -202,6 +216,12 @@ struct Executor {
   Expected<void> refine_at_trims(SceneSurface& surface, const Fractions& at, double size);
 
  private:
+  Expected<void> meet_faces(std::span<const std::shared_ptr<const Surface>> before);
+  Expected<void> stop_at_face(std::span<const std::shared_ptr<const Surface>> before, double share);
+  [[nodiscard]] std::vector<std::shared_ptr<const Surface>> shapes_before(const Scene& before) const;
+  [[nodiscard]] std::shared_ptr<const Surface> rest_before(int surface) const;
+  ModelWalls& known_walls();
+  [[nodiscard]] std::string face_on(const std::string& surface);
   Expected<void> keep_law(MotionLaw& asked);
   Expected<void> ask_of_motion(const EvolutionPolicy& evolution, const std::vector<PointForce>& grips);
   void measure_from_rest();
@@ -318,6 +338,9 @@ inline constexpr int max_refinements = 5;  // of the net under a tool at one pla
 
 /// The record of a step of what it says itself: neither the surface nor the displacement.
 [[nodiscard]] StepRecord record_of(const ActiveStep& step, double seconds, std::string note);
+
+/// A shape on the net of another one, whose degrees are these or more, as are its knots then.
+[[nodiscard]] Expected<Surface> onto_net(Surface shape, const Surface& like);
 
 /// The error of a step whose numbers are not finite.
 [[nodiscard]] std::unexpected<Error> beyond_numbers();

@@ -59,6 +59,39 @@ bool moves_a_model(const Command& command) {
                 std::type_identity<BrushCommand>(), std::type_identity<RelaxCommand>());
 }
 
+/// What a command may do where surfaces come to other faces; none: it moves no surface.
+std::optional<Through> through_of(const Command& command, bool stops) {
+  return std::visit(
+      [stops]<class C>(const C& fields) -> std::optional<Through> {
+        if constexpr (requires { fields.allow; }) {
+          using Allowance = std::remove_cvref_t<decltype(*fields.allow)>;
+          if (fields.allow == Allowance::nothing) return Through::stop;
+          if (fields.allow == Allowance::through) return Through::allow;
+          if constexpr (std::is_same_v<Allowance, StepAllowance>) {
+            if (fields.allow == Allowance::all) return Through::allow;
+            if (fields.allow == Allowance::held) return Through::note;
+          }
+          return stops ? Through::stop : Through::note;
+        } else {
+          return std::nullopt;
+        }
+      },
+      command.any().fields);
+}
+
+/// The same command, which stops at other faces whoever carries it out.
+Command that_stops(const Command& command) {
+  CommandVariant all = command.any().fields;
+  std::visit(
+      [](auto& fields) {
+        if constexpr (requires { fields.allow; }) {
+          fields.allow = std::remove_cvref_t<decltype(*fields.allow)>::nothing;
+        }
+      },
+      all);
+  return make_command(std::move(all));
+}
+
 }  // namespace
 
 Expected<void> Session::execute(const Command& command, const Progress& progress, const GoOn& go_on) {
@@ -92,13 +125,17 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
     if (auto kept = executor.keep_law(); !kept) return kept;
   }
   if (!fields_of<BrushCommand>(command)) next->brush.reset();
+  const auto through = through_of(meant, stops_at_faces_);
+  executor.through = through.value_or(Through::allow);
   const auto execute = [&](const auto& fields) { return apply(executor, fields); };
   if (auto done = std::visit(execute, meant.any().fields); !done) return done;
   if (auto kept = executor.keep_law(); !kept) return kept;
+  if (auto met = executor.meet_faces(state()); !met) return met;
   if (auto closed = executor.check_followed(state()); !closed) return closed;
   if (!moves_a_model(meant)) {
     if (auto closed = executor.check_held_edges(state()); !closed) return closed;
   }
+  if (executor.stopped_at_face) meant = that_stops(meant);
   if (executor.stopped) {
     StepCommand made = *fields_of<StepCommand>(meant);
     made.count = *executor.stopped;
@@ -161,6 +198,7 @@ bool goes_on(const BrushCommand& first, const BrushCommand& second) {
   like.pressure = first.pressure;
   like.tilt = first.tilt;
   like.open = first.open;
+  like.allow = first.allow;
   like.by = first.by;
   like.angle = first.angle;
   like.factor = first.factor;
@@ -217,7 +255,7 @@ void Session::join() {
   const auto* before = fields_of<StepCommand>(entry.back());
   const auto* after = fields_of<StepCommand>(*first);
   if (before && after && before->lambda == after->lambda && before->weight == after->weight &&
-      before->count <= std::numeric_limits<int>::max() - after->count) {
+      before->allow == after->allow && before->count <= std::numeric_limits<int>::max() - after->count) {
     StepCommand both = *before;
     both.count += after->count;
     entry.back() = make_command(both);

@@ -122,6 +122,9 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     const auto smaller = keep_step_unfolded(tried->before, done + stepped == 0, evolution);
     if (!smaller) return std::unexpected(smaller.error());
     if (!smaller->empty()) note = *smaller;
+    if (through == Through::stop) {  // as equal steps that are one command, and as many
+      if (auto stops = meet_faces(tried->before); !stops) return stops;
+    }
     tried.reset();
     if (auto within = check_limit(); !within) return within;
     record(*step, seconds, std::move(note));

@@ -71,20 +71,6 @@ double felt_area(const Scene& scene, const DomainScaling<2>& scaling, const Open
   return area * scaling.length * scaling.length;
 }
 
-/// A shape on the net of another one, whose degrees are these or more, as are its knots then.
-Expected<Surface> onto_net(Surface shape, const Surface& like) {
-  std::array<std::vector<double>, 2> more;
-  for (std::size_t d = 0; d < 2; ++d) {
-    if (const int times = like.knots()[d].degree() - shape.knots()[d].degree(); times > 0) {
-      auto elevated = elevate_degree<2>(shape, static_cast<int>(d), times);
-      if (!elevated) return std::unexpected(elevated.error());
-      shape = std::move(*elevated);
-    }
-    std::ranges::set_difference(like.knots()[d].knots(), shape.knots()[d].knots(), std::back_inserter(more[d]));
-  }
-  return insert_knots<2>(shape, more);
-}
-
 std::vector<Travel> travels_of(const std::vector<Tool>& was, const std::vector<Tool>& is) {
   std::vector<Travel> travels;
   for (std::size_t t = 0; t < std::min(was.size(), is.size()); ++t)
@@ -106,6 +92,19 @@ Points stacked(const std::vector<OpenStroke::Before>& shapes,
 }
 
 }  // namespace
+
+Expected<Surface> onto_net(Surface shape, const Surface& like) {
+  std::array<std::vector<double>, 2> more;
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (const int times = like.knots()[d].degree() - shape.knots()[d].degree(); times > 0) {
+      auto elevated = elevate_degree<2>(shape, static_cast<int>(d), times);
+      if (!elevated) return std::unexpected(elevated.error());
+      shape = std::move(*elevated);
+    }
+    std::ranges::set_difference(like.knots()[d].knots(), shape.knots()[d].knots(), std::back_inserter(more[d]));
+  }
+  return insert_knots<2>(shape, more);
+}
 
 Expected<void> Executor::begin_stroke(const std::string& name, double share) {
   auto surface = selected();

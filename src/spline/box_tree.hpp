@@ -49,6 +49,27 @@ class BoxTree {
     }
   }
 
+  /// Calls `visit(index)` for every box that has a point in common with this one.
+  template <class Visit>
+  void meeting(const Eigen::AlignedBox3d& box, const Visit& visit) const {
+    if (nodes_.empty()) return;
+    std::array<std::uint32_t, 96> waiting{};  // as above
+    std::size_t count = 0;
+    waiting[count++] = 0;
+    while (count > 0) {
+      const Node& node = nodes_[waiting[--count]];
+      if (!node.box.intersects(box)) continue;
+      if (node.count > 0) {
+        for (std::uint32_t k = 0; k < node.count; ++k) visit(order_[node.first + k]);
+        continue;
+      }
+      waiting[count++] = node.first;
+      waiting[count++] = node.first + 1;
+    }
+  }
+  /// Round all boxes; empty where there is none.
+  [[nodiscard]] Eigen::AlignedBox3d box() const { return nodes_.empty() ? Eigen::AlignedBox3d() : nodes_[0].box; }
+
   /// Whether a ray has a point in a box before `to`: the slabs of Kay and Kajiya (1986), widened by their rounding.
   [[nodiscard]] static bool enters(const Eigen::AlignedBox3d& box, const Ray& ray, double to);
 

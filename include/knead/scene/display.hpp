@@ -45,6 +45,12 @@ struct Surroundings {
   }
 };
 
+/// The faces of a STEP file around its surfaces in full precision, four times as fine as drawn, and what is shown of
+/// each surface. \param visible of each surface of the file, in its order; null, or too few: all of it
+/// Cost: that of `context_faces`; faces that fail are left out.
+[[nodiscard]] std::shared_ptr<const Surroundings> surroundings(
+    const step::File& file, std::span<const std::shared_ptr<const VisibleRegion>> visible);
+
 class ModelFacets;
 
 /// What displays keep from one picture to the next: energy units already computed, and what of a grid is visible.

@@ -81,6 +81,10 @@ class Session {
 
   [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {}, const GoOn& go_on = {});
 
+  /// Whether commands that do not say otherwise (`allow`) stop where a surface comes to another face of its model,
+  /// instead of noting it; those that have stopped say so in the journal.
+  void stop_at_faces(bool stops) { stops_at_faces_ = stops; }
+
   /// Carries out commands without undo and redo, each after the one before, and leaves the session as it is, with what
   /// can be redone: only the models that they made and factored are kept, so that the same commands take less time
   /// later, with the same bits. Errors: that of the first command that fails.
@@ -141,6 +145,7 @@ class Session {
   std::vector<std::shared_ptr<const SessionState>> states_;  // one more than entries_
   std::vector<std::vector<Command>> entries_;                // what undo reverts at once
   std::size_t position_ = 0;
+  bool stops_at_faces_ = false;
   std::unique_ptr<ModelCache> cache_;  // the last model: its factorisation is reused until a setting changes
 };
 

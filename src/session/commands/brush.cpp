@@ -272,6 +272,7 @@ void describe(BrushCommand& c, Fields& fields) {
   fields.add("open", c.open,
              {.help = "the next `brush` with the same settings goes on with this stroke; any other command ends it"});
   fields.add("relative", c.relative, {.help = "`radius`, `height` and `by` are fractions of the diagonal"});
+  describe_allowance(c.allow, fields);
 }
 
 template <>

@@ -33,6 +33,7 @@ struct BrushCommand {
   int radial = 1;  ///< copies of the stroke around the axis
   std::optional<bool> open;
   bool relative = false;
+  std::optional<ThroughAllowance> allow = {};
 
   friend bool operator==(const BrushCommand&, const BrushCommand&) = default;
 };

@@ -83,6 +83,7 @@ void describe(DragCommand& c, Fields& fields) {
   fields.add("relative", c.relative, {.help = "`by` and `radius` are fractions of the diagonal"});
   fields.add("surface", c.surface, {.help = "id of the surface of the point", .fallback = "the first selected one"});
   fields.add("middle", c.middle, {.help = "`true` is the same as `\"at\": \"middle\"`"});
+  describe_allowance(c.allow, fields);
 }
 
 template <>

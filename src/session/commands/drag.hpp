@@ -15,6 +15,7 @@ struct DragCommand {
   bool relative = false;
   std::optional<bool> middle = {};          ///< of the visible part, instead of `at`
   std::optional<std::string> surface = {};  ///< default: the first selected one
+  std::optional<ThroughAllowance> allow = {};
 };
 
 template <>

@@ -31,6 +31,7 @@ void describe(LatticeCommand& c, Fields& fields) {
              {.help = "go on with the block of the `lattice` before: its control points are moved from where they were "
                       "pulled, and deform the shapes that it was put round. Net, degree, margin and selection are the "
                       "same, and nothing else has changed the surfaces since"});
+  describe_allowance(c.allow, fields);
 }
 
 namespace {

@@ -16,6 +16,7 @@ struct LatticeCommand {
   std::vector<int> which;         ///< control points moved by hand: (i n_y + j) n_z + k
   std::optional<Vector3> by;      ///< by this; there are no steps then
   bool again = false;             ///< from where the pull before has left them
+  std::optional<ThroughAllowance> allow = {};
 };
 
 template <>

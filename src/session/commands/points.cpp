@@ -71,6 +71,7 @@ void describe(PointsCommand& c, Fields& fields) {
              {.help = "`[[x, y, z], …]`: a place for each, in the order in which they are named, each counted once",
               .unit = Unit::length});
   fields.add("relative", c.relative, {.help = "`by` is in fractions of the diagonal"});
+  describe_allowance(c.allow, fields);
 }
 
 template <>

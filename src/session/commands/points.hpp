@@ -1,5 +1,6 @@
 #pragma once
 
+#include "../command_fields.hpp"
 #include "../named_points.hpp"
 
 namespace knead {
@@ -10,6 +11,7 @@ struct PointsCommand {
   std::optional<Vector3> by;  ///< the same for all; or:
   std::vector<Vector3> to;    ///< one place for each
   bool relative = false;      ///< `by` is in fractions of the bounding-box diagonal
+  std::optional<ThroughAllowance> allow = {};
 };
 
 template <>

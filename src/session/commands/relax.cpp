@@ -68,6 +68,7 @@ void describe(RelaxCommand& c, Fields& fields) {
                       "strength) / (3 r² strength); smaller bumps lose more"});
   fields.add("surface", c.surface, {.help = "id of the surface of the point", .fallback = "the first selected one"});
   fields.add("relative", c.relative, {.help = "`radius` is a fraction of the diagonal"});
+  describe_allowance(c.allow, fields);
 }
 
 template <>

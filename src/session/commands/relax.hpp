@@ -12,6 +12,7 @@ struct RelaxCommand {
   double strength = 0.5;
   bool relative = false;
   std::optional<std::string> surface = {};  ///< default: the first selected one
+  std::optional<ThroughAllowance> allow = {};
 };
 
 template <>

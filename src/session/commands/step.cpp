@@ -6,7 +6,10 @@ namespace knead {
 
 std::span<const Choice> choices(StepAllowance) {
   static constexpr Choice names[] = {
-      {"held", StepAllowance::held, "no error if everything that a tool touches is held"}};
+      {"held", StepAllowance::held, "no error if everything that a tool touches is held"},
+      {"through", StepAllowance::through, "no note if a face comes through another"},
+      {"all", StepAllowance::all, "both"},
+      {"nothing", StepAllowance::nothing, "it stops where a face would come through another"}};
   return names;
 }
 
@@ -30,7 +33,7 @@ Expected<void> Executor::execute(const StepCommand& c) {
     if (auto few = check_steps(*c.increments, "increments", 1); !few) return few;
   }
   increments = c.increments;
-  allow_held = c.allow.has_value();
+  allow_held = c.allow == StepAllowance::held || c.allow == StepAllowance::all;
   may_stop = true;
   return run(c.count, evolution);
 }

@@ -41,6 +41,7 @@ void describe(StrokeCommand& c, Fields& fields) {
                "first"});
   fields.add("relative", c.relative,
              {.help = "the path is measured from where the tool is, in fractions of the diagonal"});
+  describe_allowance(c.allow, fields);
 }
 
 template <>

@@ -22,6 +22,7 @@ struct StrokeCommand {
   std::optional<StrokePlasticity> plastic;  ///< default: material
   std::optional<bool> open;  ///< true: the tool stays down, and the next stroke of this tool goes on with this one
   bool relative = false;     ///< the path is measured from where the tool is, in fractions of the diagonal
+  std::optional<ThroughAllowance> allow = {};
 };
 
 template <>

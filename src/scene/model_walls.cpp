@@ -1,0 +1,81 @@
+#include "model_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact_search.hpp"
+
+namespace knead {
+namespace {
+
+/// By which a triangle may miss its face: h²/8 of the curvature along its sides, κ h being the turn of the normals.
+double sag_of(const FaceMesh& face, const std::array<std::uint32_t, 3>& triangle) {
+  double most = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto a = triangle[k], b = triangle[(k + 1) % 3];
+    most = std::max(most, (face.points[a] - face.points[b]).norm() * (face.normals[a] - face.normals[b]).norm() / 8);
+  }
+  return most;
+}
+
+}  // namespace
+
+ModelWalls::ModelWalls(std::shared_ptr<const Surroundings> around) : around_(std::move(around)) {
+  if (!around_) return;
+  for (std::uint32_t k = 0; k < around_->faces.size(); ++k) {
+    const FaceMesh& face = around_->faces[k];
+    Around& part = parts_[around_->part_of(face.id)];
+    const auto first = static_cast<std::uint32_t>(part.patch.from.size());
+    part.patch.from.insert(part.patch.from.end(), face.points.begin(), face.points.end());
+    for (const auto& triangle : face.triangles) {
+      part.patch.triangles.push_back({first + triangle[0], first + triangle[1], first + triangle[2]});
+      part.sags.push_back(sag_of(face, triangle));
+      part.faces.push_back(k);
+    }
+  }
+  for (auto& [_, part] : parts_) {
+    part.patch.to = part.patch.from;
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (const auto& triangle : part.patch.triangles) {
+      boxes.emplace_back();
+      for (const auto k : triangle) boxes.back().extend(part.patch.from[k]);
+    }
+    part.tree = BoxTree(boxes);
+  }
+}
+
+ModelWalls::~ModelWalls() = default;
+
+SpanGrid* ModelWalls::grid_of(const WallMotion& wall) {
+  const Motion& motion = wall.motion;
+  if (!motion.from || !motion.to) return nullptr;
+  auto& known = motion.moves() ? moving_ : still_;
+  const auto found = known.find(wall.id);
+  if (found != known.end() && (motion.moves() || (found->second && found->second->motion().to == motion.to))) {
+    return found->second ? &*found->second : nullptr;
+  }
+  auto& made = known[wall.id] = SpanGrid::create(motion);
+  return made ? &*made : nullptr;
+}
+
+double ModelWalls::diagonal(std::span<const WallMotion> motions) {
+  Eigen::AlignedBox3d box;
+  for (const WallMotion& wall : motions) {
+    if (!wall.motion.moves()) {
+      if (const SpanGrid* grid = grid_of(wall)) box.extend(grid->box());
+    } else {
+      const Points& net = wall.opened->control_points();
+      box.extend(Point(net.colwise().minCoeff().transpose())).extend(Point(net.colwise().maxCoeff().transpose()));
+    }
+  }
+  for (const auto& [_, part] : parts_) box.extend(part.tree.box());
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+std::optional<FaceContact> ModelWalls::first_contact(std::span<const WallMotion> motions, double tolerance) {
+  moving_.clear();
+  ContactSearch search(*this, motions, tolerance);
+  return search.first();
+}
+
+}  // namespace knead

@@ -1,0 +1,32 @@
+#include <algorithm>
+
+#include "knead/exchange/assembly.hpp"
+#include "knead/exchange/face_conversion.hpp"
+#include "knead/scene/display.hpp"
+
+namespace knead {
+
+std::shared_ptr<const Surroundings> surroundings(const step::File& file,
+                                                 std::span<const std::shared_ptr<const VisibleRegion>> visible) {
+  constexpr double fine = 2.5e-4;
+  auto result = std::make_shared<Surroundings>();
+  if (auto faces = context_faces(file, fine)) result->faces = std::move(faces->faces);
+  if (const auto assembly = step::assembly_of(file); assembly && assembly->parts.size() > 1) {
+    for (std::size_t k = 0; k < assembly->parts.size(); ++k) {
+      for (const auto* ids : {&assembly->parts[k].surfaces, &assembly->parts[k].faces}) {
+        for (const std::string& id : *ids) result->parts.emplace(id, k);
+      }
+    }
+    // Converted surfaces have the names of what was below their faces.
+    for (const step::OtherSurface& s : step::other_surfaces(file)) {
+      if (!s.faces.empty()) result->parts.emplace(s.id, result->part_of(s.faces.front()));
+    }
+  }
+  const auto senses = face_senses(file);
+  for (std::size_t k = 0; k < senses.size(); ++k) {
+    result->shown[file.surfaces()[k].id] = {k < visible.size() ? visible[k] : nullptr, senses[k]};
+  }
+  return result;
+}
+
+}  // namespace knead

@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "command_fields.hpp"
+#include "executor.hpp"
+#include "knead/exchange/trim_loops.hpp"
+#include "knead/scene/display.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "knead/spline/extremum.hpp"
+#include "scene/model_walls.hpp"
+
+namespace knead {
+namespace {
+
+constexpr double near_share = 1e-6;  // of the size of a model
+
+bool same_points(const Surface& a, const Surface& b) {
+  const Points &p = a.control_points(), &q = b.control_points();
+  return p.rows() == q.rows() && p == q;
+}
+
+/// The way of a surface, both ends on the present net; null where there is no such net.
+Motion motion_of(const std::shared_ptr<const Surface>& from, const std::shared_ptr<const Surface>& to) {
+  if (from == to || !from) return {to, to};
+  if (same_basis(*from, *to)) return {same_points(*from, *to) ? to : from, to};
+  auto raised = onto_net(*from, *to);
+  if (!raised || !same_basis(*raised, *to)) return {};
+  return {std::make_shared<const Surface>(std::move(*raised)), to};
+}
+
+std::shared_ptr<const Surroundings> surroundings_of(const Document& document) {
+  const step::File* const file = document.step_file();
+  if (file == nullptr) return nullptr;
+  std::vector<std::shared_ptr<const VisibleRegion>> visible;
+  if (const auto trims = trim_loops(*file)) {
+    for (const SurfaceTrim& trim : trims->surfaces) {
+      auto& shown = visible.emplace_back();
+      if (trim.whole) continue;
+      VisibleRegion region;
+      region.faces = trim.faces;
+      shown = std::make_shared<const VisibleRegion>(std::move(region));
+    }
+  }
+  return surroundings(*file, visible);
+}
+
+/// A share of the way from one shape to another.
+Expected<std::shared_ptr<const Surface>> part_of_way(const Motion& motion, double share) {
+  if (!motion.from || !motion.moves()) return motion.to;
+  const Points& from = motion.from->control_points();
+  Points points = from + share * (motion.to->control_points() - from);
+  for (Eigen::Index i = 0; i < from.rows(); ++i) {
+    if (from.row(i) == motion.to->control_points().row(i)) points.row(i) = from.row(i);
+  }
+  auto made = motion.to->with_control_points(std::move(points));
+  if (!made) return std::unexpected(made.error());
+  return std::make_shared<const Surface>(std::move(*made));
+}
+
+}  // namespace
+
+std::span<const Choice> choices(ThroughAllowance) {
+  static constexpr Choice names[] = {
+      {"through", ThroughAllowance::through, "no note if a face comes through another"},
+      {"nothing", ThroughAllowance::nothing, "it stops where a face would come through another"}};
+  return names;
+}
+
+void describe_allowance(std::optional<ThroughAllowance>& allow, Fields& fields) {
+  fields.add("allow", allow, {.fallback = "a note if a face comes through another"});
+}
+
+ModelWalls& Executor::known_walls() {
+  if (!faces.walls) faces.walls = std::make_shared<ModelWalls>(surroundings_of(document));
+  return *faces.walls;
+}
+
+/// "the face #45 on #20", by what is known of its edges.
+std::string Executor::face_on(const std::string& surface) {
+  std::set<std::string> ids;
+  const auto found = std::ranges::find(std::as_const(state.surfaces), surface, &SceneSurface::id);
+  SceneSurface& s = state.surfaces[static_cast<std::size_t>(found - std::as_const(state.surfaces).begin())];
+  if (const auto region = visible(s)) {
+    for (const TrimEdge& edge : (*region)->edges) {
+      for (std::size_t k = 0; k < std::min(edge.supports.size(), edge.neighbours.size()); ++k) {
+        if (edge.supports[k].substr(0, edge.supports[k].find(' ')) == surface) ids.insert(edge.neighbours[k]);
+      }
+    }
+  }
+  return ids.size() == 1 ? fmt::format("the face {} on {}", *ids.begin(), surface) : "the face on " + surface;
+}
+
+/// Of each surface the shape from which the motion of this command is measured; null: there was none.
+std::vector<std::shared_ptr<const Surface>> Executor::shapes_before(const Scene& before) const {
+  std::vector<std::shared_ptr<const Surface>> shapes;
+  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
+    const std::string& id = std::as_const(state.surfaces)[k].id;
+    const bool in_place = k < before.surfaces.size() && before.surfaces[k].id == id;
+    const auto found = in_place ? before.surfaces.begin() + static_cast<std::ptrdiff_t>(k)
+                                : std::ranges::find(before.surfaces, id, &SceneSurface::id);
+    shapes.push_back(found == before.surfaces.end() ? nullptr : found->current);
+  }
+  const std::vector<OpenStroke::Before>* const open = state.stroke  ? &state.stroke->before
+                                                      : state.brush ? &state.brush->before
+                                                                    : nullptr;
+  const std::vector<int> selection = state.selection();
+  for (std::size_t k = 0; open != nullptr && k < std::min(open->size(), selection.size()); ++k) {
+    shapes[static_cast<std::size_t>(selection[k])] = (*open)[k].current;
+  }
+  return shapes;
+}
+
+Expected<void> Executor::meet_faces(const Scene& before) {
+  if (through == Through::allow || stopped_at_face) return {};
+  return meet_faces(shapes_before(before));
+}
+
+Expected<void> Executor::meet_faces(std::span<const std::shared_ptr<const Surface>> before) {
+  std::vector<WallMotion> motions;
+  bool any = false;
+  double tolerance = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const SceneSurface& s = std::as_const(state.surfaces)[k];
+    motions.push_back({s.id, motion_of(before[k], s.current), s.opened, s.visible.get(), 0});
+    any = any || motions.back().motion.moves();
+    if (s.visible) tolerance = std::max(tolerance, s.visible->uncertainty);
+  }
+  if (!any) return {};
+  ModelWalls& walls = known_walls();
+  if (const Surroundings* const around = walls.around()) {
+    for (WallMotion& wall : motions) {
+      const auto shown = around->shown.find(wall.id);
+      if (wall.visible == nullptr && shown != around->shown.end()) wall.visible = shown->second.visible.get();
+      wall.part = around->part_of(wall.id);
+    }
+  }
+  tolerance = std::max(tolerance, near_share * walls.diagonal(motions));
+  const auto contact = walls.first_contact(motions, tolerance);
+  if (!contact) return {};
+  const SceneSurface& s = std::as_const(state.surfaces)[contact->surface];
+  const Surface& home = s.rest != s.current ? *s.rest : *motions[contact->surface].motion.from;
+  const auto begin = evaluate_point<2>(home, contact->at);
+  const double deep = begin ? (contact->place - *begin).norm() : 0;
+  const std::string to = contact->met == contact->surface
+                             ? "its own other side"
+                             : (contact->met ? face_on(motions[*contact->met].id) : "the face " + contact->face);
+  const Point& at = contact->place;
+  const std::string place =
+      fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}), {:.4g} deep", to, at.x(), at.y(), at.z(), deep);
+  if (through == Through::note) {
+    note_motion("through another face", fmt::format(": {} comes to {}, and goes on; press less deep, or say "
+                                                    "\"allow\":\"through\"",
+                                                    s.id, place));
+    return {};
+  }
+  note_motion("stopped at another face",
+              fmt::format(": {} would come through {}; \"allow\":\"through\" lets it", s.id, place));
+  stopped_at_face = true;
+  return stop_at_face(before, contact->room);
+}
+
+/// The rest shape from before an open brush, which moves it; else the present one.
+std::shared_ptr<const Surface> Executor::rest_before(int surface) const {
+  const std::vector<int> selection = state.selection();
+  const auto found = std::ranges::find(selection, surface);
+  if (!state.brush || found == selection.end()) return state.surfaces[static_cast<std::size_t>(surface)].rest;
+  return state.brush->before[static_cast<std::size_t>(found - selection.begin())].rest;
+}
+
+/// All that moved from there, made smaller alike: what is held is linear in displacements.
+Expected<void> Executor::stop_at_face(std::span<const std::shared_ptr<const Surface>> before, double share) {
+  if (state.stroke) {
+    state.stroke->share *= share;
+    return show_stroke(true);
+  }
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const Motion motion = motion_of(before[k], std::as_const(state.surfaces)[k].current);
+    if (!motion.from || !motion.moves()) continue;
+    SceneSurface& s = state.surfaces[k];
+    const bool same = s.rest == s.current;
+    auto current = part_of_way(motion, share);
+    if (!current) return std::unexpected(current.error());
+    auto rest = same ? current : part_of_way(motion_of(rest_before(static_cast<int>(k)), s.rest), share);
+    if (!rest) return std::unexpected(rest.error());
+    s.current = std::move(*current);
+    s.rest = std::move(*rest);
+    s.velocity.resize(0, 3);
+  }
+  return check_folds();
+}
+
+}  // namespace knead
