@@ -246,7 +246,8 @@ void ContactSearch::compare(const Patch& own, const Patch& wall, std::span<const
   const double exact = like.met ? 0 : like.margin - own.sag;
   // Beside a point its own face has no side that triangles could tell.
   const bool own_face = like.met == like.surface;
-  const Reach reach{tolerance_ + (own_face ? like.margin : exact), tolerance_ + like.margin, tolerance_ + like.margin};
+  const double nearest = tolerance_ + (own_face ? like.margin : exact), along = tolerance_ + like.margin;
+  const Reach reach{nearest, along, tolerance_ + like.margin - own.sag}, back{nearest, along, tolerance_ + own.sag};
   const SpanGrid* const self = own_face ? walls_.grid_of(motions_[like.surface]) : nullptr;
   const auto keep = [&](const PlaneMeeting& found) {
     like.time = found.time - tolerance_ / found.closing;
@@ -270,7 +271,7 @@ void ContactSearch::compare(const Patch& own, const Patch& wall, std::span<const
     for (const auto corner : corners) {
       for (const auto& triangle : own.triangles) {
         if (own_face && !faces_away(own, triangle, facing[corner])) continue;
-        const auto found = meeting(wall.from[corner], wall.to[corner], own, triangle, tolerance_, reach);
+        const auto found = meeting(wall.from[corner], wall.to[corner], own, triangle, tolerance_, back);
         if (!found) continue;
         like.at = place_in(own, triangle, found->weights);
         if (like.met) like.there = wall.at[corner];
