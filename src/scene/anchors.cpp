@@ -1,6 +1,8 @@
 #include "knead/scene/anchors.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include "dead_loads.hpp"
 #include "knead/scene/trims.hpp"
@@ -38,14 +40,19 @@ bool holds_anything(const SceneSurface& s) {
   return std::ranges::any_of(trim_orders(s.constraints, *s.visible), [](int order) { return order >= 0; });
 }
 
-Expected<std::vector<PointForce>> anchors(const Scene& scene, const ActiveSurface& model, const Points& points) {
+namespace {
+
+/// \param scalings of the selected surfaces
+Expected<std::vector<PointForce>> anchors_of(const Scene& scene, std::span<const DomainScaling<2>> scalings,
+                                             const Points& points) {
   double stiffest = usual_stiffness;
   for (const Tool& tool : scene.tools) stiffest = std::max(stiffest, tool.stiffness);
   std::vector<PointForce> result;
-  for (int patch = 0; const int k : scene.selection()) {
+  int next = 0;
+  for (std::size_t patch = 0; const int k : scene.selection()) {
     const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    const int first = model.rows()[static_cast<std::size_t>(patch)];
-    const DomainScaling<2>& scaling = model.scaling(patch++);
+    const int first = std::exchange(next, next + s.current->size());
+    const DomainScaling<2>& scaling = scalings[patch++];
     if (!holds_its_place(s)) continue;
     const auto areas = area_forces(*s.reference, scaling, Point::UnitX());
     if (!areas) return std::unexpected(areas.error());
@@ -59,6 +66,29 @@ Expected<std::vector<PointForce>> anchors(const Scene& scene, const ActiveSurfac
     }
   }
   return result;
+}
+
+}  // namespace
+
+Expected<std::vector<PointForce>> anchors(const Scene& scene, const ActiveSurface& model, const Points& points) {
+  std::vector<DomainScaling<2>> scalings;
+  for (int k = 0; k < static_cast<int>(scene.selection().size()); ++k) scalings.push_back(model.scaling(k));
+  return anchors_of(scene, scalings, points);
+}
+
+Expected<std::vector<PointForce>> shell_anchors(const Scene& scene, const Points& points) {
+  std::vector<DomainScaling<2>> scalings;
+  for (const int k : scene.selection()) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+    if (!holds_its_place(s)) {
+      scalings.emplace_back();
+      continue;
+    }
+    auto scaling = normalised_scaling<2>(*s.reference);
+    if (!scaling) return std::unexpected(scaling.error());
+    scalings.push_back(std::move(*scaling));
+  }
+  return anchors_of(scene, scalings, points);
 }
 
 }  // namespace knead

@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include "executor.hpp"
+#include "knead/scene/anchors.hpp"
 #include "knead/solve/shell_statics.hpp"
 
 namespace knead {
@@ -70,12 +71,15 @@ Expected<ActiveStep> Executor::press_shell(const ShellProblem& problem, const Ev
   if (!tools) return std::unexpected(tools.error());
   const int parts = evolution.mode == Evolution::stationary ? increments.value_or(1) : 1;
   ActiveState from = active_state(state);
+  const auto anchored = shell_anchors(state, from.control_points);
+  if (!anchored) return std::unexpected(anchored.error());
   ActiveStep step;
   std::vector<int> iterations;
   for (int part = 1; part <= parts; ++part) {
     auto loads = shell_loads(state, problem, static_cast<double>(part) / parts);
     if (!loads) return std::unexpected(loads.error());
     loads->points.insert(loads->points.end(), more.begin(), more.end());
+    loads->points.insert(loads->points.end(), anchored->begin(), anchored->end());
     auto taken = shell_cache->model.step(from, *tools, *loads);
     if (!taken) return taken;
     iterations.push_back(taken->iterations);

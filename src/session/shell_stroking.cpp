@@ -1,4 +1,5 @@
 #include "executor.hpp"
+#include "knead/scene/anchors.hpp"
 
 namespace knead {
 
@@ -21,9 +22,12 @@ Expected<ActiveStep> Executor::press_shell_on_bed(const std::vector<Tool>& tools
   const auto problem = shell_problem(before, kept_shell_problem());
   if (!problem) return std::unexpected(problem.error());
   if (auto kept = keep_shell(before, *problem, evolution); !kept) return std::unexpected(kept.error());
-  const auto loads = shell_loads(before, *problem, 1);
+  auto loads = shell_loads(before, *problem, 1);
   if (!loads) return std::unexpected(loads.error());
   ActiveState from = active_state(before);
+  const auto anchored = shell_anchors(before, from.control_points);
+  if (!anchored) return std::unexpected(anchored.error());
+  loads->points.insert(loads->points.end(), anchored->begin(), anchored->end());
   from.guess = std::move(guess);
   auto step = shell_cache->model.step(from, tools, *loads);
   if (step) step->control_points -= from.control_points;  // the displacement

@@ -147,6 +147,44 @@ TEST(BareSurface, AClosedOneDentsWhereItIsPressed) {
   }
 }
 
+const char* const shell = R"({"do":"material","model":"shell","young":1000,"poisson":0,"thickness":0.05})";
+
+TEST(BareSurface, AShellThatNothingHoldsIsNoted) {
+  for (const char* act : {R"({"do":"step","count":2,"lambda":20})", R"({"do":"stroke","tool":"b","path":[[50,50,25]]})"}) {
+    Session session = opened({sheet()}, "step");
+    run(session, {held, select(session), R"({"do":"hold","mode":"free"})", shell, ball, act});
+    EXPECT_TRUE(notes(session, "nothing holds " + id_of(session))) << act;
+    Session kept = opened({sheet()}, "step");
+    run(kept, {held, select(kept), shell, ball, act});
+    EXPECT_FALSE(notes(kept, "nothing holds")) << act;
+  }
+}
+
+TEST(BareSurface, AClosedShellKeepsItsPlace) {
+  Session session = opened({testing::sphere()}, "step");
+  run(session, {held, select(session), R"({"do":"refine","region":[[0,1],[0,1]]})", shell,
+                R"({"do":"tool","name":"b","radius":0.5,"position":[0,0,1.35]})",
+                R"({"do":"step","count":8,"lambda":0.01})"});
+  const SceneSurface& s = session.state().surfaces[0];
+  Point mean = Point::Zero();
+  double deepest = 0;
+  constexpr int samples = 40;
+  for (int i = 0; i < samples; ++i) {
+    for (int j = 0; j < samples; ++j) {
+      const KnotVector &a = s.current->knots(0), &b = s.current->knots(1);
+      const std::array<double, 2> u = {a.domain().lower + a.domain().length() * (i + 0.5) / samples,
+                                       b.domain().lower + b.domain().length() * (j + 0.5) / samples};
+      const Point from = *evaluate_point<2>(*s.opened, u), way = *evaluate_point<2>(*s.current, u) - from;
+      const double share = std::sqrt(std::max(0.0, 1 - from.z() * from.z()));
+      mean += share * way / (samples * samples);
+      deepest = std::max(deepest, -way.z());
+    }
+  }
+  EXPECT_GT(deepest, 0.08);
+  EXPECT_LT(mean.norm(), 0.1 * deepest);
+  EXPECT_FALSE(notes(session, "nothing holds"));
+}
+
 TEST(BareSurface, WhatIsMadeHoldsWhatTheScriptSays) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[100,100],"net":[12,12]})", held, ball, press});

@@ -24,6 +24,10 @@ namespace knead {
 [[nodiscard]] Expected<std::vector<PointForce>> anchors(const Scene& scene, const ActiveSurface& model,
                                                         const Points& points);
 
+/// The same of shells, whose stretch and bend leave rotations unresisted as well; tools turn them where they press
+/// beside the centre.
+[[nodiscard]] Expected<std::vector<PointForce>> shell_anchors(const Scene& scene, const Points& points);
+
 inline constexpr double anchor_stiffness = 1e4;
 
 }  // namespace knead
