@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knead/spline/evaluate.hpp"
+#include "triangle_meeting.hpp"
 
 namespace knead {
 namespace {
@@ -13,55 +14,12 @@ constexpr std::size_t most_seen = 400;  // candidates, of which many may lie on 
 constexpr int most_tried = 48, most_solved = 12, most_of_a_pair = 4;
 constexpr std::size_t most_places = 6;  // whose neighbourhoods are searched
 
-/// A point that moves evenly meets the plane of a triangle that does.
-struct PlaneMeeting {
-  double time = 0, closing = 0;
-  std::array<double, 3> weights = {};  ///< of the corners
-};
-
-/// How exactly a point has to meet a triangle.
-struct Reach {
-  double nearest = 0;  ///< points that were not farther from it do not count
-  double along = 0;    ///< of its way that it may lack
-  double aside = 0;    ///< how far it may pass beside the triangle
-};
-
-/// The height above the plane changes evenly between what it is at first and in the end, which is exact where the
-/// triangle does not turn; the place in the plane is that of this time.
-std::optional<PlaneMeeting> meeting(const Point& from, const Point& to, const Patch& of,
-                                    const std::array<std::uint32_t, 3>& corners, double tolerance, const Reach& reach) {
-  const auto height = [&corners](const std::vector<Point>& p, const Point& x) {
-    const Point &a = p[corners[0]], normal = (p[corners[1]] - a).cross(p[corners[2]] - a);
-    return normal.dot(x - a) / normal.norm();
-  };
-  const double first = height(of.from, from), apart = std::abs(first);
-  if (!(apart > reach.nearest)) return std::nullopt;
-  const double last = height(of.to, to), closing = apart - (first > 0 ? last : -last);
-  if (!(closing > tolerance && apart - reach.along <= closing)) return std::nullopt;
-  PlaneMeeting result{apart / closing, closing, {}};
-  const auto then = [time = result.time](const Point& a, const Point& b) { return Point((1 - time) * a + time * b); };
-  const Point hit = then(from, to);
-  std::array<Point, 3> p;
-  for (std::size_t k = 0; k < 3; ++k) p[k] = then(of.from[corners[k]], of.to[corners[k]]);
-  const Point facet = (p[1] - p[0]).cross(p[2] - p[0]);
-  const double area = facet.norm();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point &q = p[(k + 1) % 3], side = p[(k + 2) % 3] - q;
-    const double inside = facet.dot(side.cross(hit - q)) / area;  // twice an area
-    if (!(inside >= -reach.aside * side.norm())) return std::nullopt;
-    result.weights[k] = std::clamp(inside / area, 0.0, 1.0);
+Eigen::AlignedBox3d box_round(const std::vector<Point>& from, const std::vector<Point>& to, double wider) {
+  Eigen::AlignedBox3d box;
+  for (const auto* points : {&from, &to}) {
+    for (const Point& p : *points) box.extend(p);
   }
-  return result;
-}
-
-std::array<double, 2> place_in(const Patch& patch, const std::array<std::uint32_t, 3>& corners,
-                               const std::array<double, 3>& weights) {
-  std::array<double, 2> at = {0, 0};
-  const double sum = weights[0] + weights[1] + weights[2];
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t d = 0; d < 2; ++d) at[d] += weights[k] / sum * patch.at[corners[k]][d];
-  }
-  return at;
+  return {box.min() - Point::Constant(wider), box.max() + Point::Constant(wider)};
 }
 
 Eigen::Vector2d fractions_of(const Surface& s, const std::array<double, 2>& at) {
@@ -84,22 +42,6 @@ std::array<Point, 3> jet(const Surface& s, const std::array<double, 2>& at) {
 
 Point point_of(const Surface& s, const std::array<double, 2>& at) {
   return evaluate_point<2>(s, at).value_or(Point::Constant(std::nan("")));
-}
-
-/// A normal at each corner: the sum of those of its triangles, at first.
-std::vector<Point> normals_of(const Patch& patch) {
-  std::vector<Point> normals(patch.from.size(), Point::Zero());
-  for (const auto& [a, b, c] : patch.triangles) {
-    const Point facet = (patch.from[b] - patch.from[a]).cross(patch.from[c] - patch.from[a]);
-    for (const auto k : {a, b, c}) normals[k] += facet;
-  }
-  return normals;
-}
-
-/// Whether a triangle faces the other way than a normal.
-bool faces_away(const Patch& patch, const std::array<std::uint32_t, 3>& corners, const Point& normal) {
-  const Point& a = patch.from[corners[0]];
-  return (patch.from[corners[1]] - a).cross(patch.from[corners[2]] - a).dot(normal) < 0;
 }
 
 }  // namespace
@@ -246,7 +188,7 @@ void ContactSearch::compare(const Patch& own, const Patch& wall, std::span<const
   const double exact = like.met ? 0 : like.margin - own.sag;
   // Beside a point its own face has no side that triangles could tell.
   const bool own_face = like.met == like.surface;
-  const double nearest = tolerance_ + (own_face ? like.margin : exact), along = tolerance_ + like.margin;
+  const double nearest = tolerance_ + (own_face ? like.margin : exact), along = like.margin;
   const Reach reach{nearest, along, tolerance_ + like.margin - own.sag}, back{nearest, along, tolerance_ + own.sag};
   const SpanGrid* const self = own_face ? walls_.grid_of(motions_[like.surface]) : nullptr;
   const auto keep = [&](const PlaneMeeting& found) {
@@ -258,9 +200,15 @@ void ContactSearch::compare(const Patch& own, const Patch& wall, std::span<const
   // The other side of a face looks the other way.
   const std::vector<Point> normals = own_face ? normals_of(own) : std::vector<Point>(),
                            facing = own_face ? normals_of(wall) : std::vector<Point>();
+  const Eigen::AlignedBox3d whole = box_round(own.from, own.to, back.aside);
   for (const std::uint32_t k : triangles) {
     const auto& corners = wall.triangles[k];
+    Eigen::AlignedBox3d box;
+    for (const auto corner : corners) box.extend(wall.from[corner]).extend(wall.to[corner]);
+    const Point wider = Point::Constant(reach.aside + like.margin);
+    box = {box.min() - wider, box.max() + wider};
     for (std::size_t i = 0; i < own.from.size(); ++i) {
+      if (!box.intersects(Eigen::AlignedBox3d(own.from[i]).extend(own.to[i]))) continue;
       if (own_face && !faces_away(wall, corners, normals[i])) continue;
       const auto found = meeting(own.from[i], own.to[i], wall, corners, tolerance_, reach);
       if (!found) continue;
@@ -269,6 +217,7 @@ void ContactSearch::compare(const Patch& own, const Patch& wall, std::span<const
       keep(*found);
     }
     for (const auto corner : corners) {
+      if (!whole.intersects(Eigen::AlignedBox3d(wall.from[corner]).extend(wall.to[corner]))) continue;
       for (const auto& triangle : own.triangles) {
         if (own_face && !faces_away(own, triangle, facing[corner])) continue;
         const auto found = meeting(wall.from[corner], wall.to[corner], own, triangle, tolerance_, back);
@@ -310,7 +259,7 @@ std::optional<ContactSearch::Passage> ContactSearch::passage_around(const Candid
   box = {box.min() - wider, box.max() + wider};
   std::optional<Passage> first;
   part.tree.meeting(box, [&](std::uint32_t k) {
-    const Reach reach{tolerance_ + part.sags[k], tolerance_ + c.margin, tolerance_};
+    const Reach reach{tolerance_ + part.sags[k], c.margin, tolerance_};
     const auto found = meeting(way[0], way[1], part.patch, part.patch.triangles[k], tolerance_, reach);
     if (!found || (first && found->time >= first->time)) return;
     first = Passage{found->time, found->closing, {}, part.faces[k]};

@@ -69,6 +69,14 @@ struct AnyCommand {
   std::vector<std::string> notes = {};
 };
 
+enum class Through;
+
+/// What a command may do where surfaces come to other faces; none: it moves no surface. `stops`: what it does where it
+/// does not say, instead of noting it.
+[[nodiscard]] std::optional<Through> through_of(const Command& command, bool stops);
+/// The same command, which stops at other faces whoever carries it out.
+[[nodiscard]] Command that_stops(const Command& command);
+
 /// A command with these fields.
 [[nodiscard]] inline Command make_command(CommandVariant fields) { return Command(AnyCommand{std::move(fields)}); }
 

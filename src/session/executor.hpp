@@ -99,6 +99,7 @@ struct Executor {
   bool at_fold = false;               ///< the last step was made smaller, as more would fold a face: none follows
   Through through = Through::note;    ///< what the command may do at other faces
   bool stopped_at_face = false;       ///< it was made smaller there
+  bool met_at_each_step = false;      ///< nothing of it is left to be compared with them
 
   template <class C>
   Expected<void> execute(const C& command);

@@ -59,39 +59,6 @@ bool moves_a_model(const Command& command) {
                 std::type_identity<BrushCommand>(), std::type_identity<RelaxCommand>());
 }
 
-/// What a command may do where surfaces come to other faces; none: it moves no surface.
-std::optional<Through> through_of(const Command& command, bool stops) {
-  return std::visit(
-      [stops]<class C>(const C& fields) -> std::optional<Through> {
-        if constexpr (requires { fields.allow; }) {
-          using Allowance = std::remove_cvref_t<decltype(*fields.allow)>;
-          if (fields.allow == Allowance::nothing) return Through::stop;
-          if (fields.allow == Allowance::through) return Through::allow;
-          if constexpr (std::is_same_v<Allowance, StepAllowance>) {
-            if (fields.allow == Allowance::all) return Through::allow;
-            if (fields.allow == Allowance::held) return Through::note;
-          }
-          return stops ? Through::stop : Through::note;
-        } else {
-          return std::nullopt;
-        }
-      },
-      command.any().fields);
-}
-
-/// The same command, which stops at other faces whoever carries it out.
-Command that_stops(const Command& command) {
-  CommandVariant all = command.any().fields;
-  std::visit(
-      [](auto& fields) {
-        if constexpr (requires { fields.allow; }) {
-          fields.allow = std::remove_cvref_t<decltype(*fields.allow)>::nothing;
-        }
-      },
-      all);
-  return make_command(std::move(all));
-}
-
 }  // namespace
 
 Expected<void> Session::execute(const Command& command, const Progress& progress, const GoOn& go_on) {

@@ -123,6 +123,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     if (!smaller) return std::unexpected(smaller.error());
     if (!smaller->empty()) note = *smaller;
     if (through == Through::stop) {  // as equal steps that are one command, and as many
+      met_at_each_step = true;
       if (auto stops = meet_faces(tried->before); !stops) return stops;
     }
     tried.reset();

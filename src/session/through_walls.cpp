@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <set>
+#include <type_traits>
+#include <variant>
 
-#include "command_fields.hpp"
-#include "executor.hpp"
+#include "commands.hpp"
 #include "knead/exchange/trim_loops.hpp"
 #include "knead/scene/display.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -72,6 +73,37 @@ void describe_allowance(std::optional<ThroughAllowance>& allow, Fields& fields) 
   fields.add("allow", allow, {.fallback = "a note if a face comes through another"});
 }
 
+std::optional<Through> through_of(const Command& command, bool stops) {
+  return std::visit(
+      [stops]<class C>(const C& fields) -> std::optional<Through> {
+        if constexpr (requires { fields.allow; }) {
+          using Allowance = std::remove_cvref_t<decltype(*fields.allow)>;
+          if (fields.allow == Allowance::nothing) return Through::stop;
+          if (fields.allow == Allowance::through) return Through::allow;
+          if constexpr (std::is_same_v<Allowance, StepAllowance>) {
+            if (fields.allow == Allowance::all) return Through::allow;
+            if (fields.allow == Allowance::held) return Through::note;
+          }
+          return stops ? Through::stop : Through::note;
+        } else {
+          return std::nullopt;
+        }
+      },
+      command.any().fields);
+}
+
+Command that_stops(const Command& command) {
+  CommandVariant all = command.any().fields;
+  std::visit(
+      [](auto& fields) {
+        if constexpr (requires { fields.allow; }) {
+          fields.allow = std::remove_cvref_t<decltype(*fields.allow)>::nothing;
+        }
+      },
+      all);
+  return make_command(std::move(all));
+}
+
 ModelWalls& Executor::known_walls() {
   if (!faces.walls) faces.walls = std::make_shared<ModelWalls>(surroundings_of(document));
   return *faces.walls;
@@ -113,7 +145,7 @@ std::vector<std::shared_ptr<const Surface>> Executor::shapes_before(const Scene&
 }
 
 Expected<void> Executor::meet_faces(const Scene& before) {
-  if (through == Through::allow || stopped_at_face) return {};
+  if (through == Through::allow || met_at_each_step) return {};
   return meet_faces(shapes_before(before));
 }
 

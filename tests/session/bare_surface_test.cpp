@@ -150,7 +150,8 @@ TEST(BareSurface, AClosedOneDentsWhereItIsPressed) {
 const char* const shell = R"({"do":"material","model":"shell","young":1000,"poisson":0,"thickness":0.05})";
 
 TEST(BareSurface, AShellThatNothingHoldsIsNoted) {
-  for (const char* act : {R"({"do":"step","count":2,"lambda":20})", R"({"do":"stroke","tool":"b","path":[[50,50,25]]})"}) {
+  for (const char* act :
+       {R"({"do":"step","count":2,"lambda":20})", R"({"do":"stroke","tool":"b","path":[[50,50,25]]})"}) {
     Session session = opened({sheet()}, "step");
     run(session, {held, select(session), R"({"do":"hold","mode":"free"})", shell, ball, act});
     EXPECT_TRUE(notes(session, "nothing holds " + id_of(session))) << act;
@@ -162,9 +163,9 @@ TEST(BareSurface, AShellThatNothingHoldsIsNoted) {
 
 TEST(BareSurface, AClosedShellKeepsItsPlace) {
   Session session = opened({testing::sphere()}, "step");
-  run(session, {held, select(session), R"({"do":"refine","region":[[0,1],[0,1]]})", shell,
-                R"({"do":"tool","name":"b","radius":0.5,"position":[0,0,1.35]})",
-                R"({"do":"step","count":8,"lambda":0.01})"});
+  run(session,
+      {held, select(session), R"({"do":"refine","region":[[0,1],[0,1]]})", shell,
+       R"({"do":"tool","name":"b","radius":0.5,"position":[0,0,1.35]})", R"({"do":"step","count":8,"lambda":0.01})"});
   const SceneSurface& s = session.state().surfaces[0];
   Point mean = Point::Zero();
   double deepest = 0;

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
-import { adviceOn, inOneLine } from '@studio/document/words';
+import { adviceOn, inOneLine, looseIn, throughIn } from '@studio/document/words';
 import { Engine } from '@studio/engine/engine';
 import { type Command, EngineError, type EngineErrorInfo } from '@studio/engine/session_types';
 
@@ -121,5 +121,27 @@ describe('an edge that would open', () => {
       `before it moves hold it, {"do":"hold","mode":"trim"}, or let it follow, ${follow}; or let it open: {"do":"select","surface":"#10"}, ${free}`);
     expect(text).toBe('Nothing was saved: the edge #7 would be left 0.25 from the faces #1 and #2.');
     expect(actions).toEqual([{ label: 'Let it open', commands: [{ do: 'select', surface: '#10' }, { do: 'hold', mode: 'free' }] }]);
+  });
+});
+
+describe('what notes tell', () => {
+  it('that nothing holds a surface comes with what holds it', async () => {
+    const engine = await Engine.load(wasm);
+    engine.fresh('sheet');
+    for (const command of [{ do: 'new', size: [100, 100], net: [12, 12] }, ball, { do: 'step' }] satisfies Command[]) engine.execute(command);
+    const loose = engine.state().notes.flatMap((note) => looseIn(note) ?? []);
+    expect(loose).toHaveLength(1);
+    expect(loose[0]!.text).toMatch(/^Nothing holds \S+: what presses on it moves all of it\.$/);
+    for (const { commands } of loose[0]!.actions) for (const command of commands) engine.execute(command);
+    expect(looseIn('made smaller: 0.9 of what it would have been')).toBeNull();
+  });
+
+  it('that a face is stopped before another, or comes through it', () => {
+    const place = 'the face #45 on #20 at (5, 5, 0), 1 deep';
+    expect(throughIn(`stopped at another face: #10 would come through ${place}; "allow":"through" lets it`))
+      .toEqual({ stopped: true, text: '#10 was stopped 1 deep: farther on it would come through the face #45 on #20 at (5, 5, 0).' });
+    expect(throughIn(`through another face: #10 comes to ${place}, and goes on; press less deep, or say "allow":"through"`)?.text)
+      .toBe('#10 comes through the face #45 on #20 at (5, 5, 0), 1 deep.');
+    expect(throughIn('the net is now 25 x 21')).toBeNull();
   });
 });

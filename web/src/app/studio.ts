@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import { Documents } from '../document/documents';
 import type { Notice, Question } from '../document/host';
 import { hasSettings, makeReady } from '../document/ready';
-import { adviceOn, creaseIn, inOneLine } from '../document/words';
+import { adviceOn, creaseIn, inOneLine, looseIn, throughIn } from '../document/words';
 import { Saving } from '../document/saving';
 import { Client, type End } from '../engine/client';
 import type { Context, Trim } from '../engine/context';
@@ -119,6 +119,7 @@ export class Studio implements App {
       this.hand.brush.settings.radius = usualRadius * this.diagonal;
     }
     this.tellCreases(frame.state.notes);
+    this.tellLoose(frame.state.notes);
     this.computedTime += frame.computeTime;
     this.documents.keeper.computed(frame.unkept, frame.playing);
     this.changed();
@@ -157,6 +158,20 @@ export class Studio implements App {
       const { text, remedy } = fresh;
       this.notify({ kind: 'info', text, remedy, actions: [{ label: 'Keep it smooth', act: () => void this.redoSmoothly() }] });
     }
+  }
+
+  /** Surfaces that nothing holds, and stops at other faces, of which the user knows. */
+  private told = new Set<string>();
+
+  /** Says once that nothing holds what is pressed, and offers what does; and where a face was stopped before another. */
+  private tellLoose(notes: readonly string[]): void {
+    if (this.hand.active || this.frame?.playing) return; // at the end of the stroke
+    const loose = notes.flatMap((note) => looseIn(note) ?? []), through = notes.flatMap((note) => throughIn(note) ?? []);
+    for (const { text, actions } of loose.filter((l) => !this.told.has(l.text))) {
+      this.notify({ kind: 'info', text, actions: actions.map(({ label, commands }) => ({ label, act: () => void this.execute(commands) })) });
+    }
+    for (const { text } of through.filter((t) => !this.told.has(t.text))) this.notify({ kind: 'info', text });
+    this.told = new Set([...loose, ...through].map(({ text }) => text));
   }
 
   /** The last act again, with seams that stay smooth. */

@@ -75,7 +75,7 @@ const known: [RegExp, (found: RegExpExecArray, error: EngineErrorInfo) => Advice
 
 /** Without what only scripts need: fields in JSON, names of commands. */
 function plain(text: string): string {
-  return text.replace(/,? ?(?:or go on regardless with )?"allow": ?"held"/g, '').replace(/[,:]? ?\{.*?\}/g, '').replace(/`([^`]*)`/g, '“$1”').replace(/>=/g, '≥').replace(/<=/g, '≤')
+  return text.replace(/,? ?(?:or go on regardless with )?"allow": ?"(?:held|through)"/g, '').replace(/[,:]? ?\{.*?\}/g, '').replace(/`([^`]*)`/g, '“$1”').replace(/>=/g, '≥').replace(/<=/g, '≤')
     .replaceAll('time_step', 'time step').replaceAll('lambda', 'λ').replace(/[;,] *$/, '').trim();
 }
 
@@ -101,6 +101,23 @@ export function creaseIn(note: string): { seam: string; text: string; remedy: st
     seam: `${a} ${b}`, text: `The seam between ${a} and ${b} was smooth, and now has a crease of ${angle} degrees at ${place}.`,
     remedy: `These surfaces are joined in position only: ${why}. Kept smooth, they have less freedom there`,
   };
+}
+
+/** What a note says of surfaces that nothing holds, and what holds them; null if it says something else. */
+export function looseIn(note: string): (Advice & { surfaces: string }) | null {
+  const found = /^nothing holds (.*?): what presses on it moves all of it/.exec(note);
+  if (!found) return null;
+  const surfaces = found[1]!;
+  return { surfaces, text: `Nothing holds ${surfaces}: what presses on it moves all of it.`, actions: [{ label: 'Hold the edges', commands: [{ do: 'hold', mode: 'trim' }] }, { label: 'Hold the outer rows', commands: [{ do: 'hold', rows: 2 }] }] };
+}
+
+/** What a note says of a face that was stopped before, or came through, another one; null if it says something else. */
+export function throughIn(note: string): { text: string; stopped: boolean } | null {
+  const found = /^(stopped at|through) another face: (\S+) (?:would come through|comes to) (.*), (\S+) deep(?:, and goes on)?;/.exec(note);
+  if (!found) return null;
+  const [, how, surface, place, depth] = found;
+  const stopped = how === 'stopped at';
+  return { stopped, text: stopped ? `${surface} was stopped ${depth} deep: farther on it would come through ${place}.` : `${surface} comes through ${place}, ${depth} deep.` };
 }
 
 /** The same as one line, beside a field. */
