@@ -40,7 +40,6 @@ struct Studio {
   ToolPicture tool;
   MaterialSamples material;
   ShownParts shown;
-  bool stops = true;  ///< at other faces, in every session
 };
 
 Studio& held() {
@@ -67,7 +66,6 @@ int start(Document document) {
   held().origin = middle_of(document);
   held().shown.forget();
   held().session.emplace(std::move(document));
-  held().session->stop_at_faces(held().stops);
   return answer(state_json(*held().session));
 }
 
@@ -133,7 +131,6 @@ KNEAD_EXPORT(knead_restore) int knead_restore(std::size_t source_size, std::size
   held().origin = origin;
   held().shown.forget();
   held().session = std::move(*session);
-  held().session->stop_at_faces(held().stops);
   return answer("{}");
 }
 
@@ -179,16 +176,10 @@ KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
     knead_progress(done, total);
     return true;  // the page stops what takes long by ending its worker
   };
+  session->stop_at_faces(true);
   if (auto done = session->execute(*command, told); !done) return fail(done.error());
   if (first) held().origin = origin_near(session->state(), held().origin);
   if (join != 0) session->join();
-  return answer("{}");
-}
-
-/// Whether commands that do not say otherwise stop where a surface comes to another face (`Session::stop_at_faces`).
-KNEAD_EXPORT(knead_stop_at_faces) int knead_stop_at_faces(int stops) {
-  held().stops = stops != 0;
-  if (held().session) held().session->stop_at_faces(held().stops);
   return answer("{}");
 }
 
