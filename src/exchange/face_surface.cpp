@@ -323,7 +323,8 @@ Foot FaceSurface::foot(const Point& p, const std::optional<Eigen::Vector2d>& /*n
     for (const auto& s : samples_) size = std::max(size, std::abs(s.x()));
   }
   if (inner_) u += turn / 2;
-  foot.free[0] = rho <= 1e-7 * size;
+  // Of a curve that ends near the axis, whatever `set_poles` takes for a pole.
+  foot.free[0] = rho <= (kind_ == Kind::revolution ? 1e-6 : 1e-7) * size;
   return foot;
 }
 

@@ -64,7 +64,8 @@ class SurfaceReader {
     if (!curves_.add(pointer(turned ? 2 : 1), move, profile) || profile.size() != 1) return {};
     if (turned) {
       if (!curves_.add(pointer(1), move, axis) || axis.size() != 1 || axis[0].from() == axis[0].to()) return {};
-      const int point = records_.point(axis[0].from()), direction = records_.direction(axis[0].to() - axis[0].from());
+      // IGES has S(t, θ), STEP S(θ, t): turned about the opposite axis the normals are the same.
+      const int point = records_.point(axis[0].from()), direction = records_.direction(axis[0].from() - axis[0].to());
       const int line = records_.add(fmt::format("AXIS1_PLACEMENT('',#{},#{})", point, direction));
       return fmt::format("SURFACE_OF_REVOLUTION('',#{},#{})", profile[0].geometry, line);
     }

@@ -64,5 +64,19 @@ TEST(IgesSolids, ARingWhoseCirclesAreClosedToRoundingIsAFace) {
   EXPECT_NEAR(in_inch, 11 * pi * 5, 1e-2);
 }
 
+TEST(IgesSolids, SurfacesOfRevolutionLookWhereTheParametersOfIgesSay) {
+  constexpr double pi = std::numbers::pi;
+  for (const auto text : {testing::iges_drum_in_mm, testing::iges_drum_in_inch}) {
+    const FaceMeshes model = mesh_of(text(), 1e-4);
+    EXPECT_EQ(open_sides(model.faces), 0U);
+    EXPECT_NEAR(testing::volume_of(model.faces), 12 * pi, 1e-2);
+  }
+  for (const auto text : {testing::iges_dome_in_metres, testing::iges_dome_in_inch}) {
+    const FaceMeshes model = mesh_of(text(), 1e-3);
+    EXPECT_NEAR(area_of(model.faces.at(0)), 8 * pi, 2e-2);
+    for (const Point& p : model.faces.at(0).points) EXPECT_GT(p.z(), -1e-8);
+  }
+}
+
 }  // namespace
 }  // namespace knead

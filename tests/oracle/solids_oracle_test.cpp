@@ -37,7 +37,9 @@ TEST(SolidsOracle, MadeSolidsAndRingsHaveTheVolumesAndAreasThatOpenCascadeFinds)
   for (const auto& [text, unit] :
        {Made{testing::iges_box_of_turned_faces, 1}, Made{testing::iges_box_of_a_turned_shell, 1000},
         Made{testing::iges_hollow_box, 25.4}, Made{testing::iges_ring_in_mm, 1},
-        Made{testing::iges_ring_in_inch_backwards, 25.4}}) {
+        Made{testing::iges_ring_in_inch_backwards, 25.4}, Made{testing::iges_drum_in_mm, 1},
+        Made{testing::iges_drum_in_inch, 25.4}, Made{testing::iges_dome_in_metres, 1000},
+        Made{testing::iges_dome_in_inch, 25.4}}) {
     const auto path = std::filesystem::temp_directory_path() / ("knead-solids-" + std::to_string(::getpid()) + ".igs");
     ASSERT_TRUE(write_file_atomically(path, text()));
     expect_same(text(), path, unit, 1e-3);

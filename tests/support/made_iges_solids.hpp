@@ -121,4 +121,54 @@ inline std::string iges_ring(const std::string& unit, std::array<double, 2> radi
 inline std::string iges_ring_in_mm() { return iges_ring("2,2HMM", {3, 2}, 1, false); }
 inline std::string iges_ring_in_inch_backwards() { return iges_ring("1,4HINCH", {4, 7}, 4, true); }
 
+/// A cylinder of radius 2 and height 3 as a solid (186): its side a surface of revolution (120), whose normal looks
+/// inwards where its line runs up, its ends planes (190) that both look up.
+inline std::string iges_drum(const std::string& unit, bool up) {
+  IgesBuilder b;
+  b.global = iges_global(unit);
+  const int vertices = b.add(502, "2,2.,0.,0.,2.,0.,3.", 0, 1);
+  const int low = b.add(100, "0.,0.,0.,2.,0.,2.,0."), high = b.add(100, "3.,0.,0.,2.,0.,2.,0."),
+            seam = b.add(110, "2.,0.,0.,2.,0.,3.");
+  const int edges =
+      b.add(504, fmt::format("3,{1},{0},1,{0},1,{2},{0},2,{0},2,{3},{0},1,{0},2", vertices, low, high, seam), 0, 1);
+  const int axis = b.add(110, "0.,0.,0.,0.,0.,1."),
+            line = up ? b.add(110, "2.,0.,0.,2.,0.,3.") : b.add(110, "2.,0.,3.,2.,0.,0.");
+  const auto use = [&](int edge, bool along) { return fmt::format(",0,{},{},{},0", edges, edge, along ? 1 : 0); };
+  const auto face = [&](int surface, const std::string& loop) {
+    return b.add(510, fmt::format("{},1,1,{}", surface, b.add(508, loop, 0, 1)), 0, 1);
+  };
+  const int side = face(b.add(120, fmt::format("{},{},0.,6.2831853071795862", axis, line)),
+                        up ? "4" + use(3, true) + use(2, true) + use(3, false) + use(1, false)
+                           : "4" + use(1, true) + use(3, true) + use(2, false) + use(3, false));
+  const int normal = b.add(123, "0.,0.,1.");
+  const auto end = [&](int circle, const std::string& middle) {
+    return face(b.add(190, fmt::format("{},{}", b.add(116, middle + ",0"), normal)), "1" + use(circle, true));
+  };
+  const int bottom = end(1, "0.,0.,0."), top = end(2, "0.,0.,3.");
+  b.add(186, fmt::format("{},1,0", b.add(514, fmt::format("3,{},{},{},0,{},1", side, up ? 0 : 1, bottom, top), 0, 1)));
+  return b.text();
+}
+inline std::string iges_drum_in_mm() { return iges_drum("2,2HMM", true); }
+inline std::string iges_drum_in_inch() { return iges_drum("1,4HINCH", false); }
+
+/// A hemisphere of radius 2 over z = 0 as a trimmed surface of revolution that ends in a pole. \param up its quarter of
+/// a circle runs from the rim to the pole
+inline std::string iges_dome(const std::string& unit, bool up) {
+  IgesBuilder b;
+  b.global = iges_global(unit);
+  const auto quarter = [&](bool rising) {
+    return b.add(126, std::string("2,2,1,0,0,0,0.,0.,0.,1.,1.,1.,1.,0.70710678118654757,1.,") +
+                          (rising ? "2.,0.,0.,2.,0.,2.,0.,0.,2." : "0.,0.,2.,2.,0.,2.,2.,0.,0.") + ",0.,1.,0.,1.,0.");
+  };
+  const int axis = b.add(110, "0.,0.,0.,0.,0.,1."), profile = quarter(up);
+  const int surface = b.add(120, fmt::format("{},{},0.,6.2831853071795862", axis, profile));
+  const int rising = quarter(true), falling = quarter(false), rim = iges_circle(b, 2, 0, up);
+  const int loop = up ? b.add(102, fmt::format("3,{},{},{}", rising, falling, rim))
+                      : b.add(102, fmt::format("3,{},{},{}", falling, rim, rising));
+  b.add(144, fmt::format("{},1,0,{}", surface, b.add(142, fmt::format("1,{},0,{},2", surface, loop))));
+  return b.text();
+}
+inline std::string iges_dome_in_metres() { return iges_dome("6,1HM", true); }
+inline std::string iges_dome_in_inch() { return iges_dome("1,4HINCH", false); }
+
 }  // namespace knead::testing
