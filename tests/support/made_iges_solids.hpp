@@ -151,14 +151,15 @@ inline std::string iges_drum(const std::string& unit, bool up) {
 inline std::string iges_drum_in_mm() { return iges_drum("2,2HMM", true); }
 inline std::string iges_drum_in_inch() { return iges_drum("1,4HINCH", false); }
 
-/// A hemisphere of radius 2 over z = 0 as a trimmed surface of revolution that ends in a pole. \param up its quarter of
-/// a circle runs from the rim to the pole
+/// A hemisphere of radius 2 over z = 0 as a trimmed surface of revolution that ends in a pole, as close to the axis as
+/// writers leave it. \param up its quarter of a circle runs from the rim to the pole
 inline std::string iges_dome(const std::string& unit, bool up) {
   IgesBuilder b;
   b.global = iges_global(unit);
   const auto quarter = [&](bool rising) {
     return b.add(126, std::string("2,2,1,0,0,0,0.,0.,0.,1.,1.,1.,1.,0.70710678118654757,1.,") +
-                          (rising ? "2.,0.,0.,2.,0.,2.,0.,0.,2." : "0.,0.,2.,2.,0.,2.,2.,0.,0.") + ",0.,1.,0.,1.,0.");
+                          (rising ? "2.,0.,0.,2.,0.,2.,4.E-7,0.,2." : "4.E-7,0.,2.,2.,0.,2.,2.,0.,0.") +
+                          ",0.,1.,0.,1.,0.");
   };
   const int axis = b.add(110, "0.,0.,0.,0.,0.,1."), profile = quarter(up);
   const int surface = b.add(120, fmt::format("{},{},0.,6.2831853071795862", axis, profile));
