@@ -115,8 +115,9 @@ void ContactSearch::look(std::size_t surface) {
   const bool some_around = around != walls_.parts_.end() && around->second.tree.box().intersects(all);
   if (grid->may_meet_itself()) met.emplace_back(surface, grid);
   if (met.empty() && !some_around) return;
+  const std::vector<char>& shown = walls_.shown_spans(own);
   for (std::size_t span = 0; span < grid->boxes().size(); ++span) {
-    if (!grid->moves(span)) continue;
+    if (!grid->moves(span) || (!shown.empty() && shown[span] == 0)) continue;
     const Eigen::AlignedBox3d box(grid->boxes()[span].min() - wider, grid->boxes()[span].max() + wider);
     if (some_around) look_around(surface, *grid, span, box);
     for (const auto& [k, other] : met) look_at(surface, *grid, span, box, k, *other);

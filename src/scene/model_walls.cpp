@@ -1,6 +1,7 @@
 #include "model_walls.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "contact_search.hpp"
@@ -56,6 +57,61 @@ SpanGrid* ModelWalls::grid_of(const WallMotion& wall) {
   }
   auto& made = known[wall.id] = SpanGrid::create(motion);
   return made ? &*made : nullptr;
+}
+
+namespace {
+
+/// A span shows something if its middle is visible or a chord of an edge may enter it.
+std::vector<char> spans_shown(const VisibleRegion& region, const Surface& surface) {
+  if (region.faces.empty()) return {};
+  std::array<std::vector<Interval>, 2> spans;  // in fractions
+  for (int d = 0; d < 2; ++d) {
+    const KnotVector& knots = surface.knots(d);
+    const Interval domain = knots.domain();
+    for (const int s : knots.spans()) {
+      spans[static_cast<std::size_t>(d)].push_back(
+          {(knots[s] - domain.lower) / domain.length(), (knots[s + 1] - domain.lower) / domain.length()});
+    }
+  }
+  const std::size_t rows = spans[0].size(), columns = spans[1].size();
+  std::vector<char> shown(rows * columns, 0);
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      const Eigen::Vector2d middle(0.5 * (spans[0][i].lower + spans[0][i].upper),
+                                   0.5 * (spans[1][j].lower + spans[1][j].upper));
+      shown[i * columns + j] = region.contains(middle) ? 1 : 0;
+    }
+  }
+  const auto enter = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    const Eigen::Vector2d lower = a.cwiseMin(b), upper = a.cwiseMax(b);
+    const auto meets = [&](const Interval& span, int d) { return span.upper >= lower[d] && span.lower <= upper[d]; };
+    for (std::size_t i = 0; i < rows; ++i) {
+      if (!meets(spans[0][i], 0)) continue;
+      for (std::size_t j = 0; j < columns; ++j) {
+        if (meets(spans[1][j], 1)) shown[i * columns + j] = 1;
+      }
+    }
+  };
+  for (const auto& face : region.faces) {
+    for (const auto& loop : face) {
+      for (std::size_t k = 0; k < loop.size(); ++k) enter(loop[k], loop[(k + 1) % loop.size()]);
+    }
+  }
+  return shown;
+}
+
+}  // namespace
+
+const std::vector<char>& ModelWalls::shown_spans(const WallMotion& wall) {
+  ShownSpans& known = shown_[wall.id];
+  std::vector<std::vector<double>> knots;
+  for (int d = 0; d < 2; ++d) {
+    const auto& own = wall.motion.from->knots(d).knots();
+    knots.emplace_back(own.begin(), own.end());
+  }
+  if (known.region == wall.visible && known.knots == knots) return known.shown;
+  auto shown = wall.visible ? spans_shown(*wall.visible, *wall.motion.from) : std::vector<char>();
+  return (known = {wall.visible, std::move(knots), std::move(shown)}).shown;
 }
 
 double ModelWalls::diagonal(std::span<const WallMotion> motions) {

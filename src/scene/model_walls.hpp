@@ -15,10 +15,10 @@ namespace knead {
 /// A surface of a model as it moves, or stays.
 struct WallMotion {
   std::string id;
-  Motion motion;                           ///< on one basis; both null: it is unknown, and left out
-  std::shared_ptr<const Surface> opened;   ///< only what moves away from it comes to another face
-  const VisibleRegion* visible = nullptr;  ///< of it; null: all
-  std::size_t part = 0;                    ///< of an assembly, with coordinates of its own
+  Motion motion;                                 ///< on one basis; both null: it is unknown, and left out
+  std::shared_ptr<const Surface> opened;         ///< only what moves away from it comes to another face
+  std::shared_ptr<const VisibleRegion> visible;  ///< of it; null: all
+  std::size_t part = 0;                          ///< of an assembly, with coordinates of its own
 };
 
 /// Where a surface that moves comes to another face of its model.
@@ -68,12 +68,20 @@ class ModelWalls {
     std::vector<std::uint32_t> faces;  ///< likewise: of `around_`
     BoxTree tree;
   };
+  /// Which spans of a surface show something, made once.
+  struct ShownSpans {
+    std::shared_ptr<const VisibleRegion> region;
+    std::vector<std::vector<double>> knots;
+    std::vector<char> shown;  ///< by span, as in `SpanGrid`; empty: all of them
+  };
   [[nodiscard]] SpanGrid* grid_of(const WallMotion& wall);
+  [[nodiscard]] const std::vector<char>& shown_spans(const WallMotion& wall);
 
   std::shared_ptr<const Surroundings> around_;
   std::map<std::size_t, Around> parts_;
   std::map<std::string, std::optional<SpanGrid>> still_;   ///< of surfaces that do not move, by id
   std::map<std::string, std::optional<SpanGrid>> moving_;  ///< for one search
+  std::map<std::string, ShownSpans> shown_;                ///< by id
 };
 
 }  // namespace knead

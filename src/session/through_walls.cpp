@@ -155,7 +155,7 @@ Expected<void> Executor::meet_faces(std::span<const std::shared_ptr<const Surfac
   double tolerance = 0;
   for (std::size_t k = 0; k < before.size(); ++k) {
     const SceneSurface& s = std::as_const(state.surfaces)[k];
-    motions.push_back({s.id, motion_of(before[k], s.current), s.opened, s.visible.get(), 0});
+    motions.push_back({s.id, motion_of(before[k], s.current), s.opened, s.visible, 0});
     any = any || motions.back().motion.moves();
     if (s.visible) tolerance = std::max(tolerance, s.visible->uncertainty);
   }
@@ -164,7 +164,7 @@ Expected<void> Executor::meet_faces(std::span<const std::shared_ptr<const Surfac
   if (const Surroundings* const around = walls.around()) {
     for (WallMotion& wall : motions) {
       const auto shown = around->shown.find(wall.id);
-      if (wall.visible == nullptr && shown != around->shown.end()) wall.visible = shown->second.visible.get();
+      if (wall.visible == nullptr && shown != around->shown.end()) wall.visible = shown->second.visible;
       wall.part = around->part_of(wall.id);
     }
   }
