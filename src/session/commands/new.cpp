@@ -213,7 +213,8 @@ void describe(NewCommand& c, Fields& fields) {
               .fallback = "none"});
   fields.add("position", c.position, {.help = "where the origin of the shape goes", .unit = Unit::length});
   fields.add("unit", c.unit,
-             {.help = "`mm`, `um`, `cm`, `dm`, `m`, `km`, `inch`, `foot`, `yard`, `mile`, `mil` or `microinch`; a document has one",
+             {.help = "`mm`, `um`, `cm`, `dm`, `m`, `km`, `inch`, `foot`, `yard`, `mile`, `mil` or `microinch`; a "
+                      "document has one",
               .fallback = "that of existing surfaces, otherwise `\"mm\"`"});
   fields.add("name", c.name, {.help = "its label in the file", .fallback = "its kind"});
 }
