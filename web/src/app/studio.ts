@@ -156,7 +156,7 @@ export class Studio implements App {
     this.creased = new Set(creases.map(({ seam }) => seam));
     if (fresh) {
       const { text, remedy } = fresh;
-      this.notify({ kind: 'info', text, remedy, actions: [{ label: 'Keep it smooth', act: () => void this.redoSmoothly() }] });
+      this.notify({ kind: 'info', text, remedy, actions: [{ label: 'Keep it smooth', act: () => void this.again([{ do: 'seams', smooth: true }]) }] });
     }
   }
 
@@ -170,16 +170,20 @@ export class Studio implements App {
     for (const { text, actions } of loose.filter((l) => !this.told.has(l.text))) {
       this.notify({ kind: 'info', text, actions: actions.map(({ label, commands }) => ({ label, act: () => void this.execute(commands) })) });
     }
-    for (const { text } of through.filter((t) => !this.told.has(t.text))) this.notify({ kind: 'info', text });
+    for (const { text, stopped } of through.filter((t) => !this.told.has(t.text))) {
+      const goOn = { label: 'Go through', act: () => void this.again([], (c) => ('allow' in c ? { ...c, allow: 'through' } as Command : c)) };
+      this.notify({ kind: 'info', text, actions: stopped ? [goOn] : [] });
+    }
     this.told = new Set([...loose, ...through].map(({ text }) => text));
   }
 
-  /** The last act again, with seams that stay smooth. */
-  private async redoSmoothly(): Promise<void> {
+  /** The last act again, changed, after other commands. */
+  private async again(before: Command[], change: (command: Command) => Command = (command) => command): Promise<void> {
     const { commands } = JSON.parse(await this.client.journal()) as { commands: Command[] };
     // What is done with a ball is a tool, its strokes and its removal.
     const first = commands.at(-1)?.do === 'remove' ? commands.map((c) => c.do).lastIndexOf('tool') : commands.length - 1;
-    if (await this.execute([{ do: 'undo' }]) && await this.execute([{ do: 'seams', smooth: true }])) await this.execute(commands.slice(first));
+    if (!(await this.execute([{ do: 'undo' }])) || (before.length > 0 && !(await this.execute(before)))) return;
+    await this.execute(commands.slice(first).map(change));
   }
 
   /** Executes commands as one entry of the history. Null if something went wrong, which the user has then been told. */
