@@ -1,25 +1,14 @@
-import type { Command } from '@studio/engine/session_types';
-
-import { commands, scene, settled, stroke, studioOfFile } from './page';
+import { commands, execute, scene, settled, stroke, studioOfFile } from './page';
 
 /** What the page sends changes what it names, and nothing beside it. */
 
 const studio = studioOfFile();
 
-interface Page {
-  execute(commands: Command[]): Promise<unknown>;
-}
-
-const execute = async (...list: Command[]) => {
-  await studio.page.evaluate((all) => (window as never as { studio: Page }).studio.execute(all), list);
-  await settled(studio.page);
-};
-
 describe('a stroke that is refused', () => {
   it('leaves no brush behind, and nothing in the history', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
-    await execute({ do: 'scaling', mode: 'raw' }); // strokes need a model in normalised units
+    await execute(studio.page, { do: 'scaling', mode: 'raw' }); // strokes need a model in normalised units
     const before = await commands(page);
     await page.keyboard.press('b');
     await stroke(page, [-10, 0], [10, 0]);
@@ -38,7 +27,7 @@ describe('a painted material', () => {
   it('leaves the regions that a script has set', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
-    await execute({ do: 'material', alpha: [0.1, 0, 0.1], beta: [0.5, 0.5, 0.5], region: [[0.8, 1], [0.8, 1]], falloff: 0.01 });
+    await execute(studio.page, { do: 'material', alpha: [0.1, 0, 0.1], beta: [0.5, 0.5, 0.5], region: [[0.8, 1], [0.8, 1]], falloff: 0.01 });
     await page.keyboard.press('a');
     await stroke(page, [-10, 0], [10, 0]);
     const beta = await samples('beta11');

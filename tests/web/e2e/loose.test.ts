@@ -1,25 +1,16 @@
 import type { Command } from '@studio/engine/session_types';
 
-import { commands, scene, settled, stroke, studioOfFile } from './page';
+import { commands, execute, scene, settled, stroke, studioOfFile } from './page';
 
 /** What nothing holds, and what stops at another face: said once, with what can be done. */
 
 const studio = studioOfFile();
 
-interface Page {
-  execute(commands: Command[]): Promise<unknown>;
-}
-
-const execute = async (...list: Command[]) => {
-  await studio.page.evaluate((all) => (window as never as { studio: Page }).studio.execute(all), list);
-  await settled(studio.page);
-};
-
 describe('a surface that nothing holds', () => {
   it('is offered what holds it', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
-    await execute({ do: 'release' });
+    await execute(studio.page, { do: 'release' });
     await page.keyboard.press('b');
     await stroke(page, [-10, 0], [10, 0]);
     const notice = page.locator('.notice', { hasText: 'Nothing holds #1' });
@@ -34,7 +25,7 @@ describe('a press that comes to the wall behind', () => {
   it('stops there, and goes through where that is wanted', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
-    await execute({ do: 'select', surface: '#1' });
+    await execute(studio.page, { do: 'select', surface: '#1' });
     const heights = async () => {
       const { upper, lower } = await page.evaluate(() => (window as never as { studio: { state: { surfaces: { upper: number[]; lower: number[] }[] } } }).studio.state.surfaces[0]!);
       return upper[2]! - lower[2]!;
@@ -43,8 +34,8 @@ describe('a press that comes to the wall behind', () => {
       const { lower, upper } = (window as never as { studio: { state: { surfaces: { lower: number[]; upper: number[] }[] } } }).studio.state.surfaces[0]!;
       return upper[0]! - lower[0]!;
     });
-    await execute({ do: 'new', size: [size, size], net: [8, 8], position: [0, 0, -0.01 * size] }, { do: 'select', surface: '#1' });
-    await execute({ do: 'brush', kind: 'push', radius: 0.2 * size, height: 0.05 * size, path: [[0.5, 0.5]] } as Command);
+    await execute(studio.page, { do: 'new', size: [size, size], net: [8, 8], position: [0, 0, -0.01 * size] }, { do: 'select', surface: '#1' });
+    await execute(studio.page, { do: 'brush', kind: 'push', radius: 0.2 * size, height: 0.05 * size, path: [[0.5, 0.5]] } as Command);
     const stopped = await heights();
     const notice = page.locator('.notice', { hasText: 'was stopped' });
     await expect.poll(() => notice.count()).toBe(1);

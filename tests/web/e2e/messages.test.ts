@@ -1,15 +1,11 @@
 import type { Command } from '@studio/engine/session_types';
 
-import { commands, distance, positions, scene, settled, stroke, studioOfFile } from './page';
+import { commands, distance, execute, positions, scene, settled, stroke, studioOfFile } from './page';
 
 /** What the page says where something cannot be done, and what it leaves as it was. */
 
 const studio = studioOfFile({ width: 1100, height: 760 });
 
-const execute = async (...list: Command[]) => {
-  await studio.page.evaluate((all) => (window as never as { studio: { execute(c: Command[]): Promise<unknown> } }).studio.execute(all), list);
-  await settled(studio.page);
-};
 const openPanel = async (name: string) => {
   const panel = studio.page.locator(`.panel[data-panel="${name}"]`);
   if ((await panel.getAttribute('open')) === null) await panel.locator(':scope > summary').click();
@@ -60,7 +56,7 @@ describe('a number that cannot be', () => {
 
   it('and what is no number are marked in every panel', async () => {
     const { page } = studio;
-    await execute({ do: 'tool', name: 'ball', shape: 'sphere', radius: 20, position: [100, 100, 40] });
+    await execute(studio.page, { do: 'tool', name: 'ball', shape: 'sphere', radius: 20, position: [100, 100, 40] });
     await page.locator('.panel[data-panel=Tools] .item').click();
     for (const panel of ['Constraints', 'Material']) await openPanel(panel);
     for (const [label, text] of [['Radius', '0'], ['Friction', '-1'], ['Held rows', '-2'], ['Yield', '-3'], ['Stretch', 'much'], ['Brush radius in units', '0']] as const) {
@@ -73,7 +69,7 @@ describe('a number that cannot be', () => {
       await expect.poll(() => input(label).inputValue(), { message: label }).toBe(valid);
       expect(await commands(page), label).toEqual(before);
     }
-    await execute({ do: 'remove', tool: 'ball' });
+    await execute(studio.page, { do: 'remove', tool: 'ball' });
   });
 });
 
@@ -82,7 +78,7 @@ describe('a message', () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
     await openPanel('Evolution');
-    await execute({ do: 'hold', rows: 0 });
+    await execute(studio.page, { do: 'hold', rows: 0 });
     const balance = page.getByRole('button', { name: 'Balance' });
     await balance.click();
     await expect.poll(() => errors().textContent()).toContain('Nothing holds the surface');
@@ -98,7 +94,7 @@ describe('a message', () => {
   it('replaces the one that says the same', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
-    await execute({ do: 'limit', distance: 2 });
+    await execute(studio.page, { do: 'limit', distance: 2 });
     await page.evaluate(() => {
       const { studio } = window as never as { studio: { execute(c: Command[]): Promise<unknown> } };
       return Promise.all([9, 11, 13].map((z) => studio.execute([{ do: 'points', which: [16 * 32 + 16], by: [0, 0, z] }])));
@@ -114,7 +110,7 @@ describe('a message', () => {
   it('about a stroke between held edges offers a finer net', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
-    await execute({ do: 'hold', rows: 16 });
+    await execute(studio.page, { do: 'hold', rows: 16 });
     const before = await positions(page);
     await page.keyboard.press('b');
     await stroke(page, [0, 0], [20, 0]);
@@ -183,7 +179,7 @@ describe('a message about a document', () => {
   it('goes with it', async () => {
     const { page } = studio;
     await scene(page, 'Clay sheet');
-    await execute({ do: 'limit', distance: 2 }, { do: 'points', which: [16 * 32 + 16], by: [0, 0, 9] });
+    await execute(studio.page, { do: 'limit', distance: 2 }, { do: 'points', which: [16 * 32 + 16], by: [0, 0, 9] });
     await expect.poll(() => errors().count()).toBe(1);
     await scene(page, 'Hull');
     expect(await errors().count()).toBe(0);

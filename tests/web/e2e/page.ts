@@ -229,6 +229,12 @@ export const positions = async (page: Page): Promise<number[]> =>
     return new Uint8Array(Float64Array.from(pictures.flatMap((p) => [...p.positions].map((x, k) => x + origin[k % 3]!))).buffer);
   }));
 
+/** Carries out commands as the page's own buttons do, and waits until nothing is pending. */
+export async function execute(page: Page, ...list: Command[]): Promise<void> {
+  await page.evaluate((all) => (window as never as { studio: { execute(c: Command[]): Promise<unknown> } }).studio.execute(all), list);
+  await settled(page);
+}
+
 /** Waits until the session has done everything that the page has asked for, and the page has shown it. */
 export async function settled(page: Page): Promise<void> {
   await page.evaluate(async () => {
