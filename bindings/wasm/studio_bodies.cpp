@@ -5,6 +5,7 @@
 #include "buffers.hpp"
 #include "knead/scene/lattice.hpp"
 #include "knead/spline/evaluate.hpp"
+#include "knead/spline/grid_lines.hpp"
 
 namespace knead::studio {
 namespace {
@@ -14,16 +15,6 @@ constexpr std::size_t most_lines = 12;
 
 void append(std::vector<float>& to, const Point& place, const Point& origin) {
   for (Eigen::Index d = 0; d < 3; ++d) to.push_back(static_cast<float>(place[d] - origin[d]));
-}
-
-/// Parameters along one direction, so many chords per span.
-std::vector<double> along(const KnotVector& knots, int chords) {
-  std::vector<double> places;
-  for (const int span : knots.spans()) {
-    for (int k = 0; k < chords; ++k) places.push_back(knots[span] + (knots[span + 1] - knots[span]) * k / chords);
-  }
-  places.push_back(knots.domain().upper);
-  return places;
 }
 
 /// The ends of the domain, and knots between them, not all where there are many.
@@ -43,7 +34,7 @@ double fraction(const KnotVector& knots, double u) {
 }
 
 Expected<void> draw(const Curve& curve, const Point& origin, BodyPicture& to) {
-  const std::vector<double> places = along(curve.knots(0), curve_chords);
+  const std::vector<double> places = even_parameters(curve.knots(0), curve_chords);
   const auto points = evaluate_grid<1>(curve, {std::span<const double>(places)});
   if (!points) return std::unexpected(points.error());
   for (Eigen::Index k = 0; k + 1 < points->points().rows(); ++k) {
@@ -59,7 +50,7 @@ Expected<void> draw(const Volume& volume, const Point& origin, BodyPicture& to) 
   for (std::size_t d = 0; d < 3; ++d) {
     std::array<std::vector<double>, 3> places;
     for (std::size_t e = 0; e < 3; ++e) {
-      places[e] = e == d ? along(volume.knots()[e], volume_chords) : lines_across(volume.knots()[e]);
+      places[e] = e == d ? even_parameters(volume.knots()[e], volume_chords) : lines_across(volume.knots()[e]);
     }
     const auto points = evaluate_grid<3>(volume, {places[0], places[1], places[2]});
     if (!points) return std::unexpected(points.error());

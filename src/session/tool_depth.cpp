@@ -3,22 +3,13 @@
 #include <limits>
 
 #include "knead/spline/evaluate.hpp"
+#include "knead/spline/grid_lines.hpp"
 #include "motion_law.hpp"
 
 namespace knead {
 namespace {
 
 constexpr int halvings = 10;  // of the distance of samples, by the search for the deepest place
-
-/// `pieces` parameters per span, and the end.
-std::vector<double> parameters_of(const KnotVector& knots, int pieces) {
-  std::vector<double> result;
-  for (const int span : knots.spans()) {
-    for (int k = 0; k < pieces; ++k) result.push_back(knots[span] + (knots[span + 1] - knots[span]) * k / pieces);
-  }
-  result.push_back(knots.domain().upper);
-  return result;
-}
 
 /// A surface as one tool meets it.
 struct Meeting {
@@ -63,8 +54,8 @@ struct Meeting {
   }
 
   [[nodiscard]] double deepest(int pieces) const {
-    const std::array<std::vector<double>, 2> at = {parameters_of(shape.knots(0), pieces),
-                                                   parameters_of(shape.knots(1), pieces)};
+    const std::array<std::vector<double>, 2> at = {even_parameters(shape.knots(0), pieces),
+                                                   even_parameters(shape.knots(1), pieces)};
     const auto grid = evaluate_grid<2>(shape, {std::span<const double>(at[0]), std::span<const double>(at[1])});
     if (!grid) return 0;
     double best = 0;
@@ -84,8 +75,8 @@ struct Meeting {
   /// of the tool, and of the shortest translation that takes the surface out of it.
   [[nodiscard]] double standing(int pieces) const {
     constexpr std::size_t most = 400;
-    const std::array<std::vector<double>, 2> at = {parameters_of(shape.knots(0), pieces),
-                                                   parameters_of(shape.knots(1), pieces)};
+    const std::array<std::vector<double>, 2> at = {even_parameters(shape.knots(0), pieces),
+                                                   even_parameters(shape.knots(1), pieces)};
     const auto grid = evaluate_grid<2>(shape, {std::span<const double>(at[0]), std::span<const double>(at[1])});
     if (!grid) return 0;
     std::vector<std::size_t> inside;

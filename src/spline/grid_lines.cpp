@@ -128,6 +128,15 @@ Expected<std::vector<SpanChord>> span_chords(const Surface& surface, int d) {
   return chords;
 }
 
+std::vector<double> even_parameters(const KnotVector& knots, int pieces) {
+  std::vector<double> result;
+  for (const int s : knots.spans()) {
+    for (int k = 0; k < pieces; ++k) result.push_back(knots[s] + (knots[s + 1] - knots[s]) * k / pieces);
+  }
+  result.push_back(knots.domain().upper);
+  return result;
+}
+
 GridLines grid_lines(const KnotVector& knots, int detail, int most) {
   assert(detail >= 1);
   return divided(knots, std::vector<int>(knots.spans().size(), pieces_per_span(knots, detail, most)));

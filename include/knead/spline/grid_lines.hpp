@@ -10,6 +10,9 @@
 
 namespace knead {
 
+/// Every span of positive length in so many equal pieces: where these begin, and the end of the domain.
+[[nodiscard]] std::vector<double> even_parameters(const KnotVector& knots, int pieces);
+
 /// Parameters of one direction of a display grid of a surface: every span of positive length in equal pieces, so that
 /// every knot line is a grid line.
 struct GridLines {
