@@ -62,6 +62,22 @@ bool notes(const Session& session, const std::string& what) {
   return std::ranges::any_of(session.state().notes, [&](const std::string& n) { return n.find(what) != n.npos; });
 }
 
+constexpr int samples = 40;  // per direction
+
+/// Calls `visit(from, way)` for points of a surface, in the middle of even cells of its domain.
+template <class Visit>
+void for_each_way(const SceneSurface& s, const Visit& visit) {
+  const Interval a = s.current->knots(0).domain(), b = s.current->knots(1).domain();
+  for (int i = 0; i < samples; ++i) {
+    for (int j = 0; j < samples; ++j) {
+      const std::array<double, 2> u = {a.lower + a.length() * (i + 0.5) / samples,
+                                       b.lower + b.length() * (j + 0.5) / samples};
+      const Point from = *evaluate_point<2>(*s.opened, u);
+      visit(from, Point(*evaluate_point<2>(*s.current, u) - from));
+    }
+  }
+}
+
 TEST(BareSurface, HoldsItsSidesInEveryFormat) {
   for (const char* format : {"step", "iges", "3dm", "brep"}) {
     const Format* found = find_format(format);
@@ -127,19 +143,11 @@ TEST(BareSurface, AClosedOneDentsWhereItIsPressed) {
                                 at(clay ? 9 * top : top + r - deep)),
                     clay ? fmt::format(R"({{"do":"stroke","tool":"b","path":[{}]}})", at(top + r - deep))
                          : R"({"do":"step","count":30,"lambda":1})"});
-      const SceneSurface& s = session.state().surfaces[0];
       double pressed = 0, opposite = 0;
-      constexpr int samples = 40;
-      for (int i = 0; i < samples; ++i) {
-        for (int j = 0; j < samples; ++j) {
-          const KnotVector &a = s.current->knots(0), &b = s.current->knots(1);
-          const std::array<double, 2> u = {a.domain().lower + a.domain().length() * (i + 0.5) / samples,
-                                           b.domain().lower + b.domain().length() * (j + 0.5) / samples};
-          const Point from = *evaluate_point<2>(*s.opened, u), way = *evaluate_point<2>(*s.current, u) - from;
-          pressed = std::max(pressed, -way.z());
-          if (torus ? from.x() < -6 : from.z() < -0.9) opposite = std::max(opposite, way.norm());
-        }
-      }
+      for_each_way(session.state().surfaces[0], [&](const Point& from, const Point& way) {
+        pressed = std::max(pressed, -way.z());
+        if (torus ? from.x() < -6 : from.z() < -0.9) opposite = std::max(opposite, way.norm());
+      });
       EXPECT_GT(pressed, (clay ? 0.9 : 0.65) * deep) << torus;
       EXPECT_LT(opposite, (clay ? 0.25 : 0.5) * deep) << torus;
       EXPECT_FALSE(notes(session, "nothing holds"));
@@ -166,21 +174,13 @@ TEST(BareSurface, AClosedShellKeepsItsPlace) {
   run(session,
       {held, select(session), R"({"do":"refine","region":[[0,1],[0,1]]})", shell,
        R"({"do":"tool","name":"b","radius":0.5,"position":[0,0,1.35]})", R"({"do":"step","count":8,"lambda":0.01})"});
-  const SceneSurface& s = session.state().surfaces[0];
   Point mean = Point::Zero();
   double deepest = 0;
-  constexpr int samples = 40;
-  for (int i = 0; i < samples; ++i) {
-    for (int j = 0; j < samples; ++j) {
-      const KnotVector &a = s.current->knots(0), &b = s.current->knots(1);
-      const std::array<double, 2> u = {a.domain().lower + a.domain().length() * (i + 0.5) / samples,
-                                       b.domain().lower + b.domain().length() * (j + 0.5) / samples};
-      const Point from = *evaluate_point<2>(*s.opened, u), way = *evaluate_point<2>(*s.current, u) - from;
-      const double share = std::sqrt(std::max(0.0, 1 - from.z() * from.z()));
-      mean += share * way / (samples * samples);
-      deepest = std::max(deepest, -way.z());
-    }
-  }
+  for_each_way(session.state().surfaces[0], [&](const Point& from, const Point& way) {
+    const double share = std::sqrt(std::max(0.0, 1 - from.z() * from.z()));
+    mean += share * way / (samples * samples);
+    deepest = std::max(deepest, -way.z());
+  });
   EXPECT_GT(deepest, 0.08);
   EXPECT_LT(mean.norm(), 0.1 * deepest);
   EXPECT_FALSE(notes(session, "nothing holds"));
