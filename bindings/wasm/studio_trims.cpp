@@ -11,13 +11,7 @@ const std::vector<SurfaceTrim>& ShownParts::trims(const Document& document) {
   if (trims_) return trims_->surfaces;
   auto found = trim_loops(*document.step_file(), drawn_chord);
   trims_ = found ? *std::move(found) : TrimLoops();
-  for (const SurfaceTrim& trim : trims_->surfaces) {
-    auto& part = visible_.emplace_back();
-    if (trim.whole) continue;
-    VisibleRegion region;
-    region.faces = trim.faces;
-    part = std::make_shared<const VisibleRegion>(std::move(region));
-  }
+  visible_ = shown_regions(trims_->surfaces);
   converted_ = document.converted();
   return trims_->surfaces;
 }

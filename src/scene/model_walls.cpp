@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact_search.hpp"
+#include "knead/spline/extremum.hpp"
 
 namespace knead {
 namespace {
@@ -104,14 +105,10 @@ std::vector<char> spans_shown(const VisibleRegion& region, const Surface& surfac
 
 const std::vector<char>& ModelWalls::shown_spans(const WallMotion& wall) {
   ShownSpans& known = shown_[wall.id];
-  std::vector<std::vector<double>> knots;
-  for (int d = 0; d < 2; ++d) {
-    const auto& own = wall.motion.from->knots(d).knots();
-    knots.emplace_back(own.begin(), own.end());
-  }
-  if (known.region == wall.visible && known.knots == knots) return known.shown;
-  auto shown = wall.visible ? spans_shown(*wall.visible, *wall.motion.from) : std::vector<char>();
-  return (known = {wall.visible, std::move(knots), std::move(shown)}).shown;
+  const std::shared_ptr<const Surface>& shape = wall.motion.from;
+  if (known.like && known.region == wall.visible && same_basis(*known.like, *shape)) return known.shown;
+  known = {wall.visible, shape, wall.visible ? spans_shown(*wall.visible, *shape) : std::vector<char>()};
+  return known.shown;
 }
 
 double ModelWalls::diagonal(std::span<const WallMotion> motions) {

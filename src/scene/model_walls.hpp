@@ -71,8 +71,8 @@ class ModelWalls {
   /// Which spans of a surface show something, made once.
   struct ShownSpans {
     std::shared_ptr<const VisibleRegion> region;
-    std::vector<std::vector<double>> knots;
-    std::vector<char> shown;  ///< by span, as in `SpanGrid`; empty: all of them
+    std::shared_ptr<const Surface> like;  ///< on the same basis
+    std::vector<char> shown;              ///< by span, as in `SpanGrid`; empty: all of them
   };
   [[nodiscard]] SpanGrid* grid_of(const WallMotion& wall);
   [[nodiscard]] const std::vector<char>& shown_spans(const WallMotion& wall);

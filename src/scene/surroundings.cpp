@@ -2,9 +2,22 @@
 
 #include "knead/exchange/assembly.hpp"
 #include "knead/exchange/face_conversion.hpp"
+#include "knead/exchange/trim_loops.hpp"
 #include "knead/scene/display.hpp"
 
 namespace knead {
+
+std::vector<std::shared_ptr<const VisibleRegion>> shown_regions(std::span<const SurfaceTrim> trims) {
+  std::vector<std::shared_ptr<const VisibleRegion>> result;
+  for (const SurfaceTrim& trim : trims) {
+    auto& shown = result.emplace_back();
+    if (trim.whole) continue;
+    VisibleRegion region;
+    region.faces = trim.faces;
+    shown = std::make_shared<const VisibleRegion>(std::move(region));
+  }
+  return result;
+}
 
 std::shared_ptr<const Surroundings> surroundings(const step::File& file,
                                                  std::span<const std::shared_ptr<const VisibleRegion>> visible) {

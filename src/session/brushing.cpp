@@ -285,13 +285,15 @@ Points Executor::unmasked(Points displacement) const {
 /// no face. What is grabbed goes where it was asked to, or nowhere.
 Expected<void> Executor::show_brush(const Points& displacement) {
   if (auto shown = displace_from_brush(displacement); !shown) return shown;
-  const bool grabs = state.brush->brush.kind == BrushKind::grab;
-  if (auto sound = check_folds(); !sound && grabs) return sound;
-  const auto smaller =
-      keep_unfolded("brush", 1, [&](double share) { return displace_from_brush(share * displacement); });
-  if (!smaller) return std::unexpected(smaller.error());
-  if (!smaller->empty() && std::ranges::find(state.notes, *smaller) == state.notes.end()) {
-    state.notes.push_back(*smaller);
+  if (state.brush->brush.kind == BrushKind::grab) {
+    if (auto sound = check_folds(); !sound) return sound;
+  } else {
+    const auto smaller =
+        keep_unfolded("brush", 1, [&](double share) { return displace_from_brush(share * displacement); });
+    if (!smaller) return std::unexpected(smaller.error());
+    if (!smaller->empty() && std::ranges::find(state.notes, *smaller) == state.notes.end()) {
+      state.notes.push_back(*smaller);
+    }
   }
   note_model(stroke_cache->scene.seams, stroke_cache->scene.notes);
   return {};

@@ -51,6 +51,7 @@ struct BrushRun {
 };
 
 class ModelWalls;
+struct WallMotion;
 
 /// What happens where a surface comes to another face of its model: it is noted, allowed, or as far as it goes.
 enum class Through { note, allow, stop };
@@ -218,7 +219,7 @@ struct Executor {
 
  private:
   Expected<void> meet_faces(std::span<const std::shared_ptr<const Surface>> before);
-  Expected<void> stop_at_face(std::span<const std::shared_ptr<const Surface>> before, double share);
+  Expected<void> stop_at_face(std::span<const WallMotion> motions, double share);
   [[nodiscard]] std::vector<std::shared_ptr<const Surface>> shapes_before(const Scene& before) const;
   [[nodiscard]] std::shared_ptr<const Surface> rest_before(int surface) const;
   ModelWalls& known_walls();

@@ -198,19 +198,11 @@ Expected<void> Executor::move_less(double share) {
   const std::vector<int> selection = state.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(selection[k])];
-    const auto nearer = [share](std::shared_ptr<const Surface> shape,
-                                const Surface& from) -> Expected<std::shared_ptr<const Surface>> {
-      const Points way = shape->control_points() - from.control_points();
-      if ((way.array() == 0).all()) return shape;
-      auto made = from.with_control_points(from.control_points() + share * way);
-      if (!made) return std::unexpected(made.error());
-      return std::make_shared<const Surface>(std::move(*made));
-    };
     const bool same = s.rest == s.current;
     const OpenStroke::Before& from = law->from[k];
-    auto current = nearer(s.current, *from.current);
+    auto current = part_of_way(*from.current, s.current, share);
     if (!current) return std::unexpected(current.error());
-    auto rest = same ? current : nearer(s.rest, *from.rest);
+    auto rest = same ? current : part_of_way(*from.rest, s.rest, share);
     if (!rest) return std::unexpected(rest.error());
     s.current = std::move(*current);
     s.rest = std::move(*rest);

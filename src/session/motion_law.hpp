@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,6 +52,12 @@ struct MotionLaw {
 /// Whether tools that collide are all that acts on the selected surfaces at rest, so that nothing is drawn along, blown
 /// or swings.
 [[nodiscard]] bool only_pressed(const Scene& scene, const EvolutionPolicy& evolution);
+
+/// A share of the way from one shape to another on the same basis. Control points that do not move keep their bits;
+/// where none does, it is `to` itself. Errors: those of `with_control_points`.
+[[nodiscard]] Expected<std::shared_ptr<const Surface>> part_of_way(const Surface& from,
+                                                                   const std::shared_ptr<const Surface>& to,
+                                                                   double share);
 
 /// Makes a tool as hard as the open stroke needs it, unless it is, or does not collide.
 void harden(Tool& tool, const OpenStroke& stroke);

@@ -131,6 +131,19 @@ double largest_motion(const Surface& a, const Surface& b, double enough) {
   return sampled > 0.9 * enough ? largest_distance(a, b) : sampled;
 }
 
+Expected<std::shared_ptr<const Surface>> part_of_way(const Surface& from, const std::shared_ptr<const Surface>& to,
+                                                     double share) {
+  const Points &start = from.control_points(), &end = to->control_points();
+  if (start == end) return to;
+  Points points = start + share * (end - start);
+  for (Eigen::Index i = 0; i < start.rows(); ++i) {
+    if (start.row(i) == end.row(i)) points.row(i) = start.row(i);
+  }
+  auto made = to->with_control_points(std::move(points));
+  if (!made) return std::unexpected(made.error());
+  return std::make_shared<const Surface>(std::move(*made));
+}
+
 Points within_reach(const Surface& shape, Points way, double reach) {
   constexpr int most_rounds = 12;
   for (int round = 0; round < most_rounds && way.rowwise().norm().maxCoeff() > reach; ++round) {

@@ -34,30 +34,8 @@ Motion motion_of(const std::shared_ptr<const Surface>& from, const std::shared_p
 std::shared_ptr<const Surroundings> surroundings_of(const Document& document) {
   const step::File* const file = document.step_file();
   if (file == nullptr) return nullptr;
-  std::vector<std::shared_ptr<const VisibleRegion>> visible;
-  if (const auto trims = trim_loops(*file)) {
-    for (const SurfaceTrim& trim : trims->surfaces) {
-      auto& shown = visible.emplace_back();
-      if (trim.whole) continue;
-      VisibleRegion region;
-      region.faces = trim.faces;
-      shown = std::make_shared<const VisibleRegion>(std::move(region));
-    }
-  }
-  return surroundings(*file, visible);
-}
-
-/// A share of the way from one shape to another.
-Expected<std::shared_ptr<const Surface>> part_of_way(const Motion& motion, double share) {
-  if (!motion.from || !motion.moves()) return motion.to;
-  const Points& from = motion.from->control_points();
-  Points points = from + share * (motion.to->control_points() - from);
-  for (Eigen::Index i = 0; i < from.rows(); ++i) {
-    if (from.row(i) == motion.to->control_points().row(i)) points.row(i) = from.row(i);
-  }
-  auto made = motion.to->with_control_points(std::move(points));
-  if (!made) return std::unexpected(made.error());
-  return std::make_shared<const Surface>(std::move(*made));
+  const auto trims = trim_loops(*file);
+  return surroundings(*file, shown_regions(trims ? std::span(trims->surfaces) : std::span<const SurfaceTrim>()));
 }
 
 }  // namespace
@@ -190,7 +168,7 @@ Expected<void> Executor::meet_faces(std::span<const std::shared_ptr<const Surfac
   note_motion("stopped at another face",
               fmt::format(": {} would come through {}; \"allow\":\"through\" lets it", s.id, place));
   stopped_at_face = true;
-  return stop_at_face(before, contact->room);
+  return stop_at_face(motions, contact->room);
 }
 
 /// The rest shape from before an open brush, which moves it; else the present one.
@@ -202,19 +180,22 @@ std::shared_ptr<const Surface> Executor::rest_before(int surface) const {
 }
 
 /// All that moved from there, made smaller alike: what is held is linear in displacements.
-Expected<void> Executor::stop_at_face(std::span<const std::shared_ptr<const Surface>> before, double share) {
+Expected<void> Executor::stop_at_face(std::span<const WallMotion> motions, double share) {
   if (state.stroke) {
     state.stroke->share *= share;
     return show_stroke(true);
   }
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    const Motion motion = motion_of(before[k], std::as_const(state.surfaces)[k].current);
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const Motion& motion = motions[k].motion;
     if (!motion.from || !motion.moves()) continue;
     SceneSurface& s = state.surfaces[k];
     const bool same = s.rest == s.current;
-    auto current = part_of_way(motion, share);
+    auto current = part_of_way(*motion.from, s.current, share);
     if (!current) return std::unexpected(current.error());
-    auto rest = same ? current : part_of_way(motion_of(rest_before(static_cast<int>(k)), s.rest), share);
+    const Motion of_rest = same ? motion : motion_of(rest_before(static_cast<int>(k)), s.rest);
+    auto rest = same           ? current
+                : of_rest.from ? part_of_way(*of_rest.from, s.rest, share)
+                               : Expected<std::shared_ptr<const Surface>>(s.rest);
     if (!rest) return std::unexpected(rest.error());
     s.current = std::move(*current);
     s.rest = std::move(*rest);

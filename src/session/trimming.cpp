@@ -203,21 +203,19 @@ Expected<std::string> Executor::keep_stroke_unfolded() {
 
 Expected<std::string> Executor::keep_step_unfolded(std::span<const std::shared_ptr<const Surface>> from, bool first,
                                                    const EvolutionPolicy& evolution) {
-  if (evolution.mode == Evolution::stationary) {
-    if (auto sound = check_folds(); !sound) return std::unexpected(sound.error());
-    return std::string();
-  }
+  const auto sound = check_folds();
+  if (sound) return std::string();
+  if (evolution.mode == Evolution::stationary) return std::unexpected(sound.error());
   const Scene whole = state;
   const auto shows = [&](double share) -> Expected<void> {
     for (const int k : state.selection()) {
       const auto at = static_cast<std::size_t>(k);
       const SceneSurface& moved = whole.surfaces[at];
       SceneSurface& s = state.surfaces[at];
-      const Points& start = from[at]->control_points();
-      if (moved.current->control_points() == start) continue;
-      auto nearer = moved.current->with_control_points(start + share * (moved.current->control_points() - start));
+      auto nearer = part_of_way(*from[at], moved.current, share);
       if (!nearer) return std::unexpected(nearer.error());
-      s.current = std::make_shared<const Surface>(std::move(*nearer));
+      if (*nearer == moved.current) continue;
+      s.current = std::move(*nearer);
       if (moved.rest == moved.current) s.rest = s.current;
       s.velocity = share * moved.velocity;
     }

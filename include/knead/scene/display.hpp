@@ -45,6 +45,11 @@ struct Surroundings {
   }
 };
 
+struct SurfaceTrim;
+
+/// What the faces of a file show of each of its surfaces, as far as loops say; null: all of it.
+[[nodiscard]] std::vector<std::shared_ptr<const VisibleRegion>> shown_regions(std::span<const SurfaceTrim> trims);
+
 /// The faces of a STEP file around its surfaces in full precision, four times as fine as drawn, and what is shown of
 /// each surface. \param visible of each surface of the file, in its order; null, or too few: all of it
 /// Cost: that of `context_faces`; faces that fail are left out.
