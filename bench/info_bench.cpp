@@ -4,8 +4,8 @@
 #include <iterator>
 #include <string>
 
-#include "knead/exchange/face_conversion.hpp"
-#include "knead/exchange/step_file.hpp"
+#include "knead/brep/face_conversion.hpp"
+#include "knead/exchange/format.hpp"
 #include "medians.hpp"
 #include "support/renumbered.hpp"
 
@@ -30,9 +30,9 @@ void info(benchmark::State& state) {
   std::vector<double> times;
   for (auto _ : state) {
     times.push_back(bench::milliseconds_of([&] {
-      const auto file = step::File::parse(text, "large.step");
+      const auto file = open_source(text, "large.step");
       if (!file) std::abort();
-      benchmark::DoNotOptimize(step::other_surfaces(*file).size() + file->surfaces().size());
+      benchmark::DoNotOptimize(brep::other_surfaces(*(*file)->model()).size() + (*file)->surfaces().size());
     }));
   }
   state.counters["mb"] = static_cast<double>(text.size()) / 1e6;

@@ -5,11 +5,10 @@
 
 #include "cad_input.hpp"
 #include "cli.hpp"
-#include "knead/exchange/face_colours.hpp"
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/face_conversion.hpp"
+#include "knead/brep/model.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/step_file.hpp"
 #include "outputs.hpp"
 
 namespace knead::cli {
@@ -23,21 +22,21 @@ struct ExportArguments {
 
 /// What a new file of whole surfaces does not have.
 void warn(const Source& source) {
-  const step::File* file = source.step_file();
-  if (file != nullptr) {
+  const auto model = source.model();
+  if (model != nullptr) {
     std::size_t trimmed = 0;
-    for (const step::SurfaceEntity& s : file->surfaces()) trimmed += s.trimmed ? 1 : 0;
+    for (const brep::SplineSurface& s : model->surfaces) trimmed += s.trimmed ? 1 : 0;
     if (trimmed > 0) {
       fmt::print(stderr, "knead: warning: {} cut by faces; they are written whole\n",
                  counted(trimmed, "surface is", "surfaces are"));
     }
-    const std::size_t others = step::other_surfaces(*file).size();
+    const std::size_t others = brep::other_surfaces(*model).size();
     if (others > 0) {
       fmt::print(stderr, "knead: warning: {} left out\n",
                  counted(others, "surface of another form is", "surfaces of other forms are"));
     }
   }
-  for (const UnreadableSurface& s : source.unreadable()) {
+  for (const brep::UnreadableSurface& s : source.unreadable()) {
     fmt::print(stderr, "knead: warning: the surface {} is left out: {}\n", s.id, s.reason.message());
   }
 }
@@ -86,8 +85,7 @@ Expected<void> run(const ExportArguments& options) {
   const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
 
-  const auto colours = (*source)->step_file() != nullptr ? face_colours(*(*source)->step_file())
-                                                         : std::unordered_map<std::string, Colour>();
+  const auto colours = (*source)->colours();
   std::vector<NamedSurface> surfaces;
   SaveOptions how;
   how.schema = options.schema;

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "cli.hpp"
-#include "knead/exchange/face_conversion.hpp"
-#include "knead/exchange/face_edges.hpp"
+#include "knead/brep/face_conversion.hpp"
+#include "knead/brep/face_edges.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/scene/trims.hpp"
 
@@ -52,7 +52,7 @@ bool frees_edges(const SessionState& state) {
                              [&](const SceneSurface& s) { return std::ranges::any_of(s.constraints, frees); });
 }
 
-void print_region(const step::SurfaceEntity& s, const VisibleRegion& region) {
+void print_region(const brep::SplineSurface& s, const VisibleRegion& region) {
   const auto [lower, upper] = region.extent();
   fmt::print("           visible from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) of the domain", lower.x(), lower.y(),
              upper.x(), upper.y());
@@ -133,9 +133,10 @@ std::string edges_json(const SessionState& state) {
   return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void print_faces(const step::File& file) {
-  const VisibleRegions regions(file);
-  for (const step::SurfaceEntity& s : file.surfaces()) {
+void print_faces(const std::shared_ptr<const brep::Model>& held) {
+  const brep::Model& model = *held;
+  const VisibleRegions regions(held);
+  for (const brep::SplineSurface& s : model.surfaces) {
     const auto region = regions.of(s.id);
     if (!region) {
       fmt::print("  {:<8} its edges cannot be followed: {}\n", s.id, region.error().message());
@@ -145,8 +146,8 @@ void print_faces(const step::File& file) {
       print_region(s, *region);
     }
   }
-  const auto splines = step::exact_splines(file);
-  for (std::size_t k = 0; const step::OtherSurface& s : step::other_surfaces(file)) {
+  const auto splines = brep::exact_splines(model);
+  for (std::size_t k = 0; const brep::OtherSurface& s : brep::other_surfaces(model)) {
     const auto& made = splines[k++];
     const std::string net = made ? fmt::format("can be converted, degree {} x {}, net {} x {}", made->knots(0).degree(),
                                                made->knots(1).degree(), made->net()[0], made->net()[1])

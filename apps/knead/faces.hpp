@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/exchange/step_file.hpp"
+#include "knead/brep/model.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead::cli {
@@ -20,6 +20,6 @@ void print_edges(const SessionState& state);
 
 /// For every surface on which faces lie: its visible part, its middle, and the edges with their neighbours; then the
 /// surfaces of other forms, their faces, and whether they can be converted.
-void print_faces(const step::File& file);
+void print_faces(const std::shared_ptr<const brep::Model>& held);
 
 }  // namespace knead::cli

@@ -10,9 +10,9 @@
 #include "cli.hpp"
 #include "faces.hpp"
 #include "knead/base/printable.hpp"
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/face_conversion.hpp"
+#include "knead/brep/model.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/step_file.hpp"
 #include "knead/spline/extremum.hpp"
 #include "parts.hpp"
 #include "progress.hpp"
@@ -30,7 +30,7 @@ struct InfoArguments {
 
 Json to_json(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
-Json to_json(const step::AxisPlacement& p) {
+Json to_json(const brep::AxisPlacement& p) {
   return {{"origin", to_json(p.origin)}, {"axis", to_json(p.axis)}, {"ref_direction", to_json(p.ref_direction)}};
 }
 
@@ -45,12 +45,12 @@ struct Row {
 
 std::vector<Row> rows_of(const Source& source) {
   std::vector<Row> rows;
-  if (const step::File* file = source.step_file()) {
-    for (const step::SurfaceEntity& s : file->surfaces())
+  if (const auto model = source.model()) {
+    for (const brep::SplineSurface& s : model->surfaces)
       rows.push_back({s.id, s.name, &s.surface, s.closed, s.trimmed, s.faces});
   } else {
     for (const SourceSurface& s : source.surfaces()) {
-      rows.push_back({s.id, s.name, s.surface.get(), closed_directions(*s.surface)});
+      rows.push_back({s.id, s.name, s.surface.get(), brep::closed_directions(*s.surface)});
     }
   }
   return rows;
@@ -96,7 +96,7 @@ Json to_json(const SourceCurve& c) {
           {"knots", std::vector<double>(knots.knots().begin(), knots.knots().end())}};
 }
 
-Json to_json(const step::Instance& i) {
+Json to_json(const brep::Instance& i) {
   return {{"id", i.id},
           {"name", i.name},
           {"parent", i.parent},
@@ -105,23 +105,23 @@ Json to_json(const step::Instance& i) {
           {"frame", i.frame ? to_json(*i.frame) : Json()}};
 }
 
-std::vector<step::OtherSurface> others_of(const step::File* file) {
-  return file == nullptr ? std::vector<step::OtherSurface>() : step::other_surfaces(*file);
+std::vector<brep::OtherSurface> others_of(const Source& source) {
+  const auto model = source.model();
+  return model ? brep::other_surfaces(*model) : std::vector<brep::OtherSurface>();
 }
 
 /// Of the file as a whole; of other formats than STEP the geometry is read as STEP.
 std::string unit_of(const Source& source) {
-  const step::File* file = source.step_file();
-  if (file != nullptr && (source.format() == "STEP" || source.surfaces().empty())) return file->length_unit();
+  const auto model = source.model();
+  if (model != nullptr && (source.format() == "STEP" || source.surfaces().empty())) return model->length_unit();
   return source.surfaces().empty() ? "unknown" : source.surfaces().front().unit;
 }
 
 void print_text(const Source& source) {
-  const step::File* file = source.step_file();
-  const bool step = source.format() == "STEP";
+  const auto model = source.model();
   const auto rows = rows_of(source);
   fmt::print("{}: {}{}, units {}, {}\n", source.name(), source.format(),
-             !step || file->schema().empty() ? "" : " " + printable(file->schema()), unit_of(source),
+             source.schema().empty() ? "" : " " + printable(source.schema()), unit_of(source),
              counted(rows.size(), "B-spline surface", "B-spline surfaces"));
   for (const Row& s : rows) {
     const Surface& surface = *s.surface;
@@ -144,16 +144,16 @@ void print_text(const Source& source) {
                c.curve->rational() ? "rational" : "polynomial");
   }
   std::map<std::string, int> others;
-  for (const step::OtherSurface& s : others_of(file)) ++others[s.form];
+  for (const brep::OtherSurface& s : others_of(source)) ++others[s.form];
   if (!others.empty()) {
     std::string counts;
     for (const auto& [form, count] : others) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, form);
     fmt::print("  other surfaces, to be converted before they are sculpted (--faces lists them): {}\n", counts);
   }
-  for (const UnreadableSurface& s : source.unreadable()) {
+  for (const brep::UnreadableSurface& s : source.unreadable()) {
     fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
   }
-  if (file != nullptr) print_parts(*file);
+  if (model != nullptr) print_parts(*model);
   for (const std::string& remark : source.remarks()) fmt::print("  {}\n", printable(remark, 2000));
 }
 
@@ -163,18 +163,18 @@ Expected<void> run(const InfoArguments& options) {
   const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
   if (!options.json) line.reset();  // what is printed shows how far it is
-  const step::File* const file = (*source)->step_file();
-  if (options.faces && file == nullptr) {
+  const auto model = (*source)->model();
+  if (options.faces && model == nullptr) {
     return usage_error(fmt::format("a {} file has no faces", (*source)->format()), "--faces", "leave it out");
   }
   if (!options.json) {
     print_text(**source);
-    if (options.faces) print_faces(*file);
+    if (options.faces) print_faces(model);
     return {};
   }
   Json others = Json::array();
-  const auto splines = file == nullptr ? std::vector<Expected<Surface>>() : step::exact_splines(*file);
-  for (const step::OtherSurface& s : others_of(file)) {
+  const auto splines = model == nullptr ? std::vector<Expected<Surface>>() : brep::exact_splines(*model);
+  for (const brep::OtherSurface& s : others_of(**source)) {
     const auto& made = splines[others.size()];
     const bool step = (*source)->format() == "STEP";
     others.push_back({{"id", s.id}, {"form", s.form}, {"faces", s.faces}, {"convertible", step && made}});
@@ -189,22 +189,22 @@ Expected<void> run(const InfoArguments& options) {
   }
   Json curves = Json::array();
   for (const SourceCurve& c : (*source)->curves()) curves.push_back(to_json(c));
-  for (const UnreadableSurface& s : (*source)->unreadable()) {
+  for (const brep::UnreadableSurface& s : (*source)->unreadable()) {
     unreadable.push_back({{"id", s.id}, {"reason", s.reason.message()}});
   }
-  if (file != nullptr) {
-    for (const step::Instance& i : file->instances()) instances.push_back(to_json(i));
+  if (model != nullptr) {
+    for (const brep::Instance& i : model->instances) instances.push_back(to_json(i));
   }
   const Json info = {{"file", options.file},
                      {"format", (*source)->format()},
-                     {"schema", (*source)->format() == "STEP" ? file->schema() : ""},
+                     {"schema", (*source)->schema()},
                      {"units", unit_of(**source)},
                      {"surfaces", std::move(surfaces)},
                      {"unreadable_surfaces", std::move(unreadable)},
                      {"other_surfaces", std::move(others)},
                      {"curves", std::move(curves)},
                      {"instances", std::move(instances)},
-                     {"assembly", file != nullptr ? parts_json(*file) : Json()},
+                     {"assembly", model != nullptr ? parts_json(*model) : Json()},
                      {"remarks", (*source)->remarks()}};
   line.reset();
   fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));

@@ -4,10 +4,10 @@
 
 #include "cad_input.hpp"
 #include "cli.hpp"
+#include "knead/brep/model.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/model_mesh.hpp"
-#include "knead/exchange/step_file.hpp"
+#include "knead/exchange/save_model.hpp"
 #include "outputs.hpp"
 
 namespace knead::cli {
@@ -32,9 +32,9 @@ std::unexpected<Error> in_options(Error error, const MeshArguments& options) {
   return std::unexpected(std::move(error));
 }
 
-/// The trimmed faces of a STEP file; says what was left out.
-Expected<void> write_model(const step::File& file, const Format& format, const MeshArguments& options) {
-  const auto model = save_model(file, format, options.tolerance);
+/// The trimmed faces of a file; says what was left out.
+Expected<void> write_model(const Source& source, const Format& format, const MeshArguments& options) {
+  const auto model = save_model(source, format, options.tolerance);
   if (!model) return in_options(model.error(), options);
   if (auto done = write_file_atomically(options.output, model->bytes); !done) return done;
   for (const std::string& warning : model->warnings) fmt::print(stderr, "knead: warning: {}\n", warning);
@@ -76,11 +76,11 @@ Expected<void> run(const MeshArguments& options) {
   if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
   const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
-  const step::File* step = options.untrimmed ? nullptr : (*source)->step_file();
-  if (step == nullptr) return write_surfaces(**source, **format, options);
-  auto done = write_model(*step, **format, options);
+  if (options.untrimmed || !(*source)->model()) return write_surfaces(**source, **format, options);
+  auto done = write_model(**source, **format, options);
   // Why a surface cannot be read says more than that faces on it are not drawn.
-  if (!done && done.error().kind == ErrorKind::input && step->surfaces().empty() && !(*source)->unreadable().empty()) {
+  if (!done && done.error().kind == ErrorKind::input && (*source)->surfaces().empty() &&
+      !(*source)->unreadable().empty()) {
     return std::unexpected((*source)->unreadable().front().reason);
   }
   return done;

@@ -7,7 +7,7 @@
 
 #include "cli.hpp"
 #include "knead/base/printable.hpp"
-#include "knead/exchange/assembly.hpp"
+#include "knead/brep/assembly.hpp"
 
 namespace knead::cli {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr std::size_t most_listed = 6;
 
-std::string title(const step::Part& part) {
+std::string title(const brep::Part& part) {
   return part.name.empty() ? "without a name" : "\"" + printable(part.name) + "\"";
 }
 
@@ -26,11 +26,11 @@ std::string first_of(const std::vector<std::string>& ids) {
   return ids.empty() ? "none" : result;
 }
 
-void print_part(const step::Part& part) {
+void print_part(const brep::Part& part) {
   fmt::print("    {}: {}, B-spline surfaces: {}{}\n", title(part), counted(part.faces.size(), "face", "faces"),
              first_of(part.surfaces), part.curves.empty() ? "" : ", curves: " + first_of(part.curves));
   std::map<std::string, int> paths;
-  for (const step::PartPlace& place : part.places) ++paths[place.path];
+  for (const brep::PartPlace& place : part.places) ++paths[place.path];
   std::size_t listed = 0;
   for (const auto& [path, count] : paths) {
     if (listed++ == most_listed) break;
@@ -42,30 +42,30 @@ void print_part(const step::Part& part) {
 
 }  // namespace
 
-void print_parts(const step::File& file) {
-  if (file.instances().empty()) return;
-  const auto model = step::assembly_of(file);
-  if (!model) {
-    fmt::print("  the assembly cannot be followed: {}\n", model.error().message());
+void print_parts(const brep::Model& model) {
+  if (model.instances.empty()) return;
+  const auto& assembly = model.assembly;
+  if (!assembly) {
+    fmt::print("  the assembly cannot be followed: {}\n", assembly.error().message());
     return;
   }
   std::size_t places = 0;
-  for (const step::Part& part : model->parts) places += part.places.size();
+  for (const brep::Part& part : assembly->parts) places += part.places.size();
   fmt::print(
       "  assembly, in {}: {} with geometry in {} (--json lists their placements); the file has each part once,\n"
       "  so that a change shows in all its places\n",
-      model->unit, counted(model->parts.size(), "part", "parts"), counted(places, "place", "places"));
-  for (const step::Part& part : model->parts) print_part(part);
-  for (const std::string& warning : model->warnings) fmt::print("  warning: {}\n", warning);
+      assembly->unit, counted(assembly->parts.size(), "part", "parts"), counted(places, "place", "places"));
+  for (const brep::Part& part : assembly->parts) print_part(part);
+  for (const std::string& warning : assembly->warnings) fmt::print("  warning: {}\n", warning);
 }
 
-Json parts_json(const step::File& file) {
-  const auto model = step::assembly_of(file);
-  if (!model) return {{"reason", model.error().message()}};
+Json parts_json(const brep::Model& model) {
+  const auto& assembly = model.assembly;
+  if (!assembly) return {{"reason", assembly.error().message()}};
   Json parts = Json::array();
-  for (const step::Part& part : model->parts) {
+  for (const brep::Part& part : assembly->parts) {
     Json places = Json::array();
-    for (const step::PartPlace& place : part.places) {
+    for (const brep::PartPlace& place : part.places) {
       Json rows = Json::array();
       for (int k = 0; k < 3; ++k) {
         const auto row = place.to_model.matrix().row(k);
@@ -80,18 +80,16 @@ Json parts_json(const step::File& file) {
                      {"curves", part.curves},
                      {"places", std::move(places)}});
   }
-  return {{"unit", model->unit}, {"parts", std::move(parts)}, {"warnings", model->warnings}};
+  return {{"unit", assembly->unit}, {"parts", std::move(parts)}, {"warnings", assembly->warnings}};
 }
 
 std::vector<RepeatedSurface> repeated_surfaces(const Session& session) {
   std::vector<RepeatedSurface> result;
-  const step::File* file = session.document().step_file();
-  const auto model = file == nullptr || file->instances().empty() ? Expected<step::Assembly>(step::Assembly{})
-                                                                  : step::assembly_of(*file);
-  if (!model) return result;
+  const brep::Model* const model = session.document().model();
+  if (model == nullptr || model->instances.empty() || !model->assembly) return result;
   const auto& surfaces = session.state().surfaces;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const step::Part* part = model->part_of(surfaces[k].id);
+    const brep::Part* part = model->assembly->part_of(surfaces[k].id);
     if (part == nullptr || part->places.size() < 2 || session.moved_control_points(static_cast<int>(k)) == 0) continue;
     result.push_back({surfaces[k].id, part->name, part->places.size()});
   }

@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "knead/exchange/step_file.hpp"
+#include "knead/brep/model.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead::cli {
 
 /// The parts of an assembly and where they stand; nothing for a file whose coordinates are the model's.
-void print_parts(const step::File& file);
+void print_parts(const brep::Model& model);
 
 /// {"unit", "parts": [{"name", "unit", "surfaces", "faces", "places": [{"path", "matrix"}]}], "warnings"}; or the error
 /// under "reason".
-[[nodiscard]] nlohmann::ordered_json parts_json(const step::File& file);
+[[nodiscard]] nlohmann::ordered_json parts_json(const brep::Model& model);
 
 /// A changed surface whose part is used several times: the change shows in all its places.
 struct RepeatedSurface {

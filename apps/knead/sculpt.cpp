@@ -249,7 +249,7 @@ void print_summary(const SculptArguments& options, const Session& session, const
 /// The format of a new file that the output's name asks for: the input has another one, without faces that a new file
 /// would lose. Null: the output is the input, changed.
 const Format* other_format(const SculptArguments& options, const Document& document) {
-  if (document.step_file() != nullptr) return nullptr;
+  if (document.model() != nullptr) return nullptr;
   const auto wanted = format_of_name(options.output, FormatContent::surfaces);
   if (!wanted || (*wanted)->save == nullptr) return nullptr;
   return document.source() == nullptr || (*wanted)->name != document.source()->format() ? *wanted : nullptr;

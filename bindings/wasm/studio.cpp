@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/face_conversion.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/document_regions.hpp"
@@ -98,9 +98,9 @@ KNEAD_EXPORT(knead_open) int knead_open(std::size_t name_size) {
   bytes.resize(bytes.size() - name_size);
   auto source = open_source(std::move(bytes), std::move(name));
   if (!source) return fail(source.error());
-  const step::File* file = (*source)->step_file();
+  const auto model = (*source)->model();
   const bool nothing = (*source)->surfaces().empty() && (*source)->curves().empty();
-  if (nothing && (file == nullptr || step::other_surfaces(*file).empty())) {
+  if (nothing && (model == nullptr || brep::other_surfaces(*model).empty())) {
     const auto& unreadable = (*source)->unreadable();
     if (!unreadable.empty()) return fail(unreadable.front().reason);
     return fail({ErrorKind::input,
@@ -362,22 +362,22 @@ KNEAD_EXPORT(knead_mesh) int knead_mesh(int format, int detail) {
 /// the next call of this function. Without a file there are none, and the text is null.
 KNEAD_EXPORT(knead_context) int knead_context() {
   auto& session = held().session;
-  if (!session || !session->document().step_file()) return answer("null");
-  held().context = context_picture(*session->document().step_file(), held().origin);
+  if (!session || !session->document().model()) return answer("null");
+  held().context = context_picture(*session->document().model(), held().origin);
   return answer(context_json(held().context));
 }
 
 /// The parts of the open file and where they stand: `assembly_json`; null without a file.
 KNEAD_EXPORT(knead_assembly) int knead_assembly() {
   const auto& session = held().session;
-  const step::File* file = session ? session->document().step_file() : nullptr;
-  return answer(file != nullptr ? assembly_json(*file) : "null");
+  const brep::Model* model = session ? session->document().model() : nullptr;
+  return answer(model != nullptr ? assembly_json(*model) : "null");
 }
 
 /// What the faces of the open file show of a surface: `trim_json`.
 KNEAD_EXPORT(knead_trims) int knead_trims(int surface) {
   auto& session = held().session;
-  if (!session || !session->document().step_file()) return answer("null");
+  if (!session || !session->document().model()) return answer("null");
   const auto& all = held().shown.trims(session->document());
   const std::size_t k = place_in_file(*held().session, surface);
   return answer(k < all.size() ? trim_json(all[k]) : "null");

@@ -4,17 +4,17 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "knead/exchange/assembly.hpp"
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/assembly.hpp"
+#include "knead/brep/face_conversion.hpp"
 
 namespace knead::studio {
 namespace {
 
 using Json = nlohmann::json;
 
-Json places_of(const step::Part& part) {
+Json places_of(const brep::Part& part) {
   Json places = Json::array();
-  for (const step::PartPlace& place : part.places) {
+  for (const brep::PartPlace& place : part.places) {
     Json matrix = Json::array();
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) matrix.push_back(place.to_model.matrix()(row, column));
@@ -26,19 +26,19 @@ Json places_of(const step::Part& part) {
 
 }  // namespace
 
-std::string assembly_json(const step::File& file) {
-  if (file.instances().empty()) return "null";
-  const auto assembly = step::assembly_of(file);
+std::string assembly_json(const brep::Model& model) {
+  if (model.instances.empty()) return "null";
+  const auto& assembly = model.assembly;
   if (!assembly) {
     return Json{{"unit", ""}, {"parts", Json::array()}, {"warnings", {assembly.error().message()}}}.dump(
         -1, ' ', false, Json::error_handler_t::replace);
   }
   std::unordered_map<std::string, std::string> below;  // of faces on other surfaces than splines
-  for (const step::OtherSurface& surface : step::other_surfaces(file)) {
+  for (const brep::OtherSurface& surface : brep::other_surfaces(model)) {
     for (const std::string& face : surface.faces) below[face] = surface.id;
   }
   Json parts = Json::array();
-  for (const step::Part& part : assembly->parts) {
+  for (const brep::Part& part : assembly->parts) {
     Json surfaces = part.surfaces;
     std::unordered_set<std::string> known;
     for (const std::string& face : part.faces) {

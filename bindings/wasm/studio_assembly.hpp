@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "knead/exchange/step_file.hpp"
+#include "knead/brep/model.hpp"
 
 namespace knead::studio {
 
@@ -10,6 +10,6 @@ namespace knead::studio {
 /// three rows of four, one after the other, from the part's coordinates to the model's. Among the surfaces are those
 /// that a conversion makes splines of. null for a file without assemblies; one that cannot be followed has no parts,
 /// and the reason is its warning.
-[[nodiscard]] std::string assembly_json(const step::File& file);
+[[nodiscard]] std::string assembly_json(const brep::Model& model);
 
 }  // namespace knead::studio

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/sculpt/visible_region.hpp"
+#include "knead/brep/visible_region.hpp"
 #include "knead/spline/curvature_comb.hpp"
 #include "knead/spline/section_comb.hpp"
 

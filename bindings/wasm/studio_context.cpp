@@ -6,15 +6,15 @@
 #include <nlohmann/json.hpp>
 
 #include "buffers.hpp"
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/face_conversion.hpp"
 
 namespace knead::studio {
 
-Point middle_of(const step::File& file) {
+Point middle_of(const brep::Model& model) {
   constexpr double rough = 0.1;
   const double none = std::numeric_limits<double>::infinity();
   Point lower = Point::Constant(none), upper = -lower;
-  if (const auto context = context_faces(file, rough)) {
+  if (const auto context = context_faces(model, rough)) {
     for (const FaceMesh& mesh : context->faces) {
       for (const Point& p : mesh.points) {
         lower = lower.cwiseMin(p);
@@ -32,7 +32,7 @@ Point middle_of(const Document& document) {
     upper = upper.cwiseMax(s.surface->control_points().colwise().maxCoeff().transpose());
   }
   if (!document.surfaces().empty()) return (lower + upper) / 2;
-  return document.step_file() != nullptr ? middle_of(*document.step_file()) : Point::Zero();
+  return document.model() != nullptr ? middle_of(*document.model()) : Point::Zero();
 }
 
 Point origin_near(const SessionState& now, const Point& otherwise) {
@@ -45,18 +45,18 @@ Point origin_near(const SessionState& now, const Point& otherwise) {
   return centre.norm() > far * (upper - lower).norm() ? centre : Point(Point::Zero());
 }
 
-ContextPicture context_picture(const step::File& file, const Point& origin) {
+ContextPicture context_picture(const brep::Model& model, const Point& origin) {
   ContextPicture picture;
   FaceMeshes context;
-  if (auto faces = context_faces(file, drawn_chord)) context = *std::move(faces);
-  std::map<std::string, const step::OtherSurface*> below;  // of every face
-  const auto others = step::other_surfaces(file);
-  for (const step::OtherSurface& s : others) {
+  if (auto faces = context_faces(model, drawn_chord)) context = *std::move(faces);
+  std::map<std::string, const brep::OtherSurface*> below;  // of every face
+  const auto others = brep::other_surfaces(model);
+  for (const brep::OtherSurface& s : others) {
     for (const std::string& face : s.faces) below[face] = &s;
   }
   for (const FaceMesh& mesh : context.faces) {
     const auto on = below.find(mesh.id);
-    const step::OtherSurface none, &surface = on == below.end() ? none : *on->second;
+    const brep::OtherSurface none, &surface = on == below.end() ? none : *on->second;
     picture.faces.push_back({mesh.id, surface.id, surface.form, mesh.triangles.size()});
     const auto first = static_cast<std::uint32_t>(picture.positions.size() / 3);
     for (std::size_t k = 0; k < mesh.points.size(); ++k) {

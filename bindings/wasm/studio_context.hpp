@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "knead/exchange/context_faces.hpp"
-#include "knead/exchange/step_file.hpp"
-#include "knead/exchange/trim_loops.hpp"
+#include "knead/brep/context_faces.hpp"
+#include "knead/brep/model.hpp"
+#include "knead/brep/trim_loops.hpp"
+#include "knead/brep/visible_region.hpp"
 #include "knead/scene/display.hpp"
-#include "knead/sculpt/visible_region.hpp"
 #include "knead/session/document.hpp"
 #include "knead/session/session.hpp"
 
@@ -31,10 +31,10 @@ struct ContextPicture {
   std::vector<SkippedFace> skipped;  ///< faces that could not be triangulated
 };
 
-[[nodiscard]] ContextPicture context_picture(const step::File& file, const Point& origin);
+[[nodiscard]] ContextPicture context_picture(const brep::Model& model, const Point& origin);
 
 /// The middle of these faces.
-[[nodiscard]] Point middle_of(const step::File& file);
+[[nodiscard]] Point middle_of(const brep::Model& model);
 /// The middle of all control points, or without any of the faces: what positions of pictures are measured from.
 [[nodiscard]] Point middle_of(const Document& document);
 /// A fresh document has its first surface or body somewhere. Far from there single precision would show steps: from

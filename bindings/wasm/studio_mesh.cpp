@@ -1,6 +1,6 @@
 #include "studio_mesh.hpp"
 
-#include "knead/exchange/model_mesh.hpp"
+#include "knead/exchange/save_model.hpp"
 
 namespace knead::studio {
 
@@ -12,12 +12,12 @@ Expected<std::string> mesh_file(const Session& session, const Format& format, in
     surfaces.push_back({s.name.empty() ? s.id : s.name, *s.current});
     options.unit = s.unit;
   }
-  if (session.document().step_file() == nullptr) return save_surfaces(surfaces, format, options);
+  if (session.document().model() == nullptr) return save_surfaces(surfaces, format, options);
   auto saved = session.save();
   if (!saved) return std::unexpected(saved.error());
   const auto file = open_source(*std::move(saved), session.document().name());
   if (!file) return std::unexpected(file.error());
-  auto model = save_model(*(*file)->step_file(), format, 0, options);
+  auto model = save_model(**file, format, 0, options);
   if (!model) return std::unexpected(model.error());
   return std::move(model->bytes);
 }

@@ -9,7 +9,7 @@ namespace knead::studio {
 const std::vector<SurfaceTrim>& ShownParts::trims(const Document& document) {
   if (converted_ != document.converted()) forget();
   if (trims_) return trims_->surfaces;
-  auto found = trim_loops(*document.step_file(), drawn_chord);
+  auto found = trim_loops(*document.model(), drawn_chord);
   trims_ = found ? *std::move(found) : TrimLoops();
   visible_ = shown_regions(trims_->surfaces);
   converted_ = document.converted();
@@ -22,12 +22,12 @@ std::shared_ptr<const VisibleRegion> ShownParts::visible(const Document& documen
 }
 
 const std::shared_ptr<const Surroundings>& ShownParts::around(const Document& document) {
-  if (document.step_file() == nullptr) {
+  if (document.model() == nullptr) {
     around_.reset();
     return around_;
   }
   trims(document);
-  if (!around_) around_ = surroundings(*document.step_file(), visible_);
+  if (!around_) around_ = surroundings(*document.model(), visible_);
   return around_;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/exchange/trim_loops.hpp"
+#include "knead/brep/trim_loops.hpp"
 #include "knead/scene/display.hpp"
 #include "knead/session/document.hpp"
 #include "knead/session/session.hpp"

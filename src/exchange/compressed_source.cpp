@@ -14,10 +14,12 @@ class CompressedSource final : public Source {
   const std::string& name() const override { return held_->name(); }
   std::string_view format() const override { return held_->format(); }
   const std::vector<SourceSurface>& surfaces() const override { return held_->surfaces(); }
-  const std::vector<UnreadableSurface>& unreadable() const override { return held_->unreadable(); }
+  const std::vector<brep::UnreadableSurface>& unreadable() const override { return held_->unreadable(); }
   const std::vector<SourceCurve>& curves() const override { return held_->curves(); }
   bool is_bound_curve(const std::string& id) const override { return held_->is_bound_curve(id); }
-  const step::File* step_file() const override { return held_->step_file(); }
+  std::string schema() const override { return held_->schema(); }
+  std::shared_ptr<const brep::Model> model() const override { return held_->model(); }
+  std::unordered_map<std::string, Colour> colours() const override { return held_->colours(); }
   Expected<void> can_move_edge(const std::string& id) const override { return held_->can_move_edge(id); }
 
   std::vector<std::string> remarks() const override {

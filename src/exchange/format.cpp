@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "compressed_source.hpp"
+#include "exchange/meshes/surface_mesh.hpp"
 #include "foreign_format.hpp"
 #include "format_list.hpp"
 #include "knead/exchange/compression.hpp"
-#include "surface_mesh.hpp"
 
 namespace knead {
 namespace {

@@ -1,5 +1,7 @@
 #include "length_units.hpp"
 
+#include "knead/exchange/format.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,6 +38,12 @@ const KnownLengthUnit* length_unit_of(double millimetres) {
     return std::abs(millimetres - unit.millimetres) <= same * unit.millimetres;
   });
   return found == units.end() ? nullptr : &*found;
+}
+
+bool is_length_unit(std::string_view name) { return length_unit_named(name) != nullptr; }
+
+std::string list_of_length_units() {
+  return list_of_units([](const KnownLengthUnit&) { return true; });
 }
 
 }  // namespace knead

@@ -6,9 +6,9 @@
 #include <map>
 #include <queue>
 
+#include "brep/boundary_curve.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "step_surfaces.hpp"
 
 namespace knead {
 namespace detail {
@@ -51,7 +51,7 @@ bool is_point(const Curve& side, double tolerance) {
 
 double natural_tolerance(std::span<const Surface* const> surfaces) {
   double size = 0;
-  for (const Surface* s : surfaces) size = std::max(size, step::net_diagonal(s->control_points()));
+  for (const Surface* s : surfaces) size = std::max(size, brep::net_diagonal(s->control_points()));
   return same_place * size;
 }
 
@@ -63,7 +63,7 @@ class Builder {
     NaturalFace face;
     // Counterclockwise: v at its start along u, u at its end along v, and back.
     for (const auto& [direction, end, forward] : {std::tuple(1, 0, true), {0, 1, true}, {1, 1, false}, {0, 0, false}}) {
-      auto side = step::boundary_curve(surface, direction, end);
+      auto side = brep::boundary_curve(surface, direction, end);
       if (!side) return std::unexpected(std::move(side.error()));
       if (is_point(*side, tolerance_)) continue;
       auto use = edge_of(*std::move(side));
@@ -192,7 +192,7 @@ Expected<std::vector<std::size_t>> without_faces(std::span<const NamedSurface> s
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     bool point = true;
     for (int side = 0; side < 4 && point; ++side) {
-      const auto curve = step::boundary_curve(*shapes[k], side / 2, side % 2);
+      const auto curve = brep::boundary_curve(*shapes[k], side / 2, side % 2);
       if (!curve) return std::unexpected(curve.error());
       point = detail::is_point(*curve, tolerance);
     }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knead/exchange/shared_edge.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "knead/scene/trims.hpp"
 #include "knead/spline/evaluate.hpp"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "knead/exchange/assembly.hpp"
-#include "knead/exchange/face_conversion.hpp"
-#include "knead/exchange/trim_loops.hpp"
+#include "knead/brep/assembly.hpp"
+#include "knead/brep/face_conversion.hpp"
+#include "knead/brep/trim_loops.hpp"
 #include "knead/scene/display.hpp"
 
 namespace knead {
@@ -19,25 +19,25 @@ std::vector<std::shared_ptr<const VisibleRegion>> shown_regions(std::span<const 
   return result;
 }
 
-std::shared_ptr<const Surroundings> surroundings(const step::File& file,
+std::shared_ptr<const Surroundings> surroundings(const brep::Model& model,
                                                  std::span<const std::shared_ptr<const VisibleRegion>> visible) {
   constexpr double fine = 2.5e-4;
   auto result = std::make_shared<Surroundings>();
-  if (auto faces = context_faces(file, fine)) result->faces = std::move(faces->faces);
-  if (const auto assembly = step::assembly_of(file); assembly && assembly->parts.size() > 1) {
+  if (auto faces = context_faces(model, fine)) result->faces = std::move(faces->faces);
+  if (const auto& assembly = model.assembly; assembly && assembly->parts.size() > 1) {
     for (std::size_t k = 0; k < assembly->parts.size(); ++k) {
       for (const auto* ids : {&assembly->parts[k].surfaces, &assembly->parts[k].faces}) {
         for (const std::string& id : *ids) result->parts.emplace(id, k);
       }
     }
     // Converted surfaces have the names of what was below their faces.
-    for (const step::OtherSurface& s : step::other_surfaces(file)) {
+    for (const brep::OtherSurface& s : brep::other_surfaces(model)) {
       if (!s.faces.empty()) result->parts.emplace(s.id, result->part_of(s.faces.front()));
     }
   }
-  const auto senses = face_senses(file);
+  const auto senses = face_senses(model);
   for (std::size_t k = 0; k < senses.size(); ++k) {
-    result->shown[file.surfaces()[k].id] = {k < visible.size() ? visible[k] : nullptr, senses[k]};
+    result->shown[model.surfaces[k].id] = {k < visible.size() ? visible[k] : nullptr, senses[k]};
   }
   return result;
 }

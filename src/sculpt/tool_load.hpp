@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "brep/visible_mask.hpp"
 #include "knead/gramian/band_matrix.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
 #include "knead/sculpt/tool.hpp"
 #include "knead/spline/basis.hpp"
 #include "potential.hpp"
-#include "visible_mask.hpp"
 
 namespace knead {
 

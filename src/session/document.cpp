@@ -94,7 +94,7 @@ Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, 
 
 Expected<std::string> Document::save_as(const Format& format, std::span<const DocumentSurface> surfaces,
                                         std::span<const SceneBody> bodies, SaveOptions options) const {
-  if (step_file() != nullptr) {
+  if (model() != nullptr) {
     return input_error(fmt::format("a new file would lose the faces of this {} file", source_->format()), {},
                        "write it in its own format");
   }

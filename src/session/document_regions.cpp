@@ -5,9 +5,9 @@
 namespace knead {
 
 Expected<VisibleRegion> DocumentRegions::of(const std::string& surface) {
-  const step::File* const file = document_->step_file();
-  if (file != nullptr && file->find_surface(surface) != nullptr) {
-    if (!faces_) faces_ = std::make_unique<const VisibleRegions>(*file);
+  const auto model = document_->source() == nullptr ? nullptr : document_->source()->model();
+  if (model != nullptr && model->find_surface(surface) != nullptr) {
+    if (!faces_) faces_ = std::make_unique<const VisibleRegions>(model);
     return faces_->of(surface);
   }
   const auto& surfaces = document_->surfaces();

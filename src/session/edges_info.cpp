@@ -84,10 +84,10 @@ std::string room_json(const Session& session, std::size_t surface) {
 Expected<std::string> checked_edges_json(const Session& session, std::size_t surface) {
   std::vector<CheckedEdgeInfo> infos;
   const SessionState& state = session.state();
-  const step::File* file = session.document().step_file();
+  const brep::Model* model = session.document().model();
   const std::string& id = state.surfaces[surface].id;
-  if (file == nullptr || file->find_surface(id) == nullptr) return json_of(infos);
-  const auto contacts = edge_contacts(*file, id);
+  if (model == nullptr || model->find_surface(id) == nullptr) return json_of(infos);
+  const auto contacts = edge_contacts(*model, id);
   if (!contacts) return std::unexpected(contacts.error());
   const auto checks = check_edges(state, *contacts);
   if (!checks) return std::unexpected(checks.error());

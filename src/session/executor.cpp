@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/face_conversion.hpp"
 #include "knead/spline/extremum.hpp"
 
 namespace knead {
@@ -25,8 +25,8 @@ Expected<SceneSurface*> Executor::selected() {
                        fmt::format(R"(select one of its curves: {{"do":"select","body":"{}"}})", state.bodies[0].id));
   }
   if (state.surfaces.empty()) {
-    const auto others = document.step_file() == nullptr ? std::vector<step::OtherSurface>()
-                                                        : step::other_surfaces(*document.step_file());
+    const auto others =
+        document.model() == nullptr ? std::vector<brep::OtherSurface>() : brep::other_surfaces(*document.model());
     return input_error("the file has no B-spline surface that could be sculpted", document.name(),
                        others.empty() ? ""
                                       : fmt::format(R"(make one of another surface: {{"do":"convert","surface":"{}"}})",
@@ -52,16 +52,16 @@ Expected<int> Executor::find_surface(const std::string& id) const {
     if (surface.id == id) return static_cast<int>(k);
     if (k < listed) known += (k == 0 ? "" : ", ") + surface.id;
   }
-  if (document.step_file() != nullptr) {
-    const auto others = step::other_surfaces(*document.step_file());
-    const auto other = std::ranges::find(others, id, &step::OtherSurface::id);
+  if (document.model() != nullptr) {
+    const auto others = brep::other_surfaces(*document.model());
+    const auto other = std::ranges::find(others, id, &brep::OtherSurface::id);
     if (other != others.end()) {
       return input_error(fmt::format("{} is a {}, not a B-spline surface", id, other->form), "surface",
                          fmt::format(R"(convert it first: {{"do":"convert","surface":"{}"}})", id));
     }
   }
   if (!document.is_fresh()) {
-    for (const UnreadableSurface& s : document.source()->unreadable()) {
+    for (const brep::UnreadableSurface& s : document.source()->unreadable()) {
       if (s.id == id) return std::unexpected(s.reason);
     }
   }

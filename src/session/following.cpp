@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "command_fields.hpp"
-#include "knead/exchange/face_conversion.hpp"
-#include "knead/exchange/shared_edge.hpp"
+#include "knead/brep/face_conversion.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -28,13 +28,13 @@ std::string list_of(std::vector<std::string> ids) {
 Expected<std::shared_ptr<const SharedEdge>> course_of(const Document& document, const std::string& id) {
   if (document.source() == nullptr) return input_error("only edges of faces in a file can follow", id);
   if (auto can = document.source()->can_move_edge(id); !can) return std::unexpected(can.error());
-  auto edge = SharedEdge::create(*document.step_file(), id);
+  auto edge = SharedEdge::create(*document.model(), id);
   if (!edge) {
     Error error = edge.error();
-    const step::File& file = *document.step_file();
-    const std::vector<std::string> all = step::surfaces_at_edge(file, id);
+    const brep::Model& model = *document.model();
+    const std::vector<std::string> all = brep::surfaces_at_edge(model, id);
     std::vector<std::string> others = all;
-    std::erase_if(others, [&](const std::string& surface) { return file.find_surface(surface) != nullptr; });
+    std::erase_if(others, [&](const std::string& surface) { return model.find_surface(surface) != nullptr; });
     if (!others.empty()) {
       error.remedy = fmt::format(
           R"(convert it, {{"do":"convert","surfaces":[{}]}}, and select all of its surfaces, {{"do":"select","surfaces":[{}]}}, or hold the edge)",

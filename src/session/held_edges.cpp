@@ -119,14 +119,14 @@ Expected<void> Executor::check_held_edges(const Scene& before) {
 }
 
 Expected<std::vector<PartedEdge>> Session::parted_edges() const {
-  const step::File* const file = document().step_file();
+  const brep::Model* const model = document().model();
   std::vector<std::string> moved;
-  for (std::size_t k = 0; file != nullptr && k < state().surfaces.size(); ++k) {
+  for (std::size_t k = 0; model != nullptr && k < state().surfaces.size(); ++k) {
     const std::string& id = state().surfaces[k].id;
-    if (file->find_surface(id) != nullptr && moved_control_points(static_cast<int>(k)) > 0) moved.push_back(id);
+    if (model->find_surface(id) != nullptr && moved_control_points(static_cast<int>(k)) > 0) moved.push_back(id);
   }
   if (moved.empty()) return std::vector<PartedEdge>();
-  const auto contacts = edge_contacts(*file, moved);
+  const auto contacts = edge_contacts(*model, moved);
   if (!contacts) return std::unexpected(contacts.error());
   return knead::parted_edges(state(), *contacts);
 }

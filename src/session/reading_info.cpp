@@ -1,6 +1,6 @@
 #include "command_fields.hpp"
 #include "info_values.hpp"
-#include "knead/exchange/face_point.hpp"
+#include "knead/brep/face_point.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/scene/shell_fields.hpp"
 #include "knead/session/session_info.hpp"
@@ -64,9 +64,9 @@ Expected<std::string> reading_json(const Session& session, int surface, const st
 }
 
 Expected<std::string> face_reading_json(const Session& session, const std::string& face, const Point& near) {
-  const step::File* file = session.document().step_file();
-  if (file == nullptr) return input_error("the document has no faces", face);
-  const auto found = point_on_face(*file, face, near);
+  const brep::Model* model = session.document().model();
+  if (model == nullptr) return input_error("the document has no faces", face);
+  const auto found = point_on_face(*model, face, near);
   if (!found) return std::unexpected(found.error());
   ReadingInfo info;
   info.surface = -1;

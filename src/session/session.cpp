@@ -249,8 +249,8 @@ void Session::know_faces() {
   const Document* last = nullptr;
   for (auto& state : states_) {
     const Document& document = document_of(*state);
-    const step::File* const file = document.step_file();
-    if (file == nullptr) return;
+    const brep::Model* const model = document.model();
+    if (model == nullptr) return;
     if (last != &document) {  // neighbours lie on other surfaces
       known.clear();
       regions.reset();
@@ -272,7 +272,7 @@ void Session::know_faces() {
     for (FollowedEdge& edge : next->followed) {
       auto found = courses.find(edge.id);
       if (found == courses.end()) {
-        auto course = SharedEdge::create(*file, edge.id);
+        auto course = SharedEdge::create(*model, edge.id);
         found =
             courses.emplace(edge.id, course ? std::make_shared<const SharedEdge>(std::move(*course)) : nullptr).first;
       }

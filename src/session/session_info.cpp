@@ -276,8 +276,8 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
   info.locality = s.plastic.locality;
   info.lengths = s.plastic.in_radii ? LengthUnit::radii : LengthUnit::file;
   info.rest = s.mode;
-  if (const step::File* file = session.document().step_file()) {
-    const step::SurfaceEntity* in_file = file->find_surface(s.id);
+  if (const brep::Model* model = session.document().model()) {
+    const brep::SplineSurface* in_file = model->find_surface(s.id);
     info.faces = in_file != nullptr ? in_file->faces : 0;
   }
   const auto& opened = session.document().surfaces();

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "commands.hpp"
-#include "knead/exchange/trim_loops.hpp"
+#include "knead/brep/trim_loops.hpp"
 #include "knead/scene/display.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
@@ -32,10 +32,10 @@ Motion motion_of(const std::shared_ptr<const Surface>& from, const std::shared_p
 }
 
 std::shared_ptr<const Surroundings> surroundings_of(const Document& document) {
-  const step::File* const file = document.step_file();
-  if (file == nullptr) return nullptr;
-  const auto trims = trim_loops(*file);
-  return surroundings(*file, shown_regions(trims ? std::span(trims->surfaces) : std::span<const SurfaceTrim>()));
+  const brep::Model* const model = document.model();
+  if (model == nullptr) return nullptr;
+  const auto trims = trim_loops(*model);
+  return surroundings(*model, shown_regions(trims ? std::span(trims->surfaces) : std::span<const SurfaceTrim>()));
 }
 
 }  // namespace

@@ -92,8 +92,8 @@ Expected<void> Executor::know_trims() {
 
 Expected<Fractions> Executor::place_on(SceneSurface& surface, const SurfacePlace& place) {
   const bool strict = holds_trims(surface.constraints);
-  const step::SurfaceEntity* in_file =
-      document.step_file() != nullptr ? document.step_file()->find_surface(surface.id) : nullptr;
+  const brep::SplineSurface* in_file =
+      document.model() != nullptr ? document.model()->find_surface(surface.id) : nullptr;
   if (!place.middle && !strict && (in_file == nullptr || !in_file->trimmed)) return place.at;
   const auto region = visible(surface);
   if (!region) {

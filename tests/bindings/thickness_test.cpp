@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "exchange/face_builder.hpp"
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/face_conversion.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/revolution.hpp"
 #include "studio_picture.hpp"
@@ -204,7 +204,7 @@ Document converted(const step::File& file, const std::vector<std::string>& surfa
 
 TEST(Thickness, OfAPipeIsItsWallWhicheverOfItsFacesAreSplines) {
   const step::File file = pipe();
-  const auto all = step::other_surfaces(file);
+  const auto all = brep::other_surfaces(file.model());
   ASSERT_EQ(all.size(), 4U);
   const double chord = 2.5e-4 * std::sqrt(300.0) + 5e-4 * 5;
   for (const bool both : {false, true}) {
@@ -230,7 +230,7 @@ TEST(Thickness, OfAPipeIsItsWallWhicheverOfItsFacesAreSplines) {
 
 TEST(ShownParts, AreFoundAnewAfterAConversion) {
   const step::File file = pipe();
-  const auto all = step::other_surfaces(file);
+  const auto all = brep::other_surfaces(file.model());
   ASSERT_EQ(all.size(), 4U);
   const Document one = converted(file, {all[0].id}), two = converted(file, {all[0].id, all[1].id});
   ShownParts shown;

@@ -90,7 +90,7 @@ std::string bonnet() { return (fs::path(KNEAD_SOURCE_DIR) / "samples/bonnet.step
 Surface surface_of(const std::string& path, const std::string& id) {
   const auto file = step::File::read(path);
   if (!file) throw std::runtime_error(file.error().message());
-  const step::SurfaceEntity* found = file->find_surface(id);
+  const brep::SplineSurface* found = file->model().find_surface(id);
   if (found == nullptr) throw std::runtime_error(path + " has no surface " + id);
   return found->surface;
 }

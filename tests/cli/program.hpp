@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/exchange/step_file.hpp"
+#include "exchange/step/file.hpp"
 
 namespace knead::testing {
 

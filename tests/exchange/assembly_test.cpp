@@ -1,10 +1,10 @@
-#include "knead/exchange/assembly.hpp"
+#include "knead/brep/assembly.hpp"
 
 #include <fmt/format.h>
 
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
-#include "knead/exchange/model_mesh.hpp"
+#include "knead/brep/model_mesh.hpp"
 
 namespace knead::step {
 namespace {
@@ -51,8 +51,8 @@ std::string usage(int id, int parent, int child, int from, int to, bool turned =
       id, parent + 2, child + 2, id + 1, id + 2, turned ? to : from, turned ? from : to, id + 3, rep_1, rep_2, id + 4);
 }
 
-Assembly assembly(const std::string& data) {
-  auto result = assembly_of(parse_or_die(step_text(ground() + data)));
+brep::Assembly assembly(const std::string& data) {
+  auto result = parse_or_die(step_text(ground() + data)).model().assembly;
   if (!result) {
     ADD_FAILURE() << result.error().message();
     return {};
@@ -60,7 +60,7 @@ Assembly assembly(const std::string& data) {
   return *std::move(result);
 }
 
-void expect_point(const PartPlace& place, const Point& from, const Point& to) {
+void expect_point(const brep::PartPlace& place, const Point& from, const Point& to) {
   EXPECT_LT((place.to_model * from - to).norm(), 1e-14 * (1 + to.norm())) << place.path;
 }
 
@@ -70,7 +70,7 @@ TEST(Assembly, APartIsWhereItsUsagesPutIt) {
                                 usage(300, 100, 200, 60, 61, turned) + usage(320, 100, 200, 60, 62, turned));
     EXPECT_EQ(model.unit, "mm");
     ASSERT_EQ(model.parts.size(), 1U);
-    const Part& door = model.parts[0];
+    const brep::Part& door = model.parts[0];
     EXPECT_EQ(door.name, "door");
     EXPECT_EQ(door.surfaces, std::vector<std::string>{"#10"});
     ASSERT_EQ(door.places.size(), 2U);
@@ -173,7 +173,7 @@ TEST(Assembly, TheNumberOfPlacesIsLimited) {
     data += product(parent, "level", "#60") + usage(parent + 10, parent, child, 60, 62) +
             usage(parent + 20, parent, child, 60, 61);
   }
-  const auto model = assembly_of(parse_or_die(step_text(ground() + data)));
+  const auto model = parse_or_die(step_text(ground() + data)).model().assembly;
   ASSERT_FALSE(model);
   EXPECT_NE(model.error().message().find("more than 100000 places"), std::string::npos) << model.error().message();
 }
@@ -183,13 +183,13 @@ TEST(Assembly, CurvesBelongToTheirParts) {
     return fmt::format(
         "#{}=B_SPLINE_CURVE_WITH_KNOTS('',1,(#1,#2),.UNSPECIFIED.,.F.,.F.,(2,2),(0.,1.),.UNSPECIFIED.);\n", id);
   };
-  const Assembly model =
+  const brep::Assembly model =
       assembly(curve(70) + curve(71) + curve(72) + "#73=GEOMETRIC_CURVE_SET('',(#71,#70));\n" +
                "#74=GEOMETRIC_CURVE_SET('',(#72));\n" + product(100, "root", "#60") + product(110, "wire", "#60,#73") +
                product(120, "plate", "#60,#10") + usage(200, 100, 110, 60, 61) + usage(210, 100, 110, 60, 62) +
                usage(220, 100, 120, 60, 61));
   ASSERT_EQ(model.parts.size(), 3U);
-  const auto part = [&](const std::string& name) { return *std::ranges::find(model.parts, name, &step::Part::name); };
+  const auto part = [&](const std::string& name) { return *std::ranges::find(model.parts, name, &brep::Part::name); };
   EXPECT_EQ(part("wire").curves, (std::vector<std::string>{"#70", "#71"}));
   ASSERT_EQ(part("wire").places.size(), 2U);
   EXPECT_NE(part("wire").places[0].to_model.translation(), part("wire").places[1].to_model.translation());
@@ -206,7 +206,7 @@ TEST(Assembly, MeshesStandWhereTheirPartsDo) {
                              "#402=REPRESENTATION_MAP(#60,#401);\n#403=MAPPED_ITEM('',#402,#62);\n"
                              "#404=MAPPED_ITEM('',#402,#405);\n"
                              "#405=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#52,#53,#50,2.,#55);\n"));
-  const auto model = model_faces(file, 0.01);
+  const auto model = model_faces(file.model(), 0.01);
   ASSERT_TRUE(model) << model.error().message();
   ASSERT_EQ(model->faces.size(), 2U);
   EXPECT_DOUBLE_EQ(testing::area_of(model->faces[0]), 1);

@@ -2,11 +2,11 @@
 
 #include "exchange/brep_square.hpp"
 #include "exchange/support.hpp"
-#include "knead/exchange/face_conversion.hpp"
-#include "knead/exchange/face_edges.hpp"
-#include "knead/exchange/face_point.hpp"
+#include "knead/brep/face_conversion.hpp"
+#include "knead/brep/face_edges.hpp"
+#include "knead/brep/face_point.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/shared_edge.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
 namespace knead {
@@ -24,7 +24,7 @@ TEST(Brep, AFaceStandsWhereItsLocationPutsIt) {
   EXPECT_EQ(s.id, "#1");
   EXPECT_EQ(Point(s.surface->control_points().row(0).transpose()), Point(10, 0, 0));
   EXPECT_EQ(Point(s.surface->control_points().row(1).transpose()), Point(10, 1, 0)) << "v is fast";
-  const auto region = visible_region(*source->step_file(), "#1");
+  const auto region = visible_region(*source->model(), "#1");
   ASSERT_TRUE(region) << region.error().message();
   EXPECT_EQ(region->edges.size(), 4U);
 }
@@ -56,9 +56,9 @@ TEST(Brep, ALocationThatScalesScalesRadii) {
     const std::string place = "1 0 0 10\n0 1 0 0\n0 0 1 0\n";
     text.replace(text.find(place), place.size(), "2 0 0 10\n0 2 0 0\n0 0 2 0\n");
     const auto source = open_or_die(text);
-    const auto others = step::other_surfaces(*source->step_file());
+    const auto others = brep::other_surfaces(*source->model());
     ASSERT_EQ(others.size(), 1U);
-    const auto found = point_on_face(*source->step_file(), others[0].faces.at(0), Point(20, 0, 0));
+    const auto found = point_on_face(*source->model(), others[0].faces.at(0), Point(20, 0, 0));
     ASSERT_TRUE(found) << found.error().message();
     EXPECT_LT((found->point - Point(16, 0, 0)).norm(), 1e-12) << surface;
     ASSERT_TRUE(found->curvature);
@@ -92,13 +92,13 @@ TEST(Brep, ARefinedSurfaceIsWrittenAnew) {
   for (int d = 0; d < 2; ++d) {
     EXPECT_TRUE(std::ranges::equal(again->surfaces()[0].surface->knots(d).knots(), fine.knots(d).knots()));
   }
-  EXPECT_EQ(visible_region(*again->step_file(), "#1")->edges.size(), 4U);
+  EXPECT_EQ(visible_region(*again->model(), "#1")->edges.size(), 4U);
 }
 
 TEST(Brep, AParameterOfOnesAndZerosIsNoFlag) {
   std::string text = square;
   text.replace(text.find("1  4 0 0 1\n0"), 12, "1  4 0 0 1\n2  1 1 0 0 1000000\n0");
-  EXPECT_EQ(visible_region(*open_or_die(text)->step_file(), "#1")->edges.size(), 4U);
+  EXPECT_EQ(visible_region(*open_or_die(text)->model(), "#1")->edges.size(), 4U);
 }
 
 TEST(Brep, ErrorsNameTheLine) {
@@ -155,7 +155,7 @@ TEST(Brep, EdgesFollowTheirFacesWithTheirVertices) {
   ASSERT_TRUE(bytes) << bytes.error().message();
   const auto again = open_or_die(*bytes);
   for (const std::string& id : edges) {
-    const auto edge = SharedEdge::create(*again->step_file(), id);
+    const auto edge = SharedEdge::create(*again->model(), id);
     ASSERT_TRUE(edge) << edge.error().message();
     EXPECT_LE(edge->gap(), 1e-6);
     for (const Point& p : edge->vertex_points()) EXPECT_EQ(p.z(), 1);
@@ -176,7 +176,7 @@ TEST(Brep, ACurveThatAnotherEdgeHasTooStays) {
   EXPECT_NE(bytes->find("Curves 5"), std::string::npos);
   EXPECT_NE(bytes->find("1 1 0 0 0 1 0 \n"), std::string::npos) << "the curve that both had";
   EXPECT_NE(bytes->find("\n1  5 0 0 1\n"), std::string::npos);
-  const auto edge = SharedEdge::create(*open_or_die(*bytes)->step_file(), "#8");
+  const auto edge = SharedEdge::create(*open_or_die(*bytes)->model(), "#8");
   ASSERT_TRUE(edge) << edge.error().message();
   EXPECT_LE(edge->gap(), 1e-6);
 }
@@ -194,11 +194,11 @@ TEST(Brep, WhatRepresentsAnEdgeIsReadInAnyOrder) {
   std::string text = square;
   text.replace(text.find("1  1 0 0 1\n2  1 1 0 0 1\n"), 24, "2  1 1 0 0 1\n4 C0 1 0 1 0\n1  1 0 0 1\n");
   const auto source = open_or_die(text);
-  EXPECT_TRUE(SharedEdge::create(*source->step_file(), "#6"));
+  EXPECT_TRUE(SharedEdge::create(*source->model(), "#6"));
   EXPECT_TRUE(lifted(*source, {"#6", "#7", "#8", "#9"}));
   text = square;
   text.replace(text.find("2  1 1 0 0 1\n"), 13, "3  1 1CN 1 0 0 1\n");
-  EXPECT_TRUE(SharedEdge::create(*open_or_die(text)->step_file(), "#6"));
+  EXPECT_TRUE(SharedEdge::create(*open_or_die(text)->model(), "#6"));
 }
 
 TEST(Brep, TheToleranceOfAnEdgeGrowsByWhatItsCurvesAreApart) {

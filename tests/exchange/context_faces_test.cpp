@@ -1,4 +1,4 @@
-#include "knead/exchange/context_faces.hpp"
+#include "knead/brep/context_faces.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "exchange/face_builder.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "knead/exchange/model_mesh.hpp"
+#include "knead/brep/model_mesh.hpp"
 #include "support/own_files.hpp"
 
 namespace knead {
@@ -19,7 +19,7 @@ constexpr double chord = 1e-4;
 
 // All of a file's faces could be made triangles, and each triangle looks where its normals look.
 std::vector<FaceMesh> meshes(const FaceBuilder& builder, double tolerance = chord) {
-  auto context = context_faces(builder.file(), tolerance);
+  auto context = context_faces(builder.file().model(), tolerance);
   if (!context) {
     ADD_FAILURE() << context.error().message();
     return {};
@@ -62,7 +62,7 @@ std::string refusal_with(const std::string& right, const std::string& wrong) {
   b.face(b.entity(on_frame(b, "PLANE", "")), {b.bound({b.circle(10, 0)})});
   std::string text = b.text();
   text.replace(text.find(right), right.size(), wrong);
-  const auto model = model_faces(testing::parse_or_die(testing::step_text(text)));
+  const auto model = model_faces(testing::parse_or_die(testing::step_text(text)).model());
   if (!model) return model.error().message();
   return model->skipped.empty() ? "" : model->skipped[0].reason.message();
 }
@@ -93,7 +93,7 @@ TEST(ContextFaces, AFaceThatVanishesOnItsSurfaceIsRefused) {
     b.face(10, {b.bound({b.circle(0.25, 0, 0.5, 0.5)})});
     std::string data = testing::square;
     data.replace(data.find("(1.,1.,0.)"), 10, "(" + std::string(far) + ",1.,0.)");
-    const auto model = model_faces(testing::parse_or_die(testing::step_text(data + b.text())));
+    const auto model = model_faces(testing::parse_or_die(testing::step_text(data + b.text())).model());
     ASSERT_TRUE(model) << model.error().message();
     ASSERT_EQ(model->skipped.size(), 1U);
     EXPECT_NE(model->skipped[0].reason.message().find("vanish on its surface"), std::string::npos);
@@ -305,7 +305,7 @@ TEST(ContextFaces, WhatCannotBeDrawnIsNamedAndTheRestIsDrawn) {
   const int crossed = b.face(b.entity(on_frame(b, "CYLINDRICAL_SURFACE", ",2.")), {b.bound({b.circle(2, 0)})});
   const int astray = b.face(plane, {b.bound({b.circle(1, 7)})});
   b.face(plane, {b.bound({b.circle(1, 0)})});
-  const auto context = context_faces(b.file());
+  const auto context = context_faces(b.file().model());
   ASSERT_TRUE(context);
   EXPECT_EQ(context->faces.size(), 1U);
   ASSERT_EQ(context->skipped.size(), 3U);
@@ -322,7 +322,7 @@ TEST(ContextFaces, FacesOnSurfacesThatCanBeSculptedAreNoContext) {
   b.face(10, {b.bound({b.circle(0.25, 0, 0.5, 0.5)})});
   const auto file =
       testing::parse_or_die(testing::step_text(testing::unit_square_points() + testing::bilinear_patch() + b.text()));
-  const auto context = context_faces(file);
+  const auto context = context_faces(file.model());
   ASSERT_TRUE(context);
   EXPECT_TRUE(context->faces.empty());
   EXPECT_TRUE(context->skipped.empty());
@@ -332,7 +332,7 @@ TEST(ContextFaces, TheToleranceHasARange) {
   FaceBuilder b;
   b.face(b.entity(on_frame(b, "PLANE", "")), {b.bound({b.circle(1, 0)})});
   for (const double bad : {0.0, -1.0, 0.5, std::nan("")}) {
-    const auto context = context_faces(b.file(), bad);
+    const auto context = context_faces(b.file().model(), bad);
     ASSERT_FALSE(context);
     EXPECT_EQ(context.error().kind, ErrorKind::usage);
   }
@@ -343,7 +343,7 @@ class ContextCorpus : public testing::FileTest {};
 TEST_P(ContextCorpus, NoFaceOfARealFileIsSkipped) {
   const auto file = step::File::read(path_);
   ASSERT_TRUE(file) << file.error().message();
-  const auto context = context_faces(*file);
+  const auto context = context_faces(file->model());
   ASSERT_TRUE(context);
   for (const auto& [id, reason] : context->skipped) ADD_FAILURE() << id << ": " << reason.message();
   for (const auto& mesh : context->faces) {

@@ -21,20 +21,22 @@ const std::string inch =
 
 TEST(StepUnits, AreReadAndReported) {
   const auto mm = parse_or_die(step_text(millimetre + context(40, 31)));
-  EXPECT_EQ(mm.length_unit(), "mm");
-  ASSERT_EQ(mm.length_units().size(), 1U);
-  EXPECT_EQ(mm.length_units()[0].context, "#40");
-  EXPECT_EQ(mm.length_units()[0].metres, 1e-3);
+  EXPECT_EQ(mm.model().length_unit(), "mm");
+  ASSERT_EQ(mm.model().units.size(), 1U);
+  EXPECT_EQ(mm.model().units[0].context, "#40");
+  EXPECT_EQ(mm.model().units[0].metres, 1e-3);
   const auto inches = parse_or_die(step_text(millimetre + inch + context(40, 32)));
-  EXPECT_EQ(inches.length_unit(), "inch");
-  EXPECT_DOUBLE_EQ(inches.length_units()[0].metres, 0.0254);
-  EXPECT_EQ(
-      parse_or_die(step_text("#31=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.));\n" + context(40, 31))).length_unit(),
-      "m");
+  EXPECT_EQ(inches.model().length_unit(), "inch");
+  EXPECT_DOUBLE_EQ(inches.model().units[0].metres, 0.0254);
+  EXPECT_EQ(parse_or_die(step_text("#31=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.));\n" + context(40, 31)))
+                .model()
+                .length_unit(),
+            "m");
   EXPECT_EQ(parse_or_die(step_text("#31=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));\n" + context(40, 31)))
+                .model()
                 .length_unit(),
             "unknown");
-  EXPECT_EQ(parse_or_die(step_text("#1=A();\n")).length_unit(), "unknown");
+  EXPECT_EQ(parse_or_die(step_text("#1=A();\n")).model().length_unit(), "unknown");
 }
 
 /// The unit of a file whose unit is called `name` and is `factor` millimetres long.
@@ -43,6 +45,7 @@ std::string unit_called(const std::string& name, const std::string& factor) {
                                 "',#33)LENGTH_UNIT()NAMED_UNIT(#34));\n#33=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(" +
                                 factor + "),#31);\n#34=DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n" +
                                 context(40, 32)))
+      .model()
       .length_unit();
 }
 
@@ -61,7 +64,7 @@ TEST(StepUnits, ColoursAndViewsSayNothingOfLengths) {
                 "#50=SHAPE_REPRESENTATION('',(#10),#41);\n#60=STYLED_ITEM('',(),#10);\n"
                 "#61=MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#60),#40);\n"
                 "#62=DRAUGHTING_MODEL('',(#60),#40);\n"));
-  EXPECT_EQ(file.length_unit(), "inch");
+  EXPECT_EQ(file.model().length_unit(), "inch");
   EXPECT_EQ(file.surfaces()[0].unit, "inch");
 }
 
@@ -78,8 +81,8 @@ TEST(StepUnits, AUnitDefinedByItselfIsNoCrash) {
       parse_or_die(step_text("#32=(CONVERSION_BASED_UNIT('LOOP',#33)LENGTH_UNIT()NAMED_UNIT(#34));\n"
                              "#33=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(2.),#32);\n#34=DIMENSIONAL_EXPONENTS();\n" +
                              context(40, 32)));
-  EXPECT_EQ(file.length_unit(), "loop");
-  EXPECT_EQ(file.length_units()[0].metres, 0);
+  EXPECT_EQ(file.model().length_unit(), "loop");
+  EXPECT_EQ(file.model().units[0].metres, 0);
 }
 
 TEST(StepUnits, EachSurfaceHasTheUnitOfItsRepresentation) {
@@ -92,12 +95,12 @@ TEST(StepUnits, EachSurfaceHasTheUnitOfItsRepresentation) {
                                            "#50=SHAPE_REPRESENTATION('',(#51),#40);\n#51=GEOMETRIC_SET('',(#10,#12));"
                                            "\n#52=SHAPE_REPRESENTATION('',(#11,#12),#41);\n"));
   ASSERT_EQ(file.surfaces().size(), 4U);
-  EXPECT_EQ(file.length_unit(), "mm, inch");
-  EXPECT_EQ(file.find_surface("#10")->unit, "mm");
-  EXPECT_EQ(file.find_surface("#11")->unit, "inch");
-  EXPECT_EQ(file.find_surface("#12")->unit, "unknown") << "it stands in representations of both";
-  EXPECT_EQ(file.find_surface("#13")->unit, "unknown") << "it stands in none";
-  EXPECT_EQ(file.find_surface("#99"), nullptr);
+  EXPECT_EQ(file.model().length_unit(), "mm, inch");
+  EXPECT_EQ(file.model().find_surface("#10")->unit, "mm");
+  EXPECT_EQ(file.model().find_surface("#11")->unit, "inch");
+  EXPECT_EQ(file.model().find_surface("#12")->unit, "unknown") << "it stands in representations of both";
+  EXPECT_EQ(file.model().find_surface("#13")->unit, "unknown") << "it stands in none";
+  EXPECT_EQ(file.model().find_surface("#99"), nullptr);
 }
 
 TEST(StepUnits, OfForeignFiles) {
@@ -108,7 +111,7 @@ TEST(StepUnits, OfForeignFiles) {
     KNEAD_NEEDS(testing::foreign_cad(name));
     const auto file = step::File::read(testing::foreign_cad(name));
     ASSERT_TRUE(file) << file.error().message();
-    EXPECT_EQ(file->length_unit(), unit) << name;
+    EXPECT_EQ(file->model().length_unit(), unit) << name;
     for (const auto& surface : file->surfaces()) EXPECT_EQ(surface.unit, unit) << name << surface.id;
   }
 }
@@ -140,8 +143,8 @@ TEST(StepInstances, PlaceAComponentInItsAssembly) {
     const auto file = parse_or_die(step_text(
         assembly(std::string(relation) +
                  "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#90)SHAPE_REPRESENTATION_RELATIONSHIP());\n")));
-    ASSERT_EQ(file.instances().size(), 1U);
-    const auto& instance = file.instances()[0];
+    ASSERT_EQ(file.model().instances.size(), 1U);
+    const auto& instance = file.model().instances[0];
     EXPECT_EQ(instance.id, "#76");
     EXPECT_EQ(instance.name, "left door");
     EXPECT_EQ(instance.parent, "the car");
@@ -160,12 +163,12 @@ TEST(StepInstances, PlaceAComponentInItsAssembly) {
 TEST(StepInstances, MappedItemsPlaceARepresentation) {
   const auto file = parse_or_die(
       step_text(assembly("#91=A();\n") + "#95=REPRESENTATION_MAP(#65,#81);\n#96=MAPPED_ITEM('copy',#95,#63);\n"));
-  ASSERT_EQ(file.instances().size(), 2U);
-  EXPECT_FALSE(file.instances()[0].placement) << "#91 is no transformation";
-  EXPECT_EQ(file.instances()[1].name, "copy");
-  EXPECT_EQ(file.instances()[1].child, "door");
-  EXPECT_EQ(file.instances()[1].parent, "") << "no representation holds it";
-  EXPECT_EQ(file.instances()[1].placement->origin, Point(1, 2, 3));
+  ASSERT_EQ(file.model().instances.size(), 2U);
+  EXPECT_FALSE(file.model().instances[0].placement) << "#91 is no transformation";
+  EXPECT_EQ(file.model().instances[1].name, "copy");
+  EXPECT_EQ(file.model().instances[1].child, "door");
+  EXPECT_EQ(file.model().instances[1].parent, "") << "no representation holds it";
+  EXPECT_EQ(file.model().instances[1].placement->origin, Point(1, 2, 3));
   const auto held =
       parse_or_die(step_text(
           placements + "#31=CTX();\n#80=SHAPE_REPRESENTATION('',(#96),#31);\n#81=SHAPE_REPRESENTATION('',(#65),#31);\n"
@@ -173,8 +176,8 @@ TEST(StepInstances, MappedItemsPlaceARepresentation) {
                        "DEFINITION('','',#72,$);\n"
                        "#82=PRODUCT_DEFINITION_SHAPE('','',#74);\n#83=SHAPE_DEFINITION_REPRESENTATION(#82,#80);\n"
                        "#95=REPRESENTATION_MAP(#65,#81);\n#96=MAPPED_ITEM('copy',#95,#63);\n"));
-  ASSERT_EQ(held.instances().size(), 1U);
-  EXPECT_EQ(held.instances()[0].parent, "car");
+  ASSERT_EQ(held.model().instances.size(), 1U);
+  EXPECT_EQ(held.model().instances[0].parent, "car");
 }
 
 TEST(StepInstances, OfAForeignFile) {
@@ -182,11 +185,11 @@ TEST(StepInstances, OfAForeignFile) {
   KNEAD_NEEDS(path);
   const auto file = step::File::read(path);
   ASSERT_TRUE(file);
-  ASSERT_EQ(file->instances().size(), 13U);
+  ASSERT_EQ(file->model().instances.size(), 13U);
   const auto found =
-      std::find_if(file->instances().begin(), file->instances().end(),
-                   [](const step::Instance& instance) { return instance.name == "l-bracket-assembly_2"; });
-  ASSERT_NE(found, file->instances().end());
+      std::find_if(file->model().instances.begin(), file->model().instances.end(),
+                   [](const brep::Instance& instance) { return instance.name == "l-bracket-assembly_2"; });
+  ASSERT_NE(found, file->model().instances.end());
   EXPECT_EQ(found->parent, "as1");
   EXPECT_EQ(found->child, "l-bracket-assembly");
   EXPECT_EQ(found->placement->origin, Point(175, 25, 20));

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "exchange/part21.hpp"
+#include "exchange/part21/part21.hpp"
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/spline/spline_refinement.hpp"
@@ -120,7 +120,7 @@ void edit_and_compare(const step::File& file, const std::vector<std::size_t>& wh
     EXPECT_EQ(now.name, old.name);
     EXPECT_EQ(now.unit, old.unit);
   }
-  EXPECT_EQ(again->instances().size(), file.instances().size());
+  EXPECT_EQ(again->model().instances.size(), file.model().instances.size());
 }
 
 TEST_P(Corpus, WithoutEditsComesBackByteForByte) {
@@ -155,7 +155,7 @@ TEST_P(Corpus, SingleSurfacesMovedReadBackExactly) {
 TEST_P(Corpus, AllSurfacesRefinedReadBackExactly) {
   const auto file = step::File::read(path_);
   ASSERT_TRUE(file) << file.error().message();
-  std::vector<step::Replacement> refined;
+  std::vector<brep::Replacement> refined;
   std::set<std::string> ids;
   for (const auto& surface : file->surfaces()) {
     // One knot in the first span of u, all spans of v halved, one degree more along u.

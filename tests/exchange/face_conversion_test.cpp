@@ -1,19 +1,22 @@
 // Elementary and swept surfaces as exact B-spline surfaces, and the files that have them.
 
-#include "knead/exchange/face_conversion.hpp"
+#include "exchange/step/conversion.hpp"
 
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "exchange/two_sheets.hpp"
-#include "knead/exchange/face_edges.hpp"
-#include "knead/exchange/shared_edge.hpp"
+#include "knead/brep/face_conversion.hpp"
+#include "knead/brep/face_edges.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::step {
 namespace {
 
+using brep::exact_spline;
+using brep::other_surfaces;
 using testing::FaceBuilder;
 using testing::parse_or_die;
 
@@ -29,7 +32,7 @@ struct Analytic {
 };
 
 Surface converted(const File& file, int surface) {
-  auto made = exact_spline(file, "#" + std::to_string(surface));
+  auto made = exact_spline(file.model(), "#" + std::to_string(surface));
   if (!made) {
     ADD_FAILURE() << made.error().message();
     std::abort();
@@ -62,12 +65,12 @@ void expect_covers(const File& file, int surface) {
   const std::string id = "#" + std::to_string(surface);
   const auto after = with_splines(file, {&id, 1});
   ASSERT_TRUE(after) << after.error().message();
-  const auto region = visible_region(*after, id);
+  const auto region = visible_region(after->model(), id);
   ASSERT_TRUE(region) << region.error().message();
   ASSERT_FALSE(region->edges.empty());
   for (const TrimEdge& edge : region->edges) {
     if (edge.seam) continue;
-    const auto course = SharedEdge::create(*after, edge.id);
+    const auto course = SharedEdge::create(after->model(), edge.id);
     ASSERT_TRUE(course) << course.error().message();
     EXPECT_LE(course->gap(), 1e-12) << edge.id << ": to which feet are found";
   }
@@ -135,7 +138,7 @@ TEST(ExactSpline, OfAPlaneIsTheRectangleOfEdgesThatAreParallelToOneAnother) {
                10);
   expect_covers(file, plane);
   const std::string id = "#" + std::to_string(plane);
-  EXPECT_FALSE(with_splines(file, {&id, 1})->find_surface(id)->trimmed);
+  EXPECT_FALSE(with_splines(file, {&id, 1})->model().find_surface(id)->trimmed);
 }
 
 TEST(ExactSpline, OfAPlaneGoesAFiftiethBeyondACurvedEdge) {
@@ -175,8 +178,8 @@ TEST(ExactSpline, OfAWholeCylinderIsClosedBitForBitAtItsSeam) {
   const std::string id = "#" + std::to_string(surface);
   const auto after = with_splines(file, {&id, 1});
   ASSERT_TRUE(after);
-  EXPECT_EQ(after->find_surface(id)->closed, (std::array{true, false}));
-  EXPECT_FALSE(after->find_surface(id)->trimmed);
+  EXPECT_EQ(after->model().find_surface(id)->closed, (std::array{true, false}));
+  EXPECT_FALSE(after->model().find_surface(id)->trimmed);
 }
 
 TEST(ExactSpline, OfAConeEndsAtItsApex) {
@@ -321,10 +324,10 @@ TEST(ExactSpline, OfSeveralFacesOnOneCylinderCoversThemAll) {
 
 TEST(ExactSpline, WhatCannotBeConvertedIsSaid) {
   const File file = parse_or_die(testing::two_sheets(false, true).text);
-  const auto spline = exact_spline(file, "#10");
+  const auto spline = exact_spline(file.model(), "#10");
   ASSERT_FALSE(spline);
   EXPECT_NE(spline.error().what.find("B-spline surface already"), std::string::npos);
-  const auto unknown = exact_spline(file, "#999");
+  const auto unknown = exact_spline(file.model(), "#999");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().kind, ErrorKind::input);
   FaceBuilder b;
@@ -332,29 +335,29 @@ TEST(ExactSpline, WhatCannotBeConvertedIsSaid) {
   const int offset = b.entity("OFFSET_SURFACE('',#" + std::to_string(plane) + ",1.,.F.)");
   b.face(offset, {b.bound({b.circle(2, 1)})});
   const File other = b.file();
-  ASSERT_EQ(other_surfaces(other).size(), 1U);
-  EXPECT_EQ(other_surfaces(other)[0].form, "OFFSET_SURFACE");
-  EXPECT_FALSE(exact_spline(other, other_surfaces(other)[0].id));
+  ASSERT_EQ(other_surfaces(other.model()).size(), 1U);
+  EXPECT_EQ(other_surfaces(other.model())[0].form, "OFFSET_SURFACE");
+  EXPECT_FALSE(exact_spline(other.model(), other_surfaces(other.model())[0].id));
 }
 
 TEST(WithSplines, TheRecordKeepsItsNameAndAllElseItsBytes) {
   const testing::TwoSheets sheets = testing::two_sheets(false, true);
   const File file = parse_or_die(sheets.text);
-  ASSERT_EQ(other_surfaces(file).size(), 1U);
-  EXPECT_EQ(other_surfaces(file)[0].id, "#20");
-  EXPECT_EQ(other_surfaces(file)[0].form, "PLANE");
+  ASSERT_EQ(other_surfaces(file.model()).size(), 1U);
+  EXPECT_EQ(other_surfaces(file.model())[0].id, "#20");
+  EXPECT_EQ(other_surfaces(file.model())[0].form, "PLANE");
   const std::string by_face = testing::TwoSheets::name(sheets.faces[1]);
   const auto after = with_splines(file, {&by_face, 1});
   ASSERT_TRUE(after) << after.error().message();
-  EXPECT_TRUE(other_surfaces(*after).empty());
+  EXPECT_TRUE(other_surfaces(after->model()).empty());
   const std::string &before = file.bytes(), &now = after->bytes();
   const std::size_t at = before.find("PLANE(");
   EXPECT_EQ(now.substr(0, at), before.substr(0, at));
   const std::string rest = before.substr(before.find(";\n", at) + 1);
   EXPECT_EQ(now.substr(now.size() - rest.size()), rest);
   ASSERT_EQ(after->surfaces().size(), 2U);
-  EXPECT_EQ(after->find_surface("#20")->faces, 1);
-  const auto edge = SharedEdge::create(*after, testing::TwoSheets::name(sheets.edge));
+  EXPECT_EQ(after->model().find_surface("#20")->faces, 1);
+  const auto edge = SharedEdge::create(after->model(), testing::TwoSheets::name(sheets.edge));
   ASSERT_TRUE(edge) << edge.error().message();
   EXPECT_LE(edge->gap(), exact * 2);
   EXPECT_LE(edge->angle(), 1e-9);

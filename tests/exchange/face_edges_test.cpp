@@ -1,4 +1,4 @@
-#include "knead/exchange/face_edges.hpp"
+#include "knead/brep/face_edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ using testing::on_square;
 using testing::square;
 
 TEST(FaceEdges, ASurfaceWithoutAFaceIsWholeWithinItsSides) {
-  const auto region = visible_region(testing::parse_or_die(testing::step_text(square)), "#10");
+  const auto region = visible_region(testing::parse_or_die(testing::step_text(square)).model(), "#10");
   ASSERT_TRUE(region);
   EXPECT_TRUE(region->faces.empty());
   std::vector<std::string> sides;
@@ -35,7 +35,7 @@ TEST(FaceEdges, ASurfaceWithoutAFaceIsWholeWithinItsSides) {
 }
 
 TEST(FaceEdges, AnUnknownSurfaceIsNamed) {
-  const auto region = visible_region(testing::parse_or_die(testing::step_text(square)), "#11");
+  const auto region = visible_region(testing::parse_or_die(testing::step_text(square)).model(), "#11");
   ASSERT_FALSE(region);
   EXPECT_EQ(region.error().where, "#11");
 }
@@ -45,7 +45,7 @@ TEST(FaceEdges, ACircleIsFollowedInParametersAndKeepsItsName) {
   const int circle = b.circle(0.4, 0, 0.5, 0.5);
   const int face = b.face(10, {b.bound({circle})});
   b.entity("OPEN_SHELL('',(#" + std::to_string(face) + "))");
-  const auto region = visible_region(on_square(b), "#10");
+  const auto region = visible_region(on_square(b).model(), "#10");
   ASSERT_TRUE(region) << region.error().message();
   EXPECT_TRUE(region->in_shell);
   ASSERT_EQ(region->edges.size(), 1U);
@@ -72,7 +72,7 @@ TEST(FaceEdges, FacesThatMeetAtAnEdgeAreItsNeighbours) {
                            b.line(top, left, {0, 1, 0}, {0, -1, 0})})});
   const int plane = b.entity("PLANE('',#" + std::to_string(b.frame()) + ")");
   const int other = b.face(plane, {b.bound({-shared})});
-  const auto region = visible_region(on_square(b), "#10");
+  const auto region = visible_region(on_square(b).model(), "#10");
   ASSERT_TRUE(region) << region.error().message();
   ASSERT_EQ(region->edges.size(), 4U);
   for (const TrimEdge& edge : region->edges) {
@@ -94,7 +94,7 @@ TEST(FaceEdges, AStraightEdgeIsDividedWhereItsParametersAreCurved) {
   const int p = b.vertex(0.2, 0.1, 0), q = b.vertex(1.2, 1.4, 0), r = b.vertex(0.2, 0.8, 0);
   b.face(10, {b.bound({b.line(p, q, {0.2, 0.1, 0}, {1, 1.3, 0}), b.line(q, r, {1.2, 1.4, 0}, {-1, -0.6, 0}),
                        b.line(r, p, {0.2, 0.8, 0}, {0, -1, 0})})});
-  const auto region = visible_region(testing::parse_or_die(testing::step_text(skewed + b.text())), "#10");
+  const auto region = visible_region(testing::parse_or_die(testing::step_text(skewed + b.text())).model(), "#10");
   ASSERT_TRUE(region) << region.error().message();
   for (const TrimEdge& edge : region->edges) {
     EXPECT_GT(edge.course.size(), 2U) << edge.id;
@@ -130,10 +130,10 @@ step::File several_surfaces() {
 
 TEST(VisibleRegions, AreThoseOfEachSurfaceInAnyOrderAndAsOftenAsAsked) {
   const step::File file = several_surfaces();
-  const VisibleRegions regions(file);
+  const VisibleRegions regions(file.shared_model());
   for (const std::string id : {"#50", "#30", "#10", "#30", "#50", "#10", "#10"}) {
     const auto region = regions.of(id);
-    const auto alone = visible_region(file, id);
+    const auto alone = visible_region(file.model(), id);
     ASSERT_TRUE(region && alone) << id;
     EXPECT_EQ(*region, *alone) << id;
     for (std::size_t k = 0; k < alone->edges.size(); ++k) {
@@ -153,7 +153,7 @@ TEST(VisibleRegions, AreThoseOfEachSurfaceInAnyOrderAndAsOftenAsAsked) {
 
 TEST(VisibleRegions, FacesAroundAnEdgeAreNeighboursOfAllSurfacesThere) {
   const step::File file = several_surfaces();
-  const VisibleRegions regions(file);
+  const VisibleRegions regions(file.shared_model());
   std::vector<std::string> seen;
   for (const std::string id : {"#10", "#30"}) {
     const auto region = regions.of(id);
@@ -172,23 +172,23 @@ TEST(VisibleRegions, FacesAroundAnEdgeAreNeighboursOfAllSurfacesThere) {
 }
 
 TEST(VisibleRegions, AnUnknownSurfaceIsNamed) {
-  const auto region = VisibleRegions(several_surfaces()).of("#11");
+  const auto region = VisibleRegions(several_surfaces().shared_model()).of("#11");
   ASSERT_FALSE(region);
   EXPECT_EQ(region.error().where, "#11");
 }
 
 TEST(VisibleRegions, OutliveTheFileTheyWereMadeFrom) {
-  const auto regions = [] { return std::make_unique<const VisibleRegions>(several_surfaces()); }();
+  const auto regions = [] { return std::make_unique<const VisibleRegions>(several_surfaces().shared_model()); }();
   const auto region = regions->of("#30");
   ASSERT_TRUE(region) << region.error().message();
-  EXPECT_EQ(*region, *visible_region(several_surfaces(), "#30"));
+  EXPECT_EQ(*region, *visible_region(several_surfaces().model(), "#30"));
 }
 
 TEST(VisibleRegion, TheMiddleIsFarthestFromAllEdges) {
   FaceBuilder b;
   b.face(10, {b.bound({b.circle(0.4, 0, 0.5, 0.5)}), b.bound({-b.circle(0.1, 0, 0.6, 0.5)})});
   const step::File file = on_square(b);
-  const auto region = visible_region(file, "#10");
+  const auto region = visible_region(file.model(), "#10");
   ASSERT_TRUE(region);
   const auto middle = visible_middle(file.surfaces()[0].surface, *region);
   ASSERT_TRUE(middle);
@@ -201,7 +201,7 @@ TEST(VisibleRegion, WhatIsNearestToAHoleIsOnItsRim) {
   FaceBuilder b;
   b.face(10, {b.bound({b.circle(0.4, 0, 0.5, 0.5)}), b.bound({-b.circle(0.1, 0, 0.6, 0.5)})});
   const step::File file = on_square(b);
-  const auto region = visible_region(file, "#10");
+  const auto region = visible_region(file.model(), "#10");
   ASSERT_TRUE(region);
   EXPECT_FALSE(region->contains({0.58, 0.5}));
   const auto near = visible_near(file.surfaces()[0].surface, *region, Point(0.58, 0.5, 0));

@@ -1,6 +1,6 @@
 // Points, normals and curvatures of faces on elementary and swept surfaces, against their closed forms.
 
-#include "knead/exchange/face_point.hpp"
+#include "knead/brep/face_point.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -51,7 +51,7 @@ class PointOnFace : public ::testing::TestWithParam<Case> {
       bounds.push_back(b.bound({k == 0 ? circle : -circle}));
     }
     const int face = b.face(b.entity(record), bounds, same_sense);
-    const auto result = point_on_face(b.file(), FaceBuilder::ref(face), c.near);
+    const auto result = point_on_face(b.file().model(), FaceBuilder::ref(face), c.near);
     EXPECT_TRUE(result) << result.error().message();
     return result ? *result : FacePoint{};
   }
@@ -134,18 +134,18 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(PointOnFaceErrors, NameWhatIsMissing) {
   FaceBuilder b;
   const int face = b.face(b.entity("PLANE('',#" + std::to_string(b.frame()) + ")"), {b.bound({b.circle(2, 0)})});
-  EXPECT_EQ(point_on_face(b.file(), "#7", Point::Zero()).error().where, "#7");
-  EXPECT_TRUE(point_on_face(b.file(), FaceBuilder::ref(face), Point::Zero()));
+  EXPECT_EQ(point_on_face(b.file().model(), "#7", Point::Zero()).error().where, "#7");
+  EXPECT_TRUE(point_on_face(b.file().model(), FaceBuilder::ref(face), Point::Zero()));
   FaceBuilder on;
   const int known = on.face(10, {on.polygon_bound({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}})});
-  EXPECT_FALSE(point_on_face(testing::on_square(on), FaceBuilder::ref(known), Point::Zero()));
+  EXPECT_FALSE(point_on_face(testing::on_square(on).model(), FaceBuilder::ref(known), Point::Zero()));
 }
 
 TEST(PointOnFaceErrors, APoleHasAPointAndNoNormal) {
   FaceBuilder b;
   const int sphere = b.entity("SPHERICAL_SURFACE('',#" + std::to_string(b.frame()) + ",2.)");
   const int face = b.face(sphere, {b.bound({b.circle(2, 0)})});
-  const auto p = point_on_face(b.file(), FaceBuilder::ref(face), {0, 0, 3});
+  const auto p = point_on_face(b.file().model(), FaceBuilder::ref(face), {0, 0, 3});
   ASSERT_TRUE(p);
   EXPECT_LE((p->point - Point(0, 0, 2)).norm(), 1e-15);
   EXPECT_TRUE(p->normal.isZero());

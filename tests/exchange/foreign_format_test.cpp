@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "exchange/step/file.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/step_file.hpp"
 
 namespace knead {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "exchange/face_builder.hpp"
 #include "exchange/support.hpp"
-#include "knead/exchange/context_faces.hpp"
+#include "knead/brep/context_faces.hpp"
+#include "knead/brep/trim_loops.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/trim_loops.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "support/long_run.hpp"
 #include "support/own_files.hpp"
@@ -100,7 +100,7 @@ bool survives(const std::string& bytes) {
   const auto written = file->with_control_points(edits);
   EXPECT_TRUE(written) << written.error().message() << "\n" << bytes;
 
-  std::vector<step::Replacement> replacements;
+  std::vector<brep::Replacement> replacements;
   for (const auto& surface : file->surfaces()) {
     std::array<std::vector<double>, 2> middles;
     for (int d = 0; d < 2; ++d) {
@@ -124,8 +124,8 @@ bool survives(const std::string& bytes) {
     EXPECT_NE(refined.error().what.find("attributes"), std::string::npos) << refined.error().message();
   }
   // Whatever the faces have become, they are drawn or left out.
-  EXPECT_TRUE(context_faces(*file, 0.02));
-  EXPECT_TRUE(trim_loops(*file, 0.02));
+  EXPECT_TRUE(context_faces(file->model(), 0.02));
+  EXPECT_TRUE(trim_loops(file->model(), 0.02));
   return true;
 }
 

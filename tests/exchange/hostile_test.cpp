@@ -5,7 +5,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "knead/exchange/step_file.hpp"
+#include "exchange/step/file.hpp"
 
 namespace knead {
 namespace {

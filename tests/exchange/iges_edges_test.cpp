@@ -6,8 +6,8 @@
 
 #include "exchange/iges_builder.hpp"
 #include "exchange/support.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/shared_edge.hpp"
 
 namespace knead {
 namespace {
@@ -45,7 +45,7 @@ TEST(IgesEdges, FacesMeetAlongTheCurvesThatBothHaveThere) {
   for (const bool shared : {true, false}) {
     const TwoPlates plates = two_plates(shared);
     const auto source = open(plates.text);
-    const auto edge = SharedEdge::create(*source->step_file(), plates.edge);
+    const auto edge = SharedEdge::create(*source->model(), plates.edge);
     ASSERT_TRUE(edge) << edge.error().message();
     EXPECT_EQ(edge->surfaces(), (std::vector{plates.left, plates.right}));
     EXPECT_TRUE(source->can_move_edge(plates.edge));
@@ -55,7 +55,7 @@ TEST(IgesEdges, FacesMeetAlongTheCurvesThatBothHaveThere) {
 TEST(IgesEdges, FacesThatAreApartByMoreThanTheResolutionDoNotMeet) {
   for (const auto& [apart, surfaces] : {std::pair(1e-6, 2U), std::pair(1e-4, 1U)}) {
     const TwoPlates plates = two_plates(false, apart);
-    const auto edge = SharedEdge::create(*open(plates.text)->step_file(), plates.edge);
+    const auto edge = SharedEdge::create(*open(plates.text)->model(), plates.edge);
     ASSERT_TRUE(edge) << edge.error().message();
     EXPECT_EQ(edge->surfaces().size(), surfaces) << apart;
   }
@@ -84,7 +84,7 @@ TEST(IgesEdges, EdgesThatMoveAreWrittenWithEveryCurveAlongThem) {
     const auto bytes = source->save(surfaces, followed);
     ASSERT_TRUE(bytes) << bytes.error().message();
     const auto again = open(*bytes);
-    const auto edge = SharedEdge::create(*again->step_file(), plates.edge);
+    const auto edge = SharedEdge::create(*again->model(), plates.edge);
     ASSERT_TRUE(edge) << edge.error().message();
     EXPECT_EQ(edge->surfaces().size(), 2U) << "they still meet";
     EXPECT_LE(edge->gap(), 1e-6);
@@ -115,7 +115,7 @@ TEST(IgesEdges, VerticesMoveInTheirLists) {
   const auto bytes = source->save(lifted(*source, 0.25, 0.5), followed);
   ASSERT_TRUE(bytes) << bytes.error().message();
   const auto again = open(*bytes);
-  const auto edge = SharedEdge::create(*again->step_file(), plates.edge);
+  const auto edge = SharedEdge::create(*again->model(), plates.edge);
   ASSERT_TRUE(edge) << edge.error().message();
   EXPECT_EQ(edge->vertex_points()[0], Point(4, 0, 0.25));
   EXPECT_EQ(edge->vertex_points()[1], Point(4, 2, 0.5));

@@ -8,7 +8,7 @@
 
 #include "exchange/iges_builder.hpp"
 #include "exchange/support.hpp"
-#include "knead/exchange/assembly.hpp"
+#include "knead/brep/assembly.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -133,18 +133,18 @@ TEST(IgesEntities, SubfiguresStandWhereTheirInstancesPutThem) {
   b.add(408, fmt::format("{},1.,2.,3.,", inner));
   const auto source = open_or_die(b.text(), "a.igs");
   EXPECT_EQ(source->surfaces().size(), 2U);
-  const auto model = step::assembly_of(*source->step_file());
+  const auto model = source->model()->assembly;
   ASSERT_TRUE(model) << model.error().message();
-  const step::Part* part = model->part_of(fmt::format("#{}", surface));
+  const brep::Part* part = model->part_of(fmt::format("#{}", surface));
   ASSERT_NE(part, nullptr);
   std::vector<Point> places;
-  for (const step::PartPlace& place : part->places) places.push_back(place.to_model * Point(1, 0, 0));
+  for (const brep::PartPlace& place : part->places) places.push_back(place.to_model * Point(1, 0, 0));
   ASSERT_EQ(places.size(), 3U);
   for (const Point& wanted : {Point(102, 10, 0), Point(306, 0, 5), Point(2, 2, 3)}) {
     EXPECT_TRUE(std::ranges::any_of(places, [&](const Point& p) { return (p - wanted).norm() < 1e-12; }))
         << wanted.transpose();
   }
-  const step::Part* rest = model->part_of(fmt::format("#{}", alone));
+  const brep::Part* rest = model->part_of(fmt::format("#{}", alone));
   ASSERT_NE(rest, nullptr);
   EXPECT_EQ(rest->places.size(), 1U) << "what is in no subfigure stands once, at its coordinates";
 }
@@ -160,14 +160,14 @@ TEST(IgesEntities, TheMatrixOfAnInstanceMovesWhatItsPlaceAndScaleHaveMoved) {
   b.add(408, fmt::format("{},100.,0.,0.,1.", definition), mirrored);
   b.add(408, fmt::format("{},0.,0.,0.,1.", definition), sheared);
   const auto source = open_or_die(b.text(), "a.igs");
-  const auto model = step::assembly_of(*source->step_file());
+  const auto model = source->model()->assembly;
   ASSERT_TRUE(model) << model.error().message();
-  const step::Part* part = model->part_of(fmt::format("#{}", surface));
+  const brep::Part* part = model->part_of(fmt::format("#{}", surface));
   ASSERT_NE(part, nullptr);
   ASSERT_EQ(part->places.size(), 2U) << "the sheared one cannot be told in the words of STEP";
   // (1, 3, 0) is scaled and moved to (102, 6, 0) and (101, 3, 0) first.
   for (const Point& wanted : {Point(10 - 6, 20 + 102, 30), Point(-101, 3, 0)}) {
-    EXPECT_TRUE(std::ranges::any_of(part->places, [&](const step::PartPlace& place) {
+    EXPECT_TRUE(std::ranges::any_of(part->places, [&](const brep::PartPlace& place) {
       return (place.to_model * Point(1, 3, 0) - wanted).norm() < 1e-12;
     })) << wanted.transpose();
   }

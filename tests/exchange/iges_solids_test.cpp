@@ -2,7 +2,7 @@
 
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
-#include "knead/exchange/model_mesh.hpp"
+#include "knead/brep/model_mesh.hpp"
 #include "support/made_iges_solids.hpp"
 
 namespace knead {
@@ -13,7 +13,7 @@ using testing::open_or_die;
 
 FaceMeshes mesh_of(const std::string& bytes, double tolerance) {
   const auto source = open_or_die(bytes, "test.igs");
-  auto model = model_faces(*source->step_file(), tolerance);
+  auto model = model_faces(*source->model(), tolerance);
   if (!model) {
     ADD_FAILURE() << model.error().message();
     std::abort();

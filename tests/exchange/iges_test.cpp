@@ -5,10 +5,10 @@
 
 #include "exchange/iges_builder.hpp"
 #include "exchange/support.hpp"
+#include "knead/brep/model_mesh.hpp"
+#include "knead/brep/trim_loops.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/model_mesh.hpp"
-#include "knead/exchange/trim_loops.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "support/own_files.hpp"
 
@@ -189,10 +189,10 @@ std::string trimmed(bool in_space) {
 TEST(Iges, TrimmedSurfacesAreFaces) {
   for (const bool in_space : {true, false}) {
     const auto source = open_or_die(trimmed(in_space));
-    const step::File& view = *source->step_file();
-    ASSERT_EQ(view.surfaces().size(), 1U);
-    EXPECT_TRUE(view.surfaces()[0].trimmed);
-    EXPECT_EQ(view.surfaces()[0].faces, 1);
+    const brep::Model& view = *source->model();
+    ASSERT_EQ(view.surfaces.size(), 1U);
+    EXPECT_TRUE(view.surfaces[0].trimmed);
+    EXPECT_EQ(view.surfaces[0].faces, 1);
     const auto model = model_faces(view, 1e-3);
     ASSERT_TRUE(model) << model.error().message();
     for (const auto& [id, reason] : model->skipped) ADD_FAILURE() << id << ": " << reason.message();
@@ -214,7 +214,7 @@ TEST(Iges, ABoundaryThatIsNotKnownIsSaid) {
   const int boundary = b.add(142, fmt::format("1,{},0,{},2", surface, spline));
   b.add(144, fmt::format("{},1,0,{}", surface, boundary));
   const auto source = open_or_die(b.text());
-  const auto trims = trim_loops(*source->step_file());
+  const auto trims = trim_loops(*source->model());
   ASSERT_TRUE(trims);
   ASSERT_EQ(trims->skipped.size(), 1U);
   EXPECT_NE(trims->skipped[0].reason.message().find("IGES_CURVE_112"), std::string::npos)
@@ -255,12 +255,11 @@ TEST(Iges, SaysWhatIsWrong) {
 
 TEST(Iges, FacesOfBRepsShareTheirEdges) {
   const auto source = open_or_die(shell());
-  const step::File& view = *source->step_file();
-  EXPECT_EQ(view.surfaces()[0].faces, 1);
-  EXPECT_FALSE(view.surfaces()[0].trimmed);
+  const brep::Model& view = *source->model();
+  EXPECT_EQ(view.surfaces[0].faces, 1);
+  EXPECT_FALSE(view.surfaces[0].trimmed);
   const auto model = model_faces(view, 1e-3);
   ASSERT_TRUE(model && model->skipped.empty());
-  EXPECT_EQ(view.bytes().find("IGES_"), std::string::npos);
 }
 
 TEST(Iges, WhatIsUsedAgainAndAgainIsLimited) {
@@ -276,8 +275,12 @@ TEST(Iges, WhatIsUsedAgainAndAgainIsLimited) {
   b.add(144, fmt::format("{},1,2000,{}{}", surface, boundary, holes));
   const std::string text = b.text();
   const auto source = open_or_die(text);
-  // Four million pieces would take 600 MB; each boundary that is not followed still takes a record or two.
-  EXPECT_LT(source->step_file()->bytes().size(), 128 * (text.size() + 10'000));
+  // Four million pieces would take 600 MB.
+  std::size_t pieces_kept = 0;
+  for (const brep::Face& face : source->model()->faces) {
+    for (const brep::Bound& bound : face.bounds) pieces_kept += bound.edges.size();
+  }
+  EXPECT_LT(128 * pieces_kept, text.size() + 10'000);
 }
 
 TEST(Iges, DamagedFilesAreErrorsOrStayAsTheyAre) {
@@ -307,7 +310,7 @@ TEST(Iges, DamagedFilesAreErrorsOrStayAsTheyAre) {
       std::vector<std::shared_ptr<const Surface>> same;
       for (const SourceSurface& s : (*source)->surfaces()) same.push_back(s.surface);
       EXPECT_EQ(*(*source)->save(same), bytes);
-      static_cast<void>(model_faces(*(*source)->step_file()));
+      static_cast<void>(model_faces(*(*source)->model()));
       if (same.empty()) continue;
       same[0] = std::make_shared<const Surface>(lifted(*same[0], 0, 0.125));
       const auto saved = (*source)->save(same);

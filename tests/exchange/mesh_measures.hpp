@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <span>
 
-#include "knead/exchange/context_faces.hpp"
+#include "knead/brep/context_faces.hpp"
 
 namespace knead::testing {
 

@@ -1,4 +1,6 @@
-#include "knead/exchange/model_mesh.hpp"
+#include "knead/brep/model_mesh.hpp"
+
+#include "knead/exchange/save_model.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -7,7 +9,7 @@
 
 #include "exchange/face_builder.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "knead/exchange/assembly.hpp"
+#include "knead/brep/assembly.hpp"
 #include "knead/spline/closest_point.hpp"
 #include "support/long_run.hpp"
 #include "support/own_files.hpp"
@@ -20,7 +22,7 @@ using testing::volume_of;
 constexpr double pi = std::numbers::pi;
 
 FaceMeshes model_of(const step::File& file, double tolerance) {
-  auto model = model_faces(file, tolerance);
+  auto model = model_faces(file.model(), tolerance);
   if (!model) {
     ADD_FAILURE() << model.error().message();
     return {};
@@ -148,12 +150,12 @@ TEST_P(ModelMeshFile, TrianglesAreWithinTheToleranceOfTheirSurface) {
     }
     const double tolerance = share * box.diagonal().norm();
     const FaceMeshes model = model_of(*file, tolerance);
-    const auto assembly = step::assembly_of(*file);
+    const auto assembly = file->model().assembly;
     ASSERT_TRUE(assembly);
     int measured = 0;
     std::map<std::string, std::size_t> place;  // the meshes of a face are in the order of the places of its part
     for (FaceMesh mesh : model.faces) {
-      const auto* entity = file->find_surface(mesh.surface);
+      const auto* entity = file->model().find_surface(mesh.surface);
       if (entity == nullptr || ++measured > (testing::long_run() ? 12 : 4)) continue;
       const Eigen::Affine3d back = assembly->part_of(mesh.surface)->places[place[mesh.id]++].to_model.inverse();
       for (Point& p : mesh.points) p = back * p;
@@ -167,15 +169,16 @@ INSTANTIATE_TEST_SUITE_P(Files, ModelMeshFile, ::testing::ValuesIn(testing::step
 TEST(ModelMesh, SaysWhatIsWrong) {
   const auto file = can(10, 30);
   for (const double tolerance : {-1.0, 1e-9, std::nan("")}) {
-    const auto model = model_faces(file, tolerance);
+    const auto model = model_faces(file.model(), tolerance);
     ASSERT_FALSE(model) << tolerance;
     EXPECT_EQ(model.error().kind, ErrorKind::usage);
     EXPECT_EQ(model.error().where, "tolerance");
   }
-  const auto empty = model_faces(testing::parse_or_die(testing::step_text("#1=CARTESIAN_POINT('',(0.,0.,0.));\n")));
+  const auto empty =
+      model_faces(testing::parse_or_die(testing::step_text("#1=CARTESIAN_POINT('',(0.,0.,0.));\n")).model());
   ASSERT_FALSE(empty);
   EXPECT_EQ(empty.error().kind, ErrorKind::input);
-  const auto text = save_model(file, *find_format("step"));
+  const auto text = save_model(**open_source(file.bytes(), file.name()), *find_format("step"));
   ASSERT_FALSE(text);
   EXPECT_NE(text.error().message().find(".stl"), std::string::npos) << text.error().message();
 }

@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "exchange/new_surfaces.hpp"
+#include "exchange/step/colours.hpp"
 #include "exchange/support.hpp"
-#include "knead/exchange/face_colours.hpp"
+#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/model_mesh.hpp"
 #include "support/surfaces.hpp"
 
 namespace knead {
@@ -78,7 +78,7 @@ TEST(NewFiles, ReadBackToTheSameBits) {
         how.schema = schema;
         const auto source = open_or_die(saved(surfaces, format, how), "new");
         expect_same(*source, surfaces);
-        for (const step::SurfaceEntity& s : source->step_file()->surfaces()) {
+        for (const brep::SplineSurface& s : source->model()->surfaces) {
           EXPECT_EQ(s.faces, faces ? 1 : 0) << s.name;
           EXPECT_FALSE(s.trimmed) << s.name;
         }
@@ -104,7 +104,7 @@ TEST(NewFiles, SidesThatMeetShareTheirEdge) {
     how.faces = true;
     const std::string text = saved(box(), format, how);
     const auto source = open_or_die(text, "box");
-    const auto model = model_faces(*source->step_file());
+    const auto model = model_faces(*source->model());
     ASSERT_TRUE(model) << model.error().message();
     EXPECT_EQ(model->faces.size(), 6U);
     EXPECT_TRUE(model->skipped.empty());
@@ -141,7 +141,7 @@ TEST(NewFiles, HaveTheColoursOfTheirSurfaces) {
   SaveOptions how;
   how.faces = true;
   const auto source = open_or_die(saved(surfaces, "step", how), "box.step");
-  const auto colours = face_colours(*source->step_file());
+  const auto colours = source->colours();
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const auto found = colours.find(source->surfaces()[k].id);
     EXPECT_EQ(found != colours.end(), surfaces[k].colour.has_value());

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "knead/exchange/step_text.hpp"
+#include "exchange/step/write/text.hpp"
 
 namespace knead::testing {
 

@@ -1,4 +1,4 @@
-#include "exchange/part21.hpp"
+#include "exchange/part21/part21.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -225,7 +225,7 @@ TEST(Part21, ReferencesToNothingAreWarnings) {
 
   const auto broken = testing::parse_or_die(step_text(testing::bilinear_patch()));
   EXPECT_TRUE(broken.surfaces().empty());
-  EXPECT_EQ(broken.unreadable_surfaces().size(), 1U);
+  EXPECT_EQ(broken.model().unreadable.size(), 1U);
   std::string many = "#1=A(";
   for (int k = 2; k < 40; ++k) many += fmt::format("{}#{}", k == 2 ? "" : ",", k);
   const auto warnings = testing::parse_or_die(step_text(many + ");\n")).warnings();

@@ -15,10 +15,10 @@ using testing::same_bits;
 using testing::step_text;
 using testing::unit_square_points;
 
-Surface surface_of(const std::string& bytes) { return parse_or_die(bytes).find_surface("#10")->surface; }
+Surface surface_of(const std::string& bytes) { return parse_or_die(bytes).model().find_surface("#10")->surface; }
 
 std::string replaced(const std::string& bytes, const Surface& surface) {
-  const step::Replacement replacement{"#10", surface};
+  const brep::Replacement replacement{"#10", surface};
   const auto result = parse_or_die(bytes).with_surfaces({&replacement, 1});
   if (!result) {
     ADD_FAILURE() << result.error().message();
@@ -249,7 +249,7 @@ TEST(RefinedSurface, WhatStepCannotSayIsAnError) {
   const auto bytes = step_text(unit_square_points() + bilinear_patch());
   const auto file = parse_or_die(bytes);
   const auto what = [&](const Surface& surface, const std::string& id = "#10") {
-    const step::Replacement replacement{id, surface};
+    const brep::Replacement replacement{id, surface};
     const auto result = file.with_surfaces({&replacement, 1});
     EXPECT_FALSE(result);
     EXPECT_EQ(result.error().kind, ErrorKind::input);
@@ -259,16 +259,16 @@ TEST(RefinedSurface, WhatStepCannotSayIsAnError) {
   EXPECT_NE(what(inserted(bytes, {0.5, 0.5})).find("torn along a knot"), std::string::npos);
   EXPECT_NE(what(s, "#99").find("#99"), std::string::npos);
   const auto short_record = step_text(unit_square_points() + "#10=BEZIER_SURFACE('b',1,1,((#1,#2),(#3,#4)));\n");
-  const step::Replacement finer{"#10", inserted(short_record, {0.5})};
+  const brep::Replacement finer{"#10", inserted(short_record, {0.5})};
   EXPECT_NE(parse_or_die(short_record).with_surfaces({&finer, 1}).error().message().find("it has 4 attributes"),
             std::string::npos);
-  const step::Replacement heavier{"#10", weighted(surface_of(short_record))};
+  const brep::Replacement heavier{"#10", weighted(surface_of(short_record))};
   EXPECT_NE(parse_or_die(short_record).with_surfaces({&heavier, 1}).error().message().find("it has 4 attributes"),
             std::string::npos);
   const auto with_weights = step_text(complex_surface);
-  const step::Replacement plain{"#10", s};
+  const brep::Replacement plain{"#10", s};
   EXPECT_NE(parse_or_die(with_weights).with_surfaces({&plain, 1}).error().message().find("weights"), std::string::npos);
-  const step::Replacement twice[] = {{"#10", s}, {"#10", s}};
+  const brep::Replacement twice[] = {{"#10", s}, {"#10", s}};
   EXPECT_NE(file.with_surfaces(twice).error().message().find("twice"), std::string::npos);
 }
 

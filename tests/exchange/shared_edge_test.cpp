@@ -1,6 +1,6 @@
 // Edges that faces share, and how they are written after the faces have moved.
 
-#include "knead/exchange/shared_edge.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "exchange/two_sheets.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
@@ -18,7 +18,7 @@ using testing::TwoSheets;
 TEST(SharedEdge, ItsPointsHaveFeetOnAllOfItsSurfaces) {
   const TwoSheets sheets = two_sheets();
   const step::File file = parse_or_die(sheets.text);
-  const auto edge = SharedEdge::create(file, TwoSheets::name(sheets.edge));
+  const auto edge = SharedEdge::create(file.model(), TwoSheets::name(sheets.edge));
   ASSERT_TRUE(edge) << edge.error().message();
   EXPECT_EQ(edge->surfaces(), (std::vector<std::string>{"#10", "#20"}));
   EXPECT_EQ(edge->vertices(), (std::array{TwoSheets::name(sheets.start), TwoSheets::name(sheets.end)}));
@@ -36,7 +36,7 @@ TEST(SharedEdge, ItsPointsHaveFeetOnAllOfItsSurfaces) {
 
 TEST(SharedEdge, AFaceOnAnotherSurfaceThanABSplineIsNamed) {
   const TwoSheets sheets = two_sheets(false, true);
-  const auto edge = SharedEdge::create(parse_or_die(sheets.text), TwoSheets::name(sheets.edge));
+  const auto edge = SharedEdge::create(parse_or_die(sheets.text).model(), TwoSheets::name(sheets.edge));
   ASSERT_FALSE(edge);
   EXPECT_NE(edge.error().message().find(TwoSheets::name(sheets.faces[1])), std::string::npos);
   EXPECT_NE(edge.error().message().find("#20 PLANE"), std::string::npos) << edge.error().message();
@@ -50,13 +50,13 @@ TEST(SharedEdge, ItsUncertaintyIsInTheUnitOfTheSurfaces) {
                      "#903=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(2.E-6),#902,'distance_accuracy_value','');\n"
                      "#904=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#903))"
                      "GLOBAL_UNIT_ASSIGNED_CONTEXT((#901))REPRESENTATION_CONTEXT('',''));\n");
-  const auto edge = SharedEdge::create(parse_or_die(sheets.text), TwoSheets::name(sheets.edge));
+  const auto edge = SharedEdge::create(parse_or_die(sheets.text).model(), TwoSheets::name(sheets.edge));
   ASSERT_TRUE(edge) << edge.error().message();
   EXPECT_DOUBLE_EQ(edge->uncertainty(), 2e-3) << "2e-6 m on surfaces in mm";
 }
 
 TEST(SharedEdge, AnEdgeThatThereIsNotIsAnError) {
-  EXPECT_FALSE(SharedEdge::create(parse_or_die(two_sheets().text), "#99999"));
+  EXPECT_FALSE(SharedEdge::create(parse_or_die(two_sheets().text).model(), "#99999"));
 }
 
 /// Both surfaces on finer nets, and their common edge raised in its middle.
@@ -86,7 +86,7 @@ TEST_P(Written, AnEdgeLiesOnItsMovedSurfaces) {
     const auto bytes = (*source)->save(raised(**source, ends), std::array{id});
     ASSERT_TRUE(bytes) << bytes.error().message();
     const step::File file = parse_or_die(*bytes);
-    const auto edge = SharedEdge::create(file, id);
+    const auto edge = SharedEdge::create(file.model(), id);
     ASSERT_TRUE(edge) << edge.error().message();
     EXPECT_LE(edge->gap(), 1e-7);
     EXPECT_NEAR(edge->at(0.5 * edge->samples().back().parameter).point.z(), ends ? 0.25 : 0.1875, 1e-7);
@@ -129,7 +129,7 @@ TEST(SharedEdge, ACornerBesideAnEvenDivisionOfTheParametersIsFollowed) {
     ASSERT_TRUE(source);
     const auto bytes = (*source)->save(raised(**source, false), std::array{id});
     ASSERT_TRUE(bytes) << at << ": " << bytes.error().message();
-    const auto edge = SharedEdge::create(parse_or_die(*bytes), id);
+    const auto edge = SharedEdge::create(parse_or_die(*bytes).model(), id);
     ASSERT_TRUE(edge) << edge.error().message();
     EXPECT_LE(edge->gap(), 1e-7) << at;
     EXPECT_NEAR(edge->at(0.5).point.z(), 0.1875, 1e-7) << at;
@@ -140,7 +140,7 @@ TEST(SharedEdge, EdgesOfFourArcsFollow) {
   const auto source = open_source(*read_file(testing::samples() / "bonnet.step"), "bonnet.step");
   ASSERT_TRUE(source);
   for (const std::string id : {"#1017", "#1037"}) {
-    const auto edge = SharedEdge::create(*(*source)->step_file(), id);
+    const auto edge = SharedEdge::create(*(*source)->model(), id);
     ASSERT_TRUE(edge) << edge.error().message();
     EXPECT_FALSE(edge->corners().empty());
     std::vector<std::shared_ptr<const Surface>> moved;
@@ -152,7 +152,7 @@ TEST(SharedEdge, EdgesOfFourArcsFollow) {
     }
     const auto bytes = (*source)->save(moved, std::array{id});
     ASSERT_TRUE(bytes) << bytes.error().message();
-    const auto after = SharedEdge::create(parse_or_die(*bytes), id);
+    const auto after = SharedEdge::create(parse_or_die(*bytes).model(), id);
     ASSERT_TRUE(after) << after.error().message();
     const double middle = 0.5 * (edge->samples().front().parameter + edge->samples().back().parameter);
     EXPECT_NEAR(after->at(middle).point.z(), edge->at(middle).point.z() + 10, 1e-3);

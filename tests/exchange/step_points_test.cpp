@@ -39,7 +39,7 @@ TEST(StepPoints, ByAnglesAreRead) {
   for (const bool in_degrees : {false, true}) {
     const auto file =
         parse_or_die(step_text(points(in_degrees) + bilinear_patch() + context(in_degrees ? degrees : radians)));
-    ASSERT_EQ(file.surfaces().size(), 1U) << file.unreadable_surfaces()[0].reason.message();
+    ASSERT_EQ(file.surfaces().size(), 1U) << file.model().unreadable[0].reason.message();
     const Points& p = file.surfaces()[0].surface.control_points();
     EXPECT_EQ(Point(p.row(1)), Point(2, 0, 5));
     EXPECT_NEAR((Point(p.row(2)) - Point(0, 3, -1)).norm(), 0, 1e-15 * 3);
@@ -82,8 +82,8 @@ TEST(StepPoints, OfAPlaneStayInTheCurvesOfParameters) {
 TEST(StepPoints, OfAPlaneOrOfSeveralUnitsAreErrorsWithARemedy) {
   const auto reason = [](const std::string& data) {
     const auto file = parse_or_die(step_text(data));
-    EXPECT_EQ(file.unreadable_surfaces().size(), 1U);
-    return file.unreadable_surfaces().empty() ? "" : file.unreadable_surfaces()[0].reason.message();
+    EXPECT_EQ(file.model().unreadable.size(), 1U);
+    return file.model().unreadable.empty() ? "" : file.model().unreadable[0].reason.message();
   };
   std::string polar = unit_square_points();
   polar.replace(polar.find("#4="), std::string::npos, "#4=POLAR_POINT('',*,1.,0.5);\n");

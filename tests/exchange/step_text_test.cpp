@@ -1,4 +1,4 @@
-#include "knead/exchange/step_text.hpp"
+#include "exchange/step/write/text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST(StepText, ReadsBackToTheLastBit) {
   ASSERT_TRUE(text) << text.error().message();
   const auto file = parse_or_die(*text);
   EXPECT_EQ(file.schema(), "AUTOMOTIVE_DESIGN");
-  EXPECT_TRUE(file.unreadable_surfaces().empty());
+  EXPECT_TRUE(file.model().unreadable.empty());
   ASSERT_EQ(file.surfaces().size(), surfaces.size());
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const auto& read = file.surfaces()[k];
@@ -79,7 +79,7 @@ TEST(StepText, CanBeEditedLikeAnyFile) {
   const auto surfaces = new_surfaces();
   const auto file = parse_or_die(*knead::step::text_of(surfaces));
   EXPECT_EQ(file.with_control_points({}), file.bytes());
-  const step::Replacement other{file.surfaces()[0].id,
+  const brep::Replacement other{file.surfaces()[0].id,
                                 *surfaces[0].surface.with_control_points(2 * surfaces[0].surface.control_points())};
   EXPECT_TRUE(file.with_surfaces({&other, 1}));
 }
@@ -92,9 +92,9 @@ TEST(StepText, EveryUnitIsReadAsWhatItIs) {
     const auto text = knead::step::text_of(surfaces, {.unit = unit});
     ASSERT_TRUE(text) << unit;
     const auto file = parse_or_die(*text);
-    EXPECT_EQ(file.length_unit(), unit);
-    ASSERT_EQ(file.length_units().size(), 1U);
-    EXPECT_NEAR(file.length_units()[0].metres / metres, 1, 1e-15);
+    EXPECT_EQ(file.model().length_unit(), unit);
+    ASSERT_EQ(file.model().units.size(), 1U);
+    EXPECT_NEAR(file.model().units[0].metres / metres, 1, 1e-15);
     EXPECT_EQ(file.surfaces()[0].unit, unit);
   }
 }

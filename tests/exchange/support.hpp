@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "exchange/step/file.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/step_file.hpp"
 #include "support/foreign_files.hpp"
 
 namespace knead::testing {

@@ -41,7 +41,7 @@ std::vector<double> knots_of(const step::File& file, int direction) {
 Error reason(const std::string& data) {
   const auto file = parse_or_die(step_text(data));
   EXPECT_TRUE(file.surfaces().empty());
-  return file.unreadable_surfaces().empty() ? Error{} : file.unreadable_surfaces()[0].reason;
+  return file.model().unreadable.empty() ? Error{} : file.model().unreadable[0].reason;
 }
 
 TEST(StepSurfaces, TheOuterListIsU) {
@@ -139,7 +139,7 @@ TEST(StepSurfaces, AnUnreadableSurfaceSaysWhyAndLeavesTheRestUsable) {
   EXPECT_EQ(point.line, 8);
   const auto mixed = parse_or_die(step_text(unit_square_points() + bilinear_patch() + "#20=BEZIER_SURFACE('');\n"));
   EXPECT_EQ(mixed.surfaces().size(), 1U);
-  EXPECT_EQ(mixed.unreadable_surfaces().size(), 1U);
+  EXPECT_EQ(mixed.model().unreadable.size(), 1U);
 }
 
 TEST(StepSurfaces, ClosedMeansThatTheBoundaryIsocurvesAreTheSame) {
@@ -192,7 +192,7 @@ TEST(StepSurfaces, ForeignFilesHaveTheSurfacesThatTheirIndexLists) {
     const auto file = step::File::read(testing::foreign_cad(name));
     ASSERT_TRUE(file) << file.error().message();
     EXPECT_EQ(std::to_string(file->surfaces().size()), columns[2]) << name;
-    EXPECT_TRUE(file->unreadable_surfaces().empty()) << name;
+    EXPECT_TRUE(file->model().unreadable.empty()) << name;
     if (columns[4].empty()) continue;
     const auto largest =
         std::max_element(file->surfaces().begin(), file->surfaces().end(),

@@ -21,7 +21,7 @@ Expected<double> read_real(const std::string& text) {
                              ",0.,0.));\n#2=CARTESIAN_POINT('',(0.,1.,0.));\n#3=CARTESIAN_POINT('',(1.,0.,0.));\n"
                              "#4=CARTESIAN_POINT('',(1.,1.,0.));\n" +
                              bilinear_patch()));
-  if (file.surfaces().empty()) return std::unexpected(file.unreadable_surfaces().at(0).reason);
+  if (file.surfaces().empty()) return std::unexpected(file.model().unreadable.at(0).reason);
   return file.surfaces()[0].surface.control_points()(0, 0);
 }
 

@@ -1,4 +1,4 @@
-#include "exchange/triangulate.hpp"
+#include "brep/tessellation/triangulate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <numbers>
 #include <random>
 
+#include "brep/tessellation/orientation.hpp"
 #include "exchange/face_builder.hpp"
 #include "exchange/mesh_measures.hpp"
-#include "exchange/orientation.hpp"
-#include "knead/exchange/model_mesh.hpp"
+#include "knead/brep/model_mesh.hpp"
 #include "support/long_run.hpp"
 
 namespace knead {
@@ -210,7 +210,7 @@ TEST(Triangulate, FacesOfPlatesHaveTheirArea) {
       wanted += area_of_loop(loop);
     }
     builder.face(plane, bounds);
-    const auto model = model_faces(builder.file());
+    const auto model = model_faces(builder.file().model());
     ASSERT_TRUE(model) << model.error().message();
     ASSERT_EQ(model->faces.size(), 1U) << (model->skipped.empty() ? "" : model->skipped[0].reason.message());
     EXPECT_NEAR(testing::area_of(model->faces[0]), wanted, 1e-9 * wanted);

@@ -1,4 +1,4 @@
-#include "knead/exchange/trim_loops.hpp"
+#include "knead/brep/trim_loops.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -24,7 +24,7 @@ double area_of(const TrimFace& face) {
 }
 
 TEST(TrimLoops, AnUntrimmedSurfaceIsWhole) {
-  const auto trims = trim_loops(testing::parse_or_die(testing::step_text(square)));
+  const auto trims = trim_loops(testing::parse_or_die(testing::step_text(square)).model());
   ASSERT_TRUE(trims);
   ASSERT_EQ(trims->surfaces.size(), 1U);
   EXPECT_TRUE(trims->surfaces[0].whole);
@@ -33,7 +33,7 @@ TEST(TrimLoops, AnUntrimmedSurfaceIsWhole) {
 TEST(TrimLoops, ACircleOnTheUnitSquareIsThatCircleInItsParameters) {
   FaceBuilder b;
   b.face(10, {b.bound({b.circle(0.4, 0, 0.5, 0.5)}), b.bound({-b.circle(0.1, 0, 0.6, 0.5)})});
-  const auto trims = trim_loops(on_square(b));
+  const auto trims = trim_loops(on_square(b).model());
   ASSERT_TRUE(trims);
   ASSERT_TRUE(trims->skipped.empty());
   ASSERT_FALSE(trims->surfaces[0].whole);
@@ -49,7 +49,7 @@ TEST(TrimLoops, SeveralFacesOnOneSurfaceAreAllThere) {
   FaceBuilder b;
   b.face(10, {b.bound({b.circle(0.1, 0, 0.3, 0.5)})});
   b.face(10, {b.bound({b.circle(0.1, 0, 0.7, 0.5)})});
-  const auto trims = trim_loops(on_square(b));
+  const auto trims = trim_loops(on_square(b).model());
   ASSERT_TRUE(trims);
   EXPECT_EQ(trims->surfaces[0].faces.size(), 2U);
 }
@@ -57,7 +57,7 @@ TEST(TrimLoops, SeveralFacesOnOneSurfaceAreAllThere) {
 TEST(TrimLoops, AFaceThatCannotBeFollowedLeavesItsSurfaceWhole) {
   FaceBuilder b;
   const int astray = b.face(10, {b.bound({b.circle(0.1, 5, 0.3, 0.5)})});
-  const auto trims = trim_loops(on_square(b));
+  const auto trims = trim_loops(on_square(b).model());
   ASSERT_TRUE(trims);
   EXPECT_TRUE(trims->surfaces[0].whole);
   ASSERT_EQ(trims->skipped.size(), 1U);
@@ -95,7 +95,7 @@ std::string renamed(std::string text) {
 TEST(TrimLoops, ABandRoundACylinderIsARectangleCutOpen) {
   FaceBuilder b;
   b.face(10, {b.bound({b.circle(1, 0.25)}), b.bound({-b.circle(1, 0.75)})});
-  const auto trims = trim_loops(testing::parse_or_die(testing::step_text(cylinder() + renamed(b.text()))));
+  const auto trims = trim_loops(testing::parse_or_die(testing::step_text(cylinder() + renamed(b.text()))).model());
   ASSERT_TRUE(trims);
   for (const auto& [id, reason] : trims->skipped) ADD_FAILURE() << reason.message();
   ASSERT_FALSE(trims->surfaces[0].whole);
@@ -116,7 +116,7 @@ TEST(TrimLoops, AWindowOverTheSeamComesOnBothSides) {
   const int below = b.edge(p, q, circle(0.25)), above = b.edge(s, r, circle(0.75));
   const int right = b.line(q, r, {c, c, 0}, {0, 0, 1}), left = b.line(p, s, {c, -c, 0}, {0, 0, 1});
   b.face(10, {b.bound({below, right, -above, -left})});
-  const auto trims = trim_loops(testing::parse_or_die(testing::step_text(cylinder() + renamed(b.text()))));
+  const auto trims = trim_loops(testing::parse_or_die(testing::step_text(cylinder() + renamed(b.text()))).model());
   ASSERT_TRUE(trims);
   ASSERT_EQ(trims->surfaces[0].faces.size(), 2U);
   for (const auto& face : trims->surfaces[0].faces) EXPECT_NEAR(area_of(face), 0.25 * 0.5, 1e-9);

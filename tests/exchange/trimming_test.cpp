@@ -185,10 +185,10 @@ TEST(StepTrimming, CutSurfacesWithoutFaces) {
 std::string contents(const std::string& text) {
   const step::File file = parse_or_die(text);
   std::ostringstream all;
-  for (const step::SurfaceEntity& s : file.surfaces())
+  for (const brep::SplineSurface& s : file.surfaces())
     all << s.id << ' ' << s.name << ' ' << s.unit << s.closed[0] << s.closed[1] << s.trimmed << s.faces << ' '
         << s.surface.control_points().row(3) << '\n';
-  for (const UnreadableSurface& s : file.unreadable_surfaces()) all << s.id << ' ' << s.reason.message() << '\n';
+  for (const brep::UnreadableSurface& s : file.model().unreadable) all << s.id << ' ' << s.reason.message() << '\n';
   return all.str();
 }
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "exchange/part21.hpp"
+#include "exchange/part21/part21.hpp"
 #include "exchange/support.hpp"
 
 namespace knead {
@@ -14,14 +14,14 @@ using testing::unit_square_points;
 
 std::string edited(const std::string& bytes, const std::string& id, const std::function<void(Points&)>& change) {
   const auto file = parse_or_die(bytes);
-  step::Edit edit{id, file.find_surface(id)->surface.control_points()};
+  step::Edit edit{id, file.model().find_surface(id)->surface.control_points()};
   change(edit.control_points);
   const auto result = file.with_control_points({&edit, 1});
   if (!result) {
     ADD_FAILURE() << result.error().message();
     return {};
   }
-  EXPECT_TRUE(same_bits(parse_or_die(*result).find_surface(id)->surface.control_points(), edit.control_points));
+  EXPECT_TRUE(same_bits(parse_or_die(*result).model().find_surface(id)->surface.control_points(), edit.control_points));
   return *result;
 }
 
@@ -92,7 +92,7 @@ TEST(StepWriter, APointOfTwoSurfacesGetsARecordForEachThatMoves) {
   const auto second = replaced(bilinear_patch(), {{"#10", "#11"}});
   const auto bytes = step_text(unit_square_points() + bilinear_patch() + second);
   const auto one = edited(bytes, "#10", [](Points& p) { p(0, 0) = 5; });
-  EXPECT_EQ(parse_or_die(one).find_surface("#11")->surface.control_points()(0, 0), 0);
+  EXPECT_EQ(parse_or_die(one).model().find_surface("#11")->surface.control_points()(0, 0), 0);
   EXPECT_EQ(edited(one, "#10", [](Points& p) { p(0, 0) = 0; }).size(), one.size()) << "the new record is its own";
   const auto file = parse_or_die(bytes);
   step::Edit edits[] = {{"#10", file.surfaces()[0].surface.control_points()},

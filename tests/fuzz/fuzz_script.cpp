@@ -1,5 +1,5 @@
 // Scripts without a file: parsed, executed, saved and read again, kept in a snapshot, undone.
-#include "knead/exchange/step_file.hpp"
+#include "exchange/step/file.hpp"
 #include "running.hpp"
 
 using namespace knead;

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "fuzz.hpp"
+#include "knead/brep/context_faces.hpp"
+#include "knead/brep/face_edges.hpp"
+#include "knead/brep/model_mesh.hpp"
+#include "knead/brep/trim_loops.hpp"
 #include "knead/exchange/compression.hpp"
-#include "knead/exchange/context_faces.hpp"
-#include "knead/exchange/face_edges.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/model_mesh.hpp"
-#include "knead/exchange/trim_loops.hpp"
 
 namespace knead::fuzz {
 
@@ -30,7 +30,7 @@ inline std::vector<std::shared_ptr<const Surface>> surfaces_of(const Source& sou
   return result;
 }
 
-inline void check_faces(const step::File& file) {
+inline void check_faces(const brep::Model& model) {
   const auto check_meshes = [](const FaceMeshes& meshes) {
     for (const FaceMesh& f : meshes.faces) {
       check(f.points.size() == f.normals.size(), "as many normals as points");
@@ -39,13 +39,13 @@ inline void check_faces(const step::File& file) {
       }
     }
   };
-  for (const auto& made : {context_faces(file, 0.1), model_faces(file)}) {
+  for (const auto& made : {context_faces(model, 0.1), model_faces(model)}) {
     if (made) check_meshes(*made);
     if (!made) check_error(made.error());
   }
-  if (const auto loops = trim_loops(file, 0.1); !loops) check_error(loops.error());
-  for (const auto& s : file.surfaces()) {
-    if (const auto region = visible_region(file, s.id); !region) check_error(region.error());
+  if (const auto loops = trim_loops(model, 0.1); !loops) check_error(loops.error());
+  for (const auto& s : model.surfaces) {
+    if (const auto region = visible_region(model, s.id); !region) check_error(region.error());
   }
 }
 
@@ -58,10 +58,10 @@ inline void read_and_write(std::string_view bytes, const std::string& name) {
   if (!source) return check_error(source.error());
   for (const SourceSurface& s : (*source)->surfaces()) check_finite(*s.surface, "a surface of the file");
   for (const SourceCurve& c : (*source)->curves()) check_finite(*c.curve, "a curve of the file");
-  for (const UnreadableSurface& u : (*source)->unreadable()) check_error(u.reason);
+  for (const brep::UnreadableSurface& u : (*source)->unreadable()) check_error(u.reason);
   const auto same = (*source)->save(surfaces_of(**source, false));
   check(same.has_value() && *same == bytes, "an unchanged file is written with other bytes");
-  if (const step::File* file = (*source)->step_file()) check_faces(*file);
+  if (const auto model = (*source)->model()) check_faces(*model);
   if ((*source)->surfaces().empty()) return;
   const auto written = (*source)->save(surfaces_of(**source, true));
   if (!written) return check_error(written.error());

@@ -135,18 +135,18 @@ class DefaultActs : public testing::FileTest {
 
 /// Up to six surfaces, small nets and large, those with faces first of all.
 void DefaultActs::find_targets() {
-  const step::File& file = *source_->step_file();
-  std::vector<const step::SurfaceEntity*> all;
+  const brep::Model& file = *source_->model();
+  std::vector<const brep::SplineSurface*> all;
   for (const bool faces : {true, false}) {
-    for (const step::SurfaceEntity& s : file.surfaces()) {
+    for (const brep::SplineSurface& s : file.surfaces) {
       if ((s.faces > 0) == faces) all.push_back(&s);
     }
     if (!all.empty()) break;
   }
-  std::ranges::stable_sort(all, {}, [](const step::SurfaceEntity* s) { return s->surface.size(); });
+  std::ranges::stable_sort(all, {}, [](const brep::SplineSurface* s) { return s->surface.size(); });
   const std::size_t count = std::min(all.size(), most_faces);
   for (std::size_t k = 0; k < count; ++k) {
-    const step::SurfaceEntity& s = *all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)];
+    const brep::SplineSurface& s = *all[count == 1 ? 0 : k * (all.size() - 1) / (count - 1)];
     const auto entry = std::ranges::find(source_->surfaces(), s.id, &SourceSurface::id);
     Target target{.surface = &*entry};
     target.room = 0.2 * size_of(s.surface);
@@ -176,7 +176,7 @@ std::string DefaultActs::selection(std::size_t k, bool several) const {
   int more = 0;
   const auto meets = [&](const SourceSurface& other) {
     if (!target.region) return true;
-    const auto region = visible_region(*source_->step_file(), other.id);
+    const auto region = visible_region(*source_->model(), other.id);
     return region && std::ranges::any_of(target.region->edges, [&](const TrimEdge& e) {
              return std::ranges::find(region->edges, e.id, &TrimEdge::id) != region->edges.end();
            });
@@ -252,7 +252,7 @@ void DefaultActs::carry_out(const Act& act, bool several) {
   for (const SceneSurface& s : state.surfaces) {
     size = std::max(size, size_of(*s.opened));
     if (s.opened == s.current) continue;
-    const auto region = visible_region(*source_->step_file(), s.id);
+    const auto region = visible_region(*source_->model(), s.id);
     const Points was = visible_points(*s.opened, region ? &*region : nullptr).points;
     const Points is = visible_points(*s.current, region ? &*region : nullptr).points;
     for (Eigen::Index k = 0; k < was.rows(); ++k) {

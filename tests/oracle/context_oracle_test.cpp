@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "exchange/mesh_measures.hpp"
-#include "knead/exchange/context_faces.hpp"
-#include "knead/exchange/trim_loops.hpp"
+#include "knead/brep/context_faces.hpp"
+#include "knead/brep/trim_loops.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "oracle/occt_shapes.hpp"
 #include "oracle/step_oracle.hpp"
@@ -56,7 +56,7 @@ TEST_P(ContextShape, HasTheAreasThatOpenCascadeFinds) {
   const auto areas = occt_face_areas(path, "mm");
   ASSERT_FALSE(areas.empty());
   for (const double chord : {1e-2, 1e-3}) {
-    const auto context = context_faces(*file, chord);
+    const auto context = context_faces(file->model(), chord);
     ASSERT_TRUE(context);
     expect_areas(*context, areas, chord);
   }
@@ -106,14 +106,14 @@ double shown_share(const Surface& surface, const SurfaceTrim& trim) {
 class ContextOracle : public StepOracle {};
 
 TEST_P(ContextOracle, EveryFaceHasTheAreaThatOpenCascadeFinds) {
-  const auto areas = occt_face_areas(path_, file_->length_unit());
-  const auto context = context_faces(*file_);
+  const auto areas = occt_face_areas(path_, file_->model().length_unit());
+  const auto context = context_faces(file_->model());
   ASSERT_TRUE(context);
   expect_areas(*context, areas, 1e-3);
 }
 
 TEST_P(ContextOracle, TrimsShowTheShareOfTheSurfaceThatOpenCascadeFinds) {
-  const auto trims = trim_loops(*file_);
+  const auto trims = trim_loops(file_->model());
   ASSERT_TRUE(trims);
   for (const auto& [id, reason] : trims->skipped) ADD_FAILURE() << id << " is skipped: " << reason.message();
   for (std::size_t k = 0; k < file_->surfaces().size(); ++k) {

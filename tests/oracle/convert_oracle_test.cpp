@@ -6,7 +6,7 @@
 #include <fstream>
 #include <map>
 
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/face_conversion.hpp"
 #include "oracle/occt_gaps.hpp"
 #include "oracle/occt_shapes.hpp"
 #include "oracle/occt_shells.hpp"
@@ -35,7 +35,7 @@ double size_of(const Surface& surface) {
 
 /// Converts surfaces of a file, and lets Open CASCADE compare.
 void convert(const fs::path& path, const step::File& file, const OcctFaces& before,
-             const std::vector<step::OtherSurface>& surfaces, const fs::path& directory) {
+             const std::vector<brep::OtherSurface>& surfaces, const fs::path& directory) {
   std::vector<std::string> ids;
   for (const auto& s : surfaces) ids.push_back(s.id);
   const auto converted = step::with_splines(file, ids);
@@ -47,14 +47,14 @@ void convert(const fs::path& path, const step::File& file, const OcctFaces& befo
   EXPECT_EQ(before.topology(), after->topology());
   EXPECT_LE(after->bad_faces(), before.bad_faces());
   EXPECT_LE(after->bad_edges(), before.bad_edges());
-  const double mm = file.length_units().empty() ? 1 : 1000 * file.length_units().front().metres;
+  const double mm = file.model().units.empty() ? 1 : 1000 * file.model().units.front().metres;
   OcctFaces::Apart worst;
   double gap_before = 0, gap = 0, tolerance_before = 0, tolerance = 0;
   for (const auto& s : surfaces) {
     SCOPED_TRACE(s.id + " " + s.form);
     const auto apart = before.apart(s.id, *after);
     EXPECT_GT(apart.points, 0);
-    EXPECT_LE(apart.distance, exact * mm * size_of(converted->find_surface(s.id)->surface) + resolution);
+    EXPECT_LE(apart.distance, exact * mm * size_of(converted->model().find_surface(s.id)->surface) + resolution);
     EXPECT_LE(apart.turn, same_normal);
     const auto old_edges = before.edges(s.id, before), new_edges = after->edges(s.id, *after);
     EXPECT_EQ(old_edges.size(), new_edges.size());
@@ -76,10 +76,10 @@ void convert(const fs::path& path, const step::File& file, const OcctFaces& befo
 }
 
 /// Those that can be converted; every other one is named with its reason.
-std::vector<step::OtherSurface> convertible(const step::File& file) {
-  std::vector<step::OtherSurface> result;
-  for (const auto& s : step::other_surfaces(file)) {
-    const auto made = step::exact_spline(file, s.id);
+std::vector<brep::OtherSurface> convertible(const step::File& file) {
+  std::vector<brep::OtherSurface> result;
+  for (const auto& s : brep::other_surfaces(file.model())) {
+    const auto made = brep::exact_spline(file.model(), s.id);
     if (made) result.push_back(s);
     if (!made) std::cout << s.id << " " << s.form << ": " << made.error().message() << "\n";
   }
@@ -87,10 +87,10 @@ std::vector<step::OtherSurface> convertible(const step::File& file) {
 }
 
 /// Up to six of every form, spread over the file; one but in a long run.
-std::vector<step::OtherSurface> spread(const std::vector<step::OtherSurface>& all) {
-  std::map<std::string, std::vector<step::OtherSurface>> by_form;
+std::vector<brep::OtherSurface> spread(const std::vector<brep::OtherSurface>& all) {
+  std::map<std::string, std::vector<brep::OtherSurface>> by_form;
   for (const auto& s : all) by_form[s.form].push_back(s);
-  std::vector<step::OtherSurface> result;
+  std::vector<brep::OtherSurface> result;
   for (const auto& [form, list] : by_form) {
     const std::size_t count = std::min(list.size(), testing::long_run() ? most_of_a_form : few_of_a_form);
     for (std::size_t k = 0; k < count; ++k) {
@@ -112,7 +112,7 @@ class ConvertedFile : public StepOracle {};
 
 TEST_P(ConvertedFile, IsTheSameSolid) {
   if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
-  if (step::other_surfaces(*file_).empty()) GTEST_SKIP() << "all of its faces lie on B-spline surfaces";
+  if (brep::other_surfaces(file_->model()).empty()) GTEST_SKIP() << "all of its faces lie on B-spline surfaces";
   convert_some(path_, *file_, directory_);
 }
 
@@ -135,7 +135,7 @@ class ConvertedShape : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ConvertedShape, IsTheSameSolid) {
   on_made(GetParam(), occt_write_shape, [](const fs::path& path, const step::File& file, const fs::path& directory) {
-    EXPECT_EQ(convertible(file).size(), step::other_surfaces(file).size()) << "all of them can be converted";
+    EXPECT_EQ(convertible(file).size(), brep::other_surfaces(file.model()).size()) << "all of them can be converted";
     convert_some(path, file, directory);
   });
 }
@@ -144,9 +144,9 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ConvertedShape, ::testing::ValuesIn(occt_shape_
                          [](const auto& instance) { return instance.param; });
 
 /// Edges at which one of the faces lies on a converted surface, or both do.
-bool has_one_of(const std::vector<std::string>& surfaces, const std::vector<step::OtherSurface>& converted) {
+bool has_one_of(const std::vector<std::string>& surfaces, const std::vector<brep::OtherSurface>& converted) {
   return std::ranges::any_of(surfaces, [&](const std::string& id) {
-    return std::ranges::find(converted, id, &step::OtherSurface::id) != converted.end();
+    return std::ranges::find(converted, id, &brep::OtherSurface::id) != converted.end();
   });
 }
 
@@ -173,7 +173,7 @@ class PressedConvertedFile : public StepOracle {};
 
 TEST_P(PressedConvertedFile, StaysClosedAlongItsEdges) {
   if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
-  if (step::other_surfaces(*file_).empty()) GTEST_SKIP() << "all of its faces lie on B-spline surfaces";
+  if (brep::other_surfaces(file_->model()).empty()) GTEST_SKIP() << "all of its faces lie on B-spline surfaces";
   press_converted(path_, *file_, directory_, 0);
 }
 
@@ -184,7 +184,7 @@ class PressedConvertedShell : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PressedConvertedShell, StaysClosedAlongItsEdges) {
   on_made(GetParam(), occt_write_shell, [](const fs::path& path, const step::File& file, const fs::path& directory) {
-    ASSERT_FALSE(step::other_surfaces(file).empty());
+    ASSERT_FALSE(brep::other_surfaces(file.model()).empty());
     press_converted(path, file, directory, 0.5);
   });
 }

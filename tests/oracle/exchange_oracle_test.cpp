@@ -99,8 +99,8 @@ class Exchange : public testing::FileTest {
 
   /// Made files have no rows on the page.
   [[nodiscard]] bool is_made() const { return testing::file_makers().contains(GetParam()); }
-  [[nodiscard]] const step::File& file() const { return *source_->step_file(); }
-  [[nodiscard]] std::vector<const step::SurfaceEntity*> chosen() const;
+  [[nodiscard]] const brep::Model& file() const { return *source_->model(); }
+  [[nodiscard]] std::vector<const brep::SplineSurface*> chosen() const;
   [[nodiscard]] std::string traits() const;
   void press_all(const std::string& held);
 
@@ -110,16 +110,16 @@ class Exchange : public testing::FileTest {
 };
 
 /// Up to four surfaces with faces, the trimmed ones first of all; small nets and large.
-std::vector<const step::SurfaceEntity*> Exchange::chosen() const {
-  std::vector<const step::SurfaceEntity*> all, trimmed;
-  for (const step::SurfaceEntity& s : file().surfaces()) {
+std::vector<const brep::SplineSurface*> Exchange::chosen() const {
+  std::vector<const brep::SplineSurface*> all, trimmed;
+  for (const brep::SplineSurface& s : file().surfaces) {
     if (s.faces > 0) all.push_back(&s);
     if (s.faces > 0 && s.trimmed) trimmed.push_back(&s);
   }
   auto& from = trimmed.empty() ? all : trimmed;
-  std::ranges::stable_sort(from, {}, [](const step::SurfaceEntity* s) { return s->surface.size(); });
+  std::ranges::stable_sort(from, {}, [](const brep::SplineSurface* s) { return s->surface.size(); });
   if (from.size() <= most_pressed) return from;
-  std::vector<const step::SurfaceEntity*> result;
+  std::vector<const brep::SplineSurface*> result;
   for (std::size_t k = 0; k < most_pressed; ++k) result.push_back(from[k * (from.size() - 1) / (most_pressed - 1)]);
   return result;
 }
@@ -127,7 +127,7 @@ std::vector<const step::SurfaceEntity*> Exchange::chosen() const {
 std::string Exchange::traits() const {
   std::size_t rational = 0, trimmed = 0, closed = 0, faces = 0;
   int degree = 0, net = 0;
-  for (const step::SurfaceEntity& s : file().surfaces()) {
+  for (const brep::SplineSurface& s : file().surfaces) {
     rational += s.surface.rational() ? 1 : 0;
     trimmed += s.trimmed ? 1 : 0;
     closed += s.closed[0] || s.closed[1] ? 1 : 0;
@@ -135,7 +135,7 @@ std::string Exchange::traits() const {
     degree = std::max({degree, s.surface.knots(0).degree(), s.surface.knots(1).degree()});
     net = std::max(net, static_cast<int>(s.surface.size()));
   }
-  std::string text = is_iges(path_) ? "IGES" : file().schema().substr(0, file().schema().find(' '));
+  std::string text = is_iges(path_) ? "IGES" : source_->schema().substr(0, source_->schema().find(' '));
   const auto& surfaces = source_->surfaces();
   text += ", " + (surfaces.empty() ? file().length_unit() : surfaces[0].unit) + ", " +
           count(surfaces.size(), "surface", "surfaces") + " with " + count(faces, "face", "faces");
@@ -143,7 +143,7 @@ std::string Exchange::traits() const {
   if (trimmed > 0) text += ", " + std::to_string(trimmed) + " trimmed";
   if (closed > 0) text += ", " + std::to_string(closed) + " closed";
   if (!surfaces.empty()) text += ", degree to " + std::to_string(degree) + ", net to " + std::to_string(net);
-  if (!file().instances().empty()) text += ", assembly";
+  if (!file().instances.empty()) text += ", assembly";
   return text;
 }
 
@@ -159,7 +159,7 @@ void Exchange::press_all(const std::string& held) {
   double gap_before = 0, gap_after = 0, turn = 0, angle_before = 0, angle_after = 0;
   int bad = 0;
   bool topology = true;
-  for (const step::SurfaceEntity* s : chosen()) {
+  for (const brep::SplineSurface* s : chosen()) {
     SCOPED_TRACE(s->id + " " + held);
     const auto pressed = press(file(), *s, held);
     Session session(Document::from(source_));

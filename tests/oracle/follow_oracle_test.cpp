@@ -54,7 +54,7 @@ class PressedIgesPair : public testing::FileTest {};
 TEST_P(PressedIgesPair, StaysClosedAlongTheEdgeThatFollows) {
   const auto source = open_source(*read_file(path_), path_.string());
   ASSERT_TRUE(source) << source.error().message();
-  const step::File& file = *(*source)->step_file();
+  const brep::Model& file = *(*source)->model();
   const auto directory = fs::temp_directory_path() / ("knead-iges-" + std::to_string(getpid()));
   fs::create_directories(directory);
   for (const Pair& pair : each_kind(file, pairs_of(file))) move(path_, file, pair, Motion::press, directory, 0);
@@ -107,7 +107,7 @@ void press_brep(const fs::path& path, const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) {
     SCOPED_TRACE(pair.edges.front());
     Session session(Document::from(source));
-    const auto bytes = carried_out(session, pair.script(*source->step_file(), Motion::press));
+    const auto bytes = carried_out(session, pair.script(*source->model(), Motion::press));
     if (!bytes) {  // a motion is refused that would fold a face, or part the faces
       EXPECT_EQ(bytes.error().kind, ErrorKind::numerical) << bytes.error().message();
       std::cout << fmt::format("| {} | {} | refused: {} | | | |\n", path.filename().string(),
@@ -154,7 +154,7 @@ TEST_P(PressedShell, StaysClosedAsABrepFile) {
   ASSERT_TRUE(occt_write_shell(GetParam(), path));
   const auto source = open_source(*read_file(path), path.string());
   ASSERT_TRUE(source) << source.error().message();
-  const step::File& file = *(*source)->step_file();
+  const brep::Model& file = *(*source)->model();
   const double height = GetParam() == "corner" ? 4 * std::sin(50.0 / 30) * std::cos(50.0 / 40) : 0;
   const bool corner = GetParam().ends_with("corner");
   const auto pairs = corner ? std::vector{chain_of(file, Point(50, 50, height))} : pairs_of(file);
@@ -168,7 +168,7 @@ class PressedBrepPair : public testing::FileTest {};
 TEST_P(PressedBrepPair, StaysClosedAlongTheEdgeThatFollows) {
   const auto source = open_source(*read_file(path_), path_.string());
   ASSERT_TRUE(source) << source.error().message();
-  press_brep(path_, pairs_of(*(*source)->step_file()));
+  press_brep(path_, pairs_of(*(*source)->model()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, PressedBrepPair, ::testing::ValuesIn(brep_files()), testing::file_test_name);

@@ -8,9 +8,9 @@
 
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
+#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/model_mesh.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "oracle/brep_files.hpp"
@@ -49,12 +49,12 @@ class FormatOracle : public testing::FileTest {
   }
 
   /// Up to four surfaces with faces, small nets and large; of a file without faces, any.
-  std::vector<const step::SurfaceEntity*> chosen() const {
-    std::vector<const step::SurfaceEntity*> all;
-    for (const step::SurfaceEntity& s : source_->step_file()->surfaces()) all.push_back(&s);
-    std::ranges::stable_sort(all, {}, [](const step::SurfaceEntity* s) { return s->surface.size(); });
+  std::vector<const brep::SplineSurface*> chosen() const {
+    std::vector<const brep::SplineSurface*> all;
+    for (const brep::SplineSurface& s : source_->model()->surfaces) all.push_back(&s);
+    std::ranges::stable_sort(all, {}, [](const brep::SplineSurface* s) { return s->surface.size(); });
     if (all.size() <= most_pressed) return all;
-    std::vector<const step::SurfaceEntity*> result;
+    std::vector<const brep::SplineSurface*> result;
     for (std::size_t k = 0; k < most_pressed; ++k) result.push_back(all[k * (all.size() - 1) / (most_pressed - 1)]);
     return result;
   }
@@ -65,7 +65,7 @@ class FormatOracle : public testing::FileTest {
 
 TEST_P(FormatOracle, FacesHaveTheAreaThatOpenCascadeFinds) {
   if (GetParam() == "terrain.brep" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its net is large
-  const auto model = model_faces(*source_->step_file());
+  const auto model = model_faces(*source_->model());
   ASSERT_TRUE(model) << model.error().message();
   double area = 0;
   for (const FaceMesh& mesh : model->faces) area += testing::area_of(mesh);
@@ -85,9 +85,9 @@ TEST_P(FormatOracle, APressLeavesTopologyAndGapsAsTheyWere) {
   if (GetParam() == "terrain.brep" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
   const fs::path out =
       fs::temp_directory_path() / ("knead-format-" + std::to_string(getpid()) + path_.extension().string());
-  for (const step::SurfaceEntity* s : chosen()) {
+  for (const brep::SplineSurface* s : chosen()) {
     SCOPED_TRACE(s->id);
-    const auto pressed = s->faces > 0 ? press(*source_->step_file(), *s, "trim") : Expected<Press>(anywhere(s->id));
+    const auto pressed = s->faces > 0 ? press(*source_->model(), *s, "trim") : Expected<Press>(anywhere(s->id));
     ASSERT_TRUE(pressed) << pressed.error().message();
     Session session(Document::from(source_));
     const auto bytes = carried_out(session, pressed->script);

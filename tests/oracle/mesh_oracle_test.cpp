@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "exchange/mesh_measures.hpp"
-#include "knead/exchange/assembly.hpp"
-#include "knead/exchange/model_mesh.hpp"
+#include "knead/brep/assembly.hpp"
+#include "knead/brep/model_mesh.hpp"
 #include "oracle/occt_shapes.hpp"
 #include "oracle/step_oracle.hpp"
 #include "support/long_run.hpp"
@@ -32,10 +32,10 @@ void expect_in_place(const FaceMeshes& model, const OcctWhole& other, double tol
 
 /// Closed where the file has only solids, with their volume, and every face with its area.
 void expect_model(const step::File& file, const fs::path& path, double tolerance) {
-  const auto model = model_faces(file, tolerance);
+  const auto model = model_faces(file.model(), tolerance);
   ASSERT_TRUE(model) << model.error().message();
   for (const auto& [id, reason] : model->skipped) ADD_FAILURE() << id << " is left out: " << reason.message();
-  const auto assembly = step::assembly_of(file);
+  const auto assembly = file.model().assembly;
   ASSERT_TRUE(assembly) << assembly.error().message();
   std::map<std::string, double> areas = occt_face_areas(path, assembly->unit);
   areas.merge(occt_face_areas(path, assembly->unit, true));

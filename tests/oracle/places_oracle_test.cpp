@@ -5,8 +5,8 @@
 
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
+#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/model_mesh.hpp"
 #include "oracle/occt_places.hpp"
 
 namespace knead::oracle {
@@ -43,7 +43,7 @@ double distance_to(const Point& p, const FaceMeshes& model) {
 }
 
 /// Faces and vertices; planes are exact to rounding, curved faces to the chords of their triangles.
-void expect_places(const step::File& file, const OcctPlaces& other, double exactness) {
+void expect_places(const brep::Model& file, const OcctPlaces& other, double exactness) {
   const auto model = model_faces(file, 1e-3);
   ASSERT_TRUE(model) << model.error().message();
   EXPECT_TRUE(model->skipped.empty());
@@ -59,7 +59,7 @@ TEST_P(Places, FacesAndVerticesAreWhereOpenCascadePutsThem) {
   const auto other = occt_places(path_);
   ASSERT_TRUE(other);
   const auto source = testing::open_or_die(*read_file(path_), path_.string());
-  expect_places(*source->step_file(), *other, GetParam() == "spline" ? 1e-3 : 1e-9);
+  expect_places(*source->model(), *other, GetParam() == "spline" ? 1e-3 : 1e-9);
 }
 
 TEST_P(Places, AMovedSplineIsWrittenWhereItIs) {
@@ -76,7 +76,7 @@ TEST_P(Places, AMovedSplineIsWrittenWhereItIs) {
   ASSERT_TRUE(other);
   const auto again = testing::open_or_die(*bytes, path_.string());
   EXPECT_LE((again->surfaces()[0].surface->control_points() - points).norm(), 1e-12 * points.norm());
-  expect_places(*again->step_file(), *other, 1e-3);
+  expect_places(*again->model(), *other, 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Places, ::testing::ValuesIn(occt_placed_names()),

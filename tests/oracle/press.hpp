@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <string>
 
-#include "knead/exchange/face_edges.hpp"
-#include "knead/exchange/step_file.hpp"
+#include "exchange/step/file.hpp"
+#include "knead/brep/face_edges.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -26,7 +26,7 @@ struct Press {
   double radius = 0, depth = 0;
 };
 
-inline Expected<Press> press(const step::File& file, const step::SurfaceEntity& s, const std::string& mode) {
+inline Expected<Press> press(const brep::Model& file, const brep::SplineSurface& s, const std::string& mode) {
   const auto region = visible_region(file, s.id);
   if (!region) return std::unexpected(region.error());
   const auto middle = visible_middle(s.surface, *region);

@@ -11,9 +11,9 @@
 #include <set>
 #include <sstream>
 
-#include "knead/exchange/face_edges.hpp"
+#include "knead/brep/face_edges.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/shared_edge.hpp"
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -53,7 +53,7 @@ Eigen::Vector2d course_at(const TrimEdge& edge, const Point& p) {
 }
 
 /// Where to press on an edge that surfaces share, or on the seam of a closed one. None where there is no room.
-std::optional<Pair> pair_at(const step::File& file, const std::map<std::string, VisibleRegion>& regions,
+std::optional<Pair> pair_at(const brep::Model& file, const std::map<std::string, VisibleRegion>& regions,
                             const std::string& id, const std::vector<std::string>& surfaces) {
   Pair result{{id}, surfaces};
   result.radius = std::numeric_limits<double>::infinity();
@@ -94,9 +94,9 @@ std::optional<Pair> pair_at(const step::File& file, const std::map<std::string, 
   return result;
 }
 
-std::map<std::string, VisibleRegion> regions_of(const step::File& file) {
+std::map<std::string, VisibleRegion> regions_of(const brep::Model& file) {
   std::map<std::string, VisibleRegion> regions;
-  for (const auto& s : file.surfaces()) {
+  for (const auto& s : file.surfaces) {
     if (auto region = visible_region(file, s.id)) regions.emplace(s.id, std::move(*region));
   }
   return regions;
@@ -182,16 +182,16 @@ double resolution_of(const Source& source) {
   return result;
 }
 
-double to_mm(const step::File& file) {
-  if (file.length_units().empty()) {
-    const std::string unit = file.surfaces().empty() ? "mm" : file.surfaces().front().unit;
+double to_mm(const brep::Model& file) {
+  if (file.units.empty()) {
+    const std::string unit = file.surfaces.empty() ? "mm" : file.surfaces.front().unit;
     return unit == "inch" ? 25.4 : unit == "m" ? 1000 : 1;
   }
-  return 1000 * file.length_units().front().metres;
+  return 1000 * file.units.front().metres;
 }
 
 /// Whether an edge that Open CASCADE has read is one of those that are pressed.
-bool is_pressed(const OcctCrease& crease, const step::File& file, const Pair& pair) {
+bool is_pressed(const OcctCrease& crease, const brep::Model& file, const Pair& pair) {
   const double length = (crease.points.front() - crease.points[crease.points.size() / 2]).norm() +
                         (crease.points.back() - crease.points[crease.points.size() / 2]).norm();
   return std::ranges::any_of(pair.edges, [&](const std::string& id) {
@@ -204,7 +204,7 @@ bool is_pressed(const OcctCrease& crease, const step::File& file, const Pair& pa
 
 /// The largest angle, in degrees, between tangent planes along the pressed edges that have no angle above `smooth` as
 /// opened; −1: there are none.
-double bend_at(const OcctFaces& before, const OcctFaces& now, const step::File& file, const Pair& pair) {
+double bend_at(const OcctFaces& before, const OcctFaces& now, const brep::Model& file, const Pair& pair) {
   double result = -1;
   for (const std::string& a : pair.surfaces) {
     for (const std::string& b : pair.surfaces) {
@@ -221,7 +221,7 @@ double bend_at(const OcctFaces& before, const OcctFaces& now, const step::File& 
 }  // namespace
 
 /// Version 2 holds all other edges.
-std::string Pair::script(const step::File& file, Motion motion) const {
+std::string Pair::script(const brep::Model& file, Motion motion) const {
   std::string text = R"({"knead":2,"commands":[{"do":"select","surfaces":[)" + quoted(surfaces) + "]}";
   for (const std::string& edge : edges) text += R"(,{"do":"edge","which":")" + edge + R"(","hold":"free"})";
   const std::string ball = R"(,{"do":"tool","name":"ball","radius":)";
@@ -244,7 +244,7 @@ std::string Pair::script(const step::File& file, Motion motion) const {
                      ball, radius, vector(place + (radius - depth) * normal));
 }
 
-std::vector<Pair> pairs_of(const step::File& file,
+std::vector<Pair> pairs_of(const brep::Model& file,
                            const std::function<bool(const std::vector<std::string>& surfaces)>& wanted) {
   const auto regions = regions_of(file);
   std::vector<Pair> all;
@@ -268,7 +268,7 @@ std::vector<Pair> pairs_of(const step::File& file,
   return result;
 }
 
-std::vector<Pair> each_kind(const step::File& file, std::vector<Pair> pairs) {
+std::vector<Pair> each_kind(const brep::Model& file, std::vector<Pair> pairs) {
   if (testing::long_run()) return pairs;
   std::set<int> known;
   std::erase_if(pairs, [&](const Pair& pair) {
@@ -280,7 +280,7 @@ std::vector<Pair> each_kind(const step::File& file, std::vector<Pair> pairs) {
   return pairs;
 }
 
-Pair chain_of(const step::File& file, const Point& place) {
+Pair chain_of(const brep::Model& file, const Point& place) {
   const auto regions = regions_of(file);
   Pair result;
   for (const auto& [id, surfaces] : shared_edges(regions)) result.edges.push_back(id);
@@ -292,7 +292,7 @@ Pair chain_of(const step::File& file, const Point& place) {
   return result;
 }
 
-void move(const fs::path& path, const step::File& file, const Pair& pair, Motion motion, const fs::path& directory,
+void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motion motion, const fs::path& directory,
           double least_reached) {
   SCOPED_TRACE(names[static_cast<int>(motion)] + std::string(" ") + quoted(pair.edges) + " of " +
                quoted(pair.surfaces));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/sculpt/visible_region.hpp"
+#include "knead/brep/visible_region.hpp"
 #include "oracle/step_oracle.hpp"
 
 namespace knead::oracle {
@@ -21,26 +21,26 @@ struct Pair {
   std::vector<std::string> surfaces;
   Point place = Point::Zero(), normal = Point::Zero(), across = Point::Zero();
   double radius = 0, depth = 0;
-  [[nodiscard]] std::string script(const step::File& file, Motion motion) const;
+  [[nodiscard]] std::string script(const brep::Model& file, Motion motion) const;
 };
 
 /// Up to four edges of a file shared by two surfaces, up to two more that are smooth, and up to two at which a closed
 /// surface meets itself, spread over the file.
 /// \param wanted of the surfaces that share an edge; none: all
 [[nodiscard]] std::vector<Pair> pairs_of(
-    const step::File& file, const std::function<bool(const std::vector<std::string>& surfaces)>& wanted = {});
+    const brep::Model& file, const std::function<bool(const std::vector<std::string>& surfaces)>& wanted = {});
 
 /// One of each kind: an edge at which a surface meets itself, a smooth one and a sharp one; all of them in a long run.
-[[nodiscard]] std::vector<Pair> each_kind(const step::File& file, std::vector<Pair> pairs);
+[[nodiscard]] std::vector<Pair> each_kind(const brep::Model& file, std::vector<Pair> pairs);
 
 /// All inner edges of a shell, pressed in its middle.
-[[nodiscard]] Pair chain_of(const step::File& file, const Point& place);
+[[nodiscard]] Pair chain_of(const brep::Model& file, const Point& place);
 
 /// Moves the edge of a file at `path`, saves it in `directory`, and lets Open CASCADE measure: the topology, faults,
 /// gaps and angles. The row of the table in docs/trims.md is printed, and appended to the file that KNEAD_FOLLOW_TABLE
 /// names. \param least_reached share of the depth that the place must reach; 0: motions may also be refused
 /// `file`: the one at `path`, or what a reader of IGES has made of it.
-void move(const fs::path& path, const step::File& file, const Pair& pair, Motion motion, const fs::path& directory,
+void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motion motion, const fs::path& directory,
           double least_reached);
 
 }  // namespace knead::oracle

@@ -41,7 +41,7 @@ void expect_holds(const OcctSurface& occt, const Surface& surface, const std::st
 }
 
 TEST_P(RefinedOracle, FindsTheSameFacesOnRefinedSurfaces) {
-  std::vector<step::Replacement> refined;
+  std::vector<brep::Replacement> refined;
   for (const auto& surface : file_->surfaces()) {
     const auto middles = [&](int d) {
       return span_midpoints(surface.surface.knots(d), surface.surface.knots(d).domain());

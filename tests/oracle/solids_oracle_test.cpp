@@ -2,8 +2,8 @@
 
 #include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
+#include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "knead/exchange/model_mesh.hpp"
 #include "oracle/occt_file.hpp"
 #include "support/made_iges_solids.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 /// Lengths of Open CASCADE are millimetres, `unit` of them long.
 void expect_same(const std::string& bytes, const std::filesystem::path& path, double unit, double tolerance) {
   const auto source = testing::open_or_die(bytes, path.string());
-  const auto model = model_faces(*source->step_file(), tolerance);
+  const auto model = model_faces(*source->model(), tolerance);
   ASSERT_TRUE(model) << model.error().message();
   EXPECT_TRUE(model->skipped.empty()) << model->skipped.front().id;
   const auto other = occt_read_file(path);

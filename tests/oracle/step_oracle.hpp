@@ -50,7 +50,7 @@ class StepOracle : public testing::FileTest {
       if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         GTEST_SKIP() << "Open CASCADE aborts on &SCOPE; nothing is left to compare";
     }
-    before_ = occt_read(path_, file_->length_unit());
+    before_ = occt_read(path_, file_->model().length_unit());
     ASSERT_TRUE(before_);
   }
   void TearDown() override {
@@ -62,7 +62,7 @@ class StepOracle : public testing::FileTest {
     if (!bytes) return {};
     const auto path = directory_ / path_.filename();
     EXPECT_TRUE(write_file_atomically(path, *bytes));
-    auto model = occt_read(path, file_->length_unit());
+    auto model = occt_read(path, file_->model().length_unit());
     EXPECT_TRUE(model);
     return model.value_or(OcctModel{});
   }

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "knead/exchange/face_edges.hpp"
+#include "knead/brep/face_edges.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/sculpt/constraints.hpp"
 #include "knead/session/command_json.hpp"
@@ -26,14 +26,14 @@ constexpr std::size_t most_faces = 6;
 constexpr double most_hinge = 0.05 * std::numbers::pi / 180;  // radians, at knot lines that were smooth
 
 /// Up to six trimmed surfaces, small nets and large.
-std::vector<const step::SurfaceEntity*> chosen(const step::File& file) {
-  std::vector<const step::SurfaceEntity*> trimmed;
-  for (const auto& s : file.surfaces()) {
+std::vector<const brep::SplineSurface*> chosen(const brep::Model& file) {
+  std::vector<const brep::SplineSurface*> trimmed;
+  for (const auto& s : file.surfaces) {
     if (s.trimmed) trimmed.push_back(&s);
   }
-  std::ranges::stable_sort(trimmed, {}, [](const step::SurfaceEntity* s) { return s->surface.size(); });
+  std::ranges::stable_sort(trimmed, {}, [](const brep::SplineSurface* s) { return s->surface.size(); });
   if (trimmed.size() <= most_faces) return trimmed;
-  std::vector<const step::SurfaceEntity*> result;
+  std::vector<const brep::SplineSurface*> result;
   for (std::size_t k = 0; k < most_faces; ++k) {
     result.push_back(trimmed[k * (trimmed.size() - 1) / (most_faces - 1)]);
   }
@@ -86,7 +86,7 @@ void PressedFace::press_all(const std::string& mode) {
   ASSERT_TRUE(before);
   if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
   testing::Sample sample(3);
-  for (const step::SurfaceEntity* s : chosen(*file_)) {
+  for (const brep::SplineSurface* s : chosen(*file_)) {
     if (!sample.next()) continue;
     SCOPED_TRACE(s->id + " " + mode);
     const auto pressed = press(*file_, *s, mode);

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "knead/exchange/step_file.hpp"
+#include "exchange/step/file.hpp"
 #include "seams_support.hpp"
 #include "support/own_files.hpp"
 
@@ -14,7 +14,7 @@ using namespace knead::testing;
 
 std::vector<Surface> surfaces_of(const step::File& file) {
   std::vector<Surface> patches;
-  for (const step::SurfaceEntity& s : file.surfaces()) patches.push_back(s.surface);
+  for (const brep::SplineSurface& s : file.surfaces()) patches.push_back(s.surface);
   return patches;
 }
 

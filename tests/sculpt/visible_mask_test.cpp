@@ -1,6 +1,6 @@
 // The visible part of a surface on a grid, and what tools press there.
 
-#include "sculpt/visible_mask.hpp"
+#include "brep/visible_mask.hpp"
 
 #include <chrono>
 #include <numbers>

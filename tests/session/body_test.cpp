@@ -326,7 +326,7 @@ TEST(Body, IsReportedAndWritten) {
   EXPECT_NE(saved->find("RATIONAL_B_SPLINE_CURVE"), std::string::npos);
   const auto read = step::File::parse(*saved, "saved");
   ASSERT_TRUE(read) << read.error().message();
-  EXPECT_EQ(read->length_unit(), "inch");
+  EXPECT_EQ(read->model().length_unit(), "inch");
   ASSERT_EQ(read->surfaces().size(), 6U);
   EXPECT_EQ(read->surfaces()[0].name, "block u0");
   SaveOptions with_curve;

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "knead/exchange/shared_edge.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/scene/trims.hpp"
 #include "session/running.hpp"
@@ -53,7 +53,7 @@ TEST(Convert, AnEdgeToItFollowsThen) {
   EXPECT_LE(apart->angle, asked_angle);
   const auto bytes = session.save();
   ASSERT_TRUE(bytes) << bytes.error().message();
-  const auto edge = SharedEdge::create(testing::parse_or_die(*bytes), TwoSheets::name(sheets.edge));
+  const auto edge = SharedEdge::create(testing::parse_or_die(*bytes).model(), TwoSheets::name(sheets.edge));
   ASSERT_TRUE(edge) << edge.error().message();
   EXPECT_LE(edge->gap(), 2 * apart->tolerance);
   EXPECT_NEAR(edge->at(0.5).point.z(), -0.04, 0.004);

@@ -142,7 +142,7 @@ TEST(CurveFile, CurvesOfEdgesAreNotFree) {
   const auto document = Document::open(KNEAD_SOURCE_DIR "/samples/bonnet.step");
   ASSERT_TRUE(document) << document.error().message();
   Session session(*document);
-  const std::string& bytes = session.document().step_file()->bytes();
+  const std::string bytes = testing::bytes_of(session.document());
   const std::size_t at = bytes.find("B_SPLINE_CURVE_WITH_KNOTS");
   ASSERT_NE(at, std::string::npos);
   const std::size_t begin = bytes.rfind('#', at);
@@ -161,7 +161,7 @@ TEST(CurveFile, OfRealWorkComesBackWithOneCurveChanged) {
   const auto document = Document::open(path);
   ASSERT_TRUE(document);
   Session session(*document);
-  const std::string& bytes = session.document().step_file()->bytes();
+  const std::string bytes = testing::bytes_of(session.document());
   ASSERT_EQ(session.state().bodies.size(), 24U);
   EXPECT_EQ(*session.save(), bytes);
   const std::string id = session.state().bodies[7].id;

@@ -30,7 +30,7 @@ void run(Session& session, const std::vector<std::string>& commands) {
 }
 
 EdgeCheck check_of(const Session& session, int edge, const std::string& surface = "#10") {
-  const auto contacts = edge_contacts(*session.document().step_file(), surface);
+  const auto contacts = edge_contacts(*session.document().model(), surface);
   EXPECT_TRUE(contacts) << contacts.error().message();
   const auto checks = check_edges(session.state(), *contacts);
   EXPECT_TRUE(checks) << checks.error().message();

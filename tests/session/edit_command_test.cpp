@@ -179,9 +179,9 @@ TEST(WeightsCommand, OfAFilesSurfaceAreSavedAndReadBack) {
   ASSERT_FALSE(first(session).opened->rational());
   const auto saved = step::File::parse(*session.save(), "saved");
   ASSERT_TRUE(saved) << saved.error().message();
-  EXPECT_TRUE(same_bits(saved->find_surface("#285")->surface, *first(session).current));
+  EXPECT_TRUE(same_bits(saved->model().find_surface("#285")->surface, *first(session).current));
   EXPECT_EQ(saved->surfaces().size(), session.document().surfaces().size());
-  EXPECT_TRUE(saved->unreadable_surfaces().empty());
+  EXPECT_TRUE(saved->model().unreadable.empty());
 }
 
 TEST(KnotsCommand, ChangeTheShapeForGoodAndAreSaved) {
@@ -198,7 +198,7 @@ TEST(KnotsCommand, ChangeTheShapeForGoodAndAreSaved) {
   EXPECT_EQ(session.moved_control_points(0), first(session).current->size());
   const auto saved = step::File::parse(*session.save(), "saved");
   ASSERT_TRUE(saved) << saved.error().message();
-  EXPECT_TRUE(same_bits(saved->find_surface("#285")->surface, *first(session).current));
+  EXPECT_TRUE(same_bits(saved->model().find_surface("#285")->surface, *first(session).current));
   Session replay = open_sample();
   for (const Command& c : session.journal()) ASSERT_TRUE(replay.execute(*parse_command(to_json(c))));
   EXPECT_TRUE(same_state(replay.state(), session.state()));

@@ -1,6 +1,6 @@
 // Edges that follow their faces: what moves, what is written, what is refused, and what is said.
 
-#include "knead/exchange/shared_edge.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "knead/scene/followed.hpp"
 #include "session/running.hpp"
 
@@ -36,7 +36,7 @@ TEST(FollowCommands, AnEdgeFreedInVersion2MovesWithItsFacesAndStaysClosed) {
   }
   const auto bytes = session.save();
   ASSERT_TRUE(bytes) << bytes.error().message();
-  const auto edge = SharedEdge::create(testing::parse_or_die(*bytes), TwoSheets::name(sheets.edge));
+  const auto edge = SharedEdge::create(testing::parse_or_die(*bytes).model(), TwoSheets::name(sheets.edge));
   ASSERT_TRUE(edge) << edge.error().message();
   EXPECT_LE(edge->gap(), 2 * apart->tolerance);
   EXPECT_NEAR(edge->at(0.5).point.z(), -0.04, 0.004);
@@ -79,7 +79,7 @@ TEST(FollowCommands, DirectionsAcrossAnEdgeAreOneInSpaceWhateverTheParameters) {
   const auto right = sheets.text.find("'right'");
   sheets.text.replace(sheets.text.find("(0.,1.),.UNSPECIFIED.", right), 7, "(0.,3.)");
   const step::File file = testing::parse_or_die(sheets.text);
-  const auto course = SharedEdge::create(file, TwoSheets::name(sheets.edge));
+  const auto course = SharedEdge::create(file.model(), TwoSheets::name(sheets.edge));
   ASSERT_TRUE(course) << course.error().message();
   std::vector<const Surface*> patches;
   for (const auto& s : file.surfaces()) patches.push_back(&s.surface);

@@ -99,7 +99,7 @@ TEST(HeldEdges, WhereAllFollowALatticeMovesThemAlong) {
   Session session = opened(sheets);
   std::string commands = both;
   for (const SceneSurface& s : session.state().surfaces) {
-    const auto contacts = edge_contacts(*session.document().step_file(), s.id);
+    const auto contacts = edge_contacts(*session.document().model(), s.id);
     ASSERT_TRUE(contacts);
     for (const EdgeContact& c : *contacts) commands += R"(,{"do":"edge","edge":")" + c.id + R"(","hold":"follow"})";
   }
@@ -200,12 +200,12 @@ TEST(PartedEdges, BothSidesOfASeamCount) {
     int seams = 0;
     for (std::size_t k = 0; k < session.state().surfaces.size(); ++k) {
       const SceneSurface& s = session.state().surfaces[k];
-      const auto contacts = edge_contacts(*session.document().step_file(), s.id);
+      const auto contacts = edge_contacts(*session.document().model(), s.id);
       ASSERT_TRUE(contacts) << contacts.error().message();
       const auto seam = std::ranges::find(*contacts, true, &EdgeContact::seam);
       if (seam == contacts->end()) continue;
       ++seams;
-      const int d = closed_directions(*s.opened)[0] ? 0 : 1;
+      const int d = brep::closed_directions(*s.opened)[0] ? 0 : 1;
       const int row = last ? s.opened->net()[static_cast<std::size_t>(d)] - 1 : 0;
       const auto done = run(session,
                             fmt::format(R"({{"do":"select","surface":"{}"}},

@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "knead/exchange/step_file.hpp"
+#include "exchange/step/file.hpp"
 #include "session/json.hpp"
 #include "support.hpp"
 

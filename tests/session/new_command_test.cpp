@@ -43,7 +43,7 @@ TEST(NewCommand, RoundShapesAreExactAndSelectThemselves) {
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(surfaces[k].name, names[k]);
   const auto saved = step::File::parse(*session.save(), "saved");
   ASSERT_TRUE(saved) << saved.error().message();
-  EXPECT_EQ(saved->length_unit(), "inch");
+  EXPECT_EQ(saved->model().length_unit(), "inch");
   for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(same_bits(saved->surfaces()[k].surface, *surfaces[k].current));
   EXPECT_EQ(saved->surfaces()[2].closed, (std::array<bool, 2>{true, true}));
   run(session, {R"({"do":"undo"})"});

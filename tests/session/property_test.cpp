@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "exchange/step/write/text.hpp"
 #include "knead/exchange/format.hpp"
-#include "knead/exchange/step_text.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "knead/spline/extremum.hpp"
 #include "support.hpp"

@@ -57,7 +57,7 @@ void bend(const std::vector<std::filesystem::path>& files, int& sculpted, int& l
     for (std::size_t k = 0; k < session.document().surfaces().size(); ++k) {
       const DocumentSurface& s = session.document().surfaces()[k];
       const double crease = largest_crease(*s.surface), size = bounding_box(*s.surface).diagonal();
-      const auto closed = session.document().step_file()->surfaces()[k].closed;
+      const auto closed = session.document().model()->surfaces[k].closed;
       const std::array<int, 5> kind = {s.surface->rational(), closed[0], closed[1], s.surface->knots(0).degree(),
                                        s.surface->knots(1).degree()};
       if (s.surface->size() > 600 || size == 0 || kinds.size() > 5 || !kinds.insert(kind).second) continue;

@@ -38,19 +38,19 @@ TEST(Session, PressesAToolIntoARealFileAndReadsTheSameBitsBack) {
   const auto again = step::File::parse(*bytes, "saved");
   ASSERT_TRUE(again);
   const Points& current = session.state().surfaces[static_cast<std::size_t>(index)].current->control_points();
-  EXPECT_EQ(again->find_surface(skin)->surface.control_points(), current);
+  EXPECT_EQ(again->model().find_surface(skin)->surface.control_points(), current);
 }
 
 TEST(Session, WithoutStepsTheFileIsItsInputByteForByte) {
   Session session = open_sample();
   run(session, {press[0], press[1], press[2], press[3]});
-  EXPECT_EQ(*session.save(), session.document().step_file()->bytes());
+  EXPECT_EQ(*session.save(), testing::bytes_of(session.document()));
 }
 
 TEST(Session, AtRestNothingMoves) {
   Session session = open_sample();
   run(session, {press[0], R"({"do":"step","count":5})"});
-  EXPECT_EQ(*session.save(), session.document().step_file()->bytes());
+  EXPECT_EQ(*session.save(), testing::bytes_of(session.document()));
 }
 
 TEST(Session, UndoAfterAnyCommandRestoresTheStateBitForBit) {

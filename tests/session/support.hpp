@@ -20,6 +20,13 @@ inline Session open_sample() {
   return Session(std::move(*document));
 }
 
+/// Of its file, as it was opened.
+inline std::string bytes_of(const Document& document) {
+  std::vector<std::shared_ptr<const Surface>> surfaces;
+  for (const SourceSurface& s : document.source()->surfaces()) surfaces.push_back(s.surface);
+  return *document.source()->save(surfaces);
+}
+
 inline Session fresh() { return Session(Document::fresh("test")); }
 
 /// Executes commands; fails the test where one is refused.

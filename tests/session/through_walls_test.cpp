@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/face_conversion.hpp"
 #include "knead/exchange/format.hpp"
 #include "support.hpp"
 #include "support/made_files.hpp"
@@ -218,7 +218,7 @@ TEST(ThroughWalls, FacesThatMeetAtEdgesAreNotNoted) {
   // All faces of the box, converted and moved out and in.
   Session session = opened(thin_box(true, 6));
   std::vector<std::string> faces;
-  for (const auto& other : step::other_surfaces(*session.document().step_file())) faces.push_back(other.id);
+  for (const auto& other : brep::other_surfaces(*session.document().model())) faces.push_back(other.id);
   for (const std::string& id : faces) run(session, {fmt::format(R"({{"knead":2,"do":"convert","surface":"{}"}})", id)});
   ASSERT_EQ(session.state().surfaces.size(), 6U);
   for (std::size_t k = 0; k < 6; ++k) {

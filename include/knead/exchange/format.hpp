@@ -14,9 +14,6 @@
 
 namespace knead {
 
-/// Red, green and blue from 0 to 1, as CAD files have them.
-using Colour = std::array<double, 3>;
-
 /// A surface to write.
 struct NamedSurface {
   std::string name;  ///< UTF-8; may be empty
@@ -72,6 +69,12 @@ struct Format {
   /// The bytes of a new file of these meshes. Null for formats of surfaces.
   Expected<std::string> (*save_meshes)(std::span<const NamedMesh> meshes, const SaveOptions& options) = nullptr;
 };
+
+/// Whether new files can have this length unit, "mm", "inch", ….
+[[nodiscard]] bool is_length_unit(std::string_view name);
+
+/// All of these, in words.
+[[nodiscard]] std::string list_of_length_units();
 
 /// All formats, those that store surfaces first.
 [[nodiscard]] std::span<const Format> formats();

@@ -5,16 +5,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "knead/base/error.hpp"
+#include "knead/brep/model.hpp"
 #include "knead/spline/spline.hpp"
 
 namespace knead {
 
-namespace step {
-class File;
-}
+/// Red, green and blue from 0 to 1, as CAD files have them.
+using Colour = std::array<double, 3>;
 
 /// A surface of a file, as read.
 struct SourceSurface {
@@ -30,18 +31,6 @@ struct SourceCurve {
   std::shared_ptr<const Curve> curve;
 };
 
-/// Geometrically closed in u, in v: S(a, ·) and S(b, ·) are the same curve. The two boundary isocurves are split at
-/// their ends into control points (and weights) by the basis at the first and last parameter; they are the same curve
-/// where these agree to 1e-9 of the net's bounding-box diagonal. A direction along which the whole net is collapsed is
-/// not closed.
-[[nodiscard]] std::array<bool, 2> closed_directions(const Surface& surface);
-
-/// A surface of a file that could not be made a `Surface`; the others are still usable.
-struct UnreadableSurface {
-  std::string id;
-  Error reason;
-};
-
 /// An opened file: its surfaces, and the means to write it back with some of them changed and everything else as it
 /// was. Immutable; const access is thread-safe.
 class Source {
@@ -51,11 +40,13 @@ class Source {
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// The name of its format: "STEP".
   [[nodiscard]] virtual std::string_view format() const = 0;
+  /// What its header calls its form, as in "AUTOMOTIVE_DESIGN" of STEP; empty where formats have none.
+  [[nodiscard]] virtual std::string schema() const { return {}; }
   /// What else is to be said about the file: one sentence or count each.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
   /// In the order of the file.
   [[nodiscard]] virtual const std::vector<SourceSurface>& surfaces() const = 0;
-  [[nodiscard]] virtual const std::vector<UnreadableSurface>& unreadable() const = 0;
+  [[nodiscard]] virtual const std::vector<brep::UnreadableSurface>& unreadable() const = 0;
   /// Curves that stand for themselves, in the order of the file; formats that are not read for them have none.
   [[nodiscard]] virtual const std::vector<SourceCurve>& curves() const;
   /// Whether this is a curve of the file that something else is made of, such as an edge, and so is not free.
@@ -71,9 +62,10 @@ class Source {
   /// its other surfaces stay the same objects. Errors (input): one cannot be converted; the format has no others.
   [[nodiscard]] virtual Expected<std::shared_ptr<const Source>> with_splines(
       std::span<const std::string> surfaces) const;
-  /// The file in the words of STEP, for faces and their trimming: a STEP file itself, or what a reader of another
-  /// format has made of it, with the same ids. Null for formats without faces.
-  [[nodiscard]] virtual const step::File* step_file() const { return nullptr; }
+  /// Its faces, their edges and where its parts stand, with the same ids. Null for formats without faces.
+  [[nodiscard]] virtual std::shared_ptr<const brep::Model> model() const { return nullptr; }
+  /// The colours that the file gives to faces and surfaces, by id. Cost: linear in what describes them.
+  [[nodiscard]] virtual std::unordered_map<std::string, Colour> colours() const { return {}; }
   /// Whether this edge of its faces can be written anew. Errors (input): it cannot, with the reason.
   [[nodiscard]] virtual Expected<void> can_move_edge(const std::string& id) const;
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "knead/exchange/context_faces.hpp"
+#include "knead/brep/context_faces.hpp"
 #include "knead/scene/energy_density.hpp"
 #include "knead/spline/evaluate.hpp"
 
@@ -54,7 +54,7 @@ struct SurfaceTrim;
 /// each surface. \param visible of each surface of the file, in its order; null, or too few: all of it
 /// Cost: that of `context_faces`; faces that fail are left out.
 [[nodiscard]] std::shared_ptr<const Surroundings> surroundings(
-    const step::File& file, std::span<const std::shared_ptr<const VisibleRegion>> visible);
+    const brep::Model& model, std::span<const std::shared_ptr<const VisibleRegion>> visible);
 
 class ModelFacets;
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "knead/exchange/shared_edge.hpp"
+#include "knead/brep/shared_edge.hpp"
 #include "knead/scene/scene.hpp"
 #include "knead/sculpt/seam_coupling.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "knead/exchange/edge_contacts.hpp"
+#include "knead/brep/edge_contacts.hpp"
 #include "knead/scene/scene.hpp"
 
 namespace knead {

@@ -9,8 +9,9 @@
 
 #include "knead/base/shared_items.hpp"
 #include "knead/base/shared_list.hpp"
+#include "knead/brep/shared_edge.hpp"
+#include "knead/brep/visible_region.hpp"
 #include "knead/energy/shell_energy.hpp"
-#include "knead/exchange/shared_edge.hpp"
 #include "knead/scene/body.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/sculpt/active_spline.hpp"
@@ -18,7 +19,6 @@
 #include "knead/sculpt/edge_coupling.hpp"
 #include "knead/sculpt/plastic_history.hpp"
 #include "knead/sculpt/tool_path.hpp"
-#include "knead/sculpt/visible_region.hpp"
 
 namespace knead {
 

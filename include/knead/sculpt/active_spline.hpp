@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "knead/brep/visible_region.hpp"
 #include "knead/energy/material_field.hpp"
 #include "knead/gramian/gramian.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
 #include "knead/sculpt/tool.hpp"
-#include "knead/sculpt/visible_region.hpp"
 #include "knead/solve/eigenmodes.hpp"
 #include "knead/solve/linear_constraint.hpp"
 

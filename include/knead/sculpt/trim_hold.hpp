@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "knead/brep/visible_region.hpp"
 #include "knead/sculpt/constraints.hpp"
-#include "knead/sculpt/visible_region.hpp"
 
 namespace knead {
 

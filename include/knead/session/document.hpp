@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "knead/brep/model.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/source.hpp"
-#include "knead/exchange/step_file.hpp"
 #include "knead/scene/body.hpp"
 
 namespace knead {
@@ -36,7 +36,7 @@ class Document {
   /// The opened file; null in a fresh document.
   [[nodiscard]] const Source* source() const { return source_.get(); }
   /// The same as a STEP file, for what only STEP has: faces and their trimming. Null for other formats.
-  [[nodiscard]] const step::File* step_file() const { return source_ ? source_->step_file() : nullptr; }
+  [[nodiscard]] const brep::Model* model() const { return source_ ? source_->model().get() : nullptr; }
 
   /// The document with surfaces of other forms, given by their ids or those of faces on them, as B-spline surfaces, as
   /// by `Source::with_splines`. Errors: those; there is no file (input).

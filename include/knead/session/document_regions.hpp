@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "knead/exchange/face_edges.hpp"
+#include "knead/brep/face_edges.hpp"
 #include "knead/session/document.hpp"
 
 namespace knead {

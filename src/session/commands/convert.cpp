@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "knead/exchange/face_conversion.hpp"
+#include "knead/brep/face_conversion.hpp"
 #include "knead/session/document_regions.hpp"
 
 namespace knead {
@@ -19,21 +19,21 @@ std::string id_of(const std::string& support) { return support.substr(0, support
 Expected<std::vector<std::string>> neighbours(Executor& executor) {
   if (auto surface = executor.selected(); !surface) return std::unexpected(surface.error());
   std::vector<std::string> result;
-  const step::File* const file = executor.document.step_file();
-  const auto others = file == nullptr ? std::vector<step::OtherSurface>() : step::other_surfaces(*file);
+  const brep::Model* const model = executor.document.model();
+  const auto others = model == nullptr ? std::vector<brep::OtherSurface>() : brep::other_surfaces(*model);
   for (const int k : executor.state.selection()) {
     const auto region = executor.visible(executor.state.surfaces[static_cast<std::size_t>(k)]);
     if (!region) return std::unexpected(region.error());
     for (const TrimEdge& edge : (*region)->edges) {
       for (const std::string& support : edge.supports) {
         const std::string id = id_of(support);
-        if (std::ranges::find(others, id, &step::OtherSurface::id) == others.end()) continue;
+        if (std::ranges::find(others, id, &brep::OtherSurface::id) == others.end()) continue;
         if (std::ranges::find(result, id) == result.end()) result.push_back(id);
       }
     }
   }
   std::erase_if(result, [&](const std::string& id) {
-    const auto made = step::exact_spline(*file, id);
+    const auto made = brep::exact_spline(*model, id);
     if (!made) executor.state.notes.push_back(fmt::format("{} stays as it is: {}", id, made.error().what));
     return !made;
   });

@@ -8,7 +8,7 @@
 
 #include "../limits.hpp"
 #include "../new_body.hpp"
-#include "knead/exchange/step_text.hpp"
+#include "exchange/step/write/text.hpp"
 #include "knead/spline/revolution.hpp"
 
 namespace knead {
@@ -230,8 +230,8 @@ Expected<void> Executor::execute(const NewCommand& c) {
                               : state.surfaces.empty() ? state.bodies.front().unit
                                                        : state.surfaces.front().unit;
   const std::string unit = c.unit.value_or(present);
-  if (!step::is_unit(unit)) {
-    return input_error(fmt::format("\"{}\" is not a unit", unit), "unit", "use " + step::list_of_units());
+  if (!is_length_unit(unit)) {
+    return input_error(fmt::format("\"{}\" is not a unit", unit), "unit", "use " + list_of_length_units());
   }
   if (unit != present && !first) {
     return input_error(fmt::format("the surfaces of this document are in {}", present), "unit",

@@ -1,0 +1,79 @@
+#include "boundary_curve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "knead/brep/model.hpp"
+#include "knead/spline/basis.hpp"
+
+namespace knead::brep {
+
+Expected<Curve> boundary_curve(const Surface& surface, int direction, int end) {
+  const auto& across = surface.knots(direction);
+  const auto& along = surface.knots(1 - direction);
+  const double at = end == 0 ? across.domain().lower : across.domain().upper;
+  const int span = across.find_span(at, end == 0 ? Side::right : Side::left);
+  std::array<double, max_degree + 1> basis{};
+  basis_values(across, span, at, basis.data());
+
+  const auto net = surface.net();
+  const Eigen::Index step_across = direction == 0 ? net[1] : 1;
+  const Eigen::Index step_along = direction == 0 ? 1 : net[1];
+  Points points = Points::Zero(along.count(), 3);
+  std::vector<double> weights(surface.rational() ? static_cast<std::size_t>(along.count()) : 0, 0.0);
+  for (int j = 0; j < along.count(); ++j) {
+    double denominator = 0;
+    for (int r = 0; r <= across.degree(); ++r) {
+      const Eigen::Index k = (span - across.degree() + r) * step_across + j * step_along;
+      const double factor = basis[static_cast<std::size_t>(r)] *
+                            (surface.rational() ? surface.weights()[static_cast<std::size_t>(k)] : 1.0);
+      points.row(j) += factor * surface.control_points().row(k);
+      denominator += factor;
+    }
+    if (!surface.rational()) continue;
+    weights[static_cast<std::size_t>(j)] = denominator;
+    points.row(j) =
+        denominator == 0 ? Points::RowXpr::PlainObject::Zero().eval() : (points.row(j) / denominator).eval();
+  }
+  return Curve::create({along}, std::move(points), std::move(weights));
+}
+
+double net_diagonal(const Points& points) {
+  return points.rows() == 0 ? 0.0 : (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+std::array<bool, 2> closed_directions(const Surface& surface) {
+  constexpr double relative = 1e-9;
+  const double tolerance = relative * net_diagonal(surface.control_points());
+  std::array<bool, 2> closed = {false, false};
+  for (int direction = 0; direction < 2; ++direction) {
+    const auto first = boundary_curve(surface, direction, 0);
+    const auto last = boundary_curve(surface, direction, 1);
+    if (!first || !last) continue;
+    bool same = (first->control_points() - last->control_points()).rowwise().norm().maxCoeff() <= tolerance;
+    // Weights with a common factor describe the same curve.
+    if (surface.rational()) {
+      const auto a = first->weights();
+      const auto b = last->weights();
+      const auto largest =
+          std::max_element(a.begin(), a.end(), [](double x, double y) { return std::abs(x) < std::abs(y); });
+      const double w_a = *largest;
+      const double w_b = b[static_cast<std::size_t>(largest - a.begin())];
+      for (std::size_t k = 0; k < a.size(); ++k) same = same && std::abs(a[k] / w_a - b[k] / w_b) <= relative;
+    }
+    // A net collapsed along this whole direction has no interior to close around.
+    const auto net = surface.net();
+    const Eigen::Index step = direction == 0 ? net[1] : 1;
+    bool collapsed = true;
+    for (Eigen::Index k = 0; k < surface.size() && collapsed; ++k) {
+      const auto position = direction == 0 ? k / net[1] : k % net[1];
+      if (position == 0) continue;
+      collapsed = (surface.control_points().row(k) - surface.control_points().row(k - step)).norm() <= tolerance;
+    }
+    closed[static_cast<std::size_t>(direction)] = same && !collapsed;
+  }
+  return closed;
+}
+
+}  // namespace knead::brep

@@ -1,0 +1,86 @@
+#include "knead/brep/model.hpp"
+
+#include <algorithm>
+
+namespace knead::brep {
+
+Frame frame_about(const Point& origin, const Point& axis) {
+  Frame frame{origin};
+  frame.z = axis.normalized();
+  frame.x = frame.z.unitOrthogonal();
+  frame.y = frame.z.cross(frame.x);
+  return frame;
+}
+
+void Model::index_surfaces() {
+  surface_index_.clear();
+  for (std::size_t k = 0; k < surfaces.size(); ++k) surface_index_.emplace(surfaces[k].id, static_cast<Index>(k));
+}
+
+Index Model::surface_index(const std::string& id) const {
+  const auto found = surface_index_.find(id);
+  return found == surface_index_.end() ? none : found->second;
+}
+
+const SplineSurface* Model::find_surface(const std::string& id) const {
+  const Index found = surface_index(id);
+  return found == none ? nullptr : &surfaces[found];
+}
+
+const SplineSurface* Model::spline_under(const Face& face) const {
+  if (face.support == none || supports[face.support].spline == none) return nullptr;
+  return &surfaces[supports[face.support].spline];
+}
+
+std::string Model::label_under(const Face& face) const {
+  return face.support == none ? "no surface" : supports[face.support].label();
+}
+
+std::string Model::length_unit() const {
+  std::vector<std::string> names;
+  for (const LengthUnit& unit : units) {
+    if (std::ranges::find(names, unit.name) == names.end()) names.push_back(unit.name);
+  }
+  if (names.empty()) return "unknown";
+  std::string result = names.front();
+  for (std::size_t k = 1; k < names.size(); ++k) result += ", " + names[k];
+  return result;
+}
+
+std::unexpected<Error> Model::error(const Record& at, std::string what, std::string remedy) const {
+  return std::unexpected(
+      Error{ErrorKind::input, std::move(what), at.label(), std::move(remedy), name, static_cast<int>(at.line)});
+}
+
+std::vector<Index> edges_around(const Face& face) {
+  std::vector<Index> result;
+  for (const Bound& bound : face.bounds) {
+    for (const EdgeUse& use : bound.edges) result.push_back(use.edge);
+  }
+  return result;
+}
+
+bool Assembly::placed() const {
+  return std::ranges::any_of(parts, [](const Part& part) {
+    return part.places.size() != 1 || !part.places[0].to_model.matrix().isIdentity(0);
+  });
+}
+
+const Part* Assembly::part_of(const std::string& surface) const {
+  const auto found = std::ranges::find_if(
+      parts, [&](const Part& part) { return std::ranges::find(part.surfaces, surface) != part.surfaces.end(); });
+  return found == parts.end() ? nullptr : &*found;
+}
+
+Assembly single_part(const Model& model) {
+  Part all{{}, model.length_unit(), {}, {}, {}, {PartPlace{}}};
+  for (const Face& face : model.faces) all.faces.push_back(face.id);
+  for (const SplineSurface& surface : model.surfaces) all.surfaces.push_back(surface.id);
+  for (const FreeCurve& curve : model.curves) all.curves.push_back(curve.id);
+  Assembly result;
+  result.unit = all.unit;
+  if (!all.faces.empty() || !all.surfaces.empty() || !all.curves.empty()) result.parts.push_back(std::move(all));
+  return result;
+}
+
+}  // namespace knead::brep

@@ -1,0 +1,261 @@
+#include "moved_edge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "boundary_curve.hpp"
+#include "brep/surfaces/surface_foot.hpp"
+#include "knead/spline/evaluate.hpp"
+#include "spline/greville_interpolation.hpp"
+
+namespace knead::brep {
+namespace {
+
+constexpr int first_spans = 8;
+constexpr std::size_t most_spans = 4096;
+constexpr int per_span = 5;
+constexpr double beside_corner = 0.25;      // of a first span: divisions nearer to a corner are left out
+constexpr double least_span = 1e-10;        // of the edge's parameters
+constexpr double margin = 0.125;            // of the edge, at its ends
+constexpr double share_of_tolerance = 0.1;  // for the fit of a curve
+constexpr double least_tolerance = 1e-7;    // of the size, as for held edges
+constexpr double open_above = 1e-5;  // of the size: surfaces that have parted by more leave the edge where it was
+constexpr double rounding = 1e-11;   // of the size
+
+/// Points of the moved edge.
+class Path {
+ public:
+  Path(const SharedEdge& edge, std::span<const Surface* const> before, std::span<const Surface* const> after)
+      : edge_(edge), before_(before), after_(after) {}
+
+  [[nodiscard]] Expected<Point> displacement(const SharedEdge::Sample& sample) const {
+    Point sum = Point::Zero();
+    for (std::size_t k = 0; k < before_.size(); ++k) {
+      const auto way = displacement_at(*before_[k], *after_[k], sample.feet[k]);
+      if (!way) return way;
+      sum += *way;
+    }
+    return Point(sum / static_cast<double>(before_.size()));
+  }
+  /// The largest distance between the displacements of two surfaces, at the samples.
+  [[nodiscard]] Expected<double> parted() const {
+    double largest = 0;
+    for (const SharedEdge::Sample& sample : edge_.samples()) {
+      Point first = Point::Zero();
+      for (std::size_t k = 0; k < before_.size(); ++k) {
+        const auto way = displacement_at(*before_[k], *after_[k], sample.feet[k]);
+        if (!way) return std::unexpected(way.error());
+        if (k == 0) first = *way;
+        largest = std::max(largest, (*way - first).norm());
+      }
+    }
+    return largest;
+  }
+  [[nodiscard]] Expected<Point> at(double t) const {
+    const SharedEdge::Sample sample = edge_.at(t);
+    const auto way = displacement(sample);
+    if (!way) return way;
+    Point middle = Point::Zero();
+    for (std::size_t k = 0; k < after_.size(); ++k) {
+      const auto p = evaluate_point<2>(*after_[k], parameters_at_foot(*after_[k], sample.feet[k]));
+      if (!p) return p;
+      middle += *p / static_cast<double>(after_.size());
+    }
+    const double share = inner(t);
+    return Point((1 - share) * (sample.point + *way) + share * middle);
+  }
+
+ private:
+  /// 0 at the ends, where the curve must keep its distance from the vertices, and 1 in between; twice differentiable.
+  [[nodiscard]] double inner(double t) const {
+    const double from = edge_.samples().front().parameter, to = edge_.samples().back().parameter;
+    const double x = std::min(1.0, std::min(t - from, to - t) / (margin * (to - from)));
+    return x * x * x * (x * (6 * x - 15) + 10);
+  }
+
+  const SharedEdge& edge_;
+  std::span<const Surface*const> before_, after_;
+};
+
+Expected<Curve> interpolated(const Path& path, const std::vector<double>& breaks, const std::vector<double>& corners) {
+  std::vector<double> knots;
+  for (std::size_t k = 0; k < breaks.size(); ++k) {
+    const bool end = k == 0 || k + 1 == breaks.size();
+    knots.insert(knots.end(), end ? 4 : std::ranges::binary_search(corners, breaks[k]) ? 3 : 1, breaks[k]);
+  }
+  auto vector = KnotVector::create(3, std::move(knots));
+  if (!vector) return std::unexpected(vector.error());
+  const auto interpolation = GrevilleInterpolation::create(*vector);
+  if (!interpolation) return std::unexpected(interpolation.error());
+  Points points(interpolation->size(), 3);
+  for (int k = 0; k < interpolation->size(); ++k) {
+    const auto p = path.at(interpolation->abscissae()[static_cast<std::size_t>(k)]);
+    if (!p) return std::unexpected(p.error());
+    points.row(k) = p->transpose();
+  }
+  interpolation->solve(points.data(), 1, 3);
+  return Curve::create({*std::move(vector)}, std::move(points));
+}
+
+/// The ends, the corners and `first_spans` even divisions. A corner has a triple knot, so that an abscissa lies a third
+/// of a span beside it: where a division is only rounding away (of a circle of four arcs, every other one is), no
+/// number is left in between, and the conditions of Schoenberg and Whitney fail. The corner then takes its place.
+/// Corners that cannot be told from an end or from the one before have no knot of their own.
+std::vector<double> first_breaks(const SharedEdge& edge) {
+  const double from = edge.samples().front().parameter, to = edge.samples().back().parameter;
+  const double least = least_span * (to - from), span = (to - from) / first_spans;
+  std::vector<double> breaks = {from};
+  for (const double corner : edge.corners()) {
+    if (corner - breaks.back() > least && to - corner > least) breaks.push_back(corner);
+  }
+  const std::vector<double> corners(breaks.begin() + 1, breaks.end());
+  for (int k = 1; k < first_spans; ++k) {
+    const double t = std::lerp(from, to, static_cast<double>(k) / first_spans);
+    const auto beside = [&](double corner) { return std::abs(corner - t) < beside_corner * span; };
+    if (std::ranges::none_of(corners, beside)) breaks.push_back(t);
+  }
+  breaks.push_back(to);
+  std::ranges::sort(breaks);
+  return breaks;
+}
+
+std::unexpected<Error> not_followed(const SharedEdge& edge) {
+  return numerical_error("the moved edge cannot be followed by a spline", edge.id(),
+                         "undo the step and press less deep, or on a finer net");
+}
+
+/// The breaks, with those spans halved in which the curve is off the path. Errors: spans that cannot be halved further.
+Expected<std::vector<double>> halved(const SharedEdge& edge, const Path& path, const Curve& curve,
+                                     const std::vector<double>& breaks, double tolerance) {
+  std::vector<double> result = {breaks.front()};
+  for (std::size_t k = 1; k < breaks.size(); ++k) {
+    bool off = false;
+    for (int j = 1; j < per_span && !off; ++j) {
+      const double t = std::lerp(breaks[k - 1], breaks[k], static_cast<double>(j) / per_span);
+      const auto wanted = path.at(t);
+      if (!wanted) return std::unexpected(wanted.error());
+      const auto is = evaluate_point<1>(curve, {t});
+      if (!is) return std::unexpected(is.error());
+      off = (*is - *wanted).norm() > tolerance;
+    }
+    if (off && breaks[k] - breaks[k - 1] < 2 * least_span * (breaks.back() - breaks.front())) return not_followed(edge);
+    if (off) result.push_back(0.5 * (breaks[k - 1] + breaks[k]));
+    result.push_back(breaks[k]);
+  }
+  return result;
+}
+
+/// On the parameters of the curve's record, and in its direction.
+Expected<Curve> recorded(const SharedEdge& edge, const Curve& curve) {
+  const auto own = curve.knots(0).knots();
+  std::vector<double> knots;
+  for (const double t : own) knots.push_back(edge.file_parameter(t));
+  const Points& net = curve.control_points();
+  Points points(net.rows(), 3);
+  for (Eigen::Index k = 0; k < net.rows(); ++k) points.row(k) = net.row(edge.turned() ? net.rows() - 1 - k : k);
+  if (edge.turned()) {
+    const double sum = knots.front() + knots.back();
+    std::ranges::reverse(knots);
+    for (double& t : knots) t = sum - t;
+  }
+  auto vector = KnotVector::create(3, std::move(knots));
+  if (!vector) return std::unexpected(vector.error());
+  return Curve::create({*std::move(vector)}, std::move(points));
+}
+
+double size_of(std::span<const Surface* const> surfaces) {
+  double size = 0;
+  for (const Surface* s : surfaces) size = std::max(size, net_diagonal(s->control_points()));
+  return size;
+}
+
+/// Takes vertices that are all of a loop, such as a whole sphere's pole, along with the surfaces that replace others.
+Expected<void> move_loop_vertices(const Model& model, std::span<const Replacement> replacements,
+                                  std::map<std::string, Point>& vertices) {
+  std::map<Index, const Replacement*> after;  // by the surface
+  for (const Replacement& r : replacements) after[model.surface_index(r.id)] = &r;
+  for (const Face& face : model.faces) {
+    const auto found = face.support == none ? after.end() : after.find(model.supports[face.support].spline);
+    if (found == after.end()) continue;
+    std::optional<SurfaceFoot> feet;
+    const Surface& before = model.surfaces[found->first].surface;
+    for (const Bound& bound : face.bounds) {
+      if (bound.kind != Bound::Kind::vertex || bound.vertex == none) continue;
+      const Vertex& vertex = model.vertices[bound.vertex];
+      if (!vertex.of_one_use) continue;
+      if (vertex.wrong) return std::unexpected(*vertex.wrong);
+      if (!feet) {
+        auto made = SurfaceFoot::create(before);
+        if (!made) return std::unexpected(made.error());
+        feet = *std::move(made);
+      }
+      const auto foot = feet->nearest(vertex.place, std::nullopt, 0).foot.parameters;
+      const auto way = displacement_at(before, found->second->surface, foot);
+      if (!way) return std::unexpected(way.error());
+      if (way->norm() <= rounding * net_diagonal(before.control_points())) continue;
+      vertices.try_emplace(vertex.id, vertex.place + *way);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<Curve> moved_curve(const SharedEdge& edge, std::span<const Surface* const> before,
+                            std::span<const Surface* const> after, double tolerance) {
+  const Path path(edge, before, after);
+  std::vector<double> breaks = first_breaks(edge);
+  while (true) {
+    const auto curve = interpolated(path, breaks, edge.corners());
+    if (!curve) return curve;
+    auto finer = halved(edge, path, *curve, breaks, tolerance);
+    if (!finer) return std::unexpected(finer.error());
+    if (finer->size() == breaks.size()) return recorded(edge, *curve);
+    if (finer->size() > most_spans) return not_followed(edge);
+    breaks = *std::move(finer);
+  }
+}
+
+Expected<MovedEdges> moved_edges(const Model& model, std::span<const Replacement> replacements,
+                                 std::span<const std::string> ids) {
+  MovedEdges result;
+  std::map<std::string, Point> vertices;
+  for (const std::string& id : ids) {
+    const auto edge = SharedEdge::create(model, id);
+    if (!edge) return std::unexpected(edge.error());
+    std::vector<const Surface*> before, after;
+    for (const std::string& surface : edge->surfaces()) {
+      before.push_back(&model.find_surface(surface)->surface);
+      const auto found = std::ranges::find(replacements, surface, &Replacement::id);
+      after.push_back(found == replacements.end() ? before.back() : &found->surface);
+    }
+    const double size = size_of(before);
+    const double tolerance = std::max(edge->uncertainty(), least_tolerance * size);
+    const Path path(*edge, before, after);
+    const auto parted = path.parted();
+    if (!parted) return std::unexpected(parted.error());
+    if (*parted > std::max(edge->uncertainty(), open_above * size)) continue;
+    double largest = 0;
+    for (const auto& sample : edge->samples()) {
+      const auto way = path.displacement(sample);
+      if (!way) return std::unexpected(way.error());
+      largest = std::max(largest, way->norm());
+      const bool first = &sample == &edge->samples().front(), last = &sample == &edge->samples().back();
+      for (std::size_t v = 0; v < 2; ++v) {
+        if (!(v == 0 ? first : last) || way->norm() <= rounding * size) continue;
+        vertices.try_emplace(edge->vertices()[v], edge->vertex_points()[v] + *way);
+      }
+    }
+    if (largest <= rounding * size) continue;
+    auto curve = moved_curve(*edge, before, after, share_of_tolerance * tolerance);
+    if (!curve) return std::unexpected(curve.error());
+    result.edges.push_back({id, *std::move(curve)});
+  }
+  if (auto moved = move_loop_vertices(model, replacements, vertices); !moved) return std::unexpected(moved.error());
+  for (const auto& [id, place] : vertices) result.vertices.push_back({id, place});
+  return result;
+}
+
+}  // namespace knead::brep

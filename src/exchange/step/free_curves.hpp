@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "entity.hpp"
+#include "knead/spline/spline.hpp"
+
+namespace knead::step {
+
+/// A curve that stands for itself, with the values that refer to its control points, in order.
+struct ReadCurve {
+  std::uint32_t instance;
+  Curve curve;
+  std::vector<std::uint32_t> references;
+};
+
+/// The free B-spline curves of a file, in its order: those in space that only representations, sets of geometry, styles
+/// and layers refer to, and at least one of them. Curves of edges, of surfaces, trimmed ones and those of parameters
+/// are not; curves that cannot be read are left out. Cost: linear in the size of the file.
+[[nodiscard]] std::vector<ReadCurve> free_curves(const Reader& reader);
+
+/// Whether an instance is a B-spline curve in any of its forms.
+[[nodiscard]] bool is_b_spline_curve(const Reader& reader, std::uint32_t instance);
+
+}  // namespace knead::step

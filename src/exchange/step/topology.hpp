@@ -1,0 +1,13 @@
+#pragma once
+
+#include "entity.hpp"
+#include "knead/brep/model.hpp"
+#include "surfaces.hpp"
+
+namespace knead::step {
+
+/// Adds the vertices, edges, faces and shells of a file to a model, and the supports of its faces; those on the
+/// B-spline surfaces with these records lead to them. Cost: linear in the file; curves are read by several threads.
+void read_topology(const Reader& reader, const std::vector<std::uint32_t>& surfaces, brep::Model& model);
+
+}  // namespace knead::step

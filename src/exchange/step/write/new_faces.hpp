@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "print.hpp"
+#include "text.hpp"
+
+namespace knead::step {
+
+/// The names of records.
+struct NewFaces {
+  std::string model;               ///< the SHELL_BASED_SURFACE_MODEL
+  std::vector<std::string> faces;  ///< one per surface
+};
+
+/// Adds faces on the natural bounds of surfaces, whose records have these names, and their shells.
+[[nodiscard]] Expected<NewFaces> add_faces(std::span<const NewSurface> surfaces, std::span<const std::string> names,
+                                           const AddRecord& add);
+
+/// Adds the colours of surfaces to the records that show them.
+void add_colours(std::span<const NewSurface> surfaces, std::span<const std::string> names, const std::string& context,
+                 const AddRecord& add);
+
+}  // namespace knead::step

@@ -1,0 +1,96 @@
+#include <algorithm>
+
+#include "exchange/part21/part21_text.hpp"
+#include "exchange/step/faces.hpp"
+#include "print.hpp"
+#include "surgeon.hpp"
+
+namespace knead::step {
+namespace {
+
+/// What gives the parameters of a surface a meaning, or makes another surface of it.
+bool depends_on_form(const Reader& reader, std::uint32_t instance) {
+  constexpr std::array<std::string_view, 5> dependent = {"PCURVE", "RECTANGULAR_TRIMMED_SURFACE",
+                                                         "CURVE_BOUNDED_SURFACE", "OFFSET_SURFACE", "SURFACE_REPLICA"};
+  return std::ranges::any_of(dependent, [&](std::string_view form) { return reader.is(instance, form); });
+}
+
+}  // namespace
+
+void Surgeon::become_spline(std::uint32_t instance, const Surface& surface) {
+  const Part21Instance& record = file_.instance(instance);
+  std::string copy, inserted;
+  for (std::uint32_t k = 0; k < file_.instances().size(); ++k) {
+    if (k == instance || !depends_on_form(reader_, k)) continue;
+    const Part21Instance& user = file_.instance(k);
+    for (std::uint32_t value = user.first; value < user.last; ++value) {
+      if (file_.value(value).kind != Part21Kind::reference || file_.value(value).target != instance) continue;
+      if (copy.empty()) {
+        copy = "#" + std::to_string(names_.next());
+        inserted += line_break() + copy_of(instance, copy, {});
+      }
+      change(value, copy);
+    }
+  }
+  std::unordered_map<std::string, std::string> names;  // of control points by their text: equal ones share a record
+  std::vector<std::string> points;
+  for (Eigen::Index k = 0; k < surface.size(); ++k) {
+    const std::array<double, 3> place = {surface.control_points()(k, 0), surface.control_points()(k, 1),
+                                         surface.control_points()(k, 2)};
+    std::string& name = names[print_point("", place.data())];
+    if (name.empty()) {
+      name = "#" + std::to_string(names_.next());
+      inserted += line_break() + print_point(name, place.data());
+    }
+    points.push_back(name);
+  }
+  changes_.push_back({record.record, print_surface(
+                                         surface, encode_string(reader_.item_name(instance)),
+                                         [&](int k) { return points[static_cast<std::size_t>(k)]; }, line_break())});
+  insert(record.bytes.end, std::move(inserted));
+}
+
+void Surgeon::lie_on(std::uint32_t face, std::uint32_t surface) {
+  const auto own = reader_.attributes(face, "FACE_SURFACE", 2, 1);
+  if (own.empty() || reader_.reference(own[0]) == surface) return;
+  change(own[0], name_of(reader_, surface));
+}
+
+void Surgeon::drop_parameter_curves(std::uint32_t edge, const std::set<std::uint32_t>& surfaces) {
+  const auto own = reader_.attributes(edge, "EDGE_CURVE", 3, 1);
+  const auto curve = own.empty() ? std::nullopt : reader_.reference(own[0]);
+  // SURFACE_CURVE(curve in space, what it lies on, which of them is the master)
+  const auto parts = curve ? reader_.attributes(*curve, "SURFACE_CURVE", 1, 3) : std::vector<std::uint32_t>();
+  const bool seam = curve && reader_.is(*curve, "SEAM_CURVE"), plain = curve && reader_.is(*curve, "SURFACE_CURVE");
+  const bool intersection = curve && reader_.is(*curve, "INTERSECTION_CURVE");
+  if (parts.empty() || !(seam || plain || intersection)) return;
+  std::string kept;
+  bool dropped = false;
+  for (const std::uint32_t value : file_.children(parts[1])) {
+    const auto target = reader_.reference(value);
+    const auto basis = target ? reader_.attributes(*target, "PCURVE", 1, 1) : std::vector<std::uint32_t>();
+    const bool parametric = target && reader_.is(*target, "PCURVE") && !basis.empty();
+    const auto on = parametric ? untrimmed(reader_, reader_.reference(basis[0])) : std::nullopt;
+    if (on && surfaces.contains(*on)) {
+      dropped = true;
+    } else {
+      kept += (kept.empty() ? "" : ",") + std::string(file_.text(value));
+    }
+  }
+  if (!dropped) return;
+  const Part21Instance& record = file_.instance(*curve);
+  // Another edge on the same curve would change it twice.
+  if (kept.empty() || seam || record.complex || record.uses > 1) {
+    change(own[0], std::string(file_.text(parts[0])));
+    return;
+  }
+  change(parts[1], "(" + kept + ")");
+  if (reader_.enumeration(parts[2]) != "CURVE_3D") change(parts[2], ".CURVE_3D.");
+  if (intersection) {
+    const auto begin = file_.range(record.first).begin;
+    changes_.push_back(
+        {{begin, begin + static_cast<std::uint32_t>(file_.keyword(record.first).size())}, "SURFACE_CURVE"});
+  }
+}
+
+}  // namespace knead::step

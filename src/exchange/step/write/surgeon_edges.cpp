@@ -1,0 +1,84 @@
+#include "exchange/part21/part21_text.hpp"
+#include "print.hpp"
+#include "surgeon.hpp"
+
+namespace knead::step {
+
+namespace {
+
+/// The value of a SURFACE_CURVE that refers to its curve in space; none for other curves.
+std::optional<std::uint32_t> curve_3d_of(const Reader& reader, std::uint32_t curve) {
+  for (const auto* form : {"SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE"}) {
+    if (!reader.is(curve, form)) continue;
+    const auto own = reader.attributes(curve, "SURFACE_CURVE", 1, 1);
+    if (!own.empty()) return own[0];
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string Surgeon::curve_records(const Curve& curve, const std::string& name) {
+  std::string points;
+  std::vector<std::string> names;
+  const Points& net = curve.control_points();
+  for (Eigen::Index k = 0; k < net.rows(); ++k) {
+    const std::string point = "#" + std::to_string(names_.next());
+    const std::array<double, 3> place = {net(k, 0), net(k, 1), net(k, 2)};
+    points += line_break() + print_point(point, place.data());
+    names.push_back(point);
+  }
+  return points + line_break() + name + "=" +
+         print_curve(curve, "''", [&](int k) { return names[static_cast<std::size_t>(k)]; }) + ";";
+}
+
+Expected<void> Surgeon::replace_curve(std::uint32_t edge, const Curve& curve) {
+  const auto own = reader_.attributes(edge, "EDGE_CURVE", 3, 2);
+  const std::uint32_t geometry = own.empty() ? no_instance : reader_.reference(own[0]).value_or(no_instance);
+  if (!reader_.is(edge, "EDGE_CURVE") || geometry == no_instance)
+    return reader_.error(edge, "an EDGE_CURVE is needed here");
+  const std::string name = "#" + std::to_string(names_.next());
+  std::string records = curve_records(curve, name);
+  const auto inner = curve_3d_of(reader_, geometry);
+  if (!inner) {
+    change(own[0], name);
+  } else if (file_.instance(geometry).uses == 1) {
+    change(*inner, name);
+  } else {
+    const std::string copy = "#" + std::to_string(names_.next());
+    records += line_break() + copy_of(geometry, copy, {{file_.range(*inner), name}});
+    change(own[0], copy);
+  }
+  insert(file_.instance(edge).bytes.end, std::move(records));
+  return {};
+}
+
+Expected<void> Surgeon::replace_net(std::uint32_t instance, const std::vector<std::uint32_t>& refs, const Curve& before,
+                                    const Curve& after) {
+  const auto label = reader_.attributes(instance, "REPRESENTATION_ITEM", 0, 1);
+  const auto own = file_.instance(instance).complex ? label : file_.children(file_.instance(instance).first);
+  if (own.empty()) return reader_.error(instance, "it has no label");
+  std::string inserted;
+  const auto names = point_names(refs, before.control_points(), after.control_points(), inserted);
+  if (!names) return std::unexpected(names.error());
+  changes_.push_back({file_.instance(instance).record, print_curve(after, file_.text(own[0]), [&](int k) {
+                        return (*names)[static_cast<std::size_t>(k)];
+                      })});
+  if (!inserted.empty()) insert(file_.instance(instance).bytes.end, std::move(inserted));
+  return {};
+}
+
+Expected<void> Surgeon::move_vertex(std::uint32_t vertex, const Point& place) {
+  const auto own = reader_.attributes(vertex, "VERTEX_POINT", 1, 1);
+  const std::uint32_t geometry = own.empty() ? no_instance : reader_.reference(own[0]).value_or(no_instance);
+  if (!reader_.is(vertex, "VERTEX_POINT") || geometry == no_instance)
+    return reader_.error(vertex, "a VERTEX_POINT is needed here");
+  const auto point = reader_.point(geometry);
+  if (!point) return std::unexpected(point.error());
+  Points before(1, 3), after(1, 3);
+  before.row(0) = point->transpose();
+  after.row(0) = place.transpose();
+  return move_points(vertex, {own[0]}, before, after);
+}
+
+}  // namespace knead::step
