@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 
+#include "exchange/step/conversion.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "oracle/occt_gaps.hpp"
 #include "oracle/occt_shapes.hpp"

@@ -29,8 +29,8 @@ class PressedPair : public StepOracle {};
 TEST_P(PressedPair, StaysClosedAlongTheEdgeThatFollows) {
   // Its nets are the largest, and its edges are pressed with its planes converted, too.
   if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";
-  for (const Pair& pair : each_kind(*file_, pairs_of(*file_))) {
-    move(path_, *file_, pair, Motion::press, directory_, 0);
+  for (const Pair& pair : each_kind(file_->model(), pairs_of(file_->model()))) {
+    move(path_, file_->model(), pair, Motion::press, directory_, 0);
   }
 }
 
@@ -38,9 +38,9 @@ class StrokedPair : public StepOracle {};
 
 TEST_P(StrokedPair, StaysClosedUnderStrokes) {
   testing::Sample sample(3);  // of two motions: both have their turn
-  for (const Pair& pair : each_kind(*file_, pairs_of(*file_))) {
+  for (const Pair& pair : each_kind(file_->model(), pairs_of(file_->model()))) {
     for (const Motion motion : {Motion::groove, Motion::grab}) {
-      if (sample.next()) move(path_, *file_, pair, motion, directory_, 0);
+      if (sample.next()) move(path_, file_->model(), pair, motion, directory_, 0);
     }
   }
 }
@@ -74,10 +74,10 @@ TEST_P(PressedShell, StaysClosedAlongTheEdgesThatFollow) {
   ASSERT_TRUE(file) << file.error().message();
   const double height = GetParam() == "corner" ? 4 * std::sin(50.0 / 30) * std::cos(50.0 / 40) : 0;
   const bool corner = GetParam().ends_with("corner");
-  auto pairs = corner ? std::vector<Pair>() : pairs_of(*file);
-  if (corner || GetParam() == "strips") pairs.push_back(chain_of(*file, Point(50, 50, height)));
+  auto pairs = corner ? std::vector<Pair>() : pairs_of(file->model());
+  if (corner || GetParam() == "strips") pairs.push_back(chain_of(file->model(), Point(50, 50, height)));
   ASSERT_FALSE(pairs.empty());
-  for (const Pair& pair : pairs) move(path, *file, pair, Motion::press, directory / "after", 0.5);
+  for (const Pair& pair : pairs) move(path, file->model(), pair, Motion::press, directory / "after", 0.5);
   fs::remove_all(directory);
 }
 
@@ -89,9 +89,9 @@ TEST_P(PressedShell, StaysClosedUnderStrokes) {
   ASSERT_TRUE(occt_write_shell(GetParam(), path));
   const auto file = step::File::read(path);
   ASSERT_TRUE(file) << file.error().message();
-  for (const Pair& pair : pairs_of(*file)) {
+  for (const Pair& pair : pairs_of(file->model())) {
     for (const Motion motion : {Motion::groove, Motion::grab}) {
-      move(path, *file, pair, motion, directory / "after", motion == Motion::grab ? 0.3 : 0.5);
+      move(path, file->model(), pair, motion, directory / "after", motion == Motion::grab ? 0.3 : 0.5);
     }
   }
   fs::remove_all(directory);

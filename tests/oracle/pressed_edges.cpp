@@ -298,9 +298,9 @@ void move(const fs::path& path, const brep::Model& file, const Pair& pair, Motio
                quoted(pair.surfaces));
   const auto before = OcctFaces::read(path);
   ASSERT_TRUE(before);
-  const auto bytes_before = is_iges(path) ? read_file(path) : Expected<std::string>(file.bytes());
+  const auto bytes_before = read_file(path);
   ASSERT_TRUE(bytes_before);
-  const auto source = *open_source(*bytes_before, file.name());
+  const auto source = *open_source(*bytes_before, file.name);
   const double accepted_gap = std::max(closed, is_iges(path) ? resolution_of(*source) * to_mm(file) : 0);
   Session session(Document::from(source));
   const auto commands = parse_script(pair.script(file, motion), "move");

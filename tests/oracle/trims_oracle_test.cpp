@@ -86,10 +86,10 @@ void PressedFace::press_all(const std::string& mode) {
   ASSERT_TRUE(before);
   if (GetParam() == "linkrods.step" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its nets are large
   testing::Sample sample(3);
-  for (const brep::SplineSurface* s : chosen(*file_)) {
+  for (const brep::SplineSurface* s : chosen(file_->model())) {
     if (!sample.next()) continue;
     SCOPED_TRACE(s->id + " " + mode);
-    const auto pressed = press(*file_, *s, mode);
+    const auto pressed = press(file_->model(), *s, mode);
     ASSERT_TRUE(pressed) << pressed.error().message();
     Session session(Document::from(*open_source(file_->bytes(), file_->name())));
     const auto bytes = carried_out(session, pressed->script);

@@ -9,7 +9,7 @@ namespace knead::brep {
 namespace {
 
 constexpr double sliver = 1e-12;     // |cross product| over the longest side squared: less is degenerate
-constexpr double degenerate = 1e-9;  // |S_u × S_v| over |S_u|² + |S_v|²
+constexpr double vanishing = 1e-9;  // |S_u × S_v| over |S_u|² + |S_v|²
 
 bool is_triangle(const Points& points, const std::array<std::uint32_t, 3>& t) {
   double longest = 0;
@@ -46,7 +46,7 @@ Expected<GridMesh> grid_mesh(const Surface& surface, const std::array<GridLines,
   for (Eigen::Index k = 0; k < mesh.points.rows(); ++k) {
     const Point a = jet->at({1, 0}).row(k), b = jet->at({0, 1}).row(k), normal = a.cross(b);
     const double length = normal.norm();
-    if (length > degenerate * (a.squaredNorm() + b.squaredNorm())) {
+    if (length > vanishing * (a.squaredNorm() + b.squaredNorm())) {
       mesh.normals.row(k) = normal.transpose() / length;
     } else {
       vanishes[static_cast<std::size_t>(k)] = true;
