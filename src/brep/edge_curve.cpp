@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "knead/spline/evaluate.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int max_halvings = 12;       // of one piece of a curve
 constexpr double close_enough = 1e-6;  // of the extent: ends of a closed spline
+constexpr double point_rounding = 64 * std::numeric_limits<double>::epsilon();  // of coordinates: what is a point
 
 }  // namespace
 
@@ -145,6 +147,7 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, ChordLimit cho
     if (k > 0) box.extend(at((coarse[k - 1] + coarse[k]) / 2));
   }
   const double tolerance = std::min(chord.share * box.diagonal().norm() / 2, chord.length);
+  const double rounding = point_rounding * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   // Halved from the left, with the far ends on a stack.
   std::vector<double> result = {from};
   std::vector<std::pair<double, int>> waiting;
@@ -167,7 +170,8 @@ std::vector<double> EdgeCurve::subdivided(double from, double to, ChordLimit cho
     const double turn = std::atan2((m - a).cross(b - m).norm(), (m - a).dot(b - m));
     // Halves of a circular arc turn by half its angle.
     const bool fine = off <= tolerance && (turn <= 0.51 * angle || off <= 0.02 * tolerance);
-    if (fine || halvings >= max_halvings) {
+    const bool is_point = std::max(off, length) <= rounding;  // its turns say nothing
+    if (fine || is_point || halvings >= max_halvings) {
       result.push_back(end);
       waiting.pop_back();
     } else {

@@ -48,7 +48,7 @@ Expected<EdgePiece> edge_piece(const Model& model, Index edge) {
 Expected<EdgeSampler::Sampled> EdgeSampler::sample(Index edge) const {
   auto piece = edge_piece(*model_, edge);
   if (!piece) return std::unexpected(piece.error());
-  Sampled result{std::move(piece->curve), {}, {}};
+  Sampled result{{}, std::move(piece->curve)};
   result.parameters = result.curve.subdivided(piece->from, piece->to, chord_);
   if (piece->backwards) std::reverse(result.parameters.begin(), result.parameters.end());
   for (const double t : result.parameters) result.points.push_back(result.curve.at(t));
@@ -73,7 +73,7 @@ Expected<void> EdgeSampler::divide(Index edge, std::span<const int> pieces) {
   auto& found = sampled(edge);
   if (!found) return std::unexpected(found.error());
   assert(pieces.size() + 1 == found->points.size());
-  Sampled finer{std::move(found->curve), {found->parameters.front()}, {found->points.front()}};
+  Sampled finer{{{found->parameters.front()}, {found->points.front()}}, std::move(found->curve)};
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const double from = found->parameters[k], to = found->parameters[k + 1];
     for (int i = 1; i < pieces[k]; ++i) {
@@ -85,6 +85,16 @@ Expected<void> EdgeSampler::divide(Index edge, std::span<const int> pieces) {
   }
   *found = std::move(finer);
   return {};
+}
+
+Expected<EdgeSampler::Division> EdgeSampler::division(Index edge) {
+  const auto& found = sampled(edge);
+  if (!found) return std::unexpected(found.error());
+  return *found;
+}
+
+void EdgeSampler::restore(Index edge, Division division) {
+  if (auto& found = sampled(edge)) static_cast<Division&>(*found) = std::move(division);
 }
 
 Expected<Loop> EdgeSampler::loop(const Bound& bound) {

@@ -36,16 +36,23 @@ class EdgeSampler {
   /// before keep theirs.
   [[nodiscard]] Expected<void> divide(Index edge, std::span<const int> pieces);
 
+  /// The points of an edge, from its start vertex to its end vertex, and where they are on its curve.
+  struct Division {
+    std::vector<double> parameters;
+    Loop points;
+  };
+  [[nodiscard]] Expected<Division> division(Index edge);
+  /// Goes back to what `division` returned.
+  void restore(Index edge, Division division);
+
   /// The loops of a face, each in the direction given by its bound: with the face on its left as seen from the tip of
   /// the face's normal. Loops that bound nothing are omitted: a vertex, and a loop that runs along all of its edges in
   /// both directions, as along the seams of a whole torus (not necessarily in the order of its parameters).
   [[nodiscard]] Expected<std::vector<Loop>> loops(const Face& face);
 
  private:
-  struct Sampled {
+  struct Sampled : Division {
     EdgeCurve curve;
-    std::vector<double> parameters;  // from the start vertex to the end vertex
-    Loop points;
   };
   [[nodiscard]] Expected<Sampled> sample(Index edge) const;
   [[nodiscard]] Expected<Sampled>& sampled(Index edge);

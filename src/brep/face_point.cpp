@@ -15,7 +15,7 @@ Expected<FacePoint> point_on_face(const Model& model, const std::string& face, c
   const auto surface = FaceSurface::under(model, *found, edges);
   if (!surface) return std::unexpected(surface.error());
   const Eigen::Vector2d at = surface->foot(near).parameters;
-  const double sense = found->same_sense ? 1 : -1;
+  const int sense = found->sense();
   FacePoint result;
   result.point = surface->at(at);
   const auto curvature = surface->curvature(at);

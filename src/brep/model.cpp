@@ -1,6 +1,7 @@
 #include "knead/brep/model.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace knead::brep {
 
@@ -72,14 +73,34 @@ const Part* Assembly::part_of(const std::string& surface) const {
   return found == parts.end() ? nullptr : &*found;
 }
 
+void Part::add(const Model& model, Index face) {
+  const Face& own = model.faces[face];
+  faces.push_back(own.id);
+  const SplineSurface* below = model.spline_under(own);
+  if (below != nullptr && std::ranges::find(surfaces, below->id) == surfaces.end()) surfaces.push_back(below->id);
+}
+
+void add_rest(const Model& model, Assembly& assembly) {
+  std::unordered_set<std::string> held;
+  for (const Part& part : assembly.parts) {
+    for (const auto* ids : {&part.faces, &part.surfaces, &part.curves}) held.insert(ids->begin(), ids->end());
+  }
+  Part rest{{}, model.length_unit(), {}, {}, {}, {PartPlace{}}};
+  const auto add = [&](const auto& entities, std::vector<std::string>& ids) {
+    for (const auto& entity : entities) {
+      if (!held.contains(entity.id)) ids.push_back(entity.id);
+    }
+  };
+  add(model.faces, rest.faces);
+  add(model.surfaces, rest.surfaces);
+  add(model.curves, rest.curves);
+  if (!rest.faces.empty() || !rest.surfaces.empty() || !rest.curves.empty()) assembly.parts.push_back(std::move(rest));
+}
+
 Assembly single_part(const Model& model) {
-  Part all{{}, model.length_unit(), {}, {}, {}, {PartPlace{}}};
-  for (const Face& face : model.faces) all.faces.push_back(face.id);
-  for (const SplineSurface& surface : model.surfaces) all.surfaces.push_back(surface.id);
-  for (const FreeCurve& curve : model.curves) all.curves.push_back(curve.id);
   Assembly result;
-  result.unit = all.unit;
-  if (!all.faces.empty() || !all.surfaces.empty() || !all.curves.empty()) result.parts.push_back(std::move(all));
+  result.unit = model.length_unit();
+  add_rest(model, result);
   return result;
 }
 

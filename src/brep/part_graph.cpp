@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <utility>
 
@@ -21,6 +22,14 @@ std::string below(const std::string& path, const std::string& name) {
 
 double unit_ratio(const LengthUnit& child, const LengthUnit& parent) {
   return child.metres > 0 && parent.metres > 0 ? child.metres / parent.metres : 1.0;
+}
+
+std::optional<double> scale_of(const Eigen::Matrix3d& matrix) {
+  constexpr double most_shear = 1e-9;
+  const double length = std::cbrt(std::abs(matrix.determinant()));
+  const Eigen::Matrix3d off = matrix.transpose() * matrix - length * length * Eigen::Matrix3d::Identity();
+  if (!(off.norm() <= most_shear * length * length)) return std::nullopt;
+  return length;
 }
 
 void PartGraph::use(Index parent, Index child, const Eigen::Affine3d& move) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,5 +46,8 @@ class PartGraph {
 
 /// Length of a child's unit in the parent's; 1 where one is not known.
 [[nodiscard]] double unit_ratio(const LengthUnit& child, const LengthUnit& parent);
+
+/// The factor by which a matrix scales lengths, 1e-9 of which it may shear, as far as files print one; none: it shears.
+[[nodiscard]] std::optional<double> scale_of(const Eigen::Matrix3d& matrix);
 
 }  // namespace knead::brep

@@ -1,10 +1,12 @@
 #include <random>
 
 #include "exchange/brep_square.hpp"
+#include "exchange/mesh_measures.hpp"
 #include "exchange/support.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/face_edges.hpp"
 #include "knead/brep/face_point.hpp"
+#include "knead/brep/model_mesh.hpp"
 #include "knead/brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/spline/spline_refinement.hpp"
@@ -27,6 +29,26 @@ TEST(Brep, AFaceStandsWhereItsLocationPutsIt) {
   const auto region = visible_region(*source->model(), "#1");
   ASSERT_TRUE(region) << region.error().message();
   EXPECT_EQ(region->edges.size(), 4U);
+}
+
+TEST(Brep, WhatIsUsedAgainElsewhereStandsThereToo) {
+  std::string text = square;
+  text.replace(text.rfind("+1 1 "), 5, "+1 1 +1 0 +1 1 ");  // the last one where the first one is
+  const auto source = open_or_die(text);
+  ASSERT_EQ(source->surfaces().size(), 1U);
+  EXPECT_EQ(Point(source->surfaces()[0].surface->control_points().row(0).transpose()), Point(10, 0, 0));
+  const auto model = model_faces(*source->model(), 0.1);
+  ASSERT_TRUE(model) << model.error().message();
+  ASSERT_EQ(model->faces.size(), 2U);
+  double sum = 0;
+  for (const FaceMesh& mesh : model->faces) {
+    EXPECT_NEAR(testing::area_of(mesh), 1, 1e-12);
+    for (const Point& p : mesh.points) sum += p.x() / static_cast<double>(mesh.points.size());
+  }
+  EXPECT_NEAR(sum, 0.5 + 10.5, 1e-12);
+  ASSERT_EQ(source->remarks().size(), 1U);
+  EXPECT_NE(source->remarks()[0].find("1 face is used again in the same place"), std::string::npos)
+      << source->remarks()[0];
 }
 
 /// Where a face with this location, made of a quarter turn about z (1) and 10 along x (2), has the corner (0, 1, 0).

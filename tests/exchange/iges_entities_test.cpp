@@ -122,8 +122,7 @@ TEST(IgesEntities, PatchesThatDoNotMeetAreReported) {
       << source->unreadable()[0].reason.message();
 }
 
-TEST(IgesEntities, SubfiguresStandWhereTheirInstancesPutThem) {
-  IgesBuilder b;
+void expect_placed_subfigures(IgesBuilder b) {
   const int surface = b.add(128, testing::plate()), alone = b.add(128, testing::plate("7."));
   const int inner = b.add(308, fmt::format("0,5HInner,1,{}", surface));
   const int nested = b.add(408, fmt::format("{},100.,0.,0.,2.", inner));
@@ -147,6 +146,13 @@ TEST(IgesEntities, SubfiguresStandWhereTheirInstancesPutThem) {
   const brep::Part* rest = model->part_of(fmt::format("#{}", alone));
   ASSERT_NE(rest, nullptr);
   EXPECT_EQ(rest->places.size(), 1U) << "what is in no subfigure stands once, at its coordinates";
+}
+
+TEST(IgesEntities, SubfiguresStandWhereTheirInstancesPutThem) {
+  expect_placed_subfigures({});
+  IgesBuilder without_unit;
+  without_unit.global.replace(without_unit.global.find("2,2HMM"), 6, "3,4HPACE");
+  expect_placed_subfigures(without_unit);
 }
 
 TEST(IgesEntities, TheMatrixOfAnInstanceMovesWhatItsPlaceAndScaleHaveMoved) {

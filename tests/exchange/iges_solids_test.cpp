@@ -30,7 +30,7 @@ struct Solid {
 TEST(IgesSolids, AreClosedAndNotInsideOutWhereverTheirSurfacesLook) {
   for (const auto& [text, volume] :
        {Solid{testing::iges_box_of_turned_faces, 6}, Solid{testing::iges_box_of_a_turned_shell, 6},
-        Solid{testing::iges_hollow_box, 5.5}}) {
+        Solid{testing::iges_hollow_box, 5.5}, Solid{testing::iges_hollow_boxes, 11}}) {
     const FaceMeshes model = mesh_of(text(), 0);
     EXPECT_EQ(open_sides(model.faces), 0U);
     EXPECT_NEAR(testing::volume_of(model.faces), volume, 1e-12);

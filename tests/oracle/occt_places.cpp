@@ -1,5 +1,6 @@
 #include "oracle/occt_places.hpp"
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
@@ -109,6 +110,19 @@ constexpr std::pair<const char*, PlacedMaker> placed_makers[] = {
      [] {
        const auto inner = together({wedge().Moved(turn() * tilt()), wedge().Moved(shift())});
        return together({inner.Moved(tilt() * turn().Powered(-1))}).Moved(turn() * shift().Powered(2) * tilt());
+     }},
+    {"again",
+     [] {
+       const auto one = wedge(), pair = TopoDS_Shape(together({one, spline_face().Moved(tilt())}));
+       return TopoDS_Shape(
+           together({pair.Moved(turn()), one.Moved(shift()), pair.Moved(shift() * tilt()), one.Reversed()}));
+     }},
+    {"hollow",
+     [] {
+       const auto box = BRepPrimAPI_MakeBox(12, 12, 12).Shape();
+       gp_Trsf inside;
+       inside.SetTranslation(gp_Vec(4, 4, 4));
+       return BRepAlgoAPI_Cut(box, wedge().Moved(inside)).Shape().Moved(turn() * shift());
      }},
     {"faces", shell_of_placed_faces},
     {"vertices", placed_to_the_vertex},

@@ -65,6 +65,14 @@ using Maker = TopoDS_Shape (*)();
 const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> all = {
       {"box", [] { return moved(BRepPrimAPI_MakeBox(3, 4, 5).Shape(), 10, 20, 30, 0.7); }},
+      {"hollow_box",
+       [] {
+         const TopoDS_Shape box = BRepPrimAPI_MakeBox(20, 20, 20).Shape();
+         const auto hollow = moved(BRepPrimAPI_MakeCylinder(2, 8).Shape(), 5, 5, 5, 0.4);
+         return TopoDS_Shape(
+             BRepAlgoAPI_Cut(BRepAlgoAPI_Cut(box, hollow).Shape(), moved(BRepPrimAPI_MakeSphere(3).Shape(), 14, 14, 14))
+                 .Shape());
+       }},
       {"cylinder", [] { return moved(BRepPrimAPI_MakeCylinder(2, 30).Shape(), 1, 2, 3, 0.4); }},
       {"half_cylinder", [] { return BRepPrimAPI_MakeCylinder(2, 3, 3.0).Shape(); }},
       {"cone", [] { return moved(BRepPrimAPI_MakeCone(3, 0, 4).Shape(), 1, 2, 3, 1.1); }},

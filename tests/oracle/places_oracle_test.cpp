@@ -48,9 +48,13 @@ void expect_places(const brep::Model& file, const OcctPlaces& other, double exac
   ASSERT_TRUE(model) << model.error().message();
   EXPECT_TRUE(model->skipped.empty());
   ASSERT_EQ(model->faces.size(), other.centres.size());
+  std::vector<FaceMesh> left = model->faces;  // where parts are used again, in another order
   for (std::size_t k = 0; k < other.centres.size(); ++k) {
-    EXPECT_LE((centre_of(model->faces[k]) - other.centres[k]).norm(), exactness) << "face " << k;
-    EXPECT_NEAR(testing::area_of(model->faces[k]), other.areas[k], exactness * other.areas[k]) << "face " << k;
+    const auto off = [&](const FaceMesh& mesh) { return (centre_of(mesh) - other.centres[k]).norm(); };
+    const auto same = std::ranges::min_element(left, {}, off);
+    EXPECT_LE(off(*same), exactness) << "face " << k;
+    EXPECT_NEAR(testing::area_of(*same), other.areas[k], exactness * other.areas[k]) << "face " << k;
+    left.erase(same);
   }
   for (const Point& vertex : other.vertices) EXPECT_LE(distance_to(vertex, *model), 1e-9) << vertex.transpose();
 }
@@ -59,7 +63,7 @@ TEST_P(Places, FacesAndVerticesAreWhereOpenCascadePutsThem) {
   const auto other = occt_places(path_);
   ASSERT_TRUE(other);
   const auto source = testing::open_or_die(*read_file(path_), path_.string());
-  expect_places(*source->model(), *other, GetParam() == "spline" ? 1e-3 : 1e-9);
+  expect_places(*source->model(), *other, GetParam() == "spline" || GetParam() == "again" ? 1e-3 : 1e-9);
 }
 
 TEST_P(Places, AMovedSplineIsWrittenWhereItIs) {

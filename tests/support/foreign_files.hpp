@@ -50,6 +50,43 @@ inline constexpr std::array foreign_iges = {"bracket.iges", "example_45_faces.ig
                                             "tip.iges",     "wigley.iges",           "wing128.igs"};
 inline constexpr std::array foreign_brep = {"Pump_TopCover.brep", "curvesToSurfaceContinuous.brep", "terrain.brep",
                                             "wing.brep"};
+// CAD files of other folders than `data/cad`, by their names within `data`.
+inline constexpr std::array foreign_faults = {"faults/box_with_hole_brep.igs",
+                                              "faults/coloured_mapped_item.step",
+                                              "faults/cone_far_nappe.step",
+                                              "faults/draw_saved_box.brep",
+                                              "faults/edge_with_coincident_end_knots.step",
+                                              "faults/grid_3x3.step",
+                                              "faults/inch_with_mm_styles.step",
+                                              "faults/lens_degenerate_torus.step",
+                                              "faults/metre_by_conversion.step",
+                                              "faults/moved_twice.brep",
+                                              "faults/plate_three_square_holes.step",
+                                              "faults/revolved_ring_closed_twice.igs",
+                                              "faults/sheet_with_held_edges.step",
+                                              "faults/sliver_beside_plane.step",
+                                              "faults/whole_torus.step"};
+inline constexpr std::array foreign_morph = {"morph/cax/as1_pe_203.stp",
+                                             "morph/cax/oij_MAINBODY.stp",
+                                             "morph/cax/oij_MAINBODY_BACK.stp",
+                                             "morph/cax/oij_MAINBODY_FRONT.stp",
+                                             "morph/cax/oij_as1-oc-214.stp",
+                                             "morph/cax/oij_as1-tu-203.stp",
+                                             "morph/cax/oij_as1_pe_203.stp",
+                                             "morph/cax/oij_mainbody_asm.stp",
+                                             "morph/cax/oij_mainbodyback.stp",
+                                             "morph/cax/oij_mainbodyfront.stp",
+                                             "morph/prusa/extruder-body-1.stp",
+                                             "morph/prusa/extruder-body-2.stp",
+                                             "morph/pygem/test_pipe.iges",
+                                             "morph/pygem/test_pipe.step",
+                                             "morph/pygem/test_pipe_out_true.iges",
+                                             "morph/pygem/test_pipe_out_true.step",
+                                             "morph/springback/compensatedsurface_mean_simulated_0_5_i0.stp",
+                                             "morph/springback/compensatedsurface_mean_simulated_0_5_i1.stp",
+                                             "morph/springback/compensatedsurface_mean_simulated_0_5_i2.stp",
+                                             "morph/springback/compensatedsurface_mean_simulated_0_5_i3.stp",
+                                             "morph/springback/compensatedsurface_mean_simulated_0_5_i4.stp"};
 inline constexpr std::array foreign_text = {"duck1.ctrlpts", "egg.xml", "smesh.45.in.dat", "smesh.8.dat", "teapot.xml"};
 /// Read by the studio's tests alone.
 inline constexpr std::array foreign_rhino = {"v2_HumanHead2.3dm", "v2_RhinoLogo.3dm", "v7_my_surfaces.3dm"};

@@ -75,12 +75,23 @@ inline std::string iges_box_of_a_turned_shell() {
 }
 
 /// In inch, with a void of 1 × 1 × 0.5, whose shell looks out of the void into the material.
-inline std::string iges_hollow_box() {
-  IgesBuilder b;
+inline int iges_hollow_solid(IgesBuilder& b) {
   b.global = iges_global("1,4HINCH");
   const int outer = iges_box_shell(b, {0, 0, 0}, {3, 2, 1}, 0b000001, false);
   const int inner = iges_box_shell(b, {1, 0.5, 0.25}, {2, 1.5, 0.75}, 0b110000, false);
-  b.add(186, fmt::format("{},1,1,{},0", outer, inner));
+  return b.add(186, fmt::format("{},1,1,{},0", outer, inner));
+}
+inline std::string iges_hollow_box() {
+  IgesBuilder b;
+  iges_hollow_solid(b);
+  return b.text();
+}
+
+/// Two of them, instances of a subfigure.
+inline std::string iges_hollow_boxes() {
+  IgesBuilder b;
+  const int figure = b.add(308, fmt::format("0,3HBox,1,{}", iges_hollow_solid(b)));
+  for (const int x : {0, 10}) b.add(408, fmt::format("{},{}.,0.,0.,1.", figure, x));
   return b.text();
 }
 

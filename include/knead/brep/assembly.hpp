@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ struct LengthUnit {
 /// Most places of parts in one model.
 inline constexpr std::size_t max_places = 100'000;
 
+struct Model;
+
 /// One place where an assembly puts a part.
 struct PartPlace {
   std::string path;                                        ///< products from the model down: "engine/valve/spring"
@@ -54,6 +57,9 @@ struct Part {
   std::vector<std::string> faces;     ///< ids of its faces
   std::vector<std::string> curves;    ///< ids of its curves that stand for themselves (`File::curves`)
   std::vector<PartPlace> places;      ///< at least one
+
+  /// Adds a face of the model, and the B-spline surface on which it lies.
+  void add(const Model& model, std::uint32_t face);
 };
 
 /// The model of a STEP file: its parts, and where each of them stands.

@@ -16,7 +16,8 @@ struct FaceMesh {
   std::string id;       ///< "#123", of the ADVANCED_FACE
   std::string surface;  ///< "#123", of the B-spline surface that it lies on; empty if it lies on another
   std::vector<Point> points;
-  std::vector<Point> normals;  ///< unit, one per point, of the face: the surface's, reversed where same_sense is false
+  std::vector<Point> normals;  ///< unit, one per point, of the face: the surface's, reversed where same_sense is false,
+                               ///< and where an ORIENTED_CLOSED_SHELL turns its shell
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the tip of the normal
 };
 
@@ -47,8 +48,8 @@ struct FaceMeshes {
 [[nodiscard]] Expected<FaceMeshes> context_faces(const brep::Model& model, double chord = 1e-3);
 
 /// On which side of each of the file's `surfaces()` the material of its faces is not: 1 where their normals are
-/// S_u × S_v, −1 where they are opposite (same_sense is false); 0 where no face lies on it, or faces of both kinds do.
-/// Cost: a pass over the file.
+/// S_u × S_v, −1 where they are opposite (same_sense is false, or their shell is turned); 0 where no face lies on it,
+/// or faces of both kinds do. Cost: a pass over the file.
 [[nodiscard]] std::vector<int> face_senses(const brep::Model& model);
 
 }  // namespace knead

@@ -101,7 +101,12 @@ struct Record {
 struct Face : Record {
   Index support = none;  ///< the surface on which it lies; none: it has only the geometry of its loops
   bool same_sense = true;
+  bool turned = false;  ///< inside out: a solid uses its shell turned, as round a hollow
   std::vector<Bound> bounds = {};
+
+  /// 1 where its normal, turned where it is, is that of its surface; else -1. Its bounds run about the normal of
+  /// `same_sense`.
+  [[nodiscard]] int sense() const { return same_sense != turned ? 1 : -1; }
 };
 
 struct Shell {
@@ -215,6 +220,9 @@ struct Model {
 /// where these agree to 1e-9 of the net's bounding-box diagonal. A direction along which the whole net is collapsed is
 /// not closed.
 [[nodiscard]] std::array<bool, 2> closed_directions(const Surface& surface);
+
+/// Adds a part with what is in none of the others, where its coordinates say, unless there is nothing.
+void add_rest(const Model& model, Assembly& assembly);
 
 /// A model without an assembly: one part with everything in it, where its coordinates say.
 [[nodiscard]] Assembly single_part(const Model& model);

@@ -11,6 +11,20 @@ namespace {
 
 constexpr double single_point = 1e-6;  // of the net's diagonal: an edge of the domain no longer than this is a pole
 constexpr double at_pole = 1e-5;       // fractions
+constexpr double least_narrow = 1e-8;  // of the net's diagonal
+
+/// How wide the net is where it is widest, in the direction in which that is least.
+double width_of(const Surface& surface) {
+  const Eigen::Index n0 = surface.knots(0).count(), n1 = surface.knots(1).count();
+  std::array<double, 2> widths = {};
+  const Points& points = surface.control_points();
+  const auto widest = [&](double& width, Eigen::Index first, Eigen::Index count, Eigen::Index stride) {
+    width = std::max(width, net_diagonal(points(Eigen::seqN(first, count, stride), Eigen::all)));
+  };
+  for (Eigen::Index j = 0; j < n1; ++j) widest(widths[0], j, n0, n1);
+  for (Eigen::Index i = 0; i < n0; ++i) widest(widths[1], i * n1, n1, 1);
+  return std::min(widths[0], widths[1]);
+}
 
 void unwrap(Eigen::Vector2d& at, const Eigen::Vector2d& before, const ParameterSpace& space) {
   for (int d = 0; d < 2; ++d) {
@@ -35,6 +49,7 @@ Expected<SurfaceFoot> SurfaceFoot::create(const Surface& surface) {
   SurfaceFoot result(std::move(*search));
   const auto closed = closed_directions(surface);
   const double size = net_diagonal(surface.control_points());
+  result.narrow_ = std::max(0.1 * width_of(surface), least_narrow * size);
   for (int d = 0; d < 2; ++d) {
     result.domain_[static_cast<std::size_t>(d)] = surface.knots(d).domain();
     if (closed[static_cast<std::size_t>(d)]) result.space_.periods[static_cast<std::size_t>(d)] = 1;
@@ -72,7 +87,7 @@ SurfaceFoot::Result SurfaceFoot::nearest(const Point& p, const std::optional<Eig
       start[d] = domain_[d].lower + (*hint)[static_cast<Eigen::Index>(d)] * domain_[d].length();
     }
     const Result found = result_of(search_.nearest_from(p, start, {space_.periods[0] > 0, space_.periods[1] > 0}));
-    if (found.distance <= tolerance) return found;
+    if (found.distance <= std::min(tolerance, narrow_)) return found;
   }
   return result_of(search_.nearest(p));
 }

@@ -17,7 +17,8 @@ class SurfaceFoot {
   [[nodiscard]] static Expected<SurfaceFoot> create(const Surface& surface);
 
   /// The fractions of the point of the surface nearest to p, and its distance. `hint`: fractions from which to descend
-  /// first; the whole surface is searched if that ends farther away than `tolerance`.
+  /// first; the whole surface is searched if that ends farther away than `tolerance`, or than a tenth of the width of
+  /// the surface: the foot on the other side of a sliver is as near as that.
   struct Result {
     Foot foot;
     double distance = 0;
@@ -44,6 +45,7 @@ class SurfaceFoot {
   ClosestPointSearch<2> search_;
   std::array<Interval, 2> domain_;
   ParameterSpace space_;
+  double narrow_ = 0;
 };
 
 }  // namespace knead::brep

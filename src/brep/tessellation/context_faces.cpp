@@ -14,14 +14,20 @@ Expected<FaceMeshes> context_faces(const brep::Model& model, double chord) {
   }
   FaceTessellator tessellator(model, {chord});
   FaceMeshes result;
+  std::vector<FaceOnSurface> ready;
   for (const Face& face : model.faces) {
     if (model.spline_under(face) != nullptr) continue;
-    const auto on_surface = tessellator.face_on_surface(face);
-    auto mesh = on_surface ? tessellator.mesh(*on_surface) : std::unexpected(on_surface.error());
-    if (mesh)
-      result.faces.push_back(*std::move(mesh));
+    if (auto on = tessellator.face_on_surface(face))
+      ready.push_back(*std::move(on));
     else
-      result.skipped.push_back({face.id, std::move(mesh.error())});
+      result.skipped.push_back({face.id, std::move(on.error())});
+  }
+  auto meshes = tessellator.meshes(ready);
+  for (std::size_t k = 0; k < ready.size(); ++k) {
+    if (meshes[k])
+      result.faces.push_back(*std::move(meshes[k]));
+    else
+      result.skipped.push_back({ready[k].face->id, std::move(meshes[k].error())});
   }
   return result;
 }
@@ -30,7 +36,7 @@ std::vector<int> face_senses(const brep::Model& model) {
   std::vector<std::array<bool, 2>> found(model.surfaces.size());  // faces against each surface, along it
   for (const Face& face : model.faces) {
     if (face.support == none || model.supports[face.support].spline == none) continue;
-    found[model.supports[face.support].spline][face.same_sense ? 1 : 0] = true;
+    found[model.supports[face.support].spline][face.sense() > 0 ? 1 : 0] = true;
   }
   std::vector<int> senses;
   for (const auto& [against, along] : found) senses.push_back((along ? 1 : 0) - (against ? 1 : 0));

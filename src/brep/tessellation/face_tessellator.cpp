@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <unordered_set>
 
 #include "brep/boundary_curve.hpp"
 #include "brep/face_region.hpp"
@@ -17,11 +18,13 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double clearance = 0.35;    // of interior points from the outline, in steps
-constexpr double most_inside = 1e6;   // points
-constexpr double most_pieces = 1000;  // of a chord
-constexpr int most_rounds = 6;        // of adding points where triangles are too far from the surface
-constexpr double same_place = 1e-7;   // of the extent of the face: points that are added beside its edges
+constexpr double clearance = 0.35;     // of interior points from the outline, in steps
+constexpr double most_inside = 1e6;    // points
+constexpr double most_pieces = 1000;   // of a chord
+constexpr int most_rounds = 6;         // of adding points where triangles are too far from the surface
+constexpr int most_edge_halvings = 8;  // of the chords round a face
+constexpr std::size_t most_edge_chords = 4000, most_tried_chords = 100'000;  // then: their cost is quadratic
+constexpr double same_place = 1e-7;  // of the extent of the face: points that are added beside its edges
 
 double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   const Vector2d side = b - a;
@@ -178,6 +181,61 @@ Expected<void> FaceTessellator::divide_edges(const FaceOnSurface& on) {
   return {};
 }
 
+/// Returns how many chords there are then.
+Expected<std::size_t> FaceTessellator::halve_edges(std::span<const Index> edges) {
+  std::size_t count = 0;
+  for (const auto edge : edges) {
+    const auto points = edges_.edge(edge);
+    if (!points) return std::unexpected(points.error());
+    std::vector<int> pieces;
+    for (std::size_t k = 0; k + 1 < (*points)->size(); ++k) {
+      pieces.push_back((**points)[k] == (**points)[k + 1] ? 1 : 2);
+      count += static_cast<std::size_t>(pieces.back());
+    }
+    if (auto done = edges_.divide(edge, pieces); !done) return std::unexpected(std::move(done.error()));
+  }
+  return count;
+}
+
+/// Halves the chords round a face that cannot be made triangles until it can. False where that does not help: its edges
+/// are as they were. `spent` counts the chords that were tried.
+bool FaceTessellator::refine_edges(const FaceOnSurface& on, std::size_t& spent) {
+  std::vector<Index> edges = edges_around(*on.face);
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<EdgeSampler::Division> before;
+  for (const auto edge : edges) {
+    auto division = edges_.division(edge);
+    if (!division) return false;
+    before.push_back(*std::move(division));
+  }
+  for (int k = 0; k < most_edge_halvings; ++k) {
+    const auto chords = halve_edges(edges);
+    if (!chords || *chords > most_edge_chords || spent + *chords > most_tried_chords) break;
+    spent += *chords;
+    if (mesh(on)) return true;
+  }
+  for (std::size_t k = 0; k < edges.size(); ++k) edges_.restore(edges[k], std::move(before[k]));
+  return false;
+}
+
+std::vector<Expected<FaceMesh>> FaceTessellator::meshes(std::span<const FaceOnSurface> faces) {
+  std::vector<Expected<FaceMesh>> result;
+  std::unordered_set<Index> finer;  // edges
+  std::size_t spent = 0;
+  for (const FaceOnSurface& on : faces) {
+    result.push_back(mesh(on));
+    if (result.back() || !refine_edges(on, spent)) continue;
+    for (const auto edge : edges_around(*on.face)) finer.insert(edge);
+  }
+  for (std::size_t k = 0; k < faces.size() && !finer.empty(); ++k) {
+    const auto edges = edges_around(*faces[k].face);
+    const auto is_finer = [&](Index edge) { return finer.contains(edge); };
+    if (std::ranges::any_of(edges, is_finer)) result[k] = mesh(faces[k]);
+  }
+  return result;
+}
+
 Expected<FaceMesh> FaceTessellator::mesh(const FaceOnSurface& on) {
   const Face& face = *on.face;
   const auto charted = charted_face(model_, face, edges_, on.surface);
@@ -185,7 +243,7 @@ Expected<FaceMesh> FaceTessellator::mesh(const FaceOnSurface& on) {
   FaceMesh result{face.id, {}, {}, {}, {}};
   if (const SplineSurface* spline = model_.spline_under(face)) result.surface = spline->id;
   for (const RegionPart& part : charted->parts) {
-    if (const char* fault = add(part, charted->loops, charted->chart, face.same_sense, result)) {
+    if (const char* fault = add(part, charted->loops, charted->chart, face.sense(), result)) {
       return model_.error(face, fault);
     }
   }
@@ -273,14 +331,14 @@ std::expected<FaceTessellator::Filling, const char*> FaceTessellator::fill(
 }
 
 /// None, or why not.
-const char* FaceTessellator::add(const RegionPart& part, const std::vector<Loop>& loops, const Chart& chart,
-                                 bool same_sense, FaceMesh& mesh) const {
+const char* FaceTessellator::add(const RegionPart& part, const std::vector<Loop>& loops, const Chart& chart, int sense,
+                                 FaceMesh& mesh) const {
   const ChartedSurface& surface = chart.surface();
   std::vector<std::vector<Vector2d>> outline;
   const auto first = static_cast<std::uint32_t>(mesh.points.size());
   const auto append = [&](const Vector2d& at, const Point& point) {
     mesh.points.push_back(point);
-    mesh.normals.push_back((same_sense ? 1 : -1) * surface.normal(chart.from(at)));
+    mesh.normals.push_back(sense * surface.normal(chart.from(at)));
   };
   std::vector<std::uint32_t> added;  // points on cuts and at poles
   const auto outline_of = [&](const std::vector<RegionPoint>& polygon) {
@@ -301,7 +359,7 @@ const char* FaceTessellator::add(const RegionPart& part, const std::vector<Loop>
     for (auto& k : t) k += first;
     const Point &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
     if (a == b || b == c || c == a) continue;  // at a pole
-    if (!same_sense) std::swap(t[1], t[2]);
+    if (sense < 0) std::swap(t[1], t[2]);
     mesh.triangles.push_back(t);
   }
   return nullptr;

@@ -29,12 +29,17 @@ class FaceTessellator {
   [[nodiscard]] Expected<void> divide_edges(const FaceOnSurface& on);
   /// Errors (input): its edges do not lie on its surface, bound nothing, or cross; it needs too many points.
   [[nodiscard]] Expected<FaceMesh> mesh(const FaceOnSurface& on);
+  /// Of each face. The edges of those that fail are divided more finely where that helps, as round a crescent that is
+  /// narrower than chords of its arcs are high; neighbours have the same points there.
+  [[nodiscard]] std::vector<Expected<FaceMesh>> meshes(std::span<const FaceOnSurface> faces);
 
  private:
   struct Filling;
+  [[nodiscard]] bool refine_edges(const FaceOnSurface& on, std::size_t& spent);
+  [[nodiscard]] Expected<std::size_t> halve_edges(std::span<const Index> edges);
   [[nodiscard]] Expected<std::unique_ptr<ChartedSurface>> surface_of(const Face& face, const std::vector<Loop>& loops);
-  [[nodiscard]] const char* add(const RegionPart& part, const std::vector<Loop>& loops, const Chart& chart,
-                                bool same_sense, FaceMesh& mesh) const;
+  [[nodiscard]] const char* add(const RegionPart& part, const std::vector<Loop>& loops, const Chart& chart, int sense,
+                                FaceMesh& mesh) const;
   [[nodiscard]] std::expected<Filling, const char*> fill(const Chart& chart,
                                                          std::span<const std::vector<Eigen::Vector2d>> outline,
                                                          std::span<const Point> bounds) const;

@@ -164,12 +164,12 @@ void add_faces(const Model& model, std::span<const Face* const> faces, double to
     else
       ready.push_back(*std::move(on));
   }
-  for (const FaceOnSurface& on : ready) {
-    auto mesh = tessellator.mesh(on);
-    if (mesh)
-      standing.add(*mesh, mesh->id, result.faces);
+  auto meshes = tessellator.meshes(ready);
+  for (std::size_t k = 0; k < ready.size(); ++k) {
+    if (meshes[k])
+      standing.add(*meshes[k], meshes[k]->id, result.faces);
     else
-      skip(*on.face, std::move(mesh.error()));
+      skip(*ready[k].face, std::move(meshes[k].error()));
   }
 }
 

@@ -16,7 +16,6 @@ namespace knead::iges {
 namespace {
 
 constexpr std::size_t most_items = 10'000'000;  // of all definitions together
-constexpr double most_shear = 1e-9;             // of a matrix of rotation, as far as files print one
 
 class Subfigures {
  public:
@@ -72,7 +71,8 @@ class Subfigures {
     }
   }
 
-  /// The faces of a solid (186: shell) or a shell (514: their number, and of each whether it is turned).
+  /// The faces of a solid (186: its shell and that of each void, with flags) or a shell (514: their number, and of each
+  /// whether it is turned).
   void add_faces(int number, std::vector<int>& faces) {
     const auto parameters = file_.parameters(number);
     if (!parameters) return;
@@ -80,8 +80,13 @@ class Subfigures {
       return k < parameters->values.size() ? integer(parameters->values[k]).value_or(0) : 0;
     };
     if (file_.find(number)->type == 186) {
-      const Entity* shell = file_.find(pointer(1));
-      if (shell != nullptr && shell->type == 514) add_faces(pointer(1), faces);
+      const auto add_shell = [&](std::size_t k) {
+        const Entity* shell = file_.find(pointer(k));
+        if (shell != nullptr && shell->type == 514) add_faces(pointer(k), faces);
+      };
+      add_shell(1);
+      for (int k = 0; k < pointer(3) && ++items_seen_ <= most_items; ++k)
+        add_shell(4 + 2 * static_cast<std::size_t>(k));
       return;
     }
     for (int k = 0; k < pointer(1) && ++items_seen_ <= most_items; ++k) {
@@ -103,11 +108,7 @@ class Subfigures {
     if (!(scale > 0)) return std::nullopt;
     // The instance's matrix moves what its place and scale have moved. Parts are not sheared.
     const auto matrix = transform_of(file_, instance);
-    if (!matrix) return std::nullopt;
-    const Eigen::Matrix3d turn = matrix->linear();
-    const double length = std::cbrt(std::abs(turn.determinant()));
-    const Eigen::Matrix3d off = turn.transpose() * turn - length * length * Eigen::Matrix3d::Identity();
-    if (!(off.norm() <= most_shear * length * length)) return std::nullopt;
+    if (!matrix || !brep::scale_of(matrix->linear())) return std::nullopt;
     return *matrix * Eigen::Translation3d(place) * Eigen::Scaling(scale);
   }
 
@@ -127,35 +128,23 @@ class Subfigures {
 
   /// Gives every part the faces of its definition and the surfaces below them, and what is in none to one of its own.
   void fill(brep::PartGraph& graph, brep::Assembly& result) {
-    std::map<std::string, const brep::Face*> faces;
-    for (const brep::Face& face : model_.faces) faces.emplace(face.id, &face);
-    std::set<std::string> held;
+    std::map<std::string, brep::Index> faces;
+    for (brep::Index f = 0; f < model_.faces.size(); ++f) faces.emplace(model_.faces[f].id, f);
     for (const auto& [number, definition] : definitions_) {
       brep::PartGraph::Node& node = graph[definition.part];
       if (!node.product) continue;
-      std::set<int> members(definition.members.begin(), definition.members.end());
       brep::Part part{definition.title, model_.length_unit(), {}, {}, {}, std::move(node.places)};
-      for (const int member : members) {
+      for (const int member : std::set<int>(definition.members.begin(), definition.members.end())) {
         const std::string id = fmt::format("#{}", member);
         const auto face = faces.find(id);
-        const brep::SplineSurface* below =
-            face == faces.end() ? model_.find_surface(id) : model_.spline_under(*face->second);
-        if (face != faces.end()) part.faces.push_back(id);
+        if (face != faces.end()) part.add(model_, face->second);
         // Surfaces without faces stand for themselves; others are shown by these.
-        const bool listed = below != nullptr && (face != faces.end() || below->faces == 0);
-        if (listed && std::ranges::find(part.surfaces, below->id) == part.surfaces.end())
-          part.surfaces.push_back(below->id);
+        const brep::SplineSurface* surface = model_.find_surface(id);
+        if (surface != nullptr && surface->faces == 0) part.surfaces.push_back(id);
       }
-      held.insert(part.faces.begin(), part.faces.end());
-      held.insert(part.surfaces.begin(), part.surfaces.end());
       if (!part.faces.empty() || !part.surfaces.empty()) result.parts.push_back(std::move(part));
     }
-    brep::Assembly rest = brep::single_part(model_);
-    for (brep::Part& part : rest.parts) {
-      std::erase_if(part.faces, [&](const std::string& id) { return held.contains(id); });
-      std::erase_if(part.surfaces, [&](const std::string& id) { return held.contains(id); });
-      if (!part.faces.empty() || !part.surfaces.empty()) result.parts.push_back(std::move(part));
-    }
+    brep::add_rest(model_, result);
   }
 
   const File& file_;

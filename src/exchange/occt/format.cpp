@@ -49,7 +49,8 @@ class BrepSource final : public Source {
       back_.push_back(read.places[listed_[k]].inverse());
     }
     if (read.again > 0) {
-      remarks_.push_back(fmt::format("{} faces are used again elsewhere: each is shown once", read.again));
+      remarks_.push_back(fmt::format("{} used again in the same place, or sheared: each is shown once",
+                                     read.again == 1 ? "1 face is" : fmt::format("{} faces are", read.again)));
     }
   }
 

@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "brep/geometry_forms.hpp"
 #include "brep/model_builder.hpp"
+#include "brep/part_graph.hpp"
 
 namespace knead::occt {
 namespace {
 
 constexpr std::size_t most_uses = 1'000'000;  // of faces in groups, which may be used again and again
+constexpr std::size_t most_mapped = 50'000;   // of faces that are used again, together
 constexpr std::size_t most_chained = 4000;
 
 using brep::Index;
@@ -32,28 +33,72 @@ class ModelReader {
       if (supports_[k] == brep::none && file_.surfaces[k].spline) put_surface(k, Eigen::Affine3d::Identity());
     }
     read_.model = std::move(builder_).complete("unknown", 0);
+    add_parts(read_.model);
     return std::move(read_);
   }
 
  private:
   int name_of(std::size_t shape) const { return static_cast<int>(file_.surfaces.size() + shape) + 1; }
 
-  void visit(const Use& use, const Eigen::Affine3d& outer, bool turned) {
+  /// `again`: 0, or the number of the way from where a part that this belongs to was first to where it is now.
+  void visit(const Use& use, const Eigen::Affine3d& outer, bool turned, int again = 0) {
     if (++uses_ > most_uses) return;
     const BrepShape& shape = file_.shapes[use.shape];
     const Eigen::Affine3d move = outer * use.place;
     const bool own = turned != (use.orientation == '-');
-    if (shape.kind == Shape::face) return add_face(use.shape, move, own);
-    if (shape.kind != Shape::group) return;
-    for (const Use& part : shape.uses) visit(part, move, own);
+    if (shape.kind != Shape::face && shape.kind != Shape::group) return;
+    const auto [first, fresh] = first_.try_emplace(use.shape, move);
+    if (!fresh && again == 0) {
+      ways_.push_back(move * first->second.inverse());
+      again = static_cast<int>(ways_.size());
+    }
+    if (shape.kind == Shape::group) {
+      for (const Use& part : shape.uses) visit(part, move, own, again);
+    } else if (fresh) {
+      add_face(use.shape, move, own);
+    } else {
+      ways_of_[use.shape].push_back(again);
+    }
+  }
+
+  /// Faces that are used again elsewhere, together with those that are used again in the same places: the parts of an
+  /// assembly, beside one of everything else.
+  void add_parts(brep::Model& model) {
+    std::map<std::vector<int>, std::vector<Index>> groups;  // faces
+    std::map<std::string, Index> faces;
+    for (Index f = 0; f < model.faces.size(); ++f) faces.emplace(model.faces[f].id, f);
+    std::size_t places = 0;
+    for (const auto& [shape, all] : ways_of_) {
+      std::vector<int> ways;
+      for (const int k : all) {
+        const Eigen::Affine3d& way = ways_[static_cast<std::size_t>(k) - 1];
+        const bool elsewhere = !way.isApprox(Eigen::Affine3d::Identity(), 1e-9) && brep::scale_of(way.linear());
+        if (elsewhere && ++places <= most_mapped)
+          ways.push_back(k);
+        else
+          ++read_.again;
+      }
+      const auto face = faces.find(brep::ModelBuilder::name(name_of(shape)));
+      if (!ways.empty() && face != faces.end()) groups[ways].push_back(face->second);
+    }
+    if (groups.empty()) return;
+    brep::Assembly result;
+    result.unit = model.length_unit();
+    for (const auto& [ways, own] : groups) {
+      brep::Part part{{}, result.unit, {}, {}, {}, {brep::PartPlace{}}};
+      for (const Index f : own) part.add(model, f);
+      for (const int k : ways) {
+        part.places.push_back({{}, ways_[static_cast<std::size_t>(k) - 1]});
+        model.instances.emplace_back().id = brep::ModelBuilder::name(builder_.fresh());
+      }
+      result.parts.push_back(std::move(part));
+    }
+    brep::add_rest(model, result);
+    model.assembly = std::move(result);
   }
 
   void add_face(std::size_t index, const Eigen::Affine3d& move, bool turned) {
     const BrepShape& shape = file_.shapes[index];
-    if (!known_.insert(index).second) {
-      ++read_.again;
-      return;
-    }
     if (shape.geometry == 0) return;
     brep::Face face;
     face.id = brep::ModelBuilder::name(name_of(index));
@@ -286,8 +331,10 @@ class ModelReader {
   const BrepFile& file_;
   brep::ModelBuilder builder_;
   ReadModel read_;
-  std::vector<Index> supports_;  // of the surfaces of the file, where they are first used
-  std::set<std::size_t> known_;
+  std::vector<Index> supports_;                      // of the surfaces of the file, where they are first used
+  std::map<std::size_t, Eigen::Affine3d> first_;     // where faces and groups are first used
+  std::vector<Eigen::Affine3d> ways_;                // from there to where they are used again
+  std::map<std::size_t, std::vector<int>> ways_of_;  // of faces: numbers of those, from 1
   std::map<std::size_t, std::vector<std::pair<Eigen::Affine3d, Index>>> made_;
   std::size_t uses_ = 0;
 };

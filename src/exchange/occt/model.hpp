@@ -22,11 +22,12 @@ struct ReadModel {
   struct Sources {
     std::map<std::string, Source> edges, vertices;  ///< by id
   } sources;
-  std::size_t again = 0;  ///< faces that are used a second time, which are left out
+  std::size_t again = 0;  ///< faces that are used a second time where they are, or sheared, which are left out
 };
 
 /// Surface k of the file, from 1, becomes #k; with S surfaces, shape j becomes #(S + j). Coordinates are the model's:
-/// locations are applied. What cannot be read is told where it is needed. Cost: linear in the file.
+/// locations are applied. What is used again elsewhere is a part with several places. What cannot be read is told where
+/// it is needed. Cost: linear in the file.
 [[nodiscard]] ReadModel read_model(const BrepFile& file, std::string name);
 
 }  // namespace knead::occt

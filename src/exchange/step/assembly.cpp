@@ -75,7 +75,7 @@ class Builder {
       result_.parts.push_back(
           {node.name, unit, names(c.surfaces), names(c.faces), names(c.curves), std::move(node.places)});
     }
-    add_rest();
+    brep::add_rest(model_, result_);
     return std::move(result_);
   }
 
@@ -159,8 +159,6 @@ class Builder {
     for (const Index k : records_.curves) kind[k] = 4;
     for (const Index k : groups_.representations()) kind[k] = 3;
     std::vector<Index> mark(records, no_instance), stack;
-    held_.assign(records, false);
-    given_.assign(records, false);
     std::size_t visits = 0;
     for (Index k = 0; k < groups_.size(); ++k) {
       const Index group = groups_.find(k);
@@ -170,7 +168,6 @@ class Builder {
       const auto visit = [&](Index target) {
         if (kind[target] == 3 || mark[target] == group) return;
         mark[target] = group;
-        held_[target] = true;
         if (kind[target] == 1) {
           c.faces.push_back(target);
           if (const auto on = below.find(target); on != below.end()) c.surfaces.push_back(on->second);
@@ -188,26 +185,10 @@ class Builder {
           if (const auto target = reader_.reference(value)) visit(*target);
         }
       }
-      for (const Index s : c.surfaces) given_[s] = true;
       if (!stack.empty())
         return input_error("too many parts share the same geometry", {}, "open the files of its parts");
     }
     return {};
-  }
-
-  /// What belongs to no product.
-  void add_rest() {
-    brep::Part rest{{}, model_.length_unit(), {}, {}, {}, {brep::PartPlace{}}};
-    for (const FaceRecord& face : read_faces(reader_)) {
-      if (!held_[face.instance]) rest.faces.push_back(name_of(reader_, face.instance));
-    }
-    for (const Index k : records_.surfaces) {
-      if (!given_[k]) rest.surfaces.push_back(name_of(reader_, k));
-    }
-    for (const Index k : records_.curves) {
-      if (!held_[k]) rest.curves.push_back(name_of(reader_, k));
-    }
-    if (!rest.faces.empty() || !rest.surfaces.empty() || !rest.curves.empty()) result_.parts.push_back(std::move(rest));
   }
 
   const Reader& reader_;
@@ -217,7 +198,6 @@ class Builder {
   std::map<Index, std::string> products_;
   std::optional<brep::PartGraph> graph_;
   std::vector<Content> contents_;
-  std::vector<bool> held_, given_;  // reached; surfaces that a part has
   brep::Assembly result_;
 };
 

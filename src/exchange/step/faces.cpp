@@ -4,11 +4,39 @@
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace knead::step {
 namespace {
 
 constexpr std::array<std::string_view, 3> face_kinds = {"ADVANCED_FACE", "FACE_SURFACE", "FACE"};
+constexpr std::array<std::string_view, 2> turned_shell_kinds = {"ORIENTED_CLOSED_SHELL", "ORIENTED_OPEN_SHELL"};
+constexpr std::array<std::string_view, 3> solid_kinds = {"MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "FACETED_BREP"};
+
+/// The faces of shells that are used turned, such as those round the hollows of a solid, and by no solid as they are.
+std::unordered_set<std::uint32_t> turned_faces(const Reader& reader) {
+  std::unordered_map<std::uint32_t, bool> turned;  // shells
+  for (const auto k : reader.file().named(turned_shell_kinds)) {
+    for (const auto kind : turned_shell_kinds) {
+      const auto own = reader.attributes(k, kind, 2, 2);
+      const auto shell = own.empty() ? std::nullopt : reader.reference(own[0]);
+      if (shell) turned.try_emplace(*shell, true).first->second &= reader.enumeration(own[1]) == "F";
+    }
+  }
+  std::unordered_set<std::uint32_t> result;
+  if (turned.empty()) return result;
+  for (const auto k : reader.file().named(solid_kinds)) {
+    const auto own = reader.attributes(k, "MANIFOLD_SOLID_BREP", 1, 1);
+    const auto shell = own.empty() ? std::nullopt : reader.reference(own[0]);
+    if (shell) turned.erase(*shell);
+  }
+  for (const auto& [shell, is_turned] : turned) {
+    const auto own = is_turned ? reader.attributes(shell, "CONNECTED_FACE_SET", 1, 1) : std::vector<std::uint32_t>();
+    if (own.empty()) continue;
+    for (const auto face : reader.references(own[0])) result.insert(face);
+  }
+  return result;
+}
 
 // The basis surface trimmed by a RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE.
 std::optional<std::uint32_t> cut_surface(const Reader& reader, std::uint32_t instance,
@@ -63,11 +91,12 @@ std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::
 
 std::vector<FaceRecord> read_faces(const Reader& reader) {
   std::vector<FaceRecord> result;
+  const auto turned = turned_faces(reader);
   for (const auto k : reader.file().named(face_kinds)) {
     const bool has_surface = reader.is(k, "ADVANCED_FACE") || reader.is(k, "FACE_SURFACE");
     const auto bounds = reader.attributes(k, "FACE", 1, 1);
     if (bounds.empty()) continue;
-    FaceRecord face{k, bounds[0]};
+    FaceRecord face{.instance = k, .bounds = bounds[0], .turned = turned.contains(k)};
     if (has_surface) {
       const auto own = reader.attributes(k, "FACE_SURFACE", 2, 2);
       const auto target = untrimmed(reader, own.empty() ? std::nullopt : reader.reference(own[0]));

@@ -16,6 +16,7 @@ struct FaceRecord {
   std::uint32_t bounds = 0;             ///< the value of its list of FACE_BOUNDs
   std::uint32_t surface = no_instance;  ///< none: a FACE has only the geometry of its loops
   bool same_sense = true;
+  bool turned = false;  ///< inside out: an ORIENTED_CLOSED_SHELL or ORIENTED_OPEN_SHELL turns its shell
 };
 
 /// The surface that a RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE trims; another surface is itself. None where

@@ -88,6 +88,7 @@ class TopologyReader {
     brep::Face& face = model_.faces.emplace_back(record_of(reader_, record.instance));
     faces_.emplace(record.instance, static_cast<Index>(model_.faces.size() - 1));
     face.same_sense = record.same_sense;
+    face.turned = record.turned;
     if (record.surface != no_instance) {
       const auto [at, fresh] = supports_.try_emplace(record.surface, static_cast<Index>(model_.supports.size()));
       if (fresh) {
