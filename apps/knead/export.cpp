@@ -5,10 +5,10 @@
 
 #include "cad_input.hpp"
 #include "cli.hpp"
-#include "knead/brep/face_conversion.hpp"
-#include "knead/brep/model.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
+#include "knead/exchange/left_out.hpp"
+#include "left_out_lines.hpp"
 #include "outputs.hpp"
 
 namespace knead::cli {
@@ -19,27 +19,6 @@ struct ExportArguments {
   bool sets = false;
   UnpackOption unpack;
 };
-
-/// What a new file of whole surfaces does not have.
-void warn(const Source& source) {
-  const auto model = source.model();
-  if (model != nullptr) {
-    std::size_t trimmed = 0;
-    for (const brep::SplineSurface& s : model->surfaces) trimmed += s.trimmed ? 1 : 0;
-    if (trimmed > 0) {
-      fmt::print(stderr, "knead: warning: {} cut by faces; they are written whole\n",
-                 counted(trimmed, "surface is", "surfaces are"));
-    }
-    const std::size_t others = brep::other_surfaces(*model).size();
-    if (others > 0) {
-      fmt::print(stderr, "knead: warning: {} left out\n",
-                 counted(others, "surface of another form is", "surfaces of other forms are"));
-    }
-  }
-  for (const brep::UnreadableSurface& s : source.unreadable()) {
-    fmt::print(stderr, "knead: warning: the surface {} is left out: {}\n", s.id, s.reason.message());
-  }
-}
 
 /// The unit of what is written: the one of all shapes of the file or, where it has none, the one that is asked for.
 Expected<std::string> unit_of(const Source& source, const ExportArguments& options) {
@@ -103,17 +82,17 @@ Expected<void> run(const ExportArguments& options) {
     return std::unexpected(std::move(unit.error()));
   }
   how.unit = *std::move(unit);
+  LeftOut without_face{"surface", "surfaces", 0, "all its sides are points, so that it has no face",
+                       "write it bare, with --sets"};
   if (how.faces) {
     const auto left = without_faces(surfaces);
     if (!left) return std::unexpected(left.error());
-    std::string ids;
-    for (const std::size_t k : *left) ids += (ids.empty() ? "" : ", ") + (*source)->surfaces()[k].id;
+    for (const std::size_t k : *left) {
+      ++without_face.count;
+      if (without_face.ids.size() < LeftOut::most_ids) without_face.ids.push_back((*source)->surfaces()[k].id);
+    }
     for (const std::size_t k : std::views::reverse(*left))
       surfaces.erase(surfaces.begin() + static_cast<std::ptrdiff_t>(k));
-    if (!left->empty()) {
-      fmt::print(stderr, "knead: warning: {} left out, as all their sides are points and they have no face: {}\n",
-                 counted(left->size(), "surface is", "surfaces are"), ids);
-    }
   }
   auto bytes = save_surfaces(surfaces, **format, how);
   if (!bytes) {
@@ -123,7 +102,9 @@ Expected<void> run(const ExportArguments& options) {
   bytes = compressed_by_name(*std::move(bytes), options.output, options.file);
   if (!bytes) return std::unexpected(std::move(bytes.error()));
   if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
-  warn(**source);
+  auto left_out = left_out_of_surfaces(**source, **format);
+  if (without_face.count > 0) left_out.push_back(std::move(without_face));
+  warn_left_out(left_out);
   fmt::print("wrote {} ({}, {}, {} bytes)\n", options.output, (*format)->name,
              counted(surfaces.size(), "surface", "surfaces"), bytes->size());
   return {};
@@ -148,8 +129,8 @@ Action add_export(CLI::App& app) {
   command->footer(
       "Every B-spline surface, whole, as a face on its natural bounds with its name and colour; sides that are the\n"
       "same curve become one edge, and faces that share edges a shell. Control points, knots and weights are the\n"
-      "same bits. Faces that cut a surface, other surfaces, assemblies and everything else are not written, which a\n"
-      "warning says: `knead sculpt` keeps them.\n" +
+      "same bits. Faces that cut a surface, other surfaces, assemblies and everything else are not written, which\n"
+      "warnings say: `knead sculpt` keeps them.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 
 #include "cad_input.hpp"
 #include "cli.hpp"
@@ -13,7 +14,9 @@
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/model.hpp"
 #include "knead/exchange/format.hpp"
+#include "knead/exchange/left_out.hpp"
 #include "knead/spline/extremum.hpp"
+#include "left_out_lines.hpp"
 #include "parts.hpp"
 #include "progress.hpp"
 
@@ -110,6 +113,10 @@ std::vector<brep::OtherSurface> others_of(const Source& source) {
   return model ? brep::other_surfaces(*model) : std::vector<brep::OtherSurface>();
 }
 
+std::span<const brep::TessellatedItem> tessellated_of(const brep::Model* model) {
+  return model != nullptr ? std::span(model->tessellated.items) : std::span<const brep::TessellatedItem>();
+}
+
 /// Of the file as a whole; of other formats than STEP the geometry is read as STEP.
 std::string unit_of(const Source& source) {
   const auto model = source.model();
@@ -143,6 +150,11 @@ void print_text(const Source& source) {
                counted(static_cast<std::size_t>(c.curve->size()), "control point", "control points"),
                c.curve->rational() ? "rational" : "polynomial");
   }
+  for (const brep::TessellatedItem& item : tessellated_of(model.get())) {
+    fmt::print("  {:<8} {}tessellated, {}\n", item.mesh.id,
+               item.name.empty() ? "" : "\"" + printable(item.name) + "\", ",
+               counted(item.mesh.triangles.size(), "triangle", "triangles"));
+  }
   std::map<std::string, int> others;
   for (const brep::OtherSurface& s : others_of(source)) ++others[s.form];
   if (!others.empty()) {
@@ -150,9 +162,7 @@ void print_text(const Source& source) {
     for (const auto& [form, count] : others) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, form);
     fmt::print("  other surfaces, to be converted before they are sculpted (--faces lists them): {}\n", counts);
   }
-  for (const brep::UnreadableSurface& s : source.unreadable()) {
-    fmt::print("  {:<8} cannot be sculpted: {}\n", s.id, s.reason.message());
-  }
+  print_left_out(left_out_of_list(source));
   if (model != nullptr) print_parts(*model);
   for (const std::string& remark : source.remarks()) fmt::print("  {}\n", printable(remark, 2000));
 }
@@ -189,6 +199,11 @@ Expected<void> run(const InfoArguments& options) {
   }
   Json curves = Json::array();
   for (const SourceCurve& c : (*source)->curves()) curves.push_back(to_json(c));
+  Json tessellated = Json::array();
+  for (const brep::TessellatedItem& item : tessellated_of(model.get())) {
+    tessellated.push_back(
+        {{"id", item.mesh.id}, {"name", item.name}, {"unit", item.unit}, {"triangles", item.mesh.triangles.size()}});
+  }
   for (const brep::UnreadableSurface& s : (*source)->unreadable()) {
     unreadable.push_back({{"id", s.id}, {"reason", s.reason.message()}});
   }
@@ -203,8 +218,10 @@ Expected<void> run(const InfoArguments& options) {
                      {"unreadable_surfaces", std::move(unreadable)},
                      {"other_surfaces", std::move(others)},
                      {"curves", std::move(curves)},
+                     {"tessellated_items", std::move(tessellated)},
                      {"instances", std::move(instances)},
                      {"assembly", model != nullptr ? parts_json(*model) : Json()},
+                     {"left_out", left_out_json(left_out_of_list(**source))},
                      {"remarks", (*source)->remarks()}};
   line.reset();
   fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));

@@ -7,7 +7,9 @@
 #include "knead/brep/model.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
+#include "knead/exchange/left_out.hpp"
 #include "knead/exchange/save_model.hpp"
+#include "left_out_lines.hpp"
 #include "outputs.hpp"
 
 namespace knead::cli {
@@ -38,12 +40,13 @@ Expected<void> write_model(const Source& source, const Format& format, const Mes
   if (!model) return in_options(model.error(), options);
   if (auto done = write_file_atomically(options.output, model->bytes); !done) return done;
   for (const std::string& warning : model->warnings) fmt::print(stderr, "knead: warning: {}\n", warning);
-  for (const SkippedFace& face : model->skipped) {
-    fmt::print(stderr, "knead: warning: the face {} is left out: {}\n", face.id, face.reason.what);
-  }
+  warn_left_out(left_out_of_mesh(source, model->skipped));
+  const std::size_t exact = model->faces - model->tessellated;
+  std::string what = exact > 0 || model->tessellated == 0 ? counted(exact, "face", "faces") : "";
+  if (model->tessellated > 0)
+    what += (what.empty() ? "" : ", ") + counted(model->tessellated, "tessellated item", "tessellated items");
   fmt::print(
-      "wrote {} ({}, {}, {}, {} bytes)\n", options.output, counted(model->faces, "face", "faces"),
-      counted(model->triangles, "triangle", "triangles"),
+      "wrote {} ({}, {}, {}, {} bytes)\n", options.output, what, counted(model->triangles, "triangle", "triangles"),
       model->open_sides == 0 ? "closed" : "open along " + counted(model->open_sides, "side", "sides") + " of triangles",
       model->bytes.size());
   return {};
@@ -61,6 +64,7 @@ Expected<void> write_surfaces(const Source& source, const Format& format, const 
   const auto bytes = save_surfaces(surfaces, format, mesh);
   if (!bytes) return in_options(bytes.error(), options);
   if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
+  warn_left_out(left_out_of_surfaces(source, format));
   fmt::print("wrote {} ({}, {} bytes)\n", options.output, counted(surfaces.size(), "surface", "surfaces"),
              bytes->size());
   return {};

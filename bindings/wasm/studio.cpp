@@ -364,7 +364,7 @@ KNEAD_EXPORT(knead_context) int knead_context() {
   auto& session = held().session;
   if (!session || !session->document().model()) return answer("null");
   held().context = context_picture(*session->document().model(), held().origin);
-  return answer(context_json(held().context));
+  return answer(context_json(held().context, *session->document().source()));
 }
 
 /// The parts of the open file and where they stand: `assembly_json`; null without a file.

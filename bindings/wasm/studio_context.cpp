@@ -7,6 +7,7 @@
 
 #include "buffers.hpp"
 #include "knead/brep/face_conversion.hpp"
+#include "knead/exchange/left_out.hpp"
 
 namespace knead::studio {
 
@@ -57,7 +58,8 @@ ContextPicture context_picture(const brep::Model& model, const Point& origin) {
   for (const FaceMesh& mesh : context.faces) {
     const auto on = below.find(mesh.id);
     const brep::OtherSurface none, &surface = on == below.end() ? none : *on->second;
-    picture.faces.push_back({mesh.id, surface.id, surface.form, mesh.triangles.size()});
+    picture.faces.push_back(
+        {mesh.id, surface.id, mesh.tessellated ? "TRIANGLES" : surface.form, mesh.triangles.size()});
     const auto first = static_cast<std::uint32_t>(picture.positions.size() / 3);
     for (std::size_t k = 0; k < mesh.points.size(); ++k) {
       for (int d = 0; d < 3; ++d) {
@@ -73,16 +75,18 @@ ContextPicture context_picture(const brep::Model& model, const Point& origin) {
   return picture;
 }
 
-std::string context_json(const ContextPicture& context) {
-  auto faces = nlohmann::json::array(), skipped = nlohmann::json::array();
+std::string context_json(const ContextPicture& context, const Source& source) {
+  auto faces = nlohmann::json::array(), skipped = nlohmann::json::array(), left_out = nlohmann::json::array();
   for (const auto& [id, surface, form, triangles] : context.faces) {
     faces.push_back({{"id", id}, {"surface", surface}, {"form", form}, {"triangles", triangles}});
   }
   for (const SkippedFace& face : context.skipped) skipped.push_back({{"id", face.id}, {"reason", face.reason.what}});
+  for (const LeftOut& left : left_out_of_picture(source, context.skipped)) left_out.push_back(sentence(left));
   return "{\"buffers\":" +
          buffers_json({{"positions", context.positions}, {"normals", context.normals}, {"indices", context.indices}}) +
          ",\"faces\":" + faces.dump() +
-         ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}";
+         ",\"skipped\":" + skipped.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+         ",\"left_out\":" + left_out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "}";
 }
 
 namespace {

@@ -20,7 +20,8 @@ inline constexpr double drawn_chord = 1e-4;
 
 /// The faces around the surfaces as triangles; points relative to the requested origin.
 struct ContextPicture {
-  /// One of them, with the surface it lies on; that is empty where no record describes it.
+  /// One of them, with the surface it lies on; that is empty where no record describes it. The form of tessellated
+  /// items is TRIANGLES.
   struct Face {
     std::string id, surface, form;
     std::size_t triangles = 0;
@@ -42,8 +43,10 @@ struct ContextPicture {
 [[nodiscard]] Point origin_near(const SessionState& now, const Point& otherwise);
 
 /// {"buffers": …, "faces": [{"id": "#11", "surface": "#10", "form": "PLANE", "triangles": 2}, …], "skipped": [{"id":
-/// "#12", "reason": "…"}, …]}
-[[nodiscard]] std::string context_json(const ContextPicture& context);
+/// "#12", "reason": "…"}, …],
+/// "left_out": ["2 points (#7, #9): a point has no surface", …]}: what of the source is not drawn, skipped faces
+/// included.
+[[nodiscard]] std::string context_json(const ContextPicture& context, const Source& source);
 
 /// {"faces": [[[s, t, s, t, …], …], …]}: the loops of each face, in fractions of the domain; null for a whole surface.
 [[nodiscard]] std::string trim_json(const SurfaceTrim& trim);

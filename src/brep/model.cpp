@@ -92,6 +92,9 @@ void add_rest(const Model& model, Assembly& assembly) {
     }
   };
   add(model.faces, rest.faces);
+  for (const TessellatedItem& item : model.tessellated.items) {
+    if (!held.contains(item.mesh.id)) rest.faces.push_back(item.mesh.id);
+  }
   add(model.surfaces, rest.surfaces);
   add(model.curves, rest.curves);
   if (!rest.faces.empty() || !rest.surfaces.empty() || !rest.curves.empty()) assembly.parts.push_back(std::move(rest));

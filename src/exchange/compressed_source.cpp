@@ -20,6 +20,7 @@ class CompressedSource final : public Source {
   std::string schema() const override { return held_->schema(); }
   std::shared_ptr<const brep::Model> model() const override { return held_->model(); }
   std::unordered_map<std::string, Colour> colours() const override { return held_->colours(); }
+  std::vector<LeftOut> left_out() const override { return held_->left_out(); }
   Expected<void> can_move_edge(const std::string& id) const override { return held_->can_move_edge(id); }
 
   std::vector<std::string> remarks() const override {

@@ -1,5 +1,7 @@
 #include "knead/exchange/save_model.hpp"
 
+#include <unordered_map>
+
 namespace knead {
 
 Expected<ModelFile> save_model(const Source& source, const Format& format, double tolerance, SaveOptions options) {
@@ -11,14 +13,19 @@ Expected<ModelFile> save_model(const Source& source, const Format& format, doubl
     const SkippedFace& first = meshed->skipped.front();
     return std::unexpected(first.reason.within("none of the faces can be made triangles: " + first.id));
   }
-  ModelFile result{{}, meshed->faces.size(), 0, open_sides(meshed->faces), meshed->skipped, model->assembly->warnings};
+  ModelFile result{
+      {}, meshed->faces.size(), 0, open_sides(meshed->faces), 0, meshed->skipped, model->assembly->warnings};
   options.unit = model->assembly->unit == "unknown" ? "" : model->assembly->unit;
   const auto colours = source.colours();
+  std::unordered_map<std::string, std::string> names;  // of tessellated items
+  for (const brep::TessellatedItem& item : model->tessellated.items) names.emplace(item.mesh.id, item.name);
   std::vector<NamedMesh> meshes;
   for (const FaceMesh& face : meshed->faces) {
     const brep::SplineSurface* entity = model->find_surface(face.surface);
     NamedMesh& mesh = meshes.emplace_back();
-    mesh.name = entity != nullptr && !entity->name.empty() ? entity->name : face.id;
+    mesh.name = entity != nullptr ? entity->name : face.tessellated ? names[face.id] : std::string();
+    if (mesh.name.empty()) mesh.name = face.id;
+    result.tessellated += face.tessellated ? 1 : 0;
     auto colour = colours.find(face.id);
     if (colour == colours.end()) colour = colours.find(face.surface);
     if (colour != colours.end()) mesh.colour = colour->second;

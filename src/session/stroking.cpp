@@ -6,6 +6,7 @@
 #include <map>
 
 #include "executor.hpp"
+#include "knead/scene/anchors.hpp"
 #include "knead/spline/spline_refinement.hpp"
 
 namespace knead {

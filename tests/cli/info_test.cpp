@@ -88,6 +88,67 @@ TEST(Info, AFileWithoutSplineSurfacesIsNoError) {
   EXPECT_EQ(run.json().at("units"), "unknown");
 }
 
+/// The sheet of the bonnet with a point and a circle beside it, and a layer.
+std::string with_more(const Workshop& workshop) {
+  std::string text = step_sheet(surface_of(bonnet(), "#285"));
+  text.insert(text.rfind("ENDSEC;"),
+              "#9001=CARTESIAN_POINT('',(0.,0.,0.));\n#9002=AXIS2_PLACEMENT_3D('',#9001,$,$);\n"
+              "#9003=CIRCLE('',#9002,1.);\n#9004=GEOMETRIC_SET('',(#9001,#9003));\n"
+              "#9005=PRESENTATION_LAYER_ASSIGNMENT('hidden','',(#9004));\n");
+  return workshop.file("more.step", text);
+}
+
+TEST(Info, MeshAndExportNameAndCountWhatTheyLeaveOut) {
+  const Workshop workshop;
+  const std::string path = with_more(workshop);
+  const Json left = knead({"info", path, "--json"}).json().at("left_out");
+  ASSERT_EQ(left.size(), 3U);
+  EXPECT_EQ(left[0].at("what"), "points");
+  EXPECT_EQ(left[0].at("count"), 1);
+  EXPECT_EQ(left[0].at("reason"), "a point has no surface");
+  EXPECT_TRUE(left[0].at("remedy").is_null());
+  EXPECT_EQ(left[0].at("ids"), Json::array({"#9001"}));
+  EXPECT_TRUE(left[1].at("remedy").is_string());
+  const std::string text = knead({"info", path}).out;
+  EXPECT_NE(text.find("  left out:\n    1 point (#9001): a point has no surface\n    1 curve"), std::string::npos)
+      << text;
+  const Outcome mesh = knead({"mesh", path, "--out", workshop / "a.stl"});
+  const Outcome copy = knead({"export", path, "--out", workshop / "a.igs"});
+  for (const Outcome& run : {mesh, copy}) {
+    EXPECT_EQ(run.code, 0);
+    for (const char* line : {"warning: left out: 1 point (#9001): a point has no surface\n",
+                             "warning: left out: 1 curve that is no B-spline (#9003): ",
+                             "warning: left out: 1 layer (#9005): layers are not shown\n"})
+      EXPECT_NE(run.err.find(line), std::string::npos) << run.err;
+  }
+}
+
+TEST(Info, AndMeshCountTessellatedItems) {
+  const Workshop workshop;
+  const std::string path =
+      workshop.file("tent.step",
+                    "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+                    "FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF'));\nENDSEC;\nDATA;\n"
+                    "#1=COORDINATES_LIST('',4,((0.,0.,0.),(2.,0.,0.),(0.,2.,0.),(0.,0.,2.)));\n"
+                    "#2=TRIANGULATED_FACE('tent',#1,4,(),$,(),((1,3,2),(1,2,4),(2,3,4),(1,4,3)));\n"
+                    "#3=TRIANGULATED_FACE('torn',#1,4,(),$,(),((1,2,5)));\nENDSEC;\nEND-ISO-10303-21;\n");
+  const Json info = knead({"info", path, "--json"}).json();
+  EXPECT_EQ(info.at("tessellated_items"),
+            Json::parse(R"([{"id": "#2", "name": "tent", "unit": "unknown", "triangles": 4}])"));
+  ASSERT_EQ(info.at("left_out").size(), 1U);
+  EXPECT_EQ(info.at("left_out")[0].at("ids"), Json::array({"#3"}));
+  EXPECT_NE(knead({"info", path}).out.find("#2       \"tent\", tessellated, 4 triangles\n"), std::string::npos);
+  const Outcome run = knead({"mesh", path, "--out", workshop / "a.stl"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("(1 tessellated item, 4 triangles, closed, "), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("left out: 1 face that cannot be drawn (#3): an index is 5"), std::string::npos) << run.err;
+}
+
+TEST(Info, LeavesNothingOutOfTheSample) {
+  EXPECT_TRUE(knead({"info", bonnet(), "--json"}).json().at("left_out").empty());
+  EXPECT_EQ(knead({"info", bonnet()}).out.find("left out"), std::string::npos);
+}
+
 TEST(Info, ANameInAnyTongueIsValidJson) {
   const Workshop workshop;
   std::string text = step_sheet(surface_of(bonnet(), "#285"));

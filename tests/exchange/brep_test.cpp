@@ -46,9 +46,8 @@ TEST(Brep, WhatIsUsedAgainElsewhereStandsThereToo) {
     for (const Point& p : mesh.points) sum += p.x() / static_cast<double>(mesh.points.size());
   }
   EXPECT_NEAR(sum, 0.5 + 10.5, 1e-12);
-  ASSERT_EQ(source->remarks().size(), 1U);
-  EXPECT_NE(source->remarks()[0].find("1 face is used again in the same place"), std::string::npos)
-      << source->remarks()[0];
+  ASSERT_EQ(source->left_out().size(), 1U) << "its third use is where the first one is";
+  EXPECT_EQ(source->left_out()[0].count, 1U);
 }
 
 /// Where a face with this location, made of a quarter turn about z (1) and 10 along x (2), has the corner (0, 1, 0).

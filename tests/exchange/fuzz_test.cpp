@@ -9,6 +9,7 @@
 #include "knead/brep/context_faces.hpp"
 #include "knead/brep/trim_loops.hpp"
 #include "knead/exchange/file_io.hpp"
+#include "knead/exchange/left_out.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "support/long_run.hpp"
 #include "support/own_files.hpp"
@@ -126,6 +127,13 @@ bool survives(const std::string& bytes) {
   // Whatever the faces have become, they are drawn or left out.
   EXPECT_TRUE(context_faces(file->model(), 0.02));
   EXPECT_TRUE(trim_loops(file->model(), 0.02));
+  const auto source = open_source(bytes, "damaged.step");
+  EXPECT_TRUE(source);
+  if (!source) return true;
+  for (const LeftOut& left : left_out_of_list(**source)) {
+    EXPECT_GT(left.count, 0U);
+    EXPECT_FALSE(left.reason.empty()) << left.many << "\n" << bytes;
+  }
   return true;
 }
 
@@ -210,6 +218,26 @@ TEST(StepFuzz, DamagedFaces) {
          {b.bound({below}), b.bound({-above})});
   b.entity("FACE('',(#" + std::to_string(b.polygon_bound({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) + "))");
   damage(testing::step_text(b.text()), times(1500));
+}
+
+TEST(StepFuzz, DamagedTrianglesAndWhatElseIsLeftOut) {
+  damage(testing::step_text(
+             "#1=COORDINATES_LIST('',4,((0.,0.,0.),(2.,0.,0.),(0.,2.,0.),(0.,0.,2.)));\n"
+             "#2=TRIANGULATED_FACE('a',#1,4,(),$,(),((1,3,2),(1,2,4),(2,3,4),(1,4,3)));\n"
+             "#3=COMPLEX_TRIANGULATED_FACE('',#1,4,((0.,0.,1.)),#30,(1,2,3,4),((1,2,3,4)),((1,2,3)));\n"
+             "#4=TRIANGULATED_SURFACE_SET('',#1,3,((0.,0.,1.),(0.,1.,0.),(1.,0.,0.)),(1,2,3),((1,2,3)));\n"
+             "#5=TESSELLATED_SHELL('',(#2,#3,#9),$);\n#6=TESSELLATED_SOLID('s',(#5),$);\n"
+             "#7=(GEOMETRIC_REPRESENTATION_ITEM()REPOSITIONED_TESSELLATED_ITEM(#21)REPRESENTATION_ITEM('')"
+             "TESSELLATED_GEOMETRIC_SET((#6,#4))TESSELLATED_ITEM());\n#8=TESSELLATED_GEOMETRIC_SET('',(#7,#4));\n"
+             "#9=TESSELLATED_EDGE('',#1,$,(1,2));\n#10=TESSELLATED_ANNOTATION_OCCURRENCE('',(),#8);\n"
+             "#11=TESSELLATED_SHAPE_REPRESENTATION('',(#7,#20,#21,#23,#24,#25),#12);\n"
+             "#12=(GLOBAL_UNIT_ASSIGNED_CONTEXT((#13))REPRESENTATION_CONTEXT('',''));\n"
+             "#13=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n#20=CARTESIAN_POINT('',(1.,0.,0.));\n"
+             "#21=AXIS2_PLACEMENT_3D('',#20,$,$);\n#22=PLANE('',#21);\n#23=CIRCLE('',#21,1.);\n"
+             "#24=RECTANGULAR_TRIMMED_SURFACE('',#22,0.,1.,0.,1.,.T.,.T.);\n#25=BLOCK('',#21,1.,1.,1.);\n"
+             "#26=PROPERTY_DEFINITION_REPRESENTATION($,#11);\n#27=PRESENTATION_LAYER_ASSIGNMENT('','',(#2));\n"
+             "#30=ADVANCED_FACE('',(),#22,.T.);\n"),
+         times(3000));
 }
 
 TEST(StepFuzz, DamagedSamples) {

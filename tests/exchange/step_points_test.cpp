@@ -93,19 +93,5 @@ TEST(StepPoints, OfAPlaneOrOfSeveralUnitsAreErrorsWithARemedy) {
   EXPECT_NE(reason(points(true) + bilinear_patch() + both).find("several units"), std::string::npos);
 }
 
-TEST(StepRemarks, NameTessellatedItems) {
-  const std::string text =
-      step_text(unit_square_points() + bilinear_patch() +
-                "#20=COORDINATES_LIST('',3,((0.,0.,0.),(1.,0.,0.),(0.,1.,0.)));\n"
-                "#21=TRIANGULATED_FACE('',#20,3,((0.,0.,1.)),$,(),((1,2,3)));\n#22=TESSELLATED_SHELL('',(#21),$);\n"
-                "#23=TRIANGULATED_FACE('',#20,3,((0.,0.,1.)),$,(),((1,2,3)));\n");
-  const auto source = open_or_die(text, "a.step");
-  ASSERT_EQ(source->remarks().size(), 1U);
-  EXPECT_EQ(
-      source->remarks()[0],
-      "1 x TESSELLATED_SHELL, 2 x TRIANGULATED_FACE: triangles and polylines, which are neither shown nor changed");
-  EXPECT_TRUE(open_or_die(step_text(unit_square_points() + bilinear_patch()), "a.step")->remarks().empty());
-}
-
 }  // namespace
 }  // namespace knead

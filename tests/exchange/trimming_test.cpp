@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <map>
 
 #include <sstream>
 
@@ -20,9 +21,15 @@ class Face {
   int vertex(double x, double y, double z = 0) {
     text_ << "#" << id_ << "=CARTESIAN_POINT('',(" << real(x) << "," << real(y) << "," << real(z) << "));\n#" << id_ + 1
           << "=VERTEX_POINT('',#" << id_ << ");\n";
+    places_[id_ + 1] = Point(x, y, z);
     return (id_ += 2) - 1;
   }
-  int line(int from, int to) { return edge(from, to, "LINE('',#" + std::to_string(from - 1) + ",$)"); }
+  int line(int from, int to) {
+    const Point way = places_.at(to) - places_.at(from);
+    const int direction = entity("DIRECTION('',(" + real(way.x()) + "," + real(way.y()) + "," + real(way.z()) + "))");
+    const int vector = entity("VECTOR('',#" + std::to_string(direction) + ",1.)");
+    return edge(from, to, "LINE('',#" + std::to_string(from - 1) + ",#" + std::to_string(vector) + ")");
+  }
   int edge(int from, int to, const std::string& curve, bool sense = true) {
     text_ << "#" << id_ << "=" << curve << ";\n#" << id_ + 1 << "=EDGE_CURVE('',#" << from << ",#" << to << ",#" << id_
           << (sense ? ",.T." : ",.F.") << ");\n#" << id_ + 2 << "=ORIENTED_EDGE('',*,*,#" << id_ + 1 << ",.T.);\n";
@@ -56,6 +63,7 @@ class Face {
   }
   std::ostringstream text_;
   std::string bounds_;
+  std::map<int, Point> places_;  // of vertices
   int id_ = 50;
 };
 

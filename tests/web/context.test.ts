@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
+import { notShown } from '@studio/document/context';
 import { Engine } from '@studio/engine/engine';
 
 import { facesStep } from './faces_step';
@@ -50,6 +51,25 @@ describe('faces round the surfaces', () => {
     const { parts } = engine.assembly()!;
     expect(parts.map(({ name, places }) => [name, places.length])).toEqual([['Bonnet', 1], ['Headlamp ring', 1]]);
     for (const { id } of engine.context()!.faces) expect(parts.filter(({ faces }) => faces.includes(id)).length).toBe(1);
+  });
+
+  it('may be triangles of the file itself, which are marked; what is not drawn is named', async () => {
+    const engine = await Engine.load(wasm);
+    const records = [
+      "#9001=COORDINATES_LIST('',4,((0.,0.,5.),(1.,0.,5.),(0.,1.,5.),(1.,1.,5.)));",
+      "#9002=COMPLEX_TRIANGULATED_FACE('',#9001,4,((0.,0.,1.)),$,(),((1,2,3,4)),());",
+      "#9003=TRIANGULATED_FACE('',#9001,4,(),$,(),((1,2,5)));",
+      "#9004=GEOMETRIC_SET('',(#9005));", "#9005=CARTESIAN_POINT('',(0.,0.,0.));",
+    ].join('\n');
+    const text = new TextDecoder().decode(facesStep());
+    engine.openStep(new TextEncoder().encode(text.replace('\nDATA;\n', `\nDATA;\n${records}\n`)), 'triangles.step');
+    const context = engine.context()!;
+    expect(context.faces.map(({ form, triangles }) => [form, triangles])).toEqual([['PLANE', 2], ['TRIANGLES', 2]]);
+    expect(context.skipped.map(({ id }) => id)).toEqual(['#9003']);
+    expect(context.leftOut).toEqual([expect.stringMatching(/^1 face that cannot be drawn \(#9003\): an index is 5/), '1 point (#9005): a point has no surface']);
+    expect(notShown(context.leftOut)).toMatch(/^Not shown: 1 face .* Nothing of the file is lost\.$/);
+    expect(notShown([])).toBe('');
+    expect(notShown(['a', 'b', 'c', 'd'])).toContain('a. b. c. And 1 more');
   });
 
   it('are none without a file', async () => {

@@ -54,7 +54,7 @@ struct Part {
   std::string name;                   ///< of the product; empty if there is none
   std::string unit;                   ///< of its coordinates, as in `LengthUnit::name`; "unknown" if not given
   std::vector<std::string> surfaces;  ///< ids of its B-spline surfaces
-  std::vector<std::string> faces;     ///< ids of its faces
+  std::vector<std::string> faces;     ///< ids of its faces and tessellated items (tessellated.hpp)
   std::vector<std::string> curves;    ///< ids of its curves that stand for themselves (`File::curves`)
   std::vector<PartPlace> places;      ///< at least one
 

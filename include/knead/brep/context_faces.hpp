@@ -1,31 +1,12 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "knead/base/error.hpp"
+#include "knead/brep/face_mesh.hpp"
 #include "knead/brep/model.hpp"
-#include "knead/spline/spline.hpp"
 
 namespace knead {
-
-/// Triangles of one face.
-struct FaceMesh {
-  std::string id;       ///< "#123", of the ADVANCED_FACE
-  std::string surface;  ///< "#123", of the B-spline surface that it lies on; empty if it lies on another
-  std::vector<Point> points;
-  std::vector<Point> normals;  ///< unit, one per point, of the face: the surface's, reversed where same_sense is false,
-                               ///< and where an ORIENTED_CLOSED_SHELL turns its shell
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the tip of the normal
-};
-
-/// A face that could not be triangulated, and why; the others are still usable.
-struct SkippedFace {
-  std::string id;
-  Error reason;
-};
 
 struct FaceMeshes {
   std::vector<FaceMesh> faces;
@@ -35,6 +16,8 @@ struct FaceMeshes {
 /// The faces of a model that do not lie on one of its `surfaces()`, as triangles: the context of the surfaces that
 /// can be sculpted. Faces on planes, cylinders, cones, spheres, tori, surfaces of revolution and of linear
 /// extrusion, and polygons (POLY_LOOP); edges on lines, conics, polylines and B-spline curves (docs/context-faces.md).
+///
+/// Then the tessellated items of the model (tessellated.hpp), whatever the chord.
 ///
 /// Coordinates are the file's, in the frame of the representation that the face belongs to, as those of `surfaces()`
 /// are; the model's assembly says where that stands in the model.

@@ -11,6 +11,7 @@
 
 #include "knead/base/error.hpp"
 #include "knead/brep/assembly.hpp"
+#include "knead/brep/tessellated.hpp"
 #include "knead/spline/spline.hpp"
 
 /// The boundary representation of a file: what readers of every format fill, and what everything about faces and
@@ -187,6 +188,7 @@ struct Model {
   std::vector<SplineSurface> surfaces;
   std::vector<UnreadableSurface> unreadable;
   std::vector<FreeCurve> curves;
+  TessellatedItems tessellated;
   std::vector<double> angle_units = {1};     ///< in radians: those that angles of cones may be in
   std::vector<LengthUnit> units;             ///< one per context that assigns one
   std::vector<Instance> instances;           ///< components of assemblies

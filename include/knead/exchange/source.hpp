@@ -10,6 +10,7 @@
 
 #include "knead/base/error.hpp"
 #include "knead/brep/model.hpp"
+#include "knead/exchange/left_out.hpp"
 #include "knead/spline/spline.hpp"
 
 namespace knead {
@@ -44,6 +45,8 @@ class Source {
   [[nodiscard]] virtual std::string schema() const { return {}; }
   /// What else is to be said about the file: one sentence or count each.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
+  /// What of the file is not read; `left_out_of_list` and the like add what is read and left out all the same.
+  [[nodiscard]] virtual std::vector<LeftOut> left_out() const { return {}; }
   /// In the order of the file.
   [[nodiscard]] virtual const std::vector<SourceSurface>& surfaces() const = 0;
   [[nodiscard]] virtual const std::vector<brep::UnreadableSurface>& unreadable() const = 0;

@@ -29,6 +29,9 @@ Expected<FaceMeshes> context_faces(const brep::Model& model, double chord) {
     else
       result.skipped.push_back({ready[k].face->id, std::move(meshes[k].error())});
   }
+  for (const TessellatedItem& item : model.tessellated.items) result.faces.push_back(item.mesh);
+  const std::vector<SkippedFace>& torn = model.tessellated.skipped;
+  result.skipped.insert(result.skipped.end(), torn.begin(), torn.end());
   return result;
 }
 

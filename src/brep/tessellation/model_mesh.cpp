@@ -121,6 +121,11 @@ double diagonal_of(const Model& model, const Standing& standing) {
     if (closed_extent(model, face, *loops) > bulging * width) own.extend(box_of(coarse, face));
     if (!own.isEmpty()) standing.extend(box, face.id, own);
   }
+  for (const TessellatedItem& item : model.tessellated.items) {
+    Eigen::AlignedBox3d own;
+    for (const Point& p : item.mesh.points) own.extend(p);
+    standing.extend(box, item.mesh.id, own);
+  }
   if (box.isEmpty()) {
     for (const SplineSurface& s : model.surfaces) {
       const Points& points = s.surface.control_points();
@@ -179,7 +184,8 @@ Expected<FaceMeshes> model_faces(const Model& model, double tolerance) {
   if (!model.assembly) return std::unexpected(model.assembly.error());
   const Standing standing(*model.assembly);
   const double diagonal = diagonal_of(model, standing);
-  if (model.faces.empty() && model.surfaces.empty())
+  if (model.faces.empty() && model.surfaces.empty() && model.tessellated.items.empty() &&
+      model.tessellated.skipped.empty())
     return input_error("the file has no faces", {}, "open a file with faces");
   // Without any extent nothing can be read or drawn: the faces say why.
   if (tolerance == 0) tolerance = diagonal > 0 ? default_tolerance * diagonal : 1;
@@ -200,6 +206,9 @@ Expected<FaceMeshes> model_faces(const Model& model, double tolerance) {
     else
       result.skipped.push_back({entity.id, std::move(mesh.error())});
   }
+  for (const TessellatedItem& item : model.tessellated.items) standing.add(item.mesh, item.mesh.id, result.faces);
+  const std::vector<SkippedFace>& torn = model.tessellated.skipped;
+  result.skipped.insert(result.skipped.end(), torn.begin(), torn.end());
   return result;
 }
 

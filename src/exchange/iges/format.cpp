@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "brep/moved_edge.hpp"
 #include "exchange/foreign_format.hpp"
 #include "exchange/format_list.hpp"
+#include "left_out.hpp"
 #include "model.hpp"
 #include "text.hpp"
 #include "writer.hpp"
@@ -18,7 +20,8 @@ class IgesSource final : public Source {
   IgesSource(iges::File file, iges::ReadModel read)
       : file_(std::move(file)),
         model_(std::make_shared<const brep::Model>(std::move(read.model))),
-        edges_(std::move(read.sources)) {
+        edges_(std::move(read.sources)),
+        unplaced_(std::move(read.unplaced)) {
     for (const brep::SplineSurface& s : model_->surfaces) {
       surfaces_.push_back({s.id, s.name, file_.global().unit, std::shared_ptr<const Surface>(model_, &s.surface)});
     }
@@ -30,6 +33,8 @@ class IgesSource final : public Source {
   const std::vector<brep::UnreadableSurface>& unreadable() const override { return model_->unreadable; }
   std::shared_ptr<const brep::Model> model() const override { return model_; }
   Expected<void> can_move_edge(const std::string& id) const override { return iges::can_move(file_, edges_, id); }
+
+  std::vector<LeftOut> left_out() const override { return iges::left_out(file_, *model_, unplaced_); }
 
   std::vector<std::string> remarks() const override {
     const iges::Global& global = file_.global();
@@ -68,6 +73,7 @@ class IgesSource final : public Source {
   iges::File file_;
   std::shared_ptr<const brep::Model> model_;
   iges::EdgeSources edges_;
+  std::set<int> unplaced_;
   std::vector<SourceSurface> surfaces_;
 };
 

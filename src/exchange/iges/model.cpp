@@ -94,8 +94,8 @@ class ModelReader {
       if (curves_.exceeded()) break;  // what is left is not known: its surfaces count as whole
       add_face(face);
     }
-    ReadModel result{std::move(builder_).complete(unit_, metres_), std::move(edges_.sources())};
-    add_subfigures(file_, result.model);
+    ReadModel result{std::move(builder_).complete(unit_, metres_), std::move(edges_.sources()), {}};
+    result.unplaced = add_subfigures(file_, result.model);
     return result;
   }
 

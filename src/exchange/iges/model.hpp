@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace knead::iges {
 /// An IGES file as a model, and what of the file its edges stand for.
 struct ReadModel {
   brep::Model model;
-  EdgeSources sources;  ///< of its edges and vertices
+  EdgeSources sources;     ///< of its edges and vertices
+  std::set<int> unplaced;  ///< subfigure instances that have no place in it
 };
 
 /// The B-spline surfaces (128, and 114 and 118 as such), the faces, 144, 143 and 510, with their boundaries, 142, 141

@@ -21,6 +21,13 @@ class Subfigures {
  public:
   Subfigures(const File& file, brep::Model& model) : file_(file), model_(model) {}
 
+  /// Fills the assembly of the model, and returns the instances that are left out.
+  std::set<int> add() {
+    model_.assembly = assembly();
+    return std::move(unplaced_);
+  }
+
+ private:
   Expected<brep::Assembly> assembly() {
     for (std::size_t k = 0; k < file_.entities().size(); ++k) {
       if (file_.entities()[k].type == 308) read_definition(File::number(k));
@@ -45,7 +52,6 @@ class Subfigures {
     return result;
   }
 
- private:
   struct Definition {
     std::string title;
     std::vector<int> members, instances;  ///< entities
@@ -114,11 +120,13 @@ class Subfigures {
 
   void use(brep::PartGraph& graph, brep::Index parent, const std::string& title, int instance) {
     const auto parameters = file_.parameters(instance);
-    if (!parameters || parameters->values.size() < 2) return;
-    const auto definition = definitions_.find(integer(parameters->values[1]).value_or(0));
-    if (definition == definitions_.end()) return;
-    const auto move = move_of(instance, *parameters);
-    if (!move) return;
+    const bool whole = parameters && parameters->values.size() >= 2;
+    const auto definition = whole ? definitions_.find(integer(parameters->values[1]).value_or(0)) : definitions_.end();
+    const auto move = definition != definitions_.end() ? move_of(instance, *parameters) : std::nullopt;
+    if (!move) {
+      unplaced_.insert(instance);
+      return;
+    }
     graph.use(parent, definition->second.part, *move);
     brep::Instance& made = model_.instances.emplace_back();
     made.id = fmt::format("#{}", instance);
@@ -150,15 +158,15 @@ class Subfigures {
   const File& file_;
   brep::Model& model_;
   std::map<int, Definition> definitions_;
-  std::set<int> inside_;  // instances in definitions
+  std::set<int> inside_, unplaced_;  // instances: in definitions; that are left out
   std::size_t items_seen_ = 0;
 };
 
 }  // namespace
 
-void add_subfigures(const File& file, brep::Model& model) {
-  if (std::ranges::find(file.entities(), 408, &Entity::type) == file.entities().end()) return;
-  model.assembly = Subfigures(file, model).assembly();
+std::set<int> add_subfigures(const File& file, brep::Model& model) {
+  if (std::ranges::find(file.entities(), 408, &Entity::type) == file.entities().end()) return {};
+  return Subfigures(file, model).add();
 }
 
 }  // namespace knead::iges

@@ -4,6 +4,7 @@
 
 #include "brep/moved_edge.hpp"
 #include "exchange/format_list.hpp"
+#include "left_out.hpp"
 #include "model.hpp"
 #include "moved.hpp"
 
@@ -42,21 +43,18 @@ class BrepSource final : public Source {
         file_(std::move(file)),
         model_(std::make_shared<const brep::Model>(std::move(read.model))),
         sources_(std::move(read.sources)),
-        listed_(std::move(read.surfaces)) {
+        listed_(std::move(read.surfaces)),
+        left_out_(occt::left_out(file_, read.again)) {
     for (std::size_t k = 0; k < listed_.size(); ++k) {
       const brep::SplineSurface& s = model_->surfaces[k];
       surfaces_.push_back({s.id, {}, "unknown", std::shared_ptr<const Surface>(model_, &s.surface)});
       back_.push_back(read.places[listed_[k]].inverse());
     }
-    if (read.again > 0) {
-      remarks_.push_back(fmt::format("{} used again in the same place, or sheared: each is shown once",
-                                     read.again == 1 ? "1 face is" : fmt::format("{} faces are", read.again)));
-    }
   }
 
   const std::string& name() const override { return model_->name; }
   std::string_view format() const override { return "Open CASCADE"; }
-  std::vector<std::string> remarks() const override { return remarks_; }
+  std::vector<LeftOut> left_out() const override { return left_out_; }
   const std::vector<SourceSurface>& surfaces() const override { return surfaces_; }
   const std::vector<brep::UnreadableSurface>& unreadable() const override { return model_->unreadable; }
   std::shared_ptr<const brep::Model> model() const override { return model_; }
@@ -104,7 +102,7 @@ class BrepSource final : public Source {
   std::vector<SourceSurface> surfaces_;
   std::vector<std::size_t> listed_;  // surface of the file that each is
   std::vector<Eigen::Affine3d> back_;
-  std::vector<std::string> remarks_;
+  std::vector<LeftOut> left_out_;
 };
 
 Expected<std::shared_ptr<const Source>> open_brep(std::string bytes, std::string name) {

@@ -143,8 +143,8 @@ class Builder {
   /// Gives every part what the items of its representations refer to.
   Expected<void> fill() {
     const std::size_t records = reader_.file().instances().size();
-    // 1: a face, 2: a B-spline surface without faces (others are also referred to by the curves of their neighbours),
-    // 3: a representation, 4: a curve that stands for itself
+    // 1: a face or tessellated item, 2: a B-spline surface without faces (others are also referred to by the curves of
+    // their neighbours), 3: a representation, 4: a curve that stands for itself
     std::vector<std::uint8_t> kind(records, 0);
     std::vector<bool> spline(records, false);
     std::unordered_map<Index, Index> below;  // the surface of each face
@@ -156,6 +156,7 @@ class Builder {
     for (std::size_t k = 0; k < model_.surfaces.size(); ++k) {
       if (model_.surfaces[k].faces == 0) kind[records_.surfaces[k]] = 2;
     }
+    for (const TessellatedRecord& item : records_.tessellated.shown) kind[item.instance] = 1;
     for (const Index k : records_.curves) kind[k] = 4;
     for (const Index k : groups_.representations()) kind[k] = 3;
     std::vector<Index> mark(records, no_instance), stack;

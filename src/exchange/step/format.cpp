@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 
 #include "brep/moved_edge.hpp"
 #include "colours.hpp"
@@ -9,6 +8,7 @@
 #include "exchange/step/write/text.hpp"
 #include "file.hpp"
 #include "knead/base/printable.hpp"
+#include "left_out.hpp"
 
 namespace knead::detail {
 namespace {
@@ -45,9 +45,10 @@ class StepSource final : public Source {
   std::vector<std::string> remarks() const override {
     std::vector<std::string> result;
     for (const Error& warning : file_.warnings()) result.push_back("warning: " + warning.message());
-    if (auto triangles = tessellated(); !triangles.empty()) result.push_back(std::move(triangles));
     return result;
   }
+
+  std::vector<LeftOut> left_out() const override { return step::left_out(file_); }
 
   Expected<std::shared_ptr<const Source>> with_splines(std::span<const std::string> surfaces) const override {
     auto file = step::with_splines(file_, surfaces);
@@ -72,22 +73,6 @@ class StepSource final : public Source {
   }
 
  private:
-  /// Triangles and polylines that the file holds beside or instead of exact geometry (ISO 10303-42, tessellated items).
-  [[nodiscard]] std::string tessellated() const {
-    std::map<std::string, std::size_t> counts;
-    const Part21File& records = file_.data().records;
-    for (const std::string_view kind : records.keywords()) {
-      if (!kind.starts_with("TESSELLATED_") && kind.find("TRIANGULATED_") == std::string_view::npos) continue;
-      for (const auto k : records.named({kind})) {
-        if (!records.instance(k).complex) ++counts[std::string(kind)];
-      }
-    }
-    std::string text;
-    for (const auto& [kind, count] : counts)
-      text += (text.empty() ? "" : ", ") + std::to_string(count) + " x " + printable(kind);
-    return text.empty() ? text : text + ": triangles and polylines, which are neither shown nor changed";
-  }
-
   step::File file_;
   std::vector<SourceSurface> surfaces_;
   std::vector<SourceCurve> curves_;

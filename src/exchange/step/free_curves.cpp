@@ -33,7 +33,7 @@ bool is_b_spline_curve(const Reader& reader, std::uint32_t instance) {
   return std::ranges::any_of(curve_forms, [&](std::string_view form) { return reader.is(instance, form); });
 }
 
-std::vector<ReadCurve> free_curves(const Reader& reader) {
+std::vector<ReadCurve> free_curves(const Reader& reader, std::vector<UnreadableCurve>* unreadable) {
   const Part21File& file = reader.file();
   const auto count = static_cast<std::uint32_t>(file.instances().size());
   std::vector<std::uint32_t> curves;
@@ -52,11 +52,13 @@ std::vector<ReadCurve> free_curves(const Reader& reader) {
   for (const std::uint32_t k : curves) {
     if (held[k] != file.instance(k).uses) continue;
     auto curve = read_b_spline_curve(reader, k);
-    if (!curve) continue;
     const auto own = reader.attributes(k, "B_SPLINE_CURVE", 1, 2);
-    auto points = file.children(own[1]);
-    if (std::ssize(points) != curve->size()) continue;  // one of its functions is zero everywhere
-    result.push_back({k, *std::move(curve), std::move(points)});
+    auto points = curve ? file.children(own[1]) : std::vector<std::uint32_t>();
+    if (curve && std::ssize(points) != curve->size()) curve = reader.error(k, "a basis function is zero everywhere");
+    if (curve)
+      result.push_back({k, *std::move(curve), std::move(points)});
+    else if (unreadable != nullptr)
+      unreadable->push_back({k, std::move(curve.error())});
   }
   return result;
 }

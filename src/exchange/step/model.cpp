@@ -9,6 +9,7 @@
 #include "geometry.hpp"
 #include "instances.hpp"
 #include "surfaces.hpp"
+#include "tessellated.hpp"
 #include "topology.hpp"
 #include "units.hpp"
 
@@ -77,6 +78,25 @@ void read_curves(const Reader& reader, const Contexts& contexts, brep::Model& mo
   }
 }
 
+void read_tessellated(const Reader& reader, const Contexts& contexts, brep::Model& model, ModelRecords& records) {
+  records.tessellated = tessellated_records(reader);
+  const std::vector<TessellatedRecord>& shown = records.tessellated.shown;
+  if (shown.empty()) return;
+  std::vector<std::uint32_t> instances;
+  for (const TessellatedRecord& record : shown) instances.push_back(record.instance);
+  const auto context_of = contexts.of(instances);
+  TessellatedReader triangles(reader);
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    auto mesh = triangles.mesh(shown[k]);
+    if (!mesh) {
+      model.tessellated.skipped.push_back({name_of(reader, shown[k].instance), std::move(mesh.error())});
+      continue;
+    }
+    model.tessellated.items.push_back({shown[k].named == no_instance ? std::string() : reader.item_name(shown[k].named),
+                                       contexts.unit(context_of[k]), *std::move(mesh)});
+  }
+}
+
 }  // namespace
 
 Expected<brep::Model> read_model(const Reader& reader, ModelRecords& records) {
@@ -89,6 +109,7 @@ Expected<brep::Model> read_model(const Reader& reader, ModelRecords& records) {
   read_surfaces(reader, contexts, model, records);
   read_topology(reader, records.surfaces, model);
   read_curves(reader, contexts, model, records);
+  read_tessellated(reader, contexts, model, records);
   brep::complete(model);
   model.instances = read_instances(reader);
   model.assembly = read_assembly(reader, model, records);

@@ -6,6 +6,7 @@
 
 #include "entity.hpp"
 #include "knead/brep/model.hpp"
+#include "tessellated.hpp"
 
 namespace knead::step {
 
@@ -13,6 +14,7 @@ namespace knead::step {
 struct ModelRecords {
   std::vector<std::uint32_t> surfaces, curves;               ///< of each of the model's
   std::vector<std::vector<std::uint32_t>> curve_point_refs;  ///< of each curve: the values that refer to its points
+  TessellatedRecords tessellated;
 };
 
 /// Everything of a file that `brep::Model` tells. Errors (input): faces that repeat loops beyond what a file may hold

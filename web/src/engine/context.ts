@@ -1,6 +1,6 @@
 import type { SurfaceInfo } from './session_types';
 
-/** A face of the file that is no surface of the session. `surface` and `form`: the entity on which it lies, "PLANE" and the like; empty if there is none. */
+/** A face of the file that is no surface of the session. `surface` and `form`: the entity on which it lies, "PLANE" and the like; empty if there is none. Triangles that the file itself holds have the form "TRIANGLES". */
 export interface GreyFace {
   id: string;
   surface: string;
@@ -17,6 +17,8 @@ export interface Context {
   faces: GreyFace[];
   /** Faces that could not be triangulated, and why. */
   skipped: { id: string; reason: string }[];
+  /** What of the file is not drawn, one line for each kind and reason; skipped faces are among it. */
+  leftOut: string[];
 }
 
 /** One place where an assembly puts a part. */

@@ -149,12 +149,12 @@ export class Engine {
 
   /** The other faces of the file; null if nothing was opened or all faces are surfaces. */
   context(): Context | null {
-    const found = this.json(this.wasm.knead_context()) as { buffers: BufferTable } & Pick<Context, 'faces' | 'skipped'> | null;
+    const found = this.json(this.wasm.knead_context()) as { buffers: BufferTable } & Pick<Context, 'faces' | 'skipped'> & { left_out: string[] } | null;
     if (!found) return null;
     const buffers = this.buffers(found.buffers);
     return {
       positions: buffers.floats('positions'), normals: buffers.floats('normals'), indices: buffers.indices('indices'),
-      faces: found.faces, skipped: found.skipped,
+      faces: found.faces, skipped: found.skipped, leftOut: found.left_out,
     };
   }
 

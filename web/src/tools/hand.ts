@@ -129,6 +129,9 @@ export class Hand {
     const hit = host.viewer.pickGrey(viewport, event);
     host.viewer.context.choose(hit); // what F shows
     const face = hit?.face;
+    if (face?.form === 'TRIANGLES') {
+      host.notify({ kind: 'info', text: `The file holds ${face.id} as triangles alone, which cannot be sculpted.` });
+    }
     if (!face?.surface) return;
     const convert = async () => {
       const { surface } = face; // held along its edges from the start
