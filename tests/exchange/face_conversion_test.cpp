@@ -1,5 +1,3 @@
-// Elementary and swept surfaces as exact B-spline surfaces, and the files that have them.
-
 #include "exchange/step/conversion.hpp"
 
 #include <cmath>
@@ -15,8 +13,7 @@
 namespace knead::step {
 namespace {
 
-using brep::exact_spline;
-using brep::other_surfaces;
+using namespace brep;  // NOLINT: what is tested
 using testing::FaceBuilder;
 using testing::parse_or_die;
 

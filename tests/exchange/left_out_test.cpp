@@ -230,7 +230,7 @@ TEST(LeftOutOfIges, FacesWithoutBounds) {
 TEST(LeftOutOfBrep, FurtherUsesOfFacesAndLooseEdges) {
   std::string text = testing::brep_square;
   // Of the shapes, which are counted from the end: the face twice, one of its edges, and a vertex.
-  text.replace(text.rfind("+1 1 "), std::string::npos, "+1 1 +1 0 +3 0 +7 0 \n");
+  text.replace(text.rfind("+1 1 "), std::string::npos, "+1 1 +1 1 +3 0 +7 0 \n");
   const auto source = open_or_die(text, "a.brep");
   EXPECT_TRUE(source->remarks().empty());
   const auto list = left_out_of_list(*source);

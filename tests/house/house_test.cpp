@@ -87,6 +87,36 @@ TEST_F(Tree, SourceThatIncludesItsInternalHeaderLateIsFound) {
   expect_only("src/spline/detail.cpp:1: the first include is not the file's own header");
 }
 
+TEST_F(Tree, FoldersOfARoomMayIncludeEachOther) {
+  write("src/brep/loop.hpp", "#pragma once\n");
+  write("src/brep/mesh/chart.hpp", "#pragma once\n#include \"brep/loop.hpp\"\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+}
+
+TEST_F(Tree, FormatThatIsNamedOutsideOfItsFolderIsFound) {
+  write("src/exchange/step/file.hpp", "#pragma once\nnamespace knead::step { struct File; }\n");
+  write("src/exchange/step/read.cpp", "knead::step::File* file;  // iges::File\n");
+  write("src/session/open.cpp", "\n// step::File\nstep::File* file;\n");
+  expect_only("src/session/open.cpp:3: the format step is named outside of its folder");
+}
+
+TEST_F(Tree, FolderOfManyFilesIsFound) {
+  for (int k = 0; k < 40; ++k) write("src/exchange/step/x" + std::to_string(k) + ".hpp", "#pragma once\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+  write("src/exchange/step/y.cpp", "int y;\n");
+  expect_only("src/exchange/step: 41 files; 40 are allowed");
+}
+
+TEST_F(Tree, FileOfAFolderMayHaveTheNameOfOneOfTheRoom) {
+  write("include/knead/exchange/format.hpp", "#pragma once\n");
+  write("docs/api.md",
+        "| [error](../include/knead/base/error.hpp) | |\n| [basis](../include/knead/spline/basis.hpp) | |\n"
+        "| [format](../include/knead/exchange/format.hpp) | |\n");
+  write("src/exchange/format.cpp", "#include \"knead/exchange/format.hpp\"\n");
+  write("src/exchange/step/format.cpp", "#include <array>\n");
+  EXPECT_EQ(violations(root_), std::vector<std::string>{});
+}
+
 TEST_F(Tree, PublicHeaderThatThePageDoesNotListIsFound) {
   write("include/knead/spline/spline.hpp", "#pragma once\n");
   expect_only("include/knead/spline/spline.hpp: docs/api.md does not list this header");

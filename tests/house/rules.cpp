@@ -27,6 +27,13 @@ constexpr std::size_t longest_function = 70;
 constexpr std::array<std::string_view, 2> files_of_long_functions = {"src/gramian/simd/recurrence_cubic.hpp",
                                                                      "src/gramian/simd/recurrence_fixed.hpp"};
 
+/// Rooms whose folders are kept small, with the largest number of files in one.
+constexpr std::array<std::string_view, 2> rooms_of_small_folders = {"brep", "exchange"};
+constexpr std::size_t most_files = 40;
+
+/// Namespaces of file formats, each known in its folder of src/exchange alone.
+constexpr std::array<std::string_view, 3> formats = {"iges", "occt", "step"};
+
 /// Carries what a caller's function throws from one thread to another, where there are exceptions.
 constexpr std::string_view file_of_exceptions = "src/base/parallel_for.cpp";
 
@@ -97,6 +104,10 @@ class Inspection {
     for (const char* part : {"include", "src", "apps", "bindings", "tests", "bench", "examples", "web/src"}) {
       for (const fs::path& file : sources_below(root_ / part)) inspect_form(file);
     }
+    for (const char* part : {"include", "src", "apps", "bindings"}) {
+      for (const fs::path& file : sources_below(root_ / part)) inspect_formats(file);
+    }
+    for (const std::string_view room : rooms_of_small_folders) inspect_folders(root_ / "src" / room);
     inspect_list_of_headers();
     return std::move(found_);
   }
@@ -157,15 +168,18 @@ class Inspection {
       inspect_functions(file, codes);
     }
     const std::string header = file.stem().string() + ".hpp";
-    const bool is_public = fs::exists(root_ / "include/knead" / room / header);
+    // A file of a folder may have the name of one of the room itself, whose public header is not its own.
+    const fs::path of_room = root_ / "src" / room / file.filename();
+    const bool is_public = fs::exists(root_ / "include/knead" / room / header) &&
+                           !fs::exists(file.parent_path() / header) && (file == of_room || !fs::exists(of_room));
     if (file.extension() == ".cpp" && (is_public || fs::exists(file.parent_path() / header)) &&
         first_include != (is_public ? "knead/" + room + "/" + header : header)) {
       report(file, 1, "the first include is not the file's own header");
     }
   }
 
-  /// Quoted includes: "knead/ROOM/x.hpp" of the public headers; in src also "ROOM/x.hpp" of another room's internals
-  /// and "x.hpp" or "../x.hpp" of the same room's.
+  /// Quoted includes: "knead/ROOM/x.hpp" of the public headers; in src also "ROOM/x.hpp" of another room's internals,
+  /// or of another folder of the same room, and "x.hpp" or "../x.hpp" of the same room's.
   void inspect_include(const fs::path& file, std::size_t line, const std::string& room, std::size_t floor, bool angled,
                        const std::string& name) {
     if (angled) {
@@ -185,7 +199,9 @@ class Inspection {
     const std::string path = to_public ? name.substr(6) : name;
     const std::string other = path.substr(0, path.find('/'));
     const auto other_floor = floor_of(other);
-    if (!to_public && (!other_floor || other == room)) {
+    const fs::path included = root_ / "src" / name;
+    const bool other_folder = other == room && fs::exists(included) && included.parent_path() != file.parent_path();
+    if (!to_public && (!other_floor || (other == room && !other_folder))) {
       report(file, line, "\"" + name + "\" is no file of this room");
     } else if (!other_floor) {
       report(file, line, "\"" + name + "\": there is no room " + other);
@@ -233,6 +249,32 @@ class Inspection {
       const std::string name = fs::relative(header, root_).generic_string();
       if (std::ranges::find(listed, name) == listed.end()) report(header, 0, "docs/api.md does not list this header");
     }
+  }
+
+  /// No format is named outside of its folder.
+  void inspect_formats(const fs::path& file) {
+    const auto lines = lines_of(file);
+    const std::string name = fs::relative(file, root_).generic_string();
+    bool in_comment = false;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::string code = code_of(lines[i], in_comment);
+      for (const std::string_view format : formats) {
+        if (name.starts_with("src/exchange/" + std::string(format) + "/")) continue;
+        if (std::regex_search(code, std::regex("\\b" + std::string(format) + "::")))
+          report(file, i + 1, "the format " + std::string(format) + " is named outside of its folder");
+      }
+    }
+  }
+
+  void inspect_folders(const fs::path& folder) {
+    if (!fs::exists(folder)) return;
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_directory()) inspect_folders(entry.path());
+      files += is_source(entry.path()) ? 1 : 0;
+    }
+    if (files > most_files)
+      report(folder, 0, std::to_string(files) + " files; " + std::to_string(most_files) + " are allowed");
   }
 
   void inspect_form(const fs::path& file) {

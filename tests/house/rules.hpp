@@ -14,6 +14,8 @@ namespace knead::house {
 ///    that exists;
 ///  - a public header includes no internal one;
 ///  - x.cpp includes its own header first, so that every header with a source is compiled on its own;
+///  - file formats are named in their folders of src/exchange alone;
+///  - the folders of src/brep and src/exchange hold 40 source files at most;
 ///  - docs/api.md lists every public header once, and nothing else;
 ///  - headers begin with #pragma once;
 ///  - the core neither throws nor catches, but for the one file that rules.cpp names;

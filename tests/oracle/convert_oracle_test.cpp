@@ -162,11 +162,11 @@ void press_converted(const fs::path& path, const step::File& file, const fs::pat
   const auto written = directory / ("converted_" + path.filename().string());
   ASSERT_TRUE(write_file_atomically(written, converted->bytes()));
   fs::create_directories(directory / "pressed");
-  const auto pairs = pairs_of(*converted, [&](const auto& surfaces) { return has_one_of(surfaces, others); });
+  const auto pairs = pairs_of(converted->model(), [&](const auto& surfaces) { return has_one_of(surfaces, others); });
   EXPECT_GE(pairs.size(), least_pairs);
   if (pairs.empty()) GTEST_SKIP() << "no edge has faces on both of its sides";
-  for (const Pair& pair : each_kind(*converted, pairs)) {
-    move(written, *converted, pair, Motion::press, directory / "pressed", least_reached);
+  for (const Pair& pair : each_kind(converted->model(), pairs)) {
+    move(written, converted->model(), pair, Motion::press, directory / "pressed", least_reached);
   }
 }
 

@@ -73,8 +73,7 @@ std::pair<brep::Index, bool> Edges::of(const Piece& piece) {
 
 brep::Index Edges::add(const Piece& piece, brep::Index from, brep::Index to) {
   const int number = named_.insert(piece.number).second ? piece.number : builder_.fresh();
-  auto geometry = piece.geometry;
-  const brep::Index edge = builder_.add_edge(number, from, to, std::move(geometry));
+  const brep::Index edge = builder_.add_edge(number, from, to, piece.geometry);
   note(edge, piece, false);
   return edge;
 }

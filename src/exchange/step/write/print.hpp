@@ -40,8 +40,4 @@ struct PrintedKnots {
 /// Adds a record and returns its name.
 using AddRecord = std::function<std::string(const std::string&)>;
 
-/// The context of a representation with its units: lengths in `unit`, one of `is_length_unit`, angles in radians.
-/// \param uncertainty a length
-[[nodiscard]] std::string print_context(std::string_view unit, double uncertainty, const AddRecord& add);
-
 }  // namespace knead::step

@@ -103,9 +103,9 @@ Expected<void> whole(std::span<const NewSurface> surfaces, std::span<const NewCu
   return {};
 }
 
-}  // namespace
-
-std::string print_context(std::string_view unit, double uncertainty, const AddRecord& add) {
+/// The context of a representation with its units: lengths in `unit`, one of `is_length_unit`, angles in radians.
+std::string print_context(std::string_view unit, const AddRecord& add) {
+  constexpr double uncertainty = 1e-7;  // a length
   const auto length = add_length_unit(add, *length_unit_named(unit));
   const auto angle = add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
   const auto solid_angle = add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
@@ -115,6 +115,8 @@ std::string print_context(std::string_view unit, double uncertainty, const AddRe
              "))GLOBAL_UNIT_ASSIGNED_CONTEXT((" + length + "," + angle + "," + solid_angle +
              "))REPRESENTATION_CONTEXT('',''))");
 }
+
+}  // namespace
 
 Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options,
                               std::span<const NewCurve> curves) {
@@ -137,8 +139,7 @@ Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOp
   const auto design = records.add("PRODUCT_DEFINITION_CONTEXT('part definition'," + application + ",'design')");
   const auto definition = records.add("PRODUCT_DEFINITION('design',''," + formation + "," + design + ")");
   const auto shape = records.add("PRODUCT_DEFINITION_SHAPE('',''," + definition + ")");
-  const auto context =
-      print_context(options.unit, 1e-7, [&](const std::string& record) { return records.add(record); });
+  const auto context = print_context(options.unit, [&](const std::string& record) { return records.add(record); });
   const auto origin = records.add("CARTESIAN_POINT('',(0.,0.,0.))");
   const auto axis = records.add("DIRECTION('',(0.,0.,1.))");
   const auto direction = records.add("DIRECTION('',(1.,0.,0.))");
