@@ -22,7 +22,7 @@ using namespace brep;
 namespace {
 
 constexpr double default_tolerance = 1.0 / 2000;  // of the diagonal of the model's box
-constexpr double least_tolerance = 1e-7;
+constexpr double least_tolerance_share = 1e-7;
 constexpr double half_radian = 0.031;  // of radii: chords turn by 0.5 radians
 constexpr double safety = 0.65;        // triangles are measured at their centres and those of their sides alone
 
@@ -189,10 +189,10 @@ Expected<FaceMeshes> model_faces(const Model& model, double tolerance) {
     return input_error("the file has no faces", {}, "open a file with faces");
   // Without any extent nothing can be read or drawn: the faces say why.
   if (tolerance == 0) tolerance = diagonal > 0 ? default_tolerance * diagonal : 1;
-  if (!std::isfinite(tolerance) || tolerance < least_tolerance * diagonal || !(tolerance > 0)) {
+  if (!std::isfinite(tolerance) || tolerance < least_tolerance_share * diagonal || !(tolerance > 0)) {
     return std::unexpected(
         Error{ErrorKind::usage, fmt::format("{} is not a tolerance for this model", tolerance), "tolerance",
-              fmt::format("use a length above {:.2g}, in the units of the file", least_tolerance * diagonal)});
+              fmt::format("use a length above {:.2g}, in the units of the file", least_tolerance_share * diagonal)});
   }
   FaceMeshes result;
   std::map<float, std::vector<const Face*>> by_scale;

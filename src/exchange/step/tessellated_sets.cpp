@@ -11,8 +11,8 @@ namespace knead::step {
 namespace {
 
 using Index = std::uint32_t;
-constexpr int most_nesting = 50;               // of sets
-constexpr std::size_t visits_per_record = 16;  // of items that sets share
+constexpr int most_set_nesting = 50;               // of sets
+constexpr std::size_t set_visits_per_record = 16;  // of items that sets share
 constexpr std::size_t free_visits = 10'000;
 
 constexpr std::array<std::string_view, 4> item_kinds = {"TRIANGULATED_FACE", "COMPLEX_TRIANGULATED_FACE",
@@ -36,7 +36,7 @@ class Sets {
     note_annotations();
     if (items_.empty()) return std::move(result_);
     for (const FaceRecord& face : read_faces(reader_)) faces_.insert(face.instance);
-    most_ = free_visits + visits_per_record * reader_.file().instances().size();
+    most_ = free_visits + set_visits_per_record * reader_.file().instances().size();
     std::unordered_set<Index> held;
     for (const auto& [set, members] : sets_) held.insert(members.begin(), members.end());
     for (const Index k : roots(held)) {
@@ -92,7 +92,7 @@ class Sets {
   }
 
   void visit(Index k, const Eigen::Affine3d& outer, Index named, bool picture, int depth) {
-    if (depth > most_nesting || ++visits_ > most_) {
+    if (depth > most_set_nesting || ++visits_ > most_) {
       result_.too_many = true;
       return;
     }
