@@ -8,7 +8,7 @@
 namespace knead::brep {
 namespace {
 
-constexpr double sliver = 1e-12;     // |cross product| over the longest side squared: less is degenerate
+constexpr double sliver = 1e-12;    // |cross product| over the longest side squared: less is degenerate
 constexpr double vanishing = 1e-9;  // |S_u × S_v| over |S_u|² + |S_v|²
 
 bool is_triangle(const Points& points, const std::array<std::uint32_t, 3>& t) {
