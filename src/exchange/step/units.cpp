@@ -155,21 +155,20 @@ void leave_contexts_of_shapes(const Reader& reader, std::vector<UnitContext>& co
     if (!keyword.contains("PRESENTATION_REPRESENTATION") && keyword != "DRAUGHTING_MODEL") continue;
     for (const auto k : reader.file().named({keyword})) shows[k] = true;
   }
-  std::vector<UnitContext> left;
-  for (const UnitContext& context : contexts) {
-    const auto refers = [&](std::uint32_t k) {
-      if (shows[k]) return false;
-      const auto& record = reader.file().instance(k);
-      for (auto value = record.first; value < record.last; ++value) {
-        if (reader.reference(value) == context.instance) return true;
-      }
-      return false;
-    };
-    for (std::uint32_t k = 0; k < shows.size(); ++k) {
-      if (!refers(k)) continue;
-      left.push_back(context);
-      break;
+  std::vector<int> context_at(shows.size(), -1);
+  for (std::size_t c = 0; c < contexts.size(); ++c) context_at[contexts[c].instance] = static_cast<int>(c);
+  std::vector<bool> referred(contexts.size(), false);
+  for (std::uint32_t k = 0; k < shows.size(); ++k) {
+    if (shows[k]) continue;
+    const auto& record = reader.file().instance(k);
+    for (auto value = record.first; value < record.last; ++value) {
+      const auto target = reader.reference(value);
+      if (target && context_at[*target] >= 0) referred[static_cast<std::size_t>(context_at[*target])] = true;
     }
+  }
+  std::vector<UnitContext> left;
+  for (std::size_t c = 0; c < contexts.size(); ++c) {
+    if (referred[c]) left.push_back(contexts[c]);
   }
   if (!left.empty()) contexts = std::move(left);
 }
