@@ -49,8 +49,7 @@ std::string Model::length_unit() const {
 }
 
 std::unexpected<Error> Model::error(const Record& at, std::string what, std::string remedy) const {
-  return std::unexpected(
-      Error{ErrorKind::input, std::move(what), at.label(), std::move(remedy), name, at.line});
+  return std::unexpected(Error{ErrorKind::input, std::move(what), at.label(), std::move(remedy), name, at.line});
 }
 
 std::vector<Index> edges_around(const Face& face) {
