@@ -58,6 +58,15 @@ Model ModelBuilder::complete(const std::string& unit, double metres) && {
   return std::move(model_);
 }
 
+void settle_kind(Bound& bound) {
+  if (!bound.edges.empty()) {
+    bound.kind = Bound::Kind::edges;
+    bound.vertex = none;
+  } else if (bound.vertex != none) {
+    bound.kind = Bound::Kind::vertex;
+  }
+}
+
 void complete(Model& model) {
   constexpr double work_per_point = 20;  // multiplications, about
   model.index_surfaces();

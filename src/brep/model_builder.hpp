@@ -41,6 +41,9 @@ class ModelBuilder {
   int next_;
 };
 
+/// Of edges where it has some, whose vertex bounds nothing; else of its vertex; else unknown.
+void settle_kind(Bound& bound);
+
 /// Fills what follows from the rest of a model: which of its surfaces are closed and trimmed, and how many faces lie on
 /// each; an assembly of one part where it has none. Cost: some searches for the nearest point of a side per span of
 /// every edge, by several threads where there is much to do.

@@ -293,12 +293,7 @@ class ModelReader {
       }
       at += 5 + 2 * static_cast<std::size_t>(std::max(pointer(at + 4), 0));
     }
-    if (!bound.edges.empty()) {
-      bound.kind = brep::Bound::Kind::edges;
-      bound.vertex = brep::none;
-    } else if (bound.vertex != brep::none) {
-      bound.kind = brep::Bound::Kind::vertex;
-    }
+    brep::settle_kind(bound);
     return bound;
   }
 

@@ -277,12 +277,7 @@ class ModelReader {
     }
     chain(turns);
     for (const Turn& turn : turns) bound.edges.push_back({turn.edge, !turn.back});
-    if (!bound.edges.empty()) {
-      bound.kind = brep::Bound::Kind::edges;
-      bound.vertex = brep::none;
-    } else if (bound.vertex != brep::none) {
-      bound.kind = brep::Bound::Kind::vertex;
-    }
+    brep::settle_kind(bound);
     return bound;
   }
 

@@ -56,8 +56,7 @@ class Builder {
   Builder(const Reader& reader, const brep::Model& model, const ModelRecords& records)
       : reader_(reader), model_(model), records_(records) {}
 
-  Expected<brep::Assembly> build() {
-    const Structure structure = read_structure(reader_);
+  Expected<brep::Assembly> build(const Structure& structure) {
     join(structure);
     connect(structure);
     if (auto done = graph_->place(model_.length_unit(), result_); !done) return std::unexpected(done.error());
@@ -204,8 +203,9 @@ class Builder {
 
 }  // namespace
 
-Expected<brep::Assembly> read_assembly(const Reader& reader, const brep::Model& model, const ModelRecords& records) {
-  auto result = Builder(reader, model, records).build();
+Expected<brep::Assembly> read_assembly(const Reader& reader, const Structure& structure, const brep::Model& model,
+                                       const ModelRecords& records) {
+  auto result = Builder(reader, model, records).build(structure);
   if (!result) result.error().file = model.name;
   return result;
 }

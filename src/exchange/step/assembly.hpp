@@ -1,5 +1,6 @@
 #pragma once
 
+#include "instances.hpp"
 #include "knead/brep/assembly.hpp"
 #include "model.hpp"
 
@@ -13,7 +14,7 @@ namespace knead::step {
 /// roots, at their own origins, in the unit of the first. Geometry that belongs to no product stands where its
 /// coordinates say, as does a component whose transformation is missing, with a warning; an assembly within itself ends
 /// there. Errors (input): more than `max_places`. Cost: linear in the file, and in the places.
-[[nodiscard]] Expected<brep::Assembly> read_assembly(const Reader& reader, const brep::Model& model,
-                                                     const ModelRecords& records);
+[[nodiscard]] Expected<brep::Assembly> read_assembly(const Reader& reader, const Structure& structure,
+                                                     const brep::Model& model, const ModelRecords& records);
 
 }  // namespace knead::step

@@ -321,10 +321,4 @@ Structure read_structure(const Reader& reader) {
   return result;
 }
 
-std::vector<brep::Instance> read_instances(const Reader& reader) {
-  std::vector<brep::Instance> result;
-  for (Component& component : read_structure(reader).components) result.push_back(std::move(component.instance));
-  return result;
-}
-
 }  // namespace knead::step

@@ -25,9 +25,6 @@ struct Structure {
 
 [[nodiscard]] Structure read_structure(const Reader& reader);
 
-/// The components that are instances in the file: usages and mapped items, in this order.
-[[nodiscard]] std::vector<brep::Instance> read_instances(const Reader& reader);
-
 /// AXIS2_PLACEMENT_3D; none if the instance is not one or lacks its location.
 [[nodiscard]] std::optional<brep::AxisPlacement> read_placement(const Reader& reader, std::uint32_t instance);
 

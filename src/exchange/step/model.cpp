@@ -107,12 +107,16 @@ Expected<brep::Model> read_model(const Reader& reader, ModelRecords& records) {
   for (const UnitContext& context : contexts.all()) model.units.push_back(context.unit);
   model.angle_units = plane_angle_units(reader);
   read_surfaces(reader, contexts, model, records);
-  read_topology(reader, records.surfaces, model);
+  const auto context_of = contexts.of(read_topology(reader, records.surfaces, model));
+  for (std::size_t k = 0; k < context_of.size(); ++k) {
+    model.supports[k].uncertainty = contexts.uncertainty(context_of[k]);
+  }
   read_curves(reader, contexts, model, records);
   read_tessellated(reader, contexts, model, records);
   brep::complete(model);
-  model.instances = read_instances(reader);
-  model.assembly = read_assembly(reader, model, records);
+  const Structure structure = read_structure(reader);
+  for (const Component& component : structure.components) model.instances.push_back(component.instance);
+  model.assembly = read_assembly(reader, structure, model, records);
   return model;
 }
 

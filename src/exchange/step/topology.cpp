@@ -6,7 +6,6 @@
 #include "faces.hpp"
 #include "geometry.hpp"
 #include "share.hpp"
-#include "units.hpp"
 
 namespace knead::step {
 namespace {
@@ -26,11 +25,12 @@ class TopologyReader {
     for (std::size_t k = 0; k < surfaces.size(); ++k) splines_.emplace(surfaces[k], static_cast<Index>(k));
   }
 
-  void read() {
+  std::vector<std::uint32_t> read() {
     read_edges();
     for (const FaceRecord& face : read_faces(reader_)) add_face(face);
     read_supports();
     read_shells();
+    return std::move(support_instances_);
   }
 
  private:
@@ -156,10 +156,8 @@ class TopologyReader {
   }
 
   void read_supports() {
-    const auto uncertainties = uncertainties_of(reader_, support_instances_);
     for (std::size_t k = 0; k < support_instances_.size(); ++k) {
       brep::Support& support = model_.supports[k];
-      support.uncertainty = uncertainties[k];
       if (const auto spline = splines_.find(support_instances_[k]); spline != splines_.end()) {
         support.spline = spline->second;
         continue;
@@ -191,8 +189,9 @@ class TopologyReader {
 
 }  // namespace
 
-void read_topology(const Reader& reader, const std::vector<std::uint32_t>& surfaces, brep::Model& model) {
-  TopologyReader(reader, surfaces, model).read();
+std::vector<std::uint32_t> read_topology(const Reader& reader, const std::vector<std::uint32_t>& surfaces,
+                                         brep::Model& model) {
+  return TopologyReader(reader, surfaces, model).read();
 }
 
 }  // namespace knead::step

@@ -7,7 +7,9 @@
 namespace knead::step {
 
 /// Adds the vertices, edges, faces and shells of a file to a model, and the supports of its faces; those on the
-/// B-spline surfaces with these records lead to them. Cost: linear in the file; curves are read by several threads.
-void read_topology(const Reader& reader, const std::vector<std::uint32_t>& surfaces, brep::Model& model);
+/// B-spline surfaces with these records lead to them. Returns the records of the supports. Cost: linear in the file;
+/// curves are read by several threads.
+[[nodiscard]] std::vector<std::uint32_t> read_topology(const Reader& reader, const std::vector<std::uint32_t>& surfaces,
+                                                       brep::Model& model);
 
 }  // namespace knead::step

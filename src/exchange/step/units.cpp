@@ -230,13 +230,4 @@ std::vector<int> contexts_of(const Reader& reader, const std::vector<UnitContext
   return result;
 }
 
-std::vector<double> uncertainties_of(const Reader& reader, const std::vector<std::uint32_t>& instances) {
-  const auto contexts = read_unit_contexts(reader);
-  std::vector<double> result;
-  for (const int context : contexts_of(reader, contexts, instances)) {
-    result.push_back(context < 0 ? 0 : contexts[static_cast<std::size_t>(context)].uncertainty);
-  }
-  return result;
-}
-
 }  // namespace knead::step

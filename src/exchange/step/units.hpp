@@ -26,7 +26,4 @@ struct UnitContext {
 [[nodiscard]] std::vector<int> contexts_of(const Reader& reader, const std::vector<UnitContext>& contexts,
                                            const std::vector<std::uint32_t>& instances);
 
-/// The uncertainties of the contexts of these instances, in their units; 0 where none is known. Cost: as `contexts_of`.
-[[nodiscard]] std::vector<double> uncertainties_of(const Reader& reader, const std::vector<std::uint32_t>& instances);
-
 }  // namespace knead::step
