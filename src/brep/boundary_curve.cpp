@@ -10,10 +10,15 @@
 namespace knead::brep {
 
 Expected<Curve> boundary_curve(const Surface& surface, int direction, int end) {
+  const Interval domain = surface.knots(direction).domain();
+  return end == 0 ? isocurve(surface, direction, domain.lower, Side::right)
+                  : isocurve(surface, direction, domain.upper, Side::left);
+}
+
+Expected<Curve> isocurve(const Surface& surface, int direction, double at, Side side) {
   const auto& across = surface.knots(direction);
   const auto& along = surface.knots(1 - direction);
-  const double at = end == 0 ? across.domain().lower : across.domain().upper;
-  const int span = across.find_span(at, end == 0 ? Side::right : Side::left);
+  const int span = across.find_span(at, side);
   std::array<double, max_degree + 1> basis{};
   basis_values(across, span, at, basis.data());
 
@@ -37,6 +42,16 @@ Expected<Curve> boundary_curve(const Surface& surface, int direction, int end) {
         denominator == 0 ? Points::RowXpr::PlainObject::Zero().eval() : (points.row(j) / denominator).eval();
   }
   return Curve::create({along}, std::move(points), std::move(weights));
+}
+
+Curve turned(const Curve& curve) {
+  const auto own = curve.knots(0).knots();
+  const double sum = own.front() + own.back();
+  std::vector<double> knots(own.rbegin(), own.rend()), weights;
+  for (double& t : knots) t = sum - t;
+  if (curve.rational()) weights.assign(curve.weights().rbegin(), curve.weights().rend());
+  return *Curve::create({*KnotVector::create(curve.knots(0).degree(), std::move(knots))},
+                        Points(curve.control_points().colwise().reverse()), std::move(weights));
 }
 
 double net_diagonal(const Points& points) {

@@ -7,19 +7,19 @@
 
 namespace knead::brep {
 
-Index ModelBuilder::add_vertex(int number, const Point& place) {
-  model_.vertices.push_back({.id = name(number), .place = place});
-  return static_cast<Index>(model_.vertices.size() - 1);
+Index add_vertex(Model& model, std::string id, const Point& place) {
+  model.vertices.push_back({.id = std::move(id), .place = place});
+  return static_cast<Index>(model.vertices.size() - 1);
 }
 
-Index ModelBuilder::add_edge(int number, Index start, Index end, Expected<CurveGeometry> curve) {
-  Edge& edge = model_.edges.emplace_back(name(number), start, end);
+Index add_edge(Model& model, std::string id, Index start, Index end, Expected<CurveGeometry> curve) {
+  Edge& edge = model.edges.emplace_back(std::move(id), start, end);
   if (!curve) {
     edge.wrong = fault(std::move(curve.error()));
   } else {
     edge.curve = std::make_shared<const CurveGeometry>(*std::move(curve));
   }
-  return static_cast<Index>(model_.edges.size() - 1);
+  return static_cast<Index>(model.edges.size() - 1);
 }
 
 Index ModelBuilder::add_support(Support support) {

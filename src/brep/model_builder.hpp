@@ -7,6 +7,10 @@
 
 namespace knead::brep {
 
+/// Adds an entity to a model, and returns where it is.
+Index add_vertex(Model& model, std::string id, const Point& place);
+Index add_edge(Model& model, std::string id, Index start, Index end, Expected<CurveGeometry> curve);
+
 /// Makes the model of a format that counts its entities. Entity n is "#n"; those that the format does not count have
 /// numbers above.
 class ModelBuilder {
@@ -17,9 +21,12 @@ class ModelBuilder {
   [[nodiscard]] static std::string name(int number) { return "#" + std::to_string(number); }
   [[nodiscard]] int fresh() { return next_++; }
   [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] Model& model() { return model_; }
 
-  Index add_vertex(int number, const Point& place);
-  Index add_edge(int number, Index start, Index end, Expected<CurveGeometry> curve);
+  Index add_vertex(int number, const Point& place) { return brep::add_vertex(model_, name(number), place); }
+  Index add_edge(int number, Index start, Index end, Expected<CurveGeometry> curve) {
+    return brep::add_edge(model_, name(number), start, end, std::move(curve));
+  }
   Index add_support(Support support);
   /// With the support that leads to it.
   Index add_surface(int number, std::string label, Surface surface, const std::string& unit, double uncertainty);

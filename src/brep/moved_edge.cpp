@@ -7,17 +7,14 @@
 
 #include "boundary_curve.hpp"
 #include "brep/surfaces/surface_foot.hpp"
+#include "fitted_curve.hpp"
 #include "knead/spline/evaluate.hpp"
-#include "spline/greville_interpolation.hpp"
 
 namespace knead::brep {
 namespace {
 
 constexpr int first_spans = 8;
-constexpr std::size_t most_spans = 4096;
-constexpr int per_span = 5;
 constexpr double beside_corner = 0.25;      // of a first span: divisions nearer to a corner are left out
-constexpr double least_span = 1e-10;        // of the edge's parameters
 constexpr double margin = 0.125;            // of the edge, at its ends
 constexpr double share_of_tolerance = 0.1;  // for the fit of a curve
 constexpr double least_tolerance = 1e-7;    // of the size, as for held edges
@@ -79,33 +76,13 @@ class Path {
   std::span<const Surface*const> before_, after_;
 };
 
-Expected<Curve> interpolated(const Path& path, const std::vector<double>& breaks, const std::vector<double>& corners) {
-  std::vector<double> knots;
-  for (std::size_t k = 0; k < breaks.size(); ++k) {
-    const bool end = k == 0 || k + 1 == breaks.size();
-    knots.insert(knots.end(), end ? 4 : std::ranges::binary_search(corners, breaks[k]) ? 3 : 1, breaks[k]);
-  }
-  auto vector = KnotVector::create(3, std::move(knots));
-  if (!vector) return std::unexpected(vector.error());
-  const auto interpolation = GrevilleInterpolation::create(*vector);
-  if (!interpolation) return std::unexpected(interpolation.error());
-  Points points(interpolation->size(), 3);
-  for (int k = 0; k < interpolation->size(); ++k) {
-    const auto p = path.at(interpolation->abscissae()[static_cast<std::size_t>(k)]);
-    if (!p) return std::unexpected(p.error());
-    points.row(k) = p->transpose();
-  }
-  interpolation->solve(points.data(), 1, 3);
-  return Curve::create({*std::move(vector)}, std::move(points));
-}
-
 /// The ends, the corners and `first_spans` even divisions. A corner has a triple knot, so that an abscissa lies a third
 /// of a span beside it: where a division is only rounding away (of a circle of four arcs, every other one is), no
 /// number is left in between, and the conditions of Schoenberg and Whitney fail. The corner then takes its place.
 /// Corners that cannot be told from an end or from the one before have no knot of their own.
 std::vector<double> first_breaks(const SharedEdge& edge) {
   const double from = edge.samples().front().parameter, to = edge.samples().back().parameter;
-  const double least = least_span * (to - from), span = (to - from) / first_spans;
+  const double least = least_fitted_span * (to - from), span = (to - from) / first_spans;
   std::vector<double> breaks = {from};
   for (const double corner : edge.corners()) {
     if (corner - breaks.back() > least && to - corner > least) breaks.push_back(corner);
@@ -124,27 +101,6 @@ std::vector<double> first_breaks(const SharedEdge& edge) {
 std::unexpected<Error> not_followed(const SharedEdge& edge) {
   return numerical_error("the moved edge cannot be followed by a spline", edge.id(),
                          "undo the step and press less deep, or on a finer net");
-}
-
-/// The breaks, with those spans halved in which the curve is off the path. Errors: spans that cannot be halved further.
-Expected<std::vector<double>> halved(const SharedEdge& edge, const Path& path, const Curve& curve,
-                                     const std::vector<double>& breaks, double tolerance) {
-  std::vector<double> result = {breaks.front()};
-  for (std::size_t k = 1; k < breaks.size(); ++k) {
-    bool off = false;
-    for (int j = 1; j < per_span && !off; ++j) {
-      const double t = std::lerp(breaks[k - 1], breaks[k], static_cast<double>(j) / per_span);
-      const auto wanted = path.at(t);
-      if (!wanted) return std::unexpected(wanted.error());
-      const auto is = evaluate_point<1>(curve, {t});
-      if (!is) return std::unexpected(is.error());
-      off = (*is - *wanted).norm() > tolerance;
-    }
-    if (off && breaks[k] - breaks[k - 1] < 2 * least_span * (breaks.back() - breaks.front())) return not_followed(edge);
-    if (off) result.push_back(0.5 * (breaks[k - 1] + breaks[k]));
-    result.push_back(breaks[k]);
-  }
-  return result;
 }
 
 /// On the parameters of the curve's record, and in its direction.
@@ -206,16 +162,10 @@ Expected<void> move_loop_vertices(const Model& model, std::span<const Replacemen
 Expected<Curve> moved_curve(const SharedEdge& edge, std::span<const Surface* const> before,
                             std::span<const Surface* const> after, double tolerance) {
   const Path path(edge, before, after);
-  std::vector<double> breaks = first_breaks(edge);
-  while (true) {
-    const auto curve = interpolated(path, breaks, edge.corners());
-    if (!curve) return curve;
-    auto finer = halved(edge, path, *curve, breaks, tolerance);
-    if (!finer) return std::unexpected(finer.error());
-    if (finer->size() == breaks.size()) return recorded(edge, *curve);
-    if (finer->size() > most_spans) return not_followed(edge);
-    breaks = *std::move(finer);
-  }
+  const auto curve = fitted_curve([&](double t) { return path.at(t); }, first_breaks(edge), edge.corners(), tolerance);
+  if (!curve && curve.error().what == not_fitted) return not_followed(edge);
+  if (!curve) return curve;
+  return recorded(edge, *curve);
 }
 
 Expected<MovedEdges> moved_edges(const Model& model, std::span<const Replacement> replacements,

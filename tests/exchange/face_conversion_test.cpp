@@ -380,7 +380,7 @@ TEST(WithSplines, ParameterCurvesOnTheSurfaceAreDropped) {
   replace("ENDSEC;\nEND-ISO", "#50=INTERSECTION_CURVE(''," + shared +
                                   ",(#51,#52),.PCURVE_S2.);\n#51=PCURVE('',#10,#60);\n#52=PCURVE('',#20,#60);\n"
                                   "#60=DEFINITIONAL_REPRESENTATION('',(),#61);\n#61=REPRESENTATION_CONTEXT('','');\n"
-                                  "#62=RECTANGULAR_TRIMMED_SURFACE('',#20,0.,1.,0.,1.,.T.,.T.);\nENDSEC;\nEND-ISO");
+                                  "#62=OFFSET_SURFACE('',#20,0.1,.F.);\nENDSEC;\nEND-ISO");
   const File file = parse_or_die(text);
   const std::string id = "#20";
   const auto after = with_splines(file, {&id, 1});
@@ -392,7 +392,7 @@ TEST(WithSplines, ParameterCurvesOnTheSurfaceAreDropped) {
   const std::size_t begin = now.rfind('#', copy);
   const std::string old = now.substr(begin, copy - begin);
   EXPECT_NE(now.find("#52=PCURVE(''," + old + ",#60);"), std::string::npos) << now;
-  EXPECT_NE(now.find("#62=RECTANGULAR_TRIMMED_SURFACE(''," + old + ",0.,1.,0.,1.,.T.,.T.);"), std::string::npos) << now;
+  EXPECT_NE(now.find("#62=OFFSET_SURFACE(''," + old + ",0.1,.F.);"), std::string::npos) << now;
   EXPECT_NE(now.find("#20=B_SPLINE_SURFACE_WITH_KNOTS("), std::string::npos);
 }
 

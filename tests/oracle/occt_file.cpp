@@ -1,6 +1,8 @@
 #include "oracle/occt_file.hpp"
 
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepCheck_Analyzer.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepGProp.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -14,12 +16,14 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
+#include <STEPControl_Reader.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace knead::oracle {
 namespace {
@@ -40,9 +44,30 @@ double gap_of(const TopoDS_Edge& edge, const TopoDS_Face& face) {
   return result;
 }
 
-std::optional<TopoDS_Shape> read_iges(const std::filesystem::path& path) {
+/// The largest distance of an edge's points from the nearest of these faces but its own.
+double parting_of(const TopoDS_Edge& edge, const TopoDS_Face& own, const std::vector<TopoDS_Face>& faces) {
+  double first = 0, last = 0;
+  const auto curve = BRep_Tool::Curve(edge, first, last);
+  if (curve.IsNull() || faces.size() < 2) return std::numeric_limits<double>::infinity();
+  constexpr int steps = 20;
+  double result = 0;
+  for (int k = 0; k <= steps; ++k) {
+    const auto vertex = BRepBuilderAPI_MakeVertex(curve->Value(first + (last - first) * k / steps)).Vertex();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const TopoDS_Face& face : faces) {
+      if (face.IsSame(own)) continue;
+      const BRepExtrema_DistShapeShape distance(vertex, face);
+      if (distance.IsDone()) nearest = std::min(nearest, distance.Value());
+    }
+    result = std::max(result, nearest);
+  }
+  return result;
+}
+
+template <class Reader>
+std::optional<TopoDS_Shape> read_exchange(const std::filesystem::path& path) {
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-  IGESControl_Reader reader;
+  Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return std::nullopt;
   reader.TransferRoots();
   return reader.OneShape();
@@ -56,9 +81,24 @@ std::optional<TopoDS_Shape> read_brep(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::vector<double> occt_partings(const std::filesystem::path& path) {
+  const auto shape = read_exchange<STEPControl_Reader>(path);
+  std::vector<TopoDS_Face> faces;
+  for (TopExp_Explorer at(shape.value_or(TopoDS_Shape()), TopAbs_FACE); at.More(); at.Next())
+    faces.push_back(TopoDS::Face(at.Current()));
+  std::vector<double> result;
+  for (const TopoDS_Face& face : faces) {
+    for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
+      result.push_back(parting_of(TopoDS::Edge(e.Current()), face, faces));
+  }
+  return result;
+}
+
 std::optional<OcctFile> occt_read_file(const std::filesystem::path& path) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
-  const auto read = path.extension() == ".brep" ? read_brep(path) : read_iges(path);
+  const auto read = path.extension() == ".brep"   ? read_brep(path)
+                    : path.extension() == ".step" ? read_exchange<STEPControl_Reader>(path)
+                                                  : read_exchange<IGESControl_Reader>(path);
   if (!read) return std::nullopt;
   const TopoDS_Shape& shape = *read;
   OcctFile result;

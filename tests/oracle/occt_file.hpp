@@ -8,7 +8,7 @@
 
 namespace knead::oracle {
 
-/// What Open CASCADE makes of an IGES file or one of its own; lengths in mm.
+/// What Open CASCADE makes of a STEP or IGES file or one of its own; lengths in mm.
 struct OcctFile {
   std::map<std::string, int> topology;  ///< numbers of faces, edges, … by name
   int bad_faces = 0;                    ///< that BRepCheck finds fault with
@@ -20,5 +20,8 @@ struct OcctFile {
 
 /// None if it cannot be read.
 [[nodiscard]] std::optional<OcctFile> occt_read_file(const std::filesystem::path& path);
+
+/// Of each edge of each face of a STEP file, in order: its largest distance from the nearest other face, mm.
+[[nodiscard]] std::vector<double> occt_partings(const std::filesystem::path& path);
 
 }  // namespace knead::oracle

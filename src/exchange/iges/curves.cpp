@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "brep/geometry_forms.hpp"
+#include "brep/model_builder.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::iges {
@@ -68,6 +69,7 @@ Expected<void> CurveReader::add_nested(int number, const Eigen::Affine3d& outer,
                                      : unknown(number, move);
   if (!piece) return std::unexpected(std::move(piece.error()));
   piece->number = number;
+  piece->name = brep::ModelBuilder::name(number);
   piece->move = move;
   ++points_;
   pieces.push_back(*std::move(piece));

@@ -1,24 +1,17 @@
 #pragma once
 
-#include <functional>
-#include <string>
-
+#include "brep/boundary_edges.hpp"
 #include "geometry.hpp"
 #include "knead/brep/model.hpp"
 
 namespace knead::iges {
 
 /// A curve that is not made of others.
-struct Piece {
-  int number = 0;                                                  ///< its entity
-  Expected<brep::CurveGeometry> geometry = brep::CurveGeometry{};  ///< or why it is not known
-  std::function<Point(double)> at;                                 ///< from 0 to 1
-  int samples = 1;                                                 ///< chords that show its shape
-  bool reversed = false;                                           ///< run along from 1 to 0
+struct Piece : brep::BoundaryPiece {
+  int number = 0;        ///< its entity
+  int samples = 1;       ///< chords that show its shape
   bool in_space = true;  ///< the entity is this curve, not one in parameters or one that is not known
   Eigen::Affine3d move = Eigen::Affine3d::Identity();  ///< from the entity's own coordinates to the model's
-  [[nodiscard]] Point from() const { return at(reversed ? 1 : 0); }
-  [[nodiscard]] Point to() const { return at(reversed ? 0 : 1); }
 };
 
 /// Reads curves; of composite curves (102) each of their parts.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "brep/geometry_forms.hpp"
+#include "brep/model_builder.hpp"
 #include "curves.hpp"
 #include "exchange/length_units.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -69,7 +70,9 @@ class ModelReader {
         builder_(file.name(), File::number(file.entities().size())),
         curves_(file),
         turned_(turned_faces(file)),
-        edges_(builder_, std::ranges::find(file.entities(), 408, &Entity::type) == file.entities().end()) {
+        edges_(builder_.model(), [this] { return brep::ModelBuilder::name(builder_.fresh()); }) {
+    // Subfigures (408) stand in several places: what seems to meet need not.
+    if (std::ranges::find(file.entities(), 408, &Entity::type) == file.entities().end()) together_ = 0;
     const KnownLengthUnit* unit = length_unit_named(file.global().unit);
     if (unit == nullptr) return;
     unit_ = unit->name;
@@ -94,7 +97,7 @@ class ModelReader {
       if (curves_.exceeded()) break;  // what is left is not known: its surfaces count as whole
       add_face(face);
     }
-    ReadModel result{std::move(builder_).complete(unit_, metres_), std::move(edges_.sources()), {}};
+    ReadModel result{std::move(builder_).complete(unit_, metres_), std::move(sources_), {}};
     result.unplaced = add_subfigures(file_, result.model);
     return result;
   }
@@ -213,6 +216,7 @@ class ModelReader {
       }
       Piece lifted;
       lifted.number = piece.number;
+      lifted.name = piece.name;
       lifted.in_space = false;
       lifted.geometry = brep::polyline_of(*corners);
       lifted.at = [corners](double t) {
@@ -244,36 +248,11 @@ class ModelReader {
     return {};
   }
 
-  /// Turns each piece so that it begins where the one before it ends. One that is closed to `same` begins and ends
-  /// there both ways: it keeps its direction, in which roundings of its ends say nothing.
-  static void chain(std::vector<Piece>& pieces, double same) {
-    for (std::size_t k = 0; k < pieces.size() && pieces.size() > 1; ++k) {
-      Piece& piece = pieces[k];
-      if ((piece.from() - piece.to()).norm() <= same && (piece.at(0.5) - piece.from()).norm() > same) continue;
-      if (k == 0) {
-        const Piece& next = pieces[1];
-        const auto gap = [&](const Point& p) { return std::min((next.from() - p).norm(), (next.to() - p).norm()); };
-        if (gap(piece.from()) < gap(piece.to())) piece.reversed = !piece.reversed;
-        continue;
-      }
-      const Point end = pieces[k - 1].to();
-      if ((piece.to() - end).norm() < (piece.from() - end).norm()) piece.reversed = !piece.reversed;
-    }
-  }
-
   brep::Bound edge_loop(std::vector<Piece>& pieces) {
-    Eigen::AlignedBox3d box;
-    for (const Piece& piece : pieces) box.extend(piece.from()).extend(piece.at(0.5));
-    const double same = std::max(file_.global().resolution, 1e-6 * box.diagonal().norm());
-    if (pieces.size() != 2 || (pieces[0].to() - pieces[1].from()).norm() > 0) chain(pieces, same);
-    edges_.begin_loop(same);
-    brep::Bound bound;
-    bound.kind = brep::Bound::Kind::edges;
-    for (const Piece& piece : pieces) {
-      const auto [edge, back] = edges_.of(piece);
-      bound.edges.push_back({edge, !back});
-    }
-    return bound;
+    return edges_.bound(pieces, file_.global().resolution, together_,
+                        [&](const Piece& piece, const brep::BoundaryEdges::Use& use) {
+                          sources_.note(builder_.model().edges[use.edge].id, piece, use.turned);
+                        });
   }
 
   /// A loop (508) of a B-rep, whose edges are shared: their number, and of each whether it is an edge or a vertex, its
@@ -306,7 +285,9 @@ class ModelReader {
       const double* own = &parameters[3 * static_cast<std::size_t>(index - 1)];
       p = move * Point(own[0], own[1], own[2]);
     }
-    return found->second = edges_.add_vertex(p, {list, index, move});
+    const int number = builder_.fresh();
+    sources_.vertices.emplace(brep::ModelBuilder::name(number), EdgeVertex{list, index, move});
+    return found->second = builder_.add_vertex(number, p);
   }
 
   /// The coordinates of a vertex list (502), read once.
@@ -339,10 +320,13 @@ class ModelReader {
     if (pieces.size() != 1) {
       pieces.assign(1, Piece{});
       pieces[0].number = own[at];
+      pieces[0].name = brep::ModelBuilder::name(own[at]);
       pieces[0].in_space = false;
       pieces[0].geometry = file_.error(own[at], "it is made of several curves, as no edge is");
     }
-    return shared_edges_[{list, index}] = edges_.add(pieces[0], from, to);
+    const brep::Index edge = edges_.add(pieces[0], from, to);
+    sources_.note(builder_.model().edges[edge].id, pieces[0], false);
+    return shared_edges_[{list, index}] = edge;
   }
 
   /// The B-spline surface of this number, or null.
@@ -354,7 +338,9 @@ class ModelReader {
   brep::ModelBuilder builder_;
   CurveReader curves_;
   std::set<int> turned_;
-  Edges edges_;
+  brep::BoundaryEdges edges_;
+  brep::BoundaryEdges::Group together_;
+  EdgeSources sources_;
   std::string unit_ = "unknown";
   double metres_ = 0, uncertainty_ = 0;
   std::map<int, Eigen::Affine3d> outer_;

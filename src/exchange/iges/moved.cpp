@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "brep/boundary_curve.hpp"
 #include "exchange/part21/part21_text.hpp"
 #include "geometry.hpp"
 #include "text.hpp"
@@ -48,16 +49,6 @@ Expected<std::size_t> end_of(const File& file, int number, const Parameters& par
 
 }  // namespace
 
-Curve turned(const Curve& curve) {
-  const auto own = curve.knots(0).knots();
-  const double sum = own.front() + own.back();
-  std::vector<double> knots(own.rbegin(), own.rend()), weights;
-  for (double& t : knots) t = sum - t;
-  if (curve.rational()) weights.assign(curve.weights().rbegin(), curve.weights().rend());
-  return *Curve::create({*KnotVector::create(curve.knots(0).degree(), std::move(knots))},
-                        Points(curve.control_points().colwise().reverse()), std::move(weights));
-}
-
 Expected<void> can_move(const File& file, const EdgeSources& sources, const std::string& edge) {
   const auto own = sources.edges.find(edge);
   if (own == sources.edges.end()) return input_error("only edges of faces can follow", edge);
@@ -84,7 +75,7 @@ Expected<MovedEntities> moved_entities(const EdgeSources& sources, const brep::M
     const auto found = sources.edges.find(edge.id);
     if (found == sources.edges.end()) return input_error("no curve of the file is this edge", edge.id);
     for (const EdgeCurve& curve : found->second) {
-      result.curves.push_back({curve.number, curve.turned ? turned(edge.curve) : edge.curve, curve.move});
+      result.curves.push_back({curve.number, curve.turned ? brep::turned(edge.curve) : edge.curve, curve.move});
     }
   }
   for (const brep::MovedVertex& vertex : moved.vertices) {

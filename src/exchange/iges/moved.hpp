@@ -48,7 +48,4 @@ struct MovedEntities {
 /// Whether the curve entity is as it should be, to 1e-13, and the vertex list to the bit.
 [[nodiscard]] bool reads_back(const File& after, const CurveReplacement& replacement);
 
-/// The curve in the other direction, on the same parameters.
-[[nodiscard]] Curve turned(const Curve& curve);
-
 }  // namespace knead::iges

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "brep/boundary_curve.hpp"
 #include "geometry.hpp"
 #include "knead/spline/spline_refinement.hpp"
-#include "moved.hpp"
 
 namespace knead::iges {
 namespace {
@@ -119,7 +119,7 @@ Expected<Surface> read_ruled_surface(const File& file, int number, const Eigen::
     if (!own) return std::unexpected(own.error());
     sides[k] = *std::move(own);
   }
-  if ((*head)[2] != 0) sides[1] = turned(sides[1]);
+  if ((*head)[2] != 0) sides[1] = brep::turned(sides[1]);
   const bool lines = sides[0].size() == 2 && sides[1].size() == 2;
   if (file.find(number)->form != 1 && !lines) {
     return file.error(

@@ -148,7 +148,7 @@ class Builder {
     std::vector<bool> spline(records, false);
     std::unordered_map<Index, Index> below;  // the surface of each face
     for (const Index k : records_.surfaces) spline[k] = true;
-    for (const FaceRecord& face : read_faces(reader_)) {
+    for (const FaceRecord& face : records_.faces) {
       kind[face.instance] = 1;
       if (face.surface != no_instance && spline[face.surface]) below.emplace(face.instance, face.surface);
     }

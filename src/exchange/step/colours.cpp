@@ -31,13 +31,13 @@ std::optional<Colour> named_colour(std::string_view name) {
 
 class Styles {
  public:
-  explicit Styles(const Reader& reader) : reader_(reader) {}
+  Styles(const Reader& reader, const std::vector<FaceRecord>& faces) : reader_(reader), faces_(faces) {}
 
   std::unordered_map<std::string, Colour> colours() {
     for (const Instance k : reader_.file().named({"STYLED_ITEM", "OVER_RIDING_STYLED_ITEM"})) add(k);
     std::unordered_map<std::string, Colour> result;
     for (const auto& [face, found] : found_) result.emplace(name_of(reader_, face), found.second);
-    for (const FaceRecord& face : read_faces(reader_)) {
+    for (const FaceRecord& face : faces_) {
       const auto found = found_.find(face.instance);
       if (found != found_.end() && face.surface != no_instance)
         result.emplace(name_of(reader_, face.surface), found->second.second);
@@ -94,7 +94,8 @@ class Styles {
   }
 
   [[nodiscard]] bool is_face(Instance k) const {
-    return reader_.is(k, "ADVANCED_FACE") || reader_.is(k, "FACE_SURFACE") || reader_.is(k, "FACE");
+    return reader_.is(k, "ADVANCED_FACE") || reader_.is(k, "FACE_SURFACE") || reader_.is(k, "FACE") ||
+           reader_.is(k, "CURVE_BOUNDED_SURFACE") || reader_.is(k, "RECTANGULAR_TRIMMED_SURFACE");
   }
   [[nodiscard]] bool is_shell(Instance k) const {
     return reader_.is(k, "CLOSED_SHELL") || reader_.is(k, "OPEN_SHELL") || reader_.is(k, "CONNECTED_FACE_SET") ||
@@ -104,7 +105,8 @@ class Styles {
     return reader_.is(k, "MANIFOLD_SOLID_BREP") || reader_.is(k, "BREP_WITH_VOIDS") || reader_.is(k, "FACETED_BREP") ||
            reader_.is(k, "SHELL_BASED_SURFACE_MODEL") || reader_.is(k, "FACE_BASED_SURFACE_MODEL") ||
            reader_.is(k, "GEOMETRIC_SET") || reader_.is(k, "ADVANCED_BREP_SHAPE_REPRESENTATION") ||
-           reader_.is(k, "MANIFOLD_SURFACE_SHAPE_REPRESENTATION");
+           reader_.is(k, "MANIFOLD_SURFACE_SHAPE_REPRESENTATION") ||
+           reader_.is(k, "GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION");
   }
   /// What is closer to a face comes first.
   [[nodiscard]] int rank_of(Instance k) const { return is_body(k) ? 0 : is_shell(k) ? 1 : 2; }
@@ -125,6 +127,7 @@ class Styles {
   }
 
   const Reader& reader_;
+  const std::vector<FaceRecord>& faces_;
   std::map<Instance, std::pair<int, Colour>> found_;
   std::size_t painted_ = 0;
 };
@@ -132,7 +135,8 @@ class Styles {
 }  // namespace
 
 std::unordered_map<std::string, Colour> face_colours(const File& file) {
-  return Styles(Reader(file.data().records)).colours();
+  const Reader reader(file.data().records);
+  return Styles(reader, file.data().of.faces).colours();
 }
 
 }  // namespace knead::step

@@ -119,7 +119,7 @@ Expected<double> Reader::angle_unit(std::uint32_t instance) const {
     if (angle_units_.empty()) angle_units_.push_back(1);
   }
   if (angle_units_.size() == 1) return angle_units_.front();
-  return error(instance, "its angles may be in several units", "write its coordinates as x, y, z");
+  return error(instance, "its angles may be in several units", "give the file one unit of angles");
 }
 
 /// CYLINDRICAL_POINT(name, *, r, theta, z) and SPHERICAL_POINT(name, *, r, theta, phi): the coordinates are derived.
@@ -149,7 +149,21 @@ Expected<Point> Reader::curved_point(std::uint32_t instance) const {
   return Point(v[0] * std::sin(theta) * std::cos(phi), v[0] * std::sin(theta) * std::sin(phi), v[0] * std::cos(theta));
 }
 
+Expected<Point> Reader::point_in_parameters(std::uint32_t instance) const {
+  const auto own = attributes(instance, "CARTESIAN_POINT", 1, 1);
+  if (!is(instance, "CARTESIAN_POINT") || own.empty() || !is_list(own[0]) || file_->children(own[0]).size() != 2)
+    return error(instance, "a CARTESIAN_POINT with 2 coordinates is needed here");
+  Point result = Point::Zero();
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto value = coordinate(instance, file_->children(own[0])[k], k);
+    if (!value) return std::unexpected(value.error());
+    result[static_cast<Eigen::Index>(k)] = *value;
+  }
+  return result;
+}
+
 Expected<Point> Reader::point(std::uint32_t instance) const {
+  if (is_in_parameters()) return point_in_parameters(instance);
   if (is(instance, "CYLINDRICAL_POINT") || is(instance, "SPHERICAL_POINT")) return curved_point(instance);
   if (is(instance, "POLAR_POINT")) {
     return error(instance, "a point of a plane where one in space is needed", "write its coordinates as x, y, z");
@@ -169,9 +183,9 @@ std::optional<Point> Reader::direction(std::uint32_t instance) const {
   const auto own = attributes(instance, "DIRECTION", 1, 1);
   if (!is(instance, "DIRECTION") || own.empty() || !is_list(own[0])) return std::nullopt;
   const auto ratios = file_->children(own[0]);
-  if (ratios.size() != 3) return std::nullopt;
-  Point result;
-  for (std::size_t k = 0; k < 3; ++k) {
+  if (ratios.size() != coordinates_) return std::nullopt;
+  Point result = Point::Zero();
+  for (std::size_t k = 0; k < coordinates_; ++k) {
     const auto ratio = real(ratios[k]);
     if (!ratio) return std::nullopt;
     result[static_cast<Eigen::Index>(k)] = *ratio;

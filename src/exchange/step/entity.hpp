@@ -24,6 +24,14 @@ class Reader {
 
   [[nodiscard]] const Part21File& file() const { return *file_; }
 
+  /// Reads points and directions of two coordinates, with z = 0: those of curves in the parameters of a surface.
+  [[nodiscard]] Reader in_parameters() const {
+    Reader result(*this);
+    result.coordinates_ = 2;
+    return result;
+  }
+  [[nodiscard]] bool is_in_parameters() const { return coordinates_ == 2; }
+
   /// "#12 CARTESIAN_POINT"
   [[nodiscard]] std::string label(std::uint32_t instance) const;
   /// The part of the instance (a value of kind `typed`) with this name.
@@ -67,6 +75,8 @@ class Reader {
   /// `largest_number`; contexts with several units of angles where one is needed.
   [[nodiscard]] Expected<Point> point(std::uint32_t instance) const;
   [[nodiscard]] std::optional<Point> direction(std::uint32_t instance) const;
+  /// The radians of the plane angle unit of the contexts. Errors (input): they have several.
+  [[nodiscard]] Expected<double> angle_unit(std::uint32_t instance) const;
 
   /// An input error at an instance.
   [[nodiscard]] std::unexpected<Error> error(std::uint32_t instance, std::string what, std::string remedy = {}) const;
@@ -75,9 +85,10 @@ class Reader {
   /// Number k of a point.
   [[nodiscard]] Expected<double> coordinate(std::uint32_t instance, std::uint32_t value, std::size_t k) const;
   [[nodiscard]] Expected<Point> curved_point(std::uint32_t instance) const;
-  [[nodiscard]] Expected<double> angle_unit(std::uint32_t instance) const;
+  [[nodiscard]] Expected<Point> point_in_parameters(std::uint32_t instance) const;
 
   const Part21File* file_;
+  std::size_t coordinates_ = 3;
   mutable std::vector<double> angle_units_;  ///< of the contexts, in radians; found when first needed
 };
 

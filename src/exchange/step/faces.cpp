@@ -1,7 +1,7 @@
 #include "faces.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -38,54 +38,52 @@ std::unordered_set<std::uint32_t> turned_faces(const Reader& reader) {
   return result;
 }
 
-// The basis surface trimmed by a RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE.
-std::optional<std::uint32_t> cut_surface(const Reader& reader, std::uint32_t instance,
-                                         const std::unordered_map<std::uint32_t, std::size_t>& index,
-                                         const std::vector<brep::SplineSurface>& surfaces) {
-  if (reader.is(instance, "CURVE_BOUNDED_SURFACE")) {
-    const auto own = reader.attributes(instance, "CURVE_BOUNDED_SURFACE", 1, 3);
-    const bool whole = !own.empty() && reader.references(own[1]).empty() && reader.enumeration(own[2]) == "T";
-    return own.empty() || whole ? std::nullopt : reader.reference(own[0]);
-  }
-  if (!reader.is(instance, "RECTANGULAR_TRIMMED_SURFACE")) return std::nullopt;
-  const auto own = reader.attributes(instance, "RECTANGULAR_TRIMMED_SURFACE", 1, 5);
-  const auto basis = own.empty() ? std::nullopt : reader.reference(own[0]);
-  const auto found = basis ? index.find(*basis) : index.end();
-  if (found == index.end()) return std::nullopt;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto domain = surfaces[found->second].surface.knots(static_cast<int>(k / 2)).domain();
-    const auto bound = reader.real(own[k + 1]);
-    const double end = k % 2 == 0 ? domain.lower : domain.upper;
-    if (!bound || std::abs(*bound - end) > 1e-9 * domain.length()) return basis;
+constexpr std::array<std::string_view, 2> bounded_kinds = {"CURVE_BOUNDED_SURFACE", "RECTANGULAR_TRIMMED_SURFACE"};
+
+/// The surface that a bounded surface trims; none: the surface is not bounded, or its record is incomplete.
+std::optional<std::uint32_t> basis_of(const Reader& reader, std::uint32_t surface) {
+  for (const auto kind : bounded_kinds) {
+    const auto own = reader.attributes(surface, kind, 1, 1);
+    if (reader.is(surface, kind)) return own.empty() ? std::nullopt : reader.reference(own[0]);
   }
   return std::nullopt;
+}
+bool is_bounded(const Reader& reader, std::uint32_t surface) {
+  return std::ranges::any_of(bounded_kinds, [&](std::string_view kind) { return reader.is(surface, kind); });
+}
+
+/// Bounded surfaces on which no face lies, which no other one bounds further, and which something else than curves in
+/// their parameters refers to, or nothing.
+void add_bounded_surfaces(const Reader& reader, std::vector<FaceRecord>& faces) {
+  const auto bounded = reader.file().named(bounded_kinds);
+  if (bounded.empty()) return;
+  std::unordered_map<std::uint32_t, std::uint32_t> curves;  // on each surface
+  for (const auto k : reader.file().named({"PCURVE", "BOUNDED_PCURVE", "DEGENERATE_PCURVE"})) {
+    const auto own = reader.attributes(k, reader.is(k, "DEGENERATE_PCURVE") ? "DEGENERATE_PCURVE" : "PCURVE", 1, 1);
+    if (const auto on = own.empty() ? std::nullopt : reader.reference(own[0])) ++curves[*on];
+  }
+  std::unordered_set<std::uint32_t> below;
+  for (const auto k : bounded) {
+    if (const auto basis = basis_of(reader, k)) below.insert(*basis);
+  }
+  for (const auto k : reader.file().named({"ADVANCED_FACE", "FACE_SURFACE"})) {
+    const auto own = reader.attributes(k, "FACE_SURFACE", 2, 1);
+    if (const auto on = own.empty() ? std::nullopt : reader.reference(own[0])) below.insert(*on);
+  }
+  for (const auto k : bounded) {
+    const auto uses = reader.file().instance(k).uses;
+    if (below.contains(k) || (uses > 0 && uses == curves[k])) continue;
+    if (const auto basis = untrimmed(reader, k); basis && !is_bounded(reader, *basis))
+      faces.push_back({.instance = k, .surface = *basis, .is_surface = true});
+  }
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> cut_surfaces(const Reader& reader, const std::vector<std::uint32_t>& instances,
-                                       const std::vector<brep::SplineSurface>& surfaces) {
-  std::vector<std::uint8_t> result(surfaces.size(), 0);
-  std::unordered_map<std::uint32_t, std::size_t> index;
-  for (std::size_t k = 0; k < instances.size(); ++k) index.emplace(instances[k], k);
-  for (const auto k : reader.file().named({"CURVE_BOUNDED_SURFACE", "RECTANGULAR_TRIMMED_SURFACE"})) {
-    const auto cut = cut_surface(reader, k, index, surfaces);
-    const auto found = cut ? index.find(*cut) : index.end();
-    if (found != index.end()) result[found->second] = 1;
-  }
-  return result;
-}
-
 std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::uint32_t> surface) {
-  constexpr int max_shell_nesting = 4;
-  for (int depth = 0; depth < max_shell_nesting && surface; ++depth) {
-    const char* cut = reader.is(*surface, "RECTANGULAR_TRIMMED_SURFACE") ? "RECTANGULAR_TRIMMED_SURFACE"
-                      : reader.is(*surface, "CURVE_BOUNDED_SURFACE")     ? "CURVE_BOUNDED_SURFACE"
-                                                                         : nullptr;
-    if (cut == nullptr) break;
-    const auto basis = reader.attributes(*surface, cut, 1, 1);
-    surface = basis.empty() ? std::nullopt : reader.reference(basis[0]);
-  }
+  constexpr int max_nesting = 4;
+  for (int depth = 0; depth < max_nesting && surface && is_bounded(reader, *surface); ++depth)
+    surface = basis_of(reader, *surface);
   return surface;
 }
 
@@ -106,6 +104,7 @@ std::vector<FaceRecord> read_faces(const Reader& reader) {
     }
     result.push_back(face);
   }
+  add_bounded_surfaces(reader, result);
   return result;
 }
 

@@ -41,7 +41,12 @@ class StepSource final : public Source {
   std::string schema() const override { return file_.schema(); }
   std::shared_ptr<const brep::Model> model() const override { return file_.shared_model(); }
   std::unordered_map<std::string, Colour> colours() const override { return step::face_colours(file_); }
-  Expected<void> can_move_edge(const std::string& /*id*/) const override { return {}; }
+  Expected<void> can_move_edge(const std::string& id) const override {
+    const auto& boundaries = file_.data().of.boundaries;
+    const auto found = boundaries.find(id);
+    if (found == boundaries.end() || !found->second.fixed) return {};
+    return input_error("its curve is a part of a SURFACE_CURVE, which cannot move by itself", id, "hold the edge");
+  }
   std::vector<std::string> remarks() const override {
     std::vector<std::string> result;
     for (const Error& warning : file_.warnings()) result.push_back("warning: " + warning.message());

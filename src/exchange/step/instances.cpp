@@ -268,9 +268,25 @@ std::unordered_map<Index, Index> holders(const Reader& reader, const std::vector
   return result;
 }
 
+/// AXIS2_PLACEMENT_2D: an axis along z.
+std::optional<brep::AxisPlacement> read_placement_in_parameters(const Reader& reader, std::uint32_t instance) {
+  const bool complex = reader.file().instance(instance).complex;
+  const auto location = complex ? attribute(reader, instance, "PLACEMENT", 0, 0)
+                                : attribute(reader, instance, "AXIS2_PLACEMENT_2D", 1, 0);
+  const auto origin = location ? reader.point(*location) : Expected<Point>(input_error("no location"));
+  if (!reader.is(instance, "AXIS2_PLACEMENT_2D") || !origin) return std::nullopt;
+  brep::AxisPlacement result{*origin};
+  const std::size_t inherited = complex ? 0 : 2;
+  if (const auto x = attribute(reader, instance, "AXIS2_PLACEMENT_2D", inherited, 0)) {
+    result.ref_direction = reader.direction(*x).value_or(result.ref_direction);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<brep::AxisPlacement> read_placement(const Reader& reader, std::uint32_t instance) {
+  if (reader.is_in_parameters()) return read_placement_in_parameters(reader, instance);
   if (!reader.is(instance, "AXIS2_PLACEMENT_3D")) return std::nullopt;
   const auto record_is_complex = reader.file().instance(instance).complex;
   const auto location = record_is_complex ? attribute(reader, instance, "PLACEMENT", 0, 0)

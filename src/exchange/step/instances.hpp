@@ -25,7 +25,7 @@ struct Structure {
 
 [[nodiscard]] Structure read_structure(const Reader& reader);
 
-/// AXIS2_PLACEMENT_3D; none if the instance is not one or lacks its location.
+/// AXIS2_PLACEMENT_3D, in parameters AXIS2_PLACEMENT_2D; none if the instance is not one or lacks its location.
 [[nodiscard]] std::optional<brep::AxisPlacement> read_placement(const Reader& reader, std::uint32_t instance);
 
 }  // namespace knead::step

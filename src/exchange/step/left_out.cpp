@@ -47,7 +47,7 @@ class Unread {
   /// Of which not even the record can be followed.
   void add_faces() {
     std::unordered_set<Index> read;
-    for (const FaceRecord& face : read_faces(reader_)) read.insert(face.instance);
+    for (const FaceRecord& face : records_.faces) read.insert(face.instance);
     for (const Index k : reader_.file().named({"ADVANCED_FACE", "FACE_SURFACE", "FACE"})) {
       if (!read.contains(k))
         list_.add({"face that cannot be read", "faces that cannot be read", "its record has no bounds or no surface",
@@ -101,13 +101,10 @@ class Unread {
   }
 
   void add_surface(Index item) {
+    if (std::ranges::find(records_.faces, item, &FaceRecord::instance) != records_.faces.end()) return;
     const auto below = untrimmed(reader_, item);
     const auto& splines = records_.surfaces;
-    if (below && std::ranges::find(splines, *below) != splines.end()) {
-      if (*below != item)
-        list_.add({"surface's limits", "surfaces' limits", "a surface without a face is shown whole"}, name(item));
-      return;
-    }
+    if (below && std::ranges::find(splines, *below) != splines.end()) return;
     // One that cannot be read has a reason of its own.
     if (below &&
         std::ranges::find(model_.unreadable, name(*below), &brep::UnreadableSurface::id) != model_.unreadable.end())

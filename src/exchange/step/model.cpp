@@ -58,12 +58,10 @@ void read_surfaces(const Reader& reader, const Contexts& contexts, brep::Model& 
     }
   }
   const auto context_of = contexts.of(records.surfaces);
-  const auto cut = cut_surfaces(reader, records.surfaces, model.surfaces);
   for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
     brep::SplineSurface& surface = model.surfaces[k];
     surface.unit = contexts.unit(context_of[k]);
     surface.uncertainty = contexts.uncertainty(context_of[k]);
-    surface.trimmed = cut[k] != 0;
   }
 }
 
@@ -107,10 +105,12 @@ Expected<brep::Model> read_model(const Reader& reader, ModelRecords& records) {
   for (const UnitContext& context : contexts.all()) model.units.push_back(context.unit);
   model.angle_units = plane_angle_units(reader);
   read_surfaces(reader, contexts, model, records);
-  const auto context_of = contexts.of(read_topology(reader, records.surfaces, model));
+  records.faces = read_faces(reader);
+  const auto context_of = contexts.of(read_topology(reader, records.surfaces, records.faces, model));
   for (std::size_t k = 0; k < context_of.size(); ++k) {
     model.supports[k].uncertainty = contexts.uncertainty(context_of[k]);
   }
+  records.boundaries = bound_surfaces(reader, records.faces, model);
   read_curves(reader, contexts, model, records);
   read_tessellated(reader, contexts, model, records);
   brep::complete(model);

@@ -4,7 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "bounded_faces.hpp"
 #include "entity.hpp"
+#include "faces.hpp"
 #include "knead/brep/model.hpp"
 #include "tessellated.hpp"
 
@@ -14,6 +16,8 @@ namespace knead::step {
 struct ModelRecords {
   std::vector<std::uint32_t> surfaces, curves;               ///< of each of the model's
   std::vector<std::vector<std::uint32_t>> curve_point_refs;  ///< of each curve: the values that refer to its points
+  std::vector<FaceRecord> faces;                             ///< of each of the model's
+  BoundarySources boundaries;
   TessellatedRecords tessellated;
 };
 

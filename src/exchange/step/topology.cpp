@@ -25,9 +25,9 @@ class TopologyReader {
     for (std::size_t k = 0; k < surfaces.size(); ++k) splines_.emplace(surfaces[k], static_cast<Index>(k));
   }
 
-  std::vector<std::uint32_t> read() {
+  std::vector<std::uint32_t> read(const std::vector<FaceRecord>& faces) {
     read_edges();
-    for (const FaceRecord& face : read_faces(reader_)) add_face(face);
+    for (const FaceRecord& face : faces) add_face(face);
     read_supports();
     read_shells();
     return std::move(support_instances_);
@@ -97,6 +97,7 @@ class TopologyReader {
       }
       face.support = at->second;
     }
+    if (record.is_surface) return;
     for (const auto bound : reader_.references(record.bounds)) face.bounds.push_back(read_bound(bound));
   }
 
@@ -190,8 +191,8 @@ class TopologyReader {
 }  // namespace
 
 std::vector<std::uint32_t> read_topology(const Reader& reader, const std::vector<std::uint32_t>& surfaces,
-                                         brep::Model& model) {
-  return TopologyReader(reader, surfaces, model).read();
+                                         const std::vector<FaceRecord>& faces, brep::Model& model) {
+  return TopologyReader(reader, surfaces, model).read(faces);
 }
 
 }  // namespace knead::step

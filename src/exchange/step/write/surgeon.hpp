@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exchange/part21/part21.hpp"
+#include "exchange/step/bounded_faces.hpp"
 #include "exchange/step/entity.hpp"
 #include "fresh_names.hpp"
 #include "knead/spline/spline.hpp"
@@ -41,14 +42,23 @@ class Surgeon {
   /// Gives an EDGE_CURVE another curve in space; its PCURVEs stay.
   [[nodiscard]] Expected<void> replace_curve(std::uint32_t edge, const Curve& curve);
 
+  /// Gives the segments of boundaries that are one edge another curve in space; their PCURVEs stay.
+  void replace_boundary(const std::vector<BoundarySource>& sources, const Curve& curve);
+
   /// Moves a VERTEX_POINT.
   [[nodiscard]] Expected<void> move_vertex(std::uint32_t vertex, const Point& place);
 
   /// Gives a surface of another form the record of a B-spline surface, under its name and label. What describes
-  /// geometry on the surface, except faces and curves, refers to a copy of the old record from then on.
-  void become_spline(std::uint32_t instance, const Surface& surface);
-  /// Lets a face that lies on a part of a surface refer to the surface itself.
+  /// geometry on the surface, except faces, curves and `bounded` surfaces, refers to a copy of the old record from then
+  /// on.
+  void become_spline(std::uint32_t instance, const Surface& surface, const std::set<std::uint32_t>& bounded);
+  /// Lets a face or bounded surface that lies on a part of a surface refer to the surface itself.
   void lie_on(std::uint32_t face, std::uint32_t surface);
+  /// Gives a RECTANGULAR_TRIMMED_SURFACE other limits, each pair in the order that its sense has.
+  void limit(std::uint32_t bounded, const std::array<Interval, 2>& limits);
+  /// Lets the SURFACE_CURVEs of segments refer to a surface in place of their PCURVEs on it, and gives segments that
+  /// have a PCURVE alone a SURFACE_CURVE of this curve.
+  void lie_along(const BoundaryEdge& edge, std::uint32_t surface, const Curve* curve);
   /// Takes the PCURVEs on any of these surfaces from an edge.
   void drop_parameter_curves(std::uint32_t edge, const std::set<std::uint32_t>& surfaces);
 
@@ -92,6 +102,7 @@ class Surgeon {
   Reader reader_;
   FreshNames names_;
   std::vector<Change> changes_;
+  std::set<std::uint32_t> laid_;  // SURFACE_CURVEs that refer to a surface in place of PCURVEs
 };
 
 }  // namespace knead::step

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "brep/boundary_curve.hpp"
 #include "exchange/part21/part21_text.hpp"
 #include "exchange/step/faces.hpp"
 #include "print.hpp"
@@ -17,11 +18,11 @@ bool depends_on_form(const Reader& reader, std::uint32_t instance) {
 
 }  // namespace
 
-void Surgeon::become_spline(std::uint32_t instance, const Surface& surface) {
+void Surgeon::become_spline(std::uint32_t instance, const Surface& surface, const std::set<std::uint32_t>& bounded) {
   const Part21Instance& record = file_.instance(instance);
   std::string copy, inserted;
   for (std::uint32_t k = 0; k < file_.instances().size(); ++k) {
-    if (k == instance || !depends_on_form(reader_, k)) continue;
+    if (k == instance || bounded.contains(k) || !depends_on_form(reader_, k)) continue;
     const Part21Instance& user = file_.instance(k);
     for (std::uint32_t value = user.first; value < user.last; ++value) {
       if (file_.value(value).kind != Part21Kind::reference || file_.value(value).target != instance) continue;
@@ -51,9 +52,66 @@ void Surgeon::become_spline(std::uint32_t instance, const Surface& surface) {
 }
 
 void Surgeon::lie_on(std::uint32_t face, std::uint32_t surface) {
-  const auto own = reader_.attributes(face, "FACE_SURFACE", 2, 1);
+  const bool bounded = reader_.is(face, "CURVE_BOUNDED_SURFACE") || reader_.is(face, "RECTANGULAR_TRIMMED_SURFACE");
+  const auto own = bounded
+                       ? reader_.attributes(face,
+                                            reader_.is(face, "CURVE_BOUNDED_SURFACE") ? "CURVE_BOUNDED_SURFACE"
+                                                                                      : "RECTANGULAR_TRIMMED_SURFACE",
+                                            1, 1)
+                       : reader_.attributes(face, "FACE_SURFACE", 2, 1);
   if (own.empty() || reader_.reference(own[0]) == surface) return;
   change(own[0], name_of(reader_, surface));
+}
+
+void Surgeon::limit(std::uint32_t bounded, const std::array<Interval, 2>& limits) {
+  const auto own = reader_.attributes(bounded, "RECTANGULAR_TRIMMED_SURFACE", 1, 7);
+  for (std::size_t d = 0; d < 2 && !own.empty(); ++d) {
+    // Down only where the parameters run so: over the end of a closed direction they went up from the larger one.
+    const bool ascending = reader_.enumeration(own[5 + d]) != "F" ||
+                           reader_.real(own[1 + 2 * d]).value_or(0) < reader_.real(own[2 + 2 * d]).value_or(0);
+    change(own[1 + 2 * d], format_real(ascending ? limits[d].lower : limits[d].upper));
+    change(own[2 + 2 * d], format_real(ascending ? limits[d].upper : limits[d].lower));
+  }
+}
+
+void Surgeon::lie_along(const BoundaryEdge& edge, std::uint32_t surface, const Curve* curve) {
+  const std::string on = name_of(reader_, surface);
+  const auto is_on_surface = [&](std::uint32_t pcurve) {
+    const auto basis = reader_.is(pcurve, "PCURVE") || reader_.is(pcurve, "BOUNDED_PCURVE")
+                           ? reader_.attributes(pcurve, "PCURVE", 1, 1)
+                           : std::vector<std::uint32_t>();
+    return !basis.empty() && untrimmed(reader_, reader_.reference(basis[0])) == surface;
+  };
+  for (const BoundarySource& source : edge.sources) {
+    if (source.carrier == no_instance) continue;
+    const auto parts = reader_.attributes(source.carrier, "SURFACE_CURVE", 1, 3);
+    std::string kept;
+    bool left = false;
+    for (const std::uint32_t value : parts.empty() ? std::vector<std::uint32_t>() : file_.children(parts[1])) {
+      const auto target = reader_.reference(value);
+      const bool leaves = target && is_on_surface(*target);
+      const std::string text = leaves ? on : std::string(file_.text(value));
+      if (!(leaves && left)) kept += (kept.empty() ? "" : ",") + text;
+      left = left || leaves;
+    }
+    if (!left || !laid_.insert(source.carrier).second) continue;
+    change(parts[1], "(" + kept + ")");
+    if (reader_.enumeration(parts[2]) != "CURVE_3D") change(parts[2], ".CURVE_3D.");
+    const Part21Instance& record = file_.instance(source.carrier);
+    if (reader_.is(source.carrier, "SURFACE_CURVE") || record.complex) continue;
+    const auto begin = file_.range(record.first).begin;
+    changes_.push_back(
+        {{begin, begin + static_cast<std::uint32_t>(file_.keyword(record.first).size())}, "SURFACE_CURVE"});
+  }
+  for (const BoundarySource& source : edge.in_parameters) {
+    const auto target = reader_.reference(source.parent);
+    if (curve == nullptr || !target || !is_on_surface(*target)) continue;
+    const std::string name = "#" + std::to_string(names_.next()), carrier = "#" + std::to_string(names_.next());
+    insert(file_.instance(source.segment).bytes.end,
+           curve_records(source.turned ? brep::turned(*curve) : *curve, name) + line_break() + carrier +
+               "=SURFACE_CURVE(''," + name + ",(" + on + "),.CURVE_3D.);");
+    change(source.parent, carrier);
+  }
 }
 
 void Surgeon::drop_parameter_curves(std::uint32_t edge, const std::set<std::uint32_t>& surfaces) {

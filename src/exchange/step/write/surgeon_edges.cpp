@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <map>
+
+#include "brep/boundary_curve.hpp"
 #include "exchange/part21/part21_text.hpp"
 #include "print.hpp"
 #include "surgeon.hpp"
@@ -51,6 +55,36 @@ Expected<void> Surgeon::replace_curve(std::uint32_t edge, const Curve& curve) {
   }
   insert(file_.instance(edge).bytes.end, std::move(records));
   return {};
+}
+
+void Surgeon::replace_boundary(const std::vector<BoundarySource>& sources, const Curve& curve) {
+  std::array<std::string, 2> names;          // of the curve, and of the same turned
+  std::map<std::uint32_t, std::string> own;  // of the SURFACE_CURVEs that have one of these
+  for (const BoundarySource& source : sources) {
+    std::string& name = names[source.turned ? 1 : 0];
+    std::string records;
+    if (name.empty()) {
+      name = "#" + std::to_string(names_.next());
+      records = curve_records(source.turned ? brep::turned(curve) : curve, name);
+    }
+    const bool shared = source.carrier != no_instance && own.contains(source.carrier);
+    if (source.carrier == no_instance) {
+      change(source.value, name);
+    } else if (shared) {
+      if (!own.at(source.carrier).empty()) change(source.parent, own.at(source.carrier));
+    } else {
+      const auto same = [&](const BoundarySource& other) { return other.carrier == source.carrier; };
+      std::string& copy = own[source.carrier];
+      if (file_.instance(source.carrier).uses == static_cast<std::uint32_t>(std::ranges::count_if(sources, same))) {
+        change(source.value, name);
+      } else {
+        copy = "#" + std::to_string(names_.next());
+        records += line_break() + copy_of(source.carrier, copy, {{file_.range(source.value), name}});
+        change(source.parent, copy);
+      }
+    }
+    if (!records.empty()) insert(file_.instance(source.segment).bytes.end, std::move(records));
+  }
 }
 
 Expected<void> Surgeon::replace_net(std::uint32_t instance, const std::vector<std::uint32_t>& refs, const Curve& before,

@@ -2,6 +2,7 @@
 #include <unordered_map>
 
 #include "check.hpp"
+#include "exchange/part21/part21_text.hpp"
 #include "exchange/step/data.hpp"
 #include "exchange/step/file.hpp"
 #include "exchange/step/surfaces.hpp"
@@ -55,20 +56,21 @@ namespace {
 
 Expected<void> write_edges(const File::Data& data, const brep::MovedEdges& moved, Surgeon& surgeon) {
   const auto instance_of = [&](const std::string& id) -> Expected<std::uint32_t> {
-    std::uint64_t number = 0;
-    for (const char c : id.substr(std::min<std::size_t>(1, id.size()))) {
-      number = 10 * number + static_cast<std::uint64_t>(c - '0');
-    }
-    const auto found = data.records.find(number);
+    const auto found = data.records.find(parse_instance_name(id).value_or(0));
     if (found) return *found;
     return std::unexpected(Error{ErrorKind::input, "nothing in the file has this name", id, {}, data.records.name()});
   };
   for (const brep::MovedEdge& edge : moved.edges) {
+    if (const auto boundary = data.of.boundaries.find(edge.id); boundary != data.of.boundaries.end()) {
+      surgeon.replace_boundary(boundary->second.sources, edge.curve);
+      continue;
+    }
     const auto instance = instance_of(edge.id);
     if (!instance) return std::unexpected(instance.error());
     if (auto done = surgeon.replace_curve(*instance, edge.curve); !done) return done;
   }
   for (const brep::MovedVertex& vertex : moved.vertices) {
+    if (parse_instance_name(vertex.id).value_or(0) > data.records.largest_id()) continue;  // where boundaries meet
     const auto instance = instance_of(vertex.id);
     if (!instance) return std::unexpected(instance.error());
     if (auto done = surgeon.move_vertex(*instance, vertex.place); !done) return done;

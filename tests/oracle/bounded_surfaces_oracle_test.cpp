@@ -1,0 +1,82 @@
+// Surfaces that are bounded by curves alone, pressed on the edge at which they meet: Open CASCADE finds the same faces,
+// and no edge farther from its faces than before.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
+#include "oracle/occt_file.hpp"
+#include "session/running.hpp"
+#include "support/bounded_sheets.hpp"
+
+namespace knead::oracle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Bounding;
+
+class BoundedSheetsInOcct : public ::testing::TestWithParam<std::tuple<Bounding, std::string>> {};
+
+TEST_P(BoundedSheetsInOcct, StayClosed) {
+  const auto& [bounding, unit] = GetParam();
+  const double scale = unit == "m" ? 5 : 5000, millimetres = unit == "m" ? 1000 : 1;
+  const auto sheets = testing::bounded_sheets(bounding, unit, scale);
+  const auto source = *open_source(sheets.text, "sheets.step");
+  const brep::Model& model = *source->model();
+  const auto west = brep::edges_around(model.faces[0]), east = brep::edges_around(model.faces[1]);
+  const auto shared =
+      std::ranges::find_if(west, [&](brep::Index e) { return std::ranges::find(east, e) != east.end(); });
+  ASSERT_NE(shared, west.end());
+  Session session(Document::from(source));
+  const auto done =
+      testing::run(session, R"({"do":"select","surfaces":[")" + sheets.surfaces[0] + R"(",")" + sheets.surfaces[1] +
+                                R"("]},{"do":"edge","which":")" + model.edges[*shared].id + R"(","hold":"free"},)" +
+                                fmt::format(R"({{"do":"material","alpha":[1,0,1],"beta":[0.003,0.003,0.003]}},
+      {{"do":"tool","name":"ball","radius":{},"rigid":true,"position":[{},{},{}]}},{{"do":"evolve","mode":"static"}})",
+                                            0.4 * scale, 2 * scale, scale, scale * (testing::roof(2, 1) + 0.3)));
+  ASSERT_TRUE(done) << done.error().message();
+  const auto bytes = session.save();
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  const fs::path directory = fs::temp_directory_path() / ("knead-bounded-" + std::to_string(getpid()));
+  fs::create_directories(directory);
+  const fs::path before = directory / "before.step", after = directory / "after.step";
+  ASSERT_TRUE(write_file_atomically(before, sheets.text));
+  ASSERT_TRUE(write_file_atomically(after, *bytes));
+  const auto was = occt_read_file(before), now = occt_read_file(after);
+  ASSERT_TRUE(was && now);
+  EXPECT_EQ(was->topology.at("faces"), 2);
+  EXPECT_EQ(now->topology, was->topology);
+  EXPECT_LE(now->bad_faces, was->bad_faces);
+  const double size = 4.5 * scale * millimetres;
+  ASSERT_EQ(now->gaps.size(), was->gaps.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < now->gaps.size(); ++k) {
+    EXPECT_LE(now->gaps[k], was->gaps[k] + 1e-6 * size) << "edge " << k;
+    largest = std::max(largest, now->gaps[k]);
+  }
+  const auto apart = occt_partings(before), later = occt_partings(after);
+  ASSERT_EQ(later.size(), apart.size());
+  int met = 0;
+  for (std::size_t k = 0; k < apart.size(); ++k) {
+    if (apart[k] > 1e-6 * size) continue;
+    ++met;
+    EXPECT_LE(later[k], apart[k] + 1e-6 * size) << "edge " << k;
+    largest = std::max(largest, later[k]);
+  }
+  EXPECT_EQ(met, 2) << "the edge of either face at which they meet";
+  std::cout << fmt::format("| {} | {} | {:.2g} | {:.2g} |\n", name_of(bounding), unit,
+                           *std::ranges::max_element(was->gaps) / size, largest / size);
+  fs::remove_all(directory);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, BoundedSheetsInOcct,
+                         ::testing::Combine(::testing::ValuesIn(testing::all_boundings), ::testing::Values("m", "mm")),
+                         [](const auto& instance) {
+                           return name_of(std::get<0>(instance.param)) + "_" + std::get<1>(instance.param);
+                         });
+
+}  // namespace
+}  // namespace knead::oracle
