@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "knead/spline/evaluate.hpp"
 #include "model_builder.hpp"
 
 namespace knead::brep {
@@ -15,6 +16,15 @@ constexpr double least_same = 1e-6;          // of the size of a boundary
 constexpr std::array quarters = {0.25, 0.5, 0.75};
 
 }  // namespace
+
+void BoundaryPiece::set(std::shared_ptr<const Curve> curve, const Interval& range) {
+  geometry = CurveGeometry{curve};
+  at = [curve = std::move(curve), range](double t) {
+    const double u = range.lower + t * range.length();
+    const auto p = evaluate_point<1>(*curve, {std::clamp(u, range.lower, range.upper)});
+    return p ? *p : Point(curve->control_points().row(0).transpose());
+  };
+}
 
 /// Turns pieces, and returns the distance within which their points are one. A piece that is closed to this begins and
 /// ends there both ways: it keeps its direction, in which roundings of its ends say nothing.

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,6 +21,9 @@ struct BoundaryPiece {
   bool reversed = false;                               ///< the boundary runs from 1 to 0
   [[nodiscard]] Point from() const { return at(reversed ? 1 : 0); }
   [[nodiscard]] Point to() const { return at(reversed ? 0 : 1); }
+
+  /// Makes it the part of a spline over an interval.
+  void set(std::shared_ptr<const Curve> curve, const Interval& range);
 };
 
 /// Makes pieces of boundaries edges with their vertices, in files whose boundaries share nothing.

@@ -3,16 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary_curve.hpp"
 #include "knead/spline/evaluate.hpp"
 #include "spline/greville_interpolation.hpp"
 
 namespace knead::brep {
 namespace {
 
-using PathPoint = std::function<Expected<Point>(double)>;
-
 constexpr std::size_t most_spans = 4096;
 constexpr int per_span = 5;
+constexpr int first_spans = 8;
+constexpr double beside_corner = 0.25;   // of a first span: divisions nearer to a corner are left out
+constexpr double least_span = 1e-10;     // of all parameters
+constexpr double lift_tolerance = 1e-8;  // of a path's size
+
+std::vector<double> first_breaks(const Interval& range, const std::vector<double>& all_corners) {
+  const double from = range.lower, to = range.upper;
+  const double least = least_span * (to - from), span = (to - from) / first_spans;
+  std::vector<double> breaks = {from};
+  for (const double corner : all_corners) {
+    if (corner - breaks.back() > least && to - corner > least) breaks.push_back(corner);
+  }
+  const std::vector<double> corners(breaks.begin() + 1, breaks.end());
+  for (int k = 1; k < first_spans; ++k) {
+    const double t = std::lerp(from, to, static_cast<double>(k) / first_spans);
+    const auto beside = [&](double corner) { return std::abs(corner - t) < beside_corner * span; };
+    if (std::ranges::none_of(corners, beside)) breaks.push_back(t);
+  }
+  breaks.push_back(to);
+  std::ranges::sort(breaks);
+  return breaks;
+}
 
 Expected<Curve> interpolated(const PathPoint& path, const std::vector<double>& breaks,
                              const std::vector<double>& corners) {
@@ -49,7 +70,7 @@ Expected<std::vector<double>> halved(const PathPoint& path, const Curve& curve, 
       if (!is) return std::unexpected(is.error());
       off = (*is - *wanted).norm() > tolerance;
     }
-    if (off && breaks[k] - breaks[k - 1] < 2 * least_fitted_span * (breaks.back() - breaks.front()))
+    if (off && breaks[k] - breaks[k - 1] < 2 * least_span * (breaks.back() - breaks.front()))
       return numerical_error(not_fitted);
     if (off) result.push_back(0.5 * (breaks[k - 1] + breaks[k]));
     result.push_back(breaks[k]);
@@ -59,8 +80,9 @@ Expected<std::vector<double>> halved(const PathPoint& path, const Curve& curve, 
 
 }  // namespace
 
-Expected<Curve> fitted_curve(const PathPoint& path, std::vector<double> breaks, const std::vector<double>& corners,
+Expected<Curve> fitted_curve(const PathPoint& path, const Interval& range, const std::vector<double>& corners,
                              double tolerance) {
+  std::vector<double> breaks = first_breaks(range, corners);
   while (true) {
     auto curve = interpolated(path, breaks, corners);
     if (!curve) return curve;
@@ -70,6 +92,21 @@ Expected<Curve> fitted_curve(const PathPoint& path, std::vector<double> breaks, 
     if (finer->size() > most_spans) return numerical_error(not_fitted);
     breaks = *std::move(finer);
   }
+}
+
+Expected<std::optional<Curve>> lifted_curve(const PathPoint& path, std::vector<double> corners) {
+  std::ranges::sort(corners);
+  Points sample(first_spans + 1, 3);
+  for (int k = 0; k <= first_spans; ++k) {
+    const auto p = path(static_cast<double>(k) / first_spans);
+    if (!p) return std::unexpected(p.error());
+    sample.row(k) = p->transpose();
+  }
+  const double size = net_diagonal(sample);
+  if (!(size > 0)) return std::nullopt;
+  auto curve = fitted_curve(path, {0, 1}, corners, lift_tolerance * size);
+  if (!curve) return std::unexpected(std::move(curve.error()));
+  return *std::move(curve);
 }
 
 }  // namespace knead::brep

@@ -13,8 +13,6 @@
 namespace knead::brep {
 namespace {
 
-constexpr int first_spans = 8;
-constexpr double beside_corner = 0.25;      // of a first span: divisions nearer to a corner are left out
 constexpr double margin = 0.125;            // of the edge, at its ends
 constexpr double share_of_tolerance = 0.1;  // for the fit of a curve
 constexpr double least_tolerance = 1e-7;    // of the size, as for held edges
@@ -75,28 +73,6 @@ class Path {
   const SharedEdge& edge_;
   std::span<const Surface*const> before_, after_;
 };
-
-/// The ends, the corners and `first_spans` even divisions. A corner has a triple knot, so that an abscissa lies a third
-/// of a span beside it: where a division is only rounding away (of a circle of four arcs, every other one is), no
-/// number is left in between, and the conditions of Schoenberg and Whitney fail. The corner then takes its place.
-/// Corners that cannot be told from an end or from the one before have no knot of their own.
-std::vector<double> first_breaks(const SharedEdge& edge) {
-  const double from = edge.samples().front().parameter, to = edge.samples().back().parameter;
-  const double least = least_fitted_span * (to - from), span = (to - from) / first_spans;
-  std::vector<double> breaks = {from};
-  for (const double corner : edge.corners()) {
-    if (corner - breaks.back() > least && to - corner > least) breaks.push_back(corner);
-  }
-  const std::vector<double> corners(breaks.begin() + 1, breaks.end());
-  for (int k = 1; k < first_spans; ++k) {
-    const double t = std::lerp(from, to, static_cast<double>(k) / first_spans);
-    const auto beside = [&](double corner) { return std::abs(corner - t) < beside_corner * span; };
-    if (std::ranges::none_of(corners, beside)) breaks.push_back(t);
-  }
-  breaks.push_back(to);
-  std::ranges::sort(breaks);
-  return breaks;
-}
 
 std::unexpected<Error> not_followed(const SharedEdge& edge) {
   return numerical_error("the moved edge cannot be followed by a spline", edge.id(),
@@ -162,7 +138,8 @@ Expected<void> move_loop_vertices(const Model& model, std::span<const Replacemen
 Expected<Curve> moved_curve(const SharedEdge& edge, std::span<const Surface* const> before,
                             std::span<const Surface* const> after, double tolerance) {
   const Path path(edge, before, after);
-  const auto curve = fitted_curve([&](double t) { return path.at(t); }, first_breaks(edge), edge.corners(), tolerance);
+  const Interval range{edge.samples().front().parameter, edge.samples().back().parameter};
+  const auto curve = fitted_curve([&](double t) { return path.at(t); }, range, edge.corners(), tolerance);
   if (!curve && curve.error().what == not_fitted) return not_followed(edge);
   if (!curve) return curve;
   return recorded(edge, *curve);

@@ -7,7 +7,6 @@
 #include "boundary_curve.hpp"
 #include "brep/surfaces/face_surface.hpp"
 #include "edge_curve.hpp"
-#include "knead/spline/evaluate.hpp"
 
 namespace knead::brep {
 namespace {
@@ -73,14 +72,9 @@ Expected<std::vector<BoundaryPiece>> rectangle_sides(const Model& model, const S
                          side.end == 0 ? knead::Side::right : knead::Side::left);
     if (!made) return std::unexpected(made.error());
     if (net_diagonal(made->control_points()) <= point_size * size) continue;
-    const auto curve = std::make_shared<const Curve>(*std::move(made));
     BoundaryPiece& piece = result.emplace_back();
-    piece.geometry = CurveGeometry{curve};
+    piece.set(std::make_shared<const Curve>(*std::move(made)), along);
     piece.reversed = side.reversed;
-    piece.at = [curve, along](double t) {
-      const auto p = evaluate_point<1>(*curve, {std::lerp(along.lower, along.upper, t)});
-      return p ? *p : Point(curve->control_points().row(0).transpose());
-    };
   }
   return result;
 }

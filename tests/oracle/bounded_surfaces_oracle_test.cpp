@@ -10,21 +10,19 @@
 #include "knead/exchange/format.hpp"
 #include "oracle/occt_file.hpp"
 #include "session/running.hpp"
-#include "support/bounded_sheets.hpp"
+#include "support/bounded_plates.hpp"
 
 namespace knead::oracle {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Bounding;
 
-class BoundedSheetsInOcct : public ::testing::TestWithParam<std::tuple<Bounding, std::string>> {};
+class BoundedSheetsInOcct : public ::testing::TestWithParam<testing::MadeSheets> {};
 
 TEST_P(BoundedSheetsInOcct, StayClosed) {
-  const auto& [bounding, unit] = GetParam();
-  const double scale = unit == "m" ? 5 : 5000, millimetres = unit == "m" ? 1000 : 1;
-  const auto sheets = testing::bounded_sheets(bounding, unit, scale);
-  const auto source = *open_source(sheets.text, "sheets.step");
+  const auto sheets = GetParam().make();
+  const double scale = sheets.scale, millimetres = scale == 5 ? 1000 : 1;
+  const auto source = *open_source(sheets.text, "sheets");
   const brep::Model& model = *source->model();
   const auto west = brep::edges_around(model.faces[0]), east = brep::edges_around(model.faces[1]);
   const auto shared =
@@ -42,7 +40,7 @@ TEST_P(BoundedSheetsInOcct, StayClosed) {
   ASSERT_TRUE(bytes) << bytes.error().message();
   const fs::path directory = fs::temp_directory_path() / ("knead-bounded-" + std::to_string(getpid()));
   fs::create_directories(directory);
-  const fs::path before = directory / "before.step", after = directory / "after.step";
+  const fs::path before = directory / ("before" + GetParam().ending), after = directory / ("after" + GetParam().ending);
   ASSERT_TRUE(write_file_atomically(before, sheets.text));
   ASSERT_TRUE(write_file_atomically(after, *bytes));
   const auto was = occt_read_file(before), now = occt_read_file(after);
@@ -67,16 +65,13 @@ TEST_P(BoundedSheetsInOcct, StayClosed) {
     largest = std::max(largest, later[k]);
   }
   EXPECT_EQ(met, 2) << "the edge of either face at which they meet";
-  std::cout << fmt::format("| {} | {} | {:.2g} | {:.2g} |\n", name_of(bounding), unit,
-                           *std::ranges::max_element(was->gaps) / size, largest / size);
+  std::cout << fmt::format("| {} | {:.2g} | {:.2g} |\n", GetParam().name, *std::ranges::max_element(was->gaps) / size,
+                           largest / size);
   fs::remove_all(directory);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, BoundedSheetsInOcct,
-                         ::testing::Combine(::testing::ValuesIn(testing::all_boundings), ::testing::Values("m", "mm")),
-                         [](const auto& instance) {
-                           return name_of(std::get<0>(instance.param)) + "_" + std::get<1>(instance.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Kinds, BoundedSheetsInOcct, ::testing::ValuesIn(testing::all_sheets()),
+                         [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
 }  // namespace knead::oracle

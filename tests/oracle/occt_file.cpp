@@ -79,10 +79,16 @@ std::optional<TopoDS_Shape> read_brep(const std::filesystem::path& path) {
   return shape;
 }
 
+std::optional<TopoDS_Shape> read_any(const std::filesystem::path& path) {
+  return path.extension() == ".brep"   ? read_brep(path)
+         : path.extension() == ".step" ? read_exchange<STEPControl_Reader>(path)
+                                       : read_exchange<IGESControl_Reader>(path);
+}
+
 }  // namespace
 
 std::vector<double> occt_partings(const std::filesystem::path& path) {
-  const auto shape = read_exchange<STEPControl_Reader>(path);
+  const auto shape = read_any(path);
   std::vector<TopoDS_Face> faces;
   for (TopExp_Explorer at(shape.value_or(TopoDS_Shape()), TopAbs_FACE); at.More(); at.Next())
     faces.push_back(TopoDS::Face(at.Current()));
@@ -96,9 +102,7 @@ std::vector<double> occt_partings(const std::filesystem::path& path) {
 
 std::optional<OcctFile> occt_read_file(const std::filesystem::path& path) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
-  const auto read = path.extension() == ".brep"   ? read_brep(path)
-                    : path.extension() == ".step" ? read_exchange<STEPControl_Reader>(path)
-                                                  : read_exchange<IGESControl_Reader>(path);
+  const auto read = read_any(path);
   if (!read) return std::nullopt;
   const TopoDS_Shape& shape = *read;
   OcctFile result;

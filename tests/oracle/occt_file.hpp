@@ -21,7 +21,7 @@ struct OcctFile {
 /// None if it cannot be read.
 [[nodiscard]] std::optional<OcctFile> occt_read_file(const std::filesystem::path& path);
 
-/// Of each edge of each face of a STEP file, in order: its largest distance from the nearest other face, mm.
+/// Of each edge of each face of a file, in order: its largest distance from the nearest other face, mm.
 [[nodiscard]] std::vector<double> occt_partings(const std::filesystem::path& path);
 
 }  // namespace knead::oracle

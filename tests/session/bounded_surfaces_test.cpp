@@ -9,15 +9,13 @@
 #include "knead/brep/shared_edge.hpp"
 #include "knead/exchange/format.hpp"
 #include "session/running.hpp"
-#include "support/bounded_sheets.hpp"
+#include "support/bounded_plates.hpp"
 
 namespace knead {
 namespace {
 
-using testing::all_boundings;
-using testing::bounded_sheets;
 using testing::BoundedSheets;
-using testing::Bounding;
+using testing::MadeSheets;
 using testing::run;
 
 /// The largest distance of each edge from the surfaces of its faces. Edges without a name in the file have other ids in
@@ -32,12 +30,11 @@ std::vector<double> gaps_of(const brep::Model& model) {
   return result;
 }
 
-class PressedBoundedSurfaces : public ::testing::TestWithParam<std::tuple<Bounding, std::string>> {
+class PressedBoundedSurfaces : public ::testing::TestWithParam<MadeSheets> {
  protected:
   void SetUp() override {
-    const auto& [bounding, unit] = GetParam();
-    sheets_ = bounded_sheets(bounding, unit, unit == "m" ? 5 : 5000);
-    source_ = *open_source(sheets_.text, "sheets.step");
+    sheets_ = GetParam().make();
+    source_ = *open_source(sheets_.text, "sheets");
   }
   [[nodiscard]] double size() const { return 4.5 * sheets_.scale; }
   /// The edges that both faces have.
@@ -68,7 +65,7 @@ class PressedBoundedSurfaces : public ::testing::TestWithParam<std::tuple<Boundi
   }
   /// No edge is farther from its surfaces than it was, but for 1e-6 of the size.
   void expect_closed(const std::string& bytes) const {
-    const auto after = open_source(bytes, "sheets.step");
+    const auto after = open_source(bytes, "sheets");
     ASSERT_TRUE(after) << after.error().message();
     const auto was = gaps_of(*source_->model()), now = gaps_of(*(*after)->model());
     ASSERT_EQ(now.size(), was.size());
@@ -92,7 +89,7 @@ TEST_P(PressedBoundedSurfaces, StayClosedWhereTheirEdgeFollows) {
   EXPECT_GT(moved_, 0.08 * sheets_.scale);
   expect_closed(bytes);
   double lowest = std::numeric_limits<double>::infinity();
-  const auto after = *open_source(bytes, "sheets.step");
+  const auto after = *open_source(bytes, "sheets");
   for (const std::string& id : shared_edges(*after->model())) {
     const auto edge = SharedEdge::create(*after->model(), id);
     ASSERT_TRUE(edge);
@@ -111,11 +108,8 @@ TEST_P(PressedBoundedSurfaces, LeadTheirOwnEdgesAlong) {
   expect_closed(bytes);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, PressedBoundedSurfaces,
-                         ::testing::Combine(::testing::ValuesIn(all_boundings), ::testing::Values("m", "mm")),
-                         [](const auto& instance) {
-                           return name_of(std::get<0>(instance.param)) + "_" + std::get<1>(instance.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Kinds, PressedBoundedSurfaces, ::testing::ValuesIn(testing::all_sheets()),
+                         [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
 }  // namespace knead

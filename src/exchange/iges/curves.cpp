@@ -17,7 +17,6 @@ namespace {
 constexpr int max_composite_nesting = 8;
 constexpr double least_bytes_per_point = 1.5;  // of a file, and 10 kB beside it
 constexpr std::size_t free_bytes = 10'000;
-constexpr int arc_samples = 32, samples_per_point = 8, most_samples = 2000;
 
 /// On a polygon, evenly by its corners.
 Point along(const std::vector<Point>& points, double t) {
@@ -105,7 +104,6 @@ Expected<Piece> CurveReader::arc(int number, const Eigen::Affine3d& move) const 
   Piece piece;
   piece.geometry =
       brep::conic_of(brep::Conic::Form::ellipse, brep::frame_of(centre, x.cross(y), x), x.norm(), x.norm());
-  piece.samples = arc_samples;
   piece.at = [=](double t) { return Point(centre + std::cos(first + t * turn) * x + std::sin(first + t * turn) * y); };
   return piece;
 }
@@ -145,7 +143,8 @@ Expected<Piece> CurveReader::points(int number, const Eigen::Affine3d& move) {
   Piece piece;
   points_ += count;
   piece.geometry = brep::polyline_of(*corners);
-  piece.samples = std::min(static_cast<int>(count) - 1, most_samples);
+  for (std::size_t k = 1; k + 1 < count; ++k)
+    piece.corners.push_back(static_cast<double>(k) / static_cast<double>(count - 1));
   piece.at = [corners](double t) { return along(*corners, t); };
   return piece;
 }
@@ -164,13 +163,12 @@ Expected<Piece> CurveReader::spline(int number, const Eigen::Affine3d& outer) {
   }
   Piece piece;
   points_ += static_cast<std::size_t>(curve->size());
-  piece.geometry = brep::CurveGeometry{curve};
-  piece.samples = std::min(samples_per_point * static_cast<int>(curve->size()), most_samples);
-  piece.at = [curve, domain](double t) {
-    const double u = std::clamp(domain.lower + t * domain.length(), domain.lower, domain.upper);
-    const auto point = evaluate_point<1>(*curve, {u});
-    return point ? *point : Point(curve->control_points().row(0).transpose());
-  };
+  piece.set(curve, domain);
+  const KnotVector& knots = curve->knots(0);
+  for (const int s : knots.spans()) {
+    if (knots[s] > domain.lower && knots.multiplicity(knots[s]) >= knots.degree())
+      piece.corners.push_back((knots[s] - domain.lower) / domain.length());
+  }
   return piece;
 }
 

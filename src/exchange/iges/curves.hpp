@@ -8,9 +8,9 @@ namespace knead::iges {
 
 /// A curve that is not made of others.
 struct Piece : brep::BoundaryPiece {
-  int number = 0;        ///< its entity
-  int samples = 1;       ///< chords that show its shape
-  bool in_space = true;  ///< the entity is this curve, not one in parameters or one that is not known
+  int number = 0;                    ///< its entity
+  std::vector<double> corners = {};  ///< where it may turn, from 0 to 1
+  bool in_space = true;              ///< the entity is this curve, not one in parameters or one that is not known
   Eigen::Affine3d move = Eigen::Affine3d::Identity();  ///< from the entity's own coordinates to the model's
 };
 

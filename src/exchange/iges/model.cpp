@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "brep/fitted_curve.hpp"
 #include "brep/geometry_forms.hpp"
 #include "brep/model_builder.hpp"
 #include "curves.hpp"
@@ -205,25 +206,18 @@ class ModelReader {
     const Surface& on = spline->surface;
     const Interval u = on.knots(0).domain(), v = on.knots(1).domain();
     for (const Piece& piece : flat) {
-      auto corners = std::make_shared<std::vector<Point>>();
-      const int steps = std::max(piece.samples, 32);
-      for (int k = 0; k <= steps; ++k) {
-        const Point p = piece.at(static_cast<double>(k) / steps);
-        const auto point =
-            evaluate_point<2>(on, {std::clamp(p.x(), u.lower, u.upper), std::clamp(p.y(), v.lower, v.upper)});
-        if (!point) return std::unexpected(point.error());
-        corners->push_back(*point);
-      }
+      const auto above = [&](double t) {
+        const Point p = piece.at(t);
+        return evaluate_point<2>(on, {std::clamp(p.x(), u.lower, u.upper), std::clamp(p.y(), v.lower, v.upper)});
+      };
+      auto fitted = brep::lifted_curve(above, piece.corners);
+      if (!fitted) return std::unexpected(std::move(fitted.error()));
+      if (!*fitted) continue;  // a pole
       Piece lifted;
       lifted.number = piece.number;
       lifted.name = piece.name;
       lifted.in_space = false;
-      lifted.geometry = brep::polyline_of(*corners);
-      lifted.at = [corners](double t) {
-        const double place = t * static_cast<double>(corners->size() - 1);
-        const auto k = std::min(static_cast<std::size_t>(place), corners->size() - 2);
-        return Point((*corners)[k] + (place - static_cast<double>(k)) * ((*corners)[k + 1] - (*corners)[k]));
-      };
+      lifted.set(std::make_shared<const Curve>(**std::move(fitted)), {0, 1});
       pieces.push_back(std::move(lifted));
     }
     return {};

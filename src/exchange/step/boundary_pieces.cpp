@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 
-#include "brep/boundary_curve.hpp"
 #include "brep/edge_curve.hpp"
 #include "brep/fitted_curve.hpp"
 #include "faces.hpp"
@@ -16,9 +14,6 @@ namespace knead::step {
 namespace {
 
 constexpr int most_nested = 8;
-constexpr double lift_tolerance = 1e-8;  // of a curve's size
-constexpr int first_pieces = 8;          // of a curve in parameters
-constexpr double beside_corner = 0.25;   // of such a piece: divisions nearer to a corner are left out
 
 bool is_any_of(const Reader& reader, std::uint32_t instance, std::initializer_list<std::string_view> kinds) {
   return std::ranges::any_of(kinds, [&](std::string_view kind) { return reader.is(instance, kind); });
@@ -268,40 +263,18 @@ Expected<SurfacePiece> PieceReader::lifted(std::uint32_t pcurve, const Surface& 
   if (!range->from || !range->to) return reader_.error(curves[0], "a boundary's curve has no ends");
   const double from = *range->from, to = *range->to;
   const auto at = [&](double t) { return on.at(model_, range->curve->at(std::lerp(from, to, t))); };
-  std::set<double> breaks = {0, 1};
-  std::vector<double> corners;
-  for (const double corner : range->curve->corners()) {
-    const double t = (corner - from) / (to - from);
-    if (!(t > brep::least_fitted_span && t < 1 - brep::least_fitted_span)) continue;
-    corners.push_back(t);
-  }
-  std::ranges::sort(corners);
-  breaks.insert(corners.begin(), corners.end());
-  for (int k = 1; k < first_pieces; ++k) {
-    const double t = static_cast<double>(k) / first_pieces;
-    const auto beside = [&](double corner) { return std::abs(corner - t) < beside_corner / first_pieces; };
-    if (std::ranges::none_of(corners, beside)) breaks.insert(t);
-  }
-  Points sample(first_pieces + 1, 3);
-  for (int k = 0; k <= first_pieces; ++k) {
-    const auto p = at(static_cast<double>(k) / first_pieces);
-    if (!p) return std::unexpected(p.error());
-    sample.row(k) = p->transpose();
-  }
-  const double size = brep::net_diagonal(sample);
+  std::vector<double> corners = range->curve->corners();
+  for (double& t : corners) t = (t - from) / (to - from);
+  auto fitted = brep::lifted_curve(at, std::move(corners));
+  if (!fitted) return std::unexpected(std::move(fitted.error()));
   SurfacePiece piece;
-  if (!(size > 0)) {  // a pole
-    piece.at = [place = Point(sample.row(0).transpose())](double) { return place; };
+  if (!*fitted) {  // a pole
+    const auto place = at(0);
+    if (!place) return std::unexpected(place.error());
+    piece.at = [place = *place](double) { return place; };
     return piece;
   }
-  auto fitted = brep::fitted_curve(at, {breaks.begin(), breaks.end()}, corners, lift_tolerance * size);
-  if (!fitted) return std::unexpected(std::move(fitted.error()));
-  const auto curve = std::make_shared<const Curve>(*std::move(fitted));
-  piece.geometry = brep::CurveGeometry{curve};
-  piece.at = [curve](double t) {
-    const auto p = evaluate_point<1>(*curve, {t});
-    return p ? *p : Point(curve->control_points().row(0).transpose());
-  };
+  piece.set(std::make_shared<const Curve>(**std::move(fitted)), {0, 1});
   return piece;
 }
 
