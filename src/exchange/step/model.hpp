@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "bounded_faces.hpp"
 #include "entity.hpp"
+#include "exchange/step/bounded/bounded_faces.hpp"
 #include "faces.hpp"
 #include "knead/brep/model.hpp"
 #include "tessellated.hpp"

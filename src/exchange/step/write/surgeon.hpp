@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "exchange/part21/part21.hpp"
-#include "exchange/step/bounded_faces.hpp"
+#include "exchange/step/bounded/bounded_faces.hpp"
 #include "exchange/step/entity.hpp"
 #include "fresh_names.hpp"
 #include "knead/spline/spline.hpp"

@@ -6,8 +6,8 @@
 
 #include "brep/edge_curve.hpp"
 #include "brep/fitted_curve.hpp"
-#include "faces.hpp"
-#include "geometry.hpp"
+#include "exchange/step/faces.hpp"
+#include "exchange/step/geometry.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::step {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "boundary_pieces.hpp"
-#include "faces.hpp"
+#include "exchange/step/faces.hpp"
 
 namespace knead::step {
 

@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "brep/rectangle_sides.hpp"
-#include "item_kinds.hpp"
+#include "exchange/step/item_kinds.hpp"
 
 namespace knead::step {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "brep/boundary_edges.hpp"
 #include "brep/surfaces/face_surface.hpp"
-#include "entity.hpp"
+#include "exchange/step/entity.hpp"
 
 namespace knead::step {
 
