@@ -8,6 +8,7 @@
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/left_out.hpp"
+#include "knead/exchange/save_faces.hpp"
 #include "left_out_lines.hpp"
 #include "outputs.hpp"
 
@@ -16,11 +17,24 @@ namespace {
 
 struct ExportArguments {
   std::string file, output, schema = "ap214", unit;
-  bool sets = false;
+  bool sets = false, convert = false;
   UnpackOption unpack;
 };
 
-/// The unit of what is written: the one of all shapes of the file or, where it has none, the one that is asked for.
+/// The unit that is written: the one of the file or, where it has none, the one that is asked for.
+Expected<std::string> unit_of(const std::string& unit, const ExportArguments& options) {
+  const bool known = !unit.empty() && unit != "unknown";
+  if (known && !options.unit.empty() && options.unit != unit) {
+    return usage_error(fmt::format("{} is in {}, whose numbers are written as they are", options.file, unit), "--unit",
+                       "leave it out: it is for files that do not say what their lengths are");
+  }
+  if (known) return unit;
+  if (!options.unit.empty()) return options.unit;
+  fmt::print("lengths are written as millimetres: {} does not say what they are; --unit says so\n", options.file);
+  return "mm";
+}
+
+/// The one unit of all surfaces and curves of the file.
 Expected<std::string> unit_of(const Source& source, const ExportArguments& options) {
   std::string unit;
   const auto takes = [&](const std::string& own) -> Expected<void> {
@@ -37,15 +51,40 @@ Expected<std::string> unit_of(const Source& source, const ExportArguments& optio
   for (const SourceCurve& c : source.curves()) {
     if (auto taken = takes(c.unit); !taken) return std::unexpected(taken.error());
   }
-  const bool known = !unit.empty() && unit != "unknown";
-  if (known && !options.unit.empty() && options.unit != unit) {
-    return usage_error(fmt::format("{} is in {}, whose numbers are written as they are", options.file, unit), "--unit",
-                       "leave it out: it is for files that do not say what their lengths are");
+  return unit_of(unit, options);
+}
+
+Expected<void> write(const Format& format, std::string bytes, const ExportArguments& options,
+                     const std::vector<LeftOut>& left_out, const std::string& content) {
+  auto packed = compressed_by_name(std::move(bytes), options.output, options.file);
+  if (!packed) return std::unexpected(std::move(packed.error()));
+  if (auto done = write_file_atomically(options.output, *packed); !done) return done;
+  warn_left_out(left_out);
+  fmt::print("wrote {} ({}, {}, {} bytes)\n", options.output, format.name, content, packed->size());
+  return {};
+}
+
+/// Faces with their trims.
+Expected<void> export_faces(const Source& source, const Format& format, const ExportArguments& options) {
+  const auto& assembly = source.model()->assembly;
+  const auto unit = unit_of(assembly ? assembly->unit : source.model()->length_unit(), options);
+  if (!unit) return std::unexpected(unit.error());
+  SaveOptions how;
+  how.schema = options.schema;
+  how.unit = *unit;
+  auto made = save_faces(source, format, how, options.convert);
+  if (!made) {
+    if (made.error().file.empty()) made.error().file = options.file;
+    return std::unexpected(std::move(made.error()));
   }
-  if (known) return unit;
-  if (!options.unit.empty()) return options.unit;
-  fmt::print("lengths are written as millimetres: {} does not say what they are; --unit says so\n", options.file);
-  return "mm";
+  std::string content = counted(made->faces, "face", "faces");
+  const auto add = [&](std::size_t count, const char* one, const char* many) {
+    if (count > 0) content += ", " + counted(count, one, many);
+  };
+  add(made->solids, "solid", "solids");
+  add(made->surfaces, "whole surface", "whole surfaces");
+  add(made->curves, "curve", "curves");
+  return write(format, std::move(made->bytes), options, made->left_out, content);
 }
 
 Expected<void> run(const ExportArguments& options) {
@@ -63,6 +102,13 @@ Expected<void> run(const ExportArguments& options) {
   if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
   const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
+  const auto model = (*source)->model();
+  const bool faces = !options.sets && holds_faces(**format) && model != nullptr && !model->faces.empty();
+  if (faces) return export_faces(**source, **format, options);
+  if (options.convert) {
+    return usage_error("only faces are converted", "--convert",
+                       options.sets ? "leave out --sets" : "leave it out: no faces are written");
+  }
 
   const auto colours = (*source)->colours();
   std::vector<NamedSurface> surfaces;
@@ -99,22 +145,16 @@ Expected<void> run(const ExportArguments& options) {
     bytes.error().file = options.file;
     return std::unexpected(std::move(bytes.error()));
   }
-  bytes = compressed_by_name(*std::move(bytes), options.output, options.file);
-  if (!bytes) return std::unexpected(std::move(bytes.error()));
-  if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
   auto left_out = left_out_of_surfaces(**source, **format);
   if (without_face.count > 0) left_out.push_back(std::move(without_face));
-  warn_left_out(left_out);
-  fmt::print("wrote {} ({}, {}, {} bytes)\n", options.output, (*format)->name,
-             counted(surfaces.size(), "surface", "surfaces"), bytes->size());
-  return {};
+  return write(**format, *std::move(bytes), options, left_out, counted(surfaces.size(), "surface", "surfaces"));
 }
 
 }  // namespace
 
 Action add_export(CLI::App& app) {
   auto options = std::make_shared<ExportArguments>();
-  CLI::App* command = app.add_subcommand("export", "write the surfaces of a CAD file as a new STEP or IGES file");
+  CLI::App* command = app.add_subcommand("export", "write the faces of a CAD file as a new STEP or IGES file");
   command->add_option("FILE", options->file, cad_file_help())->required()->type_name("");
   command
       ->add_option("-o,--out", options->output,
@@ -124,13 +164,16 @@ Action add_export(CLI::App& app) {
       ->check(CLI::IsMember({"ap214", "ap242"}))
       ->capture_default_str();
   command->add_option("--unit", options->unit, "of lengths, where FILE does not say it: mm, inch, …; without it mm");
-  command->add_flag("--sets", options->sets, "write bare surfaces, without faces, edges and shells");
+  command->add_flag("--convert", options->convert,
+                    "make planes, cylinders, cones, spheres, tori and swept surfaces B-spline surfaces, exactly");
+  command->add_flag("--sets", options->sets, "write bare B-spline surfaces, without faces, edges and shells");
   options->unpack.add_to(*command);
   command->footer(
-      "Every B-spline surface, whole, as a face on its natural bounds with its name and colour; sides that are the\n"
-      "same curve become one edge, and faces that share edges a shell. Control points, knots and weights are the\n"
-      "same bits. Faces that cut a surface, other surfaces, assemblies and everything else are not written, which\n"
-      "warnings say: `knead sculpt` keeps them.\n" +
+      "Faces with their trims: surfaces, edges and vertices, which neighbours share; closed shells as solids with "
+      "their\n"
+      "hollows; parts of assemblies in their places; names and colours. Control points, knots and weights are the\n"
+      "same bits. B-spline surfaces without faces become one each, on their natural bounds. What cannot be written\n"
+      "is named with its reason; `knead sculpt` keeps everything else of a file.\n" +
       std::string(exit_codes));
   return [options] { return run(*options); };
 }

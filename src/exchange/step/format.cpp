@@ -5,6 +5,7 @@
 #include "conversion.hpp"
 #include "data.hpp"
 #include "exchange/format_list.hpp"
+#include "exchange/step/write/model_text.hpp"
 #include "exchange/step/write/text.hpp"
 #include "file.hpp"
 #include "knead/base/printable.hpp"
@@ -95,9 +96,7 @@ Expected<std::shared_ptr<const Source>> open(std::string bytes, std::string name
   return std::make_shared<const StepSource>(std::move(*file));
 }
 
-Expected<std::string> save_step(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
-  std::vector<step::NewSurface> made;
-  for (const NamedSurface& s : surfaces) made.push_back({s.name, s.surface, s.colour});
+Expected<step::TextOptions> text_options(const SaveOptions& options) {
   step::TextOptions text;
   if (!options.unit.empty()) text.unit = options.unit;
   text.product = options.title;
@@ -108,9 +107,23 @@ Expected<std::string> save_step(std::span<const NamedSurface> surfaces, const Sa
     return input_error("\"" + printable(options.schema) + "\" is not a schema of new STEP files", {},
                        "use ap214 or ap242");
   }
+  return text;
+}
+
+Expected<std::string> save_step(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
+  const auto text = text_options(options);
+  if (!text) return std::unexpected(text.error());
+  std::vector<step::NewSurface> made;
+  for (const NamedSurface& s : surfaces) made.push_back({s.name, s.surface, s.colour});
   std::vector<step::NewCurve> curves;
   for (const NamedCurve& c : options.curves) curves.push_back({c.name, c.curve});
-  return step::text_of(made, text, curves);
+  return step::text_of(made, *text, curves);
+}
+
+Expected<std::string> save_step_faces(const FacePlan& plan, const SaveOptions& options) {
+  const auto text = text_options(options);
+  if (!text) return std::unexpected(text.error());
+  return step::model_text(plan, *text);
 }
 
 constexpr std::string_view step_endings[] = {".step", ".stp", ".p21"};
@@ -127,7 +140,8 @@ Format step_format() {
           .writes_curves = true,
           .recognises = recognises,
           .open = open,
-          .save = save_step};
+          .save = save_step,
+          .save_faces = save_step_faces};
 }
 
 }  // namespace knead::detail

@@ -60,13 +60,10 @@ Expected<NewFaces> add_faces(std::span<const NewSurface> surfaces, std::span<con
   return result;
 }
 
-void add_colours(std::span<const NewSurface> surfaces, std::span<const std::string> names, const std::string& context,
-                 const AddRecord& add) {
+void add_colours(std::span<const Coloured> all, const std::string& context, const AddRecord& add) {
   std::map<std::array<double, 3>, std::string> styles;
   std::string items;
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (!surfaces[k].colour) continue;
-    const auto& c = *surfaces[k].colour;
+  for (const auto& [item, c] : all) {
     std::string& style = styles[c];
     if (style.empty()) {
       const auto colour =
@@ -75,7 +72,7 @@ void add_colours(std::span<const NewSurface> surfaces, std::span<const std::stri
       const auto side = add("SURFACE_SIDE_STYLE('',(" + add("SURFACE_STYLE_FILL_AREA(" + fill + ")") + "))");
       style = add("PRESENTATION_STYLE_ASSIGNMENT((" + add("SURFACE_STYLE_USAGE(.BOTH.," + side + ")") + "))");
     }
-    append(items, add("STYLED_ITEM('',(" + style + ")," + names[k] + ")"));
+    append(items, add("STYLED_ITEM('',(" + style + ")," + item + ")"));
   }
   if (!items.empty()) {
     add("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(" + items + ")," + context + ")");

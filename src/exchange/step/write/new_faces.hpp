@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +20,13 @@ struct NewFaces {
 [[nodiscard]] Expected<NewFaces> add_faces(std::span<const NewSurface> surfaces, std::span<const std::string> names,
                                            const AddRecord& add);
 
-/// Adds the colours of surfaces to the records that show them.
-void add_colours(std::span<const NewSurface> surfaces, std::span<const std::string> names, const std::string& context,
-                 const AddRecord& add);
+/// A record that shows something, and its colour.
+struct Coloured {
+  std::string item;
+  std::array<double, 3> colour;
+};
+
+/// Adds STYLED_ITEMs.
+void add_colours(std::span<const Coloured> all, const std::string& context, const AddRecord& add);
 
 }  // namespace knead::step

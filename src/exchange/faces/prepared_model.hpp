@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "knead/brep/context_faces.hpp"
+#include "knead/brep/model.hpp"
+
+namespace knead::detail {
+
+/// A model in the terms in which new files are written.
+struct PreparedModel {
+  std::shared_ptr<const brep::Model> model;
+  std::vector<SkippedFace> analytic;  ///< surfaces of other forms that could not be made B-splines, and why
+};
+
+/// Half angles of cones in radians; polygons round faces as edges on lines, shared by points that are the same bit for
+/// bit, on planes by Newell's normal where the faces have no surface. `convert`: elementary and swept surfaces as the
+/// B-spline surfaces that `brep::exact_spline` makes of them. The same model where there is nothing to do.
+[[nodiscard]] PreparedModel prepared(std::shared_ptr<const brep::Model> model, bool convert);
+
+}  // namespace knead::detail
