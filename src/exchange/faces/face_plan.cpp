@@ -8,7 +8,6 @@
 #include "brep/part_graph.hpp"
 #include "exchange/left_out_list.hpp"
 #include "exchange/length_units.hpp"
-#include "prepared_model.hpp"
 
 namespace knead::detail {
 namespace {
@@ -25,8 +24,8 @@ bool torn(const Curve& c) { return c.knots(0).max_interior_multiplicity() > c.kn
 /// What of a model can be written.
 class Planner {
  public:
-  Planner(const Source& source, std::string unit, bool convert)
-      : source_(source), prepared_(prepared(source.model(), convert)), model_(*prepared_.model) {
+  Planner(const Source& source, std::string unit, Conversion conversion)
+      : source_(source), prepared_(prepared(source.model(), conversion)), model_(*prepared_.model) {
     plan_.model = prepared_.model;
     plan_.edges.resize(model_.edges.size());
     plan_.colours = source.colours();
@@ -213,9 +212,9 @@ std::optional<Colour> FacePlan::colour_of(const brep::Face& face) const {
   return found == colours.end() ? std::nullopt : std::optional(found->second);
 }
 
-Expected<FacePlan> face_plan(const Source& source, const std::string& unit, bool convert) {
+Expected<FacePlan> face_plan(const Source& source, const std::string& unit, Conversion conversion) {
   if (source.model() == nullptr) return input_error("the file has no faces", source.name());
-  return Planner(source, unit, convert).plan();
+  return Planner(source, unit, conversion).plan();
 }
 
 }  // namespace knead::detail

@@ -9,6 +9,7 @@
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/left_out.hpp"
 #include "knead/exchange/source.hpp"
+#include "prepared_model.hpp"
 #include "written_shells.hpp"
 
 namespace knead::detail {
@@ -51,6 +52,6 @@ struct FacePlan {
 /// part; whatever `Source::left_out` and `Source::unreadable` name.
 /// \param unit of lengths where the source has none
 /// Errors (input): nothing to write. Cost: that of `written_shells`, and of a pass over the edges.
-[[nodiscard]] Expected<FacePlan> face_plan(const Source& source, const std::string& unit, bool convert);
+[[nodiscard]] Expected<FacePlan> face_plan(const Source& source, const std::string& unit, Conversion conversion);
 
 }  // namespace knead::detail

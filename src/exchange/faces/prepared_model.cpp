@@ -124,11 +124,29 @@ bool has_polygon(const brep::Face& face) {
                              [](const brep::Bound& b) { return b.kind == brep::Bound::Kind::polygon && !b.wrong; });
 }
 
-std::vector<SkippedFace> use_splines(brep::Model& model, const brep::Model& from) {
+/// Some face covers all of a sphere: its bounds are vertices, or its seam there and back.
+bool whole_sphere(const brep::Model& model, const std::string& id) {
+  return std::ranges::any_of(model.faces, [&](const brep::Face& face) {
+    if (face.support == brep::none || model.supports[face.support].id != id) return false;
+    const auto* form = std::get_if<brep::ElementarySurface>(&model.supports[face.support].form);
+    if (form == nullptr || form->kind != Kind::sphere) return false;
+    return std::ranges::all_of(face.bounds, [](const brep::Bound& bound) {
+      const auto& uses = bound.edges;
+      return uses.empty() || (uses.size() == 2 && uses[0].edge == uses[1].edge);
+    });
+  });
+}
+
+std::vector<SkippedFace> use_splines(brep::Model& model, const brep::Model& from, Conversion conversion) {
   std::vector<SkippedFace> left;
   const auto others = brep::other_surfaces(from);
   auto made = brep::exact_splines(from);
   for (std::size_t k = 0; k < others.size(); ++k) {
+    if (conversion == Conversion::all_but_whole_spheres && whole_sphere(from, others[k].id)) {
+      left.push_back({others[k].id,
+                      input_error("readers of the format know whole spheres as such alone", {}, "write STEP").error()});
+      continue;
+    }
     if (!made[k]) {
       left.push_back({others[k].id, std::move(made[k].error())});
       continue;
@@ -153,7 +171,8 @@ std::vector<SkippedFace> use_splines(brep::Model& model, const brep::Model& from
 
 }  // namespace
 
-PreparedModel prepared(std::shared_ptr<const brep::Model> model, bool convert) {
+PreparedModel prepared(std::shared_ptr<const brep::Model> model, Conversion conversion) {
+  const bool convert = conversion != Conversion::none;
   PreparedModel result{std::move(model), {}};
   const brep::Model& own = *result.model;
   const bool angles = own.angle_units != std::vector<double>{1};
@@ -169,7 +188,7 @@ PreparedModel prepared(std::shared_ptr<const brep::Model> model, bool convert) {
   }
   if (convert) {
     const brep::Model before = *made;
-    result.analytic = use_splines(*made, before);
+    result.analytic = use_splines(*made, before, conversion);
   }
   result.model = std::move(made);
   return result;

@@ -8,6 +8,13 @@
 
 namespace knead::detail {
 
+/// Which surfaces become B-spline surfaces.
+enum class Conversion {
+  none,
+  all_but_whole_spheres,  ///< for formats whose readers cannot follow a loop along the seam from pole to pole
+  all,
+};
+
 /// A model in the terms in which new files are written.
 struct PreparedModel {
   std::shared_ptr<const brep::Model> model;
@@ -15,8 +22,9 @@ struct PreparedModel {
 };
 
 /// Half angles of cones in radians; polygons round faces as edges on lines, shared by points that are the same bit for
-/// bit, on planes by Newell's normal where the faces have no surface. `convert`: elementary and swept surfaces as the
-/// B-spline surfaces that `brep::exact_spline` makes of them. The same model where there is nothing to do.
-[[nodiscard]] PreparedModel prepared(std::shared_ptr<const brep::Model> model, bool convert);
+/// bit, on planes by Newell's normal where the faces have no surface. Elementary and swept surfaces as the B-spline
+/// surfaces that `brep::exact_spline` makes of them, if they are to be converted. The same model where there is nothing
+/// to do.
+[[nodiscard]] PreparedModel prepared(std::shared_ptr<const brep::Model> model, Conversion conversion);
 
 }  // namespace knead::detail

@@ -11,7 +11,11 @@ bool holds_faces(const Format& format) { return format.save_faces != nullptr; }
 Expected<FacesFile> save_faces(const Source& source, const Format& format, const SaveOptions& options, bool convert) {
   if (!holds_faces(format))
     return input_error(fmt::format("new {} files hold no faces", format.name), {}, "write STEP or IGES");
-  auto plan = detail::face_plan(source, options.unit.empty() ? "mm" : options.unit, convert);
+  using detail::Conversion;
+  const Conversion conversion = !convert              ? Conversion::none
+                                : format.id == "iges" ? Conversion::all_but_whole_spheres
+                                                      : Conversion::all;
+  auto plan = detail::face_plan(source, options.unit.empty() ? "mm" : options.unit, conversion);
   if (!plan) return std::unexpected(std::move(plan.error()));
   auto bytes = format.save_faces(*plan, options);
   if (!bytes) return std::unexpected(std::move(bytes.error()));

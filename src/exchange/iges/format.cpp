@@ -9,6 +9,7 @@
 #include "exchange/format_list.hpp"
 #include "left_out.hpp"
 #include "model.hpp"
+#include "model_text.hpp"
 #include "text.hpp"
 #include "writer.hpp"
 
@@ -98,7 +99,8 @@ Format iges_format() {
           .writes_curves = true,
           .recognises = is_iges,
           .open = open_iges,
-          .save = iges::text_of};
+          .save = iges::text_of,
+          .save_faces = iges::model_text};
 }
 
 }  // namespace knead::detail

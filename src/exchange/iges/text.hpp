@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knead/exchange/format.hpp"
+#include "sections.hpp"
 
 namespace knead::iges {
 
@@ -16,6 +17,10 @@ namespace knead::iges {
 /// Numbers have 17 digits. The text depends on nothing else. Errors (input): nothing to write; a unit that IGES does
 /// not have; a knot inside the domain repeated more often than the degree.
 [[nodiscard]] Expected<std::string> text_of(std::span<const NamedSurface> surfaces, const SaveOptions& options);
+
+/// Vertices, edges, loops, faces and shells over surfaces with these directory numbers; those of the shells.
+[[nodiscard]] Expected<std::vector<int>> add_shells(std::span<const NamedSurface> surfaces,
+                                                    const std::vector<int>& numbers, Sections& to);
 
 /// The parameters of an entity 128, without its type.
 [[nodiscard]] std::vector<std::string> surface_values(const Surface& surface);
