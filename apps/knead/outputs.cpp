@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "knead/exchange/file_io.hpp"
+#include "left_out_lines.hpp"
 
 namespace knead::cli {
 namespace {
@@ -41,6 +42,13 @@ Expected<void> check_outputs(const std::vector<NamedFile>& outputs, const std::v
     if (auto possible = check_writable(path); !possible) return possible;
   }
   return {};
+}
+
+Expected<std::string> bytes_of_faces(const Session& session, const Format& format, const SaveOptions& how) {
+  auto made = save_faces(session, format, how);
+  if (!made) return std::unexpected(std::move(made.error()));
+  warn_left_out(made->left_out);
+  return std::move(made->bytes);
 }
 
 }  // namespace knead::cli

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "knead/base/error.hpp"
+#include "knead/session/save_faces.hpp"
 
 namespace knead::cli {
 
@@ -16,5 +17,9 @@ struct NamedFile {
 /// file as another output or as one of `inputs` (usage); a directory that is missing or not writable (input). Devices
 /// and pipes are always assumed writable, and different from one another.
 [[nodiscard]] Expected<void> check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
+
+/// A new file of the faces of a session as they are now. Warns of what it leaves out.
+[[nodiscard]] Expected<std::string> bytes_of_faces(const Session& session, const Format& format,
+                                                   const SaveOptions& how);
 
 }  // namespace knead::cli

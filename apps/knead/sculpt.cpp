@@ -17,6 +17,7 @@
 #include "knead/exchange/compression.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
+#include "knead/exchange/save_faces.hpp"
 #include "knead/scene/shell_fields.hpp"
 #include "knead/sculpt/describe_shape.hpp"
 #include "knead/session/command_json.hpp"
@@ -246,12 +247,12 @@ void print_summary(const SculptArguments& options, const Session& session, const
   }
 }
 
-/// The format of a new file that the output's name asks for: the input has another one, without faces that a new file
-/// would lose. Null: the output is the input, changed.
+/// The format of a new file that the output's name asks for: the input has another one, whose faces a new file holds if
+/// it has some. Null: the output is the input, changed.
 const Format* other_format(const SculptArguments& options, const Document& document) {
-  if (document.model() != nullptr) return nullptr;
   const auto wanted = format_of_name(options.output, FormatContent::surfaces);
   if (!wanted || (*wanted)->save == nullptr) return nullptr;
+  if (document.model() != nullptr && !holds_faces(**wanted)) return nullptr;
   return document.source() == nullptr || (*wanted)->name != document.source()->format() ? *wanted : nullptr;
 }
 
@@ -260,7 +261,10 @@ Expected<void> write_results(const SculptArguments& options, const Session& sess
   const Format* other = other_format(options, session.document());
   SaveOptions how;
   how.schema = options.schema;
-  auto bytes = other != nullptr ? session.save_as(*other, how) : session.save();
+  const bool faces = other != nullptr && session.document().model() != nullptr;
+  auto bytes = faces              ? bytes_of_faces(session, *other, how)
+               : other != nullptr ? session.save_as(*other, how)
+                                  : session.save();
   if (bytes) bytes = compressed_by_name(*std::move(bytes), options.output, options.file);
   if (!bytes) return std::unexpected(bytes.error());
   const auto& surfaces = session.document().surfaces();

@@ -58,9 +58,8 @@ TEST(CompressedFiles, AreExportedAndRefusedAsTheirNamesSay) {
   ASSERT_EQ(knead({"export", zip, "-o", workshop / "b.igs.gz"}).code, 0);
   EXPECT_EQ(knead({"info", workshop / "b.igs.gz", "--json"}).json().at("format"), "IGES");
   EXPECT_TRUE(fails_with(knead({"mesh", zip, "-o", workshop / "b.stl.gz"}), 2, {"--out", ".stl"}));
-  EXPECT_TRUE(
-      fails_with(knead({"sculpt", zip, "-o", workshop / "c.igs.gz", "--script", workshop.script(Json::array())}), 2,
-                 {"--output"}));
+  EXPECT_TRUE(fails_with(knead({"sculpt", zip, "-o", workshop / "c.g2.gz", "--script", workshop.script(Json::array())}),
+                         2, {"--output"}));
 }
 
 TEST(CompressedFiles, MayHoldAsMuchAsTheOptionSays) {

@@ -141,7 +141,7 @@ TEST(Errors, NoOutputOverwritesAnotherFileOfTheCall) {
 TEST(Errors, AnOutputWhoseNamePromisesAnotherFormatIsRefused) {
   const Workshop workshop;
   const std::string script = workshop.script(Json::array());
-  for (const char* name : {"out.iges", "out.stl", "out.json"}) {
+  for (const char* name : {"out.g2", "out.stl", "out.json"}) {
     EXPECT_TRUE(fails_with(knead({"sculpt", bonnet(), "-o", workshop / name, "--script", script}), 2,
                            {"--output", name, ".step", "knead mesh"}));
   }

@@ -60,6 +60,22 @@ TEST(Export, BareSurfacesLoseTheirTrimsAndSaySo) {
   EXPECT_NE(run.err.find("left out: 4 surfaces of other forms ("), std::string::npos) << run.err;
 }
 
+TEST(Export, ASculptedFileBecomesTheSameFileOfAnotherFormatAtOnce) {
+  const Workshop workshop;
+  const std::string script = workshop.script(Json::array(
+      {command("select", {{"surface", "#285"}}), command("hold", {{"rows", 1}}),
+       command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.5}}}),
+       command("move", {{"by", {0, 0, 0.05}}, {"relative", true}}), command("step", {{"count", 2}, {"lambda", 10}}),
+       command("hold", {{"mode", "free"}, {"all", true}})}));
+  const std::string step = workshop / "a.step", at_once = workshop / "a.igs", after = workshop / "b.igs";
+  ASSERT_EQ(knead({"sculpt", bonnet(), "-o", step, "--script", script}).code, 0);
+  const Outcome run = knead({"sculpt", bonnet(), "-o", at_once, "--script", script});
+  ASSERT_EQ(run.code, 0) << run.err;
+  ASSERT_EQ(knead({"export", step, "--out", after}).code, 0);
+  EXPECT_TRUE(identical(content_of(at_once), content_of(after)));
+  EXPECT_FALSE(identical(content_of(step), content_of(bonnet())));
+}
+
 TEST(Export, RefusesOtherNamesAndSchemas) {
   const Workshop workshop;
   EXPECT_TRUE(fails_with(knead({"export", bonnet(), "--out", workshop / "a.brep"}), 2, {"--out", ".step", ".igs"}));
