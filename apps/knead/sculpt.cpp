@@ -370,7 +370,7 @@ Action add_sculpt(CLI::App& app) {
   command->add_option("FILE", options->file, "STEP file to sculpt; it is not changed, unless --output names it too")
       ->type_name("");
   command->add_flag("--new", options->fresh, "start without a FILE: the script makes surfaces with the command new");
-  command->add_option("-o,--output", options->output, "STEP file to write, completely or not at all")->required();
+  command->add_option("-o,--output", options->output, "CAD file to write, completely or not at all")->required();
   command->add_option("--script", options->script, "JSON file with the commands")->required();
   command->add_option("--schema", options->schema, "of a new STEP file: ap214 or ap242")
       ->check(CLI::IsMember({"ap214", "ap242"}))

@@ -143,8 +143,8 @@ class Planner {
       }
     }
     for (const std::string& id : part.curves) {
-      const auto c = std::ranges::find(model_.curves, id, &brep::FreeCurve::id);
-      if (c == model_.curves.end()) continue;
+      const brep::FreeCurve* c = curve_named(id);
+      if (c == nullptr) continue;
       if (torn(c->curve))
         list_.add({"curve", "curves", "new files know none that is torn along a knot"}, id);
       else
@@ -190,6 +190,14 @@ class Planner {
     return found == faces_.end() ? brep::none : found->second;
   }
 
+  const brep::FreeCurve* curve_named(const std::string& id) {
+    if (curves_.empty()) {
+      for (const brep::FreeCurve& c : model_.curves) curves_.emplace(c.id, &c);
+    }
+    const auto found = curves_.find(id);
+    return found == curves_.end() ? nullptr : found->second;
+  }
+
   const Source& source_;
   PreparedModel prepared_;
   const brep::Model& model_;
@@ -198,6 +206,7 @@ class Planner {
   std::vector<bool> kept_;
   std::vector<std::optional<Expected<WrittenEdge>>> pieces_;
   std::unordered_map<std::string, Index> faces_;
+  std::unordered_map<std::string, const brep::FreeCurve*> curves_;
 };
 
 }  // namespace

@@ -51,8 +51,10 @@ class ShellFinder {
   WrittenShells find() {
     std::vector<Patchwork> closed;
     WrittenShells result;
-    for (const auto& part : connected()) {
-      Patchwork made = patchwork(part);
+    const auto parts = connected();
+    const auto runs = runs_of(parts);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      Patchwork made = patchwork(parts[p], runs[p]);
       if (made.shell.closed)
         closed.push_back(std::move(made));
       else
@@ -77,10 +79,10 @@ class ShellFinder {
       return found == shell_of_.end() ? model_.shells.size() : found->second;
     };
     for (const auto& [edge, runs] : runs_) {
-      for (std::size_t a = 0; a < runs.size(); ++a) {
-        for (std::size_t b = 0; b < a; ++b) {
-          if (shell(runs[a].face) == shell(runs[b].face)) root[find(runs[a].face)] = find(runs[b].face);
-        }
+      std::map<std::size_t, std::size_t> first;  // face of each shell
+      for (const EdgeRun& run : runs) {
+        const auto [at, fresh] = first.try_emplace(shell(run.face), run.face);
+        if (!fresh) root[find(run.face)] = find(at->second);
       }
     }
     std::map<std::size_t, std::size_t> place;
@@ -93,17 +95,17 @@ class ShellFinder {
     return result;
   }
 
-  /// The uses of the edges of some faces, by those faces alone.
-  [[nodiscard]] std::map<Index, std::vector<EdgeRun>> runs_of(const std::vector<std::size_t>& part) const {
-    std::map<Index, std::vector<EdgeRun>> result;
-    for (const std::size_t k : part) {
-      for (const Index edge : brep::edges_around(model_.faces[faces_[k]])) {
-        auto& own = result[edge];
-        if (!own.empty()) continue;
-        for (const EdgeRun& run : runs_.at(edge)) {
-          if (std::ranges::binary_search(part, run.face)) own.push_back(run);
-        }
-      }
+  using Runs = std::map<Index, std::vector<EdgeRun>>;
+
+  /// The uses of edges by the faces of each part alone.
+  [[nodiscard]] std::vector<Runs> runs_of(const std::vector<std::vector<std::size_t>>& parts) const {
+    std::vector<std::size_t> part_of(faces_.size(), 0);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      for (const std::size_t k : parts[p]) part_of[k] = p;
+    }
+    std::vector<Runs> result(parts.size());
+    for (const auto& [edge, runs] : runs_) {
+      for (const EdgeRun& run : runs) result[part_of[run.face]][edge].push_back(run);
     }
     return result;
   }
@@ -114,8 +116,7 @@ class ShellFinder {
   }
 
   /// Which faces to turn so that neighbours agree; none where that is impossible.
-  static std::optional<std::map<std::size_t, bool>> agreeing(const std::vector<std::size_t>& part,
-                                                             const std::map<Index, std::vector<EdgeRun>>& runs) {
+  static std::optional<std::map<std::size_t, bool>> agreeing(const std::vector<std::size_t>& part, const Runs& runs) {
     std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>> neighbours;  // and whether they differ
     for (const auto& [edge, own] : runs) {
       if (own.size() > 2) return std::nullopt;
@@ -137,8 +138,7 @@ class ShellFinder {
     return result;
   }
 
-  Patchwork patchwork(const std::vector<std::size_t>& part) {
-    const auto runs = runs_of(part);
+  Patchwork patchwork(const std::vector<std::size_t>& part, const Runs& runs) {
     Patchwork result;
     if (const auto flips = agreeing(part, runs)) {
       for (const auto& [k, flip] : *flips) senses_[k] = senses_[k] != flip;
@@ -207,7 +207,7 @@ class ShellFinder {
   const brep::Model& model_;
   std::span<const Index> faces_;
   std::vector<bool> senses_;  // of the faces, as they are written
-  std::map<Index, std::vector<EdgeRun>> runs_;
+  Runs runs_;
   std::unordered_map<Index, std::size_t> shell_of_;
 };
 
