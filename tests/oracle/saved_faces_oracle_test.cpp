@@ -54,7 +54,8 @@ class SavedFacesOracle : public ::testing::TestWithParam<std::string> {
     if (source_->model() == nullptr || source_->model()->faces.empty()) GTEST_SKIP() << "it has no faces";
     before_ = occt_bodies(path_);
     const auto held = OcctHeld::read(path_);
-    ASSERT_TRUE(before_ && held);
+    ASSERT_TRUE(before_);
+    if (!held) GTEST_SKIP() << "Open CASCADE reads no edges of a file without products";
     bad_ = held->bad_shapes();
     gap_ = std::ranges::max(held->gaps());
     if (source_->format() != "IGES") return;
@@ -82,9 +83,11 @@ double volume_of_solids(const OcctBodies& bodies) {
 
 void SavedFacesOracle::check(const Target& target) {
   SCOPED_TRACE(target.title);
-  // Swept surfaces are B-splines in IGES.
+  // Swept surfaces, and tori that cross themselves, are B-splines in IGES.
   const bool swept = std::ranges::any_of(source_->model()->supports, [](const brep::Support& support) {
-    return std::holds_alternative<brep::SweptSurface>(support.form);
+    const auto* form = std::get_if<brep::ElementarySurface>(&support.form);
+    const bool crosses = form != nullptr && form->kind == brep::ElementarySurface::Kind::torus;
+    return std::holds_alternative<brep::SweptSurface>(support.form) || (crosses && form->second > form->radius);
   });
   const bool rational = target.convert || (swept && std::string_view(target.format) == "iges");
   const auto saved = save_faces(*source_, *find_format(target.format), {}, target.convert);
@@ -107,7 +110,9 @@ void SavedFacesOracle::check(const Target& target) {
   const double gap = std::ranges::max(held->gaps());
   EXPECT_LE(gap, std::max(gap_ * (1 + same) + sewn_, resolution));
   const double volume = volume_of_solids(*before_), now = volume_of_solids(*after);
-  EXPECT_NEAR(after->whole.area, before_->whole.area, (rational ? fixed : same) * before_->whole.area);
+  // An edge that stands off its face leaves open which of the two bounds it.
+  const double area = before_->whole.area, open = gap_ * std::sqrt(area);
+  EXPECT_NEAR(after->whole.area, area, (rational ? fixed : same) * area + open);
   if (volume != 0) {
     const bool arcs = std::string_view(target.format) == "iges";  // of ellipses are B-splines there
     const double within = rational ? fixed : before_->solids == 0 || arcs ? sewn : same;
@@ -152,7 +157,8 @@ std::vector<std::string> saved_files() {
   }
   testing::file_makers()["made_hollow.brep"] = [](const auto& path) { return occt_write_placed("hollow", path); };
   names.emplace_back("made_hollow.brep");
-  return names;
+  names = testing::with_own(std::move(names), testing::foreign_faults);
+  return testing::with_own(std::move(names), testing::foreign_morph);
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, SavedFacesOracle, ::testing::ValuesIn(saved_files()), testing::file_test_name);
