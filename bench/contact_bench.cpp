@@ -96,7 +96,8 @@ void contact_free(benchmark::State& state) { frame(state, false, StepAccuracy::e
 /// The same sheet as a shell whose sides are 50 thicknesses long, static.
 void shell(benchmark::State& state, StepAccuracy accuracy) {
   SessionState start = sheet(static_cast<int>(state.range(0)));
-  for (std::size_t k = 0; k < start.surfaces.size(); ++k) start.surfaces[k].shell = ShellMaterial{2e5, 0.3, 0.02, 0};
+  for (std::size_t k = 0; k < start.surfaces.size(); ++k)
+    start.surfaces[k].elasticity = ShellMaterial{2e5, 0.3, 0.02, 0};
   start.evolution.mode = Evolution::stationary;
   start.evolution.accuracy = accuracy;
   const auto problem = shell_problem(start);

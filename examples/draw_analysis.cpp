@@ -35,8 +35,9 @@ examples::Colour rising(double t) {
 }
 
 double von_mises(const SceneSurface& s, const std::array<double, 2>& u) {
-  if (!s.shell) return 0;
-  const auto r = shell_results(*s.rest, *s.current, *s.shell, Parameters<2>{{u[0], u[1]}});
+  const auto* shell = std::get_if<ShellMaterial>(&s.elasticity);
+  if (shell == nullptr) return 0;
+  const auto r = shell_results(*s.rest, *s.current, *shell, Parameters<2>{{u[0], u[1]}});
   return r ? std::max(r->front().von_mises[0], r->front().von_mises[1]) : 0;
 }
 

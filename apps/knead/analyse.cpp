@@ -67,7 +67,7 @@ Expected<std::string> results_json(const SessionState& state, std::span<const Fi
   }
   text += "]";
   const SceneSurface& s = state.surfaces[static_cast<std::size_t>(*state.selected)];
-  if (s.nonlinear()) {
+  if (is_nonlinear(s.elasticity)) {
     const auto reactions = hold_reactions(state);
     if (!reactions) return std::unexpected(reactions.error());
     text += ",\n\"reactions\":[";

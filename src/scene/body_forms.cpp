@@ -34,12 +34,12 @@ Expected<Points> dead_forces_on(const Spline<D>& rest, const ActiveLoads& loads)
 
 template <int D>
 Expected<ActiveStep> settle(const Scene& scene, const SceneBody& body, const BodyShapes<D>& shapes,
-                            const ActiveLoads& loads, const EvolutionPolicy& evolution,
+                            const FormWeights& weights, const ActiveLoads& loads, const EvolutionPolicy& evolution,
                             std::vector<std::string>& notes) {
   const Points &rest = shapes.rest->control_points(), &present = shapes.current->control_points();
   const auto conditions = body_conditions<D>(body_input<D>(scene, body, evolution), present, notes);
   if (!conditions) return std::unexpected(conditions.error());
-  auto energy = FormEnergy<D>::create(*shapes.rest, *body.fundamental);
+  auto energy = FormEnergy<D>::create(*shapes.rest, weights);
   if (!energy) return std::unexpected(energy.error());
   ActiveShellSettings settings{.evolution = evolution.mode,
                                .lambda = evolution.lambda,
@@ -67,14 +67,17 @@ Expected<ActiveStep> settle_forms(const Scene& scene, int index, const Evolution
   const auto loads = body_loads(scene, index);
   if (!loads) return std::unexpected(loads.error());
   if (auto fits = check_forms(body, *loads); !fits) return std::unexpected(fits.error());
-  return std::visit([&](const auto& shapes) { return settle(scene, body, shapes, *loads, evolution, notes); },
-                    body.shapes);
+  return std::visit(
+      [&](const auto& shapes) {
+        return settle(scene, body, shapes, std::get<FormWeights>(shapes.elasticity), *loads, evolution, notes);
+      },
+      body.shapes);
 }
 
 Expected<double> form_energy_of(const SceneBody& body) {
   return std::visit(
       [&]<int D>(const BodyShapes<D>& shapes) -> Expected<double> {
-        const auto energy = FormEnergy<D>::create(*shapes.rest, *body.fundamental);
+        const auto energy = FormEnergy<D>::create(*shapes.rest, std::get<FormWeights>(shapes.elasticity));
         if (!energy) return std::unexpected(energy.error());
         return energy->energy(shapes.current->control_points()).sum();
       },

@@ -12,11 +12,11 @@ namespace knead {
 
 Expected<std::optional<ShellPointResults>> read_shell(const Scene& scene, int surface, const Fractions& at) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
-  if (!s.shell) return std::optional<ShellPointResults>();
+  const auto* shell = std::get_if<ShellMaterial>(&s.elasticity);
+  if (shell == nullptr) return std::optional<ShellPointResults>();
   const auto u = parameters_at(*s.current, at);
   if (!u) return std::unexpected(u.error());
-  const auto results =
-      shell_results(*s.rest, *s.current, *s.shell, (Parameters<2>(1, 2) << (*u)[0], (*u)[1]).finished());
+  const auto results = shell_results(*s.rest, *s.current, *shell, (Parameters<2>(1, 2) << (*u)[0], (*u)[1]).finished());
   if (!results) return std::unexpected(results.error());
   return std::optional(results->front());
 }
@@ -65,8 +65,8 @@ Expected<FieldGrid> result_grid(const SceneSurface& s, int samples,
   if (!rest) return std::unexpected(rest.error());
   FieldGrid grid{s.id, {samples, samples}, now->points(), {}};
   grid.fields.push_back(vectors("displacement", now->points() - rest->points()));
-  if (s.shell) {
-    const auto results = shell_results(*s.rest, *s.current, *s.shell, at);
+  if (const auto* shell = std::get_if<ShellMaterial>(&s.elasticity)) {
+    const auto results = shell_results(*s.rest, *s.current, *shell, at);
     if (!results) return std::unexpected(results.error());
     append_results(*results, grid.fields);
   }

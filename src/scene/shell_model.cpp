@@ -11,7 +11,7 @@ namespace knead {
 namespace {
 
 Expected<void> check_scope(const SceneSurface& s) {
-  if (!s.nonlinear()) {
+  if (!is_nonlinear(s.elasticity)) {
     return input_error("it is no shell, but is selected with shells", s.id, "give all of them the same kind of model");
   }
   if (s.mode == RestMode::none)
@@ -33,8 +33,9 @@ Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& she
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   const Point vector(scene.load.vector.data()), gravity(scene.load.gravity.data());
   if (gravity != Point::Zero() && shell.mass_per_area() == 0) {
-    return input_error("a shell without density has no weight", "gravity",
-                       s.shell ? "give its material a density" : "use vector");
+    return input_error(
+        "a shell without density has no weight", "gravity",
+        std::holds_alternative<ShellMaterial>(s.elasticity) ? "give its material a density" : "use vector");
   }
   Points load = shell.weight(gravity);
   const bool by_area = scene.load.per.value_or(LoadMeasure::area) == LoadMeasure::area;
@@ -102,7 +103,8 @@ Expected<std::optional<ShellCrease>> crease_at(const SeamReport& report, std::sp
 }
 
 Expected<ShellEnergy> energy_of(const SceneSurface& s) {
-  return s.shell ? ShellEnergy::create(*s.rest, *s.shell) : ShellEnergy::of_forms(*s.rest, *s.fundamental);
+  if (const auto* shell = std::get_if<ShellMaterial>(&s.elasticity)) return ShellEnergy::create(*s.rest, *shell);
+  return ShellEnergy::of_forms(*s.rest, std::get<FundamentalMaterial>(s.elasticity));
 }
 
 /// The input of the models of linear surfaces, for what holds shells: in places of the rest shape.
@@ -116,11 +118,9 @@ ModelInput held_input(const Scene& scene) {
 }
 
 ShellInput shell_input(const Scene& scene) {
-  ShellInput input{held_input(scene), {}, {}};
+  ShellInput input{held_input(scene), {}};
   for (const int k : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    input.shells.push_back(s.shell);
-    input.fundamental.push_back(s.fundamental);
+    input.elasticities.push_back(scene.surfaces[static_cast<std::size_t>(k)].elasticity);
   }
   return input;
 }
@@ -193,7 +193,9 @@ Expected<ShellModel> make_shell_model(const Scene& scene, const ShellProblem& pr
   const ActiveSettings<2>& joined = problem.joined.settings;
   const SceneSurface& first = scene.surfaces[static_cast<std::size_t>(problem.surfaces.front())];
   const auto *mass = std::get_if<double>(&first.material.mass), *damping = std::get_if<double>(&first.material.damping);
-  const bool forms = std::ranges::none_of(problem.input.shells, [](const auto& shell) { return shell.has_value(); });
+  const bool forms = std::ranges::none_of(problem.input.elasticities, [](const Elasticity<2>& elasticity) {
+    return std::holds_alternative<ShellMaterial>(elasticity);
+  });
   ActiveShellSettings settings{.evolution = evolution.mode,
                                .lambda = evolution.lambda,
                                .time_step = evolution.time_step,

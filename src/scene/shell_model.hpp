@@ -14,8 +14,7 @@ namespace knead {
 /// Everything that shells of the selected surfaces depend on but what loads them.
 struct ShellInput {
   ModelInput model;
-  std::vector<std::optional<ShellMaterial>> shells;
-  std::vector<std::optional<FundamentalMaterial>> fundamental;
+  std::vector<Elasticity<2>> elasticities;
 
   friend bool operator==(const ShellInput&, const ShellInput&) = default;
 };

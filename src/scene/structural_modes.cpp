@@ -15,7 +15,7 @@ const SceneSurface& selected_surface_of(const Scene& scene) {
 
 Expected<std::vector<Eigenmode>> natural_modes(const Scene& scene, int count) {
   const SceneSurface& s = selected_surface_of(scene);
-  if (s.nonlinear()) {
+  if (is_nonlinear(s.elasticity)) {
     const auto problem = shell_problem(scene);
     if (!problem) return std::unexpected(problem.error());
     const Points& x = problem->present;
@@ -33,7 +33,7 @@ Expected<std::vector<Eigenmode>> natural_modes(const Scene& scene, int count) {
 
 Expected<std::vector<Eigenmode>> linear_buckling(const Scene& scene, int count) {
   const SceneSurface& s = selected_surface_of(scene);
-  if (!s.nonlinear()) {
+  if (!is_nonlinear(s.elasticity)) {
     return input_error("the linear model does not buckle", "model",
                        R"(give {"do":"material","model":"shell"} with young and thickness)");
   }

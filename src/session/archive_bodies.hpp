@@ -110,7 +110,7 @@ void pass(A& a, Of<A, FormWeights>& w) {
 
 template <class A>
 void pass(A& a, Of<A, SceneBody>& b) {
-  auto& [id, name, unit, shapes, velocity, mode, mass, damping, hold_rows, pins, holds, fundamental] = b;
+  auto& [id, name, unit, shapes, velocity, mode, mass, damping, hold_rows, pins, holds] = b;
   for (auto* x : {&id, &name, &unit}) pass(a, *x);
   bool curve = b.is_curve();
   pass(a, curve);
@@ -143,9 +143,8 @@ void pass(A& a, Of<A, SceneBody>& b) {
     }
   }
   list(a, holds, 8);
-  if constexpr (!A::writing) fundamental.reset();
   if (older_than(a, 10)) return;  // which kept no forms
-  optional(a, fundamental);
+  std::visit([&a](auto& each) { alternative<FormWeights>(a, each.elasticity); }, shapes);
 }
 
 /// Whether what is read of a body fits its net.

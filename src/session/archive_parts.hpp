@@ -74,6 +74,17 @@ void optional(A& a, T& x) {
   if (x) pass(a, *x);
 }
 
+/// One kind of a variant, where it is the one there.
+template <class T, class A, class V>
+void alternative(A& a, V& x) {
+  bool present = std::holds_alternative<T>(x);
+  a.flag(present);
+  if constexpr (!A::writing) {
+    if (present && !a.bad()) x = T{};
+  }
+  if (auto* held = std::get_if<T>(&x)) pass(a, *held);
+}
+
 /// A list of items of at least `least` bytes each.
 template <class A, class T>
 void list(A& a, T& x, std::size_t least = 4) {

@@ -128,8 +128,8 @@ void pass(A& a, Of<A, Probe>& p) {
 
 template <class A>
 void pass(A& a, Of<A, SceneSurface>& s) {
-  auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, shell, fundamental, hold_rows,
-         pins, constraints, smooth_knot_lines, smooth_poles, plastic, mask, visible] = s;
+  auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, elasticity, hold_rows, pins,
+         constraints, smooth_knot_lines, smooth_poles, plastic, mask, visible] = s;
   if constexpr (!A::writing) visible.reset();  // the document provides it
   for (auto* x : {&id, &name, &unit}) pass(a, *x);
   for (auto* x : {&opened, &reference, &rest, &current}) pass(a, *x);
@@ -156,8 +156,7 @@ void pass(A& a, Of<A, SceneSurface>& s) {
   if constexpr (!A::writing) {
     plastic = {};
     mask.clear();
-    shell.reset();
-    fundamental.reset();
+    elasticity = {};
     if (a.version() == 1) return;  // which had none
   }
   auto& [along, share, yield, locality, in_radii] = plastic;
@@ -167,9 +166,9 @@ void pass(A& a, Of<A, SceneSurface>& s) {
   if (older_than(a, 3)) return;  // which had no masks
   pass(a, mask);
   if (older_than(a, 7)) return;  // which had no shells
-  optional(a, shell);
+  alternative<ShellMaterial>(a, elasticity);
   if (older_than(a, 8)) return;  // which had no fundamental forms
-  optional(a, fundamental);
+  alternative<FundamentalMaterial>(a, elasticity);
 }
 
 template <class A>

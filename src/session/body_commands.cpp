@@ -57,23 +57,25 @@ Expected<void> set_at(double& to, const std::optional<double>& given, const char
   return {};
 }
 
-/// The model that the body has after the command, and its weights.
-Expected<void> set_forms(SceneBody& body, const MaterialCommand& c) {
+/// What resists in the body after the command.
+template <int D>
+Expected<void> set_elasticity(const SceneBody& body, const MaterialCommand& c, Elasticity<D>& elasticity) {
   if (c.model == MaterialModel::shell) {
     return input_error(fmt::format("a {} is no shell", kind_of(body)), "model", R"(use "linear" or "fundamental")");
   }
-  const bool keeps = c.model ? *c.model == MaterialModel::fundamental : body.fundamental.has_value();
+  const bool keeps = c.model ? *c.model == MaterialModel::fundamental : is_nonlinear(elasticity);
   if (!keeps) {
     if (c.w1 || c.w2) {
       return input_error("only fundamental forms have weights w1 and w2", "model", R"(add "model":"fundamental")");
     }
-    body.fundamental.reset();
+    elasticity = LinearElasticity{};
     return {};
   }
-  if (c.w2 && !body.is_curve()) {
+  if (c.w2 && D == 3) {
     return input_error("a volume has a metric alone", "w2", "leave it out");
   }
-  FormWeights next = body.fundamental.value_or(FormWeights{});
+  const auto* before = std::get_if<FormWeights>(&elasticity);
+  FormWeights next = before != nullptr ? *before : FormWeights{};
   for (const auto& [given, to, field] : {std::tuple{&c.w1, &next.w1, "w1"}, std::tuple{&c.w2, &next.w2, "w2"}}) {
     if (!*given) continue;
     const std::array<double, 3>& w = **given;
@@ -82,7 +84,7 @@ Expected<void> set_forms(SceneBody& body, const MaterialCommand& c) {
     }
     if (auto done = set_at(*to, w[0], field); !done) return done;
   }
-  body.fundamental = next;
+  elasticity = next;
   return {};
 }
 
@@ -161,7 +163,9 @@ Expected<void> on_body(Executor& executor, const MaterialCommand& c) {
   if (!c.alpha && !c.beta && !c.mass && !c.damping && !c.model && !c.w1 && !c.w2) {
     return input_error("no field is given", "alpha", "give alpha, beta, mass, damping, or a model");
   }
-  if (auto done = set_forms(body, c); !done) return done;
+  auto elastic = std::visit([&]<int D>(BodyShapes<D>& shapes) { return set_elasticity<D>(body, c, shapes.elasticity); },
+                            body.shapes);
+  if (!elastic) return elastic;
   if (auto done = set_at(body.mass, c.mass, "mass"); !done) return done;
   if (auto done = set_at(body.damping, c.damping, "damping"); !done) return done;
   return std::visit([&](auto& shapes) { return set_material(shapes, c); }, body.shapes);

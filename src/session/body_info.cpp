@@ -49,18 +49,18 @@ std::vector<BodyInfo> bodies_of(const Scene& scene) {
     info.lower = array_of(points.colwise().minCoeff().transpose());
     info.upper = array_of(points.colwise().maxCoeff().transpose());
     std::visit(
-        [&info](const auto& shapes) {
+        [&](const auto& shapes) {
           info.rational = shapes.current->rational();
           info.alpha.assign(shapes.material.alpha.begin(), shapes.material.alpha.end());
           info.beta.assign(shapes.material.beta.begin(), shapes.material.beta.end());
+          if (const auto* forms = std::get_if<FormWeights>(&shapes.elasticity)) {
+            info.w1 = forms->w1;
+            if (b.is_curve()) info.w2 = forms->w2;
+          }
         },
         b.shapes);
     info.mass = b.mass;
     info.damping = b.damping;
-    if (b.fundamental) {
-      info.w1 = b.fundamental->w1;
-      if (b.is_curve()) info.w2 = b.fundamental->w2;
-    }
     info.hold = b.hold_rows;
     info.pins.assign(b.pins.begin(), b.pins.end());
     for (const KeptBodyHold& kept : b.holds) {

@@ -64,7 +64,7 @@ void Executor::record_body(const ActiveStep& step, double seconds, const std::ve
 template <int D>
 Expected<void> Executor::step_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution) {
   SceneBody& b = *body();
-  if (b.fundamental) return settle_body(shapes, evolution);
+  if (is_nonlinear(shapes.elasticity)) return settle_body(shapes, evolution);
   BodyInput<D> input = body_input<D>(state, b, evolution);
   const auto* known = body_cache ? std::get_if<BodyModel<D>>(&*body_cache) : nullptr;
   if (known == nullptr || !(known->input == input)) {

@@ -291,7 +291,7 @@ Expected<double> Session::energy() {
     return s.mode == RestMode::shape && s.current == s.rest;
   });
   if (at_rest) return 0;  // even if no model can be made
-  if (state().surfaces[static_cast<std::size_t>(*state().selected)].nonlinear()) {
+  if (is_nonlinear(state().surfaces[static_cast<std::size_t>(*state().selected)].elasticity)) {
     const auto problem = shell_problem(state());
     if (!problem) return std::unexpected(problem.error());
     return problem->structure.energy(problem->present).sum();
@@ -314,7 +314,7 @@ Expected<double> Session::body_energy() const {
   return std::visit(
       [&]<int D>(const BodyShapes<D>& shapes) -> Expected<double> {
         if (body.mode == RestMode::shape && shapes.current == shapes.rest) return 0;
-        if (body.fundamental) return form_energy_of(body);
+        if (is_nonlinear(shapes.elasticity)) return form_energy_of(body);
         const auto made = make_body_model<D>(body_input<D>(state(), body, trial_evolution()));
         if (!made) return std::unexpected(made.error());
         return made->model.energy(active_state(body));

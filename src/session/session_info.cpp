@@ -269,8 +269,8 @@ SurfaceInfo info_of(const Session& session, std::size_t index) {
   info.mass = constant(s.material.mass);
   info.damping = constant(s.material.damping);
   info.preset = preset_of(s);
-  info.shell = s.shell;
-  info.fundamental = s.fundamental;
+  if (const auto* shell = std::get_if<ShellMaterial>(&s.elasticity)) info.shell = *shell;
+  if (const auto* forms = std::get_if<FundamentalMaterial>(&s.elasticity)) info.fundamental = *forms;
   info.plasticity = s.plastic.share;
   info.yield = s.plastic.yield;
   info.locality = s.plastic.locality;

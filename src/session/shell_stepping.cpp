@@ -8,8 +8,8 @@
 namespace knead {
 
 bool Executor::shells() const {
-  return std::ranges::any_of(state.selection(),
-                             [&](int k) { return state.surfaces[static_cast<std::size_t>(k)].nonlinear(); });
+  return std::ranges::any_of(
+      state.selection(), [&](int k) { return is_nonlinear(state.surfaces[static_cast<std::size_t>(k)].elasticity); });
 }
 
 Expected<ActiveStep> Executor::one_shell_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,

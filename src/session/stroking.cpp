@@ -48,9 +48,9 @@ Locality bed_of(const Scene& scene, const std::map<int, DomainScaling<2>>& scali
       const double side = scaling.length * scaling.factors[static_cast<std::size_t>(d)] * knots.domain().length();
       reach = std::max(reach, side / static_cast<double>(knots.spans().size()));
     }
-    if (s.nonlinear()) alpha = std::max(alpha, 1.0);  // its membrane; bending is felt less far
+    if (is_nonlinear(s.elasticity)) alpha = std::max(alpha, 1.0);  // its membrane; bending is felt less far
     for (std::size_t i : pure_terms) {
-      if (s.nonlinear()) break;
+      if (is_nonlinear(s.elasticity)) break;
       beta = std::max(beta, mean(s.material.beta[i]));
       alpha = std::max(alpha, mean(s.material.alpha[i]));
     }
@@ -63,7 +63,7 @@ Locality bed_of(const Scene& scene, const std::map<int, DomainScaling<2>>& scali
 /// The square of how far a dent is felt on a bed, file units.
 double felt_area(const Scene& scene, const DomainScaling<2>& scaling, const OpenStroke& stroke) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(*scene.selected)];
-  if (s.nonlinear()) return scaling.length * scaling.length / stroke.lambda;
+  if (is_nonlinear(s.elasticity)) return scaling.length * scaling.length / stroke.lambda;
   double area = 0;
   for (std::size_t i : pure_terms) {
     area = std::max(

@@ -18,6 +18,8 @@ using testing::run;
 using testing::same_bits;
 using testing::same_state;
 
+const ShellMaterial& shell_of(const Session& session) { return std::get<ShellMaterial>(first(session).elasticity); }
+
 // A cantilever 10 long, 1 wide and 0.1 thick, E = 1.2e6, ν = 0, clamped at u = 0.
 
 const std::vector<std::string> cantilever_commands = {
@@ -75,7 +77,7 @@ TEST(ShellCommand, ATaperedBeamBendsAsBeamTheoryHasIt) {
     const Session session =
         bent_cantilever({taper, R"({"do":"force","kind":"line","edge":"u1","vector":[0,0,1e-5]})", R"({"do":"step"})"});
     EXPECT_NEAR(tip_displacement(session)[2], exact, 1e-5 * exact) << taper;
-    EXPECT_NEAR(first(session).shell->thickness, 0.075, 1e-15);
+    EXPECT_NEAR(shell_of(session).thickness, 0.075, 1e-15);
   }
   // A modulus that varies as t³ would does the same to bending.
   const Session soft =
@@ -87,16 +89,16 @@ TEST(ShellCommand, ATaperedBeamBendsAsBeamTheoryHasIt) {
 TEST(ShellCommand, CoefficientsThatVaryAreUndoneReplacedAndInSnapshots) {
   const char* const taper = R"({"do":"material","coefficient":"thickness","formula":"0.1 - 0.05*s"})";
   Session session = bent_cantilever({taper});
-  ASSERT_TRUE(first(session).shell->thickness_field);
+  ASSERT_TRUE(shell_of(session).thickness_field);
   const auto restored = Session::restore(session.document(), session.snapshot());
   ASSERT_TRUE(restored) << restored.error().message();
-  EXPECT_EQ(first(*restored).shell, first(session).shell);
+  EXPECT_EQ(first(*restored).elasticity, first(session).elasticity);
   run(session, {R"({"do":"undo"})"});
-  EXPECT_FALSE(first(session).shell->thickness_field);
+  EXPECT_FALSE(shell_of(session).thickness_field);
   run(session, {taper, R"({"do":"material","density":2})"});
-  EXPECT_TRUE(first(session).shell->thickness_field);
+  EXPECT_TRUE(shell_of(session).thickness_field);
   run(session, {R"({"do":"material","thickness":0.2})"});
-  EXPECT_FALSE(first(session).shell->thickness_field);
+  EXPECT_FALSE(shell_of(session).thickness_field);
 }
 
 TEST(ShellCommand, NamesWhatIsWrongWithCoefficientsThatVary) {
@@ -118,8 +120,8 @@ TEST(ShellCommand, WeightsOfTheFormsAreOneNumberOrThree) {
   Session session = fresh();
   run(session, {R"({"do":"new","size":[10,1],"net":[8,4]})",
                 R"({"do":"material","model":"fundamental","w1":2.5,"w2":[1,0.5,0.25]})"});
-  EXPECT_EQ(first(session).fundamental->w1, (std::array{2.5, 2.5, 2.5}));
-  EXPECT_EQ(first(session).fundamental->w2, (std::array{1.0, 0.5, 0.25}));
+  EXPECT_EQ(std::get<FundamentalMaterial>(first(session).elasticity).w1, (std::array{2.5, 2.5, 2.5}));
+  EXPECT_EQ(std::get<FundamentalMaterial>(first(session).elasticity).w2, (std::array{1.0, 0.5, 0.25}));
 }
 
 TEST(ShellCommand, GravityIsDensityTimesThickness) {
@@ -192,7 +194,7 @@ TEST(ShellCommand, IsUndoneAndInSnapshots) {
   ASSERT_TRUE(restored) << restored.error().message();
   EXPECT_TRUE(same_state(session.state(), restored->state()));
   EXPECT_EQ(restored->state().steps, session.state().steps);
-  EXPECT_EQ(first(*restored).shell, first(session).shell);
+  EXPECT_EQ(first(*restored).elasticity, first(session).elasticity);
   run(session, {R"({"do":"undo"})"});
   run(session, {R"({"do":"undo"})"});
   EXPECT_TRUE(same_state(session.state(), before));

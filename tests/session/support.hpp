@@ -71,8 +71,7 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
     if (!same_bits(*s.rest, *t.rest)) return differs("rest " + s.id);
     if (!same_bits(*s.current, *t.current)) return differs("current " + s.id);
     if (!same_bits(s.velocity, t.velocity)) return differs("velocity " + s.id);
-    if (s.mode != t.mode || !(s.material == t.material) || s.shell != t.shell || s.fundamental != t.fundamental ||
-        !(s.plastic == t.plastic))
+    if (s.mode != t.mode || !(s.material == t.material) || s.elasticity != t.elasticity || !(s.plastic == t.plastic))
       return differs("material " + s.id);
     if (s.hold_rows != t.hold_rows || s.pins != t.pins) return differs("hold " + s.id);
     if (s.mask != t.mask) return differs("mask of " + s.id);

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "knead/energy/form_energy.hpp"
 #include "knead/scene/constraint.hpp"
+#include "knead/scene/elasticity.hpp"
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/body_constraints.hpp"
 
@@ -52,6 +52,7 @@ struct BodyShapes {
   std::shared_ptr<const Spline<D>> rest;       ///< displacements are measured from it
   std::shared_ptr<const Spline<D>> current;
   MaterialOf<D> material = {};
+  Elasticity<D> elasticity = {};
 };
 
 /// A curve or a volume of a scene.
@@ -64,7 +65,6 @@ struct SceneBody {
   int hold_rows = 0;               ///< outer layers of control points that do not move
   std::set<int> pins = {};         ///< control points that do not move
   std::vector<KeptBodyHold> holds = {};
-  std::optional<FormWeights> fundamental = {};  ///< instead of the material: its forms are kept, in static steps
 
   [[nodiscard]] bool is_curve() const { return shapes.index() == 0; }
 };

@@ -11,9 +11,9 @@
 #include "knead/base/shared_list.hpp"
 #include "knead/brep/shared_edge.hpp"
 #include "knead/brep/visible_region.hpp"
-#include "knead/energy/shell_energy.hpp"
 #include "knead/scene/body.hpp"
 #include "knead/scene/constraint.hpp"
+#include "knead/scene/elasticity.hpp"
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/brush.hpp"
 #include "knead/sculpt/edge_coupling.hpp"
@@ -192,9 +192,8 @@ struct SceneSurface {
   Points velocity = {};  ///< of a dynamic evolution, a spline on the present net; empty: at rest
   RestMode mode = RestMode::shape;
   MaterialFieldOf<2> material = {};
-  std::optional<ShellMaterial> shell = {};              ///< instead of `material`: steps are those of a shell
-  std::optional<FundamentalMaterial> fundamental = {};  ///< likewise, or of a surface that keeps its fundamental forms
-  int hold_rows = 0;                                    ///< outer rows of control points that do not move
+  Elasticity<2> elasticity = {};
+  int hold_rows = 0;  ///< outer rows of control points that do not move
   std::set<std::array<int, 2>> pins = {};
   std::vector<KeptConstraint> constraints = {};
   bool smooth_knot_lines = true, smooth_poles = true;
@@ -204,9 +203,6 @@ struct SceneSurface {
   std::vector<double> mask = {};
   /// The part of it that faces show, in fractions of its domain; null until first needed.
   std::shared_ptr<const VisibleRegion> visible = {};
-
-  /// Steps are those of `ShellEnergy`.
-  [[nodiscard]] bool nonlinear() const { return shell || fundamental; }
 };
 
 /// Surfaces and bodies, what holds them and what acts on them.

@@ -12,7 +12,8 @@ template <class Take>
 Expected<std::vector<double>> of_shell(const DisplayInput& input, Take take) {
   const SceneSurface& s = input.scene.surfaces[static_cast<std::size_t>(input.surface)];
   const auto count = static_cast<std::size_t>(input.normals.rows());
-  if (!s.shell) return std::vector<double>(count, std::numeric_limits<double>::quiet_NaN());
+  const auto* shell = std::get_if<ShellMaterial>(&s.elasticity);
+  if (shell == nullptr) return std::vector<double>(count, std::numeric_limits<double>::quiet_NaN());
   if (input.opened) return std::vector<double>(count, 0.0);
   const auto& [u, v] = input.parameters;
   Parameters<2> at(static_cast<Eigen::Index>(count), 2);
@@ -20,7 +21,7 @@ Expected<std::vector<double>> of_shell(const DisplayInput& input, Take take) {
   for (const double a : u) {
     for (const double b : v) at.row(k++) << a, b;
   }
-  const auto results = shell_results(*s.rest, *s.current, *s.shell, at);
+  const auto results = shell_results(*s.rest, *s.current, *shell, at);
   if (!results) return std::unexpected(results.error());
   std::vector<double> values;
   values.reserve(count);

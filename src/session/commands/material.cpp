@@ -119,24 +119,18 @@ bool names_something(const MaterialCommand& c) {
 
 /// The model that a surface has after the command.
 MaterialModel model_of(const MaterialCommand& c, const SceneSurface& s) {
-  return c.model.value_or(s.shell         ? MaterialModel::shell
-                          : s.fundamental ? MaterialModel::fundamental
-                                          : MaterialModel::linear);
+  return c.model.value_or(static_cast<MaterialModel>(s.elasticity.index()));
 }
 
-/// The shell that a surface is after the command; none where it has another model.
-Expected<std::optional<ShellMaterial>> shell_of(const MaterialCommand& c, const SceneSurface& s) {
-  if (model_of(c, s) != MaterialModel::shell) {
-    if (!names_shell(c)) return std::nullopt;
-    return input_error("only shells have a Young's modulus, Poisson's ratio, thickness or density", "model",
-                       R"(add "model":"shell", or use alpha, beta and mass)");
-  }
+/// The shell that a surface is after the command.
+Expected<ShellMaterial> shell_of(const MaterialCommand& c, const SceneSurface& s) {
+  const auto* before = std::get_if<ShellMaterial>(&s.elasticity);
   const bool young = c.young || c.coefficient == "young", thickness = c.thickness || c.coefficient == "thickness";
-  if (!s.shell && !(young && thickness)) {
+  if (before == nullptr && !(young && thickness)) {
     return input_error("a shell needs a Young's modulus and a thickness", young ? "thickness" : "young",
                        R"(give them, as "young":210000,"thickness":1)");
   }
-  ShellMaterial next = s.shell.value_or(ShellMaterial{});
+  ShellMaterial next = before != nullptr ? *before : ShellMaterial{};
   if (c.young) {
     next.young = *c.young;
     next.young_field.reset();
@@ -154,23 +148,33 @@ Expected<std::optional<ShellMaterial>> shell_of(const MaterialCommand& c, const 
     (of_young ? next.young : next.thickness) = mean_of(*field);
     (of_young ? next.young_field : next.thickness_field) = std::move(*field);
   }
-  auto checked = validated(next);
-  if (!checked) return std::unexpected(checked.error());
-  return *checked;
+  return validated(next);
 }
 
-/// The weights of its fundamental forms after the command; none where it has another model.
-Expected<std::optional<FundamentalMaterial>> fundamental_of(const MaterialCommand& c, const SceneSurface& s) {
-  if (model_of(c, s) != MaterialModel::fundamental) {
-    if (!c.w1 && !c.w2) return std::nullopt;
-    return input_error("only fundamental forms have weights w1 and w2", "model", R"(add "model":"fundamental")");
-  }
-  FundamentalMaterial next = s.fundamental.value_or(FundamentalMaterial{});
+/// The weights of its fundamental forms after the command.
+Expected<FundamentalMaterial> fundamental_of(const MaterialCommand& c, const SceneSurface& s) {
+  const auto* before = std::get_if<FundamentalMaterial>(&s.elasticity);
+  FundamentalMaterial next = before != nullptr ? *before : FundamentalMaterial{};
   if (c.w1) next.w1 = *c.w1;
   if (c.w2) next.w2 = *c.w2;
-  auto checked = validated_weights(next);
-  if (!checked) return std::unexpected(checked.error());
-  return *checked;
+  return validated_weights(next);
+}
+
+/// What resists in a surface after the command.
+Expected<Elasticity<2>> elasticity_of(const MaterialCommand& c, const SceneSurface& s) {
+  const MaterialModel model = model_of(c, s);
+  if (model != MaterialModel::shell && names_shell(c)) {
+    return input_error("only shells have a Young's modulus, Poisson's ratio, thickness or density", "model",
+                       R"(add "model":"shell", or use alpha, beta and mass)");
+  }
+  if (model == MaterialModel::shell) {
+    auto shell = shell_of(c, s);
+    if (!shell) return std::unexpected(shell.error());
+    if (!c.w1 && !c.w2) return Elasticity<2>(*std::move(shell));
+  }
+  if (model == MaterialModel::fundamental) return fundamental_of(c, s);
+  if (!c.w1 && !c.w2) return Elasticity<2>();
+  return input_error("only fundamental forms have weights w1 and w2", "model", R"(add "model":"fundamental")");
 }
 
 Expected<void> check_fields(const MaterialCommand& c) {
@@ -360,12 +364,9 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
     auto next = c.coefficient && !varies_shell(c) ? varied(c, s) : c.region ? painted(c, s) : everywhere(c, s);
     if (!next) return std::unexpected(next.error());
     if (auto checked = validated<2>(*next); !checked) return std::unexpected(checked.error());
-    const auto shell = shell_of(c, s);
-    if (!shell) return std::unexpected(shell.error());
-    const auto fundamental = fundamental_of(c, s);
-    if (!fundamental) return std::unexpected(fundamental.error());
-    s.shell = *shell;
-    s.fundamental = *fundamental;
+    auto elasticity = elasticity_of(c, s);
+    if (!elasticity) return std::unexpected(elasticity.error());
+    s.elasticity = *std::move(elasticity);
     s.material = std::move(*next);
     s.plastic = plastic_of(c, preset, s.plastic);
   }

@@ -104,8 +104,7 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   for (int index : trial.selection()) {
     SceneSurface& s = trial.surfaces[static_cast<std::size_t>(index)];
     s.mode = RestMode::none;
-    s.shell.reset();
-    s.fundamental.reset();
+    s.elasticity = {};
     s.material = MaterialFieldOf<2>(MaterialOf<2>{{1, 0, 1}, {bend, bend, bend}});
     s.velocity = Points(0, 3);
     auto free = within(*s.current, *centre, radius, index == *chosen);
