@@ -79,17 +79,23 @@ template <int D>
 Expected<void> append_forces(const Scene& scene, int index, const BodyShapes<D>& shapes, ActiveLoads& loads) {
   for (const SceneForce& f : scene.forces) {
     if (f.body != index) continue;
-    const auto u = parameters_at<D>(*shapes.current, *f.at);
-    if (!u) return std::unexpected(u.error().within(f.name));
-    auto terms = basis_terms<D>(*shapes.current, *u);
-    if (f.kind == PointForceKind::dead) {
-      if (loads.nodal.rows() == 0) loads.nodal = Points::Zero(shapes.current->size(), 3);
-      for (const auto& [row, value] : terms) {
-        loads.nodal.row(row) += value * Eigen::RowVector3d(f.vector->data());
+    const auto append = [&]<class F>(const F& force) -> Expected<void> {
+      if constexpr (requires { force.at; }) {
+        const auto u = parameters_at<D>(*shapes.current, force.at);
+        if (!u) return std::unexpected(u.error().within(f.name));
+        auto terms = basis_terms<D>(*shapes.current, *u);
+        if constexpr (PullsAPoint<F>) {
+          loads.points.push_back(point_force(force, std::move(terms)));
+        } else {
+          if (loads.nodal.rows() == 0) loads.nodal = Points::Zero(shapes.current->size(), 3);
+          for (const auto& [row, value] : terms) {
+            loads.nodal.row(row) += value * Eigen::RowVector3d(force.vector.data());
+          }
+        }
       }
-      continue;
-    }
-    loads.points.push_back(point_force(f, std::move(terms)));
+      return {};
+    };
+    if (auto done = std::visit(append, f.force); !done) return done;
   }
   return {};
 }

@@ -77,15 +77,17 @@ Expected<void> add_line_force(const Surface& rest, SurfaceEdge edge, const Point
 
 Expected<Points> dead_forces(const SceneSurface& surface, const SceneForce& force, double length) {
   const Surface& rest = *surface.rest;
-  const Point vector(force.vector->data());
+  const auto* line = std::get_if<LineForce>(&force.force);
+  const auto* dead = std::get_if<DeadForce>(&force.force);
+  const Point vector((line != nullptr ? line->vector : dead->vector).data());
   Points forces = Points::Zero(rest.size(), 3);
   std::vector<SurfaceEdge> edges;
-  if (force.kind == PointForceKind::line) {
-    edges = edges_of(*force.edge);
+  if (line != nullptr) {
+    edges = edges_of(line->edge);
     for (SurfaceEdge edge : edges) {
       if (auto done = add_line_force(rest, edge, vector / length, forces); !done) return std::unexpected(done.error());
     }
-  } else if (auto done = add_point_force(rest, *force.at, vector, forces); !done) {
+  } else if (auto done = add_point_force(rest, dead->at, vector, forces); !done) {
     return std::unexpected(done.error());
   }
   for (const KeptConstraint& kept : surface.constraints) {
@@ -99,8 +101,8 @@ Expected<Points> dead_forces(const SceneSurface& surface, const SceneForce& forc
       if (std::ranges::find(edges, other) != edges.end()) continue;
       if (auto done = add_line_force(rest, other, image / length, forces); !done) return std::unexpected(done.error());
     }
-    if (!force.at) continue;
-    std::vector<double> at = *force.at;
+    if (dead == nullptr) continue;
+    std::vector<double> at = dead->at;
     double& along = at[static_cast<std::size_t>(symmetry->direction)];
     if (along == 0.5) continue;
     along = 1 - along;

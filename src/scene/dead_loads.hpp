@@ -16,13 +16,8 @@ namespace knead {
 /// direction. Errors: those of `load_forces`.
 [[nodiscard]] Expected<Points> area_forces(const Surface& rest, const DomainScaling<2>& scaling, const Point& per_area);
 
-/// Whether it is a dead or a line force.
-[[nodiscard]] constexpr bool keeps_direction(PointForceKind kind) {
-  return kind == PointForceKind::dead || kind == PointForceKind::line;
-}
-
-/// A dead or line force with its images under the mirror symmetries of its surface; `length` is the unit that line
-/// forces count. Errors: those of `plane_of`, `parameters_at` and `line_forces`.
+/// One that `keeps_direction`, with its images under the mirror symmetries of its surface; `length` is the unit that
+/// line forces count. Errors: those of `plane_of`, `parameters_at` and `line_forces`.
 [[nodiscard]] Expected<Points> dead_forces(const SceneSurface& surface, const SceneForce& force, double length);
 
 }  // namespace knead

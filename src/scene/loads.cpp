@@ -91,7 +91,7 @@ Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
       rows += *forces;
     }
     for (const SceneForce& f : scene.forces) {
-      if (f.surface != selection[patch] || !keeps_direction(f.kind)) continue;
+      if (f.surface != selection[patch] || !f.keeps_direction()) continue;
       const auto forces = dead_forces(s, f, scaling.length);
       if (!forces) return std::unexpected(forces.error());
       rows += *forces;
@@ -100,41 +100,52 @@ Expected<Points> dead_loads(const Scene& scene, const ActiveSurface& model) {
   return nodal;
 }
 
+/// A spring or volcano and its mirror images. \param first row of the surface's first control point
+template <PullsAPoint F>
+Expected<void> append_point_force(const SceneSurface& s, const F& f, int first, std::vector<PointForce>& points) {
+  const auto u = parameters_at<2>(*s.current, f.at);
+  if (!u) return std::unexpected(u.error());
+  PointForce force = point_force(f, basis_terms<2>(*s.current, *u, first));
+  for (const KeptConstraint& kept : s.constraints) {
+    const auto* symmetry = std::get_if<MirrorSymmetry>(&kept.constraint);
+    if (symmetry == nullptr) continue;
+    const auto plane = plane_of(*symmetry, *s.reference);
+    if (!plane) return std::unexpected(plane.error());
+    std::vector<double> at = f.at;
+    double& along = at[static_cast<std::size_t>(symmetry->direction)];
+    if (along == 0.5) continue;
+    along = 1 - along;
+    const auto there = parameters_at<2>(*s.current, at);
+    if (!there) return std::unexpected(there.error());
+    PointForce image = force;
+    image.terms = basis_terms<2>(*s.current, *there, first);
+    const Point n = plane->normal.normalized();
+    image.to -= 2 * n.dot(image.to - plane->point) * n;
+    points.push_back(std::move(image));
+  }
+  points.push_back(std::move(force));
+  return {};
+}
+
 }  // namespace
 
 Expected<std::vector<PointForce>> active_point_forces(const Scene& scene) {
   std::vector<PointForce> points;
   for (const SceneForce& f : scene.forces) {
     int first = 0;
-    bool selected = false;
-    for (int k : scene.selection()) {
-      selected = k == f.surface;
-      if (selected) break;
-      first += scene.surfaces[static_cast<std::size_t>(k)].current->size();
+    for (const int k : scene.selection()) {
+      const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
+      if (k != f.surface) {
+        first += s.current->size();
+        continue;
+      }
+      const auto append = [&]<class F>(const F& force) -> Expected<void> {
+        if constexpr (PullsAPoint<F>) return append_point_force(s, force, first, points);
+        return {};
+      };
+      if (auto done = std::visit(append, f.force); !done) return std::unexpected(done.error());
+      break;
     }
-    if (!selected || (f.kind != PointForceKind::spring && f.kind != PointForceKind::volcano)) continue;
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(f.surface)];
-    const auto u = parameters_at<2>(*s.current, *f.at);
-    if (!u) return std::unexpected(u.error());
-    PointForce force = point_force(f, basis_terms<2>(*s.current, *u, first));
-    for (const KeptConstraint& kept : s.constraints) {  // and its mirror images
-      const auto* symmetry = std::get_if<MirrorSymmetry>(&kept.constraint);
-      if (symmetry == nullptr) continue;
-      const auto plane = plane_of(*symmetry, *s.reference);
-      if (!plane) return std::unexpected(plane.error());
-      std::vector<double> at = *f.at;
-      double& along = at[static_cast<std::size_t>(symmetry->direction)];
-      if (along == 0.5) continue;
-      along = 1 - along;
-      const auto there = parameters_at<2>(*s.current, at);
-      if (!there) return std::unexpected(there.error());
-      PointForce image = force;
-      image.terms = basis_terms<2>(*s.current, *there, first);
-      const Point n = plane->normal.normalized();
-      image.to -= 2 * n.dot(image.to - plane->point) * n;
-      points.push_back(std::move(image));
-    }
-    points.push_back(std::move(force));
   }
   return points;
 }
@@ -165,7 +176,7 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_m
   if ((nodal->array() != 0).any()) loads.nodal = std::move(*nodal);
   for (const SceneForce& f : scene.forces) {
     const std::vector<int> selection = scene.selection();
-    if (f.kind == PointForceKind::moment && std::ranges::find(selection, f.surface) != selection.end()) {
+    if (std::holds_alternative<MomentForce>(f.force) && std::ranges::find(selection, f.surface) != selection.end()) {
       return input_error("a moment acts on shells only", f.name, R"(give {"do":"material","model":"shell"})");
     }
   }

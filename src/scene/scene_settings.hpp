@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -33,13 +34,16 @@ inline void note_engine(const StepEngine& engine, std::vector<std::string>& note
 }
 
 /// A spring or a volcano on the point Σ R X of these terms.
-inline PointForce point_force(const SceneForce& f, std::vector<std::pair<int, double>> terms) {
+template <PullsAPoint F>
+PointForce point_force(const F& f, std::vector<std::pair<int, double>> terms) {
   PointForce force;
-  force.kind = f.kind == PointForceKind::spring ? PointForce::Kind::spring : PointForce::Kind::volcano;
   force.terms = std::move(terms);
-  force.to = Point(f.to->data());
+  force.to = Point(f.to.data());
   force.strength = f.strength;
-  force.core = f.core;
+  if constexpr (std::is_same_v<F, VolcanoForce>) {
+    force.kind = PointForce::Kind::volcano;
+    force.core = f.core;
+  }
   return force;
 }
 

@@ -54,7 +54,7 @@ Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& she
     load += *forces;
   }
   for (const SceneForce& f : scene.forces) {
-    if (f.surface != surface || !keeps_direction(f.kind)) continue;
+    if (f.surface != surface || !f.keeps_direction()) continue;
     const auto forces = dead_forces(s, f, 1);
     if (!forces) return std::unexpected(forces.error());
     load += *forces;
@@ -65,15 +65,16 @@ Expected<Points> load_on(const Scene& scene, int surface, const ShellEnergy& she
 Expected<void> append_moments(const Scene& scene, int surface, int first, int size, std::vector<EdgeMoment>& moments) {
   const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(surface)];
   for (const SceneForce& f : scene.forces) {
-    if (f.surface != surface || f.kind != PointForceKind::moment) continue;
+    const auto* acting = std::get_if<MomentForce>(&f.force);
+    if (f.surface != surface || acting == nullptr) continue;
     if (std::ranges::any_of(s.constraints, [](const KeptConstraint& kept) {
           return std::holds_alternative<MirrorSymmetry>(kept.constraint);
         })) {
       return input_error("a moment has no mirror image", f.name,
                          "sculpt one half, with a symmetry of its edge, or release the mirror");
     }
-    for (const SurfaceEdge edge : edges_of(*f.edge)) {
-      auto moment = EdgeMoment::create(*s.rest, edge_across(edge), edge_at_end(edge), *f.moment, first, size);
+    for (const SurfaceEdge edge : edges_of(acting->edge)) {
+      auto moment = EdgeMoment::create(*s.rest, edge_across(edge), edge_at_end(edge), acting->moment, first, size);
       if (!moment) return std::unexpected(moment.error());
       moments.push_back(std::move(*moment));
     }
@@ -183,8 +184,7 @@ bool touches_shell(const Scene& scene) {
   const std::vector<int> selection = scene.selection();
   return !scene.tools.empty() || scene.limit || scene.load.pressure != 0 || scene.load.wind != Vector3{0, 0, 0} ||
          std::ranges::any_of(scene.forces, [&](const SceneForce& f) {
-           return (f.kind == PointForceKind::spring || f.kind == PointForceKind::volcano) &&
-                  std::ranges::find(selection, f.surface) != selection.end();
+           return f.pulls_a_point() && std::ranges::find(selection, f.surface) != selection.end();
          });
 }
 

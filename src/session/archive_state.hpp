@@ -109,12 +109,24 @@ inline void pass(Reader& a, KeptConstraint& x) {
   x.constraint = *std::move(constraint);
 }
 
-template <class A>
-void pass(A& a, Of<A, SceneForce>& f) {
-  command<ForceCommand>(a, f);
-  pass(a, f.surface);
-  if (older_than(a, 9)) return;  // which had no bodies
-  pass(a, f.body);
+inline void pass(Writer& a, const SceneForce& f) {
+  a.text(to_json(f));
+  a.integer(f.surface);
+  a.integer(f.body);
+}
+inline void pass(Reader& a, SceneForce& f) {
+  std::string json;
+  a.text(json);
+  a.integer(f.surface);
+  if (a.version() > 8) a.integer(f.body);  // before, there were no bodies
+  if (a.bad()) return;
+  const auto parsed = parse_command(json);
+  const auto* fields = parsed ? fields_of<ForceCommand>(*parsed) : nullptr;
+  if (fields == nullptr) return a.fail();
+  auto force = force_of(*fields);
+  if (!force) return a.fail();
+  f.name = fields->name;
+  f.force = *std::move(force);
 }
 
 template <class A>

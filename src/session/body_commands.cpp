@@ -256,21 +256,19 @@ Expected<void> on_body(Executor& executor, const ReleaseCommand& c) {
 
 Expected<void> on_body(Executor& executor, const ForceCommand& c) {
   const SceneBody& body = *executor.body();
-  if (c.force.kind == PointForceKind::line || c.force.kind == PointForceKind::moment) {
+  if (c.kind == ForceKind::line || c.kind == ForceKind::moment) {
     return input_error(fmt::format("a {} has no edges", kind_of(body)), "kind", "use spring, volcano or dead");
   }
-  if (auto complete = check_force(c.force); !complete) return complete;
+  auto force = force_of(c);
+  if (!force) return std::unexpected(force.error());
   const auto there = std::visit(
       [&]<int D>(const BodyShapes<D>& shapes) -> Expected<void> {
-        const auto u = parameters_at<D>(*shapes.current, *c.force.at);
+        const auto u = parameters_at<D>(*shapes.current, *c.at);
         return u ? Expected<void>() : std::unexpected(u.error());
       },
       body.shapes);
   if (!there) return there;
-  SceneForce force = c.force;
-  force.surface = -1;
-  force.body = *executor.state.body;
-  put_force(executor.state, std::move(force));
+  put_force(executor.state, {.name = c.name, .surface = -1, .body = *executor.state.body, .force = *std::move(force)});
   return {};
 }
 

@@ -99,7 +99,7 @@ Expected<Command> parse_command(std::string_view text) {
 std::string to_json(const Command& command) { return to_json(type_of<CommandVariant>(), &command.any().fields); }
 
 std::string to_json(const Constraint& constraint) { return to_json(restated(constraint)); }
-std::string to_json(const SceneForce& force) { return to_json(make_command(ForceCommand{force})); }
+std::string to_json(const SceneForce& force) { return to_json(make_command(restated(force))); }
 std::string to_json(const Load& load) { return to_json(make_command(LoadCommand{load})); }
 std::string to_json(const EvolutionPolicy& evolution) { return to_json(make_command(EvolveCommand{evolution})); }
 std::string to_json(const SeamPolicy& seams) { return to_json(make_command(SeamsCommand{seams})); }

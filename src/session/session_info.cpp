@@ -322,7 +322,7 @@ std::string session_json(const Session& session) {
   info.bodies = bodies_of(state);
   info.body = state.body;
   for (const Tool& tool : state.tools) info.tools.push_back(info_of(tool));
-  for (const SceneForce& force : state.forces) info.forces.emplace_back(ForceCommand{force});
+  for (const SceneForce& force : state.forces) info.forces.emplace_back(restated(force));
   info.load = LoadCommand{state.load};
   info.evolve = EvolveCommand{state.evolution};
   info.limit = state.limit;

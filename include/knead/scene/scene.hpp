@@ -14,6 +14,7 @@
 #include "knead/scene/body.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/scene/elasticity.hpp"
+#include "knead/scene/force.hpp"
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/brush.hpp"
 #include "knead/sculpt/edge_coupling.hpp"
@@ -23,27 +24,6 @@
 namespace knead {
 
 // What is being sculpted, as plain values: no commands, no files, no computed data.
-
-/// Springs and volcanoes pull a point towards a place or away from it; dead forces keep their direction, on a point or
-/// along an edge; moments turn about an edge, wherever it goes.
-enum class PointForceKind { spring, volcano, dead, line, moment };
-
-/// A force on one point or one edge of a surface or body, acting until it is removed (thesis Eq. 4.24).
-struct SceneForce {
-  std::string name = "force";
-  int surface = 0;  ///< index into the scene's surfaces; −1: it acts on a body
-  PointForceKind kind = PointForceKind::spring;
-  std::optional<std::vector<double>> at = {};  ///< all but line and moment: a fraction for each direction
-  std::optional<Vector3> to = {};              ///< spring, volcano
-  double strength = 10;                        ///< of these
-  double core = 0.1;                           ///< volcano: within this distance it stops growing
-  std::optional<Vector3> vector = {};          ///< dead: the force, line: per length of the rest shape
-  std::optional<EdgeChoice> edge = {};         ///< line, moment
-  std::optional<double> moment = {};           ///< per length of the rest shape; of shells
-  int body = -1;                               ///< index into the scene's bodies; −1: it acts on a surface
-
-  friend bool operator==(const SceneForce&, const SceneForce&) = default;
-};
 
 /// What `Load::vector` is counted by.
 enum class LoadMeasure {

@@ -9,43 +9,43 @@
 
 namespace knead {
 
-std::span<const Choice> choices(PointForceKind) {
+std::span<const Choice> choices(ForceKind) {
   static constexpr Choice list[] = {
-      {"spring", PointForceKind::spring, "draws the point to `to`"},
-      {"volcano", PointForceKind::volcano, "drives it away from there"},
-      {"dead", PointForceKind::dead, "`vector`, whatever the point does"},
-      {"line", PointForceKind::line, "`vector` per length of the rest shape, along `edge`"},
-      {"moment", PointForceKind::moment, "`moment` per length of the rest shape, about `edge`, following it"}};
+      {"spring", ForceKind::spring, "draws the point to `to`"},
+      {"volcano", ForceKind::volcano, "drives it away from there"},
+      {"dead", ForceKind::dead, "`vector`, whatever the point does"},
+      {"line", ForceKind::line, "`vector` per length of the rest shape, along `edge`"},
+      {"moment", ForceKind::moment, "`moment` per length of the rest shape, about `edge`, following it"}};
   return list;
 }
 
 void describe(ForceCommand& c, Fields& fields) {
   fields.name("force", "a force on one point or edge, until `remove`");
-  fields.add("name", c.force.name, {.help = "what `remove` calls it"});
-  fields.add("kind", c.force.kind);
-  fields.add("at", c.force.at,
+  fields.add("name", c.name, {.help = "what `remove` calls it"});
+  fields.add("kind", c.kind);
+  fields.add("at", c.at,
              {.help = "`[s, t]`: the surface point, of a curve `[s]`, of a volume `[s, t, r]`; of all kinds but line "
                       "and moment",
               .unit = Unit::fraction});
-  fields.add("to", c.force.to, {.help = "`[x, y, z]`: of springs and volcanoes", .unit = Unit::length});
-  fields.add("strength", c.force.strength, {.help = "spring constant, or k of the volcano's k/r²"});
-  fields.add("core", c.force.core,
+  fields.add("to", c.to, {.help = "`[x, y, z]`: of springs and volcanoes", .unit = Unit::length});
+  fields.add("strength", c.strength, {.help = "spring constant, or k of the volcano's k/r²"});
+  fields.add("core", c.core,
              {.help = "distance within which the force of a volcano no longer grows", .unit = Unit::length});
   fields.add(
-      "vector", c.force.vector,
+      "vector", c.vector,
       {.help = "`[x, y, z]`: of a dead force, or of a line force per length; lengths and forces are those of the "
                "model, in `scaling` raw those of the file"});
-  fields.add("edge", c.force.edge, {.help = "of a line force or a moment"});
-  fields.add("moment", c.force.moment,
+  fields.add("edge", c.edge, {.help = "of a line force or a moment"});
+  fields.add("moment", c.moment,
              {.help = "of shells: force times length per length, right-handed about the edge's direction"});
 }
 
 namespace {
 
 /// Whether the force has all that its kind needs, and nothing that it does not have.
-Expected<void> check_kind(const SceneForce& f) {
-  const bool moment = f.kind == PointForceKind::moment, edge = moment || f.kind == PointForceKind::line;
-  const bool vector = f.kind == PointForceKind::line || f.kind == PointForceKind::dead;
+Expected<void> check_kind(const ForceCommand& f) {
+  const bool moment = f.kind == ForceKind::moment, edge = moment || f.kind == ForceKind::line;
+  const bool vector = f.kind == ForceKind::line || f.kind == ForceKind::dead;
   const struct {
     const char* name;
     bool given, needed;
@@ -57,7 +57,7 @@ Expected<void> check_kind(const SceneForce& f) {
                 {"moment", f.moment.has_value(), moment, "give the moment per length, as 1"}};
   for (const auto& [name, given, needed, remedy] : fields) {
     if (given == needed) continue;
-    const std::string_view kind = choices(PointForceKind{})[static_cast<std::size_t>(f.kind)].name;
+    const std::string_view kind = choices(ForceKind{})[static_cast<std::size_t>(f.kind)].name;
     if (needed) return input_error(fmt::format("a force of kind {} needs it", kind), name, remedy);
     return input_error(fmt::format("a force of kind {} has none", kind), name, "leave it out");
   }
@@ -67,16 +67,48 @@ Expected<void> check_kind(const SceneForce& f) {
   return {};
 }
 
-}  // namespace
-
-Expected<void> check_force(const SceneForce& force) {
-  if (auto complete = check_kind(force); !complete) return complete;
-  if (!(force.strength >= 0 && force.strength <= max_tool_stiffness)) {
-    return input_error(fmt::format("{} is not a strength", force.strength), "strength",
+Expected<void> check_force(const ForceCommand& c) {
+  if (auto complete = check_kind(c); !complete) return complete;
+  if (!(c.strength >= 0 && c.strength <= max_tool_stiffness)) {
+    return input_error(fmt::format("{} is not a strength", c.strength), "strength",
                        fmt::format("use a number from 0 to {}", max_tool_stiffness));
   }
-  if (std::isfinite(force.core) && force.core > 0) return {};
-  return input_error(fmt::format("{} is not a length", force.core), "core", "use a number > 0");
+  if (std::isfinite(c.core) && c.core > 0) return {};
+  return input_error(fmt::format("{} is not a length", c.core), "core", "use a number > 0");
+}
+
+}  // namespace
+
+Expected<Force> force_of(const ForceCommand& c) {
+  if (auto valid = check_force(c); !valid) return std::unexpected(valid.error());
+  switch (c.kind) {
+    case ForceKind::spring:
+      return SpringForce{*c.at, *c.to, c.strength};
+    case ForceKind::volcano:
+      return VolcanoForce{*c.at, *c.to, c.strength, c.core};
+    case ForceKind::dead:
+      return DeadForce{*c.at, *c.vector};
+    case ForceKind::line:
+      return LineForce{*c.edge, *c.vector};
+    default:
+      return MomentForce{*c.edge, *c.moment};
+  }
+}
+
+ForceCommand restated(const SceneForce& force) {
+  ForceCommand c{.name = force.name, .kind = static_cast<ForceKind>(force.force.index())};
+  std::visit(
+      [&c](const auto& f) {
+        if constexpr (requires { f.at; }) c.at = f.at;
+        if constexpr (requires { f.to; }) c.to = f.to;
+        if constexpr (requires { f.strength; }) c.strength = f.strength;
+        if constexpr (requires { f.core; }) c.core = f.core;
+        if constexpr (requires { f.vector; }) c.vector = f.vector;
+        if constexpr (requires { f.edge; }) c.edge = f.edge;
+        if constexpr (requires { f.moment; }) c.moment = f.moment;
+      },
+      force.force);
+  return c;
 }
 
 void put_force(Scene& scene, SceneForce force) {
@@ -92,14 +124,12 @@ template <>
 Expected<void> Executor::execute(const ForceCommand& c) {
   auto surface = selected();
   if (!surface) return std::unexpected(surface.error());
-  if (auto complete = check_force(c.force); !complete) return complete;
-  if (c.force.at) {
-    if (auto u = parameters_at<2>(*(*surface)->current, *c.force.at); !u) return std::unexpected(u.error());
+  auto force = force_of(c);
+  if (!force) return std::unexpected(force.error());
+  if (c.at) {
+    if (auto u = parameters_at<2>(*(*surface)->current, *c.at); !u) return std::unexpected(u.error());
   }
-  SceneForce force = c.force;
-  force.surface = *state.selected;
-  force.body = -1;
-  put_force(state, std::move(force));
+  put_force(state, {.name = c.name, .surface = *state.selected, .force = *std::move(force)});
   return {};
 }
 

@@ -4,15 +4,30 @@
 
 namespace knead {
 
-/// A force on one surface point or edge, acting until it is removed (thesis Eq. 4.24).
+/// The kinds of `Force`, in their order.
+enum class ForceKind { spring, volcano, dead, line, moment };
+
+std::span<const Choice> choices(ForceKind);
+
+/// A force on one point or edge of the first selected surface, or on one point of the selected body, until it is
+/// removed (thesis Eq. 4.24). Each kind has some of the fields.
 struct ForceCommand {
-  SceneForce force;  ///< on the first selected surface
+  std::string name = "force";
+  ForceKind kind = ForceKind::spring;
+  std::optional<std::vector<double>> at = {};
+  std::optional<Vector3> to = {};
+  double strength = 10, core = 0.1;
+  std::optional<Vector3> vector = {};
+  std::optional<EdgeChoice> edge = {};
+  std::optional<double> moment = {};
 };
 
-std::span<const Choice> choices(PointForceKind);
+/// The force that is meant. Errors (input): it lacks what its kind needs, has what its kind has not, or a number is out
+/// of range.
+[[nodiscard]] Expected<Force> force_of(const ForceCommand& c);
 
-/// Errors (input): a force lacks what its kind needs, has what its kind has not, or a number is out of range.
-[[nodiscard]] Expected<void> check_force(const SceneForce& force);
+/// The command that makes a force.
+[[nodiscard]] ForceCommand restated(const SceneForce& force);
 
 /// Adds a force, or replaces the one of that name.
 void put_force(Scene& scene, SceneForce force);
