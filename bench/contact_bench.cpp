@@ -10,7 +10,6 @@
 #include "knead/session/command_json.hpp"
 #include "knead/session/session.hpp"
 #include "medians.hpp"
-#include "scene/shell_model.hpp"
 
 // A moving ball in contact with a sheet: a cubic net over the unit square with two rows held and λ = 20, a ball of
 // radius 0.15 whose centre goes from (0.5, 0.5, 0.16) by (0.005, 0, −0.004) per frame, 20 frames. Times are medians
@@ -51,15 +50,16 @@ struct Work {
   std::vector<double> times, iterations, solves;
 };
 
-template <class Scene>
-void run(const Scene& scene, const SessionState& start, bool touches, Work& work) {
+/// \param step of a model, from a state under tools.
+template <class Step>
+void run(const Step& step_of, const SessionState& start, bool touches, Work& work) {
   std::vector<Tool> tools = start.tools;
   ActiveState state = active_state(start);
   for (int k = 0; k < frames; ++k) {
     const Placement& at = tools[0].shape.placement();
     tools[0].shape = *tools[0].shape.moved(at.rotation, at.position + Point(0.005, 0, -0.004));
     const double begun = bench::milliseconds();
-    auto step = scene.model.step(state, touches ? tools : std::vector<Tool>(), {});
+    auto step = step_of(state, touches ? tools : std::vector<Tool>());
     work.times.push_back(bench::milliseconds() - begun);
     check(step.has_value() && step->converged, "a step failed");
     work.iterations.push_back(step->iterations);
@@ -77,7 +77,10 @@ void frame(benchmark::State& state, bool touches, StepAccuracy accuracy, StepSol
   check(scene.has_value(), "no model");
   state.counters["made_ms"] = bench::milliseconds() - begun;
   Work work;
-  for (auto _ : state) run(*scene, start, touches, work);
+  const auto step = [&](const ActiveState& from, const std::vector<Tool>& tools) {
+    return scene->model.step(from, tools);
+  };
+  for (auto _ : state) run(step, start, touches, work);
   state.counters["ms"] = bench::median(work.times);
   state.counters["iterations"] = bench::median(work.iterations);
   state.counters["solves"] = bench::median(work.solves);
@@ -100,12 +103,13 @@ void shell(benchmark::State& state, StepAccuracy accuracy) {
     start.surfaces[k].elasticity = ShellMaterial{2e5, 0.3, 0.02, 0};
   start.evolution.mode = Evolution::stationary;
   start.evolution.accuracy = accuracy;
-  const auto problem = shell_problem(start);
-  check(problem.has_value(), "no shell");
-  const auto model = make_shell_model(start, *problem, start.evolution);
+  const auto model = model_of(start, start.evolution);
   check(model.has_value(), "no model of the shell");
+  const auto step = [&](const ActiveState& from, const std::vector<Tool>& tools) {
+    return (*model)->step(from, tools, {});
+  };
   Work work;
-  for (auto _ : state) run(*model, start, true, work);
+  for (auto _ : state) run(step, start, true, work);
   state.counters["ms"] = bench::median(work.times);
   state.counters["iterations"] = bench::median(work.iterations);
 }

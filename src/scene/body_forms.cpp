@@ -1,24 +1,17 @@
+#include "body_forms.hpp"
+
 #include <fmt/format.h>
 
-#include "knead/scene/body_model.hpp"
 #include "knead/sculpt/active_form.hpp"
 #include "knead/sculpt/loads.hpp"
-#include "scene_settings.hpp"
 #include "shell_model.hpp"
 
 namespace knead {
 namespace {
 
-Expected<void> check_forms(const SceneBody& body, const ActiveLoads& loads) {
-  const auto refused = [&](const char* what, const char* field, const char* remedy) {
-    return input_error(fmt::format("a {} that keeps its fundamental forms has no {}", kind_of(body), what), field,
-                       remedy);
-  };
-  if (body.mode == RestMode::none) {
-    return refused("place without a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
-  }
-  if (loads.gravity != Point::Zero()) return refused("weight", "gravity", "use vector");
-  return {};
+std::unexpected<Error> has_none(const SceneBody& body, const char* what, const char* field, const char* remedy) {
+  return input_error(fmt::format("a {} that keeps its fundamental forms has no {}", kind_of(body), what), field,
+                     remedy);
 }
 
 /// The forces that keep their direction.
@@ -33,55 +26,94 @@ Expected<Points> dead_forces_on(const Spline<D>& rest, const ActiveLoads& loads)
 }
 
 template <int D>
-Expected<ActiveStep> settle(const Scene& scene, const SceneBody& body, const BodyShapes<D>& shapes,
-                            const FormWeights& weights, const ActiveLoads& loads, const EvolutionPolicy& evolution,
-                            std::vector<std::string>& notes) {
-  const Points &rest = shapes.rest->control_points(), &present = shapes.current->control_points();
-  const auto conditions = body_conditions<D>(body_input<D>(scene, body, evolution), present, notes);
-  if (!conditions) return std::unexpected(conditions.error());
-  auto energy = FormEnergy<D>::create(*shapes.rest, weights);
-  if (!energy) return std::unexpected(energy.error());
-  ActiveShellSettings settings{.evolution = evolution.mode,
-                               .lambda = evolution.lambda,
-                               .time_step = evolution.time_step,
-                               .damping = body.mass > 0 ? body.damping / body.mass : 0,
-                               .mass = body.mass,
-                               .constraints = *conditions,
-                               .detail = detail_of(scene.tools),
-                               .accuracy = evolution.accuracy};
-  const auto model = ActiveForm<D>::create(*shapes.rest, std::move(*energy), std::move(settings));
-  if (!model) return std::unexpected(model.error());
-  auto forces = dead_forces_on<D>(*shapes.rest, loads);
-  if (!forces) return std::unexpected(forces.error());
-  auto step =
-      model->step(active_state(body), scene.tools, {std::move(*forces), loads.points, loads.limit, loads.original});
-  if (step) step->control_points = with_held_bits(std::move(step->control_points), present, rest, *conditions);
-  return step;
-}
+class FormModel final : public Model {
+ public:
+  static Expected<std::unique_ptr<Model>> create(BodyInput<D> input, const Points& present) {
+    std::vector<std::string> notes;
+    auto conditions = body_conditions<D>(input, present, notes);
+    if (!conditions) return std::unexpected(conditions.error());
+    auto energy = FormEnergy<D>::create(*input.rest, std::get<FormWeights>(input.elasticity));
+    if (!energy) return std::unexpected(energy.error());
+    ActiveShellSettings settings{.evolution = input.evolution.mode,
+                                 .lambda = input.evolution.lambda,
+                                 .time_step = input.evolution.time_step,
+                                 .damping = input.mass > 0 ? input.damping / input.mass : 0,
+                                 .mass = input.mass,
+                                 .constraints = *conditions,
+                                 .detail = input.detail,
+                                 .accuracy = input.evolution.accuracy};
+    auto model = ActiveForm<D>::create(*input.rest, *energy, std::move(settings));
+    if (!model) return std::unexpected(model.error());
+    return std::unique_ptr<Model>(new FormModel(std::move(input), *std::move(conditions), *std::move(energy),
+                                                *std::move(model), std::move(notes)));
+  }
+
+  [[nodiscard]] bool serves(const Scene& scene, const EvolutionPolicy& evolution) const override {
+    const SceneBody* body = selected_body<D>(scene);
+    if (body == nullptr || !(input_ == body_input<D>(scene, *body, evolution))) return false;
+    std::vector<std::string> notes;
+    const auto conditions = body_conditions<D>(input_, control_points_of(*body), notes);
+    return conditions && *conditions == conditions_;
+  }
+  [[nodiscard]] bool measures(const Scene& scene) const override {
+    const SceneBody* body = selected_body<D>(scene);
+    if (body == nullptr) return false;
+    const auto& shapes = std::get<BodyShapes<D>>(body->shapes);
+    return shapes.rest == input_.rest && shapes.elasticity == input_.elasticity;
+  }
+  [[nodiscard]] Expected<ActiveLoads> loads(const Scene& scene,
+                                            const std::vector<PointForce>& /*grips*/) const override {
+    auto loads = body_loads(scene, *scene.body);
+    if (!loads) return loads;
+    if (loads->gravity != Point::Zero()) {
+      return has_none(scene.bodies[static_cast<std::size_t>(*scene.body)], "weight", "gravity", "use vector");
+    }
+    auto forces = dead_forces_on<D>(*input_.rest, *loads);
+    if (!forces) return std::unexpected(forces.error());
+    loads->nodal = *std::move(forces);
+    loads->force = Point::Zero();
+    return loads;
+  }
+  [[nodiscard]] Expected<ActiveStep> step(const ActiveState& from, std::span<const Tool> tools,
+                                          const ActiveLoads& loads, int /*increments*/) override {
+    auto step = model_.step(from, tools, loads);
+    if (!step) return step;
+    step->control_points = with_held_bits(std::move(step->control_points), from.control_points,
+                                          input_.rest->control_points(), conditions_);
+    return step;
+  }
+  [[nodiscard]] double energy(const ActiveState& of) const override { return energy_.energy(of.control_points).sum(); }
+  [[nodiscard]] std::span<const std::string> notes() const override { return notes_; }
+  [[nodiscard]] Eigen::Index size() const override { return input_.rest->size(); }
+
+ private:
+  FormModel(BodyInput<D> input, std::vector<LinearConstraint> conditions, FormEnergy<D> energy, ActiveForm<D> model,
+            std::vector<std::string> notes)
+      : input_(std::move(input)),
+        conditions_(std::move(conditions)),
+        energy_(std::move(energy)),
+        model_(std::move(model)),
+        notes_(std::move(notes)) {}
+
+  BodyInput<D> input_;
+  std::vector<LinearConstraint> conditions_;  // at the places of the first step
+  FormEnergy<D> energy_;
+  ActiveForm<D> model_;
+  std::vector<std::string> notes_;
+};
 
 }  // namespace
 
-Expected<ActiveStep> settle_forms(const Scene& scene, int index, const EvolutionPolicy& evolution,
-                                  std::vector<std::string>& notes) {
-  const SceneBody& body = scene.bodies[static_cast<std::size_t>(index)];
-  const auto loads = body_loads(scene, index);
-  if (!loads) return std::unexpected(loads.error());
-  if (auto fits = check_forms(body, *loads); !fits) return std::unexpected(fits.error());
-  return std::visit(
-      [&](const auto& shapes) {
-        return settle(scene, body, shapes, std::get<FormWeights>(shapes.elasticity), *loads, evolution, notes);
-      },
-      body.shapes);
+template <int D>
+Expected<std::unique_ptr<Model>> form_model(const Scene& scene, const SceneBody& body,
+                                            const EvolutionPolicy& evolution) {
+  if (body.mode == RestMode::none) {
+    return has_none(body, "place without a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
+  }
+  return FormModel<D>::create(body_input<D>(scene, body, evolution), control_points_of(body));
 }
 
-Expected<double> form_energy_of(const SceneBody& body) {
-  return std::visit(
-      [&]<int D>(const BodyShapes<D>& shapes) -> Expected<double> {
-        const auto energy = FormEnergy<D>::create(*shapes.rest, std::get<FormWeights>(shapes.elasticity));
-        if (!energy) return std::unexpected(energy.error());
-        return energy->energy(shapes.current->control_points()).sum();
-      },
-      body.shapes);
-}
+template Expected<std::unique_ptr<Model>> form_model<1>(const Scene&, const SceneBody&, const EvolutionPolicy&);
+template Expected<std::unique_ptr<Model>> form_model<3>(const Scene&, const SceneBody&, const EvolutionPolicy&);
 
 }  // namespace knead

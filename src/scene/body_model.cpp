@@ -110,6 +110,7 @@ BodyInput<D> body_input(const Scene& scene, const SceneBody& body, const Evoluti
           .rest = shapes.rest,
           .mode = body.mode,
           .material = shapes.material,
+          .elasticity = shapes.elasticity,
           .mass = body.mass,
           .damping = body.damping,
           .hold_rows = body.hold_rows,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dead_loads.hpp"
+#include "knead/scene/body_model.hpp"
 #include "knead/scene/formula_field.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/places.hpp"
@@ -13,6 +14,7 @@
 namespace knead {
 
 ActiveState active_state(const Scene& scene) {
+  if (scene.body) return active_state(scene.bodies[static_cast<std::size_t>(*scene.body)]);
   Eigen::Index size = 0, at = 0;
   bool moving = false;
   for (int k : scene.selection()) {

@@ -166,6 +166,7 @@ ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
                               .rest = measures_from_rest(s.constraints) || by_area ? s.rest : nullptr,
                               .mode = s.mode,
                               .material = s.material,
+                              .elasticity = s.elasticity,
                               .hold_rows = s.hold_rows,
                               .pins = s.pins,
                               .constraints = s.constraints,

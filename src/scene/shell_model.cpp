@@ -5,7 +5,10 @@
 
 #include "constraints.hpp"
 #include "dead_loads.hpp"
+#include "knead/scene/anchors.hpp"
+#include "knead/sculpt/active_shell.hpp"
 #include "knead/sculpt/loads.hpp"
+#include "knead/solve/shell_statics.hpp"
 
 namespace knead {
 namespace {
@@ -19,13 +22,21 @@ Expected<void> check_scope(const SceneSurface& s) {
   return {};
 }
 
-/// Control points that do not move, as conditions.
-void append_held(const JoinedSurfaces& joined, const Points& displacement, std::vector<LinearConstraint>& to) {
+/// What holds the shells: control points that do not move, as conditions, before the others.
+std::vector<LinearConstraint> conditions_of(const JoinedSurfaces& joined, const Points& displacement) {
+  std::vector<LinearConstraint> to;
   for (std::size_t k = 0; k < joined.settings.held.size(); ++k) {
     if (!joined.settings.held[k]) continue;
     const int row = static_cast<int>(k);
     to.push_back({joined.held_by[k], {{row, 1.0}}, displacement.row(row).transpose()});
   }
+  to.insert(to.end(), joined.settings.constraints.begin(), joined.settings.constraints.end());
+  return to;
+}
+
+/// Whether all forces are known before the shape is.
+bool keep_direction(const ActiveLoads& loads) {
+  return loads.limit == 0 && loads.pressure == 0 && loads.wind == Point::Zero() && loads.points.empty();
 }
 
 /// On the surface of this index.
@@ -108,20 +119,12 @@ Expected<ShellEnergy> energy_of(const SceneSurface& s) {
   return ShellEnergy::of_forms(*s.rest, std::get<FundamentalMaterial>(s.elasticity));
 }
 
-/// The input of the models of linear surfaces, for what holds shells: in places of the rest shape.
-ModelInput held_input(const Scene& scene) {
-  ModelInput input = model_input(scene, scene.evolution);
+/// As that of linear surfaces, with all rest shapes: what holds shells is in places of these.
+ModelInput shell_input(const Scene& scene, const EvolutionPolicy& evolution) {
+  ModelInput input = model_input(scene, evolution);
   const std::vector<int> selection = scene.selection();
   for (std::size_t k = 0; k < selection.size(); ++k) {
     input.surfaces[k].rest = scene.surfaces[static_cast<std::size_t>(selection[k])].rest;
-  }
-  return input;
-}
-
-ShellInput shell_input(const Scene& scene) {
-  ShellInput input{held_input(scene), {}};
-  for (const int k : scene.selection()) {
-    input.elasticities.push_back(scene.surfaces[static_cast<std::size_t>(k)].elasticity);
   }
   return input;
 }
@@ -143,89 +146,198 @@ Expected<ShellStructure> structure_of(std::span<const SceneSurface* const> surfa
   return ShellStructure(std::move(shells), std::move(creases));
 }
 
-}  // namespace
-
-Expected<ShellProblem> shell_problem(const Scene& scene, const ShellProblem* kept) {
-  const std::vector<int> selection = scene.selection();
+Expected<ShellSetup> shell_setup(const Scene& scene, const EvolutionPolicy& evolution) {
   std::vector<const SceneSurface*> surfaces;
-  for (const int k : selection) {
+  for (const int k : scene.selection()) {
     surfaces.push_back(&scene.surfaces[static_cast<std::size_t>(k)]);
     if (auto within = check_scope(*surfaces.back()); !within) return std::unexpected(within.error());
   }
-  ShellInput input = shell_input(scene);
-  const bool same = kept != nullptr && kept->surfaces == selection && kept->input == input;
-  auto joined = same ? Expected<JoinedSurfaces>(kept->joined) : join_surfaces(input.model);
+  ModelInput input = shell_input(scene, evolution);
+  auto joined = join_surfaces(input);
   if (!joined) return std::unexpected(joined.error());
-  auto structure = same ? Expected<ShellStructure>(kept->structure) : structure_of(surfaces, *joined);
+  auto structure = structure_of(surfaces, *joined);
   if (!structure) return std::unexpected(structure.error());
-  const std::vector<int>& rows = joined->rows;
-  Points rest(rows.back(), 3), present(rows.back(), 3), load(rows.back(), 3);
-  std::vector<EdgeMoment> moments;
+  return ShellSetup{std::move(input), *std::move(joined), *std::move(structure)};
+}
+
+/// The loads and forces that keep their direction or follow edges.
+Expected<ActiveLoads> forces_on(const Scene& scene, const ShellStructure& structure) {
+  const std::vector<int> selection = scene.selection();
+  ActiveLoads loads;
+  loads.nodal.resize(structure.size(), 3);
   for (std::size_t k = 0; k < selection.size(); ++k) {
-    const auto forces = load_on(scene, selection[k], structure->shells()[k]);
+    const int first = structure.rows()[k], n = structure.rows()[k + 1] - first;
+    const auto forces = load_on(scene, selection[k], structure.shells()[k]);
     if (!forces) return std::unexpected(forces.error());
-    const int first = rows[k], n = rows[k + 1] - first;
-    rest.middleRows(first, n) = surfaces[k]->rest->control_points();
-    present.middleRows(first, n) = surfaces[k]->current->control_points();
-    load.middleRows(first, n) = *forces;
-    if (auto ok = append_moments(scene, selection[k], first, rows.back(), moments); !ok) {
+    loads.nodal.middleRows(first, n) = *forces;
+    if (auto ok = append_moments(scene, selection[k], first, structure.size(), loads.moments); !ok) {
       return std::unexpected(ok.error());
     }
   }
-  std::vector<LinearConstraint> constraints;
-  append_held(*joined, present - rest, constraints);
-  constraints.insert(constraints.end(), joined->settings.constraints.begin(), joined->settings.constraints.end());
-  return ShellProblem{std::move(input),       std::move(*joined), selection,
-                      std::move(*structure),  std::move(rest),    std::move(present),
-                      std::move(constraints), std::move(load),    std::move(moments)};
+  return loads;
 }
 
-bool touches_shell(const Scene& scene) {
-  const std::vector<int> selection = scene.selection();
-  return !scene.tools.empty() || scene.limit || scene.load.pressure != 0 || scene.load.wind != Vector3{0, 0, 0} ||
-         std::ranges::any_of(scene.forces, [&](const SceneForce& f) {
-           return f.pulls_a_point() && std::ranges::find(selection, f.surface) != selection.end();
-         });
+/// Equilibrium under dead loads and moments, which need not be stable, from the rest shape.
+Expected<ActiveStep> equilibrium_of(const ShellStructure& structure, const Points& rest,
+                                    const std::vector<LinearConstraint>& constraints, const ActiveLoads& loads,
+                                    int increments) {
+  auto found = shell_equilibrium(structure, rest, constraints, loads.nodal, {.increments = increments}, loads.moments);
+  if (!found) return std::unexpected(found.error());
+  ActiveStep step;
+  step.control_points = std::move(found->control_points);
+  step.converged = found->converged;
+  step.note = found->note;
+  step.load_factor = found->load_factor;
+  for (const ShellIncrement& part : found->increments) {
+    step.increments.push_back(part.iterations);
+    step.iterations += part.iterations;
+    step.residual = part.residual;
+  }
+  return step;
 }
 
-Expected<ShellModel> make_shell_model(const Scene& scene, const ShellProblem& problem,
-                                      const EvolutionPolicy& evolution) {
-  const ActiveSettings<2>& joined = problem.joined.settings;
-  const SceneSurface& first = scene.surfaces[static_cast<std::size_t>(problem.surfaces.front())];
-  const auto *mass = std::get_if<double>(&first.material.mass), *damping = std::get_if<double>(&first.material.damping);
-  const bool forms = std::ranges::none_of(problem.input.elasticities, [](const Elasticity<2>& elasticity) {
-    return std::holds_alternative<ShellMaterial>(elasticity);
-  });
-  ActiveShellSettings settings{.evolution = evolution.mode,
-                               .lambda = evolution.lambda,
-                               .time_step = evolution.time_step,
+class ShellModel final : public Model {
+ public:
+  explicit ShellModel(ShellSetup setup) : setup_(std::move(setup)) {}
+
+  [[nodiscard]] bool serves(const Scene& scene, const EvolutionPolicy& evolution) const override {
+    return setup_.input == shell_input(scene, evolution);
+  }
+  [[nodiscard]] bool measures(const Scene& scene) const override {
+    ModelInput input = shell_input(scene, setup_.input.evolution);
+    input.detail = setup_.input.detail;
+    return input == setup_.input;
+  }
+  [[nodiscard]] Expected<ActiveLoads> loads(const Scene& scene, const std::vector<PointForce>& grips) const override;
+  [[nodiscard]] Expected<ActiveStep> step(const ActiveState& from, std::span<const Tool> tools,
+                                          const ActiveLoads& loads, int increments) override;
+  [[nodiscard]] double energy(const ActiveState& of) const override {
+    return setup_.structure.energy(of.control_points).sum();
+  }
+  [[nodiscard]] std::span<const SeamReport> seams() const override { return setup_.joined.seams; }
+  [[nodiscard]] std::span<const std::string> notes() const override { return setup_.joined.notes; }
+  [[nodiscard]] Eigen::Index size() const override { return setup_.structure.size(); }
+
+ private:
+  [[nodiscard]] bool is_stationary() const { return setup_.input.evolution.mode == Evolution::stationary; }
+  [[nodiscard]] Expected<ActiveShell> pressed() const;
+  Expected<ActiveStep> press(const ActiveState& from, std::span<const Tool> tools, const ActiveLoads& loads,
+                             int increments);
+
+  ShellSetup setup_;
+  std::optional<ActiveShell> pressed_ = {};  // made by the first step that needs it
+};
+
+Expected<ActiveLoads> ShellModel::loads(const Scene& scene, const std::vector<PointForce>& grips) const {
+  auto loads = forces_on(scene, setup_.structure);
+  if (!loads) return loads;
+  loads->pressure = scene.load.pressure;
+  loads->wind = Point(scene.load.wind.data());
+  auto points = active_point_forces(scene);
+  if (!points) return std::unexpected(points.error());
+  loads->points = *std::move(points);
+  loads->points.insert(loads->points.end(), grips.begin(), grips.end());
+  if (scene.limit) {
+    loads->limit = *scene.limit;
+    loads->original = opened_points(scene);
+  }
+  if (is_stationary() && scene.tools.empty() && keep_direction(*loads)) return loads;
+  auto anchored = shell_anchors(scene, active_state(scene).control_points);
+  if (!anchored) return std::unexpected(anchored.error());
+  loads->points.insert(loads->points.end(), anchored->begin(), anchored->end());
+  return loads;
+}
+
+Expected<ActiveStep> ShellModel::step(const ActiveState& from, std::span<const Tool> tools, const ActiveLoads& loads,
+                                      int increments) {
+  const std::vector<LinearConstraint> constraints = conditions_of(setup_.joined, from.control_points - from.rest);
+  const bool dead = is_stationary() && tools.empty() && keep_direction(loads);
+  auto step = dead ? equilibrium_of(setup_.structure, from.rest, constraints, loads, increments)
+                   : press(from, tools, loads, is_stationary() ? increments : 1);
+  if (!step) return step;
+  if (!from.balanced) {
+    step->control_points = with_held_bits(std::move(step->control_points), from.control_points, from.rest, constraints);
+  }
+  if (!dead) return step;
+  const ShellParts energy = setup_.structure.energy(step->control_points);
+  step->stretch = energy.membrane;
+  step->bend = energy.bending;
+  step->energy = energy.sum();
+  return step;
+}
+
+/// How the shells move under tools, or in time.
+Expected<ActiveShell> ShellModel::pressed() const {
+  const auto& [input, joined, structure] = setup_;
+  const MaterialFieldOf<2>& material = input.surfaces.front().material;
+  const auto *mass = std::get_if<double>(&material.mass), *damping = std::get_if<double>(&material.damping);
+  const bool forms = std::ranges::none_of(
+      input.surfaces, [](const SurfaceInput& s) { return std::holds_alternative<ShellMaterial>(s.elasticity); });
+  ActiveShellSettings settings{.evolution = input.evolution.mode,
+                               .lambda = input.evolution.lambda,
+                               .time_step = input.evolution.time_step,
                                .damping = mass != nullptr && damping != nullptr && *mass > 0 ? *damping / *mass : 0,
                                .mass = forms && mass != nullptr ? *mass : 0,
-                               .held = joined.held,
-                               .constraints = joined.constraints,
-                               .visible = joined.visible,
-                               .detail = problem.input.model.detail,
-                               .accuracy = evolution.accuracy};
+                               .held = joined.settings.held,
+                               .constraints = joined.settings.constraints,
+                               .visible = joined.settings.visible,
+                               .detail = input.detail,
+                               .accuracy = input.evolution.accuracy};
   std::vector<Surface> patches;
-  for (const int k : problem.surfaces) patches.push_back(*scene.surfaces[static_cast<std::size_t>(k)].rest);
-  auto model = ActiveShell::create(std::move(patches), problem.structure, std::move(settings));
-  if (!model) return std::unexpected(model.error());
-  return ShellModel{problem, evolution, std::move(*model)};
+  for (const SurfaceInput& s : input.surfaces) patches.push_back(*s.rest);
+  return ActiveShell::create(std::move(patches), structure, std::move(settings));
 }
 
-Expected<ActiveShellLoads> shell_loads(const Scene& scene, const ShellProblem& problem, double share) {
-  auto acting = active_point_forces(scene);
-  if (!acting) return std::unexpected(acting.error());
-  ActiveShellLoads loads{.nodal = share * problem.load,
-                         .moments = problem.moments,
-                         .pressure = share * scene.load.pressure,
-                         .wind = Point(scene.load.wind.data()),
-                         .points = std::move(*acting)};
-  if (scene.limit) {
-    loads.limit = *scene.limit;
-    loads.original = opened_points(scene);
+Expected<ActiveStep> ShellModel::press(const ActiveState& from, std::span<const Tool> tools, const ActiveLoads& loads,
+                                       int increments) {
+  if (!pressed_) {
+    auto made = pressed();
+    if (!made) return std::unexpected(made.error());
+    pressed_ = *std::move(made);
   }
-  return loads;
+  ActiveState state = from;
+  ActiveStep step;
+  std::vector<int> iterations;
+  for (int part = 1; part <= increments; ++part) {
+    const double share = static_cast<double>(part) / increments;
+    ActiveLoads put_on = loads;
+    put_on.nodal = share * loads.nodal;
+    put_on.pressure = share * loads.pressure;
+    auto taken = pressed_->step(state, tools, put_on);
+    if (!taken) return taken;
+    iterations.push_back(taken->iterations);
+    state.control_points = taken->control_points;
+    step = *std::move(taken);
+  }
+  if (is_stationary()) {
+    step.load_factor = 1;
+    step.increments = std::move(iterations);
+  }
+  return step;
+}
+
+}  // namespace
+
+bool has_shells(const Scene& scene) {
+  return std::ranges::any_of(
+      scene.selection(), [&](int k) { return is_nonlinear(scene.surfaces[static_cast<std::size_t>(k)].elasticity); });
+}
+
+Expected<ShellProblem> shell_problem(const Scene& scene) {
+  auto setup = shell_setup(scene, scene.evolution);
+  if (!setup) return std::unexpected(setup.error());
+  auto loads = forces_on(scene, setup->structure);
+  if (!loads) return std::unexpected(loads.error());
+  ActiveState now = active_state(scene);
+  auto constraints = conditions_of(setup->joined, now.control_points - now.rest);
+  return ShellProblem{*std::move(setup),      std::move(now.rest),     std::move(now.control_points),
+                      std::move(constraints), std::move(loads->nodal), std::move(loads->moments)};
+}
+
+Expected<std::unique_ptr<Model>> shell_model(const Scene& scene, const EvolutionPolicy& evolution) {
+  auto setup = shell_setup(scene, evolution);
+  if (!setup) return std::unexpected(setup.error());
+  return std::make_unique<ShellModel>(*std::move(setup));
 }
 
 Points with_held_bits(Points solved, const Points& present, const Points& rest,

@@ -24,12 +24,11 @@ Expected<ActiveForm<D>> ActiveForm<D>::create(Spline<D> rest, FormEnergy<D> ener
 
 template <int D>
 Expected<ActiveStep> ActiveForm<D>::step(const ActiveState& state, std::span<const Tool> tools,
-                                         const ActiveFormLoads& loads) const {
-  const auto forces = [&](const Points& x, const Points& /*velocity*/) {
-    return loads.nodal.rows() > 0 ? loads.nodal : Points(Points::Zero(x.rows(), 3));
-  };
-  return elastic_step<D>(model_->elastic, state, tools,
-                         {.forces = forces, .points = loads.points, .limit = loads.limit, .original = loads.original});
+                                         const ActiveLoads& loads) const {
+  if (loads.pressure != 0 || loads.wind != Point::Zero() || !loads.moments.empty()) {
+    return usage_error("pressure, wind and moments act on surfaces");
+  }
+  return elastic_step<D>(model_->elastic, state, tools, loads);
 }
 
 template class ActiveForm<1>;

@@ -43,26 +43,20 @@ const ShellStructure& ActiveShell::structure() const { return model_->structure;
 double ActiveShell::length() const { return model_->elastic.units.length; }
 
 Expected<ActiveStep> ActiveShell::step(const ActiveState& state, std::span<const Tool> tools,
-                                       const ActiveShellLoads& loads) const {
+                                       const ActiveLoads& loads) const {
   const bool blown = loads.pressure != 0 || loads.wind != Point::Zero();
-  const auto forces = [&](const Points& x, const Points& velocity) {
-    Points sum = loads.nodal.rows() > 0 ? loads.nodal : Points::Zero(x.rows(), 3);
+  if (!blown && loads.moments.empty()) return elastic_step<2>(model_->elastic, state, tools, loads);
+  const auto following = [&](const Points& x, const Points& velocity, Points& sum) {
     for (const EdgeMoment& moment : loads.moments) sum += moment.forces(x);
-    if (!blown) return sum;
+    if (!blown) return;
     const std::vector<int>& rows = model_->elastic.rows;
     for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
       const int first = rows[k], n = rows[k + 1] - first;
       sum.middleRows(first, n) += model_->structure.shells()[k].normal_load(
           x.middleRows(first, n), velocity.middleRows(first, n), loads.pressure, loads.wind);
     }
-    return sum;
   };
-  return elastic_step<2>(model_->elastic, state, tools,
-                         {.forces = forces,
-                          .follow = blown || !loads.moments.empty(),
-                          .points = loads.points,
-                          .limit = loads.limit,
-                          .original = loads.original});
+  return elastic_step<2>(model_->elastic, state, tools, loads, following);
 }
 
 }  // namespace knead

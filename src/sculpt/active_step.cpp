@@ -21,6 +21,7 @@ std::vector<ModelTool> in_model_units(std::span<const Tool> tools, const Point& 
 /// G: all forces except those of tools, in normalised units.
 template <int D>
 Expected<Points> ActiveSpline<D>::Model::load_of(const ActiveState& state, const ActiveLoads& given) const {
+  if (!given.moments.empty()) return usage_error("moments act on shells");
   Points g = Points::Zero(rest.rows(), 3);
   // Σ_j ∫ R_i R_j = ∫ R_i, since the basis sums to one: exact.
   const auto everywhere = [this](const Point& f) { return Points(f.transpose().replicate(rest.rows(), 1)); };

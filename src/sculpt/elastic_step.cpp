@@ -64,11 +64,12 @@ Expected<void> check(const ActiveShellSettings& settings) {
 template <int D>
 struct ElasticRun {
   ElasticRun(const ElasticModel<D>& model, const ActiveState& from, std::span<const Tool> given_tools,
-             const ElasticLoads& given_loads)
+             const ActiveLoads& given_loads, const FollowingForces& given_following)
       : m(model),
         state(from),
         tools(given_tools),
         loads(given_loads),
+        following(given_following),
         length(model.units.length),
         start((from.control_points.rowwise() - m.units.centre.transpose()) / length),
         displaced((from.control_points - m.rest) / length),
@@ -89,7 +90,9 @@ struct ElasticRun {
   }
 
   [[nodiscard]] Points forces_at(const Points& x) const {
-    return length / m.units.energy * loads.forces(x, length * velocity);
+    Points sum = loads.nodal.rows() > 0 ? loads.nodal : Points(Points::Zero(x.rows(), 3));
+    if (following) following(x, length * velocity, sum);
+    return length / m.units.energy * sum;
   }
   [[nodiscard]] Points place() const { return start + y; }
   [[nodiscard]] Points in_file() const { return m.energy->unscaled(place()); }
@@ -114,7 +117,7 @@ struct ElasticRun {
     external = forces_at(state.control_points);
     if (m.settings.evolution == Evolution::dynamic) return move_on();
     settle(external, m.mass, 1);
-    if (m.settings.evolution != Evolution::stationary || !loads.follow) return;
+    if (m.settings.evolution != Evolution::stationary || !following) return;
     for (int round = 0; round < max_following_rounds && summary.finite; ++round) {
       const Points next = forces_at(in_file());
       const double change = (next - external).norm();
@@ -169,7 +172,7 @@ struct ElasticRun {
   /// Whether forces that nothing meets move the model as a whole along an axis.
   [[nodiscard]] bool drifts() const {
     constexpr double rounding = 1e-12;
-    if (m.mass.rows() > 0 || loads.follow || !tools.empty() || !loads.points.empty() || loads.limit > 0) return false;
+    if (m.mass.rows() > 0 || following || !tools.empty() || !loads.points.empty() || loads.limit > 0) return false;
     const Points forces = forces_at(state.control_points), origin = m.space.feasible(Points::Zero(start.rows(), 3));
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       if (std::abs(forces.col(axis).sum()) <= rounding * forces.cwiseAbs().sum()) continue;
@@ -183,7 +186,8 @@ struct ElasticRun {
   const ElasticModel<D>& m;
   const ActiveState& state;
   std::span<const Tool> tools;
-  const ElasticLoads& loads;
+  const ActiveLoads& loads;
+  const FollowingForces& following;
   double length;
   Points start, displaced;  // positions and displacements at the beginning, normalised
   PatchPotential<D> potential;
@@ -305,8 +309,11 @@ Expected<void> ElasticModel<D>::complete(std::shared_ptr<const ElasticEnergy> of
 
 template <int D>
 Expected<ActiveStep> elastic_step(const ElasticModel<D>& model, const ActiveState& state, std::span<const Tool> tools,
-                                  const ElasticLoads& loads) {
-  ElasticRun<D> run(model, state, tools, loads);
+                                  const ActiveLoads& loads, const FollowingForces& following) {
+  if (loads.force != Point::Zero() || loads.gravity != Point::Zero()) {
+    return usage_error("loads of a non-linear energy are forces on its control points");
+  }
+  ElasticRun<D> run(model, state, tools, loads, following);
   if (run.drifts()) {
     return numerical_error("nothing holds the shape against the forces", "constraints",
                            "hold a side or pin points, so that the forces cannot move all of it");
@@ -320,10 +327,10 @@ template struct ElasticModel<1>;
 template struct ElasticModel<2>;
 template struct ElasticModel<3>;
 template Expected<ActiveStep> elastic_step<1>(const ElasticModel<1>&, const ActiveState&, std::span<const Tool>,
-                                              const ElasticLoads&);
+                                              const ActiveLoads&, const FollowingForces&);
 template Expected<ActiveStep> elastic_step<2>(const ElasticModel<2>&, const ActiveState&, std::span<const Tool>,
-                                              const ElasticLoads&);
+                                              const ActiveLoads&, const FollowingForces&);
 template Expected<ActiveStep> elastic_step<3>(const ElasticModel<3>&, const ActiveState&, std::span<const Tool>,
-                                              const ElasticLoads&);
+                                              const ActiveLoads&, const FollowingForces&);
 
 }  // namespace knead

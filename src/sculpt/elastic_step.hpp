@@ -38,19 +38,15 @@ struct ElasticModel {
   [[nodiscard]] Expected<void> complete(std::shared_ptr<const ElasticEnergy> of, const SparseMatrix& own_mass);
 };
 
-/// What acts on them, in units of the file.
-struct ElasticLoads {
-  /// The sum of all forces at control points x that move so.
-  std::function<Points(const Points& x, const Points& velocity)> forces;
-  bool follow = false;  ///< whether they depend on x
-  std::span<const PointForce> points = {};
-  double limit = 0;
-  const Points& original;  ///< empty: the rest shape
-};
+/// Adds forces that depend on where the control points x are and how they move, in units of the file; null: there are
+/// none.
+using FollowingForces = std::function<void(const Points& x, const Points& velocity, Points& sum)>;
 
-/// One step of such a model (`ActiveShell`).
+/// One step of such a model (`ActiveShell`) under `nodal`, `points` and `limit` of these loads, and forces that follow.
+/// Error (usage): loads that only an `ActiveSpline` has.
 template <int D>
 [[nodiscard]] Expected<ActiveStep> elastic_step(const ElasticModel<D>& model, const ActiveState& state,
-                                                std::span<const Tool> tools, const ElasticLoads& loads);
+                                                std::span<const Tool> tools, const ActiveLoads& loads,
+                                                const FollowingForces& following = {});
 
 }  // namespace knead

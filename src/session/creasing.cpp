@@ -41,7 +41,7 @@ Expected<Kink> kink_along(std::span<const Surface* const> shapes, const CoupledE
 }  // namespace
 
 /// Says which seams were smooth and are not any more, why, and what keeps them so.
-void Executor::note_creases(const std::vector<SeamReport>& seams) {
+void Executor::note_creases(std::span<const SeamReport> seams) {
   std::vector<const Surface*> shapes, references;
   const std::vector<int> selection = state.selection();
   for (int k : selection) {

@@ -64,11 +64,9 @@ struct KnownFaces {
 };
 
 struct Session::ModelCache {
-  std::optional<SceneModel> model;
+  Models models;
   std::optional<StrokeModel> stroke;
   std::optional<BrushRun> brush;
-  std::optional<AnyBodyModel> body;
-  std::optional<ShellModel> shell;
   MetConditions conditions;
   KnownFaces faces;
 };
@@ -79,21 +77,17 @@ struct SurfacePlace;
 
 struct Executor {
   const Document& document;
-  std::optional<SceneModel>& cache;
+  Models& models;  ///< of steps
   std::optional<StrokeModel>& stroke_cache;
   std::optional<BrushRun>& brush_cache;
-  std::optional<AnyBodyModel>& body_cache;
-  std::optional<ShellModel>& shell_cache;
   MetConditions& conditions;  ///< those there are, as of the last check
   KnownFaces& faces;          ///< of `document`
   SessionState& state;
   const Session::Progress& progress;
   bool allow_held = false;             ///< a tool may touch what is held alone
   std::optional<int> increments = {};  ///< of the load of a shell
-  std::vector<SeamReport> shell_seams = {};
-  std::vector<std::string> shell_notes = {};
-  bool may_stop = false;            ///< the command may end after any of its steps
-  std::optional<int> stopped = {};  ///< after so many steps
+  bool may_stop = false;               ///< the command may end after any of its steps
+  std::optional<int> stopped = {};     ///< after so many steps
   DocumentRegions regions = DocumentRegions(document);
   std::optional<MotionLaw> law = {};  ///< what the command has asked for so far
   bool unruled = false;               ///< what acts has another law
@@ -231,8 +225,8 @@ struct Executor {
   void keep_what_stroke_left();
   void ask_of_stroke(double moved, std::span<const Tool> tools);
   void ask_of_brush(double asked);
-  [[nodiscard]] bool held_all_round(const SceneModel& model) const;
-  [[nodiscard]] bool goes_too_far(const ActiveStep& step, const ActiveLoads& loads);
+  [[nodiscard]] bool held_all_round(std::span<const SeamReport> reports) const;
+  [[nodiscard]] bool goes_too_far(const ActiveStep& step, const ActiveLoads& loads, const Model& model);
   [[nodiscard]] Points points_of_law() const;
   [[nodiscard]] Expected<ActiveStep> within_depth(ActiveStep step, const ActiveState& from, std::span<const Tool> tools,
                                                   ActiveLoads loads) const;
@@ -240,25 +234,13 @@ struct Executor {
   [[nodiscard]] double static_motion() const;
   Expected<void> move_less(double share);
   void note_motion(std::string_view begins, const std::string& note);
-  template <int D>
-  Expected<void> step_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution);
-  template <int D>
-  Expected<void> settle_body(BodyShapes<D>& shapes, const EvolutionPolicy& evolution);
+  Expected<void> take_body(const ActiveStep& step);
   [[nodiscard]] bool imprints(const ActiveStep& step) const;
-  void record_body(const ActiveStep& step, double seconds, const std::vector<std::string>& notes);
+  void record_body(const ActiveStep& step, double seconds, std::span<const std::string> notes);
   Expected<void> know_what_holds();
-  Expected<void> prepare_model(const EvolutionPolicy& evolution);
   Expected<ActiveStep> next_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
                                  double& seconds);
-  Expected<ActiveStep> one_shell_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
-                                      double& seconds);
-  Expected<ActiveStep> load_shell(const ShellProblem& problem);
-  [[nodiscard]] const ShellProblem* kept_shell_problem() const;
-  Expected<void> keep_shell(const Scene& scene, const ShellProblem& problem, const EvolutionPolicy& evolution);
-  Expected<ActiveStep> press_shell(const ShellProblem& problem, const EvolutionPolicy& evolution,
-                                   const std::vector<PointForce>& more);
   Expected<void> refine_as(const std::vector<SeamRefinement>& refinements);
-  Expected<ActiveStep> one_step(const std::vector<PointForce>& more, double& seconds);
   Expected<void> take(const ActiveStep& step);
   /// The same motion, made again and again with edges coupled more tightly.
   struct Attempts {
@@ -285,8 +267,8 @@ struct Executor {
   /// Refines the faces at edges that follow: what is under a tool on one side, on the others too.
   Expected<void> refine_followed(const SceneSurface& touched, const TrimContact& contact, double size);
   void record(const ActiveStep& step, double seconds, std::string note);
-  void note_model(const std::vector<SeamReport>& seams, const std::vector<std::string>& notes);
-  void note_creases(const std::vector<SeamReport>& seams);
+  void note_model(std::span<const SeamReport> seams, std::span<const std::string> notes);
+  void note_creases(std::span<const SeamReport> seams);
   /// Whether the surfaces of which edges of faces are held have not folded: their normals point to the same side as at
   /// rest, at four points per span. Error (numerical): where they do not.
   Expected<void> check_folds();

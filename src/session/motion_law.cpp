@@ -11,8 +11,8 @@
 
 namespace knead {
 
-bool Executor::held_all_round(const SceneModel& model) const {
-  std::vector<SeamReport> seams = model.seams;
+bool Executor::held_all_round(std::span<const SeamReport> reports) const {
+  std::vector<SeamReport> seams(reports.begin(), reports.end());
   const std::vector<int> selection = state.selection();
   for (SeamReport& report : seams) {
     for (PatchEdge* side : {&report.seam.a, &report.seam.b}) {
@@ -23,8 +23,10 @@ bool Executor::held_all_round(const SceneModel& model) const {
 }
 
 /// Whether a step moves further than was asked for, by so much that it is made again within reach.
-bool Executor::goes_too_far(const ActiveStep& step, const ActiveLoads& loads) {
-  if (!law || unruled || !(law->reach > 0) || loads.limit > 0 || !held_all_round(*cache)) return false;
+bool Executor::goes_too_far(const ActiveStep& step, const ActiveLoads& loads, const Model& model) {
+  if (!law || unruled || !(law->reach > 0) || loads.limit > 0 || shells() || !held_all_round(model.seams())) {
+    return false;
+  }
   double room = (1 + 0.5 * law_tolerance) * law->reach, moved = 0;
   Eigen::Index first = 0;
   for (const OpenStroke::Before& from : law->from) {
@@ -48,7 +50,7 @@ void MotionLaw::count_standing() {
 /// before the stroke: beside what is held inside a tool a surface swings out, far beyond the tool where that is large.
 Expected<ActiveStep> Executor::within_depth(ActiveStep step, const ActiveState& from, std::span<const Tool> tools,
                                             ActiveLoads loads) const {
-  if (loads.limit > 0 || !held_all_round(stroke_cache->scene)) return step;
+  if (loads.limit > 0 || !held_all_round(stroke_cache->scene.seams)) return step;
   const double room = 1 + 0.5 * law_tolerance;
   const double moved = std::sqrt(stroke_cache->at_abscissae(step.control_points).rowwise().squaredNorm().maxCoeff());
   if (moved <= room * depth_at_sites(tools)) return step;

@@ -85,8 +85,8 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
   auto next = std::make_shared<SessionState>(state());
   next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
   if (cache_->faces.document != state().document) cache_->faces = {state().document};
-  Executor executor{document(),    cache_->model,      cache_->stroke, cache_->brush, cache_->body,
-                    cache_->shell, cache_->conditions, cache_->faces,  *next,         progress};
+  Executor executor{document(),         cache_->models, cache_->stroke, cache_->brush,
+                    cache_->conditions, cache_->faces,  *next,          progress};
   if (!fields_of<StrokeCommand>(command)) {
     if (auto lifted = executor.lift(); !lifted) return lifted;
     if (auto kept = executor.keep_law(); !kept) return kept;
@@ -282,44 +282,30 @@ void Session::know_faces() {
   }
 }
 
-Expected<double> Session::energy() {
-  if (state().body) return body_energy();
-  if (!state().selected) return 0;
-  const std::vector<int> selection = state().selection();
-  const bool at_rest = std::ranges::all_of(selection, [this](int k) {
-    const SceneSurface& s = state().surfaces[static_cast<std::size_t>(k)];
+namespace {
+
+/// Whether nothing is selected, or only what is where its energy is zero.
+bool is_at_rest(const Scene& scene) {
+  if (scene.body) {
+    const SceneBody& body = scene.bodies[static_cast<std::size_t>(*scene.body)];
+    return body.mode == RestMode::shape &&
+           std::visit([](const auto& shapes) { return shapes.current == shapes.rest; }, body.shapes);
+  }
+  return std::ranges::all_of(scene.selection(), [&](int k) {
+    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
     return s.mode == RestMode::shape && s.current == s.rest;
   });
-  if (at_rest) return 0;  // even if no model can be made
-  if (is_nonlinear(state().surfaces[static_cast<std::size_t>(*state().selected)].elasticity)) {
-    const auto problem = shell_problem(state());
-    if (!problem) return std::unexpected(problem.error());
-    return problem->structure.energy(problem->present).sum();
-  }
-  ModelInput input = model_input(state(), state().evolution);
-  if (cache_->model) {
-    ModelInput same = cache_->model->input;
-    same.evolution = input.evolution;
-    same.detail = input.detail;
-    if (same == input) return cache_->model->model.energy(active_state(state()));
-  }
-  input.evolution = trial_evolution();
-  const auto made = make_model(std::move(input));
-  if (!made) return std::unexpected(made.error());
-  return made->model.energy(active_state(state()));
 }
 
-Expected<double> Session::body_energy() const {
-  const SceneBody& body = state().bodies[static_cast<std::size_t>(*state().body)];
-  return std::visit(
-      [&]<int D>(const BodyShapes<D>& shapes) -> Expected<double> {
-        if (body.mode == RestMode::shape && shapes.current == shapes.rest) return 0;
-        if (is_nonlinear(shapes.elasticity)) return form_energy_of(body);
-        const auto made = make_body_model<D>(body_input<D>(state(), body, trial_evolution()));
-        if (!made) return std::unexpected(made.error());
-        return made->model.energy(active_state(body));
-      },
-      body.shapes);
+}  // namespace
+
+Expected<double> Session::energy() {
+  const Scene& scene = state();
+  if (is_at_rest(scene)) return 0;  // even if no model can be made
+  if (const Model* model = cache_->models.measuring(scene)) return model->energy(active_state(scene));
+  const auto made = model_of(scene, trial_evolution());
+  if (!made) return std::unexpected(made.error());
+  return (*made)->energy(active_state(scene));
 }
 
 double Session::largest_displacement(int surface) const {

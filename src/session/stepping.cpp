@@ -63,17 +63,32 @@ bool Executor::keeps_steps(int done) {
 
 Expected<ActiveStep> Executor::next_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
                                          double& seconds) {
-  const bool shell = shells();
-  if (auto made = shell ? know_what_holds() : prepare_model(evolution); !made) return std::unexpected(made.error());
-  return shell ? one_shell_step(evolution, more, seconds) : one_step(more, seconds);
+  if (auto known = know_what_holds(); !known) return std::unexpected(known.error());
+  const auto kept = models.of(state, evolution);
+  if (!kept) return std::unexpected(kept.error());
+  Model& model = **kept;
+  const auto tools = tools_and_images(state);
+  if (!tools) return std::unexpected(tools.error());
+  auto loads = model.loads(state, more);
+  if (!loads) return std::unexpected(loads.error());
+  const ActiveState before = active_state(state);
+  if (!state.energy_before) state.energy_before = model.energy(before);
+  const auto start = std::chrono::steady_clock::now();
+  auto step = model.step(before, *tools, *loads, increments.value_or(1));
+  if (step && goes_too_far(*step, *loads, model)) {
+    loads->reach = law->reach;
+    loads->original = points_of_law();
+    step = model.step(before, *tools, *loads);
+  }
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return step;
 }
 
 Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more, int done,
                              int total) {
   auto selection = selected();
   if (!selection) return std::unexpected(selection.error());
-  const bool shell = shells();
-  if (increments && !shell) {
+  if (increments && !shells()) {
     return input_error("only the load of a shell is increased in parts", "increments",
                        R"(leave it out, or give {"do":"material","model":"shell"} with young and thickness)");
   }
@@ -135,8 +150,7 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
     if (!on) return std::unexpected(on.error());
     if (!*on) break;
   }
-  if (stepped > 0 && shell) note_model(shell_seams, shell_notes);
-  if (stepped > 0 && !shell && cache) note_model(cache->seams, cache->notes);
+  if (const Model* model = models.last(); stepped > 0 && model != nullptr) note_model(model->seams(), model->notes());
   return {};
 }
 
@@ -175,40 +189,6 @@ Expected<void> Executor::check_limit() const {
 Expected<void> Executor::know_what_holds() {
   if (auto known = know_trims(); !known) return known;
   return know_followed();
-}
-
-Expected<void> Executor::prepare_model(const EvolutionPolicy& evolution) {
-  if (auto known = know_what_holds(); !known) return known;
-  ModelInput input = model_input(state, evolution);
-  if (cache && cache->input == input) return {};
-  cache.reset();
-  auto made = make_model(std::move(input));
-  if (!made) return std::unexpected(made.error());
-  cache = std::move(*made);
-  return {};
-}
-
-Expected<ActiveStep> Executor::one_step(const std::vector<PointForce>& more, double& seconds) {
-  const ActiveSurface& model = cache->model;
-  const auto tools = tools_and_images(state);
-  if (!tools) return std::unexpected(tools.error());
-  auto loads = active_loads(state, *cache);
-  if (!loads) return std::unexpected(loads.error());
-  loads->points.insert(loads->points.end(), more.begin(), more.end());
-  const ActiveState before = active_state(state);
-  auto anchored = anchors(state, model, before.control_points);
-  if (!anchored) return std::unexpected(anchored.error());
-  std::ranges::move(*anchored, std::back_inserter(loads->points));
-  if (!state.energy_before) state.energy_before = model.energy(before);
-  const auto start = std::chrono::steady_clock::now();
-  auto step = model.step(before, *tools, *loads);
-  if (step && goes_too_far(*step, *loads)) {
-    loads->reach = law->reach;
-    loads->original = points_of_law();
-    step = model.step(before, *tools, *loads);
-  }
-  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return step;
 }
 
 Expected<void> Executor::take(const ActiveStep& step) {
@@ -260,8 +240,8 @@ void Executor::record(const ActiveStep& step, double seconds, std::string note) 
   state.steps.push_back(std::move(record));
 }
 
-void Executor::note_model(const std::vector<SeamReport>& seams, const std::vector<std::string>& notes) {
-  state.seam_reports = seams;
+void Executor::note_model(std::span<const SeamReport> seams, std::span<const std::string> notes) {
+  state.seam_reports.assign(seams.begin(), seams.end());
   const std::vector<int> selection = state.selection();
   for (SeamReport& report : state.seam_reports) {
     for (PatchEdge* edge : {&report.seam.a, &report.seam.b}) {

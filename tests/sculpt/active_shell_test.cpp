@@ -28,7 +28,7 @@ ActiveShell shell_of(const Surface& rest, const ActiveShellSettings& settings,
 }
 
 ActiveStep step_of(const ActiveShell& shell, const ActiveState& state, std::span<const Tool> tools = {},
-                   const ActiveShellLoads& loads = {}) {
+                   const ActiveLoads& loads = {}) {
   auto made = shell.step(state, tools, loads);
   if (!made) ADD_FAILURE() << made.error().message();
   return std::move(*made);

@@ -13,6 +13,7 @@ struct BodyInput {
   std::shared_ptr<const Spline<D>> reference, rest;
   RestMode mode = RestMode::shape;
   MaterialOf<D> material;
+  Elasticity<D> elasticity;
   double mass = 1, damping = 0.5;
   int hold_rows = 0;
   std::set<int> pins;
@@ -24,10 +25,18 @@ struct BodyInput {
   friend bool operator==(const BodyInput&, const BodyInput&) = default;
 };
 
+/// The selected body, if it has so many directions.
+template <int D>
+[[nodiscard]] const SceneBody* selected_body(const Scene& scene) {
+  if (!scene.body) return nullptr;
+  const SceneBody& body = scene.bodies[static_cast<std::size_t>(*scene.body)];
+  return std::holds_alternative<BodyShapes<D>>(body.shapes) ? &body : nullptr;
+}
+
 template <int D>
 [[nodiscard]] BodyInput<D> body_input(const Scene& scene, const SceneBody& body, const EvolutionPolicy& evolution);
 
-/// A model of one body, constrained as requested.
+/// A linear model of one body, constrained as requested.
 template <int D>
 struct BodyModel {
   BodyInput<D> input;
@@ -35,21 +44,10 @@ struct BodyModel {
   std::vector<std::string> notes;  ///< corners that may bend, etc.
 };
 
-using AnyBodyModel = std::variant<BodyModel<1>, BodyModel<3>>;
-
 /// Makes and factors the model. Errors: constraints that contradict each other (input), and those of
 /// `ActiveSpline::create`.
 template <int D>
 [[nodiscard]] Expected<BodyModel<D>> make_body_model(BodyInput<D> input);
-
-/// A step of the body of this index, which keeps its fundamental forms, under tools and loads, its mass and damping
-/// those of the linear model. Notes are appended. Errors (input): loads that such a body does not have, constraints
-/// that contradict each other; those of `FormEnergy::create` and `ActiveForm`.
-[[nodiscard]] Expected<ActiveStep> settle_forms(const Scene& scene, int index, const EvolutionPolicy& evolution,
-                                                std::vector<std::string>& notes);
-
-/// The energy of its fundamental forms in the present shape.
-[[nodiscard]] Expected<double> form_energy_of(const SceneBody& body);
 
 /// What holds a body, as conditions on displacements from its rest shape, file units. Appends notes.
 template <int D>

@@ -15,6 +15,7 @@ struct SurfaceInput {
   std::shared_ptr<const Surface> rest;  ///< if constraints are measured from it, or loads vary per area; else null
   RestMode mode = RestMode::shape;
   MaterialFieldOf<2> material;
+  Elasticity<2> elasticity;
   int hold_rows = 0;
   std::set<std::array<int, 2>> pins;
   std::vector<KeptConstraint> constraints;
@@ -77,7 +78,7 @@ inline constexpr Eigen::Index max_model_size = 1000000;
 /// without making a matrix. Cost: one elimination where something asks for motion, else that of making constraints.
 [[nodiscard]] Expected<void> check_conditions(const ModelInput& input);
 
-/// A model of surfaces, coupled and constrained as requested.
+/// A linear model of surfaces, whatever their elasticity is, coupled and constrained as requested.
 struct SceneModel {
   ModelInput input;
   ActiveSurface model;
@@ -94,7 +95,7 @@ struct SceneModel {
 /// Seams between these patches (and of each with itself) to the requested tolerance, or the suggested one.
 [[nodiscard]] Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches);
 
-/// The selected surfaces' control points, stacked, with their rest shapes and velocities.
+/// The control points of what is selected, surfaces stacked, with their rest shapes and velocities.
 [[nodiscard]] ActiveState active_state(const Scene& scene);
 
 /// Loads, point forces with their mirror images, and the limit of the scene. `model` is that of the selected surfaces.
@@ -106,6 +107,56 @@ struct SceneModel {
 
 /// The control points of the selected surfaces as opened, stacked.
 [[nodiscard]] Points opened_points(const Scene& scene);
+
+/// A model of what is selected in a scene, whatever resists in it: made once, for many steps.
+class Model {
+ public:
+  Model() = default;
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+  virtual ~Model() = default;
+
+  /// Whether it is that of this scene too, in steps that evolve so.
+  [[nodiscard]] virtual bool serves(const Scene& scene, const EvolutionPolicy& evolution) const = 0;
+  /// Whether `energy` is that of this scene too, however it evolves.
+  [[nodiscard]] virtual bool measures(const Scene& scene) const = 0;
+  /// What acts on it in the scene besides tools, and these springs. Errors (input): a load or a force that what resists
+  /// does not have, or at a point that does not exist.
+  [[nodiscard]] virtual Expected<ActiveLoads> loads(const Scene& scene,
+                                                    const std::vector<PointForce>& grips = {}) const = 0;
+  /// One step from this state (`active_state`), file units. A load of surfaces that are not linear is put on in so many
+  /// equal increments in a stationary step. The first step may set up more. Errors: those of `ActiveSpline::step`,
+  /// `ActiveShell` or `ActiveForm`.
+  [[nodiscard]] virtual Expected<ActiveStep> step(const ActiveState& from, std::span<const Tool> tools,
+                                                  const ActiveLoads& loads, int increments = 1) = 0;
+  [[nodiscard]] virtual double energy(const ActiveState& of) const = 0;
+
+  /// Of surfaces, by their place in the selection.
+  [[nodiscard]] virtual std::span<const SeamReport> seams() const { return {}; }
+  /// Lines that may bend, how steps are solved, etc.
+  [[nodiscard]] virtual std::span<const std::string> notes() const = 0;
+  /// Number of control points.
+  [[nodiscard]] virtual Eigen::Index size() const = 0;
+};
+
+/// The model of what is selected. Errors: surfaces of different kinds, constraints that contradict each other (input),
+/// those of `ActiveSpline`, `ShellEnergy` and `FormEnergy`.
+[[nodiscard]] Expected<std::unique_ptr<Model>> model_of(const Scene& scene, const EvolutionPolicy& evolution);
+
+/// The last models that were made: one that is asked for again is not made again. Some few are kept, or the last one
+/// alone where they are large.
+class Models {
+ public:
+  /// The pointer is valid until the next call. Errors: those of `model_of`.
+  [[nodiscard]] Expected<Model*> of(const Scene& scene, const EvolutionPolicy& evolution);
+  /// One that measures the scene; null: none is kept.
+  [[nodiscard]] const Model* measuring(const Scene& scene) const;
+  /// The one that was asked for last; null: none is kept.
+  [[nodiscard]] const Model* last() const { return kept_.empty() ? nullptr : kept_.front().get(); }
+
+ private:
+  std::vector<std::unique_ptr<Model>> kept_;  // in the order in which they were asked for, the last one first
+};
 
 /// The parts of a load that vary, forces per area over the domain of a surface: that of its samples, and one for each
 /// component by formula. Errors: those of `sampled_load` and `formula_field`.

@@ -8,14 +8,6 @@
 
 namespace knead {
 
-/// Forces on an `ActiveForm` other than those of tools, in units of the file.
-struct ActiveFormLoads {
-  Points nodal = {};                    ///< that keep their direction, on the control points, N × 3; empty: none
-  std::vector<PointForce> points = {};  ///< springs and volcanoes, strengths as those of tools
-  double limit = 0;                     ///< as in `ActiveLoads`
-  Points original = {};
-};
-
 /// A curve or volume under tools that keeps its fundamental forms: `FormEnergy` in the place of the linear energy of
 /// `ActiveSpline`, with the steps of `ActiveShell`. Lengths are divided by L, the normalised length of the rest shape,
 /// energies by 2 · `stretching_scale`; tools, friction, limits, λ, mass, damping and tolerances then mean what they do
@@ -30,7 +22,7 @@ class ActiveForm {
   /// One step as `ActiveShell::step`: from the present shape, `stretch` and `bend` the parts of metric and curvature in
   /// units of the file. Errors (numerical): the result is not finite, nothing holds the shape against the forces.
   [[nodiscard]] Expected<ActiveStep> step(const ActiveState& state, std::span<const Tool> tools,
-                                          const ActiveFormLoads& loads) const;
+                                          const ActiveLoads& loads) const;
 
  private:
   struct Model;

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "knead/energy/edge_moment.hpp"
 #include "knead/energy/shell_structure.hpp"
 #include "knead/sculpt/active_spline.hpp"
 
@@ -23,17 +22,6 @@ struct ActiveShellSettings {
   std::vector<std::shared_ptr<const VisibleRegion>> visible = {};  ///< as in `ActiveSettings`
   double detail = 0;                                               ///< likewise
   StepAccuracy accuracy = StepAccuracy::exact;
-};
-
-/// Forces other than those of tools, in units of the file.
-struct ActiveShellLoads {
-  Points nodal = {};                         ///< that keep their direction, on the control points, N × 3
-  std::span<const EdgeMoment> moments = {};  ///< which follow their edges; rows are those of all shells
-  double pressure = 0;                       ///< force per area of the present shape, along S_u × S_v
-  Point wind = Point::Zero();                ///< (n·(wind − velocity)) n per area of the present shape
-  std::vector<PointForce> points = {};       ///< springs and volcanoes, strengths as those of tools
-  double limit = 0;                          ///< as in `ActiveLoads`
-  Points original = {};
 };
 
 /// Shells under tools: the non-linear energy of `ShellStructure` in the place of the linear one of `ActiveSpline`.
@@ -68,7 +56,7 @@ class ActiveShell {
   /// and `bend` of the result are membrane and bending energy in units of the file, as is `kinetic`. Errors
   /// (numerical): the result is not finite; a structure that nothing holds where that is needed.
   [[nodiscard]] Expected<ActiveStep> step(const ActiveState& state, std::span<const Tool> tools,
-                                          const ActiveShellLoads& loads) const;
+                                          const ActiveLoads& loads) const;
 
   [[nodiscard]] const ShellStructure& structure() const;
   /// L, by which lengths are divided.

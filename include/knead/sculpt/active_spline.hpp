@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "knead/brep/visible_region.hpp"
+#include "knead/energy/edge_moment.hpp"
 #include "knead/energy/material_field.hpp"
 #include "knead/gramian/gramian.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
@@ -118,18 +119,22 @@ struct PointForce {
   double core = 0.1;                          ///< file units
 };
 
-/// Forces other than those of tools, per measure of the (scaled) parameter domain.
+/// Forces other than those of tools. Of an `ActiveSpline` they are per measure of the (scaled) parameter domain, of an
+/// `ActiveShell` or `ActiveForm` in units of the file and per area of the present shape.
 struct ActiveLoads {
-  Point gravity = Point::Zero();  ///< acceleration: force μ·gravity
-  Point force = Point::Zero();    ///< the same everywhere
+  Point gravity = Point::Zero();  ///< acceleration: force μ·gravity; of an `ActiveSpline` only
+  Point force = Point::Zero();    ///< the same everywhere; of an `ActiveSpline` only
   double pressure = 0;            ///< along the normal S_u × S_v at the start of the step; surfaces only
   Point wind = Point::Zero();     ///< (n·(wind − velocity)) n at the start of the step; surfaces only
   Points nodal = {};              ///< ∫ R_i f of any other load, N × 3; empty: none
+  std::vector<EdgeMoment> moments =
+      {};  ///< which follow their edges; of an `ActiveShell` only, rows are all of its own
   std::vector<PointForce> points = {};
   double limit = 0;      ///< no point moves further than this from `original`, file units; 0: no limit
   Points original = {};  ///< control points the limit is measured from; empty: the rest shape
   /// Without a limit: how far from `original` tools are to move anything, file units; 0: as far as it goes. Springs
-  /// that are `reach_stiffness` times those of the stiffest tool hold what goes further, which is a few per cent.
+  /// that are `reach_stiffness` times those of the stiffest tool hold what goes further, which is a few per cent. Of an
+  /// `ActiveSpline` only.
   double reach = 0;
 };
 

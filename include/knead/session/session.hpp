@@ -136,7 +136,6 @@ class Session {
   [[nodiscard]] const Document& document_of(const SessionState& state) const {
     return state.document ? *state.document : document_;
   }
-  [[nodiscard]] Expected<double> body_energy() const;
   /// Restores the visible regions of surfaces whose edges are held, which a snapshot leaves to the document.
   void know_faces();
 

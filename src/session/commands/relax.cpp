@@ -120,12 +120,10 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   EvolutionPolicy plate;
   const double share = std::min(c.strength, 0.999);  // 1 would be the static solution
   plate.lambda = resistance / (unit_radius * unit_radius) * (1 - share) / share;
-  std::optional<SceneModel> model;  // the one used by steps is unchanged
+  Models own_models;  // those of steps stay
   std::optional<StrokeModel> unused;
   std::optional<BrushRun> unused_run;
-  std::optional<AnyBodyModel> unused_body;
-  std::optional<ShellModel> unused_shell;
-  Executor own{document, model, unused, unused_run, unused_body, unused_shell, conditions, faces, trial, progress};
+  Executor own{document, own_models, unused, unused_run, conditions, faces, trial, progress};
   if (auto done = own.run(1, plate); !done) return done;
 
   for (int index : state.selection()) {
