@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knead/scene/body_model.hpp"
+#include "body_model.hpp"
 #include "knead/scene/model.hpp"
 
 namespace knead {

@@ -1,4 +1,4 @@
-#include "knead/scene/body_model.hpp"
+#include "body_model.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "body_model.hpp"
 #include "dead_loads.hpp"
-#include "knead/scene/body_model.hpp"
 #include "knead/scene/formula_field.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/places.hpp"

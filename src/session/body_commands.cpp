@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "components.hpp"
-#include "knead/scene/body_model.hpp"
 #include "knead/scene/places.hpp"
 #include "limits.hpp"
+#include "scene/body_model.hpp"
 
 namespace knead {
 namespace {
@@ -171,13 +171,6 @@ Expected<void> on_body(Executor& executor, const MaterialCommand& c) {
   return std::visit([&](auto& shapes) { return set_material(shapes, c); }, body.shapes);
 }
 
-Expected<void> on_body(Executor& executor, const RestCommand& c) {
-  SceneBody& body = *executor.body();
-  std::visit([](auto& shapes) { shapes.rest = shapes.reference = shapes.current; }, body.shapes);
-  body.mode = c.mode;
-  return {};
-}
-
 Expected<void> on_body(Executor& executor, const HoldCommand& c) {
   SceneBody& body = *executor.body();
   const HoldMode mode = c.mode.value_or(HoldMode::rows);
@@ -252,33 +245,6 @@ Expected<void> on_body(Executor& executor, const ReleaseCommand& c) {
     return meant(std::holds_alternative<SideHold>(kept.hold) ? "edges" : "pins");
   });
   return {};
-}
-
-Expected<void> on_body(Executor& executor, const ForceCommand& c) {
-  const SceneBody& body = *executor.body();
-  if (c.kind == ForceKind::line || c.kind == ForceKind::moment) {
-    return input_error(fmt::format("a {} has no edges", kind_of(body)), "kind", "use spring, volcano or dead");
-  }
-  auto force = force_of(c);
-  if (!force) return std::unexpected(force.error());
-  const auto there = std::visit(
-      [&]<int D>(const BodyShapes<D>& shapes) -> Expected<void> {
-        const auto u = parameters_at<D>(*shapes.current, *c.at);
-        return u ? Expected<void>() : std::unexpected(u.error());
-      },
-      body.shapes);
-  if (!there) return there;
-  put_force(executor.state, {.name = c.name, .surface = -1, .body = *executor.state.body, .force = *std::move(force)});
-  return {};
-}
-
-Expected<void> on_body(Executor& executor, const StepCommand& c) {
-  if (auto few = check_steps(c.count, "count", 0); !few) return few;
-  if (c.increments) return of_surfaces(*executor.body(), "increments");
-  EvolutionPolicy evolution = executor.state.evolution;
-  if (c.lambda) evolution.lambda = *c.lambda;
-  if (c.weight) evolution.weight = *c.weight;
-  return executor.run_body(c.count, evolution);
 }
 
 Expected<void> on_body(Executor& executor, const PointsCommand& c) {

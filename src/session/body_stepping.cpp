@@ -3,7 +3,6 @@
 
 #include "executor.hpp"
 #include "knead/base/interruption.hpp"
-#include "knead/scene/body_model.hpp"
 
 namespace knead {
 

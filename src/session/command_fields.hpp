@@ -13,6 +13,19 @@ namespace knead {
 //   void describe(C&, Fields&)                   its fields
 // and its .cpp file defines both.
 
+/// What a command acts on. Each declares it as `acts_on`, unless it is for surfaces alone.
+enum class ActsOn {
+  surfaces,  ///< the selected surfaces
+  shapes,    ///< the selected surfaces, or the selected body, where there is one by `on_body`
+  scene,     ///< what it names, whatever is selected
+};
+
+template <class C>
+[[nodiscard]] constexpr ActsOn target_of() {
+  if constexpr (requires { C::acts_on; }) return C::acts_on;
+  return ActsOn::surfaces;
+}
+
 /// What a command that moves surfaces may do where they come to another face of their model (`Executor::meet_faces`).
 enum class ThroughAllowance { through, nothing };
 

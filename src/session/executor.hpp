@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 
-#include "knead/scene/body_model.hpp"
 #include "knead/scene/model.hpp"
 #include "knead/scene/reshape.hpp"
 #include "knead/scene/trims.hpp"
@@ -16,7 +15,6 @@
 #include "knead/session/session.hpp"
 #include "motion_law.hpp"
 #include "scene/met_conditions.hpp"
-#include "scene/shell_model.hpp"
 #include "sculpt/travelled.hpp"
 
 namespace knead {

@@ -1,4 +1,5 @@
 #include "executor.hpp"
+#include "scene/shell_model.hpp"
 
 namespace knead {
 

@@ -14,6 +14,7 @@ enum class SideChoice { all, u0, u1, v0, v1, w0, w1 };
 
 /// Holds edges, with the first or the first two derivatives across them.
 struct EdgeCommand {
+  static constexpr ActsOn acts_on = ActsOn::shapes;
   SideChoice which = SideChoice::all;
   EdgeCondition hold = EdgeCondition::position;
   std::optional<std::string> edge = {};        ///< of a face, by its id in the file, instead of `which`

@@ -6,6 +6,7 @@ namespace knead {
 
 /// Changes an existing tool: only the given fields.
 struct EditToolCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   std::optional<std::string> tool;  ///< its name; default: the only tool
   std::optional<std::string> name;  ///< the same
   std::optional<std::string> shape;

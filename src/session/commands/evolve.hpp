@@ -6,6 +6,7 @@ namespace knead {
 
 /// What steps do; "static" solves at once.
 struct EvolveCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   EvolutionPolicy evolution;
 };
 

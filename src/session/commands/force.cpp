@@ -122,14 +122,26 @@ void put_force(Scene& scene, SceneForce force) {
 
 template <>
 Expected<void> Executor::execute(const ForceCommand& c) {
-  auto surface = selected();
-  if (!surface) return std::unexpected(surface.error());
+  const SceneBody* const b = body();
+  if (b == nullptr) {
+    if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  } else if (c.kind == ForceKind::line || c.kind == ForceKind::moment) {
+    return input_error(fmt::format("a {} has no edges", kind_of(*b)), "kind", "use spring, volcano or dead");
+  }
   auto force = force_of(c);
   if (!force) return std::unexpected(force.error());
-  if (c.at) {
-    if (auto u = parameters_at<2>(*(*surface)->current, *c.at); !u) return std::unexpected(u.error());
-  }
-  put_force(state, {.name = c.name, .surface = *state.selected, .force = *std::move(force)});
+  const auto exists = [&]<int D>(const Spline<D>& shape) -> Expected<void> {
+    if (!c.at) return {};
+    const auto u = parameters_at<D>(shape, *c.at);
+    return u ? Expected<void>() : std::unexpected(u.error());
+  };
+  auto there = b == nullptr ? exists(*state.surfaces[static_cast<std::size_t>(*state.selected)].current)
+                            : std::visit([&](const auto& shapes) { return exists(*shapes.current); }, b->shapes);
+  if (!there) return there;
+  put_force(state, {.name = c.name,
+                    .surface = b == nullptr ? *state.selected : -1,
+                    .body = b == nullptr ? -1 : *state.body,
+                    .force = *std::move(force)});
   return {};
 }
 

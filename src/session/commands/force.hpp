@@ -12,6 +12,7 @@ std::span<const Choice> choices(ForceKind);
 /// A force on one point or edge of the first selected surface, or on one point of the selected body, until it is
 /// removed (thesis Eq. 4.24). Each kind has some of the fields.
 struct ForceCommand {
+  static constexpr ActsOn acts_on = ActsOn::shapes;
   std::string name = "force";
   ForceKind kind = ForceKind::spring;
   std::optional<std::vector<double>> at = {};

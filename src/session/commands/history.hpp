@@ -5,10 +5,14 @@
 namespace knead {
 
 /// Reverts the last command not yet undone.
-struct UndoCommand {};
+struct UndoCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
+};
 
 /// Repeats the command undone last.
-struct RedoCommand {};
+struct RedoCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
+};
 
 template <>
 Expected<void> Executor::execute(const UndoCommand& c);

@@ -6,6 +6,7 @@ namespace knead {
 
 /// No point may be further than this from the surface as opened.
 struct LimitCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   std::optional<double> distance;  ///< left out: no limit
   bool relative = false;
 };

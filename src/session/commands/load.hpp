@@ -6,6 +6,7 @@ namespace knead {
 
 /// Loads on the selected surfaces; each command replaces the previous loads.
 struct LoadCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   Load load;
 };
 

@@ -31,6 +31,7 @@ void describe(NamedMaterial& m, Fields& fields);
 /// Sets stretch and bend coefficients, mass and damping of the selected surfaces, everywhere or in a region. What is
 /// not named stays as it is.
 struct MaterialCommand {
+  static constexpr ActsOn acts_on = ActsOn::shapes;
   /// In the order 11, 12, 22 of surfaces; 11 of curves; 11, 12, 13, 22, 23, 33 of volumes.
   std::optional<std::vector<double>> alpha, beta;
   std::optional<double> mass, damping;

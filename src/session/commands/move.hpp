@@ -5,6 +5,7 @@
 namespace knead {
 
 struct MoveCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   std::optional<std::string> tool;  ///< default: the only tool
   Vector3 by = {0, 0, 0};
   bool relative = false;  ///< `by` is in fractions of the bounding-box diagonal

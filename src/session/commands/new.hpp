@@ -12,6 +12,7 @@ std::span<const Choice> choices(BodyForm);
 /// Makes a surface, a curve or a volume in a document without a file, and selects it: a flat sheet, a surface of
 /// revolution about z, a line, a box, and the like, or any control points.
 struct NewCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   std::string shape = "plane";
   std::optional<BodyForm> form;             ///< of curves and volumes; default: line, box
   std::optional<std::vector<double>> size;  ///< of a plane, a line and a box; default: 1; one number stands for all

@@ -7,6 +7,7 @@ namespace knead {
 
 /// Moves control points by hand. The resulting shape is clay: it is permanent.
 struct PointsCommand {
+  static constexpr ActsOn acts_on = ActsOn::shapes;
   NamedPoints points;
   std::optional<Vector3> by;  ///< the same for all; or:
   std::vector<Vector3> to;    ///< one place for each

@@ -6,6 +6,7 @@ namespace knead {
 
 /// Refines nets without changing the shape: halves spans in a region or under a tool, or inserts knots.
 struct RefineCommand {
+  static constexpr ActsOn acts_on = ActsOn::shapes;
   std::optional<std::array<Fractions, 2>> region;
   std::optional<std::string> under;  ///< name of a tool
   std::vector<double> knots_u, knots_v;

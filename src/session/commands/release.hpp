@@ -6,6 +6,7 @@ namespace knead {
 
 /// Frees what is held on the selected surfaces: all of it, or the named kinds.
 struct ReleaseCommand {
+  static constexpr ActsOn acts_on = ActsOn::shapes;
   std::optional<std::vector<std::string>> what;  ///< left out: all
 };
 

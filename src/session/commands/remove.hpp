@@ -6,6 +6,7 @@ namespace knead {
 
 /// Removes a tool from the scene; its plastic deformation remains. Or a measurement.
 struct RemoveCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   std::optional<std::string> tool;         ///< default: the only tool
   std::optional<std::string> measurement;  ///< its name, instead of a tool
 };

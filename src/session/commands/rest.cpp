@@ -17,6 +17,11 @@ void describe(RestCommand& c, Fields& fields) {
 
 template <>
 Expected<void> Executor::execute(const RestCommand& c) {
+  if (SceneBody* const b = body()) {
+    std::visit([](auto& shapes) { shapes.rest = shapes.reference = shapes.current; }, b->shapes);
+    b->mode = c.mode;
+    return {};
+  }
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];

@@ -6,6 +6,7 @@ namespace knead {
 
 /// Makes the present shape of the selected surfaces their rest shape, and sets what the energy acts on.
 struct RestCommand {
+  static constexpr ActsOn acts_on = ActsOn::shapes;
   RestMode mode = RestMode::shape;
 };
 

@@ -6,6 +6,7 @@ namespace knead {
 
 /// Scales a tool along its own axes.
 struct ScaleCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   std::optional<std::string> tool;
   Vector3 by = {1, 1, 1};
 };

@@ -5,6 +5,7 @@
 namespace knead {
 
 struct ScalingCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   ScalingMode mode = ScalingMode::normalised;
 };
 

@@ -6,6 +6,7 @@ namespace knead {
 
 /// How patches selected together are coupled.
 struct SeamsCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   SeamPolicy seams;
 };
 

@@ -1,5 +1,7 @@
 #include "step.hpp"
 
+#include <fmt/format.h>
+
 #include "../limits.hpp"
 
 namespace knead {
@@ -29,6 +31,10 @@ Expected<void> Executor::execute(const StepCommand& c) {
   EvolutionPolicy evolution = state.evolution;
   if (c.lambda) evolution.lambda = *c.lambda;
   if (c.weight) evolution.weight = *c.weight;
+  if (const SceneBody* const b = body()) {
+    if (!c.increments) return run_body(c.count, evolution);
+    return input_error(fmt::format("a {} has no increments", kind_of(*b)), "increments", "leave it out");
+  }
   if (c.increments) {
     if (auto few = check_steps(*c.increments, "increments", 1); !few) return few;
   }

@@ -12,6 +12,7 @@ std::span<const Choice> choices(StepAllowance);
 
 /// Lets the selected surfaces evolve under the tools.
 struct StepCommand {
+  static constexpr ActsOn acts_on = ActsOn::shapes;
   int count = 1;
   std::optional<double> lambda;  ///< default: that of `evolve`
   std::optional<StepWeight> weight;

@@ -6,6 +6,7 @@ namespace knead {
 
 /// Adds a tool to the scene, or replaces the one of that name.
 struct ToolCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   std::string name = "tool";
   std::string shape = "sphere";
   ShapeFields measures;

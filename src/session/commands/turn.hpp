@@ -6,6 +6,7 @@ namespace knead {
 
 /// Rotates a tool about its centre.
 struct TurnCommand {
+  static constexpr ActsOn acts_on = ActsOn::scene;
   std::optional<std::string> tool;
   Vector3 axis = {0, 0, 1};
   double angle = 0;  ///< degrees
