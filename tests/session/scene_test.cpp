@@ -109,6 +109,80 @@ TEST(Scene, EqualInputsAreWhatAModelDependsOn) {
   }
 }
 
+/// A scene for each kind of model, every one displaced.
+std::vector<SessionState> one_of_each_kind() {
+  const std::vector<std::vector<std::string>> scripts = {
+      {R"({"do":"new","size":[10,10],"net":[8,8]})", R"({"do":"hold","rows":1})",
+       R"({"do":"force","at":[0.5,0.5],"to":[5,5,3]})", R"({"do":"step"})"},
+      {R"({"do":"new","size":[10,10],"net":[8,8]})", R"({"do":"hold","rows":1})",
+       R"({"do":"material","model":"shell","young":1000,"thickness":0.1})",
+       R"({"do":"force","at":[0.5,0.5],"to":[5,5,3]})", R"({"do":"step"})"},
+      {R"({"do":"new","shape":"curve","size":[10],"net":[8]})", R"({"do":"edge"})",
+       R"({"do":"force","at":[0.5],"to":[5,5,3]})", R"({"do":"step"})"},
+      {R"({"do":"new","shape":"volume","net":[4,4,4]})", R"({"do":"edge","which":"w0"})",
+       R"({"do":"material","model":"fundamental","w1":1})", R"({"do":"force","at":[0.5,0.5,1],"to":[0,0,3]})",
+       R"({"do":"step"})"}};
+  std::vector<SessionState> scenes;
+  for (const auto& script : scripts) {
+    Session session = fresh();
+    run(session, script);
+    EXPECT_GT(*session.energy(), 0) << script.front();
+    scenes.push_back(session.state());
+  }
+  return scenes;
+}
+
+TEST(Model, ServesItsSceneAndEvolutionAlone) {
+  const std::vector<SessionState> scenes = one_of_each_kind();
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const auto model = model_of(scenes[k], scenes[k].evolution);
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ((*model)->size(), active_state(scenes[k]).control_points.rows());
+    EvolutionPolicy other = scenes[k].evolution;
+    other.lambda *= 2;
+    EXPECT_FALSE((*model)->serves(scenes[k], other)) << k;
+    for (std::size_t l = 0; l < scenes.size(); ++l) {
+      EXPECT_EQ((*model)->serves(scenes[l], scenes[k].evolution), k == l) << k << ", " << l;
+      EXPECT_EQ((*model)->measures(scenes[l]), k == l) << k << ", " << l;
+    }
+  }
+}
+
+TEST(Model, StepsAndMeasuresAsItsSession) {
+  for (const SessionState& scene : one_of_each_kind()) {
+    auto model = model_of(scene, scene.evolution);
+    ASSERT_TRUE(model) << model.error().message();
+    const auto loads = (*model)->loads(scene);
+    ASSERT_TRUE(loads) << loads.error().message();
+    EXPECT_EQ(loads->points.size(), 1u);
+    const ActiveState now = active_state(scene);
+    const auto step = (*model)->step(now, scene.tools, *loads);
+    ASSERT_TRUE(step) << step.error().message();
+    constexpr double rounded = 1e-12;  // coordinates, in which linear models do not count
+    EXPECT_NEAR((*model)->energy({step->control_points, now.rest}), step->energy, rounded * step->energy);
+    const double before = scene.steps.back().energy;
+    EXPECT_NEAR((*model)->energy(now), before, rounded * before);
+  }
+}
+
+TEST(Models, KeepTheLastFewAndMakeNoneAgain) {
+  const std::vector<SessionState> scenes = one_of_each_kind();
+  Models models;
+  EXPECT_EQ(models.last(), nullptr);
+  const auto model_for = [&](std::size_t k) { return *models.of(scenes[k], scenes[k].evolution); };
+  const Model* const first = model_for(0);
+  EXPECT_EQ(model_for(0), first);
+  const Model* const second = model_for(1);
+  EXPECT_NE(second, first);
+  EXPECT_EQ(model_for(0), first);
+  EXPECT_EQ(models.last(), first);
+  static_cast<void>(model_for(2));
+  EXPECT_EQ(models.measuring(scenes[1]), second);
+  static_cast<void>(model_for(3));
+  EXPECT_EQ(models.measuring(scenes[1]), nullptr);
+  EXPECT_EQ(models.measuring(scenes[0]), first);
+}
+
 TEST(Measure, TellsWhereASurfacePointIs) {
   Session session = on_sheet({R"({"do":"measure","name":"tip","at":[0.5,0.25]})", testing::lift,
                               R"({"do":"step","count":3})", R"({"do":"refine","region":[[0,0.5],[0,1]]})"});
