@@ -55,7 +55,7 @@ Expected<void> whole(std::span<const NewSurface> surfaces, std::span<const NewCu
   return {};
 }
 
-constexpr double uncertainty = 1e-7;  // a length
+constexpr double stated_uncertainty = 1e-7;  // a length
 
 }  // namespace
 
@@ -70,7 +70,7 @@ Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOp
   NewFile file(options.schema);
   const auto product_name = encode_string(options.product);
   const auto shape = file.add_product(options.product).shape;
-  const auto context = file.add_context(options.unit, uncertainty);
+  const auto context = file.add_context(options.unit, stated_uncertainty);
   const auto placement = file.add_origin();
   const auto add = [&](const std::string& record) { return file.add(record); };
   std::vector<std::string> names;
