@@ -70,6 +70,14 @@ int function_named(std::string_view name) {
   return -1;
 }
 
+std::string function_names() {
+  std::string names;
+  for (int k = first_named; k < first_variable; ++k) {
+    names.append(k == first_named ? "" : ", ").append(formula_functions[k].name);
+  }
+  return names;
+}
+
 int operator_of(char c) {
   const std::string_view operators = "+-*/^";
   const std::size_t k = operators.find(c);
@@ -182,7 +190,7 @@ class FormulaParser {
     const int function = function_named(name);
     if (function < 0) {
       return wrong(fmt::format("\"{}\" is neither a variable nor a function", name.substr(0, 40)),
-                   fmt::format("variables are {}", fmt::join(variables_, ", ")));
+                   fmt::format("variables are {}; functions are {}", fmt::join(variables_, ", "), function_names()));
     }
     at_ = end;
     return arguments(function);

@@ -25,6 +25,12 @@ bool is_binary_stl(std::string_view bytes) {
   return count > 0 && bytes.size() == 84 + 50 * count;
 }
 
+/// Scripts and documents of Knead; the latter have a name or a source.
+bool is_script(std::string_view head) { return head.starts_with("{") && head.find("\"knead\"") != head.npos; }
+bool is_document(std::string_view head) {
+  return is_script(head) && (head.find("\"name\"") != head.npos || head.find("\"source\"") != head.npos);
+}
+
 bool is_gltf(std::string_view head) {
   return head.starts_with("glTF") ||
          (head.starts_with("{") && head.find("\"asset\"") != head.npos && head.find("\"version\"") != head.npos);
@@ -94,6 +100,12 @@ std::optional<Error> foreign_format(std::string_view bytes) {
     if (!format.recognised(head)) continue;
     return error(fmt::format("not a STEP file but {}", format.name),
                  "open it in the program that wrote it, and export it as STEP (AP214 or AP242)");
+  }
+  if (is_script(head)) {
+    return is_document(head)
+               ? error("not a STEP file but a Knead document",
+                       "open it in the studio, and save the CAD file there; `knead info` lists its content")
+               : error("not a STEP file but a script", "name the CAD file, and the script with --script");
   }
   const bool binary_stl = is_binary_stl(bytes);
   for (const Known& format : mesh_formats) {

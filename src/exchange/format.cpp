@@ -75,6 +75,11 @@ Expected<const Format*> format_of_name(std::string_view file_name, FormatContent
       "use a name that ends in " + list_of_endings(content));
 }
 
+std::unexpected<Error> detail::nothing_to_write() {
+  return input_error("there is no surface to write", {},
+                     "make one with the command `new`, or begin with a file that has B-spline surfaces");
+}
+
 const std::vector<SourceCurve>& Source::curves() const {
   static const std::vector<SourceCurve> none;
   return none;

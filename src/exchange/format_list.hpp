@@ -18,6 +18,9 @@ namespace knead::detail {
 [[nodiscard]] Format ply_format();
 [[nodiscard]] Format gltf_format();
 
+/// The error of writing no surface and no curve.
+[[nodiscard]] std::unexpected<Error> nothing_to_write();
+
 inline constexpr Format (*format_list[])() = {step_format,  iges_format,    brep_format, g2_format,
                                               gismo_format, geopdes_format, net_format,  json_net_format,
                                               stl_format,   obj_format,     ply_format,  gltf_format};

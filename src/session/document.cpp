@@ -101,18 +101,21 @@ Expected<std::string> Document::save_as(const Format& format, std::span<const Do
   if (format.save == nullptr)
     return input_error(fmt::format("new {} files cannot be written", format.name), {}, "write STEP");
   std::vector<NamedSurface> made;
-  for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface});
+  for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface, {}, s.id});
   options.unit = !surfaces.empty() ? surfaces.front().unit : !bodies.empty() ? bodies.front().unit : unit_;
   for (const SceneBody& body : bodies) {
     if (const auto* curve = std::get_if<BodyShapes<1>>(&body.shapes)) {
-      options.curves.push_back({body.name, *curve->current});
+      options.curves.push_back({body.name, *curve->current, body.id});
       continue;
     }
     auto sides = sides_of(*std::get<BodyShapes<3>>(body.shapes).current);
     if (!sides) return std::unexpected(sides.error().within(body.id));
     static constexpr const char* names[] = {"u0", "u1", "v0", "v1", "w0", "w1"};
     for (std::size_t k = 0; k < sides->size(); ++k) {
-      made.push_back({fmt::format("{} {}", body.name, names[k]), std::move((*sides)[k])});
+      made.push_back({fmt::format("{} {}", body.name, names[k]),
+                      std::move((*sides)[k]),
+                      {},
+                      fmt::format("{} {}", body.id, names[k])});
     }
   }
   options.title = name_;

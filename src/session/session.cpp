@@ -64,6 +64,8 @@ bool moves_a_model(const Command& command) {
 Expected<void> Session::execute(const Command& command, const Progress& progress, const GoOn& go_on) {
   const Interruption interruption(go_on);
   auto done = carry_out(command, progress);
+  // What a command asks for is input, also where the function that refuses it takes it as an argument.
+  if (!done && done.error().kind == ErrorKind::usage) done.error().kind = ErrorKind::input;
   if (done || !interruption.happened()) return done;
   *cache_ = {};
   return interrupted_error();

@@ -46,7 +46,7 @@ TEST(JsonNet, RowsOfPointsAreASurfaceWithUniformKnots) {
 
 TEST(JsonNet, ComesBackToTheSameBitsWithDegreesKnotsAndWeights) {
   const auto source = open_or_die("[[[0,0,0],[0,1,0]],[[1,0,0],[1,1,0]]]", "a.json");
-  for (const auto& [name, surface, colour] : testing::new_surfaces()) {
+  for (const auto& [name, surface, colour, id] : testing::new_surfaces()) {
     SCOPED_TRACE(name);
     const std::string text = with(*source, surface);
     const auto again = open_or_die(text, "b.json");

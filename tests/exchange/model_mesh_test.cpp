@@ -324,6 +324,17 @@ TEST(ModelMesh, SaysWhatIsWrong) {
       model_faces(testing::parse_or_die(testing::step_text("#1=CARTESIAN_POINT('',(0.,0.,0.));\n")).model());
   ASSERT_FALSE(empty);
   EXPECT_EQ(empty.error().kind, ErrorKind::input);
+  // A tolerance that follows from the model is not one that somebody gave.
+  for (const double size : {1e200, 0.0}) {
+    brep::Model far;
+    brep::TessellatedItem& item = far.tessellated.items.emplace_back();
+    item.mesh.id = "#1";
+    if (size > 0) item.mesh.points = {Point(0, 0, 0), Point(size, 0, 0), Point(0, size, 0)};
+    far.assembly = brep::single_part(far);
+    const auto made = model_faces(far);
+    EXPECT_EQ(made.has_value(), size == 0) << "an item without points has no extent";
+    EXPECT_EQ(made ? ErrorKind::numerical : made.error().kind, ErrorKind::numerical);
+  }
   const auto text = save_model(**open_source(file.bytes(), file.name()), *find_format("step"));
   ASSERT_FALSE(text);
   EXPECT_NE(text.error().message().find(".stl"), std::string::npos) << text.error().message();

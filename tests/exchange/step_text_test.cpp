@@ -125,8 +125,8 @@ TEST(StepText, WhatCannotBeWrittenIsAnError) {
   EXPECT_NE(knead::step::text_of(surfaces, {.unit = "furlong"}).error().message().find("furlong"), std::string::npos);
   const auto torn = *KnotVector::create(1, {0, 0, 1, 1, 2, 2});
   const auto line = *KnotVector::create(1, {0, 0, 1, 1});
-  const step::NewSurface item{"torn", *Surface::create({torn, line}, Points::Random(8, 3))};
-  EXPECT_NE(knead::step::text_of({&item, 1}).error().message().find("surface 0"), std::string::npos);
+  const step::NewSurface item{"sheet", *Surface::create({torn, line}, Points::Random(8, 3))};
+  EXPECT_NE(knead::step::text_of({&item, 1}).error().message().find(item.name), std::string::npos);
 }
 
 }  // namespace

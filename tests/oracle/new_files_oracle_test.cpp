@@ -93,7 +93,7 @@ TEST_P(NewFile, HasItsUnit) {
 }
 
 TEST_P(NewFile, OfEveryKindOfSurfaceIsValid) {
-  for (const auto& [name, surface, colour] : testing::new_surfaces()) {
+  for (const auto& [name, surface, colour, id] : testing::new_surfaces()) {
     SCOPED_TRACE(name);
     if (name == "thirds") continue;  // its domain is 10⁹ long, which Open CASCADE does not bear
     const auto read = checked({{name, surface}}, true, "mm");

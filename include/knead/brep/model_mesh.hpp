@@ -18,8 +18,8 @@ namespace knead {
 ///
 /// \param tolerance a length in the model's unit; 0: a two-thousandth of the diagonal of the model's box
 /// Errors (usage): a tolerance below 0, or below 1e-7 of the diagonal, or not finite; (input) a file without a face;
-/// those of its assembly. Faces that fail are listed in `skipped`, each with its reason. Cost: linear in the file and
-/// in the triangles, quadratic in the number of points around one face.
+/// those of its assembly; (numerical) an extent beyond double precision. Faces that fail are listed in `skipped`, each
+/// with its reason. Cost: linear in the file and in the triangles, quadratic in the number of points around one face.
 [[nodiscard]] Expected<FaceMeshes> model_faces(const brep::Model& model, double tolerance = 0);
 
 /// How many sides of triangles no other triangle continues: with the same two points, bit for bit, in the opposite

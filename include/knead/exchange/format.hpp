@@ -23,12 +23,16 @@ struct NamedSurface {
   std::string name;  ///< UTF-8; may be empty
   Surface surface;
   std::optional<Colour> colour = {};
+  std::string id = {};  ///< what errors call it, such as "#1"; its name if empty
+  [[nodiscard]] const std::string& called() const { return id.empty() ? name : id; }
 };
 
 /// A curve to write.
 struct NamedCurve {
   std::string name;  ///< UTF-8; may be empty
   Curve curve;
+  std::string id = {};  ///< what errors call it; its name if empty
+  [[nodiscard]] const std::string& called() const { return id.empty() ? name : id; }
 };
 
 /// Triangles to write, one mesh.

@@ -79,6 +79,7 @@ class Session {
   /// nothing.
   using GoOn = std::function<bool()>;
 
+  /// Errors: of kind input where the command asks for what cannot be, numerical where it cannot be computed.
   [[nodiscard]] Expected<void> execute(const Command& command, const Progress& progress = {}, const GoOn& go_on = {});
 
   /// Whether commands that do not say otherwise (`allow`) stop where a surface comes to another face of its model,

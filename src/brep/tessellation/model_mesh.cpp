@@ -124,7 +124,7 @@ double diagonal_of(const Model& model, const Standing& standing) {
   for (const TessellatedItem& item : model.tessellated.items) {
     Eigen::AlignedBox3d own;
     for (const Point& p : item.mesh.points) own.extend(p);
-    standing.extend(box, item.mesh.id, own);
+    if (!own.isEmpty()) standing.extend(box, item.mesh.id, own);
   }
   if (box.isEmpty()) {
     for (const SplineSurface& s : model.surfaces) {
@@ -187,6 +187,10 @@ Expected<FaceMeshes> model_faces(const Model& model, double tolerance) {
   if (model.faces.empty() && model.surfaces.empty() && model.tessellated.items.empty() &&
       model.tessellated.skipped.empty())
     return input_error("the file has no faces", {}, "open a file with faces");
+  if (!std::isfinite(diagonal)) {
+    return numerical_error("the extent of the model leaves the range of double precision", {},
+                           "correct its coordinates and placements, or use a larger unit of length");
+  }
   // Without any extent nothing can be read or drawn: the faces say why.
   if (tolerance == 0) tolerance = diagonal > 0 ? default_tolerance * diagonal : 1;
   if (!std::isfinite(tolerance) || tolerance < least_tolerance_share * diagonal || !(tolerance > 0)) {

@@ -74,7 +74,7 @@ std::string hollerith_of(std::string_view text) {
 Expected<const KnownLengthUnit*> unit_of_new_file(const std::string& name) {
   const KnownLengthUnit* unit = length_unit_named(name.empty() ? "mm" : name);
   if (unit != nullptr && unit->iges_flag != 0) return unit;
-  return input_error("the unit " + name + " is not known to IGES", {},
+  return input_error("the unit " + name + " is not known to IGES", "unit",
                      "use " + list_of_units([](const KnownLengthUnit& u) { return u.iges_flag != 0; }));
 }
 

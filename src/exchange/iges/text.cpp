@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "exchange/format_list.hpp"
 #include "exchange/natural_faces.hpp"
 #include "exchange/part21/part21_text.hpp"
 
@@ -17,7 +18,7 @@ template <class Spline>
 Expected<void> whole(const Spline& spline, const std::string& what) {
   for (const KnotVector& knots : spline.knots()) {
     if (knots.max_interior_multiplicity() > knots.degree()) {
-      return input_error("IGES knows none that is torn along a knot", what,
+      return input_error("IGES knows no curve or surface that is torn along a knot", what,
                          fmt::format("keep knots inside the domain to a multiplicity of {}", knots.degree()));
     }
   }
@@ -105,14 +106,14 @@ Expected<std::vector<int>> add_shells(std::span<const NamedSurface> surfaces, co
 Expected<std::string> text_of(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   const auto unit = unit_of_new_file(options.unit);
   if (!unit) return std::unexpected(unit.error());
-  if (surfaces.empty() && options.curves.empty()) return input_error("there is no surface to write");
+  if (surfaces.empty() && options.curves.empty()) return detail::nothing_to_write();
   double largest = 0;
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (auto can = whole(surfaces[k].surface, fmt::format("surface {}", k)); !can) return std::unexpected(can.error());
+    if (auto can = whole(surfaces[k].surface, surfaces[k].called()); !can) return std::unexpected(can.error());
     largest = std::max(largest, surfaces[k].surface.control_points().cwiseAbs().maxCoeff());
   }
   for (std::size_t k = 0; k < options.curves.size(); ++k) {
-    if (auto can = whole(options.curves[k].curve, fmt::format("curve {}", k)); !can)
+    if (auto can = whole(options.curves[k].curve, options.curves[k].called()); !can)
       return std::unexpected(can.error());
     largest = std::max(largest, options.curves[k].curve.control_points().cwiseAbs().maxCoeff());
   }

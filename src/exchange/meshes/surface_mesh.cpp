@@ -6,12 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "exchange/format_list.hpp"
 #include "knead/spline/evaluate.hpp"
 
 namespace knead::detail {
 Expected<NamedMesh> mesh_of(const NamedSurface& item, const std::array<GridLines, 2>& lines) {
   auto mesh = brep::grid_mesh(item.surface, lines);
-  if (!mesh) return std::unexpected(mesh.error().within(item.name));
+  if (!mesh) return std::unexpected(mesh.error().within(item.called()));
   return NamedMesh{item.name, std::move(mesh->points), std::move(mesh->normals), std::move(mesh->triangles)};
 }
 
@@ -22,7 +23,7 @@ Expected<void> fits_single_precision(const NamedMesh& mesh, std::string_view for
 
 Expected<std::vector<NamedMesh>> meshes_of(std::span<const NamedSurface> surfaces, const SaveOptions& options) {
   constexpr int most_detail = 2000;
-  if (surfaces.empty()) return input_error("there is no surface to write", {}, "open a file, or make a surface");
+  if (surfaces.empty()) return nothing_to_write();
   if (options.detail < 1 || options.detail > most_detail) {
     return input_error(fmt::format("{} is not a detail", options.detail), "detail",
                        fmt::format("use a number from 1 to {}", most_detail));

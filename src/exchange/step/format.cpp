@@ -114,9 +114,9 @@ Expected<std::string> save_step(std::span<const NamedSurface> surfaces, const Sa
   const auto text = text_options(options);
   if (!text) return std::unexpected(text.error());
   std::vector<step::NewSurface> made;
-  for (const NamedSurface& s : surfaces) made.push_back({s.name, s.surface, s.colour});
+  for (const NamedSurface& s : surfaces) made.push_back({s.name, s.surface, s.colour, s.id});
   std::vector<step::NewCurve> curves;
-  for (const NamedCurve& c : options.curves) curves.push_back({c.name, c.curve});
+  for (const NamedCurve& c : options.curves) curves.push_back({c.name, c.curve, c.id});
   return step::text_of(made, *text, curves);
 }
 

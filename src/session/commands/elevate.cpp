@@ -24,7 +24,9 @@ Expected<void> Executor::execute(const ElevateCommand& c) {
         if (times > max_degree - degree) {
           return input_error(
               fmt::format("{} has degree {} in {}: it cannot be raised by {}", s.id, degree, d == 0 ? "u" : "v", times),
-              "by", fmt::format("degrees go to {}: use at most {}", max_degree, max_degree - degree));
+              "by",
+              degree < max_degree ? fmt::format("degrees go to {}: use at most {}", max_degree, max_degree - degree)
+                                  : fmt::format("{} is the highest degree there is: use 0", max_degree));
         }
         if (result && times > 0) result = elevate_degree<2>(*result, d, times);
       }

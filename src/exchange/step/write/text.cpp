@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "exchange/format_list.hpp"
 #include "exchange/part21/part21_text.hpp"
 #include "knead/exchange/format.hpp"
 #include "new_faces.hpp"
@@ -38,19 +39,18 @@ std::string add_curve(NewFile& file, const NewCurve& item) {
 
 /// Whether STEP can hold them: none is torn along a knot.
 Expected<void> whole(std::span<const NewSurface> surfaces, std::span<const NewCurve> curves) {
-  const auto check = [](const KnotVector& knots, const char* kind, std::size_t k) -> Expected<void> {
+  const auto check = [](const KnotVector& knots, const char* kind, const std::string& name) -> Expected<void> {
     if (knots.max_interior_multiplicity() <= knots.degree()) return {};
-    return input_error(std::string("STEP knows no ") + kind + " that is torn along a knot",
-                       kind + (" " + std::to_string(k)),
+    return input_error(std::string("STEP knows no ") + kind + " that is torn along a knot", name,
                        "keep knots inside the domain to a multiplicity of " + std::to_string(knots.degree()));
   };
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    for (const auto& knots : surfaces[k].surface.knots()) {
-      if (auto can = check(knots, "surface", k); !can) return can;
+  for (const NewSurface& item : surfaces) {
+    for (const auto& knots : item.surface.knots()) {
+      if (auto can = check(knots, "surface", item.id.empty() ? item.name : item.id); !can) return can;
     }
   }
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    if (auto can = check(curves[k].curve.knots(0), "curve", k); !can) return can;
+  for (const NewCurve& item : curves) {
+    if (auto can = check(item.curve.knots(0), "curve", item.id.empty() ? item.name : item.id); !can) return can;
   }
   return {};
 }
@@ -62,9 +62,9 @@ constexpr double stated_uncertainty = 1e-7;  // a length
 Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options,
                               std::span<const NewCurve> curves) {
   if (!is_length_unit(options.unit)) {
-    return input_error("the unit " + options.unit + " is not known", {}, "use " + list_of_length_units());
+    return input_error("the unit " + options.unit + " is not known", "unit", "use " + list_of_length_units());
   }
-  if (surfaces.empty() && curves.empty()) return input_error("there is no surface to write");
+  if (surfaces.empty() && curves.empty()) return detail::nothing_to_write();
   if (auto can = whole(surfaces, curves); !can) return std::unexpected(can.error());
 
   NewFile file(options.schema);

@@ -16,12 +16,14 @@ struct NewSurface {
   std::string name;                                  ///< its label, UTF-8
   Surface surface;                                   ///< coordinates in `TextOptions::unit`
   std::optional<std::array<double, 3>> colour = {};  ///< red, green and blue from 0 to 1
+  std::string id = {};                               ///< what errors call it; its label if empty
 };
 
 /// A curve for a file that does not exist yet.
 struct NewCurve {
-  std::string name;  ///< its label, UTF-8
-  Curve curve;       ///< coordinates in `TextOptions::unit`
+  std::string name;     ///< its label, UTF-8
+  Curve curve;          ///< coordinates in `TextOptions::unit`
+  std::string id = {};  ///< what errors call it; its label if empty
 };
 
 /// The application protocol of a new file (ISO 10303-214, ISO 10303-242).
