@@ -10,6 +10,7 @@
 #include "knead/scene/shell_fields.hpp"
 #include "outputs.hpp"
 #include "run_script.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -82,14 +83,14 @@ Expected<std::string> results_json(const SessionState& state, std::span<const Fi
 
 void print_summary(const AnalyseArguments& options, const SessionState& state, std::span<const FieldGrid> grids) {
   for (const FieldGrid& grid : grids) {
-    fmt::print("{}: surface {}\n", options.fresh ? options.script : options.file, grid.name);
+    say("{}: surface {}\n", options.fresh ? options.script : options.file, grid.name);
     for (const GridField& field : grid.fields) {
       if (field.name != "von_mises") continue;
-      fmt::print("  von Mises stress up to {:.6g}\n", *std::ranges::max_element(field.values));
+      say("  von Mises stress up to {:.6g}\n", *std::ranges::max_element(field.values));
     }
   }
-  for (const ModeRecord& mode : state.modes) fmt::print("  frequency {:.6g}\n", mode.value);
-  for (const ModeRecord& mode : state.buckling) fmt::print("  buckles at {:.6g} times the load\n", mode.value);
+  for (const ModeRecord& mode : state.modes) say("  frequency {:.6g}\n", mode.value);
+  for (const ModeRecord& mode : state.buckling) say("  buckles at {:.6g} times the load\n", mode.value);
 }
 
 Expected<void> run(const AnalyseArguments& options) {
@@ -98,6 +99,7 @@ Expected<void> run(const AnalyseArguments& options) {
       !possible) {
     return possible;
   }
+  if (auto fields = check_name({"--vtu", options.vtu}, ".vtu", "a VTU file"); !fields) return fields;
   if (auto one = check_source(options.file, options.fresh); !one) return one;
   if (options.samples < 2 || options.samples > 1000) {
     return usage_error(fmt::format("{} samples", options.samples), "--samples", "use 2 to 1000");
@@ -115,11 +117,11 @@ Expected<void> run(const AnalyseArguments& options) {
   if (!json) return std::unexpected(json.error());
   print_summary(options, session.state(), *grids);
   if (!options.vtu.empty()) {
-    if (auto done = write_file_atomically(options.vtu, vtu_text(*grids)); !done) return done;
-    fmt::print("wrote {}\n", options.vtu);
+    if (auto done = write_output(options.vtu, vtu_text(*grids)); !done) return done;
+    say("wrote {}\n", options.vtu);
   }
-  if (auto done = write_file_atomically(options.results, *json); !done) return done;
-  fmt::print("wrote {}\n", options.results);
+  if (auto done = write_output(options.results, *json); !done) return done;
+  say("wrote {}\n", options.results);
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include "knead/spline/basis_integral.hpp"
 #include "knead/spline/jumps.hpp"
 #include "knots_option.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -24,7 +25,7 @@ struct BasisArguments {
 
 Expected<void> check(const BasisArguments& options, int count) {
   if (options.index < 0 || options.index >= count) {
-    return input_error(fmt::format("there is no basis function {}", options.index), "--index",
+    return usage_error(fmt::format("there is no basis function {}", options.index), "--index",
                        fmt::format("use 0 to {}", count - 1));
   }
   if (options.derivative.value_or(0) < 0) return usage_error("the order is negative", "--derivative", "use 0 or more");
@@ -73,16 +74,16 @@ Expected<void> run(const BasisArguments& options) {
   if (!knots) return std::unexpected(knots.error());
   if (auto checked = check(options, knots->count()); !checked) return checked;
   const double from = options.from.value_or(knots->domain().lower), to = options.to.value_or(knots->domain().upper);
-  if (!std::isfinite(from) || !std::isfinite(to)) return input_error("the interval is not finite", "--from, --to");
+  if (!std::isfinite(from) || !std::isfinite(to)) return usage_error("the interval is not finite", "--from, --to");
   const int order = options.derivative.value_or(0);
   const bool json = options.format == "json";
   if (json) {
-    fmt::print(R"({{"degree":{},"count":{},"index":{},"{}":{},)", knots->degree(), knots->count(), options.index,
-               options.integral ? "integral" : "derivative", options.integral.value_or(order));
-    if (!options.integral) fmt::print("{}", jumps_json(*knots, options.index, order));
-    fmt::print("\"samples\":[");
+    say(R"({{"degree":{},"count":{},"index":{},"{}":{},)", knots->degree(), knots->count(), options.index,
+        options.integral ? "integral" : "derivative", options.integral.value_or(order));
+    if (!options.integral) say("{}", jumps_json(*knots, options.index, order));
+    say("\"samples\":[");
   } else {
-    fmt::print("u,value\n");
+    say("u,value\n");
   }
   for (int k = 0; k < options.samples; ++k) {
     const double t = options.samples == 1 ? 0 : static_cast<double>(k) / (options.samples - 1);
@@ -90,12 +91,12 @@ Expected<void> run(const BasisArguments& options) {
     const double value = options.integral ? basis_integral(*knots, options.index, *options.integral, u)
                                           : basis_function(*knots, options.index, order, u);
     if (json) {
-      fmt::print("{}[{},{}]", k == 0 ? "" : ",", json_number(u), json_number(value));
+      say("{}[{},{}]", k == 0 ? "" : ",", json_number(u), json_number(value));
     } else {
-      fmt::print("{},{}\n", json_number(u), json_number(value));
+      say("{},{}\n", json_number(u), json_number(value));
     }
   }
-  if (json) fmt::print("]}}\n");
+  if (json) say("]}}\n");
   return {};
 }
 

@@ -38,6 +38,15 @@ inline constexpr std::string_view exit_codes =
 /// error names `option` and the entry that is not a number.
 [[nodiscard]] Expected<std::vector<double>> parse_numbers(const std::string& text, const std::string& option);
 
+/// The same value; an error of it, unless numerical, is that of the option which gave it: wrong usage, at `option`.
+template <class T>
+[[nodiscard]] Expected<T> of_option(Expected<T> value, const std::string& option) {
+  if (value || value.error().kind == ErrorKind::numerical) return value;
+  Error error = value.error().within(option);
+  error.kind = ErrorKind::usage;
+  return std::unexpected(std::move(error));
+}
+
 /// To 17 significant digits, which give back the same double; null if not finite.
 [[nodiscard]] std::string json_number(double value);
 

@@ -2,6 +2,7 @@
 
 #include "cli.hpp"
 #include "knead/session/command_json.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 
@@ -13,9 +14,12 @@ Action add_commands(CLI::App& app) {
   command->add_flag("--table", *table, "print the fields of NAME as a table in Markdown, as docs/scripts.md has it");
   command->footer(std::string(exit_codes));
   return [name, table]() -> Expected<void> {
+    if (*table && name->empty()) {
+      return usage_error("a table is that of one command", "--table", "give NAME too, or leave it out");
+    }
     const auto text = name->empty() ? Expected<std::string>(command_help()) : command_help(*name);
     if (!text) return std::unexpected(text.error());
-    fmt::print("{}", *table && !name->empty() ? command_table(*name) : *text);
+    say("{}", *table ? command_table(*name) : *text);
     return {};
   };
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <ranges>
 
 #include "cad_input.hpp"
@@ -11,12 +12,14 @@
 #include "knead/exchange/save_faces.hpp"
 #include "left_out_lines.hpp"
 #include "outputs.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
 
 struct ExportArguments {
-  std::string file, output, schema = "ap214", unit;
+  std::string file, output, unit;
+  std::optional<std::string> schema;
   bool sets = false, convert = false;
   UnpackOption unpack;
 };
@@ -30,7 +33,7 @@ Expected<std::string> unit_of(const std::string& unit, const ExportArguments& op
   }
   if (known) return unit;
   if (!options.unit.empty()) return options.unit;
-  fmt::print("lengths are written as millimetres: {} does not say what they are; --unit says so\n", options.file);
+  say("lengths are written as millimetres: {} does not say what they are; --unit says so\n", options.file);
   return "mm";
 }
 
@@ -58,9 +61,9 @@ Expected<void> write(const Format& format, std::string bytes, const ExportArgume
                      const std::vector<LeftOut>& left_out, const std::string& content) {
   auto packed = compressed_by_name(std::move(bytes), options.output, options.file);
   if (!packed) return std::unexpected(std::move(packed.error()));
-  if (auto done = write_file_atomically(options.output, *packed); !done) return done;
+  if (auto done = write_output(options.output, *packed); !done) return done;
   warn_left_out(left_out);
-  fmt::print("wrote {} ({}, {}, {} bytes)\n", options.output, format.name, content, packed->size());
+  say("wrote {} ({}, {}, {} bytes)\n", options.output, format.name, content, packed->size());
   return {};
 }
 
@@ -70,7 +73,7 @@ Expected<void> export_faces(const Source& source, const Format& format, const Ex
   const auto unit = unit_of(assembly ? assembly->unit : source.model()->length_unit(), options);
   if (!unit) return std::unexpected(unit.error());
   SaveOptions how;
-  how.schema = options.schema;
+  if (options.schema) how.schema = *options.schema;
   how.unit = *unit;
   auto made = save_faces(source, format, how, options.convert);
   if (!made) {
@@ -99,6 +102,9 @@ Expected<void> run(const ExportArguments& options) {
     return usage_error(fmt::format("new files with the name \"{}\" cannot be written", options.output), "--out",
                        "use a name that ends in one of " + endings);
   }
+  if (options.schema && (*format)->id != "step") {
+    return usage_error("this does not write a STEP file", "--schema", "leave it out");
+  }
   if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
   const auto source = open_cad_file(options.file, options.unpack);
   if (!source) return std::unexpected(source.error());
@@ -113,7 +119,7 @@ Expected<void> run(const ExportArguments& options) {
   const auto colours = (*source)->colours();
   std::vector<NamedSurface> surfaces;
   SaveOptions how;
-  how.schema = options.schema;
+  if (options.schema) how.schema = *options.schema;
   how.faces = !options.sets;
   for (const SourceSurface& s : (*source)->surfaces()) {
     NamedSurface& made = surfaces.emplace_back(NamedSurface{s.name.empty() ? s.id : s.name, *s.surface});
@@ -142,6 +148,9 @@ Expected<void> run(const ExportArguments& options) {
   }
   auto bytes = save_surfaces(surfaces, **format, how);
   if (!bytes) {
+    if (bytes.error().where == "unit" && !options.unit.empty()) {
+      return usage_error(bytes.error().what, "--unit", bytes.error().remedy);
+    }
     bytes.error().file = options.file;
     return std::unexpected(std::move(bytes.error()));
   }
@@ -162,7 +171,7 @@ Action add_export(CLI::App& app) {
       ->required();
   command->add_option("--schema", options->schema, "of a STEP file: ap214 or ap242")
       ->check(CLI::IsMember({"ap214", "ap242"}))
-      ->capture_default_str();
+      ->default_str("ap214");
   command->add_option("--unit", options->unit, "of lengths, where FILE does not say it: mm, inch, …; without it mm");
   command->add_flag("--convert", options->convert,
                     "make planes, cylinders, cones, spheres, tori and swept surfaces B-spline surfaces, exactly");

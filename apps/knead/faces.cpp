@@ -12,6 +12,7 @@
 #include "knead/brep/face_edges.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/scene/trims.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -54,24 +55,24 @@ bool frees_edges(const SessionState& state) {
 
 void print_region(const brep::SplineSurface& s, const VisibleRegion& region) {
   const auto [lower, upper] = region.extent();
-  fmt::print("           visible from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) of the domain", lower.x(), lower.y(),
-             upper.x(), upper.y());
+  say("           visible from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) of the domain", lower.x(), lower.y(), upper.x(),
+      upper.y());
   Eigen::AlignedBox3d box;
   for (const TrimEdge& edge : region.edges) {
     for (const Point& p : edge.points) box.extend(p);
   }
-  fmt::print(", its edges from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.min().x(), box.min().y(),
-             box.min().z(), box.max().x(), box.max().y(), box.max().z());
+  say(", its edges from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.min().x(), box.min().y(),
+      box.min().z(), box.max().x(), box.max().y(), box.max().z());
   if (const auto middle = visible_middle(s.surface, region)) {
-    fmt::print("           middle [{:.4f}, {:.4f}], {:.6g} from the nearest edge\n", middle->at.x(), middle->at.y(),
-               middle->distance);
+    say("           middle [{:.4f}, {:.4f}], {:.6g} from the nearest edge\n", middle->at.x(), middle->at.y(),
+        middle->distance);
   }
   for (const TrimEdge& edge : region.edges) {
     std::string faces;
     for (const std::string& face : edge.neighbours) faces += (faces.empty() ? "" : ", ") + face;
     const auto &a = edge.course.front(), &b = edge.course.back();
-    fmt::print("           edge {:<8} ({:.4f}, {:.4f}) to ({:.4f}, {:.4f}), {}{}\n", edge.id, a.x(), a.y(), b.x(),
-               b.y(), faces.find(',') == std::string::npos ? "face " : "faces ", faces + (edge.seam ? ", a seam" : ""));
+    say("           edge {:<8} ({:.4f}, {:.4f}) to ({:.4f}, {:.4f}), {}{}\n", edge.id, a.x(), a.y(), b.x(), b.y(),
+        faces.find(',') == std::string::npos ? "face " : "faces ", faces + (edge.seam ? ", a seam" : ""));
   }
 }
 
@@ -94,15 +95,15 @@ void print_edges(const SessionState& state) {
       held += edge.held.order >= 0 ? 1 : 0;
       if (edge.held.order >= 0) largest = std::max(largest, edge.deviation);
     }
-    fmt::print("  {}: {} of {} edges held, {} of {} control points free, largest deviation along held edges {:.2g} {}",
-               s.id, held, report.edges.size(), report.free, s.current->size(), largest, s.unit);
-    fmt::print("; largest edge gap {:.2g} {} (at {} points)\n", report.largest, s.unit, report.samples);
+    say("  {}: {} of {} edges held, {} of {} control points free, largest deviation along held edges {:.2g} {}", s.id,
+        held, report.edges.size(), report.free, s.current->size(), largest, s.unit);
+    say("; largest edge gap {:.2g} {} (at {} points)\n", report.largest, s.unit, report.samples);
   });
   for (const FollowedEdge& edge : state.followed) {
     const auto angles = angles_at(state, edge.id);
     if (!angles) continue;
-    fmt::print("  edge {} follows smoothly, with at most {:.2g} degrees between its tangent planes, {:.2g} as opened\n",
-               edge.id, in_degrees(angles->angle), in_degrees(angles->angle_before));
+    say("  edge {} follows smoothly, with at most {:.2g} degrees between its tangent planes, {:.2g} as opened\n",
+        edge.id, in_degrees(angles->angle), in_degrees(angles->angle_before));
   }
 }
 
@@ -139,10 +140,10 @@ void print_faces(const std::shared_ptr<const brep::Model>& held) {
   for (const brep::SplineSurface& s : model.surfaces) {
     const auto region = regions.of(s.id);
     if (!region) {
-      fmt::print("  {:<8} its edges cannot be followed: {}\n", s.id, region.error().message());
+      say("  {:<8} its edges cannot be followed: {}\n", s.id, region.error().message());
     } else if (!region->edges.empty()) {
-      fmt::print("  {:<8} {} edge{}{}\n", s.id, region->edges.size(), region->edges.size() == 1 ? "" : "s",
-                 region->in_shell ? ", in a shell" : "");
+      say("  {:<8} {} edge{}{}\n", s.id, region->edges.size(), region->edges.size() == 1 ? "" : "s",
+          region->in_shell ? ", in a shell" : "");
       print_region(s, *region);
     }
   }
@@ -152,8 +153,7 @@ void print_faces(const std::shared_ptr<const brep::Model>& held) {
     const std::string net = made ? fmt::format("can be converted, degree {} x {}, net {} x {}", made->knots(0).degree(),
                                                made->knots(1).degree(), made->net()[0], made->net()[1])
                                  : "cannot be converted: " + made.error().what;
-    fmt::print("  {:<8} {}, {} {}: {}\n", s.id, s.form, s.faces.size() == 1 ? "face" : "faces",
-               fmt::join(s.faces, ", "), net);
+    say("  {:<8} {}, {} {}: {}\n", s.id, s.form, s.faces.size() == 1 ? "face" : "faces", fmt::join(s.faces, ", "), net);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "cli.hpp"
 #include "knead/gramian/rational_gramian.hpp"
 #include "knots_option.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -67,9 +68,8 @@ Expected<void> estimate_digits(const KnotVector& knots, const std::vector<std::a
     result.digits = std::min(result.digits.value_or(17), common_digits(result.gramians[k].matrix, *exact));
   }
   if (*result.digits < few_digits) {
-    fmt::print(stderr,
-               "knead: warning: the method analytic has {} left on these knots; --method recurrence loses none\n",
-               *result.digits < 0.5 ? "no digits" : fmt::format("about {:.0f} digits", *result.digits));
+    say(stderr, "knead: warning: the method analytic has {} left on these knots; --method recurrence loses none\n",
+        *result.digits < 0.5 ? "no digits" : fmt::format("about {:.0f} digits", *result.digits));
   }
   return {};
 }
@@ -78,32 +78,32 @@ Expected<void> estimate_digits(const KnotVector& knots, const std::vector<std::a
 void print_json(int degree, const Result& result) {
   const std::vector<NamedGramian>& gramians = result.gramians;
   const int count = gramians.front().matrix.size();
-  fmt::print(R"({{"degree":{},"count":{},"method":"{}",)", degree, count, result.method);
-  if (result.error_bound) fmt::print("\"error_bound\":{},", json_number(*result.error_bound));
-  if (result.digits) fmt::print("\"digits\":{:.1f},", *result.digits);
-  fmt::print("\"gramians\":{{");
+  say(R"({{"degree":{},"count":{},"method":"{}",)", degree, count, result.method);
+  if (result.error_bound) say("\"error_bound\":{},", json_number(*result.error_bound));
+  if (result.digits) say("\"digits\":{:.1f},", *result.digits);
+  say("\"gramians\":{{");
   for (std::size_t k = 0; k < gramians.size(); ++k) {
-    fmt::print("{}\n \"{}\":{{\"band\":[", k == 0 ? "" : ",", gramians[k].term);
+    say("{}\n \"{}\":{{\"band\":[", k == 0 ? "" : ",", gramians[k].term);
     for (int i = 0; i < count; ++i) {
-      fmt::print("{}[", i == 0 ? "\n  " : ",\n  ");
+      say("{}[", i == 0 ? "\n  " : ",\n  ");
       for (int j = i - degree; j <= i + degree; ++j) {
         const double value = j < 0 || j >= count ? 0 : gramians[k].matrix(i, j);
-        fmt::print("{}{}", j == i - degree ? "" : ",", json_number(value));
+        say("{}{}", j == i - degree ? "" : ",", json_number(value));
       }
-      fmt::print("]");
+      say("]");
     }
-    fmt::print("]}}");
+    say("]}}");
   }
-  fmt::print("}}}}\n");
+  say("}}}}\n");
 }
 
 void print_csv(int degree, const Result& result) {
-  fmt::print("term,i,j,value\n");
+  say("term,i,j,value\n");
   for (const NamedGramian& g : result.gramians) {
     const int count = g.matrix.size();
     for (int i = 0; i < count; ++i) {
       for (int j = std::max(0, i - degree); j <= std::min(count - 1, i + degree); ++j) {
-        fmt::print("{},{},{},{}\n", g.term, i, j, json_number(g.matrix(i, j)));
+        say("{},{},{},{}\n", g.term, i, j, json_number(g.matrix(i, j)));
       }
     }
   }
@@ -146,14 +146,18 @@ Expected<Result> compute_rational(const GramianArguments& options, const KnotVec
     return usage_error(fmt::format("the method \"{}\" does not take weights", options.method), "--method",
                        fmt::format("use {} or {}", rational, constant_denominator));
   }
+  if (!(options.tolerance > 0)) {
+    return usage_error(fmt::format("{} is no tolerance", options.tolerance), "--tolerance",
+                       "use a fraction such as 1e-10");
+  }
   for (const auto& [a, b] : orders(options)) {
     const std::string term = term_name(a, b);
     if (result.method == constant_denominator) {
-      auto matrix = constant_denominator_gramian(knots, *weights, a, b);
+      auto matrix = of_option(constant_denominator_gramian(knots, *weights, a, b), "--rational-weights");
       if (!matrix) return std::unexpected(matrix.error());
       result.gramians.push_back({term, std::move(*matrix)});
     } else {
-      auto found = rational_gramian(knots, *weights, a, b, options.tolerance);
+      auto found = of_option(rational_gramian(knots, *weights, a, b, options.tolerance), "--rational-weights");
       if (!found) return std::unexpected(found.error());
       result.gramians.push_back({term, std::move(found->matrix)});
       result.error_bound = std::max(result.error_bound.value_or(0), found->error_bound);

@@ -13,12 +13,15 @@
 #include "knead/base/printable.hpp"
 #include "knead/brep/face_conversion.hpp"
 #include "knead/brep/model.hpp"
+#include "knead/exchange/file_io.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/left_out.hpp"
 #include "knead/spline/extremum.hpp"
+#include "knead_document.hpp"
 #include "left_out_lines.hpp"
 #include "parts.hpp"
 #include "progress.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -127,9 +130,9 @@ std::string unit_of(const Source& source) {
 void print_text(const Source& source) {
   const auto model = source.model();
   const auto rows = rows_of(source);
-  fmt::print("{}: {}{}, units {}, {}\n", source.name(), source.format(),
-             source.schema().empty() ? "" : " " + printable(source.schema()), unit_of(source),
-             counted(rows.size(), "B-spline surface", "B-spline surfaces"));
+  say("{}: {}{}, units {}, {}\n", source.name(), source.format(),
+      source.schema().empty() ? "" : " " + printable(source.schema()), unit_of(source),
+      counted(rows.size(), "B-spline surface", "B-spline surfaces"));
   for (const Row& s : rows) {
     const Surface& surface = *s.surface;
     const auto [m, n] = surface.net();
@@ -138,39 +141,44 @@ void print_text(const Source& source) {
     if (s.closed[0]) traits += ", closed in u";
     if (s.closed[1]) traits += ", closed in v";
     if (s.trimmed) traits += ", trimmed";
-    fmt::print("  {:<8} {}degree {} x {}, net {} x {}, {}\n", s.id,
-               s.name.empty() ? "" : "\"" + printable(s.name) + "\", ", surface.knots(0).degree(),
-               surface.knots(1).degree(), m, n, traits);
-    fmt::print("           from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.lower.x(), box.lower.y(),
-               box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
+    say("  {:<8} {}degree {} x {}, net {} x {}, {}\n", s.id, s.name.empty() ? "" : "\"" + printable(s.name) + "\", ",
+        surface.knots(0).degree(), surface.knots(1).degree(), m, n, traits);
+    say("           from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", box.lower.x(), box.lower.y(),
+        box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
   }
   for (const SourceCurve& c : source.curves()) {
-    fmt::print("  {:<8} {}curve of degree {}, {}, {}\n", c.id, c.name.empty() ? "" : "\"" + printable(c.name) + "\", ",
-               c.curve->knots(0).degree(),
-               counted(static_cast<std::size_t>(c.curve->size()), "control point", "control points"),
-               c.curve->rational() ? "rational" : "polynomial");
+    say("  {:<8} {}curve of degree {}, {}, {}\n", c.id, c.name.empty() ? "" : "\"" + printable(c.name) + "\", ",
+        c.curve->knots(0).degree(),
+        counted(static_cast<std::size_t>(c.curve->size()), "control point", "control points"),
+        c.curve->rational() ? "rational" : "polynomial");
   }
   for (const brep::TessellatedItem& item : tessellated_of(model.get())) {
-    fmt::print("  {:<8} {}tessellated, {}\n", item.mesh.id,
-               item.name.empty() ? "" : "\"" + printable(item.name) + "\", ",
-               counted(item.mesh.triangles.size(), "triangle", "triangles"));
+    say("  {:<8} {}tessellated, {}\n", item.mesh.id, item.name.empty() ? "" : "\"" + printable(item.name) + "\", ",
+        counted(item.mesh.triangles.size(), "triangle", "triangles"));
   }
   std::map<std::string, int> others;
   for (const brep::OtherSurface& s : others_of(source)) ++others[s.form];
   if (!others.empty()) {
     std::string counts;
     for (const auto& [form, count] : others) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, form);
-    fmt::print("  other surfaces, to be converted before they are sculpted (--faces lists them): {}\n", counts);
+    say("  other surfaces, to be converted before they are sculpted (--faces lists them): {}\n", counts);
   }
   print_left_out(left_out_of_list(source));
   if (model != nullptr) print_parts(*model);
-  for (const std::string& remark : source.remarks()) fmt::print("  {}\n", printable(remark, 2000));
+  for (const std::string& remark : source.remarks()) say("  {}\n", printable(remark, 2000));
 }
 
 Expected<void> run(const InfoArguments& options) {
   std::optional<ProgressLine> line;
   announce_reading(line.emplace(), options.file);
-  const auto source = open_cad_file(options.file, options.unpack);
+  auto bytes = read_file(options.file);
+  if (!bytes) return std::unexpected(bytes.error());
+  if (is_knead_document(*bytes)) {
+    line.reset();
+    if (options.faces) return usage_error("a Knead document has no faces", "--faces", "leave it out");
+    return show_knead_document(*bytes, options.file, options.json);
+  }
+  const auto source = open_source(*std::move(bytes), options.file, options.unpack.options());
   if (!source) return std::unexpected(source.error());
   if (!options.json) line.reset();  // what is printed shows how far it is
   const auto model = (*source)->model();
@@ -224,7 +232,7 @@ Expected<void> run(const InfoArguments& options) {
                      {"left_out", left_out_json(left_out_of_list(**source))},
                      {"remarks", (*source)->remarks()}};
   line.reset();
-  fmt::print("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));
+  say("{}\n", info.dump(1, ' ', false, Json::error_handler_t::replace));
   return {};
 }
 
@@ -234,8 +242,9 @@ Action add_info(CLI::App& app) {
   auto options = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand("info", "list the B-spline surfaces of a CAD file");
   command->add_option("FILE", options->file, cad_file_help())->required()->type_name("");
-  command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");
-  command->add_flag("--faces", options->faces, "list the visible parts of the surfaces, and the edges of their faces");
+  CLI::Option* json = command->add_flag("--json", options->json, "print JSON, with knots and assembly placements");
+  command->add_flag("--faces", options->faces, "list the visible parts of the surfaces, and the edges of their faces")
+      ->excludes(json);
   options->unpack.add_to(*command);
   command->footer(
       "Coordinates and boxes are in the surface's own frame and units; the box is that of the whole\n"

@@ -7,7 +7,7 @@
 namespace knead::cli {
 
 void KnotsOption::add_to(CLI::App& command) {
-  command.add_option("--degree", degree, "degree of the basis, 1 to 15")->required();
+  command.add_option("--degree", degree, fmt::format("degree of the basis, 1 to {}", max_degree))->required();
   command.add_option("--knots", knots,
                      "all knots, separated by commas, each repeated to its multiplicity; may begin with a minus sign");
   command.add_option("--knots-file", file, "file with the knots, separated by commas or white space");
@@ -19,15 +19,13 @@ Expected<KnotVector> KnotsOption::read() const {
                        "give either --knots or --knots-file");
   }
   if (degree < 1 || degree > max_degree) {
-    return input_error(fmt::format("degree {} is out of range", degree), "--degree",
+    return usage_error(fmt::format("degree {} is out of range", degree), "--degree",
                        fmt::format("use 1 to {}", max_degree));
   }
   if (file.empty()) {
     auto numbers = parse_numbers(knots, "--knots");
     if (!numbers) return std::unexpected(numbers.error());
-    auto made = KnotVector::create(degree, std::move(*numbers));
-    if (!made) return std::unexpected(made.error().within("--knots"));
-    return made;
+    return of_option(KnotVector::create(degree, std::move(*numbers)), "--knots");
   }
   auto text = read_file(file);
   if (!text) return std::unexpected(text.error());

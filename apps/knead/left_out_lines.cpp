@@ -1,16 +1,17 @@
 #include "left_out_lines.hpp"
 
 #include <fmt/format.h>
+#include "say.hpp"
 
 namespace knead::cli {
 
 void print_left_out(const std::vector<LeftOut>& list) {
-  if (!list.empty()) fmt::print("  left out:\n");
-  for (const LeftOut& left : list) fmt::print("    {}\n", sentence(left));
+  if (!list.empty()) say("  left out:\n");
+  for (const LeftOut& left : list) say("    {}\n", sentence(left));
 }
 
 void warn_left_out(const std::vector<LeftOut>& list) {
-  for (const LeftOut& left : list) fmt::print(stderr, "knead: warning: left out: {}\n", sentence(left));
+  for (const LeftOut& left : list) say(stderr, "knead: warning: left out: {}\n", sentence(left));
 }
 
 nlohmann::ordered_json left_out_json(const std::vector<LeftOut>& list) {

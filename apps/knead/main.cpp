@@ -11,6 +11,9 @@
 #include <system_error>
 
 #include "cli.hpp"
+#include "environment.hpp"
+#include "outputs.hpp"
+#include "working.hpp"
 
 namespace {
 
@@ -45,7 +48,9 @@ knead::Error usage_error(const CLI::App& app, const CLI::ParseError& error, cons
 
 int fail(const knead::Error& error) {
   // Not by fmt::print, which throws if standard error is closed: the exit code still tells.
-  const std::string line = "knead: " + error.message() + "\n";
+  const std::string written =
+      knead::cli::written_outputs().empty() ? "" : "; written: " + knead::cli::written_outputs();
+  const std::string line = "knead: " + error.message() + written + "\n";
   static_cast<void>(std::fputs(line.c_str(), stderr));
   return exit_code(error.kind);
 }
@@ -75,6 +80,13 @@ void occupy_standard_streams() {
   }
 }
 
+/// What is printed is lost; the files are not.
+knead::Error lost_output(const std::string& reason) {
+  const char* const what = knead::cli::written_outputs().empty() ? "the output could not be written"
+                                                                 : "what is printed could not be written";
+  return {knead::ErrorKind::input, what + reason, "standard output", "is it closed, or the disk full?"};
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Knead sculpts exact B-spline and NURBS geometry: the CAD file that comes out is the one that went in,\n"
@@ -97,13 +109,14 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(usage_error(app, error, argc > 1 ? argv[1] : ""));
   }
+  if (auto known = knead::cli::check_environment(); !known) return fail(known.error());
   const auto subcommands = app.get_subcommands([](CLI::App*) { return true; });
   for (std::size_t k = 0; k < subcommands.size(); ++k) {
     if (!app.got_subcommand(subcommands[k])) continue;
     if (auto done = actions[k](); !done) return fail(done.error());
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-    return fail({knead::ErrorKind::input, "the output could not be written", "standard output", "is the disk full?"});
+    return fail(lost_output({}));
   }
   return EXIT_SUCCESS;
 }
@@ -117,11 +130,10 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
-    return fail({knead::ErrorKind::numerical, "the memory is not enough", {}, "use a smaller net, model or count"});
+    return fail(knead::cli::out_of_memory(knead::cli::place_of_work()));
   } catch (const std::length_error&) {
-    return fail({knead::ErrorKind::numerical, "the memory is not enough", {}, "use a smaller net, model or count"});
+    return fail(knead::cli::out_of_memory(knead::cli::place_of_work()));
   } catch (const std::system_error& error) {
-    return fail({knead::ErrorKind::input, std::string("the output could not be written: ") + error.what(),
-                 "standard output", "is it closed, or the disk full?"});
+    return fail(lost_output(std::string(": ") + error.what()));
   }
 }

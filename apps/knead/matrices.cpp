@@ -1,10 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+#include <utility>
 
 #include "cad_input.hpp"
 #include "cli.hpp"
@@ -15,14 +20,17 @@
 #include "knead/sculpt/loads.hpp"
 #include "plain_surface.hpp"
 #include "rational_option.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 struct MatricesArguments {
-  std::string file, surface, out, degree = "3";
+  std::string file, surface, out;
+  std::optional<std::string> degree;
   PlainSurfaceOption knots;
   UnpackOption unpack;
   std::string alpha = "1,0,1", beta = "0.01,0.01,0.01", load = "0,0,1", units = "raw";
@@ -45,10 +53,30 @@ Expected<std::array<double, N>> list(const std::string& text, const std::string&
   return result;
 }
 
+/// What is given and would have no effect.
+Expected<void> check_used(const MatricesArguments& options) {
+  const bool file = !options.file.empty();
+  if (!file && !options.surface.empty()) {
+    return usage_error("there is no file that would have it", "--surface", "name a CAD file, or leave it out");
+  }
+  if (file && (options.degree || !options.knots.weights.empty())) {
+    return usage_error("a surface of a file has its own", options.degree ? "--degree" : "--weights", "leave it out");
+  }
+  if (!file && options.knots.weights.empty() && options.rational.given()) {
+    return usage_error("without weights nothing is rational", "--tolerance, --denominator",
+                       "leave them out, or give --weights");
+  }
+  for (const auto& [option, value] : {std::pair("--mass", options.mass), std::pair("--damping", options.damping)}) {
+    if (std::isfinite(value)) continue;
+    return usage_error(fmt::format("{} is no finite number", value), option, "write a decimal");
+  }
+  return {};
+}
+
 /// The surface of a file, or a flat one over its own parameters on the knots that are given.
 Expected<Surface> read_shape(const MatricesArguments& options, std::string& id) {
   if (options.file.empty()) {
-    const auto degree = parse_pair(options.degree, "--degree", true);
+    const auto degree = parse_pair(options.degree.value_or("3"), "--degree", true);
     if (!degree) return std::unexpected(degree.error());
     return options.knots.read(*degree);
   }
@@ -64,7 +92,7 @@ Expected<Surface> read_shape(const MatricesArguments& options, std::string& id) 
     id = s.id;
     return *s.surface;
   }
-  return input_error(fmt::format("there is no surface \"{}\"", options.surface), "--surface",
+  return usage_error(fmt::format("there is no surface \"{}\"", options.surface), "--surface",
                      "`knead info` lists those of the file");
 }
 
@@ -85,15 +113,18 @@ SparseMatrix reduced(const SparseMatrix& matrix, const std::vector<std::int64_t>
   return result;
 }
 
-/// Writes the files of a directory, and lists them.
+/// Makes the files of a directory, and lists them; they come into it together, or none does.
 class Writer {
  public:
-  explicit Writer(std::filesystem::path directory) : directory_(std::move(directory)) {}
-
   Expected<void> file(const std::string& name, const Expected<std::string>& bytes) {
     if (!bytes) return std::unexpected(bytes.error());
-    return write_file_atomically((directory_ / name).string(), *bytes);
+    files_.emplace_back(name, *bytes);
+    return {};
   }
+
+  /// Writes all into `directory`, by way of one beside them. Errors (input): what the system says; the directory is as
+  /// it was then.
+  [[nodiscard]] Expected<void> write(const std::filesystem::path& directory) const;
 
   Expected<void> matrix(const std::string& name, const std::string& formula, const SparseMatrix& matrix,
                         double error_bound) {
@@ -117,8 +148,62 @@ class Writer {
   Json written = Json::array();
 
  private:
-  std::filesystem::path directory_;
+  std::vector<std::pair<std::string, std::string>> files_;  // names and bytes
 };
+
+/// A directory that goes when it is left, with what is in it.
+struct Passing {
+  fs::path path;
+  Passing(const Passing&) = delete;
+  Passing& operator=(const Passing&) = delete;
+  explicit Passing(fs::path made) : path(std::move(made)) {}
+  ~Passing() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+/// The directories of `path` that are missing, outermost first.
+std::vector<fs::path> missing(const fs::path& path) {
+  std::vector<fs::path> result;
+  std::error_code ignored;
+  for (fs::path at = path; !at.empty() && !fs::exists(at, ignored); at = at.parent_path()) {
+    result.insert(result.begin(), at);
+  }
+  return result;
+}
+
+Expected<void> Writer::write(const fs::path& directory) const {
+  const std::vector<fs::path> made = missing(directory);
+  std::error_code problem;
+  fs::create_directories(directory, problem);
+  if (problem) return input_error("the directory cannot be made: " + problem.message(), "--out", "name another one");
+  const auto write_all = [&]() -> Expected<void> {
+    std::string name = (directory / ".knead-set-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      return input_error("nothing can be written into the directory: " + std::generic_category().message(errno),
+                         "--out", "name another one");
+    }
+    const Passing beside(name);
+    for (const auto& [file, bytes] : files_) {
+      if (auto possible = check_writable(directory / file); !possible) return possible;
+      auto done = write_file_atomically(beside.path / file, bytes);
+      if (!done) {
+        done.error().file = (directory / file).string();
+        return done;
+      }
+    }
+    for (const auto& [file, bytes] : files_) {
+      fs::rename(beside.path / file, directory / file, problem);
+      if (problem) return input_error("it cannot be replaced: " + problem.message(), (directory / file).string());
+    }
+    return {};
+  };
+  auto done = write_all();
+  if (done) return done;
+  for (auto at = made.rbegin(); at != made.rend(); ++at) fs::remove(*at, problem);  // if they are empty
+  return done;
+}
 
 struct Model {
   Surface shape;
@@ -156,13 +241,14 @@ Expected<void> run(const MatricesArguments& options) {
     return usage_error("neither a file nor knots, or both, are given", "FILE",
                        "name a CAD file, or give --degree, --knots-u and --knots-v");
   }
+  if (auto used = check_used(options); !used) return used;
   if (options.units != "raw" && options.units != "normalised") {
     return usage_error(fmt::format("\"{}\" is no kind of units", options.units), "--units", "write raw or normalised");
   }
   const auto alpha = list<3>(options.alpha, "--alpha"), beta = list<3>(options.beta, "--beta");
   const auto load = list<3>(options.load, "--load");
   if (!alpha || !beta || !load) return std::unexpected(!alpha ? alpha.error() : !beta ? beta.error() : load.error());
-  const auto material = validated({*alpha, *beta});
+  const auto material = of_option(validated({*alpha, *beta}), "--alpha, --beta");
   if (!material) return std::unexpected(material.error());
   std::string id;
   auto shape = read_shape(options, id);
@@ -184,11 +270,7 @@ Expected<void> run(const MatricesArguments& options) {
     const int i = k / n, j = k % n, h = options.hold;
     if (i >= h && i < m - h && j >= h && j < n - h) model.free.push_back(k);
   }
-  std::error_code problem;
-  std::filesystem::create_directories(options.out, problem);
-  if (problem) return input_error("the directory cannot be made: " + problem.message(), "--out", "name another one");
-
-  Writer writer(options.out);
+  Writer writer;
   if (auto done = write_stiffness(model, *material, writer); !done) return done;
   if (auto done = write_operator(model, "M", "mass int R_i R_j", mass_energy<2>(options.mass), writer); !done)
     return done;
@@ -234,8 +316,8 @@ Expected<void> run(const MatricesArguments& options) {
       {"unknowns", model.free.size()},
       {"matrices", writer.written}};
   if (auto done = writer.file("matrices.json", description.dump(1) + "\n"); !done) return done;
-  fmt::print("wrote {} matrices and arrays of {} unknowns to {}\n", writer.written.size(), model.free.size(),
-             options.out);
+  if (auto done = writer.write(options.out); !done) return done;
+  say("wrote {} matrices and arrays of {} unknowns to {}\n", writer.written.size(), model.free.size(), options.out);
   return {};
 }
 

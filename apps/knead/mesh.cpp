@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cad_input.hpp"
 #include "cli.hpp"
@@ -11,13 +13,14 @@
 #include "knead/exchange/save_model.hpp"
 #include "left_out_lines.hpp"
 #include "outputs.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
 
 struct MeshArguments {
   std::string file, output;
-  double tolerance = 0;
+  std::optional<double> tolerance;
   bool untrimmed = false;
   int detail = SaveOptions{}.detail;
   UnpackOption unpack;
@@ -36,17 +39,16 @@ std::unexpected<Error> in_options(Error error, const MeshArguments& options) {
 
 /// The trimmed faces of a file; says what was left out.
 Expected<void> write_model(const Source& source, const Format& format, const MeshArguments& options) {
-  const auto model = save_model(source, format, options.tolerance);
+  const auto model = save_model(source, format, options.tolerance.value_or(0));
   if (!model) return in_options(model.error(), options);
-  if (auto done = write_file_atomically(options.output, model->bytes); !done) return done;
-  for (const std::string& warning : model->warnings) fmt::print(stderr, "knead: warning: {}\n", warning);
+  if (auto done = write_output(options.output, model->bytes); !done) return done;
+  for (const std::string& warning : model->warnings) say(stderr, "knead: warning: {}\n", warning);
   warn_left_out(left_out_of_mesh(source, model->skipped));
   const std::size_t exact = model->faces - model->tessellated;
   std::string what = exact > 0 || model->tessellated == 0 ? counted(exact, "face", "faces") : "";
   if (model->tessellated > 0)
     what += (what.empty() ? "" : ", ") + counted(model->tessellated, "tessellated item", "tessellated items");
-  fmt::print(
-      "wrote {} ({}, {}, {}, {} bytes)\n", options.output, what, counted(model->triangles, "triangle", "triangles"),
+  say("wrote {} ({}, {}, {}, {} bytes)\n", options.output, what, counted(model->triangles, "triangle", "triangles"),
       model->open_sides == 0 ? "closed" : "open along " + counted(model->open_sides, "side", "sides") + " of triangles",
       model->bytes.size());
   return {};
@@ -63,10 +65,9 @@ Expected<void> write_surfaces(const Source& source, const Format& format, const 
   }
   const auto bytes = save_surfaces(surfaces, format, mesh);
   if (!bytes) return in_options(bytes.error(), options);
-  if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
+  if (auto done = write_output(options.output, *bytes); !done) return done;
   warn_left_out(left_out_of_surfaces(source, format));
-  fmt::print("wrote {} ({}, {} bytes)\n", options.output, counted(surfaces.size(), "surface", "surfaces"),
-             bytes->size());
+  say("wrote {} ({}, {} bytes)\n", options.output, counted(surfaces.size(), "surface", "surfaces"), bytes->size());
   return {};
 }
 
@@ -76,6 +77,10 @@ Expected<void> run(const MeshArguments& options) {
     Error error = format.error().within("--out");
     error.kind = ErrorKind::usage;
     return std::unexpected(std::move(error));
+  }
+  if (options.tolerance && !(*options.tolerance > 0 && std::isfinite(*options.tolerance))) {
+    return usage_error(fmt::format("{} is no distance", *options.tolerance), "--tolerance",
+                       "use a length above 0, in the units of the file");
   }
   if (auto possible = check_outputs({{"--out", options.output}}, {{"FILE", options.file}}); !possible) return possible;
   const auto source = open_cad_file(options.file, options.unpack);
@@ -100,12 +105,10 @@ Action add_mesh(CLI::App& app) {
       ->add_option("-o,--out", options->output,
                    "mesh to write; the ending selects the format: " + list_of_endings(FormatContent::triangles))
       ->required();
-  CLI::Option* tolerance =
-      command
-          ->add_option("--tolerance", options->tolerance,
-                       "distance of the triangles from the faces, in the file's units; a two-thousandth of the model's "
-                       "diagonal unless given")
-          ->check(CLI::PositiveNumber);
+  CLI::Option* tolerance = command->add_option(
+      "--tolerance", options->tolerance,
+      "distance of the triangles from the faces, in the file's units; a two-thousandth of the model's "
+      "diagonal unless given");
   CLI::Option* untrimmed =
       command->add_flag("--untrimmed", options->untrimmed, "write whole B-spline surfaces, not the faces on them");
   tolerance->excludes(untrimmed);

@@ -26,7 +26,7 @@ Expected<std::vector<double>> parse_numbers(const std::string& text, const std::
     const char* first = *at == '+' ? at + 1 : at;
     const auto [parsed, code] = std::from_chars(first, stop, value);
     if (code == std::errc::result_out_of_range || (code == std::errc{} && !std::isfinite(value))) {
-      return input_error(fmt::format("\"{}\" is not a finite number", std::string(at, stop)),
+      return usage_error(fmt::format("\"{}\" is not a finite number", std::string(at, stop)),
                          fmt::format("{} entry {}", option, numbers.size()), "use numbers below 1.8e308");
     }
     if (code != std::errc{} || parsed != stop) {

@@ -23,7 +23,25 @@ bool same_file(const std::string& a, const std::string& b) {
   return a == b || fs::equivalent(a, b, code) || fs::weakly_canonical(a, code) == fs::weakly_canonical(b, code);
 }
 
+std::string files_written;
+
 }  // namespace
+
+Expected<void> check_name(const NamedFile& output, std::string_view ending, std::string_view content) {
+  std::string given = fs::path(output.path).extension().string();
+  for (char& c : given) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (given.empty() || given == ending || is_special(output.path)) return {};
+  return usage_error(fmt::format("\"{}\" is not the name of {}", output.path, content), output.option,
+                     fmt::format("use a name that ends in {}", ending));
+}
+
+Expected<void> write_output(const std::string& path, std::string_view bytes) {
+  auto done = write_file_atomically(path, bytes);
+  if (done) files_written += (files_written.empty() ? "" : ", ") + path;
+  return done;
+}
+
+const std::string& written_outputs() { return files_written; }
 
 Expected<void> check_outputs(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
   for (std::size_t k = 0; k < outputs.size(); ++k) {

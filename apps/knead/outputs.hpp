@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "knead/base/error.hpp"
@@ -21,5 +22,15 @@ struct NamedFile {
 /// A new file of the faces of a session as they are now. Warns of what it leaves out.
 [[nodiscard]] Expected<std::string> bytes_of_faces(const Session& session, const Format& format,
                                                    const SaveOptions& how);
+
+/// A usage error where `path` has another ending than `ending`: its name would promise what is not written. A name
+/// without an ending, and a device, promise nothing.
+[[nodiscard]] Expected<void> check_name(const NamedFile& output, std::string_view ending, std::string_view content);
+
+/// `write_file_atomically`, remembered: an error that comes later says that this one is written.
+[[nodiscard]] Expected<void> write_output(const std::string& path, std::string_view bytes);
+
+/// The files that `write_output` has written so far: "a.json, b.step".
+[[nodiscard]] const std::string& written_outputs();
 
 }  // namespace knead::cli

@@ -8,6 +8,7 @@
 #include "cli.hpp"
 #include "knead/base/printable.hpp"
 #include "knead/brep/assembly.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -27,17 +28,16 @@ std::string first_of(const std::vector<std::string>& ids) {
 }
 
 void print_part(const brep::Part& part) {
-  fmt::print("    {}: {}, B-spline surfaces: {}{}\n", title(part), counted(part.faces.size(), "face", "faces"),
-             first_of(part.surfaces), part.curves.empty() ? "" : ", curves: " + first_of(part.curves));
+  say("    {}: {}, B-spline surfaces: {}{}\n", title(part), counted(part.faces.size(), "face", "faces"),
+      first_of(part.surfaces), part.curves.empty() ? "" : ", curves: " + first_of(part.curves));
   std::map<std::string, int> paths;
   for (const brep::PartPlace& place : part.places) ++paths[place.path];
   std::size_t listed = 0;
   for (const auto& [path, count] : paths) {
     if (listed++ == most_listed) break;
-    fmt::print("      {} x {}\n", count, printable(path, 1000));
+    say("      {} x {}\n", count, printable(path, 1000));
   }
-  if (paths.size() > most_listed)
-    fmt::print("      and {} other paths (--json lists them)\n", paths.size() - most_listed);
+  if (paths.size() > most_listed) say("      and {} other paths (--json lists them)\n", paths.size() - most_listed);
 }
 
 }  // namespace
@@ -46,17 +46,16 @@ void print_parts(const brep::Model& model) {
   if (model.instances.empty()) return;
   const auto& assembly = model.assembly;
   if (!assembly) {
-    fmt::print("  the assembly cannot be followed: {}\n", assembly.error().message());
+    say("  the assembly cannot be followed: {}\n", assembly.error().message());
     return;
   }
   std::size_t places = 0;
   for (const brep::Part& part : assembly->parts) places += part.places.size();
-  fmt::print(
-      "  assembly, in {}: {} with geometry in {} (--json lists their placements); the file has each part once,\n"
+  say("  assembly, in {}: {} with geometry in {} (--json lists their placements); the file has each part once,\n"
       "  so that a change shows in all its places\n",
       assembly->unit, counted(assembly->parts.size(), "part", "parts"), counted(places, "place", "places"));
   for (const brep::Part& part : assembly->parts) print_part(part);
-  for (const std::string& warning : assembly->warnings) fmt::print("  warning: {}\n", warning);
+  for (const std::string& warning : assembly->warnings) say("  warning: {}\n", warning);
 }
 
 Json parts_json(const brep::Model& model) {
@@ -98,8 +97,8 @@ std::vector<RepeatedSurface> repeated_surfaces(const Session& session) {
 
 void print_places(std::span<const RepeatedSurface> surfaces) {
   for (const RepeatedSurface& r : surfaces) {
-    fmt::print("  {}: its part \"{}\" stands in {} places of the assembly, and has changed in all of them\n", r.surface,
-               printable(r.part), r.places);
+    say("  {}: its part \"{}\" stands in {} places of the assembly, and has changed in all of them\n", r.surface,
+        printable(r.part), r.places);
   }
 }
 

@@ -39,8 +39,8 @@ Expected<Surface> PlainSurfaceOption::read(const std::array<int, 2>& degree) con
     const std::string option = d == 0 ? "--knots-u" : "--knots-v";
     auto values = parse_numbers(d == 0 ? u : v, option);
     if (!values) return std::unexpected(values.error());
-    auto made = KnotVector::create(degree[d], *std::move(values));
-    if (!made) return std::unexpected(made.error().within(option));
+    auto made = of_option(KnotVector::create(degree[d], *std::move(values)), option);
+    if (!made) return std::unexpected(made.error());
     knots[d] = *std::move(made);
   }
   std::vector<double> all;
@@ -52,7 +52,8 @@ Expected<Surface> PlainSurfaceOption::read(const std::array<int, 2>& degree) con
   const int m = knots[0].count(), n = knots[1].count();
   Points points(m * n, 3);
   for (int k = 0; k < m * n; ++k) points.row(k) << knots[0].greville(k / n), knots[1].greville(k % n), 0;
-  return Surface::create(std::move(knots), std::move(points), std::move(all));
+  return of_option(Surface::create(std::move(knots), std::move(points), std::move(all)),
+                   weights.empty() ? "--knots-u, --knots-v" : "--weights");
 }
 
 }  // namespace knead::cli

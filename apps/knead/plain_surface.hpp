@@ -18,7 +18,7 @@ struct PlainSurfaceOption {
 
   void add_to(CLI::App& command, const std::string& purpose);
   [[nodiscard]] bool given() const { return !u.empty() && !v.empty(); }
-  /// Usage errors: an entry that is not a number. Input errors: what `KnotVector` and `Surface` refuse.
+  /// Usage errors: an entry that is not a number, and what `KnotVector` and `Surface` refuse.
   [[nodiscard]] Expected<Surface> read(const std::array<int, 2>& degree) const;
 };
 

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "knead/base/printable.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -27,7 +28,7 @@ ProgressLine::ProgressLine()
     : terminal_(isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()), shown_(start_) {}
 
 ProgressLine::~ProgressLine() {
-  if (shown_ > start_) fmt::print(stderr, "\r\x1b[K");
+  if (shown_ > start_) say(stderr, "\r\x1b[K");
 }
 
 void ProgressLine::show(const char* what, std::size_t done, std::size_t total) {
@@ -42,7 +43,7 @@ void ProgressLine::announce(const std::string& what) {
 
 void ProgressLine::print(const std::string& text) {
   shown_ = std::chrono::steady_clock::now();
-  fmt::print(stderr, "\r\x1b[K{} ", text);
+  say(stderr, "\r\x1b[K{} ", text);
   std::fflush(stderr);
 }
 

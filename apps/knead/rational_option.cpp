@@ -14,17 +14,19 @@ void RationalOption::add_to(CLI::App& command) {
 }
 
 Expected<StiffnessOptions> RationalOption::read() const {
-  if (!(tolerance >= 1e-14 && tolerance < 1)) {
-    return usage_error(fmt::format("the tolerance {} cannot be kept", tolerance), "--tolerance",
+  const double wanted = tolerance.value_or(default_rational_tolerance);
+  const std::string kind = denominator.value_or("exact");
+  if (!(wanted >= 1e-14 && wanted < 1)) {
+    return usage_error(fmt::format("the tolerance {} cannot be kept", wanted), "--tolerance",
                        "use a fraction from 1e-14 to 1");
   }
-  if (denominator != "exact" && denominator != "constant") {
-    return usage_error(fmt::format("\"{}\" is no kind of denominator", denominator), "--denominator",
+  if (kind != "exact" && kind != "constant") {
+    return usage_error(fmt::format("\"{}\" is no kind of denominator", kind), "--denominator",
                        "write exact or constant");
   }
   StiffnessOptions options;
-  options.rational_tolerance = tolerance;
-  options.denominator = denominator == "exact" ? RationalDenominator::exact : RationalDenominator::constant;
+  options.rational_tolerance = wanted;
+  options.denominator = kind == "exact" ? RationalDenominator::exact : RationalDenominator::constant;
   return options;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cli.hpp"
@@ -9,10 +10,11 @@ namespace knead::cli {
 
 /// --tolerance and --denominator: how energies of rational surfaces are integrated.
 struct RationalOption {
-  double tolerance = default_rational_tolerance;
-  std::string denominator = "exact";
+  std::optional<double> tolerance;         // `default_rational_tolerance` unless given
+  std::optional<std::string> denominator;  // exact unless given
 
   void add_to(CLI::App& command);
+  [[nodiscard]] bool given() const { return tolerance || denominator; }
   /// Usage errors: a denominator of another name, a tolerance that cannot be kept.
   [[nodiscard]] Expected<StiffnessOptions> read() const;
   /// A `Stiffness::error_bound` in words.

@@ -5,12 +5,21 @@
 #include <utility>
 
 #include "cli.hpp"
+#include "knead/exchange/compression.hpp"
 #include "knead/exchange/file_io.hpp"
+#include "knead/exchange/format.hpp"
+#include "knead/exchange/nrrd.hpp"
 #include "knead/session/command_json.hpp"
 #include "progress.hpp"
+#include "working.hpp"
 
 namespace knead::cli {
 namespace {
+
+/// ": commands[3]"; nothing of a command that the version implies.
+std::string place_in(const Script& script, std::size_t command) {
+  return command < script.implied ? std::string() : fmt::format(": commands[{}]", command - script.implied);
+}
 
 /// The error of a command with its place in the script; one about an entity names the CAD file that it is in.
 Error within_script(Error error, const Session& session, const Script& script, std::size_t command) {
@@ -25,10 +34,39 @@ Error within_script(Error error, const Session& session, const Script& script, s
   }
   error.file = script.name;
   error.line = 0;
+  if (error.kind == ErrorKind::usage) error.kind = ErrorKind::input;
   return place.empty() ? error : error.within(place);
 }
 
+/// What the bytes of a file are where they are known to be no script: "a STEP file".
+std::string kind_of_file(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  if (bytes.find_first_not_of(" \t\r\n") == bytes.npos) return "an empty file";
+  if (bytes.starts_with("\x89PNG"sv) || bytes.starts_with("\xFF\xD8\xFF"sv)) return "an image";
+  if (is_nrrd(bytes)) return "an NRRD file";
+  if (compression_of(bytes) != Compression::none) return "a compressed file";
+  if (bytes[0] == '{' || bytes[0] == '[') return {};
+  for (const Format& format : formats()) {
+    if (format.recognises == nullptr || !format.recognises(bytes)) continue;
+    const bool vowel = std::string_view("AEIO").find(format.name.front()) != std::string_view::npos;
+    return fmt::format("{} {} file", vowel ? "an" : "a", format.name);
+  }
+  return {};
+}
+
 }  // namespace
+
+Error in_script(Error error, std::string_view text, const std::string& name) {
+  if (const std::string kind = kind_of_file(text); !kind.empty()) {
+    error = {ErrorKind::input,
+             "this is " + kind + ", not a script",
+             {},
+             R"(write JSON: {"knead": 2, "commands": [...]}; `knead commands` explains them)"};
+  }
+  if (error.kind == ErrorKind::usage) error.kind = ErrorKind::input;
+  error.file = name;
+  return error;
+}
 
 Expected<Script> read_script(const std::string& name) {
   const auto text = read_file(name);
@@ -36,7 +74,7 @@ Expected<Script> read_script(const std::string& name) {
   Script script;
   script.name = name;
   auto commands = parse_script(*text, name, &script.implied);
-  if (!commands) return std::unexpected(commands.error());
+  if (!commands) return std::unexpected(in_script(commands.error(), *text, name));
   script.commands = std::move(*commands);
   return script;
 }
@@ -65,11 +103,13 @@ Expected<Execution> execute(Session& session, const Script& script, bool stops) 
   const auto go_on = [&] { return !(stops && Interrupt::asked()); };
   Execution execution;
   for (const Command& command : script.commands) {
+    work_on(script.name + place_in(script, execution.commands));
     auto done = session.execute(command, progress, go_on);
     if (stops && Interrupt::asked()) return execution;
     if (!done) return std::unexpected(within_script(std::move(done.error()), session, script, execution.commands));
     ++execution.commands;
   }
+  work_on({});
   execution.complete = true;
   return execution;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cad_input.hpp"
@@ -16,6 +17,10 @@ struct Script {
 };
 
 [[nodiscard]] Expected<Script> read_script(const std::string& name);
+
+/// The error of reading a script, with the file's name: whatever is wrong in a script is wrong input. Where the text is
+/// a file of another kind, that is what is said.
+[[nodiscard]] Error in_script(Error error, std::string_view text, const std::string& name);
 
 /// A usage error where both a file and none, or neither, is asked for.
 [[nodiscard]] Expected<void> check_source(const std::string& file, bool fresh);

@@ -2,6 +2,7 @@
 
 #include "cli.hpp"
 #include "knead/session/command_json.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 
@@ -14,7 +15,7 @@ Action add_schema(CLI::App& app) {
     if (*form != "script" && *form != "document") {
       return usage_error("there is no schema of \"" + *form + "\"", "FORM", "the forms are: script, document");
     }
-    fmt::print("{}", *form == "script" ? script_schema() : document_schema());
+    say("{}", *form == "script" ? script_schema() : document_schema());
     return {};
   };
 }

@@ -16,6 +16,8 @@
 #include "knead/session/snake_script.hpp"
 #include "knead/session/snake_text.hpp"
 #include "outputs.hpp"
+#include "run_script.hpp"
+#include "say.hpp"
 #include "volume_snake.hpp"
 
 namespace knead::cli {
@@ -42,9 +44,7 @@ Expected<SnakeScript> script_in(const SnakeArguments& options) {
   if (!text) return std::unexpected(text.error());
   auto script = parse_snake_script(*text);
   if (script) return script;
-  Error error = script.error();
-  error.file = options.script;
-  return std::unexpected(error);
+  return std::unexpected(in_script(script.error(), *text, options.script));
 }
 
 Expected<void> write_results(const std::vector<SnakeResult>& snakes, const SnakeArguments& options,
@@ -54,12 +54,12 @@ Expected<void> write_results(const std::vector<SnakeResult>& snakes, const Snake
     const std::string text = ending == ".csv"   ? snakes_csv(snakes)
                              : ending == ".svg" ? snakes_svg(snakes, image.width, image.height)
                                                 : snakes_json(snakes, options.image, image.width, image.height);
-    if (auto done = write_file_atomically(options.output, text); !done) return done;
+    if (auto done = write_output(options.output, text); !done) return done;
   }
   if (options.mask.empty()) return {};
   const auto bytes = png_of(snakes_mask(snakes, image.width, image.height));
   if (!bytes) return std::unexpected(bytes.error());
-  return write_file_atomically(options.mask, *bytes);
+  return write_output(options.mask, *bytes);
 }
 
 Expected<void> run_image_snake(const SnakeArguments& options, std::string_view bytes) {
@@ -90,29 +90,28 @@ Expected<void> run_image_snake(const SnakeArguments& options, std::string_view b
   }
   const std::clock_t begin = std::clock();
   const auto potential = ImagePotential::create(*image, script->image, mask);
-  if (!potential) return std::unexpected(potential.error());
+  if (!potential) return std::unexpected(of_script(potential.error(), options));
   const std::clock_t made = std::clock();
   std::vector<Curve> starts;
   std::vector<SnakeSettings> settings;
   const auto places = starts_of(*script, *image);
-  if (!places) return std::unexpected(places.error());
+  if (!places) return std::unexpected(of_script(places.error(), options));
   for (std::size_t k = 0; k < places->size(); ++k) {
     settings.push_back(settings_of(*script, (*places)[k]));
     const auto points = points_of((*places)[k]);
     auto curve = points ? curve_through(*points, settings.back()) : std::unexpected(points.error());
-    if (!curve) return std::unexpected(curve.error().within(fmt::format("snakes[{}]", k)));
+    if (!curve) return std::unexpected(of_script(curve.error().within(fmt::format("snakes[{}]", k)), options));
     starts.push_back(std::move(*curve));
   }
   const auto snakes = run_snakes(*potential, std::move(starts), settings);
-  if (!snakes) return std::unexpected(snakes.error());
+  if (!snakes) return std::unexpected(of_script(snakes.error(), options));
   const auto seconds = [](std::clock_t ticks) { return double(ticks) / CLOCKS_PER_SEC; };
-  fmt::print("{:.4f} s for the energy of the image, {:.4f} s for the contours\n", seconds(made - begin),
-             seconds(std::clock() - made));
+  say("{:.4f} s for the energy of the image, {:.4f} s for the contours\n", seconds(made - begin),
+      seconds(std::clock() - made));
   for (std::size_t k = 0; k < snakes->size(); ++k) {
     const SnakeResult& s = (*snakes)[k];
     const int crossed = crossings(s);
-    fmt::print(
-        "snake {}: {} control points, {} iterations, {}{}\n", k, s.curve.size() - (s.closed ? settings[k].degree : 0),
+    say("snake {}: {} control points, {} iterations, {}{}\n", k, s.curve.size() - (s.closed ? settings[k].degree : 0),
         s.iterations, s.converged ? "at rest" : "not at rest",
         crossed > 0
             ? fmt::format(", crosses itself at {}", counted(static_cast<std::size_t>(crossed), "place", "places"))

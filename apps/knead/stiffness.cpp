@@ -9,6 +9,7 @@
 #include "cli.hpp"
 #include "plain_surface.hpp"
 #include "rational_option.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -34,7 +35,7 @@ constexpr double max_entries = 2e8;  // of the matrix; assembling takes 24 bytes
 Expected<void> check_size(const std::array<int, 2>& degree, const std::array<int, 2>& net, const std::string& option) {
   const double entries = (1.0 + 2 * degree[0]) * net[0] * (1.0 + 2 * degree[1]) * net[1];
   if (entries <= max_entries) return {};
-  return input_error(fmt::format("a matrix of about {:.2g} entries is too large", entries), option,
+  return usage_error(fmt::format("a matrix of about {:.2g} entries is too large", entries), option,
                      fmt::format("use a net or degrees with at most {:.2g}", max_entries));
 }
 
@@ -53,10 +54,10 @@ Expected<Surface> shape_of(const StiffnessArguments& options, const std::array<i
   const auto net = parse_pair(options.net, "--net", false);
   if (!net) return std::unexpected(net.error());
   if (auto fits = check_size(degree, *net, "--net"); !fits) return std::unexpected(fits.error());
-  const auto u = KnotVector::clamped_uniform(degree[0], (*net)[0]);
-  if (!u) return std::unexpected(u.error().within("--net, first direction"));
-  const auto v = KnotVector::clamped_uniform(degree[1], (*net)[1]);
-  if (!v) return std::unexpected(v.error().within("--net, second direction"));
+  const auto u = of_option(KnotVector::clamped_uniform(degree[0], (*net)[0]), "--net, first direction");
+  if (!u) return std::unexpected(u.error());
+  const auto v = of_option(KnotVector::clamped_uniform(degree[1], (*net)[1]), "--net, second direction");
+  if (!v) return std::unexpected(v.error());
   return Surface::create({*u, *v}, Points::Zero((*net)[0] * (*net)[1], 3));
 }
 
@@ -69,15 +70,21 @@ Expected<void> run(const StiffnessArguments& options) {
   if (!beta) return std::unexpected(beta.error());
   const auto method = gramian_method(options.method);
   if (!method) return std::unexpected(method.error().within("--method"));
-  const auto material = validated({*alpha, *beta});
+  const auto material = of_option(validated({*alpha, *beta}), "--alpha, --beta");
   if (!material) return std::unexpected(material.error());
   const auto shape = shape_of(options, *degree);
   if (!shape) return std::unexpected(shape.error());
   auto settings = options.rational.read();
   if (!settings) return std::unexpected(settings.error());
+  if (options.knots.weights.empty() && options.rational.given()) {
+    return usage_error("without weights nothing is rational", "--tolerance, --denominator",
+                       "leave them out, or give --weights");
+  }
   settings->method = *method;
   const auto start = std::chrono::steady_clock::now();
-  const auto stiffness = Stiffness<2>::create(*shape, stretch_and_bend(*material), *settings);
+  // Everything comes from options.
+  const auto stiffness =
+      of_option(Stiffness<2>::create(*shape, stretch_and_bend(*material), *settings), "command line");
   if (!stiffness) return std::unexpected(stiffness.error());
   const SparseMatrix matrix = stiffness->assemble();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -87,14 +94,14 @@ Expected<void> run(const StiffnessArguments& options) {
                            "use smaller coefficients");
   }
   if (options.json) {
-    fmt::print(R"({{"rows":{},"nnz":{},"frobenius":{},"seconds":{},"error_bound":{}}})"
-               "\n",
-               matrix.rows(), matrix.nonZeros(), json_number(norm), json_number(seconds),
-               json_number(stiffness->error_bound()));
+    say(R"({{"rows":{},"nnz":{},"frobenius":{},"seconds":{},"error_bound":{}}})"
+        "\n",
+        matrix.rows(), matrix.nonZeros(), json_number(norm), json_number(seconds),
+        json_number(stiffness->error_bound()));
   } else {
-    fmt::print("{} rows, {} entries, Frobenius norm {:.12g}, assembled in {:.3g} s\n", matrix.rows(), matrix.nonZeros(),
-               norm, seconds);
-    if (shape->rational()) fmt::print("{}\n", RationalOption::describe(stiffness->error_bound()));
+    say("{} rows, {} entries, Frobenius norm {:.12g}, assembled in {:.3g} s\n", matrix.rows(), matrix.nonZeros(), norm,
+        seconds);
+    if (shape->rational()) say("{}\n", RationalOption::describe(stiffness->error_bound()));
   }
   return {};
 }

@@ -15,6 +15,8 @@
 #include "knead/session/volume_snake_script.hpp"
 #include "knead/spline/spline_refinement.hpp"
 #include "outputs.hpp"
+#include "run_script.hpp"
+#include "say.hpp"
 
 namespace knead::cli {
 namespace {
@@ -61,9 +63,7 @@ Expected<VolumeSnakeScript> script_of(const SnakeArguments& options, const Volum
   if (!text) return std::unexpected(text.error());
   auto script = parse_volume_snake_script(*text);
   if (script) return script;
-  Error error = script.error();
-  error.file = options.script;
-  return std::unexpected(error);
+  return std::unexpected(in_script(script.error(), *text, options.script));
 }
 
 std::string list_of(std::span<const double> numbers) {
@@ -134,7 +134,7 @@ Expected<void> write_results(const std::vector<SurfaceSnakeResult>& snakes, cons
     const auto bytes =
         is_json(options.output) ? Expected<std::string>(json_of(snakes, options)) : surfaces_in(snakes, options.output);
     if (!bytes) return std::unexpected(bytes.error());
-    if (auto done = write_file_atomically(options.output, *bytes); !done) return done;
+    if (auto done = write_output(options.output, *bytes); !done) return done;
   }
   if (options.mask.empty()) return {};
   VolumeImage all{file.volume.size, std::vector<double>(file.volume.values.size(), 0), file.volume.frame};
@@ -142,10 +142,16 @@ Expected<void> write_results(const std::vector<SurfaceSnakeResult>& snakes, cons
     const VolumeImage one = mask_of(closed_mesh(s.snake), all.size, all.frame);
     for (std::size_t k = 0; k < all.values.size(); ++k) all.values[k] = std::max(all.values[k], one.values[k]);
   }
-  return write_file_atomically(options.mask, nrrd_bytes(all, file.header.space));
+  return write_output(options.mask, nrrd_bytes(all, file.header.space));
 }
 
 }  // namespace
+
+Error of_script(Error error, const SnakeArguments& options) {
+  if (error.kind == ErrorKind::usage) error.kind = ErrorKind::input;
+  if (error.file.empty()) error.file = options.script.empty() ? options.image : options.script;
+  return error;
+}
 
 std::string beside(const std::string& script, const std::string& file) {
   return (std::filesystem::path(script).parent_path() / file).string();
@@ -164,18 +170,18 @@ Expected<void> run_volume_snake(const SnakeArguments& options, std::string bytes
     mask = std::move(read->volume);
   }
   const auto snakes = run_volume_snakes(file->volume, *script, mask);
-  if (!snakes) return std::unexpected(snakes.error());
+  if (!snakes) return std::unexpected(of_script(snakes.error(), options));
   for (std::size_t k = 0; k < snakes->size(); ++k) {
     const SurfaceSnakeResult& s = (*snakes)[k];
     const int p = s.snake.surface.knots()[0].degree(), crossed = crossings(closed_mesh(s.snake));
     const bool torus = s.snake.form == SurfaceForm::torus;
     const SurfaceMeasure m = measure(s.snake);
-    fmt::print("snake {}: {} x {} control points, {} iterations, {}, area {:.6g}, volume {:.6g}{}\n", k,
-               s.snake.surface.net()[0] - p, s.snake.surface.net()[1] - (torus ? p : 0), s.iterations,
-               s.converged ? "at rest" : "not at rest", m.area, m.volume,
-               crossed > 0 ? fmt::format(", crosses itself ({} of triangles)",
-                                         counted(static_cast<std::size_t>(crossed), "pair", "pairs"))
-                           : "");
+    say("snake {}: {} x {} control points, {} iterations, {}, area {:.6g}, volume {:.6g}{}\n", k,
+        s.snake.surface.net()[0] - p, s.snake.surface.net()[1] - (torus ? p : 0), s.iterations,
+        s.converged ? "at rest" : "not at rest", m.area, m.volume,
+        crossed > 0 ? fmt::format(", crosses itself ({} of triangles)",
+                                  counted(static_cast<std::size_t>(crossed), "pair", "pairs"))
+                    : "");
   }
   return write_results(*snakes, options, *file);
 }

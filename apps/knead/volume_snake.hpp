@@ -11,6 +11,9 @@ struct SnakeArguments {
   std::string image, script, output, mask;
 };
 
+/// An error of what a script asks for, which names it; without a script it is about the image.
+[[nodiscard]] Error of_script(Error error, const SnakeArguments& options);
+
 /// Files that a script names are beside it.
 [[nodiscard]] std::string beside(const std::string& script, const std::string& file);
 

@@ -12,7 +12,10 @@ TEST(Export, WritesTheSameFacesInEveryFormatAndSchema) {
   for (const char* name : {"a.step", "b.stp", "c.igs", "d.iges"}) {
     for (const char* schema : {"ap214", "ap242"}) {
       const std::string out = workshop / name;
-      const Outcome run = knead({"export", bonnet(), "--out", out, "--schema", schema});
+      const bool step = std::string(name).find(".st") != std::string::npos;
+      std::vector<std::string> arguments = {"export", bonnet(), "--out", out};
+      if (step) arguments.insert(arguments.end(), {"--schema", schema});
+      const Outcome run = knead(arguments);
       ASSERT_EQ(run.code, 0) << run.err;
       const bool step = std::string(name).find(".st") != std::string::npos;
       EXPECT_EQ(run.err, "");
@@ -98,7 +101,7 @@ TEST(Export, TakesAUnitWhereTheFileHasNone) {
     EXPECT_NE(knead({"export", bare, "--out", out}).out.find("written as millimetres"), std::string::npos);
   }
   EXPECT_TRUE(
-      fails_with(knead({"export", bare, "--out", workshop / "c.step", "--unit", "ell"}), 3, {"ell", "mm", "inch"}));
+      fails_with(knead({"export", bare, "--out", workshop / "c.step", "--unit", "ell"}), 2, {"ell", "mm", "inch"}));
   EXPECT_TRUE(
       fails_with(knead({"export", bonnet(), "--out", workshop / "c.step", "--unit", "m"}), 2, {"--unit", "in mm"}));
 }

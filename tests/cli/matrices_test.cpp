@@ -139,8 +139,8 @@ TEST(Matrices, WhatIsWrongIsNamed) {
   };
   EXPECT_TRUE(fails({"--out", path}, 2, {"FILE", "--knots-u"}));
   EXPECT_TRUE(fails({bonnet(), "--out", path}, 2, {"--surface", "2 surfaces"}));
-  EXPECT_TRUE(fails({bonnet(), "--surface", "#1", "--out", path}, 3, {"--surface", "#1"}));
-  EXPECT_TRUE(fails({"--knots-u", cubic, "--knots-v", "0,0,1", "--out", path}, 3, {"--knots-v"}));
+  EXPECT_TRUE(fails({bonnet(), "--surface", "#1", "--out", path}, 2, {"--surface", "#1"}));
+  EXPECT_TRUE(fails({"--knots-u", cubic, "--knots-v", "0,0,1", "--out", path}, 2, {"--knots-v"}));
   EXPECT_TRUE(fails({"--knots-u", cubic, "--knots-v", cubic, "--hold", "2", "--out", path}, 2, {"--hold", "4 x 4"}));
   EXPECT_TRUE(fails({"--knots-u", cubic, "--knots-v", cubic, "--units", "mm", "--out", path}, 2, {"--units", "mm"}));
 }
