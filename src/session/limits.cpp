@@ -47,4 +47,11 @@ Expected<void> check_modes(int count) {
                      fmt::format("use 1 to {}", most));
 }
 
+Expected<void> check_radius(double radius) {
+  constexpr double least = 1e-50, greatest = 1e50;  // as of tools
+  if (radius >= least && radius <= greatest) return {};
+  return input_error(fmt::format("{} is not a radius", radius), "radius",
+                     radius > 0 ? "use a number from 1e-50 to 1e50" : "use a number > 0");
+}
+
 }  // namespace knead

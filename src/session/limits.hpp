@@ -26,6 +26,9 @@ inline constexpr std::size_t max_json_depth = 64;            ///< lists and obje
 /// An error about `field` if there are fewer than `least` steps at each of `places`, or more than `max_steps` in all.
 [[nodiscard]] Expected<void> check_steps(int steps, const char* field, int least = 1, std::size_t places = 1);
 
+/// An error about `radius` if it is no length from 1e-50 to 1e50: the square of a smaller one vanishes.
+[[nodiscard]] Expected<void> check_radius(double radius);
+
 /// An error about `count` if it is not a number of modes that can be sought: 1 to 100.
 [[nodiscard]] Expected<void> check_modes(int count);
 

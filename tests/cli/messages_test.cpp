@@ -70,6 +70,15 @@ TEST(Messages, AnUnknownFunctionComesWithTheList) {
                            {"\"sinus\"", "variables are ", "functions are abs, ", "smoothstep", "mix"}));
 }
 
+TEST(Messages, ARadiusWhoseSquareVanishesIsRefused) {
+  // 5e-324 is above 0, but forces shared out by distances over its square are no numbers.
+  for (const Json& small : {command("drag", {{"by", {0, 0, 0.1}}, {"radius", 5e-324}}),
+                            command("relax", {{"at", {0.5, 0.5}}, {"radius", 1e-60}}),
+                            command("mask", {{"change", "blur"}, {"radius", 1e-60}})}) {
+    EXPECT_TRUE(refused_anew({command("new"), small}, 3, {"commands[1]: radius", "1e-50"})) << small;
+  }
+}
+
 TEST(Messages, InfoShowsWhatIsInAKneadDocument) {
   const Workshop workshop;
   const std::string document = workshop.file("a.knead", R"({"knead": 2,

@@ -102,9 +102,7 @@ Expected<void> Executor::execute(const DragCommand& c) {
   const auto length = diagonal();
   if (!length) return std::unexpected(length.error());
   const double unit = c.relative ? *length : 1, radius = c.radius ? *c.radius * unit : 0.1 * *length;
-  if (!(std::isfinite(radius) && radius > 0)) {
-    return input_error(fmt::format("{} is not a radius", radius), "radius", "use a number > 0");
-  }
+  if (auto possible = check_radius(radius); !possible) return possible;
   const auto at = place_on(surface, {c.at, c.middle.value_or(false)});
   if (!at) return std::unexpected(at.error());
   if (auto refined = refine_at_trims(surface, *at, radius); !refined) return refined;

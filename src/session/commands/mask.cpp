@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "../limits.hpp"
+
 namespace knead {
 namespace {
 
@@ -38,9 +40,7 @@ Expected<void> Executor::execute(const MaskCommand& c) {
   const auto length = diagonal();
   if (!length) return std::unexpected(length.error());
   const double radius = c.radius ? *c.radius * (c.relative ? *length : 1) : default_mask_radius * *length;
-  if (!(std::isfinite(radius) && radius > 0)) {
-    return input_error(fmt::format("{} is not a radius", radius), "radius", "use a number > 0");
-  }
+  if (auto possible = check_radius(radius); !possible) return possible;
   for (int k : state.selection()) {
     auto done = change_mask(state.surfaces[static_cast<std::size_t>(k)], c.change, radius);
     if (!done) return done;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../limits.hpp"
 #include "knead/scene/places.hpp"
 #include "knead/sculpt/domain_scaling.hpp"
 #include "knead/spline/evaluate.hpp"
@@ -82,9 +83,7 @@ Expected<void> Executor::execute(const RelaxCommand& c) {
   const auto length = diagonal();
   if (!length) return std::unexpected(length.error());
   const double radius = c.radius ? *c.radius * (c.relative ? *length : 1) : 0.1 * *length;
-  if (!(std::isfinite(radius) && radius > 0)) {
-    return input_error(fmt::format("{} is not a radius", radius), "radius", "use a number > 0");
-  }
+  if (auto possible = check_radius(radius); !possible) return possible;
   const auto centre_at = parameters_at(*surface.current, c.at);
   if (!centre_at) return std::unexpected(centre_at.error());
   const auto centre = evaluate_point<2>(*surface.current, *centre_at);
