@@ -128,16 +128,17 @@ Expected<void> Session::rehearse(std::span<const Command> commands, const GoOn& 
     Session& session;
     decltype(states_) states;
     decltype(entries_) entries;
-    std::size_t position;
+    std::size_t position, floor;
     ~Kept() {
       session.states_ = std::move(states);
       session.entries_ = std::move(entries);
       session.position_ = position;
+      session.floor_ = floor;
     }
   };
   decltype(states_) alone = {states_[position_]};
   const Kept kept{*this, std::exchange(states_, std::move(alone)), std::exchange(entries_, {}),
-                  std::exchange(position_, 0)};
+                  std::exchange(position_, 0), std::exchange(floor_, 0)};
   for (const Command& command : commands) {
     if (auto done = execute(command, {}, go_on); !done) return done;
   }
@@ -216,7 +217,7 @@ std::optional<C> one_of(const Command& first, const Command& second, const Scene
 }  // namespace
 
 void Session::join() {
-  if (position_ < 2 || can_redo()) return;
+  if (position_ < floor_ + 2 || can_redo()) return;
   std::vector<Command> last = std::move(entries_.back());
   entries_.pop_back();
   std::vector<Command>& entry = entries_.back();

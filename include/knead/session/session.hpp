@@ -59,6 +59,12 @@ struct SessionState : Scene, SessionRecord {
   std::shared_ptr<const Document> document = {};  ///< with the surfaces converted so far; null: as opened
 };
 
+/// How an act enters the history.
+struct ActOptions {
+  bool join = false;  ///< it belongs to the entry before it, and is undone with that
+  bool keep = false;  ///< it is an entry even if it changes nothing
+};
+
 /// A document and its history of commands: the model and controller of every user interface.
 ///
 /// Every command either takes full effect or returns an `Error` and changes nothing. Undo and redo restore states bit
@@ -91,10 +97,32 @@ class Session {
   /// later, with the same bits. Errors: that of the first command that fails.
   [[nodiscard]] Expected<void> rehearse(std::span<const Command> commands, const GoOn& go_on = {});
 
+  /// Carries out commands as one act: one entry of the history, wherever they come from. If one fails, the session is
+  /// what it was before the first, with what can be redone. Settings and steps that leave the scene bit for bit as it
+  /// was
+  /// (`step`, `evolve`, `load`, `hold`, `select`, `limit`, `seams`, `material` without a region) are no entry either,
+  /// unless they are joined or kept. `undo` and `redo` among the commands end the entry.
+  ///
+  /// Returns whether there is something new. Errors: that of the first command that fails.
+  [[nodiscard]] Expected<bool> act(std::span<const Command> commands, const ActOptions& options = {},
+                                   const Progress& progress = {}, const GoOn& go_on = {});
+
+  /// Takes the last entry of the history away where it is such settings and steps, and has changed nothing.
+  void drop_unchanged();
+
+  /// From now on undo goes no further back than here, the floor, and nothing is redone: the document is opened.
+  void begin_history();
+  /// The same in a restored session: the floor is after the first `commands` of the journal, or after the oldest state
+  /// that is left; what can be redone stays.
+  void begin_history_after(std::size_t commands);
+  /// How many commands of the journal are below the floor.
+  [[nodiscard]] std::size_t opening_commands() const;
+
   /// Merges the last entry of the history with the one before it: undo then reverts both at once, and the state between
-  /// them is dropped. For many commands that are one action, such as a stroke that follows the pointer. Equal `step`
-  /// commands that become adjacent are merged into one with the sum of their counts, which is equivalent, and so is a
-  /// stroke with the one it continues. Does nothing if there are fewer than two entries, or if something can be redone.
+  /// them is dropped. Nothing is merged with what is below the floor. For many commands that are one action, such as a
+  /// stroke that follows the pointer. Equal `step` commands that become adjacent are merged into one with the sum of
+  /// their counts, which is equivalent, and so is a stroke with the one it continues. Does nothing if there are fewer
+  /// than two entries, or if something can be redone.
   void join();
 
   /// With the surfaces that are converted in the present state.
@@ -102,7 +130,7 @@ class Session {
   [[nodiscard]] const SessionState& state() const { return *states_[position_]; }
   /// The commands in effect, in order: together with the document, the whole session.
   [[nodiscard]] std::vector<Command> journal() const;
-  [[nodiscard]] bool can_undo() const { return position_ > 0; }
+  [[nodiscard]] bool can_undo() const { return position_ > floor_; }
   [[nodiscard]] bool can_redo() const { return position_ + 1 < states_.size(); }
 
   /// Energy of the selected surfaces, or of the selected body, as they stand, normalised units; 0 without a selection.
@@ -134,6 +162,11 @@ class Session {
 
   Expected<void> carry_out(const Command& command, const Progress& progress);
 
+  /// The history from entry `first` on, for going back.
+  struct Before;
+  [[nodiscard]] Before before_act(std::span<const Command> commands, bool join) const;
+  void go_back(Before before);
+
   [[nodiscard]] const Document& document_of(const SessionState& state) const {
     return state.document ? *state.document : document_;
   }
@@ -145,6 +178,7 @@ class Session {
   std::vector<std::shared_ptr<const SessionState>> states_;  // one more than entries_
   std::vector<std::vector<Command>> entries_;                // what undo reverts at once
   std::size_t position_ = 0;
+  std::size_t floor_ = 0;  // undo ends here
   bool stops_at_faces_ = false;
   std::unique_ptr<ModelCache> cache_;  // the last model: its factorisation is reused until a setting changes
 };
