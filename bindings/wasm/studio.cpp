@@ -164,12 +164,10 @@ int show_combs(Expected<CombPicture> combs) {
 
 }  // namespace
 
-/// The input is one command. With `join`, it becomes one entry of the history with the command before it.
-KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
+/// The input is commands, one per line (`carry_out`).
+KNEAD_EXPORT(knead_act) int knead_act(int join, int keep) {
   auto& session = held().session;
   if (!session) return without_session();
-  const auto command = parse_command(held().input);
-  if (!command) return fail(command.error());
   const bool first =
       session->document().is_fresh() && session->state().surfaces.empty() && session->state().bodies.empty();
   const auto told = [](int done, int total) {
@@ -177,10 +175,15 @@ KNEAD_EXPORT(knead_execute) int knead_execute(int join) {
     return true;  // the page stops what takes long by ending its worker
   };
   session->stop_at_faces(true);
-  if (auto done = session->execute(*command, told); !done) return fail(done.error());
+  const auto done = carry_out(*session, held().input, {.join = join != 0, .keep = keep != 0}, told);
+  if (!done) return fail(done.error());
   if (first) held().origin = origin_near(session->state(), held().origin);
-  if (join != 0) session->join();
   return answer("{}");
+}
+
+/// The text is what `begin_history` answers.
+KNEAD_EXPORT(knead_begin_history) int knead_begin_history(int commands) {
+  return held().session ? answer(std::to_string(begin_history(*held().session, commands))) : without_session();
 }
 
 /// The input is a script, which is rehearsed (`Session::rehearse`).

@@ -13,7 +13,7 @@ export class Acts {
   private since: { mark: number; act: Act | null }[] = [];
   private lost: typeof this.since | null = null;
 
-  /** A request was answered; what failed may have done a part, and does the same again. */
+  /** A request was answered; what failed has changed nothing, and fails again. */
   settled(request: Request, done: boolean): void {
     if (request.kind === 'execute') this.since.push({ mark: ++this.mark, act: request });
     else if (done && ['open', 'fresh', 'restore'].includes(request.kind)) this.since = []; // another session

@@ -21,7 +21,8 @@ interface Exports {
   knead_fresh(): number;
   knead_restore(sourceSize: number, nameSize: number): number;
   knead_snapshot(historyBytes: number): number;
-  knead_execute(join: number): number;
+  knead_act(join: number, keep: number): number;
+  knead_begin_history(commands: number): number;
   knead_rehearse(): number;
   knead_state(): number;
   knead_steps(first: number): number;
@@ -89,9 +90,33 @@ export class Engine {
     return this.json(this.wasm.knead_fresh()) as SessionInfo;
   }
 
+  /** One command, an entry of the history whatever it changes. */
   execute(command: Command, join = false): void {
-    this.give(new TextEncoder().encode(JSON.stringify(command)));
-    this.json(this.wasm.knead_execute(join ? 1 : 0));
+    this.act([command], { join, keep: true });
+  }
+
+  /**
+   * Commands as one act: all or none. With `join` it belongs to the entry of the history before it. Without, and without
+   * `keep`, it is no entry if it changes nothing.
+   */
+  act(commands: readonly Command[], { join = false, keep = false } = {}): void {
+    if (commands.length === 0) return;
+    this.give(new TextEncoder().encode(commands.map((command) => JSON.stringify(command)).join('\n')));
+    this.json(this.wasm.knead_act(join ? 1 : 0, keep ? 1 : 0));
+  }
+
+  /** The last entry of the history goes if it is steps and settings that have changed nothing. */
+  dropUnchanged(): void {
+    this.give(new Uint8Array(0));
+    this.json(this.wasm.knead_act(0, 0));
+  }
+
+  /**
+   * What stands now, or stood after so many `commands` of the journal, belongs to the document: undo ends there. Answers
+   * how many commands of the journal that are.
+   */
+  beginHistory(commands = -1): number {
+    return this.json(this.wasm.knead_begin_history(commands)) as number;
   }
 
   /** Carries out commands and leaves the session as it is; what was made for them is kept, so that they take less time later. */

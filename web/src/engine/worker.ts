@@ -1,6 +1,5 @@
 import { type DisplayRange, noValue, plain } from './displays';
 import { Engine } from './engine';
-import { History } from './history';
 import coreUrl from './knead_core.wasm?url';
 import restUrl from './knead_rest.wasm?url';
 import type { PictureSettings, Reply, Request } from './protocol';
@@ -15,7 +14,6 @@ import { trimTree } from './trim_tree';
 const rest = new Rest(() => new WebAssembly.Module(fetchNow(restUrl)));
 const core = WebAssembly.compileStreaming(fetch(coreUrl));
 const engineLoaded = core.then((module) => Engine.load(module, rest)).then((engine) => {
-  history = new History(engine);
   engine.onProgress = tellProgress;
   return engine;
 });
@@ -57,7 +55,7 @@ let shownSteps = 0;
 let computeTime = 0;
 let unkept = 0;
 let quietSteps = 0;
-let beforePlay: ReturnType<History['mark']> | null = null;
+let opened = 0; // commands that belong to the opened document
 const historyBytes = 48 * 2 ** 20; // of shapes that the session before keeps where another cannot be opened
 
 const post = (reply: Reply, transfer: Transferable[] = []) => self.postMessage(reply, { transfer });
@@ -88,8 +86,6 @@ function newToolPictures(engine: Engine, tools: readonly ToolInfo[]): Record<str
   return pictures;
 }
 
-let history: History;
-
 const between = 200; // milliseconds from one report to the next
 let told = 0;
 
@@ -103,12 +99,12 @@ function tellProgress(done: number, total: number): void {
 
 const travels = (command: Command) => command.do === 'undo' || command.do === 'redo';
 
-function execute(commands: Command[], join: boolean, keep = false): void {
+function execute(engine: Engine, commands: Command[], join: boolean, keep = false): void {
   const start = performance.now();
   told = start;
   resting = false;
   try {
-    history.execute(commands, join, keep);
+    engine.act(commands, { join, keep });
   } finally {
     if (commands.some(travels)) shownSteps = 0; // the steps are others now
     computeTime = performance.now() - start;
@@ -124,16 +120,16 @@ let assemblyDue = false;
 
 /** Begins another session; where that fails the one before goes on. */
 function begin(engine: Engine, next: typeof source, act: () => void): void {
-  stopPlaying();
+  stopPlaying(engine);
   resting = false; // windows and colours are those of the document before
   kept = null;
-  const before = hasSession(engine) ? { snapshot: engine.snapshot(historyBytes), source, opened: history.opened, name: engine.state().name } : null;
+  const before = hasSession(engine) ? { snapshot: engine.snapshot(historyBytes), source, opened, name: engine.state().name } : null;
   try {
     act();
   } catch (error) {
     if (before && error instanceof EngineError) {
       engine.restore(before.source?.bytes ?? null, before.source?.name ?? before.name, before.snapshot);
-      history.resume(before.opened);
+      opened = engine.beginHistory(before.opened);
     }
     throw error;
   }
@@ -185,7 +181,7 @@ function sendFrame(engine: Engine): void {
   }
   frameDue = false;
   const start = performance.now();
-  const state = history.state();
+  const state = engine.state();
   const { pictures, range, late } = picturesOf(engine, state);
   const { combs: asked, sectionCombs = [] } = settings;
   const combs = state.selection.flatMap((k) => [
@@ -218,26 +214,25 @@ function sendFrame(engine: Engine): void {
 }
 
 /** Steps that have moved nothing are no entry of the history. */
-function stopPlaying(): void {
-  if (playing !== 'no' && ownEntry && beforePlay) history.dropUnchanged(beforePlay);
+function stopPlaying(engine: Engine): void {
+  if (playing !== 'no' && ownEntry) engine.dropUnchanged();
   playing = 'no';
-  beforePlay = null;
 }
 
 function playOn(engine: Engine): void {
   if (playing === 'no') return;
   if (!frameDrawn) return; // `drawn` calls this again
   try {
-    execute([{ do: 'step' }], ownEntry, true);
+    execute(engine, [{ do: 'step' }], ownEntry, true);
     ownEntry = true;
     const last = engine.state().last;
     if (playing === 'toRest' && last) {
       quietSteps = last.residual < 1e-4 ? quietSteps + 1 : 0;
-      if (quietSteps >= 2) stopPlaying();
+      if (quietSteps >= 2) stopPlaying(engine);
     }
   } catch (error) {
     if (died(error)) return;
-    stopPlaying();
+    stopPlaying(engine);
     post({ kind: 'failed', id: 0, error: errorInfo(error) });
   }
   sendFrame(engine);
@@ -249,13 +244,13 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     case 'fresh': {
       computeTime = 0;
       const start = performance.now();
-      const { commands, opened = commands.length } = request;
+      const { commands, opened: opening = commands.length } = request;
       begin(engine, request.kind === 'open' ? { bytes: request.bytes, name: request.name } : null, () => {
         if (request.kind === 'open') engine.openStep(request.bytes, request.name);
         else engine.fresh(request.name);
-        for (const command of commands.slice(0, opened)) engine.execute(command);
-        history.begin();
-        for (const command of commands.slice(opened)) history.execute([command], false, true);
+        for (const command of commands.slice(0, opening)) engine.execute(command);
+        opened = engine.beginHistory();
+        for (const command of commands.slice(opening)) engine.execute(command);
       });
       unkept = performance.now() - start;
       sendFrame(engine);
@@ -263,12 +258,9 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     }
     case 'execute':
       // A command from outside ends the entry that playing has begun.
-      if (!request.join) {
-        ownEntry = false;
-        beforePlay = null;
-      }
-      execute(request.commands, request.join);
-      if (request.opening) history.begin();
+      if (!request.join) ownEntry = false;
+      execute(engine, request.commands, request.join);
+      if (request.opening) opened = engine.beginHistory();
       sendFrame(engine);
       break;
     case 'pictures':
@@ -281,11 +273,10 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       playing = request.toRest ? 'toRest' : 'on';
       ownEntry = false;
       quietSteps = 0;
-      beforePlay = history.mark();
       playOn(engine);
       break;
     case 'stop':
-      stopPlaying();
+      stopPlaying(engine);
       sendFrame(engine);
       break;
     case 'drawn':
@@ -327,7 +318,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
     case 'restore':
       begin(engine, request.source && { bytes: request.source, name: request.name }, () => {
         engine.restore(request.source, request.name, request.snapshot);
-        history.resume(request.opened);
+        opened = engine.beginHistory(request.opened);
       });
       computeTime = unkept = 0;
       sendFrame(engine);
@@ -336,7 +327,7 @@ async function handle(engine: Engine, id: number, request: Request): Promise<voi
       const text = engine.journal();
       const bytes = engine.snapshot(request.historyBytes);
       if (request.kept) unkept = 0;
-      post({ kind: 'done', id, bytes, text, opened: history.opened }, [bytes.buffer as ArrayBuffer]);
+      post({ kind: 'done', id, bytes, text, opened }, [bytes.buffer as ArrayBuffer]);
       return;
     }
     case 'surface':

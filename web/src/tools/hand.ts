@@ -151,13 +151,6 @@ export class Hand {
     let life = 0;
     const over = () => life !== host.client.deaths;
     let finish = () => {};
-    const tried = async (commands: Command[]): Promise<boolean> => {
-      const [first, ...rest] = commands;
-      if ((await host.execute([first!])) === null) return false;
-      if (rest.length === 0 || (await host.execute(rest, true)) !== null) return true;
-      if (!over()) await host.execute([{ do: 'undo' }]); // what is refused leaves nothing behind
-      return false;
-    };
     const ended = async (commands: Command[]): Promise<void> => {
       await host.client.followed();
       if (over() || (await host.execute(commands, commands.length > 0)) !== null || over() || commands.at(-1)?.do !== 'remove') return;
@@ -172,7 +165,7 @@ export class Hand {
         await previous;
         finish = done;
         life = host.client.deaths;
-        const good = await tried(commands);
+        const good = (await host.execute(commands)) !== null;
         if (!good) done();
         return good;
       },
