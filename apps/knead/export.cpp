@@ -67,6 +67,13 @@ Expected<void> write(const Format& format, std::string bytes, const ExportArgume
   return {};
 }
 
+/// Why a new file could not be made: a unit that it does not know is the option's, all else the file's.
+std::unexpected<Error> failed(Error error, const ExportArguments& options) {
+  if (error.where == "unit" && !options.unit.empty()) return usage_error(error.what, "--unit", error.remedy);
+  if (error.file.empty()) error.file = options.file;
+  return std::unexpected(std::move(error));
+}
+
 /// Faces with their trims.
 Expected<void> export_faces(const Source& source, const Format& format, const ExportArguments& options) {
   const auto& assembly = source.model()->assembly;
@@ -76,10 +83,7 @@ Expected<void> export_faces(const Source& source, const Format& format, const Ex
   if (options.schema) how.schema = *options.schema;
   how.unit = *unit;
   auto made = save_faces(source, format, how, options.convert);
-  if (!made) {
-    if (made.error().file.empty()) made.error().file = options.file;
-    return std::unexpected(std::move(made.error()));
-  }
+  if (!made) return failed(std::move(made.error()), options);
   std::string content = counted(made->faces, "face", "faces");
   const auto add = [&](std::size_t count, const char* one, const char* many) {
     if (count > 0) content += ", " + counted(count, one, many);
@@ -147,13 +151,7 @@ Expected<void> run(const ExportArguments& options) {
       surfaces.erase(surfaces.begin() + static_cast<std::ptrdiff_t>(k));
   }
   auto bytes = save_surfaces(surfaces, **format, how);
-  if (!bytes) {
-    if (bytes.error().where == "unit" && !options.unit.empty()) {
-      return usage_error(bytes.error().what, "--unit", bytes.error().remedy);
-    }
-    bytes.error().file = options.file;
-    return std::unexpected(std::move(bytes.error()));
-  }
+  if (!bytes) return failed(std::move(bytes.error()), options);
   auto left_out = left_out_of_surfaces(**source, **format);
   if (without_face.count > 0) left_out.push_back(std::move(without_face));
   return write(**format, *std::move(bytes), options, left_out, counted(surfaces.size(), "surface", "surfaces"));

@@ -26,25 +26,24 @@ bool same_shape(const std::shared_ptr<const Spline<D>>& a, const std::shared_ptr
 
 /// All fields are named, so that a new one is thought of.
 bool same_surface(const SceneSurface& a, const SceneSurface& b) {
-  const auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, shell, fundamental,
-               hold_rows, pins, constraints, smooth_knot_lines, smooth_poles, plastic, mask, visible] = a;
+  const auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, elasticity, hold_rows, pins, constraints, smooth_knot_lines, smooth_poles, plastic, mask, visible] = a;
   return id == b.id && name == b.name && unit == b.unit && same_shape<2>(opened, b.opened) &&
          same_shape<2>(reference, b.reference) && same_shape<2>(rest, b.rest) && same_shape<2>(current, b.current) &&
-         same_numbers(velocity, b.velocity) && mode == b.mode && material == b.material && shell == b.shell &&
-         fundamental == b.fundamental && hold_rows == b.hold_rows && pins == b.pins && constraints == b.constraints &&
+         same_numbers(velocity, b.velocity) && mode == b.mode && material == b.material &&
+         elasticity == b.elasticity && hold_rows == b.hold_rows && pins == b.pins && constraints == b.constraints &&
          smooth_knot_lines == b.smooth_knot_lines && smooth_poles == b.smooth_poles && plastic == b.plastic &&
          mask == b.mask && (visible != nullptr || true);
 }
 
 template <int D>
 bool same_shapes(const BodyShapes<D>& a, const BodyShapes<D>& b) {
-  const auto& [opened, reference, rest, current, material] = a;
+  const auto& [opened, reference, rest, current, material, elasticity] = a;
   return same_shape<D>(opened, b.opened) && same_shape<D>(reference, b.reference) && same_shape<D>(rest, b.rest) &&
-         same_shape<D>(current, b.current) && material == b.material;
+         same_shape<D>(current, b.current) && material == b.material && elasticity == b.elasticity;
 }
 
 bool same_body(const SceneBody& a, const SceneBody& b) {
-  const auto& [id, name, unit, shapes, velocity, mode, mass, damping, hold_rows, pins, holds, fundamental] = a;
+  const auto& [id, name, unit, shapes, velocity, mode, mass, damping, hold_rows, pins, holds] = a;
   const bool moved = std::visit(
       [&]<int D>(const BodyShapes<D>& own) {
         const auto* other = std::get_if<BodyShapes<D>>(&b.shapes);
@@ -53,7 +52,7 @@ bool same_body(const SceneBody& a, const SceneBody& b) {
       shapes);
   return !moved && id == b.id && name == b.name && unit == b.unit && same_numbers(velocity, b.velocity) &&
          mode == b.mode && mass == b.mass && damping == b.damping && hold_rows == b.hold_rows && pins == b.pins &&
-         holds == b.holds && fundamental == b.fundamental;
+         holds == b.holds;
 }
 
 }  // namespace

@@ -17,7 +17,6 @@ TEST(Export, WritesTheSameFacesInEveryFormatAndSchema) {
       if (step) arguments.insert(arguments.end(), {"--schema", schema});
       const Outcome run = knead(arguments);
       ASSERT_EQ(run.code, 0) << run.err;
-      const bool step = std::string(name).find(".st") != std::string::npos;
       EXPECT_EQ(run.err, "");
       EXPECT_NE(run.out.find("6 faces"), std::string::npos) << run.out;
       const Json info = knead({"info", out, "--json"}).json();
