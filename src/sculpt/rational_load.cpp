@@ -11,7 +11,7 @@
 namespace knead::detail {
 namespace {
 
-constexpr double tolerance = 1e-10;
+constexpr double load_tolerance = 1e-10;
 
 template <int D>
 class RationalLoad {
@@ -25,7 +25,7 @@ class RationalLoad {
     for (int pass = 0; pass < 4; ++pass) {
       size_ = measure_;
       if (auto done = sum_up(true); !done) return std::unexpected(done.error());
-      if ((errors_.array() <= tolerance * measure_.array()).all()) break;
+      if ((errors_.array() <= load_tolerance * measure_.array()).all()) break;
     }
     return forces_;
   }
@@ -62,7 +62,8 @@ class RationalLoad {
       error = 0;
       std::array<int, D> few;
       for (std::size_t d = 0; d < D; ++d) few[d] = piece.axis(d).degree() + 2;
-      const double allowed = tolerance / static_cast<double>(elements_.functions()) * RationalElements<D>::share(piece);
+      const double allowed =
+          load_tolerance / static_cast<double>(elements_.functions()) * RationalElements<D>::share(piece);
       const bool kept = certified ? rule.integrate(piece, allowed, size, visit) : visit(piece, few, 0);
       if (!kept && done) {
         done = numerical_error("the weights of one element differ so much that loads on it cannot be integrated",

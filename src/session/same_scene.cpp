@@ -26,11 +26,12 @@ bool same_shape(const std::shared_ptr<const Spline<D>>& a, const std::shared_ptr
 
 /// All fields are named, so that a new one is thought of.
 bool same_surface(const SceneSurface& a, const SceneSurface& b) {
-  const auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, elasticity, hold_rows, pins, constraints, smooth_knot_lines, smooth_poles, plastic, mask, visible] = a;
+  const auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, elasticity, hold_rows, pins,
+               constraints, smooth_knot_lines, smooth_poles, plastic, mask, visible] = a;
   return id == b.id && name == b.name && unit == b.unit && same_shape<2>(opened, b.opened) &&
          same_shape<2>(reference, b.reference) && same_shape<2>(rest, b.rest) && same_shape<2>(current, b.current) &&
-         same_numbers(velocity, b.velocity) && mode == b.mode && material == b.material &&
-         elasticity == b.elasticity && hold_rows == b.hold_rows && pins == b.pins && constraints == b.constraints &&
+         same_numbers(velocity, b.velocity) && mode == b.mode && material == b.material && elasticity == b.elasticity &&
+         hold_rows == b.hold_rows && pins == b.pins && constraints == b.constraints &&
          smooth_knot_lines == b.smooth_knot_lines && smooth_poles == b.smooth_poles && plastic == b.plastic &&
          mask == b.mask && (visible != nullptr || true);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -18,7 +19,7 @@
 #include "knead/brep/assembly.hpp"
 #include "knead/brep/model_mesh.hpp"
 #include "knead/exchange/file_io.hpp"
-#include "oracle/brep_files.hpp"
+#include "oracle/body_files.hpp"
 #include "oracle/occt_bodies.hpp"
 #include "oracle/occt_places.hpp"
 #include "oracle/occt_shapes.hpp"
@@ -188,29 +189,10 @@ TEST_P(Bodies, HaveTheVolumeTheAreaAndTheBoxThatOpenCascadeFinds) {
   write_row(whole, sewn);
 }
 
-using Makers = std::vector<std::pair<std::string, std::string (*)()>>;
-
-std::vector<std::string> files() {
-  std::vector<std::string> names = testing::with_own(testing::step_files(), testing::iges_files());
-  names = testing::with_own(std::move(names), brep_files());
-  for (const auto& [name, text] : Makers{{"made_hollow_box.igs", testing::iges_hollow_box},
-                                         {"made_hollow_boxes.igs", testing::iges_hollow_boxes},
-                                         {"made_drum.igs", testing::iges_drum_in_inch}}) {
-    testing::file_makers()[name] = [text](const auto& path) { return write_file_atomically(path, text()).has_value(); };
-    names.push_back(name);
-  }
-  for (const std::string shape : {"hollow_box", "drilled_torus", "rounded_box"}) {
-    const std::string name = "made_" + shape + ".step";
-    testing::file_makers()[name] = [shape](const auto& path) { return occt_write_shape(shape, path); };
-    names.push_back(name);
-  }
-  testing::file_makers()["made_hollow.brep"] = [](const auto& path) { return occt_write_placed("hollow", path); };
-  names.emplace_back("made_hollow.brep");
-  names = testing::with_own(std::move(names), testing::foreign_faults);
-  return testing::with_own(std::move(names), testing::foreign_morph);
-}
-
-INSTANTIATE_TEST_SUITE_P(Files, Bodies, ::testing::ValuesIn(files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, Bodies,
+                         ::testing::ValuesIn(files_with_bodies(std::array<std::string, 3>{"hollow_box", "drilled_torus",
+                                                                                          "rounded_box"})),
+                         testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle

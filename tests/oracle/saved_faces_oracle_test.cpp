@@ -13,7 +13,7 @@
 #include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "knead/exchange/save_faces.hpp"
-#include "oracle/brep_files.hpp"
+#include "oracle/body_files.hpp"
 #include "oracle/occt_bodies.hpp"
 #include "oracle/occt_held.hpp"
 #include "oracle/occt_places.hpp"
@@ -135,33 +135,8 @@ TEST_P(SavedFacesOracle, OpenCascadeFindsTheSameFacesAreasAndVolumes) {
   for (const Target& target : targets) check(target);
 }
 
-using Maker = std::pair<std::string, std::string (*)()>;
-
-using Maker = std::pair<std::string, std::string (*)()>;
-
-using Maker = std::pair<std::string, std::string (*)()>;
-
-std::vector<std::string> saved_files() {
-  std::vector<std::string> names = testing::with_own(testing::step_files(), testing::iges_files());
-  names = testing::with_own(std::move(names), brep_files());
-  for (const auto& [name, text] : {Maker("made_hollow_box.igs", testing::iges_hollow_box),
-                                   {"made_hollow_boxes.igs", testing::iges_hollow_boxes},
-                                   {"made_drum.igs", testing::iges_drum_in_inch}}) {
-    testing::file_makers()[name] = [text](const auto& path) { return write_file_atomically(path, text()).has_value(); };
-    names.emplace_back(name);
-  }
-  for (const std::string& shape : occt_shape_names()) {
-    const std::string name = "made_" + shape + ".step";
-    testing::file_makers()[name] = [shape](const auto& path) { return occt_write_shape(shape, path); };
-    names.push_back(name);
-  }
-  testing::file_makers()["made_hollow.brep"] = [](const auto& path) { return occt_write_placed("hollow", path); };
-  names.emplace_back("made_hollow.brep");
-  names = testing::with_own(std::move(names), testing::foreign_faults);
-  return testing::with_own(std::move(names), testing::foreign_morph);
-}
-
-INSTANTIATE_TEST_SUITE_P(Files, SavedFacesOracle, ::testing::ValuesIn(saved_files()), testing::file_test_name);
+INSTANTIATE_TEST_SUITE_P(Files, SavedFacesOracle, ::testing::ValuesIn(files_with_bodies(occt_shape_names())),
+                         testing::file_test_name);
 
 }  // namespace
 }  // namespace knead::oracle
