@@ -58,8 +58,16 @@ TEST(RealFiles, IgesFilesAreListedAndKept) {
   const std::string script = workshop.script(Json::array()), out = workshop / "out.igs";
   EXPECT_EQ(knead({"sculpt", file, "-o", out, "--script", script}).code, 0);
   EXPECT_TRUE(identical(content_of(out), content_of(file)));
-  EXPECT_TRUE(fails_with(knead({"sculpt", file, "-o", workshop / "out.step", "--script", script}), 2,
+  EXPECT_TRUE(fails_with(knead({"sculpt", file, "-o", workshop / "out.g2", "--script", script}), 2,
                          {"--output", "IGES", ".igs, .iges"}));
+  const std::string other = workshop / "out.step";
+  ASSERT_EQ(knead({"sculpt", file, "-o", other, "--script", script}).code, 0);
+  const Json written = knead({"info", other, "--json"}).json();
+  ASSERT_EQ(written.at("surfaces").size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(written.at("surfaces")[k].at("knots"), info.at("surfaces")[k].at("knots"));
+    EXPECT_EQ(written.at("surfaces")[k].at("bounding_box"), info.at("surfaces")[k].at("bounding_box"));
+  }
 }
 
 TEST(RealFiles, APartOfAnAssemblyChangesInAllItsPlaces) {
