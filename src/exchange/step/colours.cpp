@@ -95,7 +95,7 @@ class Styles {
 
   [[nodiscard]] bool is_face(Instance k) const {
     return reader_.is(k, "ADVANCED_FACE") || reader_.is(k, "FACE_SURFACE") || reader_.is(k, "FACE") ||
-           reader_.is(k, "CURVE_BOUNDED_SURFACE") || reader_.is(k, "RECTANGULAR_TRIMMED_SURFACE");
+           is_bounded_surface(reader_, k);
   }
   [[nodiscard]] bool is_shell(Instance k) const {
     return reader_.is(k, "CLOSED_SHELL") || reader_.is(k, "OPEN_SHELL") || reader_.is(k, "CONNECTED_FACE_SET") ||

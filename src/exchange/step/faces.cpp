@@ -40,16 +40,9 @@ std::unordered_set<std::uint32_t> turned_faces(const Reader& reader) {
 
 constexpr std::array<std::string_view, 2> bounded_kinds = {"CURVE_BOUNDED_SURFACE", "RECTANGULAR_TRIMMED_SURFACE"};
 
-/// The surface that a bounded surface trims; none: the surface is not bounded, or its record is incomplete.
 std::optional<std::uint32_t> basis_of(const Reader& reader, std::uint32_t surface) {
-  for (const auto kind : bounded_kinds) {
-    const auto own = reader.attributes(surface, kind, 1, 1);
-    if (reader.is(surface, kind)) return own.empty() ? std::nullopt : reader.reference(own[0]);
-  }
-  return std::nullopt;
-}
-bool is_bounded(const Reader& reader, std::uint32_t surface) {
-  return std::ranges::any_of(bounded_kinds, [&](std::string_view kind) { return reader.is(surface, kind); });
+  const auto value = basis_value(reader, surface);
+  return value ? reader.reference(*value) : std::nullopt;
 }
 
 /// Bounded surfaces on which no face lies, which no other one bounds further, and which something else than curves in
@@ -73,16 +66,26 @@ void add_bounded_surfaces(const Reader& reader, std::vector<FaceRecord>& faces) 
   for (const auto k : bounded) {
     const auto uses = reader.file().instance(k).uses;
     if (below.contains(k) || (uses > 0 && uses == curves[k])) continue;
-    if (const auto basis = untrimmed(reader, k); basis && !is_bounded(reader, *basis))
+    if (const auto basis = untrimmed(reader, k); basis && !is_bounded_surface(reader, *basis))
       faces.push_back({.instance = k, .surface = *basis, .is_surface = true});
   }
 }
 
 }  // namespace
 
+bool is_bounded_surface(const Reader& reader, std::uint32_t surface) {
+  return std::ranges::any_of(bounded_kinds, [&](std::string_view kind) { return reader.is(surface, kind); });
+}
+
+std::optional<std::uint32_t> basis_value(const Reader& reader, std::uint32_t surface) {
+  const auto kind = std::ranges::find_if(bounded_kinds, [&](std::string_view k) { return reader.is(surface, k); });
+  const auto own = kind == bounded_kinds.end() ? std::vector<std::uint32_t>() : reader.attributes(surface, *kind, 1, 1);
+  return own.empty() ? std::nullopt : std::optional(own[0]);
+}
+
 std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::uint32_t> surface) {
   constexpr int max_nesting = 4;
-  for (int depth = 0; depth < max_nesting && surface && is_bounded(reader, *surface); ++depth)
+  for (int depth = 0; depth < max_nesting && surface && is_bounded_surface(reader, *surface); ++depth)
     surface = basis_of(reader, *surface);
   return surface;
 }

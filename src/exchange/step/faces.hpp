@@ -21,6 +21,11 @@ struct FaceRecord {
   bool is_surface = false;  ///< `instance` is a bounded surface
 };
 
+/// Whether it is a CURVE_BOUNDED_SURFACE or RECTANGULAR_TRIMMED_SURFACE.
+[[nodiscard]] bool is_bounded_surface(const Reader& reader, std::uint32_t surface);
+/// The value of a bounded surface that refers to the surface that it trims; none: its record is incomplete.
+[[nodiscard]] std::optional<std::uint32_t> basis_value(const Reader& reader, std::uint32_t surface);
+
 /// The surface that a RECTANGULAR_TRIMMED_SURFACE or CURVE_BOUNDED_SURFACE trims; another surface is itself. None where
 /// a reference is missing.
 [[nodiscard]] std::optional<std::uint32_t> untrimmed(const Reader& reader, std::optional<std::uint32_t> surface);

@@ -77,8 +77,7 @@ Expected<CurveGeometry> read_nested(const Reader& reader, std::uint32_t instance
         std::pair("HYPERBOLA", Conic::Form::hyperbola), std::pair("PARABOLA", Conic::Form::parabola)}) {
     if (reader.is(instance, entity)) return read_conic(reader, instance, entity, form);
   }
-  for (const auto* entity : {"SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE"}) {
-    if (!reader.is(instance, entity)) continue;
+  if (is_surface_curve(reader, instance)) {
     const auto inner = reference_at(reader, instance, "SURFACE_CURVE", 1, 0);
     if (!inner) return reader.error(instance, "it has no curve in space");
     return read_nested(reader, *inner, depth + 1);
@@ -165,6 +164,15 @@ Expected<brep::SweptSurface> read_swept(const Reader& reader, std::uint32_t inst
 }
 
 }  // namespace
+
+bool is_surface_curve(const Reader& reader, std::uint32_t instance) {
+  constexpr std::array kinds = {"SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE"};
+  return std::ranges::any_of(kinds, [&](const char* kind) { return reader.is(instance, kind); });
+}
+
+bool is_parameter_curve(const Reader& reader, std::uint32_t instance) {
+  return reader.is(instance, "PCURVE") || reader.is(instance, "BOUNDED_PCURVE");
+}
 
 Expected<CurveGeometry> read_curve(const Reader& reader, std::uint32_t instance) {
   return read_nested(reader, instance, 0);

@@ -12,6 +12,10 @@ namespace knead::step {
 /// None if the axis has zero length, or the reference direction is along it.
 [[nodiscard]] std::optional<brep::Frame> frame_of(const brep::AxisPlacement& placement);
 
+/// A SURFACE_CURVE or one of its subtypes; a PCURVE, bounded or not.
+[[nodiscard]] bool is_surface_curve(const Reader& reader, std::uint32_t instance);
+[[nodiscard]] bool is_parameter_curve(const Reader& reader, std::uint32_t instance);
+
 /// A curve in space: LINE, CIRCLE, ELLIPSE, HYPERBOLA, PARABOLA, POLYLINE and B-spline curves; TRIMMED_CURVE, and
 /// SURFACE_CURVE with its subtypes, by their underlying curve. Errors (input): the entity is of another type, or
 /// incomplete.

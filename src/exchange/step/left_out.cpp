@@ -19,7 +19,9 @@ using Index = std::uint32_t;
 
 class Unread {
  public:
-  explicit Unread(const File& file) : model_(file.model()), records_(file.data().of), reader_(file.data().records) {}
+  explicit Unread(const File& file) : model_(file.model()), records_(file.data().of), reader_(file.data().records) {
+    for (const FaceRecord& face : records_.faces) faces_.insert(face.instance);
+  }
 
   std::vector<LeftOut> list() {
     add_curves();
@@ -46,10 +48,8 @@ class Unread {
 
   /// Of which not even the record can be followed.
   void add_faces() {
-    std::unordered_set<Index> read;
-    for (const FaceRecord& face : records_.faces) read.insert(face.instance);
     for (const Index k : reader_.file().named({"ADVANCED_FACE", "FACE_SURFACE", "FACE"})) {
-      if (!read.contains(k))
+      if (!faces_.contains(k))
         list_.add({"face that cannot be read", "faces that cannot be read", "its record has no bounds or no surface",
                    "check that the file is complete"},
                   name(k));
@@ -101,7 +101,7 @@ class Unread {
   }
 
   void add_surface(Index item) {
-    if (std::ranges::find(records_.faces, item, &FaceRecord::instance) != records_.faces.end()) return;
+    if (faces_.contains(item)) return;
     const auto below = untrimmed(reader_, item);
     const auto& splines = records_.surfaces;
     if (below && std::ranges::find(splines, *below) != splines.end()) return;
@@ -183,6 +183,7 @@ class Unread {
   const brep::Model& model_;
   const ModelRecords& records_;
   Reader reader_;
+  std::unordered_set<Index> faces_;
   detail::LeftOutList list_;
 };
 

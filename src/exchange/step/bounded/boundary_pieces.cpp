@@ -1,6 +1,7 @@
 #include "boundary_pieces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -15,14 +16,10 @@ namespace {
 
 constexpr int most_nested = 8;
 
-bool is_any_of(const Reader& reader, std::uint32_t instance, std::initializer_list<std::string_view> kinds) {
-  return std::ranges::any_of(kinds, [&](std::string_view kind) { return reader.is(instance, kind); });
-}
-bool is_surface_curve(const Reader& reader, std::uint32_t instance) {
-  return is_any_of(reader, instance, {"SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE"});
-}
-bool is_parameter_curve(const Reader& reader, std::uint32_t instance) {
-  return is_any_of(reader, instance, {"PCURVE", "BOUNDED_PCURVE"});
+bool is_composite(const Reader& reader, std::uint32_t instance) {
+  constexpr std::array kinds = {"COMPOSITE_CURVE", "COMPOSITE_CURVE_ON_SURFACE", "BOUNDARY_CURVE",
+                                "OUTER_BOUNDARY_CURVE"};
+  return std::ranges::any_of(kinds, [&](const char* kind) { return reader.is(instance, kind); });
 }
 
 /// A curve from one parameter to another, which may be less.
@@ -168,9 +165,7 @@ Expected<void> PieceReader::add(std::uint32_t curve, std::uint32_t basis, const 
 Expected<void> PieceReader::add_composite(std::uint32_t curve, bool forward, const Surface& on, int depth,
                                           std::vector<SurfacePiece>& pieces) {
   if (depth > most_nested) return reader_.error(curve, "it is made of itself");
-  if (!is_any_of(reader_, curve,
-                 {"COMPOSITE_CURVE", "COMPOSITE_CURVE_ON_SURFACE", "BOUNDARY_CURVE", "OUTER_BOUNDARY_CURVE"}))
-    return reader_.error(curve, "a boundary of an unknown kind");
+  if (!is_composite(reader_, curve)) return reader_.error(curve, "a boundary of an unknown kind");
   const auto own = reader_.attributes(curve, "COMPOSITE_CURVE", 1, 1);
   auto segments = own.empty() ? std::vector<std::uint32_t>() : reader_.references(own[0]);
   if (segments.empty()) return reader_.error(curve, "it has no segments");
@@ -190,9 +185,7 @@ Expected<void> PieceReader::add_segment(std::uint32_t segment, bool forward, con
   const auto parent = own.empty() ? std::nullopt : reader_.reference(own[2]);
   if (!parent) return reader_.error(segment, "a COMPOSITE_CURVE_SEGMENT with a curve is needed here");
   const bool along = (reader_.enumeration(own[1]) != "F") == forward;
-  if (reader_.part(*parent, "COMPOSITE_CURVE") ||
-      is_any_of(reader_, *parent, {"COMPOSITE_CURVE_ON_SURFACE", "BOUNDARY_CURVE", "OUTER_BOUNDARY_CURVE"}))
-    return add_composite(*parent, along, on, depth + 1, pieces);
+  if (is_composite(reader_, *parent)) return add_composite(*parent, along, on, depth + 1, pieces);
   auto made = piece(*parent, on);
   if (!made) return std::unexpected(std::move(made.error()));
   made->name = name_of(reader_, *parent);

@@ -71,6 +71,10 @@ class SurfaceBounds {
       if (range[d].lower >= range[d].upper) range[d].upper += period(support, d);
     }
     face.same_sense = along[0] == along[1];
+    add_sides(support, range, face);
+  }
+
+  void add_sides(const brep::Support& support, const std::array<Interval, 2>& range, brep::Face& face) {
     auto sides = brep::rectangle_sides(model_, support, range[0], range[1]);
     if (!sides) return unknown(face, sides.error());
     std::vector<SurfacePiece> pieces;
@@ -99,13 +103,8 @@ class SurfaceBounds {
       return unknown(face, reader_.error(record.instance, "it has no boundaries").error());
     if (implicit) {
       const auto whole = brep::whole_rectangle(model_, support);
-      auto sides = whole ? brep::rectangle_sides(model_, support, (*whole)[0], (*whole)[1])
-                         : Expected<std::vector<brep::BoundaryPiece>>(std::unexpected(whole.error()));
-      if (!sides) return unknown(face, sides.error());
-      std::vector<SurfacePiece> pieces;
-      for (brep::BoundaryPiece& side : *sides)
-        static_cast<brep::BoundaryPiece&>(pieces.emplace_back()) = std::move(side);
-      add_bound(pieces, support, face);
+      if (!whole) return unknown(face, whole.error());
+      add_sides(support, *whole, face);
     }
     for (const std::uint32_t boundary : boundaries) {
       std::vector<SurfacePiece> pieces;

@@ -90,6 +90,9 @@ class Surgeon {
                                               Eigen::Index old_row, const Points& points, Eigen::Index row) const;
   [[nodiscard]] std::string copy_of(std::uint32_t point, const std::string& name,
                                     const std::vector<Change>& changes) const;
+  /// A SURFACE_CURVE(curve in space, what it lies on, which of them is the master), or one of its subtypes, lies on
+  /// what this list names, and is led by the curve in space.
+  void lie_on_these(std::uint32_t curve, const std::vector<std::uint32_t>& parts, const std::string& list);
   // The records of a curve and its control points, each after a line break.
   [[nodiscard]] std::string curve_records(const Curve& curve, const std::string& name);
   // The text of a number: as in the list (of lists) if it occurs there, otherwise in the fewest digits.

@@ -3,6 +3,7 @@
 #include "brep/boundary_curve.hpp"
 #include "exchange/part21/part21_text.hpp"
 #include "exchange/step/faces.hpp"
+#include "exchange/step/geometry.hpp"
 #include "print.hpp"
 #include "surgeon.hpp"
 
@@ -14,6 +15,13 @@ bool depends_on_form(const Reader& reader, std::uint32_t instance) {
   constexpr std::array<std::string_view, 5> dependent = {"PCURVE", "RECTANGULAR_TRIMMED_SURFACE",
                                                          "CURVE_BOUNDED_SURFACE", "OFFSET_SURFACE", "SURFACE_REPLICA"};
   return std::ranges::any_of(dependent, [&](std::string_view form) { return reader.is(instance, form); });
+}
+
+/// The surface in whose parameters a PCURVE is; none: it is another entity.
+std::optional<std::uint32_t> surface_under(const Reader& reader, std::uint32_t pcurve) {
+  if (!is_parameter_curve(reader, pcurve)) return std::nullopt;
+  const auto basis = reader.attributes(pcurve, "PCURVE", 1, 1);
+  return basis.empty() ? std::nullopt : untrimmed(reader, reader.reference(basis[0]));
 }
 
 }  // namespace
@@ -52,15 +60,11 @@ void Surgeon::become_spline(std::uint32_t instance, const Surface& surface, cons
 }
 
 void Surgeon::lie_on(std::uint32_t face, std::uint32_t surface) {
-  const bool bounded = reader_.is(face, "CURVE_BOUNDED_SURFACE") || reader_.is(face, "RECTANGULAR_TRIMMED_SURFACE");
-  const auto own = bounded
-                       ? reader_.attributes(face,
-                                            reader_.is(face, "CURVE_BOUNDED_SURFACE") ? "CURVE_BOUNDED_SURFACE"
-                                                                                      : "RECTANGULAR_TRIMMED_SURFACE",
-                                            1, 1)
-                       : reader_.attributes(face, "FACE_SURFACE", 2, 1);
-  if (own.empty() || reader_.reference(own[0]) == surface) return;
-  change(own[0], name_of(reader_, surface));
+  const auto own = reader_.attributes(face, "FACE_SURFACE", 2, 1);
+  const auto value = is_bounded_surface(reader_, face) ? basis_value(reader_, face)
+                     : own.empty()                     ? std::nullopt
+                                                       : std::optional(own[0]);
+  if (value && reader_.reference(*value) != surface) change(*value, name_of(reader_, surface));
 }
 
 void Surgeon::limit(std::uint32_t bounded, const std::array<Interval, 2>& limits) {
@@ -74,14 +78,18 @@ void Surgeon::limit(std::uint32_t bounded, const std::array<Interval, 2>& limits
   }
 }
 
+void Surgeon::lie_on_these(std::uint32_t curve, const std::vector<std::uint32_t>& parts, const std::string& list) {
+  change(parts[1], "(" + list + ")");
+  if (reader_.enumeration(parts[2]) != "CURVE_3D") change(parts[2], ".CURVE_3D.");
+  const Part21Instance& record = file_.instance(curve);
+  if (reader_.is(curve, "SURFACE_CURVE") || record.complex) return;
+  const auto begin = file_.range(record.first).begin;
+  changes_.push_back(
+      {{begin, begin + static_cast<std::uint32_t>(file_.keyword(record.first).size())}, "SURFACE_CURVE"});
+}
+
 void Surgeon::lie_along(const BoundaryEdge& edge, std::uint32_t surface, const Curve* curve) {
   const std::string on = name_of(reader_, surface);
-  const auto is_on_surface = [&](std::uint32_t pcurve) {
-    const auto basis = reader_.is(pcurve, "PCURVE") || reader_.is(pcurve, "BOUNDED_PCURVE")
-                           ? reader_.attributes(pcurve, "PCURVE", 1, 1)
-                           : std::vector<std::uint32_t>();
-    return !basis.empty() && untrimmed(reader_, reader_.reference(basis[0])) == surface;
-  };
   for (const BoundarySource& source : edge.sources) {
     if (source.carrier == no_instance) continue;
     const auto parts = reader_.attributes(source.carrier, "SURFACE_CURVE", 1, 3);
@@ -89,23 +97,17 @@ void Surgeon::lie_along(const BoundaryEdge& edge, std::uint32_t surface, const C
     bool left = false;
     for (const std::uint32_t value : parts.empty() ? std::vector<std::uint32_t>() : file_.children(parts[1])) {
       const auto target = reader_.reference(value);
-      const bool leaves = target && is_on_surface(*target);
+      const bool leaves = target && surface_under(reader_, *target) == surface;
       const std::string text = leaves ? on : std::string(file_.text(value));
       if (!(leaves && left)) kept += (kept.empty() ? "" : ",") + text;
       left = left || leaves;
     }
     if (!left || !laid_.insert(source.carrier).second) continue;
-    change(parts[1], "(" + kept + ")");
-    if (reader_.enumeration(parts[2]) != "CURVE_3D") change(parts[2], ".CURVE_3D.");
-    const Part21Instance& record = file_.instance(source.carrier);
-    if (reader_.is(source.carrier, "SURFACE_CURVE") || record.complex) continue;
-    const auto begin = file_.range(record.first).begin;
-    changes_.push_back(
-        {{begin, begin + static_cast<std::uint32_t>(file_.keyword(record.first).size())}, "SURFACE_CURVE"});
+    lie_on_these(source.carrier, parts, kept);
   }
   for (const BoundarySource& source : edge.in_parameters) {
     const auto target = reader_.reference(source.parent);
-    if (curve == nullptr || !target || !is_on_surface(*target)) continue;
+    if (curve == nullptr || !target || surface_under(reader_, *target) != surface) continue;
     const std::string name = "#" + std::to_string(names_.next()), carrier = "#" + std::to_string(names_.next());
     insert(file_.instance(source.segment).bytes.end,
            curve_records(source.turned ? brep::turned(*curve) : *curve, name) + line_break() + carrier +
@@ -126,9 +128,7 @@ void Surgeon::drop_parameter_curves(std::uint32_t edge, const std::set<std::uint
   bool dropped = false;
   for (const std::uint32_t value : file_.children(parts[1])) {
     const auto target = reader_.reference(value);
-    const auto basis = target ? reader_.attributes(*target, "PCURVE", 1, 1) : std::vector<std::uint32_t>();
-    const bool parametric = target && reader_.is(*target, "PCURVE") && !basis.empty();
-    const auto on = parametric ? untrimmed(reader_, reader_.reference(basis[0])) : std::nullopt;
+    const auto on = target ? surface_under(reader_, *target) : std::nullopt;
     if (on && surfaces.contains(*on)) {
       dropped = true;
     } else {
@@ -142,13 +142,7 @@ void Surgeon::drop_parameter_curves(std::uint32_t edge, const std::set<std::uint
     change(own[0], std::string(file_.text(parts[0])));
     return;
   }
-  change(parts[1], "(" + kept + ")");
-  if (reader_.enumeration(parts[2]) != "CURVE_3D") change(parts[2], ".CURVE_3D.");
-  if (intersection) {
-    const auto begin = file_.range(record.first).begin;
-    changes_.push_back(
-        {{begin, begin + static_cast<std::uint32_t>(file_.keyword(record.first).size())}, "SURFACE_CURVE"});
-  }
+  lie_on_these(*curve, parts, kept);
 }
 
 }  // namespace knead::step

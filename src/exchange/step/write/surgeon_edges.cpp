@@ -3,6 +3,7 @@
 
 #include "brep/boundary_curve.hpp"
 #include "exchange/part21/part21_text.hpp"
+#include "exchange/step/geometry.hpp"
 #include "print.hpp"
 #include "surgeon.hpp"
 
@@ -12,12 +13,9 @@ namespace {
 
 /// The value of a SURFACE_CURVE that refers to its curve in space; none for other curves.
 std::optional<std::uint32_t> curve_3d_of(const Reader& reader, std::uint32_t curve) {
-  for (const auto* form : {"SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE", "BOUNDED_SURFACE_CURVE"}) {
-    if (!reader.is(curve, form)) continue;
-    const auto own = reader.attributes(curve, "SURFACE_CURVE", 1, 1);
-    if (!own.empty()) return own[0];
-  }
-  return std::nullopt;
+  if (!is_surface_curve(reader, curve)) return std::nullopt;
+  const auto own = reader.attributes(curve, "SURFACE_CURVE", 1, 1);
+  return own.empty() ? std::nullopt : std::optional(own[0]);
 }
 
 }  // namespace
