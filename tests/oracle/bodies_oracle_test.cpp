@@ -94,17 +94,11 @@ double between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
   return std::max((a.min() - b.min()).cwiseAbs().maxCoeff(), (a.max() - b.max()).cwiseAbs().maxCoeff());
 }
 
-class Bodies : public ::testing::TestWithParam<std::string> {
+class Bodies : public BodyFile {
  protected:
   void SetUp() override {
-    path_ = GetParam().find('/') == std::string::npos ? testing::path_of(GetParam())
-                                                      : testing::foreign("data/" + GetParam());
-    KNEAD_NEEDS(path_);
-    if (GetParam() == "terrain.brep" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its net is large
-    const auto bytes = read_file(path_);
-    ASSERT_TRUE(bytes);
-    if (bytes->find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE aborts on &SCOPE";
-    source_ = testing::open_or_die(*bytes, path_.string());
+    BodyFile::SetUp();
+    if (ended()) return;
     const brep::Model& file = *source_->model();
     auto model = model_faces(file);
     if (!model && model.error().what.find("no faces") != std::string::npos) GTEST_SKIP() << "it has no faces";
@@ -122,8 +116,6 @@ class Bodies : public ::testing::TestWithParam<std::string> {
   void compare(std::span<const OcctBody> shells);
   void write_row(const Body& whole, bool sewn) const;
 
-  std::filesystem::path path_;
-  std::shared_ptr<const Source> source_;
   FaceMeshes model_;
   brep::Assembly assembly_;
   std::optional<OcctBodies> other_;

@@ -1,15 +1,21 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "exchange/support.hpp"
 #include "knead/exchange/file_io.hpp"
 #include "oracle/brep_files.hpp"
 #include "oracle/occt_places.hpp"
 #include "oracle/occt_shapes.hpp"
 #include "support/foreign_files.hpp"
+#include "support/long_run.hpp"
 #include "support/made_iges_solids.hpp"
 
 namespace knead::oracle {
@@ -35,5 +41,24 @@ inline std::vector<std::string> files_with_bodies(std::span<const std::string> s
   names = testing::with_own(std::move(names), testing::foreign_faults);
   return testing::with_own(std::move(names), testing::foreign_morph);
 }
+
+/// One of these files, opened. Tests are skipped where it is not there, is large, or Open CASCADE cannot read it.
+class BodyFile : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    path_ = GetParam().find('/') == std::string::npos ? testing::path_of(GetParam())
+                                                      : testing::foreign("data/" + GetParam());
+    KNEAD_NEEDS(path_);
+    if (GetParam() == "terrain.brep" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its net is large
+    const auto bytes = read_file(path_);
+    ASSERT_TRUE(bytes);
+    if (bytes->find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE aborts on &SCOPE";
+    source_ = testing::open_or_die(*bytes, path_.string());
+  }
+  [[nodiscard]] static bool ended() { return IsSkipped() || HasFatalFailure(); }
+
+  std::filesystem::path path_;
+  std::shared_ptr<const Source> source_;
+};
 
 }  // namespace knead::oracle

@@ -40,17 +40,11 @@ constexpr Target targets[] = {{"step", ".step", false, "STEP"},
                               {"step", ".step", true, "STEP, converted"},
                               {"iges", ".igs", true, "IGES, converted"}};
 
-class SavedFacesOracle : public ::testing::TestWithParam<std::string> {
+class SavedFacesOracle : public BodyFile {
  protected:
   void SetUp() override {
-    path_ = GetParam().find('/') == std::string::npos ? testing::path_of(GetParam())
-                                                      : testing::foreign("data/" + GetParam());
-    KNEAD_NEEDS(path_);
-    if (GetParam() == "terrain.brep" && !testing::long_run()) GTEST_SKIP() << "with KNEAD_LONG=1";  // its net is large
-    const auto bytes = read_file(path_);
-    ASSERT_TRUE(bytes);
-    if (bytes->find("&SCOPE") != std::string::npos) GTEST_SKIP() << "Open CASCADE aborts on &SCOPE";
-    source_ = testing::open_or_die(*bytes, path_.string());
+    BodyFile::SetUp();
+    if (ended()) return;
     if (source_->model() == nullptr || source_->model()->faces.empty()) GTEST_SKIP() << "it has no faces";
     before_ = occt_bodies(path_);
     const auto held = OcctHeld::read(path_);
@@ -67,8 +61,6 @@ class SavedFacesOracle : public ::testing::TestWithParam<std::string> {
 
   void check(const Target& target);
 
-  std::filesystem::path path_;
-  std::shared_ptr<const Source> source_;
   std::optional<OcctBodies> before_;
   int bad_ = 0;
   double gap_ = 0;   // of edges from faces, mm
