@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "exchange/face_builder.hpp"
 #include "program.hpp"
 #include "step_sheet.hpp"
 
@@ -108,6 +109,18 @@ TEST(ExitCodes, AMisspeltEnvironmentIsTwo) {
   setenv("KNEAD_INSTRUCTION_SET", "vector128", 1);
   EXPECT_EQ(knead({"info", bonnet()}).code, 0);
   unsetenv("KNEAD_INSTRUCTION_SET");
+}
+
+TEST(ExitCodes, AnUnknownUnitIsThatOfTheOptionInEveryFormat) {
+  const Workshop workshop;
+  FaceBuilder b;
+  const int p = b.vertex(0, 0, 0), q = b.vertex(1, 0, 0), r = b.vertex(1, 1, 0), t = b.vertex(0, 1, 0);
+  b.face(10, {b.bound({b.line(p, q, {0, 0, 0}, {1, 0, 0}), b.line(q, r, {1, 0, 0}, {0, 1, 0}),
+                       b.line(r, t, {1, 1, 0}, {-1, 0, 0}), b.line(t, p, {0, 1, 0}, {0, -1, 0})})});
+  const std::string file = workshop.file("unitless.step", step_text(square + b.text()));
+  for (const char* name : {"a.step", "a.igs"})
+    EXPECT_TRUE(fails_with(knead({"export", file, "--out", workshop / name, "--unit", "ell"}), 2,
+                           {"--unit", "the unit ell is not known"}));
 }
 
 TEST(ExitCodes, APictureThatCannotBeDrawnLeavesTheWork) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "exchange/length_units.hpp"
 #include "exchange/part21/part21_text.hpp"
 #include "model_geometry.hpp"
 #include "new_faces.hpp"
@@ -187,8 +186,7 @@ class AssemblyWriter {
 
 Expected<std::string> model_text(const detail::FacePlan& plan, const TextOptions& options) {
   for (const std::string* unit : {&plan.unit, &options.unit}) {
-    if (!is_length_unit(*unit))
-      return input_error("the unit " + *unit + " is not known", {}, "use " + list_of_length_units());
+    if (auto known = check_unit(*unit); !known) return std::unexpected(std::move(known.error()));
   }
   NewFile file(options.schema);
   std::vector<PartWriter::Result> parts;

@@ -4,6 +4,7 @@
 
 #include "exchange/length_units.hpp"
 #include "exchange/part21/part21_text.hpp"
+#include "knead/exchange/format.hpp"
 #include "print.hpp"
 
 namespace knead::step {
@@ -88,6 +89,11 @@ std::string NewFile::text(const TextOptions& options) const {
   return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME(" + encode_string(options.file_name) + "," +
          encode_string(options.time_stamp) + ",(''),(''),'Knead','Knead','');\n" + "FILE_SCHEMA(('" +
          std::string(protocol.schema) + "'));\nENDSEC;\nDATA;\n" + text_ + "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+Expected<void> check_unit(const std::string& unit) {
+  if (is_length_unit(unit)) return {};
+  return input_error("the unit " + unit + " is not known", "unit", "use " + list_of_length_units());
 }
 
 }  // namespace knead::step

@@ -37,4 +37,7 @@ class NewFile {
   int last_ = 0;
 };
 
+/// Error (input), at "unit": it is none of `is_length_unit`.
+[[nodiscard]] Expected<void> check_unit(const std::string& unit);
+
 }  // namespace knead::step

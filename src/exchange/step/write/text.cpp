@@ -61,9 +61,7 @@ constexpr double stated_uncertainty = 1e-7;  // a length
 
 Expected<std::string> text_of(std::span<const NewSurface> surfaces, const TextOptions& options,
                               std::span<const NewCurve> curves) {
-  if (!is_length_unit(options.unit)) {
-    return input_error("the unit " + options.unit + " is not known", "unit", "use " + list_of_length_units());
-  }
+  if (auto known = check_unit(options.unit); !known) return std::unexpected(std::move(known.error()));
   if (surfaces.empty() && curves.empty()) return detail::nothing_to_write();
   if (auto can = whole(surfaces, curves); !can) return std::unexpected(can.error());
 
