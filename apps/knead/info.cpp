@@ -127,7 +127,7 @@ std::string unit_of(const Source& source) {
   return source.surfaces().empty() ? "unknown" : source.surfaces().front().unit;
 }
 
-void print_text(const Source& source) {
+void print_text(const Source& source, bool faces) {
   const auto model = source.model();
   const auto rows = rows_of(source);
   say("{}: {}{}, units {}, {}\n", source.name(), source.format(),
@@ -163,7 +163,7 @@ void print_text(const Source& source) {
     for (const auto& [form, count] : others) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, form);
     say("  other surfaces, to be converted before they are sculpted (--faces lists them): {}\n", counts);
   }
-  print_left_out(left_out_of_list(source));
+  print_left_out(faces ? left_out_of_faces(source) : left_out_of_list(source));
   if (model != nullptr) print_parts(*model);
   for (const std::string& remark : source.remarks()) say("  {}\n", printable(remark, 2000));
 }
@@ -186,7 +186,7 @@ Expected<void> run(const InfoArguments& options) {
     return usage_error(fmt::format("a {} file has no faces", (*source)->format()), "--faces", "leave it out");
   }
   if (!options.json) {
-    print_text(**source);
+    print_text(**source, options.faces);
     if (options.faces) print_faces(model);
     return {};
   }

@@ -36,6 +36,15 @@ Expected<void> draw(brep::FaceTessellator& tessellator, const brep::Face& face) 
   return mesh ? Expected<void>() : std::unexpected(mesh.error());
 }
 
+std::vector<SkippedFace> illegible_faces(const brep::Model& model) {
+  brep::FaceTessellator coarse(model, {rough});
+  std::vector<SkippedFace> result = model.tessellated.skipped;
+  for (const brep::Face& face : model.faces) {
+    if (auto read = coarse.legible(face); !read) result.push_back({face.id, std::move(read.error())});
+  }
+  return result;
+}
+
 /// Narrow faces have edges that cross where chords are long: what fails is tried once more with short ones.
 std::vector<SkippedFace> failing_faces(const brep::Model& model) {
   brep::FaceTessellator coarse(model, {rough});
@@ -106,6 +115,11 @@ std::string sentence(const LeftOut& left) {
 }
 
 std::vector<LeftOut> left_out_of_list(const Source& source) {
+  const auto model = source.model();
+  return left_out_of_picture(source, model ? illegible_faces(*model) : std::vector<SkippedFace>());
+}
+
+std::vector<LeftOut> left_out_of_faces(const Source& source) {
   const auto model = source.model();
   return left_out_of_picture(source, model ? failing_faces(*model) : std::vector<SkippedFace>());
 }

@@ -130,7 +130,7 @@ bool survives(const std::string& bytes) {
   const auto source = open_source(bytes, "damaged.step");
   EXPECT_TRUE(source);
   if (!source) return true;
-  for (const LeftOut& left : left_out_of_list(**source)) {
+  for (const LeftOut& left : left_out_of_faces(**source)) {
     EXPECT_GT(left.count, 0U);
     EXPECT_FALSE(left.reason.empty()) << left.many << "\n" << bytes;
   }

@@ -161,6 +161,34 @@ TEST(LeftOutOfStep, FacesThatCannotBeDrawnAndSurfacesThatCannotBeRead) {
   EXPECT_NE(reasons[id(unknown)].find("of this form"), std::string::npos) << reasons[id(unknown)];
 }
 
+// A list of surfaces does not search for the feet of edges on splines; one of faces draws them.
+TEST(LeftOutOfStep, FacesWhoseEdgesLieOffTheirSurfaceAreNamedWhereFacesAreListed) {
+  StepBuilder b;
+  Points corners(4, 3);
+  corners << 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0;
+  const KnotVector k = *KnotVector::clamped_uniform(1, 2);
+  const int sheet = b.surface(*Surface::create({k, k}, corners), "sheet");
+  const std::array<Point, 3> apart = {Point(0, 0, 5), Point(1, 0, 5), Point(0, 1, 5)};
+  std::array<int, 3> vertices = {};
+  for (std::size_t i = 0; i < 3; ++i) vertices[i] = b.vertex(apart[i].x(), apart[i].y(), apart[i].z());
+  std::string uses;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const Point way = apart[j] - apart[i];
+    const int edge =
+        b.line(vertices[i], vertices[j], {apart[i].x(), apart[i].y(), apart[i].z()}, {way.x(), way.y(), way.z()});
+    uses += fmt::format("{}#{}", i > 0 ? "," : "", b.entity(fmt::format("ORIENTED_EDGE('',*,*,#{},.T.)", edge)));
+  }
+  const int loop = b.entity(fmt::format("EDGE_LOOP('',({}))", uses));
+  const int bound = b.entity(fmt::format("FACE_BOUND('',#{},.T.)", loop));
+  const int face = b.entity(fmt::format("ADVANCED_FACE('',(#{}),#{},.T.)", bound, sheet));
+  const auto source = open_or_die(testing::step_text(b.text()), "a.step");
+  EXPECT_TRUE(left_out_of_list(*source).empty());
+  const auto faces = left_out_of_faces(*source);
+  EXPECT_EQ(entry(faces, "faces that cannot be drawn").ids, Ids{id(face)});
+  EXPECT_NE(entry(faces, "faces that cannot be drawn").reason.find("do not lie on its surface"), std::string::npos);
+}
+
 TEST(LeftOutOfStep, PartsWithoutGeometry) {
   StepBuilder b;
   const int context = b.context("mm");

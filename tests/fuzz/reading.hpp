@@ -63,7 +63,7 @@ inline void read_and_write(std::string_view bytes, const std::string& name) {
   const auto same = (*source)->save(surfaces_of(**source, false));
   check(same.has_value() && *same == bytes, "an unchanged file is written with other bytes");
   if (const auto model = (*source)->model()) check_faces(*model);
-  for (const LeftOut& left : left_out_of_list(**source)) check(left.count > 0 && !left.reason.empty(), sentence(left));
+  for (const LeftOut& left : left_out_of_faces(**source)) check(left.count > 0 && !left.reason.empty(), sentence(left));
   if ((*source)->surfaces().empty()) return;
   const auto written = (*source)->save(surfaces_of(**source, true));
   if (!written) return check_error(written.error());

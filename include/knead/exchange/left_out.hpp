@@ -29,10 +29,14 @@ struct LeftOut {
 /// One line: "2 points (#7, #9): a point has no surface; …", fit for a terminal.
 [[nodiscard]] std::string sentence(const LeftOut& left);
 
-/// What a list of a file's surfaces, curves and faces leaves out: what the reader of the format does not read
-/// (`Source::left_out`), surfaces that cannot be read, and faces that cannot be drawn, which are tried coarsely. Cost:
-/// about that of a coarse picture of all faces.
+/// What a list of a file's surfaces and curves leaves out: what the reader of the format does not read
+/// (`Source::left_out`), surfaces that cannot be read, and faces whose edges or surface cannot. Cost: samples every
+/// edge coarsely.
 [[nodiscard]] std::vector<LeftOut> left_out_of_list(const Source& source);
+
+/// What a list of the faces leaves out: the same, and the faces that cannot be drawn, which are tried coarsely. Cost:
+/// about that of a coarse picture of all faces.
+[[nodiscard]] std::vector<LeftOut> left_out_of_faces(const Source& source);
 
 /// What a picture of the faces, surfaces and curves leaves out: the same, with the faces that it has skipped.
 [[nodiscard]] std::vector<LeftOut> left_out_of_picture(const Source& source, std::span<const SkippedFace> skipped);

@@ -129,6 +129,16 @@ void weld(std::vector<Point>& points, std::uint32_t first, const std::vector<std
 
 }  // namespace
 
+Expected<void> FaceTessellator::legible(const Face& face) {
+  const auto loops = edges_.loops(face);
+  if (!loops) return std::unexpected(loops.error());
+  if (const SplineSurface* own = model_.spline_under(face)) {
+    return check_extent(model_, face, *loops, net_diagonal(own->surface.control_points()));
+  }
+  const auto surface = FaceSurface::under(model_, face, *loops);
+  return surface ? Expected<void>() : std::unexpected(surface.error());
+}
+
 Expected<std::unique_ptr<ChartedSurface>> FaceTessellator::surface_of(const Face& face,
                                                                       const std::vector<Loop>& loops) {
   if (const SplineSurface* own = model_.spline_under(face)) {

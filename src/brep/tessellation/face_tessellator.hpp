@@ -25,6 +25,9 @@ class FaceTessellator {
 
   /// Errors (input): the face has no surface of a known form, or its edges are of an unknown one.
   [[nodiscard]] Expected<FaceOnSurface> face_on_surface(const Face& face);
+  /// Whether its edges and its surface can be read: the errors of `face_on_surface`, without the search for the feet of
+  /// points, which takes the time of a spline surface.
+  [[nodiscard]] Expected<void> legible(const Face& face);
   /// Divides the edges of a face where their chords are longer than a step on its surface. Errors as above.
   [[nodiscard]] Expected<void> divide_edges(const FaceOnSurface& on);
   /// Errors (input): its edges do not lie on its surface, bound nothing, or cross; it needs too many points.
