@@ -118,7 +118,7 @@ Expected<BodyPicture> picture_of(const Spline<D>& spline, const Point& origin) {
 }  // namespace
 
 Expected<BodyPicture> body_picture(const SceneBody& body, const Point& origin) {
-  return std::visit([&](const auto& shapes) { return picture_of(*shapes.current, origin); }, body.shapes);
+  return std::visit([&](const auto& s) { return picture_of(*s.current, origin); }, body);
 }
 
 Expected<BodyPicture> lattice_picture(const Scene& scene, double margin, const std::array<int, 3>& net, bool anew,

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "knead/scene/body.hpp"
 #include "knead/scene/scene.hpp"
+#include "knead/scene/shape.hpp"
 
 namespace knead::studio {
 

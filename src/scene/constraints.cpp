@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <numeric>
+
 #include "knead/scene/held_points.hpp"
 #include "knead/scene/mask.hpp"
 #include "knead/scene/places.hpp"
@@ -20,11 +23,28 @@ constexpr double pole_flatness = 1e-6;
 constexpr double symmetry_tolerance = 1e-6;  // of the surface's size
 constexpr double symmetry_angle = 1e-3;
 
+/// Appends the conditions of `from` for these coordinates only. One on a single control point leaves its coordinate its
+/// bits, as a held flag does.
+void append_components(const ConstraintList& from, const Components& components, ConstraintList& to) {
+  const auto append = [&](LinearConstraint condition) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!components[c]) continue;
+      condition.normal = Point::Unit(static_cast<Eigen::Index>(c));
+      to.constraints.push_back(condition);
+    }
+  };
+  for (std::size_t k = 0; k < from.held.size(); ++k) {
+    if (from.held[k]) append({from.held_by[k], {{static_cast<int>(k), 1.0}}});
+  }
+  for (const LinearConstraint& condition : from.constraints) append(condition);
+}
+
 /// Appends the conditions of one constraint.
+template <int D>
 struct Asked {
-  const Surface& reference;
-  const Surface& rest;
-  const Surface& where;
+  const Spline<D>& reference;
+  const Spline<D>& rest;
+  const Spline<D>& where;
   ConstraintList& list;
 
   Expected<void> operator()(const EdgeHold& c) const {
@@ -33,14 +53,25 @@ struct Asked {
     });
   }
 
-  Expected<void> operator()(const PointPin& c) const {
-    const auto u = parameters_at(rest, c.at);
+  Expected<void> operator()(const SideHold& c) const {
+    return holding([&] {
+      return by_components(c.components, [&](ConstraintList& to) { return hold_side<D>(rest, c.side, c.order, to); });
+    });
+  }
+
+  Expected<void> operator()(const PointPinOf<D>& c) const {
+    const auto u = parameters_at<D>(rest, c.at);
     if (!u) return std::unexpected(u.error());
     std::optional<Point> to;
     if (c.to) to = Point((*c.to)[0], (*c.to)[1], (*c.to)[2]);
     const auto pin = [&] {
-      return by_components(c.components,
-                           [&](ConstraintList& rows) { return pin_point(rest, (*u)[0], (*u)[1], to, rows); });
+      return by_components(c.components, [&](ConstraintList& rows) {
+        if constexpr (D == 2) {
+          return pin_point(rest, (*u)[0], (*u)[1], to, rows);
+        } else {
+          return pin_place<D>(rest, *u, to, rows);
+        }
+      });
     };
     return to ? pin() : holding(pin);
   }
@@ -105,16 +136,24 @@ struct Asked {
   }
 };
 
-/// Rows and control points held by their indices.
-void hold_numbered(const std::array<int, 2>& net, int rows, const std::set<std::array<int, 2>>& pins,
+/// Layers and control points held by their indices.
+template <std::size_t D>
+void hold_numbered(const std::array<int, D>& net, int rows, const std::set<std::array<int, D>>& pins,
                    ConstraintList& list) {
-  const auto [m, n] = net;
-  for (int i = 0; i < m && rows > 0; ++i) {
-    for (int j = 0; j < n; ++j) {
-      if (i < rows || i >= m - rows || j < rows || j >= n - rows) list.hold(i * n + j, "hold");
+  const int size = std::accumulate(net.begin(), net.end(), 1, std::multiplies());
+  for (int k = 0; k < size && rows > 0; ++k) {
+    int rest = k;
+    for (std::size_t d = D; d-- > 0;) {
+      const int i = rest % net[d];
+      rest /= net[d];
+      if (i < rows || i >= net[d] - rows) list.hold(k, "hold");
     }
   }
-  for (const auto& [i, j] : pins) list.hold(i * n + j, fmt::format("pin ({}, {})", i, j));
+  for (const std::array<int, D>& pin : pins) {
+    int number = 0;
+    for (std::size_t d = 0; d < D; ++d) number = number * net[d] + pin[d];
+    list.hold(number, D == 2 ? fmt::format("pin ({})", fmt::join(pin, ", ")) : fmt::format("pin {}", number));
+  }
 }
 
 void hold_masked(const std::vector<bool>& masked, ConstraintList& list) {
@@ -124,20 +163,6 @@ void hold_masked(const std::vector<bool>& masked, ConstraintList& list) {
 }
 
 }  // namespace
-
-void append_components(const ConstraintList& from, const Components& components, ConstraintList& to) {
-  const auto append = [&](LinearConstraint condition) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!components[c]) continue;
-      condition.normal = Point::Unit(static_cast<Eigen::Index>(c));
-      to.constraints.push_back(condition);
-    }
-  };
-  for (std::size_t k = 0; k < from.held.size(); ++k) {
-    if (from.held[k]) append({from.held_by[k], {{static_cast<int>(k), 1.0}}});
-  }
-  for (const LinearConstraint& condition : from.constraints) append(condition);
-}
 
 Expected<void> symmetry_constraints(const Surface& reference, const EdgeSymmetry& symmetry, ConstraintList& list) {
   const double size = bounding_box(reference).diagonal();
@@ -157,21 +182,10 @@ Expected<void> symmetry_constraints(const Surface& reference, const MirrorSymmet
   return {};
 }
 
-Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::string>& notes) {
-  ConstraintList list(s.reference->size());
-  hold_numbered(s.reference->net(), s.hold_rows, s.pins, list);
-  hold_masked(s.masked, list);
-  if (s.visible) {
-    const auto held = hold_face_edges(*s.reference, s.constraints, *s.visible, list);
-    if (!held) return std::unexpected(held.error());
-  }
-  const Surface& rest = s.rest ? *s.rest : *s.reference;
-  for (const auto& [constraint, where] : s.constraints) {
-    if (auto done = std::visit(Asked{*s.reference, rest, *where, list}, constraint); !done) {
-      return std::unexpected(done.error());
-    }
-  }
-  if (s.mode == RestMode::none) return list;  // the energy acts on the shape itself: no rest shape to stay smooth to
+namespace {
+
+/// No hinges: smooth knot lines and poles of surfaces, and smooth knots of curves, stay smooth.
+Expected<void> keep_smooth_places(const ShapeInput<2>& s, ConstraintList& list, std::vector<std::string>& notes) {
   if (s.smooth_knot_lines) {
     SmoothOptions options;
     if (s.visible) options.tolerance = smooth_beside_edges;
@@ -184,13 +198,52 @@ Expected<ConstraintList> constraints_of(const SurfaceInput& s, std::vector<std::
       }
     }
   }
-  if (s.smooth_poles) {
-    const double size = bounding_box(*s.reference).diagonal();
-    const auto poles = keep_poles(*s.reference, pole_tolerance * size, pole_flatness, list);
-    if (!poles) return std::unexpected(poles.error());
+  if (!s.smooth_poles) return {};
+  const double size = bounding_box(*s.reference).diagonal();
+  const auto poles = keep_poles(*s.reference, pole_tolerance * size, pole_flatness, list);
+  return poles ? Expected<void>() : std::unexpected(poles.error());
+}
+
+Expected<void> keep_smooth_places(const ShapeInput<1>& s, ConstraintList& list, std::vector<std::string>& notes) {
+  const auto knots = keep_smooth_knots(*s.reference, {}, list);
+  if (!knots) return std::unexpected(knots.error());
+  for (const SmoothKnot& knot : *knots) {
+    if (knot.state == SmoothKnot::State::crease && !knot.closing) {
+      notes.push_back(fmt::format("{}: the corner at u = {:.6g} may bend", s.id, knot.knot));
+    }
   }
+  return {};
+}
+
+Expected<void> keep_smooth_places(const ShapeInput<3>&, ConstraintList&, std::vector<std::string>&) { return {}; }
+
+}  // namespace
+
+template <int D>
+Expected<ConstraintList> constraints_of(const ShapeInput<D>& s, std::vector<std::string>& notes) {
+  ConstraintList list(s.reference->size());
+  hold_numbered(s.reference->net(), s.hold_rows, s.pins, list);
+  if constexpr (D == 2) {
+    hold_masked(s.masked, list);
+    if (s.visible) {
+      const auto held = hold_face_edges(*s.reference, s.constraints, *s.visible, list);
+      if (!held) return std::unexpected(held.error());
+    }
+  }
+  const Spline<D>& rest = s.rest ? *s.rest : *s.reference;
+  for (const auto& [constraint, where] : s.constraints) {
+    if (auto done = std::visit(Asked<D>{*s.reference, rest, *where, list}, constraint); !done) {
+      return std::unexpected(done.error());
+    }
+  }
+  if (s.mode == RestMode::none) return list;  // the energy acts on the shape itself: no rest shape to stay smooth to
+  if (auto smooth = keep_smooth_places(s, list, notes); !smooth) return std::unexpected(smooth.error());
   return list;
 }
+
+template Expected<ConstraintList> constraints_of<1>(const ShapeInput<1>&, std::vector<std::string>&);
+template Expected<ConstraintList> constraints_of<2>(const ShapeInput<2>&, std::vector<std::string>&);
+template Expected<ConstraintList> constraints_of<3>(const ShapeInput<3>&, std::vector<std::string>&);
 
 HeldInput held_input(const SceneSurface& s) {
   return {s.current->net(), s.hold_rows, s.pins, s.constraints, holds_trims(s.constraints) ? s.visible : nullptr,
@@ -210,7 +263,7 @@ Expected<std::vector<std::uint8_t>> held_points(const HeldInput& input) {
       continue;
     }
     // Which control points are held depends only on the basis, which all shapes share.
-    if (auto done = std::visit(Asked{*where, *where, *where, list}, constraint); !done) {
+    if (auto done = std::visit(Asked<2>{*where, *where, *where, list}, constraint); !done) {
       return std::unexpected(done.error());
     }
   }

@@ -4,11 +4,8 @@
 
 namespace knead {
 
-/// All constraints on one surface; terms are numbered by its own control points. Notes what may bend or tear.
-[[nodiscard]] Expected<ConstraintList> constraints_of(const SurfaceInput& surface, std::vector<std::string>& notes);
-
-/// Appends the conditions of `from` for these coordinates only. One on a single control point leaves its coordinate its
-/// bits, as a held flag does.
-void append_components(const ConstraintList& from, const Components& components, ConstraintList& to);
+/// All constraints on one shape; terms are numbered by its own control points. Notes what may bend or tear.
+template <int D>
+[[nodiscard]] Expected<ConstraintList> constraints_of(const ShapeInput<D>& shape, std::vector<std::string>& notes);
 
 }  // namespace knead

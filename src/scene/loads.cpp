@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "body_model.hpp"
 #include "dead_loads.hpp"
 #include "knead/scene/formula_field.hpp"
 #include "knead/scene/model.hpp"
@@ -13,28 +12,45 @@
 
 namespace knead {
 
-ActiveState active_state(const Scene& scene) {
-  if (scene.body) return active_state(scene.bodies[static_cast<std::size_t>(*scene.body)]);
+namespace {
+
+template <int D>
+using Selected = std::vector<const SceneShape<D>*>;
+
+/// What f makes of the selected shapes.
+template <class F>
+auto with_selected(const Scene& scene, const F& f) {
+  if (!scene.body) return f(selected_shapes<2>(scene));
+  return scene.bodies[static_cast<std::size_t>(*scene.body)].index() == 0 ? f(selected_shapes<1>(scene))
+                                                                          : f(selected_shapes<3>(scene));
+}
+
+template <int D>
+ActiveState stacked(const Selected<D>& shapes) {
   Eigen::Index size = 0, at = 0;
   bool moving = false;
-  for (int k : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    size += s.current->size();
-    moving = moving || s.velocity.rows() > 0;
+  for (const SceneShape<D>* s : shapes) {
+    size += s->current->size();
+    moving = moving || s->velocity.rows() > 0;
   }
   ActiveState result;
   result.control_points.resize(size, 3);
   result.rest.resize(size, 3);
   if (moving) result.velocity = Points::Zero(size, 3);
-  for (int k : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    const Eigen::Index n = s.current->size();
-    result.control_points.middleRows(at, n) = s.current->control_points();
-    result.rest.middleRows(at, n) = s.rest->control_points();
-    if (s.velocity.rows() > 0) result.velocity.middleRows(at, n) = s.velocity;
+  for (const SceneShape<D>* s : shapes) {
+    const Eigen::Index n = s->current->size();
+    result.control_points.middleRows(at, n) = s->current->control_points();
+    result.rest.middleRows(at, n) = s->rest->control_points();
+    if (s->velocity.rows() > 0) result.velocity.middleRows(at, n) = s->velocity;
     at += n;
   }
   return result;
+}
+
+}  // namespace
+
+ActiveState active_state(const Scene& scene) {
+  return with_selected(scene, []<int D>(const Selected<D>& shapes) { return stacked<D>(shapes); });
 }
 
 namespace {
@@ -153,15 +169,16 @@ Expected<std::vector<PointForce>> active_point_forces(const Scene& scene) {
 }
 
 Points opened_points(const Scene& scene) {
-  Eigen::Index size = 0, at = 0;
-  for (int k : scene.selection()) size += scene.surfaces[static_cast<std::size_t>(k)].opened->size();
-  Points original(size, 3);
-  for (int k : scene.selection()) {
-    const Points& opened = scene.surfaces[static_cast<std::size_t>(k)].opened->control_points();
-    original.middleRows(at, opened.rows()) = opened;
-    at += opened.rows();
-  }
-  return original;
+  return with_selected(scene, [](const auto& shapes) {
+    Eigen::Index size = 0, at = 0;
+    for (const auto* s : shapes) size += s->opened->size();
+    Points original(size, 3);
+    for (const auto* s : shapes) {
+      original.middleRows(at, s->opened->size()) = s->opened->control_points();
+      at += s->opened->size();
+    }
+    return original;
+  });
 }
 
 Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_model) {
@@ -191,5 +208,64 @@ Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& scene_m
   }
   return loads;
 }
+
+namespace {
+
+/// The forces of the scene on its selected curve or volume.
+template <int D>
+Expected<void> append_forces(const Scene& scene, const Spline<D>& shape, ActiveLoads& loads) {
+  for (const SceneForce& f : scene.forces) {
+    if (f.body != *scene.body) continue;
+    const auto append = [&]<class F>(const F& force) -> Expected<void> {
+      if constexpr (requires { force.at; }) {
+        const auto u = parameters_at<D>(shape, force.at);
+        if (!u) return std::unexpected(u.error().within(f.name));
+        auto terms = basis_terms<D>(shape, *u);
+        if constexpr (PullsAPoint<F>) {
+          loads.points.push_back(point_force(force, std::move(terms)));
+        } else {
+          if (loads.nodal.rows() == 0) loads.nodal = Points::Zero(shape.size(), 3);
+          for (const auto& [row, value] : terms) {
+            loads.nodal.row(row) += value * Eigen::RowVector3d(force.vector.data());
+          }
+        }
+      }
+      return {};
+    };
+    if (auto done = std::visit(append, f.force); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace
+
+template <int D>
+Expected<ActiveLoads> body_loads(const Scene& scene) {
+  const Load& load = scene.load;
+  const auto of_surfaces = [&](const char* field, const char* remedy) {
+    return input_error(fmt::format("this load acts on surfaces, not on a {}", kind_of(D)), field, remedy);
+  };
+  if (load.pressure != 0) return of_surfaces("pressure", "leave it out");
+  if (load.wind != Vector3{0, 0, 0}) return of_surfaces("wind", "leave it out");
+  if (load.varies()) return of_surfaces(load.formula ? "formula" : "samples", "use vector, or forces");
+  if (load.per == LoadMeasure::area && load.vector != Vector3{0, 0, 0}) {
+    return of_surfaces("per", R"(use "per":"parameters")");
+  }
+  ActiveLoads loads;
+  loads.force = Point(load.vector.data());
+  loads.gravity = Point(load.gravity.data());
+  const SceneShape<D>& shape = *selected_shapes<D>(scene).front();
+  if (auto appended = append_forces<D>(scene, *shape.current, loads); !appended) {
+    return std::unexpected(appended.error());
+  }
+  if (scene.limit) {
+    loads.limit = *scene.limit;
+    loads.original = shape.opened->control_points();
+  }
+  return loads;
+}
+
+template Expected<ActiveLoads> body_loads<1>(const Scene&);
+template Expected<ActiveLoads> body_loads<3>(const Scene&);
 
 }  // namespace knead

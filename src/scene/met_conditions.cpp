@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "constraints.hpp"
-#include "joined_surfaces.hpp"
+#include "joined_shapes.hpp"
 #include "knead/spline/extremum.hpp"
 #include "solve/constraint_space.hpp"
 
@@ -26,7 +26,7 @@ bool only_pins_added(const SurfaceInput& was, const SurfaceInput& is) {
 
 double size_of(const ModelInput& input) {
   double size = 0;
-  for (const SurfaceInput& s : input.surfaces) size = std::max(size, bounding_box(*s.reference).diagonal());
+  for (const SurfaceInput& s : input.shapes) size = std::max(size, bounding_box(*s.reference).diagonal());
   return size > 0 ? size : 1;
 }
 
@@ -37,7 +37,7 @@ bool has_normal(const LinearConstraint& condition) { return condition.normal.has
 Expected<void> MetConditions::check(const ModelInput& input) {
   if (met_ && meets_more(input)) return {};
   met_.reset();
-  auto joined = join_surfaces(input);
+  auto joined = join_shapes(input);
   if (!joined) return std::unexpected(joined.error());
   if (!asks_for_motion(input)) return {};
   std::vector<LinearConstraint>& conditions = joined->settings.constraints;
@@ -55,12 +55,12 @@ Expected<void> MetConditions::check(const ModelInput& input) {
 bool MetConditions::meets_more(const ModelInput& input) {
   ModelInput& met = met_->input;
   if (!input.followed.empty() || !(input.seams == met.seams) ||
-      !std::ranges::equal(met.surfaces, input.surfaces, only_pins_added)) {
+      !std::ranges::equal(met.shapes, input.shapes, only_pins_added)) {
     return false;
   }
-  for (std::size_t k = 0; k < input.surfaces.size(); ++k) {
-    std::vector<KeptConstraint>& known = met.surfaces[k].constraints;
-    const auto added = std::span(input.surfaces[k].constraints).subspan(known.size());
+  for (std::size_t k = 0; k < input.shapes.size(); ++k) {
+    std::vector<KeptConstraint>& known = met.shapes[k].constraints;
+    const auto added = std::span(input.shapes[k].constraints).subspan(known.size());
     if (!meets(k, added)) return false;
     known.insert(known.end(), added.begin(), added.end());
   }
@@ -69,7 +69,7 @@ bool MetConditions::meets_more(const ModelInput& input) {
 
 bool MetConditions::meets(std::size_t surface, std::span<const KeptConstraint> pins) {
   if (pins.empty()) return true;
-  const SurfaceInput& of = met_->input.surfaces[surface];
+  const SurfaceInput& of = met_->input.shapes[surface];
   SurfaceInput alone;
   alone.id = of.id;
   alone.reference = of.reference;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "constraints.hpp"
-#include "joined_surfaces.hpp"
+#include "joined_shapes.hpp"
 #include "knead/scene/followed.hpp"
 #include "knead/scene/mask.hpp"
 #include "knead/scene/trims.hpp"
@@ -23,8 +23,9 @@ constexpr CouplingTolerance smooth_tolerance{.position = 1e-3, .tangent = 1e-6};
 constexpr double exact_ratio = 1e-7;  // radians that derivatives at a seam may be off a fixed ratio
 constexpr SeamOptions along_edges{.rigid = false}, along_smooth_edges{.angle = exact_ratio, .rigid = false};
 
-bool varies(const MaterialFieldOf<2>& material) {
-  const auto field = [](const Coefficient<2>& c) { return !std::holds_alternative<double>(c); };
+template <int D>
+bool varies(const MaterialFieldOf<D>& material) {
+  const auto field = [](const Coefficient<D>& c) { return !std::holds_alternative<double>(c); };
   return std::ranges::any_of(material.alpha, field) || std::ranges::any_of(material.beta, field) ||
          field(material.mass) || field(material.damping);
 }
@@ -39,16 +40,17 @@ bool measures_from_rest(const std::vector<KeptConstraint>& constraints) {
   });
 }
 
-/// Coefficients as constants if all surfaces have the same material, else as fields.
-void set_material(const std::vector<SurfaceInput>& surfaces, ActiveSettings<2>& settings) {
-  const MaterialFieldOf<2>& material = surfaces.front().material;
+/// Coefficients as constants if all shapes have the same material, else as fields.
+template <int D>
+void set_material(const std::vector<ShapeInput<D>>& shapes, ActiveSettings<D>& settings) {
+  const MaterialFieldOf<D>& material = shapes.front().material;
   const bool varying = std::ranges::any_of(
-      surfaces, [&](const SurfaceInput& s) { return varies(s.material) || !(s.material == material); });
+      shapes, [&](const ShapeInput<D>& s) { return varies(s.material) || !(s.material == material); });
   if (varying) {
-    for (const SurfaceInput& s : surfaces) settings.fields.push_back(s.material);
+    for (const ShapeInput<D>& s : shapes) settings.fields.push_back(s.material);
     return;
   }
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < material.count; ++k) {
     settings.material.alpha[k] = std::get<double>(material.alpha[k]);
     settings.material.beta[k] = std::get<double>(material.beta[k]);
   }
@@ -56,12 +58,13 @@ void set_material(const std::vector<SurfaceInput>& surfaces, ActiveSettings<2>& 
   settings.damping = std::get<double>(material.damping);
 }
 
-/// Appends the constraints of every surface, and the rows.
-Expected<void> hold_surfaces(const std::vector<SurfaceInput>& surfaces, JoinedSurfaces& joined) {
+/// Appends the constraints of every shape, and the rows.
+template <int D>
+Expected<void> hold_shapes(const std::vector<ShapeInput<D>>& shapes, JoinedShapes<D>& joined) {
   auto& [rows, settings, held_by, seams, notes, entwined] = joined;
   rows = {0};
-  for (const SurfaceInput& s : surfaces) {
-    if (s.mode != surfaces.front().mode) {
+  for (const ShapeInput<D>& s : shapes) {
+    if (s.mode != shapes.front().mode) {
       return input_error("surfaces that are selected together have different rest modes", "rest",
                          "give `rest` once with all of them selected");
     }
@@ -69,11 +72,11 @@ Expected<void> hold_surfaces(const std::vector<SurfaceInput>& surfaces, JoinedSu
     if (!list) return std::unexpected(list.error());
     settings.held.insert(settings.held.end(), list->held.begin(), list->held.end());
     for (std::string& name : list->held_by) {
-      held_by.push_back(surfaces.size() > 1 && !name.empty() ? s.id + ": " + name : std::move(name));
+      held_by.push_back(shapes.size() > 1 && !name.empty() ? s.id + ": " + name : std::move(name));
     }
     for (LinearConstraint& c : list->constraints) {
       for (auto& term : c.terms) term.first += rows.back();
-      if (surfaces.size() > 1) c.name = s.id + ": " + c.name;
+      if (shapes.size() > 1) c.name = s.id + ": " + c.name;
       settings.constraints.push_back(std::move(c));
     }
     rows.push_back(rows.back() + s.reference->size());
@@ -116,8 +119,8 @@ Expected<void> keep_smooth(std::span<const Surface* const> patches, std::span<co
 Expected<void> keep_varying_load(SceneModel& scene) {
   if (!scene.input.varying) return {};
   scene.varying_load = Points::Zero(scene.model.rows().back(), 3);
-  for (std::size_t patch = 0; patch < scene.input.surfaces.size(); ++patch) {
-    const SurfaceInput& s = scene.input.surfaces[patch];
+  for (std::size_t patch = 0; patch < scene.input.shapes.size(); ++patch) {
+    const SurfaceInput& s = scene.input.shapes[patch];
     const DomainScaling<2>& scaling = scene.model.scaling(static_cast<int>(patch));
     const bool by_area = scene.input.varying->per == LoadMeasure::area;
     const auto fields = load_fields(*scene.input.varying, *s.reference);
@@ -155,36 +158,46 @@ Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Sur
   return find_seams(patches, tolerance);
 }
 
-ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution) {
-  ModelInput input;
-  const bool visible_only = touches_visible(scene);
-  const bool by_area = scene.load.varies() && scene.load.per == LoadMeasure::area;
-  for (int k : scene.selection()) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    input.surfaces.push_back({.id = s.id,
-                              .reference = s.reference,
-                              .rest = measures_from_rest(s.constraints) || by_area ? s.rest : nullptr,
-                              .mode = s.mode,
-                              .material = s.material,
-                              .elasticity = s.elasticity,
-                              .hold_rows = s.hold_rows,
-                              .pins = s.pins,
-                              .constraints = s.constraints,
-                              .smooth_knot_lines = s.smooth_knot_lines,
-                              .smooth_poles = s.smooth_poles,
-                              .visible = holds_trims(s.constraints) ? s.visible : nullptr,
-                              .touched = visible_only ? s.visible : nullptr,
-                              .masked = masked_points(s)});
+template <int D>
+ModelInputOf<D> model_input(const Scene& scene, const EvolutionPolicy& evolution) {
+  ModelInputOf<D> input;
+  for (const SceneShape<D>* shape : selected_shapes<D>(scene)) {
+    const SceneShape<D>& s = *shape;
+    ShapeInput<D>& to = input.shapes.emplace_back();
+    to.id = s.id;
+    to.reference = s.reference;
+    to.rest = s.rest;
+    to.mode = s.mode;
+    to.material = s.material;
+    to.elasticity = s.elasticity;
+    to.hold_rows = s.hold_rows;
+    to.pins = s.pins;
+    to.constraints = s.constraints;
+    if constexpr (D == 2) {
+      const bool by_area = scene.load.varies() && scene.load.per == LoadMeasure::area;
+      if (!measures_from_rest(s.constraints) && !by_area) to.rest = nullptr;
+      to.smooth_knot_lines = s.smooth_knot_lines;
+      to.smooth_poles = s.smooth_poles;
+      if (holds_trims(s.constraints)) to.visible = s.visible;
+      if (touches_visible(scene)) to.touched = s.visible;
+      to.masked = masked_points(s);
+    }
   }
-  input.seams = scene.seams;
   input.scaling = scene.scaling;
   input.evolution = evolution;
-  if (scene.load.varies()) input.varying = scene.load;
   input.detail = detail_of(scene.tools);
-  input.followed = followed_inputs(scene);
-  if (!input.followed.empty()) input.coupling = scene.coupling;
+  if constexpr (D == 2) {
+    input.seams = scene.seams;
+    if (scene.load.varies()) input.varying = scene.load;
+    input.followed = followed_inputs(scene);
+    if (!input.followed.empty()) input.coupling = scene.coupling;
+  }
   return input;
 }
+
+template ModelInputOf<1> model_input<1>(const Scene&, const EvolutionPolicy&);
+template ModelInputOf<2> model_input<2>(const Scene&, const EvolutionPolicy&);
+template ModelInputOf<3> model_input<3>(const Scene&, const EvolutionPolicy&);
 
 Expected<void> check_model_size(Eigen::Index control_points) {
   if (control_points <= max_model_size) return {};
@@ -193,15 +206,23 @@ Expected<void> check_model_size(Eigen::Index control_points) {
                      "net", "make the net coarser, or select fewer surfaces");
 }
 
-Expected<JoinedSurfaces> join_surfaces(const ModelInput& input) {
+template <int D>
+Expected<JoinedShapes<D>> join_shapes(const ModelInputOf<D>& input) {
+  JoinedShapes<D> joined;
+  if (auto held = hold_shapes(input.shapes, joined); !held) return std::unexpected(held.error());
+  return joined;
+}
+
+template <>
+Expected<JoinedShapes<2>> join_shapes(const ModelInput& input) {
   Eigen::Index size = 0;
-  for (const SurfaceInput& s : input.surfaces) size += s.reference->size();
+  for (const SurfaceInput& s : input.shapes) size += s.reference->size();
   if (auto fits = check_model_size(size); !fits) return std::unexpected(fits.error());
-  JoinedSurfaces joined;
+  JoinedShapes<2> joined;
   ActiveSettings<2>& settings = joined.settings;
-  if (auto held = hold_surfaces(input.surfaces, joined); !held) return std::unexpected(held.error());
+  if (auto held = hold_shapes(input.shapes, joined); !held) return std::unexpected(held.error());
   std::vector<const Surface*> pointers;
-  for (const SurfaceInput& s : input.surfaces) pointers.push_back(s.reference.get());
+  for (const SurfaceInput& s : input.shapes) pointers.push_back(s.reference.get());
   std::vector<SeamReport>& reports = joined.seams;
   if (input.seams.couple) {
     const auto found = seams_between(input.seams, pointers);
@@ -228,23 +249,23 @@ Expected<JoinedSurfaces> join_surfaces(const ModelInput& input) {
   if (auto coupled = couple_followed(input, pointers, joined.rows, settings); !coupled) {
     return std::unexpected(coupled.error());
   }
-  if (std::ranges::any_of(input.surfaces, [](const SurfaceInput& s) { return s.touched != nullptr; })) {
-    for (const SurfaceInput& s : input.surfaces) settings.visible.push_back(s.touched);
+  if (std::ranges::any_of(input.shapes, [](const SurfaceInput& s) { return s.touched != nullptr; })) {
+    for (const SurfaceInput& s : input.shapes) settings.visible.push_back(s.touched);
   }
   return joined;
 }
 
 ModelInput part_of(const ModelInput& input, std::span<const int> surfaces) {
   ModelInput part = input;
-  part.surfaces.clear();
+  part.shapes.clear();
   part.followed.clear();
   std::vector<const Surface*> all;
-  for (const SurfaceInput& s : input.surfaces) all.push_back(s.reference.get());
+  for (const SurfaceInput& s : input.shapes) all.push_back(s.reference.get());
   part.seams.tolerance = input.seams.tolerance.value_or(suggested_seam_tolerance(all));
-  std::vector<int> place(input.surfaces.size(), -1);
+  std::vector<int> place(input.shapes.size(), -1);
   for (const int k : surfaces) {
-    place[static_cast<std::size_t>(k)] = static_cast<int>(part.surfaces.size());
-    part.surfaces.push_back(input.surfaces[static_cast<std::size_t>(k)]);
+    place[static_cast<std::size_t>(k)] = static_cast<int>(part.shapes.size());
+    part.shapes.push_back(input.shapes[static_cast<std::size_t>(k)]);
   }
   for (FollowedInput edge : input.followed) {
     for (int& patch : edge.patches) patch = place[static_cast<std::size_t>(patch)];
@@ -263,26 +284,36 @@ bool asks_for_motion(const ModelInput& input) {
       return keeps_place && kept.where != s.rest;
     });
   };
-  return std::ranges::any_of(input.surfaces, asks);
+  return std::ranges::any_of(input.shapes, asks);
 }
 
 Expected<void> check_conditions(const ModelInput& input) { return MetConditions().check(input); }
 
-Expected<SceneModel> make_model(ModelInput input) {
-  auto joined = join_surfaces(input);
+template Expected<JoinedShapes<1>> join_shapes<1>(const ModelInputOf<1>&);
+template Expected<JoinedShapes<3>> join_shapes<3>(const ModelInputOf<3>&);
+
+template <int D>
+Expected<SceneModelOf<D>> make_model(ModelInputOf<D> input) {
+  auto joined = join_shapes(input);
   if (!joined) return std::unexpected(joined.error());
-  ActiveSettings<2>& settings = joined->settings;
-  std::vector<Surface> patches;
-  for (const SurfaceInput& s : input.surfaces) patches.push_back(*s.reference);
-  set_material(input.surfaces, settings);
-  settings.rest = input.surfaces.front().mode;
+  ActiveSettings<D>& settings = joined->settings;
+  std::vector<Spline<D>> patches;
+  for (const ShapeInput<D>& s : input.shapes) patches.push_back(*s.reference);
+  set_material(input.shapes, settings);
+  settings.rest = input.shapes.front().mode;
   set_evolution(input.evolution, input.scaling, input.detail, settings);
-  auto model = ActiveSurface::create(std::move(patches), settings);
+  auto model = ActiveSpline<D>::create(std::move(patches), settings);
   if (!model) return std::unexpected(model.error());
   note_engine(model->engine(), joined->notes);
-  SceneModel made{std::move(input), std::move(*model), std::move(joined->seams), std::move(joined->notes)};
-  if (auto loaded = keep_varying_load(made); !loaded) return std::unexpected(loaded.error());
+  SceneModelOf<D> made{std::move(input), std::move(*model), std::move(joined->seams), std::move(joined->notes)};
+  if constexpr (D == 2) {
+    if (auto loaded = keep_varying_load(made); !loaded) return std::unexpected(loaded.error());
+  }
   return made;
 }
+
+template Expected<SceneModelOf<1>> make_model<1>(ModelInputOf<1>);
+template Expected<SceneModelOf<2>> make_model<2>(ModelInputOf<2>);
+template Expected<SceneModelOf<3>> make_model<3>(ModelInputOf<3>);
 
 }  // namespace knead

@@ -1,25 +1,12 @@
 #include <algorithm>
 
-#include "body_forms.hpp"
+#include "form_model.hpp"
 #include "knead/scene/anchors.hpp"
 #include "knead/scene/model.hpp"
 #include "shell_model.hpp"
 
 namespace knead {
 namespace {
-
-std::optional<ModelInput> input_like(const ModelInput& /*of*/, const Scene& scene, const EvolutionPolicy& evolution) {
-  return model_input(scene, evolution);
-}
-
-/// None where what is selected is of another kind.
-template <int D>
-std::optional<BodyInput<D>> input_like(const BodyInput<D>& /*of*/, const Scene& scene,
-                                       const EvolutionPolicy& evolution) {
-  const SceneBody* body = selected_body<D>(scene);
-  if (body == nullptr) return std::nullopt;
-  return body_input<D>(scene, *body, evolution);
-}
 
 Expected<ActiveLoads> loads_on(const SceneModel& made, const Scene& scene, const std::vector<PointForce>& grips) {
   auto loads = active_loads(scene, made);
@@ -32,25 +19,23 @@ Expected<ActiveLoads> loads_on(const SceneModel& made, const Scene& scene, const
 }
 
 template <int D>
-Expected<ActiveLoads> loads_on(const BodyModel<D>& /*made*/, const Scene& scene,
+Expected<ActiveLoads> loads_on(const SceneModelOf<D>& /*made*/, const Scene& scene,
                                const std::vector<PointForce>& /*grips*/) {
-  return body_loads(scene, *scene.body);
+  return body_loads<D>(scene);
 }
 
-/// \tparam Made `SceneModel` or `BodyModel`.
-template <class Made>
+template <int D>
 class LinearModel final : public Model {
  public:
-  explicit LinearModel(Made made) : made_(std::move(made)) {}
+  explicit LinearModel(SceneModelOf<D> made) : made_(std::move(made)) {}
 
   [[nodiscard]] bool serves(const Scene& scene, const EvolutionPolicy& evolution) const override {
-    return made_.input == input_like(made_.input, scene, evolution);
+    return made_.input == model_input<D>(scene, evolution);
   }
   [[nodiscard]] bool measures(const Scene& scene) const override {
-    auto input = input_like(made_.input, scene, made_.input.evolution);
-    if (!input) return false;
-    input->detail = made_.input.detail;
-    return *input == made_.input;
+    auto input = model_input<D>(scene, made_.input.evolution);
+    input.detail = made_.input.detail;
+    return input == made_.input;
   }
   [[nodiscard]] Expected<ActiveLoads> loads(const Scene& scene, const std::vector<PointForce>& grips) const override {
     return loads_on(made_, scene, grips);
@@ -60,40 +45,33 @@ class LinearModel final : public Model {
     return made_.model.step(from, tools, loads);
   }
   [[nodiscard]] double energy(const ActiveState& of) const override { return made_.model.energy(of); }
-  [[nodiscard]] std::span<const SeamReport> seams() const override {
-    if constexpr (requires { made_.seams; }) return made_.seams;
-    return {};
-  }
+  [[nodiscard]] std::span<const SeamReport> seams() const override { return made_.seams; }
   [[nodiscard]] std::span<const std::string> notes() const override { return made_.notes; }
   [[nodiscard]] Eigen::Index size() const override { return made_.model.rows().back(); }
 
  private:
-  Made made_;
+  SceneModelOf<D> made_;
 };
 
-template <class Made>
-Expected<std::unique_ptr<Model>> as_linear_model(Expected<Made> made) {
+template <int D>
+Expected<std::unique_ptr<Model>> linear_model(const Scene& scene, const EvolutionPolicy& evolution) {
+  auto made = make_model(model_input<D>(scene, evolution));
   if (!made) return std::unexpected(made.error());
-  return std::make_unique<LinearModel<Made>>(*std::move(made));
+  return std::make_unique<LinearModel<D>>(*std::move(made));
 }
 
 constexpr std::size_t most_models = 3;
 constexpr Eigen::Index most_kept_points = 10000;  // of all but the last one
 
-template <int D>
-Expected<std::unique_ptr<Model>> model_of_body(const Scene& scene, const SceneBody& body, const BodyShapes<D>& shapes,
-                                               const EvolutionPolicy& evolution) {
-  if (is_nonlinear(shapes.elasticity)) return form_model<D>(scene, body, evolution);
-  return as_linear_model(make_body_model<D>(body_input<D>(scene, body, evolution)));
-}
-
 }  // namespace
 
 Expected<std::unique_ptr<Model>> model_of(const Scene& scene, const EvolutionPolicy& evolution) {
   if (has_shells(scene)) return shell_model(scene, evolution);
-  if (!scene.body) return as_linear_model(make_model(model_input(scene, evolution)));
-  const SceneBody& body = scene.bodies[static_cast<std::size_t>(*scene.body)];
-  return std::visit([&](const auto& shapes) { return model_of_body(scene, body, shapes, evolution); }, body.shapes);
+  if (!scene.body) return linear_model<2>(scene, evolution);
+  const auto of_body = [&]<int D>(const SceneShape<D>& shape) {
+    return is_nonlinear(shape.elasticity) ? form_model<D>(scene, evolution) : linear_model<D>(scene, evolution);
+  };
+  return std::visit(of_body, scene.bodies[static_cast<std::size_t>(*scene.body)]);
 }
 
 Expected<Model*> Models::of(const Scene& scene, const EvolutionPolicy& evolution) {

@@ -9,6 +9,22 @@ std::vector<int> Scene::selection() const {
   return result;
 }
 
+template <int D>
+std::vector<const SceneShape<D>*> selected_shapes(const Scene& scene) {
+  std::vector<const SceneShape<D>*> shapes;
+  if constexpr (D == 2) {
+    for (const int k : scene.selection()) shapes.push_back(&scene.surfaces[static_cast<std::size_t>(k)]);
+  } else if (scene.body) {
+    const auto* shape = std::get_if<SceneShape<D>>(&scene.bodies[static_cast<std::size_t>(*scene.body)]);
+    if (shape != nullptr) shapes.push_back(shape);
+  }
+  return shapes;
+}
+
+template std::vector<const SceneCurve*> selected_shapes<1>(const Scene&);
+template std::vector<const SceneSurface*> selected_shapes<2>(const Scene&);
+template std::vector<const SceneVolume*> selected_shapes<3>(const Scene&);
+
 Expected<std::vector<Tool>> tools_and_images(const Scene& scene) {
   std::vector<Tool> tools = scene.tools;
   if (!scene.selected) return tools;

@@ -22,18 +22,6 @@ Expected<void> check_scope(const SceneSurface& s) {
   return {};
 }
 
-/// What holds the shells: control points that do not move, as conditions, before the others.
-std::vector<LinearConstraint> conditions_of(const JoinedSurfaces& joined, const Points& displacement) {
-  std::vector<LinearConstraint> to;
-  for (std::size_t k = 0; k < joined.settings.held.size(); ++k) {
-    if (!joined.settings.held[k]) continue;
-    const int row = static_cast<int>(k);
-    to.push_back({joined.held_by[k], {{row, 1.0}}, displacement.row(row).transpose()});
-  }
-  to.insert(to.end(), joined.settings.constraints.begin(), joined.settings.constraints.end());
-  return to;
-}
-
 /// Whether all forces are known before the shape is.
 bool keep_direction(const ActiveLoads& loads) {
   return loads.limit == 0 && loads.pressure == 0 && loads.wind == Point::Zero() && loads.points.empty();
@@ -122,15 +110,13 @@ Expected<ShellEnergy> energy_of(const SceneSurface& s) {
 /// As that of linear surfaces, with all rest shapes: what holds shells is in places of these.
 ModelInput shell_input(const Scene& scene, const EvolutionPolicy& evolution) {
   ModelInput input = model_input(scene, evolution);
-  const std::vector<int> selection = scene.selection();
-  for (std::size_t k = 0; k < selection.size(); ++k) {
-    input.surfaces[k].rest = scene.surfaces[static_cast<std::size_t>(selection[k])].rest;
-  }
+  const auto surfaces = selected_shapes<2>(scene);
+  for (std::size_t k = 0; k < surfaces.size(); ++k) input.shapes[k].rest = surfaces[k]->rest;
   return input;
 }
 
 /// The energies of the surfaces and of the creases between them.
-Expected<ShellStructure> structure_of(std::span<const SceneSurface* const> surfaces, const JoinedSurfaces& joined) {
+Expected<ShellStructure> structure_of(std::span<const SceneSurface* const> surfaces, const JoinedShapes<2>& joined) {
   std::vector<ShellEnergy> shells;
   for (const SceneSurface* s : surfaces) {
     auto shell = energy_of(*s);
@@ -147,13 +133,12 @@ Expected<ShellStructure> structure_of(std::span<const SceneSurface* const> surfa
 }
 
 Expected<ShellSetup> shell_setup(const Scene& scene, const EvolutionPolicy& evolution) {
-  std::vector<const SceneSurface*> surfaces;
-  for (const int k : scene.selection()) {
-    surfaces.push_back(&scene.surfaces[static_cast<std::size_t>(k)]);
-    if (auto within = check_scope(*surfaces.back()); !within) return std::unexpected(within.error());
+  const auto surfaces = selected_shapes<2>(scene);
+  for (const SceneSurface* s : surfaces) {
+    if (auto within = check_scope(*s); !within) return std::unexpected(within.error());
   }
   ModelInput input = shell_input(scene, evolution);
-  auto joined = join_surfaces(input);
+  auto joined = join_shapes(input);
   if (!joined) return std::unexpected(joined.error());
   auto structure = structure_of(surfaces, *joined);
   if (!structure) return std::unexpected(structure.error());
@@ -269,10 +254,10 @@ Expected<ActiveStep> ShellModel::step(const ActiveState& from, std::span<const T
 /// How the shells move under tools, or in time.
 Expected<ActiveShell> ShellModel::pressed() const {
   const auto& [input, joined, structure] = setup_;
-  const MaterialFieldOf<2>& material = input.surfaces.front().material;
+  const MaterialFieldOf<2>& material = input.shapes.front().material;
   const auto *mass = std::get_if<double>(&material.mass), *damping = std::get_if<double>(&material.damping);
   const bool forms = std::ranges::none_of(
-      input.surfaces, [](const SurfaceInput& s) { return std::holds_alternative<ShellMaterial>(s.elasticity); });
+      input.shapes, [](const SurfaceInput& s) { return std::holds_alternative<ShellMaterial>(s.elasticity); });
   ActiveShellSettings settings{.evolution = input.evolution.mode,
                                .lambda = input.evolution.lambda,
                                .time_step = input.evolution.time_step,
@@ -284,7 +269,7 @@ Expected<ActiveShell> ShellModel::pressed() const {
                                .detail = input.detail,
                                .accuracy = input.evolution.accuracy};
   std::vector<Surface> patches;
-  for (const SurfaceInput& s : input.surfaces) patches.push_back(*s.rest);
+  for (const SurfaceInput& s : input.shapes) patches.push_back(*s.rest);
   return ActiveShell::create(std::move(patches), structure, std::move(settings));
 }
 
@@ -319,8 +304,8 @@ Expected<ActiveStep> ShellModel::press(const ActiveState& from, std::span<const 
 }  // namespace
 
 bool has_shells(const Scene& scene) {
-  return std::ranges::any_of(
-      scene.selection(), [&](int k) { return is_nonlinear(scene.surfaces[static_cast<std::size_t>(k)].elasticity); });
+  return std::ranges::any_of(selected_shapes<2>(scene),
+                             [](const SceneSurface* s) { return is_nonlinear(s->elasticity); });
 }
 
 Expected<ShellProblem> shell_problem(const Scene& scene) {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "joined_surfaces.hpp"
+#include "joined_shapes.hpp"
 #include "knead/energy/edge_moment.hpp"
 #include "knead/energy/shell_structure.hpp"
 #include "knead/scene/model.hpp"
@@ -14,7 +14,7 @@ namespace knead {
 /// surface.
 struct ShellSetup {
   ModelInput input;  ///< with all rest shapes
-  JoinedSurfaces joined;
+  JoinedShapes<2> joined;
   ShellStructure structure;
 };
 
@@ -27,7 +27,7 @@ struct ShellProblem : ShellSetup {
 };
 
 /// Errors (input): surfaces that are no shells among shells, a rest mode or a load that shells do not have; numbers of
-/// the material; those of `join_surfaces` and `ShellEnergy::create`.
+/// the material; those of `join_shapes` and `ShellEnergy::create`.
 [[nodiscard]] Expected<ShellProblem> shell_problem(const Scene& scene);
 
 /// Whether a selected surface is a shell.

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "body_commands.hpp"
 #include "commands.hpp"
 #include "knead/session/session.hpp"
 #include "same_scene.hpp"

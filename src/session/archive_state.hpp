@@ -43,32 +43,46 @@ inline std::optional<KnotVector> read_knots(Reader& a) {
   return made ? std::optional(std::move(*made)) : std::nullopt;
 }
 
-inline void pass(Writer& a, const Coefficient<2>& x) {
-  const auto* field = std::get_if<SplineField<2>>(&x);
+template <int D>
+std::optional<std::array<KnotVector, D>> read_all_knots(Reader& a) {
+  std::vector<KnotVector> knots;
+  for (int d = 0; d < D; ++d) {
+    auto read = read_knots(a);
+    if (!read) return std::nullopt;
+    knots.push_back(*std::move(read));
+  }
+  return [&]<std::size_t... d>(std::index_sequence<d...>) { return std::array<KnotVector, D>{std::move(knots[d])...}; }
+  (std::make_index_sequence<D>());
+}
+
+template <int D>
+void pass_coefficient(Writer& a, const Coefficient<D>& x) {
+  const auto* field = std::get_if<SplineField<D>>(&x);
   a.flag(field != nullptr);
   if (field == nullptr) return a.number(std::get<double>(x));
   for (const KnotVector& knots : field->knots()) pass(a, knots);
   a.numbers(field->coefficients());
 }
-inline void pass(Reader& a, Coefficient<2>& x) {
+template <int D>
+void pass_coefficient(Reader& a, Coefficient<D>& x) {
   bool varies = false;
   a.flag(varies);
-  if (!varies) return a.number(x.emplace<double>());
-  auto u = read_knots(a), v = read_knots(a);
+  if (!varies) return a.number(x.template emplace<double>());
+  auto knots = read_all_knots<D>(a);
   std::vector<double> coefficients;
   a.numbers(coefficients);
-  if (!u || !v || a.bad()) return a.fail();
-  auto made = SplineField<2>::create({std::move(*u), std::move(*v)}, std::move(coefficients));
+  if (!knots || a.bad()) return a.fail();
+  auto made = SplineField<D>::create(*std::move(knots), std::move(coefficients));
   if (!made) return a.fail();
   x = std::move(*made);
 }
 
 inline void pass(Writer& a, const std::optional<SplineField<2>>& x) {
-  pass(a, x ? Coefficient<2>(*x) : Coefficient<2>(0.0));
+  pass_coefficient<2>(a, x ? Coefficient<2>(*x) : Coefficient<2>(0.0));
 }
 inline void pass(Reader& a, std::optional<SplineField<2>>& x) {
   Coefficient<2> read = 0.0;
-  pass(a, read);
+  pass_coefficient<2>(a, read);
   x.reset();
   if (auto* field = std::get_if<SplineField<2>>(&read)) x = std::move(*field);
 }
@@ -84,29 +98,6 @@ void pass(A& a, Of<A, ShellMaterial>& m) {
   if (older_than(a, 10)) return;  // whose shells were the same everywhere
   pass(a, young_field);
   pass(a, thickness_field);
-}
-
-template <class A>
-void pass(A& a, Of<A, MaterialFieldOf<2>>& m) {
-  for (auto& x : m.alpha) pass(a, x);
-  for (auto& x : m.beta) pass(a, x);
-  pass(a, m.mass);
-  pass(a, m.damping);
-}
-
-inline void pass(Writer& a, const KeptConstraint& x) {
-  a.text(to_json(x.constraint));
-  a.surface(x.where);
-}
-inline void pass(Reader& a, KeptConstraint& x) {
-  std::string json;
-  a.text(json);
-  a.surface(x.where);
-  if (a.bad()) return;
-  const auto parsed = parse_command(json);
-  auto constraint = parsed ? constraint_of(*parsed) : std::nullopt;
-  if (!constraint) return a.fail();
-  x.constraint = *std::move(constraint);
 }
 
 inline void pass(Writer& a, const SceneForce& f) {
@@ -136,51 +127,6 @@ void pass(A& a, Of<A, Probe>& p) {
   pass(a, name);
   pass(a, surface);
   for (auto& x : at) pass(a, x);
-}
-
-template <class A>
-void pass(A& a, Of<A, SceneSurface>& s) {
-  auto& [id, name, unit, opened, reference, rest, current, velocity, mode, material, elasticity, hold_rows, pins,
-         constraints, smooth_knot_lines, smooth_poles, plastic, mask, visible] = s;
-  if constexpr (!A::writing) visible.reset();  // the document provides it
-  for (auto* x : {&id, &name, &unit}) pass(a, *x);
-  for (auto* x : {&opened, &reference, &rest, &current}) pass(a, *x);
-  pass(a, velocity);
-  choice(a, mode, RestMode::none);
-  pass(a, material);
-  pass(a, hold_rows);
-  if constexpr (A::writing) {
-    a.count(pins.size());
-    for (const auto& [i, j] : pins) {
-      a.integer(i);
-      a.integer(j);
-    }
-  } else {
-    for (std::size_t k = a.length(8); k > 0; --k) {
-      std::array<int, 2> pin = {0, 0};
-      for (int& i : pin) a.integer(i);
-      pins.insert(pin);
-    }
-  }
-  list(a, constraints);
-  pass(a, smooth_knot_lines);
-  pass(a, smooth_poles);
-  if constexpr (!A::writing) {
-    plastic = {};
-    mask.clear();
-    elasticity = {};
-    if (a.version() == 1) return;  // which had none
-  }
-  auto& [along, share, yield, locality, in_radii] = plastic;
-  pass(a, along);
-  for (auto* x : {&share, &yield, &locality}) pass(a, *x);
-  pass(a, in_radii);
-  if (older_than(a, 3)) return;  // which had no masks
-  pass(a, mask);
-  if (older_than(a, 7)) return;  // which had no shells
-  alternative<ShellMaterial>(a, elasticity);
-  if (older_than(a, 8)) return;  // which had no fundamental forms
-  alternative<FundamentalMaterial>(a, elasticity);
 }
 
 template <class A>

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "command_fields.hpp"
 #include "info_values.hpp"
 
@@ -35,43 +33,50 @@ void describe(BodyInfo& b, Fields& fields) {
   fields.add("displacement", b.displacement, {.help = "the largest", .unit = Unit::length});
 }
 
+namespace {
+
+template <int D>
+BodyInfo info_of(const SceneShape<D>& s, const SceneBody& body) {
+  const Points& points = s.current->control_points();
+  BodyInfo info;
+  info.id = s.id;
+  info.name = s.name;
+  info.unit = s.unit;
+  info.kind = D == 1 ? BodyKind::curve : BodyKind::volume;
+  info.degree = degrees_of(body);
+  info.net = net_of(body);
+  info.rational = s.current->rational();
+  info.lower = array_of(points.colwise().minCoeff().transpose());
+  info.upper = array_of(points.colwise().maxCoeff().transpose());
+  for (const auto& alpha : s.material.alpha) info.alpha.push_back(std::get<double>(alpha));
+  for (const auto& beta : s.material.beta) info.beta.push_back(std::get<double>(beta));
+  info.mass = std::get<double>(s.material.mass);
+  info.damping = std::get<double>(s.material.damping);
+  if (const auto* forms = std::get_if<FormWeights>(&s.elasticity)) {
+    info.w1 = forms->w1;
+    if (D == 1) info.w2 = forms->w2;
+  }
+  info.hold = s.hold_rows;
+  for (const std::array<int, D>& pin : s.pins) {
+    int number = 0;
+    for (std::size_t d = 0; d < D; ++d) number = number * s.current->net()[d] + pin[d];
+    info.pins.push_back(number);
+  }
+  for (const KeptConstraintOf<D>& kept : s.constraints) {
+    if (const auto* hold = std::get_if<SideHold>(&kept.constraint)) info.sides.push_back(side_name(hold->side));
+  }
+  info.holds = static_cast<int>(s.constraints.size());
+  info.moved = moved_control_points(body);
+  info.displacement = largest_displacement(body);
+  return info;
+}
+
+}  // namespace
+
 std::vector<BodyInfo> bodies_of(const Scene& scene) {
   std::vector<BodyInfo> result;
   for (const SceneBody& b : scene.bodies) {
-    const Points& points = control_points_of(b);
-    BodyInfo info;
-    info.id = b.id;
-    info.name = b.name;
-    info.unit = b.unit;
-    info.kind = b.is_curve() ? BodyKind::curve : BodyKind::volume;
-    info.degree = degrees_of(b);
-    info.net = net_of(b);
-    info.lower = array_of(points.colwise().minCoeff().transpose());
-    info.upper = array_of(points.colwise().maxCoeff().transpose());
-    std::visit(
-        [&](const auto& shapes) {
-          info.rational = shapes.current->rational();
-          info.alpha.assign(shapes.material.alpha.begin(), shapes.material.alpha.end());
-          info.beta.assign(shapes.material.beta.begin(), shapes.material.beta.end());
-          if (const auto* forms = std::get_if<FormWeights>(&shapes.elasticity)) {
-            info.w1 = forms->w1;
-            if (b.is_curve()) info.w2 = forms->w2;
-          }
-        },
-        b.shapes);
-    info.mass = b.mass;
-    info.damping = b.damping;
-    info.hold = b.hold_rows;
-    info.pins.assign(b.pins.begin(), b.pins.end());
-    for (const KeptBodyHold& kept : b.holds) {
-      const auto* hold = std::get_if<SideHold>(&kept.hold);
-      if (hold == nullptr) continue;
-      info.sides.push_back({"uvw"[hold->side.direction], hold -> side.upper ? '1' : '0'});
-    }
-    info.holds = static_cast<int>(b.holds.size());
-    info.moved = moved_control_points(b);
-    info.displacement = largest_displacement(b);
-    result.push_back(std::move(info));
+    result.push_back(std::visit([&](const auto& s) { return info_of(s, b); }, b));
   }
   return result;
 }

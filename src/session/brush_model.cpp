@@ -133,7 +133,7 @@ Expected<void> Executor::refine_for_brush(const std::vector<BrushPoint>& places)
 Expected<double> Executor::length_of_brush_model() const {
   const auto& reference = std::as_const(state).surfaces[static_cast<std::size_t>(*state.selected)].reference;
   if (stroke_cache && stroke_cache->scene.input.scaling == ScalingMode::normalised &&
-      stroke_cache->scene.input.surfaces.front().reference == reference) {
+      stroke_cache->scene.input.shapes.front().reference == reference) {
     return stroke_cache->scene.model.scaling().length;
   }
   const auto scaling = normalised_scaling<2>(*reference);
@@ -153,8 +153,8 @@ Expected<void> Executor::prepare_brush_model() {
   ModelInput input = model_input(state, evolution);
   input.scaling = ScalingMode::normalised;
   input.detail = 0;
-  for (std::size_t k = 0; k < input.surfaces.size(); ++k) {
-    SurfaceInput& s = input.surfaces[k];
+  for (std::size_t k = 0; k < input.shapes.size(); ++k) {
+    SurfaceInput& s = input.shapes[k];
     s.mode = RestMode::shape;
     s.material = MaterialFieldOf<2>(MaterialOf<2>{{0, 0, 0}, {1, 1, 1}});
     if (s.rest) s.rest = open.before[k].rest;

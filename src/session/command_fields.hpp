@@ -16,7 +16,7 @@ namespace knead {
 /// What a command acts on. Each declares it as `acts_on`, unless it is for surfaces alone.
 enum class ActsOn {
   surfaces,  ///< the selected surfaces
-  shapes,    ///< the selected surfaces, or the selected body, where there is one by `on_body`
+  shapes,    ///< the selected surfaces, or the selected curve or volume
   scene,     ///< what it names, whatever is selected
 };
 

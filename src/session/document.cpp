@@ -83,9 +83,9 @@ Expected<std::string> Document::save(std::span<const DocumentSurface> surfaces, 
     }
     std::vector<std::shared_ptr<const Curve>> curves;
     for (const SourceCurve& c : source_->curves()) {
-      const auto body = std::ranges::find(bodies, c.id, &SceneBody::id);
-      const auto* shapes = body == bodies.end() ? nullptr : std::get_if<BodyShapes<1>>(&body->shapes);
-      curves.push_back(shapes != nullptr ? shapes->current : c.curve);
+      const auto body = std::ranges::find(bodies, c.id, [](const SceneBody& b) { return common_of(b).id; });
+      const auto* curve = body == bodies.end() ? nullptr : std::get_if<SceneCurve>(&*body);
+      curves.push_back(curve != nullptr ? curve->current : c.curve);
     }
     return source_->save(present, followed, curves);
   }
@@ -102,20 +102,21 @@ Expected<std::string> Document::save_as(const Format& format, std::span<const Do
     return input_error(fmt::format("new {} files cannot be written", format.name), {}, "write STEP");
   std::vector<NamedSurface> made;
   for (const DocumentSurface& s : surfaces) made.push_back({s.name, *s.surface, {}, s.id});
-  options.unit = !surfaces.empty() ? surfaces.front().unit : !bodies.empty() ? bodies.front().unit : unit_;
+  options.unit = !surfaces.empty() ? surfaces.front().unit : !bodies.empty() ? common_of(bodies.front()).unit : unit_;
   for (const SceneBody& body : bodies) {
-    if (const auto* curve = std::get_if<BodyShapes<1>>(&body.shapes)) {
-      options.curves.push_back({body.name, *curve->current, body.id});
+    if (const auto* curve = std::get_if<SceneCurve>(&body)) {
+      options.curves.push_back({curve->name, *curve->current, curve->id});
       continue;
     }
-    auto sides = sides_of(*std::get<BodyShapes<3>>(body.shapes).current);
-    if (!sides) return std::unexpected(sides.error().within(body.id));
+    const SceneVolume& volume = std::get<SceneVolume>(body);
+    auto sides = sides_of(*volume.current);
+    if (!sides) return std::unexpected(sides.error().within(volume.id));
     static constexpr const char* names[] = {"u0", "u1", "v0", "v1", "w0", "w1"};
     for (std::size_t k = 0; k < sides->size(); ++k) {
-      made.push_back({fmt::format("{} {}", body.name, names[k]),
+      made.push_back({fmt::format("{} {}", volume.name, names[k]),
                       std::move((*sides)[k]),
                       {},
-                      fmt::format("{} {}", body.id, names[k])});
+                      fmt::format("{} {}", volume.id, names[k])});
     }
   }
   options.title = name_;

@@ -10,19 +10,32 @@
 
 namespace knead {
 
+SceneBody* Executor::body() { return state.body ? &state.bodies[static_cast<std::size_t>(*state.body)] : nullptr; }
+
+std::unexpected<Error> Executor::of_surfaces(std::string_view field, const char* remedy) {
+  return input_error(fmt::format("a {} has no {}", kind_of(*body()), field), std::string(field), remedy);
+}
+
+Expected<void> Executor::some_selected() {
+  if (state.body) return {};
+  const auto surface = selected();
+  return surface ? Expected<void>() : std::unexpected(surface.error());
+}
+
 Expected<SceneSurface*> Executor::selected() {
   if (state.selected) return &state.surfaces[static_cast<std::size_t>(*state.selected)];
   if (state.body) {
     const SceneBody& b = *body();
-    return input_error(fmt::format("the {} {} is selected, and this acts on surfaces", kind_of(b), b.id), {},
+    return input_error(fmt::format("the {} {} is selected, and this acts on surfaces", kind_of(b), common_of(b).id), {},
                        "select a surface first");
   }
   if (document.is_fresh() && state.surfaces.empty()) {
     return input_error("there is no surface yet", {}, R"(make one first: {"do":"new","size":[1,1],"net":[8,8]})");
   }
   if (state.surfaces.empty() && !state.bodies.empty()) {
-    return input_error("the file has no B-spline surface", document.name(),
-                       fmt::format(R"(select one of its curves: {{"do":"select","body":"{}"}})", state.bodies[0].id));
+    return input_error(
+        "the file has no B-spline surface", document.name(),
+        fmt::format(R"(select one of its curves: {{"do":"select","body":"{}"}})", common_of(state.bodies[0]).id));
   }
   if (state.surfaces.empty()) {
     const auto others =
@@ -112,6 +125,13 @@ Expected<void> Executor::keep(const Constraint& constraint) {
 }
 
 Expected<void> Executor::check_constraints() {
+  if (state.body) {
+    const auto check = [&]<int D>(const SceneShape<D>&) -> Expected<void> {
+      const auto model = make_model(model_input<D>(state, trial_evolution()));
+      return model ? Expected<void>() : std::unexpected(model.error());
+    };
+    return std::visit(check, *body());
+  }
   if (auto known = know_trims(); !known) return known;
   if (auto known = know_followed(); !known) return known;
   return conditions.check(model_input(state, trial_evolution()));

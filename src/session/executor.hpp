@@ -108,6 +108,22 @@ struct Executor {
   /// that twice that distance is left.
   Expected<void> meet_faces(const Scene& before);
 
+  /// The selected curve or volume; null if none is.
+  SceneBody* body();
+  /// An error, as of `selected`, where nothing is selected.
+  Expected<void> some_selected();
+  /// Calls f with each selected shape, the first one first, until it returns an error.
+  template <class F>
+  Expected<void> each_selected(const F& f) {
+    if (state.body) return std::visit(f, *body());
+    for (const int k : state.selection()) {
+      if (auto done = f(state.surfaces[static_cast<std::size_t>(k)]); !done) return done;
+    }
+    return {};
+  }
+  /// The error (input) of a field that the selected curve or volume does not have.
+  std::unexpected<Error> of_surfaces(std::string_view field, const char* remedy = "leave it out");
+
   /// The first selected surface, or an error that says how to select one.
   Expected<SceneSurface*> selected();
   /// The only selected surface. Error: there are several.
@@ -134,11 +150,6 @@ struct Executor {
   /// (edges that are held where they are, freed or followed); of all surfaces, where some constraint does. Whether the
   /// model can be factored is found out by the next step. \param changed ascending numbers in the selection
   Expected<void> check_constraints_on(std::span<const int> changed);
-
-  /// The selected curve or volume; null if none is.
-  SceneBody* body();
-  /// `count` steps of it with the forces of the scene.
-  Expected<void> run_body(int count, const EvolutionPolicy& evolution);
 
   /// `count` steps with the forces of the scene and these.
   Expected<void> run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more = {},
@@ -232,9 +243,10 @@ struct Executor {
   [[nodiscard]] double static_motion() const;
   Expected<void> move_less(double share);
   void note_motion(std::string_view begins, const std::string& note);
-  Expected<void> take_body(const ActiveStep& step);
+  /// `count` steps of the selected curve or volume.
+  Expected<void> run_body(int count, const EvolutionPolicy& evolution);
   [[nodiscard]] bool imprints(const ActiveStep& step) const;
-  void record_body(const ActiveStep& step, double seconds, std::span<const std::string> notes);
+  void note_all(std::span<const std::string> notes);
   Expected<void> know_what_holds();
   Expected<ActiveStep> next_step(const EvolutionPolicy& evolution, const std::vector<PointForce>& more,
                                  double& seconds);

@@ -18,9 +18,7 @@ Expected<void> check_net_size(const std::array<int, 2>& counts) {
 Expected<void> check_document_size(const Scene& scene, std::int64_t more) {
   std::int64_t size = more;
   for (const SceneSurface& s : scene.surfaces) size += s.current->size();
-  for (const SceneBody& body : scene.bodies) {
-    size += std::visit([](const auto& shapes) -> std::int64_t { return shapes.current->size(); }, body.shapes);
-  }
+  for (const SceneBody& body : scene.bodies) size += control_points_of(body).rows();
   if (size <= max_document_size) return {};
   return input_error(fmt::format("all surfaces, curves and volumes together would have {} control points, more than {} "
                                  "million",

@@ -200,12 +200,10 @@ Expected<SceneBody> body_of(Expected<Spline<D>> made, const NewCommand& c, std::
   if (!made) return std::unexpected(made.error());
   auto at = placed(*std::move(made), c.position);
   if (!at) return std::unexpected(at.error().within("position"));
-  BodyShapes<D> shapes;
-  shapes.opened = shapes.reference = shapes.rest = shapes.current = std::make_shared<const Spline<D>>(*std::move(at));
-  SceneBody body;
-  body.shapes = std::move(shapes);
-  body.name = name;
-  return body;
+  SceneShape<D> s;
+  s.name = name;
+  s.opened = s.reference = s.rest = s.current = std::make_shared<const Spline<D>>(*std::move(at));
+  return s;
 }
 
 }  // namespace

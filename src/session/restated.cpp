@@ -1,5 +1,7 @@
 #include "restated.hpp"
 
+#include <algorithm>
+
 #include "command_fields.hpp"
 #include "components.hpp"
 
@@ -19,6 +21,10 @@ struct Restate {
     return make_command(
         EdgeCommand{choice_of(c.edge), static_cast<EdgeCondition>(c.order), {}, components_text(c.components)});
   }
+  Command operator()(const SideHold& c) const {
+    const auto which = static_cast<SideChoice>(1 + 2 * c.side.direction + (c.side.upper ? 1 : 0));
+    return make_command(EdgeCommand{which, static_cast<EdgeCondition>(c.order), {}, components_text(c.components)});
+  }
   Command operator()(const TrimHolds& c) const {
     HoldCommand hold;
     hold.mode = c.order < 0 ? HoldMode::free : static_cast<HoldMode>(static_cast<int>(HoldMode::trim) + c.order);
@@ -31,7 +37,8 @@ struct Restate {
                                                   : static_cast<EdgeCondition>(c.order),
                                     c.id});
   }
-  Command operator()(const PointPin& c) const {
+  template <int D>
+  Command operator()(const PointPinOf<D>& c) const {
     PinCommand pin;
     pin.at = std::vector<double>(c.at.begin(), c.at.end());
     pin.to = c.to;
@@ -58,33 +65,68 @@ struct Restate {
   }
 };
 
+/// One side, or none.
+std::optional<EdgeHold> side_hold(const EdgeCommand& c, const Components& components, EdgeHold) {
+  if (c.which > SideChoice::v1) return std::nullopt;
+  return EdgeHold{edges_of(edge_choice(c.which)).front(), static_cast<int>(c.hold), components};
+}
+std::optional<SideHold> side_hold(const EdgeCommand& c, const Components& components, SideHold) {
+  const int side = static_cast<int>(c.which) - static_cast<int>(SideChoice::u0);
+  return SideHold{{side / 2, side % 2 != 0}, static_cast<int>(c.hold), components};
+}
+
+/// Those that shapes of all dimensions have: one side is held, or one point.
+template <int D>
+std::optional<ConstraintOf<D>> hold_of(const Command& command) {
+  if (const auto* c = fields_of<EdgeCommand>(command)) {
+    const auto components = components_of(c->components);
+    if (c->edge || c->which == SideChoice::all || c->hold > EdgeCondition::curvature || !components) {
+      return std::nullopt;
+    }
+    return side_hold(*c, *components, std::variant_alternative_t<0, ConstraintOf<D>>());
+  }
+  if (const auto* c = fields_of<PinCommand>(command)) {
+    const auto components = components_of(c->components);
+    if (!c->at || c->at->size() != D || !components) return std::nullopt;
+    PointPinOf<D> pin{.to = c->to, .components = *components};
+    std::ranges::copy(*c->at, pin.at.begin());
+    return pin;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-Command restated(const Constraint& constraint) { return std::visit(Restate{}, constraint); }
+template <int D>
+Command restated(const ConstraintOf<D>& constraint) {
+  return std::visit(Restate{}, constraint);
+}
 
-std::optional<Constraint> constraint_of(const Command& command) {
+template Command restated<1>(const ConstraintOf<1>&);
+template Command restated<2>(const ConstraintOf<2>&);
+template Command restated<3>(const ConstraintOf<3>&);
+
+template <int D>
+std::optional<ConstraintOf<D>> constraint_of(const Command& command) {
+  return hold_of<D>(command);
+}
+
+template std::optional<ConstraintOf<1>> constraint_of<1>(const Command&);
+template std::optional<ConstraintOf<3>> constraint_of<3>(const Command&);
+
+template <>
+std::optional<Constraint> constraint_of<2>(const Command& command) {
   if (const auto* c = fields_of<EdgeCommand>(command)) {
     if (c->edge) {
       const bool follow = c->hold == EdgeCondition::follow;
       return TrimEdgeHold{*c->edge, follow || c->hold == EdgeCondition::free ? -1 : static_cast<int>(c->hold), follow};
     }
-    if (c->which == SideChoice::all || c->which > SideChoice::v1 || c->hold > EdgeCondition::curvature)
-      return std::nullopt;
-    const auto components = components_of(c->components);
-    if (!components) return std::nullopt;
-    return EdgeHold{edges_of(edge_choice(c->which)).front(), static_cast<int>(c->hold), *components};
   }
   if (const auto* c = fields_of<HoldCommand>(command)) {
     const HoldMode mode = c->mode.value_or(HoldMode::rows);
     if (mode == HoldMode::rows) return std::nullopt;
     if (mode == HoldMode::free) return TrimHolds{-1};
     return TrimHolds{static_cast<int>(mode) - static_cast<int>(HoldMode::trim)};
-  }
-  if (const auto* c = fields_of<PinCommand>(command)) {
-    if (!c->at || c->at->size() != 2) return std::nullopt;
-    const auto components = components_of(c->components);
-    if (!components) return std::nullopt;
-    return PointPin{{(*c->at)[0], (*c->at)[1]}, c->to, *components};
   }
   if (const auto* c = fields_of<FreezeCommand>(command)) return c->freeze;
   if (const auto* c = fields_of<KeepCommand>(command)) return c->keep;
@@ -93,7 +135,7 @@ std::optional<Constraint> constraint_of(const Command& command) {
     if (c->mirror) return MirrorSymmetry{*c->mirror == "u" ? 0 : 1, plane};
     if (c->edge && plane) return EdgeSymmetry{*c->edge, *plane};
   }
-  return std::nullopt;
+  return hold_of<2>(command);
 }
 
 }  // namespace knead

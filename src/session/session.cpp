@@ -8,7 +8,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "body_commands.hpp"
 #include "commands.hpp"
 #include "knead/base/interruption.hpp"
 #include "knead/scene/trims.hpp"
@@ -28,12 +27,12 @@ Session::Session(Document document) : document_(std::move(document)), cache_(std
     state->surfaces.push_back(std::move(surface));
   }
   for (const SourceCurve& c : document_.curves()) {
-    SceneBody body;
-    body.id = c.id;
-    body.name = c.name;
-    body.unit = c.unit;
-    body.shapes = BodyShapes<1>{.opened = c.curve, .reference = c.curve, .rest = c.curve, .current = c.curve};
-    state->bodies.push_back(std::move(body));
+    SceneCurve curve;
+    curve.id = c.id;
+    curve.name = c.name;
+    curve.unit = c.unit;
+    curve.opened = curve.reference = curve.rest = curve.current = c.curve;
+    state->bodies.emplace_back(std::move(curve));
   }
   if (state->surfaces.size() == 1) state->selected = 0;
   if (state->surfaces.empty() && state->bodies.size() == 1) state->body = 0;
@@ -289,15 +288,10 @@ namespace {
 
 /// Whether nothing is selected, or only what is where its energy is zero.
 bool is_at_rest(const Scene& scene) {
-  if (scene.body) {
-    const SceneBody& body = scene.bodies[static_cast<std::size_t>(*scene.body)];
-    return body.mode == RestMode::shape &&
-           std::visit([](const auto& shapes) { return shapes.current == shapes.rest; }, body.shapes);
-  }
-  return std::ranges::all_of(scene.selection(), [&](int k) {
-    const SceneSurface& s = scene.surfaces[static_cast<std::size_t>(k)];
-    return s.mode == RestMode::shape && s.current == s.rest;
-  });
+  const auto rests = [](const auto& s) { return s.mode == RestMode::shape && s.current == s.rest; };
+  if (scene.body) return std::visit(rests, scene.bodies[static_cast<std::size_t>(*scene.body)]);
+  return std::ranges::all_of(scene.selection(),
+                             [&](int k) { return rests(scene.surfaces[static_cast<std::size_t>(k)]); });
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // A session as bytes: all states of its history, with every number as it is.
-#include "archive_bodies.hpp"
+#include "archive_shapes.hpp"
 #include "knead/session/session.hpp"
 
 namespace knead {
@@ -11,15 +11,16 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-/// Of versions 1 to 11, in hexadecimal digits: without probes, open strokes and their results; without brushes, masks
+/// Of versions 1 to 12, in hexadecimal digits: without probes, open strokes and their results; without brushes, masks
 /// and edges that follow; without their tangent planes; without converted surfaces, brushes that pass from surface to
 /// surface, and tools that touch what is visible only; without stamps, and strokes that are kept from folding; without
 /// pens and shells; without fundamental forms and modes; without curves and volumes; without shells that vary, bodies
-/// that keep their forms and lattices that are pulled on; with two places of strokes; the present one.
-constexpr std::array<std::string_view, 11> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
+/// that keep their forms and lattices that are pulled on; with two places of strokes; with curves and volumes in a form
+/// of their own; the present one.
+constexpr std::array<std::string_view, 12> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
                                                      "Knead snapshot 4\n", "Knead snapshot 5\n", "Knead snapshot 6\n",
                                                      "Knead snapshot 7\n", "Knead snapshot 8\n", "Knead snapshot 9\n",
-                                                     "Knead snapshot a\n", "Knead snapshot b\n"};
+                                                     "Knead snapshot a\n", "Knead snapshot b\n", "Knead snapshot c\n"};
 constexpr std::string_view magic = magics.back();
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.
@@ -36,24 +37,6 @@ std::uint64_t checksum(std::string_view bytes) {
 std::size_t size_of(const Surface& s) {
   return static_cast<std::size_t>(s.size()) * sizeof(double) * (s.rational() ? 4 : 3) +
          (s.knots(0).knots().size() + s.knots(1).knots().size()) * sizeof(double);
-}
-
-void write_surface(Writer& a, const Surface& s) {
-  for (const KnotVector& knots : s.knots()) pass(a, knots);
-  a.points(s.control_points());
-  a.numbers({s.weights().begin(), s.weights().end()});
-}
-
-std::shared_ptr<const Surface> read_surface(Reader& a) {
-  auto u = archive::read_knots(a), v = archive::read_knots(a);
-  Points points;
-  std::vector<double> weights;
-  a.points(points);
-  a.numbers(weights);
-  if (a.bad() || !u || !v) return nullptr;
-  auto made = Surface::create({std::move(*u), std::move(*v)}, std::move(points), std::move(weights));
-  if (!made) a.fail();
-  return made ? std::make_shared<const Surface>(std::move(*made)) : nullptr;
 }
 
 /// The part of a state that is not shared with the one before it: steps are appended, most surfaces stay.
@@ -327,7 +310,7 @@ std::string Session::snapshot(std::size_t history_bytes) const {
   a.count(document_.surfaces().size());
   const std::vector<std::shared_ptr<const Surface>> surfaces = a.surfaces();
   a.count(surfaces.size());
-  for (const auto& s : surfaces) write_surface(a, *s);
+  for (const auto& s : surfaces) archive::write_spline<2>(a, *s);
   a.bytes(body.data(), body.size());
   const std::string content = a.take();
   a.bytes(magic.data(), magic.size());
@@ -351,7 +334,7 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
   head.count(opened);
   if (opened != document.surfaces().size()) return damaged("the snapshot belongs to another document");
   for (std::size_t k = head.length(8); k > 0; --k) {
-    auto surface = read_surface(head);
+    auto surface = archive::read_spline<2>(head);
     if (!surface) return damaged("the snapshot contains an invalid surface");
     surfaces.push_back(std::move(surface));
   }

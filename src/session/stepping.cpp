@@ -86,6 +86,7 @@ Expected<ActiveStep> Executor::next_step(const EvolutionPolicy& evolution, const
 
 Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const std::vector<PointForce>& more, int done,
                              int total) {
+  if (state.body) return run_body(count, evolution);
   auto selection = selected();
   if (!selection) return std::unexpected(selection.error());
   if (increments && !shells()) {
@@ -154,6 +155,23 @@ Expected<void> Executor::run(int count, const EvolutionPolicy& evolution, const 
   return {};
 }
 
+Expected<void> Executor::run_body(int count, const EvolutionPolicy& evolution) {
+  for (int k = 0; k < count; ++k) {
+    double seconds = 0;
+    const auto step = next_step(evolution, {}, seconds);
+    if (!step && Interruption::asked_for() && keeps_steps(k)) break;
+    if (!step) return std::unexpected(step.error());
+    if (!std::isfinite(step->energy) || !std::isfinite(step->residual)) return beyond_numbers();
+    if (auto taken = take(*step); !taken) return taken;
+    record(*step, seconds, note_of(*step));
+    note_all(models.last()->notes());
+    const auto on = carries_on(k + 1, count);
+    if (!on) return std::unexpected(on.error());
+    if (!*on) break;
+  }
+  return {};
+}
+
 /// Notes where tools press on what nothing holds: it moves as a whole.
 void Executor::note_loose() {
   if (!law || unruled || !(law->reach > 0)) return;
@@ -191,22 +209,26 @@ Expected<void> Executor::know_what_holds() {
   return know_followed();
 }
 
+/// Whether what the tools have done becomes the rest shape.
+bool Executor::imprints(const ActiveStep& step) const {
+  return step.gap > 0 && std::ranges::any_of(state.tools, [](const Tool& t) { return t.mode == ToolMode::imprint; });
+}
+
 Expected<void> Executor::take(const ActiveStep& step) {
   Eigen::Index first = 0;
   const bool imprinting = imprints(step);
-  for (int index : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
+  return each_selected([&]<int D>(SceneShape<D>& s) -> Expected<void> {
     const Eigen::Index n = s.current->size();
     auto moved = s.current->with_control_points(step.control_points.middleRows(first, n));
     if (!moved) return std::unexpected(moved.error());
     if (moved->control_points() != s.current->control_points()) {
-      s.current = std::make_shared<const Surface>(std::move(*moved));
+      s.current = std::make_shared<const Spline<D>>(*std::move(moved));
     }
     s.velocity = step.velocity.rows() > 0 ? Points(step.velocity.middleRows(first, n)) : Points(0, 3);
     if (imprinting) s.rest = s.current;
     first += n;
-  }
-  return {};
+    return {};
+  });
 }
 
 StepRecord record_of(const ActiveStep& step, double seconds, std::string note) {
@@ -232,7 +254,8 @@ StepRecord record_of(const ActiveStep& step, double seconds, std::string note) {
 
 void Executor::record(const ActiveStep& step, double seconds, std::string note) {
   StepRecord record = record_of(step, seconds, std::move(note));
-  record.surface = *state.selected;
+  record.surface = state.selected.value_or(-1);
+  if (state.body) record.largest_displacement = largest_displacement(*body());
   for (int index : state.selection()) {
     const SceneSurface& s = state.surfaces[static_cast<std::size_t>(index)];
     record.largest_displacement = std::max(record.largest_displacement, largest_distance(*s.current, *s.opened));
@@ -248,10 +271,14 @@ void Executor::note_model(std::span<const SeamReport> seams, std::span<const std
       edge->patch = selection[static_cast<std::size_t>(edge->patch)];
     }
   }
+  note_all(notes);
+  note_creases(seams);
+}
+
+void Executor::note_all(std::span<const std::string> notes) {
   for (const std::string& note : notes) {
     if (std::ranges::find(state.notes, note) == state.notes.end()) state.notes.push_back(note);
   }
-  note_creases(seams);
 }
 
 Expected<void> Executor::yield(double plasticity) {

@@ -168,8 +168,8 @@ Expected<void> Executor::prepare_stroke_model() {
   evolution.solver = state.evolution.solver;
   evolution.energy_tolerance = state.evolution.energy_tolerance;
   ModelInput input = model_input(state, evolution);
-  for (std::size_t k = 0; k < input.surfaces.size(); ++k) {
-    SurfaceInput& s = input.surfaces[k];
+  for (std::size_t k = 0; k < input.shapes.size(); ++k) {
+    SurfaceInput& s = input.shapes[k];
     if (s.rest) s.rest = stroke.before[k].rest;
     for (std::size_t i : pure_terms) {
       auto alpha = raised(s.material.alpha[i], stroke.tension);

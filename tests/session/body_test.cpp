@@ -23,10 +23,10 @@ using testing::same_state;
 
 const SceneBody& body(const Session& session, std::size_t k = 0) { return session.state().bodies[k]; }
 const Curve& curve(const Session& session, std::size_t k = 0) {
-  return *std::get<BodyShapes<1>>(body(session, k).shapes).current;
+  return *std::get<SceneCurve>(body(session, k)).current;
 }
 const Volume& volume(const Session& session, std::size_t k = 0) {
-  return *std::get<BodyShapes<3>>(body(session, k).shapes).current;
+  return *std::get<SceneVolume>(body(session, k)).current;
 }
 Point on(const Curve& c, double u) { return *evaluate_point<1>(c, {u}); }
 Point on(const Volume& v, double a, double b, double c) { return *evaluate_point<3>(v, {a, b, c}); }
@@ -63,7 +63,7 @@ TEST(NewBody, ACircleIsExactAndAHelixSaysHowNear) {
   EXPECT_LT(error, 2e-3);
   EXPECT_EQ(curve(session, 2).size(), 6);
   EXPECT_EQ(on(curve(session, 2), 1), Point(5, 0, 0));
-  EXPECT_EQ(body(session, 1).id, "#2");
+  EXPECT_EQ(common_of(body(session, 1)).id, "#2");
 }
 
 TEST(NewBody, VolumesHaveTheirVolume) {

@@ -23,8 +23,8 @@ Document document_of(const std::string& bytes, const std::string& name = "curves
   return Document::from(*std::move(source));
 }
 
-const BodyShapes<1>& shapes(const Session& session, std::size_t k) {
-  return std::get<BodyShapes<1>>(session.state().bodies[k].shapes);
+const SceneCurve& shapes(const Session& session, std::size_t k) {
+  return std::get<SceneCurve>(session.state().bodies[k]);
 }
 
 /// A file of a sheet, a rational circle and a cubic called "rail".
@@ -53,13 +53,14 @@ TEST(CurveFile, HasItsCurvesAsBodiesAndUntouchedItsBytes) {
   ASSERT_EQ(session.state().bodies.size(), 2U);
   EXPECT_EQ(session.state().selected, 0);
   EXPECT_FALSE(session.state().body);
-  EXPECT_EQ(session.state().bodies[1].name, "rail");
-  EXPECT_EQ(session.state().bodies[1].unit, "mm");
+  EXPECT_EQ(common_of(session.state().bodies[1]).name, "rail");
+  EXPECT_EQ(common_of(session.state().bodies[1]).unit, "mm");
   EXPECT_TRUE(shapes(session, 0).current->rational());
   EXPECT_EQ(shapes(session, 1).current->size(), 8);
   EXPECT_EQ(session.save(), bytes);
   // Steps that move nothing write nothing.
-  run(session, {R"({"do":"select","body":")" + session.state().bodies[1].id + R"("})", R"({"do":"step","count":2})"});
+  run(session,
+      {R"({"do":"select","body":")" + common_of(session.state().bodies[1]).id + R"("})", R"({"do":"step","count":2})"});
   EXPECT_EQ(session.save(), bytes);
 }
 
@@ -68,7 +69,7 @@ TEST(CurveFile, AMovedCurveChangesItsOwnPointsAlone) {
   for (const std::size_t k : {0U, 1U}) {
     SCOPED_TRACE(k);
     Session session(document_of(bytes));
-    const std::string id = session.state().bodies[k].id;
+    const std::string id = common_of(session.state().bodies[k]).id;
     run(session, {R"({"do":"select","body":")" + id + R"("})", R"({"do":"edge","which":"u0","hold":"position"})",
                   R"({"do":"force","at":[0.5],"to":[1,2,6],"strength":50})", R"({"do":"step","count":4})"});
     const Curve& moved = *shapes(session, k).current;
@@ -83,7 +84,7 @@ TEST(CurveFile, AMovedCurveChangesItsOwnPointsAlone) {
     EXPECT_TRUE(std::ranges::equal(shapes(again, k).current->weights(), moved.weights()));
     EXPECT_TRUE(
         same_bits(shapes(again, 1 - k).current->control_points(), shapes(session, 1 - k).opened->control_points()));
-    EXPECT_EQ(again.state().bodies[k].id, id);
+    EXPECT_EQ(common_of(again.state().bodies[k]).id, id);
   }
 }
 
@@ -92,7 +93,8 @@ TEST(CurveFile, ARefinedCurveIsWrittenAnewUnderItsNameAndLabel) {
   for (const std::size_t k : {0U, 1U}) {
     SCOPED_TRACE(k);
     Session session(document_of(bytes));
-    run(session, {R"({"do":"select","body":")" + session.state().bodies[k].id + R"("})", R"({"do":"refine"})"});
+    run(session,
+        {R"({"do":"select","body":")" + common_of(session.state().bodies[k]).id + R"("})", R"({"do":"refine"})"});
     const auto saved = session.save();
     ASSERT_TRUE(saved) << saved.error().message();
     const Session again(document_of(*saved));
@@ -101,8 +103,8 @@ TEST(CurveFile, ARefinedCurveIsWrittenAnewUnderItsNameAndLabel) {
     EXPECT_EQ(written.knots(), ours.knots());
     EXPECT_TRUE(same_bits(written.control_points(), ours.control_points()));
     EXPECT_TRUE(std::ranges::equal(written.weights(), ours.weights()));
-    EXPECT_EQ(again.state().bodies[k].name, session.state().bodies[k].name);
-    EXPECT_EQ(again.state().bodies[k].id, session.state().bodies[k].id);
+    EXPECT_EQ(common_of(again.state().bodies[k]).name, common_of(session.state().bodies[k]).name);
+    EXPECT_EQ(common_of(again.state().bodies[k]).id, common_of(session.state().bodies[k]).id);
     // The sheet and the other curve keep their records.
     for (const std::string& line : new_lines(bytes, *saved))
       EXPECT_EQ(line.find("B_SPLINE_SURFACE"), std::string::npos);
@@ -113,7 +115,7 @@ TEST(CurveFile, SurfacesAndCurvesAreSavedTogetherAndUndone) {
   const std::string bytes = three_of_them();
   Session session(document_of(bytes));
   run(session, {R"({"do":"points","rows_u":[2],"by":[0,0,1]})",
-                R"({"do":"select","body":")" + session.state().bodies[1].id + R"("})",
+                R"({"do":"select","body":")" + common_of(session.state().bodies[1]).id + R"("})",
                 R"({"do":"points","which":[3],"by":[0,0,2]})"});
   const Session again(document_of(*session.save()));
   EXPECT_TRUE(same_bits(shapes(again, 1).current->control_points(), shapes(session, 1).current->control_points()));
@@ -164,7 +166,7 @@ TEST(CurveFile, OfRealWorkComesBackWithOneCurveChanged) {
   const std::string bytes = testing::bytes_of(session.document());
   ASSERT_EQ(session.state().bodies.size(), 24U);
   EXPECT_EQ(*session.save(), bytes);
-  const std::string id = session.state().bodies[7].id;
+  const std::string id = common_of(session.state().bodies[7]).id;
   run(session, {R"({"do":"select","body":")" + id + R"("})", R"({"do":"edge","which":"u0","hold":"position"})",
                 R"({"do":"edge","which":"u1","hold":"position"})", R"({"do":"points","which":[9],"by":[0.25,0,0]})",
                 R"({"do":"step","count":2})"});

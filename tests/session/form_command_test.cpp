@@ -15,12 +15,8 @@ using testing::refusal;
 using testing::run;
 using testing::same_state;
 
-const Curve& curve(const Session& session) {
-  return *std::get<BodyShapes<1>>(session.state().bodies.front().shapes).current;
-}
-const Volume& volume(const Session& session) {
-  return *std::get<BodyShapes<3>>(session.state().bodies.front().shapes).current;
-}
+const Curve& curve(const Session& session) { return *std::get<SceneCurve>(session.state().bodies.front()).current; }
+const Volume& volume(const Session& session) { return *std::get<SceneVolume>(session.state().bodies.front()).current; }
 
 /// A rod 10 long on [0, 1], clamped at one end, of bending stiffness E I = 2 w2/L = 200, which hardly stretches.
 Session rod(const std::vector<std::string>& more) {
@@ -192,7 +188,7 @@ TEST(FormCommand, IsUndoneAndInSnapshots) {
   EXPECT_TRUE(same_state(session.state(), restored->state()));
   const auto forms = [](const Session& s) {
     return std::visit([](const auto& shapes) { return std::get<FormWeights>(shapes.elasticity); },
-                      s.state().bodies.front().shapes);
+                      s.state().bodies.front());
   };
   EXPECT_EQ(forms(*restored), forms(session));
   run(session, {R"({"do":"undo"})"});

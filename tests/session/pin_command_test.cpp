@@ -37,13 +37,13 @@ TEST(MetConditions, EliminateEveryPinOnce) {
   MetConditions conditions;
   const Session all = pinned(16);
   ModelInput input = input_of(all);
-  const std::vector<KeptConstraint> pins = input.surfaces.front().constraints;
+  const std::vector<KeptConstraint> pins = input.shapes.front().constraints;
   ASSERT_EQ(pins.size(), 16U);
-  input.surfaces.front().constraints.resize(1);
+  input.shapes.front().constraints.resize(1);
   ASSERT_TRUE(conditions.check(input));
   for (std::size_t n = 2; n <= 16; ++n) {
     const long long before = conditions.eliminated();
-    input.surfaces.front().constraints.push_back(pins[n - 1]);
+    input.shapes.front().constraints.push_back(pins[n - 1]);
     ASSERT_TRUE(conditions.check(input));
     EXPECT_EQ(conditions.eliminated() - before, 1) << n;
   }
@@ -52,7 +52,7 @@ TEST(MetConditions, EliminateEveryPinOnce) {
 TEST(MetConditions, RefuseWhatContradictsEarlierPinsAsIfAllWereNew) {
   const Session all = pinned(16);
   ModelInput input = input_of(all);
-  std::vector<KeptConstraint>& pins = input.surfaces.front().constraints;
+  std::vector<KeptConstraint>& pins = input.shapes.front().constraints;
   MetConditions conditions;
   ASSERT_TRUE(conditions.check(input));
   KeptConstraint elsewhere = pins.front();
@@ -75,7 +75,7 @@ TEST(MetConditions, RefuseWhatContradictsEarlierPinsAsIfAllWereNew) {
 TEST(MetConditions, HoldControlPointsAndSingleCoordinatesAmongPins) {
   const Session all = pinned(6);
   ModelInput input = input_of(all);
-  std::vector<KeptConstraint>& pins = input.surfaces.front().constraints;
+  std::vector<KeptConstraint>& pins = input.shapes.front().constraints;
   MetConditions conditions;
   ASSERT_TRUE(conditions.check(input));
   KeptConstraint corner = pins.front();  // a control point of a clamped net

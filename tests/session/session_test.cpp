@@ -126,7 +126,7 @@ TEST(Session, WhatIsKnownOfFacesIsKeptWhenACommandIsUndone) {
   run(session, {press[0], press[1], R"({"do":"tool","name":"ball","radius":160,"at":[0.4,0.5],"touches":"visible"})"});
   const auto touched = [&] {
     run(session, {R"({"do":"step"})"});
-    return model_input(session.state(), session.state().evolution).surfaces[0].touched;
+    return model_input(session.state(), session.state().evolution).shapes[0].touched;
   };
   const auto first = touched();
   ASSERT_NE(first, nullptr);

@@ -84,12 +84,19 @@ inline ::testing::AssertionResult same_state(const SessionState& a, const Sessio
   }
   if (a.body != b.body || a.bodies.size() != b.bodies.size()) return differs("bodies");
   for (std::size_t k = 0; k < a.bodies.size(); ++k) {
-    const SceneBody &s = a.bodies[k], &t = b.bodies[k];
+    const ShapeCommon &s = common_of(a.bodies[k]), &t = common_of(b.bodies[k]);
     if (s.id != t.id || s.name != t.name || s.unit != t.unit) return differs("label of " + s.id);
-    if (!same_bits(control_points_of(s), control_points_of(t))) return differs("current " + s.id);
+    if (!same_bits(control_points_of(a.bodies[k]), control_points_of(b.bodies[k]))) return differs("current " + s.id);
     if (!same_bits(s.velocity, t.velocity) || s.mode != t.mode) return differs("velocity or mode of " + s.id);
-    if (s.mass != t.mass || s.damping != t.damping) return differs("material of " + s.id);
-    if (s.hold_rows != t.hold_rows || s.pins != t.pins || !(s.holds == t.holds)) return differs("hold of " + s.id);
+    if (s.hold_rows != t.hold_rows || a.bodies[k].index() != b.bodies[k].index()) return differs("hold of " + s.id);
+    const auto same = [&]<int D>(const SceneShape<D>& p) {
+      const auto& q = std::get<SceneShape<D>>(b.bodies[k]);
+      return p.material == q.material && p.elasticity == q.elasticity && p.pins == q.pins &&
+             std::ranges::equal(p.constraints, q.constraints, [](const auto& x, const auto& y) {
+               return x.constraint == y.constraint && same_bits(x.where->control_points(), y.where->control_points());
+             });
+    };
+    if (!std::visit(same, a.bodies[k])) return differs("material or hold of " + s.id);
   }
   if (a.tools.size() != b.tools.size()) return differs("number of tools");
   for (std::size_t k = 0; k < a.tools.size(); ++k) {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "knead/sculpt/body_constraints.hpp"
 #include "knead/sculpt/constraints.hpp"
 
 namespace knead {
@@ -27,11 +28,11 @@ enum class EdgeChoice { all, u0, u1, v0, v1 };
 using Components = std::array<bool, 3>;
 inline constexpr Components all_components = {true, true, true};
 
-// Constraints that hold a surface. Each is stored with the shape of the surface when it was requested
-// (`KeptConstraint`): what is held stays where it was then.
+// Constraints that hold a shape. Each is stored with the shape when it was requested (`KeptConstraintOf`): what is held
+// stays where it was then.
 
-/// An edge, with the first `order` derivatives across it: 0 its position, 1 also its tangent planes, 2 also its
-/// curvatures.
+/// An edge of a surface, with the first `order` derivatives across it: 0 its position, 1 also its tangent planes, 2
+/// also its curvatures.
 struct EdgeHold {
   SurfaceEdge edge = SurfaceEdge::u0;
   int order = 0;
@@ -39,13 +40,23 @@ struct EdgeHold {
   friend bool operator==(const EdgeHold&, const EdgeHold&) = default;
 };
 
-/// A surface point.
-struct PointPin {
-  Fractions at = {0.5, 0.5};
+/// A side of a curve or a volume, as `EdgeHold`.
+struct SideHold {
+  DomainSide side;
+  int order = 0;
+  Components components = all_components;
+  friend bool operator==(const SideHold&, const SideHold&) = default;
+};
+
+/// A point.
+template <int D>
+struct PointPinOf {
+  std::array<double, D> at = {};   ///< a fraction of the domain for each direction
   std::optional<Vector3> to = {};  ///< its target, file units; left out: where it was
   Components components = all_components;
-  friend bool operator==(const PointPin&, const PointPin&) = default;
+  friend bool operator==(const PointPinOf&, const PointPinOf&) = default;
 };
+using PointPin = PointPinOf<2>;
 
 /// A whole region, rounded outward to whole spans.
 struct Freeze {
@@ -89,16 +100,30 @@ struct TrimEdgeHold {
   friend bool operator==(const TrimEdgeHold&, const TrimEdgeHold&) = default;
 };
 
-using Constraint =
-    std::variant<EdgeHold, PointPin, Freeze, Keep, EdgeSymmetry, MirrorSymmetry, TrimHolds, TrimEdgeHold>;
-
-/// A constraint and the shape of the surface when it was requested, on the present net.
-struct KeptConstraint {
-  Constraint constraint;
-  std::shared_ptr<const Surface> where;
-
-  friend bool operator==(const KeptConstraint&, const KeptConstraint&) = default;
+namespace detail {
+template <int D>
+struct ConstraintKinds {  // of curves and volumes
+  using type = std::variant<SideHold, PointPinOf<D>>;
 };
+template <>
+struct ConstraintKinds<2> {
+  using type = std::variant<EdgeHold, PointPin, Freeze, Keep, EdgeSymmetry, MirrorSymmetry, TrimHolds, TrimEdgeHold>;
+};
+}  // namespace detail
+
+template <int D>
+using ConstraintOf = typename detail::ConstraintKinds<D>::type;
+using Constraint = ConstraintOf<2>;
+
+/// A constraint and the shape when it was requested, on the present net.
+template <int D>
+struct KeptConstraintOf {
+  ConstraintOf<D> constraint;
+  std::shared_ptr<const Spline<D>> where;
+
+  friend bool operator==(const KeptConstraintOf&, const KeptConstraintOf&) = default;
+};
+using KeptConstraint = KeptConstraintOf<2>;
 
 /// The plane of a mirror symmetry of this surface: as given, or the best one. Errors: those of `mirror_plane`.
 [[nodiscard]] Expected<MirrorPlane> plane_of(const MirrorSymmetry& symmetry, const Surface& surface);

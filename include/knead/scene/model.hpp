@@ -8,46 +8,63 @@
 
 namespace knead {
 
-/// What a model depends on in one surface.
-struct SurfaceInput {
-  std::string id;
-  std::shared_ptr<const Surface> reference;
-  std::shared_ptr<const Surface> rest;  ///< if constraints are measured from it, or loads vary per area; else null
-  RestMode mode = RestMode::shape;
-  MaterialFieldOf<2> material;
-  Elasticity<2> elasticity;
-  int hold_rows = 0;
-  std::set<std::array<int, 2>> pins;
-  std::vector<KeptConstraint> constraints;
+/// What a model depends on in one surface beyond what it depends on in all shapes.
+struct VisibleInput {
   bool smooth_knot_lines = true, smooth_poles = true;
   std::shared_ptr<const VisibleRegion> visible;  ///< if edges of faces are held, else null
   std::shared_ptr<const VisibleRegion> touched;  ///< where tools touch only what is visible, else null
   std::vector<bool> masked;                      ///< control points that a mask holds; empty: none
 
-  friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;
+  friend bool operator==(const VisibleInput&, const VisibleInput&) = default;
 };
+
+/// What a model depends on in one shape.
+template <int D>
+struct ShapeInput : OfSurfaces<D, VisibleInput> {
+  std::string id;
+  std::shared_ptr<const Spline<D>> reference;
+  /// Of surfaces if constraints are measured from it, or loads vary per area; else null.
+  std::shared_ptr<const Spline<D>> rest;
+  RestMode mode = RestMode::shape;
+  MaterialFieldOf<D> material;
+  Elasticity<D> elasticity;
+  int hold_rows = 0;
+  std::set<std::array<int, D>> pins;
+  std::vector<KeptConstraintOf<D>> constraints;
+
+  friend bool operator==(const ShapeInput&, const ShapeInput&) = default;
+};
+using SurfaceInput = ShapeInput<2>;
 
 /// An edge whose faces move together.
 struct FollowedInput {
   std::shared_ptr<const SharedEdge> course;
-  std::vector<int> patches;  ///< of each of its surfaces: an index into `ModelInput::surfaces`
+  std::vector<int> patches;  ///< of each of its surfaces: an index into `ModelInput::shapes`
 
   friend bool operator==(const FollowedInput&, const FollowedInput&) = default;
 };
 
-/// Everything a model of the selected surfaces depends on: equal inputs give equal models.
-struct ModelInput {
-  std::vector<SurfaceInput> surfaces;  ///< the selected ones, in their order
+/// What a model of surfaces depends on beyond them.
+struct JoiningInput {
   SeamPolicy seams;
-  ScalingMode scaling = ScalingMode::normalised;
-  EvolutionPolicy evolution;
   std::vector<FollowedInput> followed = {};
   CouplingTolerance coupling = {};   ///< with followed edges: as `Scene::coupling`
   std::optional<Load> varying = {};  ///< the load, if it varies, since its forces are kept
-  double detail = 0;                 ///< smallest tool dimension that forces must resolve, file units; 0: no tool
 
-  friend bool operator==(const ModelInput&, const ModelInput&) = default;
+  friend bool operator==(const JoiningInput&, const JoiningInput&) = default;
 };
+
+/// Everything a model of the selected shapes depends on: equal inputs give equal models.
+template <int D>
+struct ModelInputOf : OfSurfaces<D, JoiningInput> {
+  std::vector<ShapeInput<D>> shapes;  ///< the selected ones, in their order
+  ScalingMode scaling = ScalingMode::normalised;
+  EvolutionPolicy evolution;
+  double detail = 0;  ///< smallest tool dimension that forces must resolve, file units; 0: no tool
+
+  friend bool operator==(const ModelInputOf&, const ModelInputOf&) = default;
+};
+using ModelInput = ModelInputOf<2>;
 
 /// Control points that can be moved together, coupled surfaces all counted: what is factored for more of them would
 /// take gigabytes and minutes.
@@ -63,8 +80,9 @@ inline constexpr Eigen::Index max_model_size = 1000000;
 /// steps are made.
 [[nodiscard]] EvolutionPolicy trial_evolution();
 
-/// The input for the model of the selected surfaces under this evolution.
-[[nodiscard]] ModelInput model_input(const Scene& scene, const EvolutionPolicy& evolution);
+/// The input for the model of the selected shapes of so many directions under this evolution.
+template <int D = 2>
+[[nodiscard]] ModelInputOf<D> model_input(const Scene& scene, const EvolutionPolicy& evolution);
 
 /// The part of an input that concerns some of its surfaces: among them, the edges that follow whose surfaces are all
 /// there, and seams to the tolerance of the whole. \param surfaces ascending indices
@@ -78,34 +96,41 @@ inline constexpr Eigen::Index max_model_size = 1000000;
 /// without making a matrix. Cost: one elimination where something asks for motion, else that of making constraints.
 [[nodiscard]] Expected<void> check_conditions(const ModelInput& input);
 
-/// A linear model of surfaces, whatever their elasticity is, coupled and constrained as requested.
-struct SceneModel {
-  ModelInput input;
-  ActiveSurface model;
-  std::vector<SeamReport> seams;   ///< patches are indices into `input.surfaces`
+/// A linear model of shapes, whatever their elasticity is, coupled and constrained as requested.
+template <int D>
+struct SceneModelOf {
+  ModelInputOf<D> input;
+  ActiveSpline<D> model;
+  std::vector<SeamReport> seams;   ///< of surfaces; patches are indices into `input.shapes`
   std::vector<std::string> notes;  ///< lines that may bend, etc.
   Points varying_load = {};        ///< forces of the load's samples and formulas on the control points; empty: none
 };
+using SceneModel = SceneModelOf<2>;
 
-/// Makes and factors the model. `input` has at least one surface.
+/// Makes and factors the model. `input` has at least one shape.
 /// Errors: surfaces of different rest modes, constraints that contradict each other (input), and those of
 /// `ActiveSpline::create`.
-[[nodiscard]] Expected<SceneModel> make_model(ModelInput input);
+template <int D>
+[[nodiscard]] Expected<SceneModelOf<D>> make_model(ModelInputOf<D> input);
 
 /// Seams between these patches (and of each with itself) to the requested tolerance, or the suggested one.
 [[nodiscard]] Expected<FoundSeams> seams_between(const SeamPolicy& policy, std::span<const Surface* const> patches);
 
-/// The control points of what is selected, surfaces stacked, with their rest shapes and velocities.
+/// The control points of what is selected, shapes stacked, with their rest shapes and velocities.
 [[nodiscard]] ActiveState active_state(const Scene& scene);
 
 /// Loads, point forces with their mirror images, and the limit of the scene. `model` is that of the selected surfaces.
 /// Errors (input): a force on a point that does not exist.
 [[nodiscard]] Expected<ActiveLoads> active_loads(const Scene& scene, const SceneModel& model);
 
+/// The same on the selected curve or volume. Errors (input): a load that only surfaces have, too.
+template <int D>
+[[nodiscard]] Expected<ActiveLoads> body_loads(const Scene& scene);
+
 /// Its springs and volcanoes alone, on the control points of the selected surfaces, stacked. Errors: likewise.
 [[nodiscard]] Expected<std::vector<PointForce>> active_point_forces(const Scene& scene);
 
-/// The control points of the selected surfaces as opened, stacked.
+/// The control points of what is selected as opened, shapes stacked.
 [[nodiscard]] Points opened_points(const Scene& scene);
 
 /// A model of what is selected in a scene, whatever resists in it: made once, for many steps.

@@ -11,10 +11,10 @@
 #include "knead/base/shared_list.hpp"
 #include "knead/brep/shared_edge.hpp"
 #include "knead/brep/visible_region.hpp"
-#include "knead/scene/body.hpp"
 #include "knead/scene/constraint.hpp"
 #include "knead/scene/elasticity.hpp"
 #include "knead/scene/force.hpp"
+#include "knead/scene/shape.hpp"
 #include "knead/sculpt/active_spline.hpp"
 #include "knead/sculpt/brush.hpp"
 #include "knead/sculpt/edge_coupling.hpp"
@@ -91,17 +91,6 @@ struct Probe {
   friend bool operator==(const Probe&, const Probe&) = default;
 };
 
-/// The lasting deformation that tools leave in a surface.
-struct PlasticPolicy {
-  bool along = false;    ///< strokes leave a groove along their path; else the shape when the tool is lifted remains
-  double share = 1;      ///< of a displacement beyond the yield that remains
-  double yield = 0;      ///< up to this displacement nothing remains
-  double locality = 0;   ///< how far a dent extends; 0: as far as the evolution lets it
-  bool in_radii = true;  ///< yield and locality count sizes of the tool; false: file units
-
-  friend bool operator==(const PlasticPolicy&, const PlasticPolicy&) = default;
-};
-
 /// A stroke whose tool is still down. Rows are the control points of the selected surfaces, stacked.
 struct OpenStroke {
   /// The shapes of one selected surface before the stroke, on the present net.
@@ -161,30 +150,6 @@ struct FollowedEdge {
   std::shared_ptr<const SharedEdge> course = {};  ///< null until first needed
 };
 
-/// One surface of a scene. `reference`, `rest` and `current` share their knots and weights, as does `opened` unless
-/// they were edited since; the domain is always the same.
-struct SceneSurface {
-  std::string id, name, unit;
-  std::shared_ptr<const Surface> opened;     ///< as opened, on the present net if it has the present basis
-  std::shared_ptr<const Surface> reference;  ///< defines the units of the model
-  std::shared_ptr<const Surface> rest;       ///< displacements are measured from it
-  std::shared_ptr<const Surface> current;
-  Points velocity = {};  ///< of a dynamic evolution, a spline on the present net; empty: at rest
-  RestMode mode = RestMode::shape;
-  MaterialFieldOf<2> material = {};
-  Elasticity<2> elasticity = {};
-  int hold_rows = 0;  ///< outer rows of control points that do not move
-  std::set<std::array<int, 2>> pins = {};
-  std::vector<KeptConstraint> constraints = {};
-  bool smooth_knot_lines = true, smooth_poles = true;
-  PlasticPolicy plastic = {};
-  /// Of each control point the share by which strokes and brushes move it less, 0 to 1; what has 1 is held. Empty:
-  /// none.
-  std::vector<double> mask = {};
-  /// The part of it that faces show, in fractions of its domain; null until first needed.
-  std::shared_ptr<const VisibleRegion> visible = {};
-};
-
 /// Surfaces and bodies, what holds them and what acts on them.
 struct Scene {
   std::optional<int> selected = {};  ///< the surface that commands act on
@@ -211,6 +176,10 @@ struct Scene {
   /// All selected surfaces, the first one first.
   [[nodiscard]] std::vector<int> selection() const;
 };
+
+/// The selected shapes of so many directions, the first one first: surfaces, or the curve or volume, or none.
+template <int D>
+[[nodiscard]] std::vector<const SceneShape<D>*> selected_shapes(const Scene& scene);
 
 /// The tools of the scene, and their images in the mirror planes of the first selected surface.
 /// Errors: those of `mirror_plane` and `mirrored`.

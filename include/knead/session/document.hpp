@@ -9,7 +9,7 @@
 #include "knead/brep/model.hpp"
 #include "knead/exchange/format.hpp"
 #include "knead/exchange/source.hpp"
-#include "knead/scene/body.hpp"
+#include "knead/scene/shape.hpp"
 
 namespace knead {
 

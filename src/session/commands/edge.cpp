@@ -119,8 +119,58 @@ void describe(EdgeCommand& c, Fields& fields) {
               .fallback = "`\"xyz\"`"});
 }
 
+namespace {
+
+SurfaceEdge side_of(const EdgeHold& hold) { return hold.edge; }
+DomainSide side_of(const SideHold& hold) { return hold.side; }
+
+/// Holds sides of a shape in these coordinates, or frees them, whatever was asked of them there before.
+template <class Hold, int D, class Side>
+void hold_sides(SceneShape<D>& s, const std::vector<Side>& sides, EdgeCondition condition,
+                const Components& components) {
+  std::erase_if(s.constraints, [&](KeptConstraintOf<D>& kept) {
+    auto* hold = std::get_if<Hold>(&kept.constraint);
+    if (hold == nullptr || std::ranges::find(sides, side_of(*hold)) == sides.end()) return false;
+    for (std::size_t d = 0; d < 3; ++d) hold->components[d] = hold->components[d] && !components[d];
+    return std::ranges::none_of(hold->components, std::identity());
+  });
+  if (condition == EdgeCondition::free) return;
+  const int order = condition == EdgeCondition::position ? 0 : condition == EdgeCondition::clamped ? 1 : 2;
+  // One by one, so that they can be freed one by one.
+  for (const Side side : sides) s.constraints.push_back({Hold{side, order, components}, s.current});
+}
+
+/// The sides of a curve or a volume that a choice stands for.
+std::vector<DomainSide> sides_of(SideChoice which, int directions) {
+  std::vector<DomainSide> sides;
+  for (int direction = 0; direction < directions; ++direction) {
+    for (const bool upper : {false, true}) {
+      const auto choice = static_cast<SideChoice>(static_cast<int>(SideChoice::u0) + 2 * direction + (upper ? 1 : 0));
+      if (which == SideChoice::all || which == choice) sides.push_back({direction, upper});
+    }
+  }
+  return sides;
+}
+
+Expected<void> hold_body_sides(Executor& executor, const EdgeCommand& c) {
+  if (c.edge) return executor.of_surfaces("faces", "give which, one of its sides");
+  if (c.hold == EdgeCondition::follow) return executor.of_surfaces("faces", R"(use "hold":"free")");
+  const auto components = components_of(c.components);
+  if (!components) return std::unexpected(components.error());
+  const auto hold = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
+    const std::vector<DomainSide> sides = sides_of(c.which, D);
+    if (sides.empty()) return input_error("a curve has no such end", "which", "use u0, u1 or all");
+    hold_sides<SideHold>(s, sides, c.hold, *components);
+    return c.hold == EdgeCondition::free ? Expected<void>() : executor.check_constraints();
+  };
+  return std::visit(hold, *executor.body());
+}
+
+}  // namespace
+
 template <>
 Expected<void> Executor::execute(const EdgeCommand& c) {
+  if (state.body) return hold_body_sides(*this, c);
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   const auto components = components_of(c.components);
   if (!components) return std::unexpected(components.error());
@@ -133,23 +183,14 @@ Expected<void> Executor::execute(const EdgeCommand& c) {
     return input_error("boundary isocurves do not follow", "hold",
                        R"(name an edge of a face, "which":"#456", or use "free")");
   }
-  // One by one, so that they can be freed one by one.
   if (c.which > SideChoice::v1) {
     return input_error("a surface has no such edge", "which", "use u0, u1, v0, v1 or all");
   }
   const std::vector<SurfaceEdge> edges = edges_of(edge_choice(c.which));
-  const int order = c.hold == EdgeCondition::position ? 0 : c.hold == EdgeCondition::clamped ? 1 : 2;
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
-    std::erase_if(s.constraints, [&](KeptConstraint& kept) {
-      auto* edge = std::get_if<EdgeHold>(&kept.constraint);
-      if (edge == nullptr || std::ranges::find(edges, edge->edge) == edges.end()) return false;
-      for (std::size_t d = 0; d < 3; ++d) edge->components[d] = edge->components[d] && !(*components)[d];
-      return std::ranges::none_of(edge->components, std::identity());
-    });
     if (*components == all_components) hold_bare_sides(*this, s, edges, c.hold == EdgeCondition::free);
-    if (c.hold == EdgeCondition::free) continue;
-    for (SurfaceEdge edge : edges) s.constraints.push_back({EdgeHold{edge, order, *components}, s.current});
+    hold_sides<EdgeHold>(s, edges, c.hold, *components);
   }
   return c.hold == EdgeCondition::free ? Expected<void>() : check_constraints();
 }

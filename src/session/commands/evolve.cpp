@@ -76,8 +76,7 @@ Expected<void> Executor::execute(const EvolveCommand& c) {
                        "energy_tolerance", "use a number from 1e-14 to 0.1");
   }
   if (c.evolution.mode == Evolution::stationary) {
-    auto done = body() != nullptr ? run_body(1, c.evolution) : run(1, c.evolution);
-    if (!done) return done;
+    if (auto done = run(1, c.evolution); !done) return done;
   }
   state.evolution = c.evolution;
   return {};

@@ -123,9 +123,8 @@ void put_force(Scene& scene, SceneForce force) {
 template <>
 Expected<void> Executor::execute(const ForceCommand& c) {
   const SceneBody* const b = body();
-  if (b == nullptr) {
-    if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  } else if (c.kind == ForceKind::line || c.kind == ForceKind::moment) {
+  if (auto some = some_selected(); !some) return some;
+  if (b != nullptr && (c.kind == ForceKind::line || c.kind == ForceKind::moment)) {
     return input_error(fmt::format("a {} has no edges", kind_of(*b)), "kind", "use spring, volcano or dead");
   }
   auto force = force_of(c);
@@ -136,7 +135,7 @@ Expected<void> Executor::execute(const ForceCommand& c) {
     return u ? Expected<void>() : std::unexpected(u.error());
   };
   auto there = b == nullptr ? exists(*state.surfaces[static_cast<std::size_t>(*state.selected)].current)
-                            : std::visit([&](const auto& shapes) { return exists(*shapes.current); }, b->shapes);
+                            : std::visit([&](const auto& s) { return exists(*s.current); }, *b);
   if (!there) return there;
   put_force(state, {.name = c.name,
                     .surface = b == nullptr ? *state.selected : -1,

@@ -23,32 +23,45 @@ void describe(HoldCommand& c, Fields& fields) {
   fields.add("all", c.all, {.help = "for every surface of the document, not only the selected ones"});
 }
 
+namespace {
+
+bool holds_trims(HoldMode mode) { return mode != HoldMode::rows && mode != HoldMode::free; }
+
+/// What is asked of all edges of faces on a surface.
+void hold_edges(SceneSurface& s, HoldMode mode) {
+  std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
+    const auto* edges = std::get_if<TrimHolds>(&kept.constraint);
+    if (edges != nullptr) return mode != HoldMode::rows || edges->order >= 0;  // rows hold no edge that was freed
+    return std::holds_alternative<TrimEdgeHold>(kept.constraint);
+  });
+  const int order = holds_trims(mode) ? static_cast<int>(mode) - static_cast<int>(HoldMode::trim) : -1;
+  if (mode != HoldMode::rows) s.constraints.push_back({TrimHolds{order}, s.current});
+}
+
+}  // namespace
+
 template <>
 Expected<void> Executor::execute(const HoldCommand& c) {
   const bool all = c.all.value_or(false);
   const HoldMode mode = c.mode.value_or(HoldMode::rows);
   if (!all) {
-    if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+    if (auto some = some_selected(); !some) return some;
+    if (state.body && holds_trims(mode)) return of_surfaces("faces", R"(use "mode":"rows")");
   }
   if (c.rows < 0) return input_error(fmt::format("{} rows cannot be held", c.rows), "rows", "use 0 or more");
-  std::vector<int> surfaces = state.selection();
-  if (all) {
-    surfaces.resize(state.surfaces.size());
-    std::iota(surfaces.begin(), surfaces.end(), 0);
-  }
-  const bool trims = mode != HoldMode::rows && mode != HoldMode::free;
-  for (int k : surfaces) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+  const auto hold = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
     s.hold_rows = mode == HoldMode::rows ? c.rows : 0;
-    std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
-      const auto* edges = std::get_if<TrimHolds>(&kept.constraint);
-      if (edges != nullptr) return mode != HoldMode::rows || edges->order >= 0;  // rows hold no edge that was freed
-      return std::holds_alternative<TrimEdgeHold>(kept.constraint);
-    });
-    const int order = trims ? static_cast<int>(mode) - static_cast<int>(HoldMode::trim) : -1;
-    if (mode != HoldMode::rows) s.constraints.push_back({TrimHolds{order}, s.current});
+    if constexpr (D == 2) hold_edges(s, mode);
+    return {};
+  };
+  if (!all) {
+    if (auto done = each_selected(hold); !done) return done;
+    return state.body ? check_constraints() : holds_trims(mode) ? know_trims() : Expected<void>();
   }
-  return trims && !all ? know_trims() : Expected<void>();
+  for (std::size_t k = 0; k < state.surfaces.size(); ++k) {
+    if (auto done = hold(state.surfaces[k]); !done) return done;
+  }
+  return {};
 }
 
 }  // namespace knead

@@ -341,6 +341,7 @@ void read_as_version_1(MaterialCommand& c) {
 
 template <>
 Expected<void> Executor::execute(const MaterialCommand& given) {
+  if (state.body) return set_body_material(*this, given);
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   if (!names_something(given)) {
     return input_error("no field is given", "alpha",

@@ -52,6 +52,9 @@ struct MaterialCommand {
   std::optional<std::array<double, 3>> w1, w2;               ///< of the fundamental forms, in the order 11, 12, 22
 };
 
+/// What it does to the selected curve or volume: fields that only surfaces have are errors.
+[[nodiscard]] Expected<void> set_body_material(Executor& executor, const MaterialCommand& c);
+
 template <>
 Expected<void> Executor::execute(const MaterialCommand& c);
 void describe(MaterialCommand& c, Fields& fields);

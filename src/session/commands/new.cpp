@@ -227,7 +227,7 @@ Expected<void> Executor::execute(const NewCommand& c) {
   }
   const bool first = state.surfaces.empty() && state.bodies.empty();
   const std::string present = first                    ? document.unit()
-                              : state.surfaces.empty() ? state.bodies.front().unit
+                              : state.surfaces.empty() ? common_of(state.bodies.front()).unit
                                                        : state.surfaces.front().unit;
   const std::string unit = c.unit.value_or(present);
   if (!is_length_unit(unit)) {
@@ -242,12 +242,13 @@ Expected<void> Executor::execute(const NewCommand& c) {
   if (makes_body(c)) {
     auto body = new_body(c, state.notes);
     if (!body) return std::unexpected(body.error());
-    const auto size =
-        std::visit([](const auto& shapes) -> std::int64_t { return shapes.current->size(); }, body->shapes);
-    if (auto fits = check_document_size(state, size); !fits) return fits;
-    body->id = id;
-    body->name = c.name.value_or(!c.points.empty() ? c.shape : body->name);
-    body->unit = unit;
+    if (auto fits = check_document_size(state, control_points_of(*body).rows()); !fits) return fits;
+    const auto label = [&](auto& s) {
+      s.id = id;
+      s.name = c.name.value_or(!c.points.empty() ? c.shape : s.name);
+      s.unit = unit;
+    };
+    std::visit(label, *body);
     state.bodies.push_back(*std::move(body));
     state.body = static_cast<int>(state.bodies.size()) - 1;
     state.selected.reset();

@@ -24,36 +24,55 @@ void describe(PinCommand& c, Fields& fields) {
              {.help = "the coordinates of that point that are held, as `\"z\"` or `\"xy\"`", .fallback = "`\"xyz\"`"});
 }
 
-template <>
-Expected<void> Executor::execute(const PinCommand& c) {
-  auto surface = selected();
-  if (!surface) return std::unexpected(surface.error());
-  if (c.to && !c.at) return input_error("there is no point to move there", "to", "give at, the surface point");
+namespace {
+
+template <int D>
+Expected<void> pin(Executor& executor, SceneShape<D>& s, const PinCommand& c) {
+  constexpr const char* give_at = D == 2 ? "give at, the surface point" : "give at, the point";
+  if (c.to && !c.at) return input_error("there is no point to move there", "to", give_at);
   if (c.control_points.empty() && !c.at) {
     return input_error("nothing is pinned", "control_points", "give control_points, or at");
   }
   const auto components = components_of(c.components);
   if (!components) return std::unexpected(components.error());
   if (c.components && !c.at) {
-    return input_error("control points are pinned in all coordinates", "components", "give at, the surface point");
+    return input_error("control points are pinned in all coordinates", "components", give_at);
   }
-  const auto [m, n] = (*surface)->rest->net();
+  const auto net = s.rest->net();
   for (std::size_t k = 0; k < c.control_points.size(); ++k) {
     const std::vector<int>& index = c.control_points[k];
-    if (index.size() != 2 || index[0] < 0 || index[0] >= m || index[1] < 0 || index[1] >= n) {
+    std::array<int, D> point{};
+    bool exists = index.size() == D;
+    for (std::size_t d = 0; d < D && exists; ++d) {
+      point[d] = index[d];
+      exists = index[d] >= 0 && index[d] < net[d];
+    }
+    if (!exists) {
       return input_error(fmt::format("there is no control point [{}]", fmt::join(index, ", ")),
                          fmt::format("control_points[{}]", k),
-                         fmt::format("the net is {} by {}, counted from 0", m, n));
+                         fmt::format("the net is {}, counted from 0", fmt::join(net, " by ")));
     }
-    (*surface)->pins.insert({index[0], index[1]});
+    s.pins.insert(point);
   }
-  if (!c.at) return {};
-  if (auto u = parameters_at<2>(*(*surface)->rest, *c.at); !u) return std::unexpected(u.error());
+  if (!c.at) return D == 2 ? Expected<void>() : executor.check_constraints();
+  if (auto u = parameters_at<D>(*s.rest, *c.at); !u) return std::unexpected(u.error());
+  PointPinOf<D> place{.to = c.to, .components = *components};
+  std::ranges::copy(*c.at, place.at.begin());
+  s.constraints.push_back({std::move(place), s.current});
   // Points belong to one surface.
-  const std::vector<int> others = std::exchange(state.together, {});
-  auto done = keep(PointPin{{(*c.at)[0], (*c.at)[1]}, c.to, *components});
-  state.together = others;
+  const std::vector<int> others = std::exchange(executor.state.together, {});
+  auto done = executor.check_constraints();
+  executor.state.together = others;
   return done;
+}
+
+}  // namespace
+
+template <>
+Expected<void> Executor::execute(const PinCommand& c) {
+  if (state.body) return std::visit([&](auto& s) { return pin(*this, s, c); }, *body());
+  auto surface = selected();
+  return surface ? pin(*this, **surface, c) : std::unexpected(surface.error());
 }
 
 }  // namespace knead

@@ -74,84 +74,134 @@ void describe(PointsCommand& c, Fields& fields) {
   describe_allowance(c.allow, fields);
 }
 
-template <>
-Expected<void> Executor::execute(const PointsCommand& c) {
-  auto surface = selected_alone();
-  if (!surface) return std::unexpected(surface.error());
-  SceneSurface& s = **surface;
-  const auto named = indices_of(c.points, s.current->net());
-  if (!named) return std::unexpected(named.error());
+namespace {
+
+template <int D>
+Expected<std::vector<int>> named_of(Executor& executor, const NamedPoints& named, const Spline<D>& shape) {
+  if constexpr (D == 2) {
+    return indices_of(named, shape.net());
+  } else {
+    if (!named.rows_u.empty()) return executor.of_surfaces("rows_u", "give which");
+    if (!named.rows_v.empty()) return executor.of_surfaces("rows_v", "give which");
+    std::vector<int> points;
+    for (std::size_t k = 0; k < named.which.size(); ++k) {
+      const int number = named.which[k];
+      if (number < 0 || number >= shape.size()) {
+        return input_error(fmt::format("there is no control point {}", number), fmt::format("which[{}]", k),
+                           fmt::format("use numbers from 0 to {}", shape.size() - 1));
+      }
+      if (std::ranges::find(points, number) == points.end()) points.push_back(number);
+    }
+    if (!points.empty()) return points;
+    return input_error("no control points are named", "which", "give their numbers, counted from 0");
+  }
+}
+
+/// All control points after the command.
+Expected<Points> points_after(Executor& executor, const PointsCommand& c, const std::vector<int>& named,
+                              const Points& before) {
   if (c.by.has_value() == !c.to.empty()) {
     return input_error("one of by and to is needed", "by", "give [dx, dy, dz], or a list of positions");
   }
   if (!c.to.empty() && c.relative) {
-    return input_error("positions are not relative", "relative", "leave it out, or give by");
+    return input_error("positions are not relative", "relative",
+                       executor.state.body ? "leave it out" : "leave it out, or give by");
   }
-  if (!c.to.empty() && c.to.size() != named->size()) {
-    return input_error(fmt::format("{} positions for {} control points", c.to.size(), named->size()), "to",
+  if (!c.to.empty() && c.to.size() != named.size()) {
+    return input_error(fmt::format("{} positions for {} control points", c.to.size(), named.size()), "to",
                        "give one for each; a point named twice counts once");
   }
   double unit = 1;
   if (c.relative) {
-    const auto length = diagonal();
+    const auto length = executor.diagonal();
     if (!length) return std::unexpected(length.error());
     unit = *length;
   }
-  const Points& before = s.current->control_points();
-  Points after = before, motion = Points::Zero(before.rows(), 3);
-  for (std::size_t k = 0; k < named->size(); ++k) {
-    const int row = (*named)[k];
-    const Vector3& given = c.by ? *c.by : c.to[k];
-    const Eigen::RowVector3d vector(given[0], given[1], given[2]);
+  Points after = before;
+  for (std::size_t k = 0; k < named.size(); ++k) {
+    const Eigen::RowVector3d vector(c.by ? c.by->data() : c.to[k].data());
     if (c.by) {
-      after.row(row) += unit * vector;
+      after.row(named[k]) += unit * vector;
     } else {
-      after.row(row) = vector;
-    }
-    motion.row(row) = after.row(row) - before.row(row);
-  }
-  if (auto may = allowed(s, *named, motion); !may) return may;
-  auto moved = s.current->with_control_points(after);
-  if (!moved) {
-    Error error = moved.error().within(c.by ? "by" : "to");
-    error.remedy = "use smaller numbers";
-    return std::unexpected(std::move(error));
-  }
-  const auto current = std::make_shared<const Surface>(std::move(*moved));
-  if (state.limit) {
-    const double was = largest_distance(*s.current, *s.opened), is = largest_distance(*current, *s.opened);
-    if (!(is <= *state.limit * (1 + limit_tolerance)) && is > was) {
-      return input_error(fmt::format("the surface would be {:.6g} from where it was opened, and {:.6g} is the limit",
-                                     is, *state.limit),
-                         c.by ? "by" : "to", R"(move it less, or end the limit: {"do":"limit"})");
+      after.row(named[k]) = vector;
     }
   }
-  // Clay: the reference shapes and held positions move along. Places that coincided still do, to the
-  // bit.
-  const auto along = [&](std::shared_ptr<const Surface>& shape) -> Expected<void> {
+  return after;
+}
+
+/// Whether a limit allows a surface to become this one.
+Expected<void> within_limit(const Executor& executor, const SceneSurface& s, const Surface& current,
+                            const char* field) {
+  const std::optional<double>& limit = executor.state.limit;
+  if (!limit) return {};
+  const double was = largest_distance(*s.current, *s.opened), is = largest_distance(current, *s.opened);
+  if (is <= *limit * (1 + limit_tolerance) || is <= was) return {};
+  return input_error(
+      fmt::format("the surface would be {:.6g} from where it was opened, and {:.6g} is the limit", is, *limit), field,
+      R"(move it less, or end the limit: {"do":"limit"})");
+}
+
+/// Clay: the reference shapes and held positions move along. Places that coincided still do, to the bit.
+template <int D>
+Expected<void> move_all(SceneShape<D>& s, const std::vector<int>& named, std::shared_ptr<const Spline<D>> current) {
+  const Points &before = s.current->control_points(), &after = current->control_points();
+  const auto along = [&](std::shared_ptr<const Spline<D>>& shape) -> Expected<void> {
     if (shape == s.current) {
       shape = current;
       return {};
     }
     Points points = shape->control_points();
-    for (int row : *named) {
+    for (int row : named) {
       if (same_bits(points, before, row)) {
         points.row(row) = after.row(row);
       } else {
-        points.row(row) += motion.row(row);
+        points.row(row) += after.row(row) - before.row(row);
       }
     }
     auto made = shape->with_control_points(std::move(points));
     if (!made) return std::unexpected(made.error());
-    shape = std::make_shared<const Surface>(std::move(*made));
+    shape = std::make_shared<const Spline<D>>(*std::move(made));
     return {};
   };
   if (auto done = along(s.rest); !done) return done;
-  for (KeptConstraint& kept : s.constraints) {
+  for (KeptConstraintOf<D>& kept : s.constraints) {
     if (auto done = along(kept.where); !done) return done;
   }
-  s.current = current;
+  s.current = std::move(current);
   return {};
+}
+
+template <int D>
+Expected<void> move_by_hand(Executor& executor, SceneShape<D>& s, const PointsCommand& c) {
+  const auto named = named_of<D>(executor, c.points, *s.current);
+  if (!named) return std::unexpected(named.error());
+  const auto after = points_after(executor, c, *named, s.current->control_points());
+  if (!after) return std::unexpected(after.error());
+  if constexpr (D == 2) {
+    if (auto may = allowed(s, *named, *after - s.current->control_points()); !may) return may;
+  }
+  const char* const field = c.by ? "by" : "to";
+  auto moved = s.current->with_control_points(*after);
+  if (!moved) {
+    if (D != 2) return std::unexpected(moved.error());
+    Error error = moved.error().within(field);
+    error.remedy = "use smaller numbers";
+    return std::unexpected(std::move(error));
+  }
+  auto current = std::make_shared<const Spline<D>>(*std::move(moved));
+  if constexpr (D == 2) {
+    if (auto within = within_limit(executor, s, *current, field); !within) return within;
+  }
+  return move_all<D>(s, *named, std::move(current));
+}
+
+}  // namespace
+
+template <>
+Expected<void> Executor::execute(const PointsCommand& c) {
+  if (state.body) return std::visit([&](auto& s) { return move_by_hand(*this, s, c); }, *body());
+  auto surface = selected_alone();
+  return surface ? move_by_hand(*this, **surface, c) : std::unexpected(surface.error());
 }
 
 }  // namespace knead

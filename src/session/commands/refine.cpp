@@ -31,8 +31,34 @@ void describe(RefineCommand& c, Fields& fields) {
   fields.add("permission", c.permission, {.fallback = "`\"trims\"`"});
 }
 
+namespace {
+
+bool names_nothing(const RefineCommand& c) { return !c.under && !c.region && c.knots_u.empty() && c.knots_v.empty(); }
+
+/// Halves all spans of the selected curve or volume.
+Expected<void> halve(Executor& executor, const RefineCommand& c) {
+  constexpr const char* all = "leave it out: every span is halved";
+  if (c.under) return executor.of_surfaces("under", all);
+  if (c.region) return executor.of_surfaces("region", all);
+  if (!names_nothing(c)) return executor.of_surfaces(c.knots_u.empty() ? "knots_v" : "knots_u", all);
+  SceneBody& body = *executor.body();
+  const std::string& id = common_of(body).id;
+  double size = 1;
+  for (const int n : net_of(body)) size *= 2.0 * n;
+  if (size > static_cast<double>(max_net_size)) {
+    return input_error(fmt::format("the net could get more than {} control points", max_net_size), id,
+                       "work on a smaller net");
+  }
+  if (auto done = halve_spans(body); !done) return done;
+  executor.state.notes.push_back(fmt::format("{}: the net is now {}", id, fmt::join(net_of(body), " by ")));
+  return {};
+}
+
+}  // namespace
+
 template <>
 Expected<void> Executor::execute(const RefineCommand& c) {
+  if (state.body && (!c.permission || !names_nothing(c))) return halve(*this, c);
   if (c.permission) state.permission = *c.permission;
   const bool knots = !c.knots_u.empty() || !c.knots_v.empty();
   const int ways =

@@ -12,7 +12,11 @@ constexpr std::string_view kinds[] = {"hold", "pins", "edges", "freeze", "keep",
 /// The name of a constraint in `release`.
 struct KindOf {
   std::string_view operator()(const EdgeHold&) const { return "edges"; }
-  std::string_view operator()(const PointPin&) const { return "pins"; }
+  std::string_view operator()(const SideHold&) const { return "edges"; }
+  template <int D>
+  std::string_view operator()(const PointPinOf<D>&) const {
+    return "pins";
+  }
   std::string_view operator()(const Freeze&) const { return "freeze"; }
   std::string_view operator()(const Keep&) const { return "keep"; }
   std::string_view operator()(const EdgeSymmetry&) const { return "symmetry"; }
@@ -21,15 +25,7 @@ struct KindOf {
   std::string_view operator()(const TrimEdgeHold&) const { return "edges"; }
 };
 
-}  // namespace
-
-void describe(ReleaseCommand& c, Fields& fields) {
-  fields.name("release", "free what is held, pinned, frozen, kept or masked");
-  fields.add(
-      "what", c.what,
-      {.help = "some of `hold`, `pins`, `edges`, `freeze`, `keep`, `symmetry`, `mask`", .fallback = "all of them"});
-}
-
+/// Error (input): something is named that cannot be released.
 Expected<void> check_release(const ReleaseCommand& c) {
   const std::vector<std::string> what = c.what.value_or(std::vector<std::string>{});
   for (std::size_t k = 0; k < what.size(); ++k) {
@@ -40,24 +36,37 @@ Expected<void> check_release(const ReleaseCommand& c) {
   return {};
 }
 
+}  // namespace
+
+void describe(ReleaseCommand& c, Fields& fields) {
+  fields.name("release", "free what is held, pinned, frozen, kept or masked");
+  fields.add(
+      "what", c.what,
+      {.help = "some of `hold`, `pins`, `edges`, `freeze`, `keep`, `symmetry`, `mask`", .fallback = "all of them"});
+}
+
 template <>
 Expected<void> Executor::execute(const ReleaseCommand& c) {
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
+  if (auto some = some_selected(); !some) return some;
   if (auto known = check_release(c); !known) return known;
   const auto meant = [&](std::string_view kind) {
     return !c.what || std::ranges::find(*c.what, kind) != c.what->end();
   };
-  for (int k : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+  return each_selected([&]<int D>(SceneShape<D>& s) -> Expected<void> {
     if (meant("hold")) s.hold_rows = 0;
     if (meant("pins")) s.pins.clear();
-    if (meant("mask")) s.mask.clear();
-    std::erase_if(s.constraints, [&](const KeptConstraint& kept) {
-      const auto* edges = std::get_if<TrimHolds>(&kept.constraint);
-      return !(edges != nullptr && edges->order < 0) && meant(std::visit(KindOf{}, kept.constraint));
+    std::erase_if(s.constraints, [&](const KeptConstraintOf<D>& kept) {
+      if constexpr (D == 2) {
+        const auto* edges = std::get_if<TrimHolds>(&kept.constraint);
+        if (edges != nullptr && edges->order < 0) return false;
+      }
+      return meant(std::visit(KindOf{}, kept.constraint));
     });
-  }
-  return {};
+    if constexpr (D == 2) {
+      if (meant("mask")) s.mask.clear();
+    }
+    return {};
+  });
 }
 
 }  // namespace knead

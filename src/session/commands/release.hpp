@@ -10,9 +10,6 @@ struct ReleaseCommand {
   std::optional<std::vector<std::string>> what;  ///< left out: all
 };
 
-/// Error (input): something is named that cannot be released.
-[[nodiscard]] Expected<void> check_release(const ReleaseCommand& c);
-
 template <>
 Expected<void> Executor::execute(const ReleaseCommand& c);
 void describe(ReleaseCommand& c, Fields& fields);

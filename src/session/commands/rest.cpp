@@ -17,18 +17,12 @@ void describe(RestCommand& c, Fields& fields) {
 
 template <>
 Expected<void> Executor::execute(const RestCommand& c) {
-  if (SceneBody* const b = body()) {
-    std::visit([](auto& shapes) { shapes.rest = shapes.reference = shapes.current; }, b->shapes);
-    b->mode = c.mode;
-    return {};
-  }
-  if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  for (int k : state.selection()) {
-    SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+  if (auto some = some_selected(); !some) return some;
+  return each_selected([&](auto& s) -> Expected<void> {
     s.rest = s.reference = s.current;
     s.mode = c.mode;
-  }
-  return {};
+    return {};
+  });
 }
 
 }  // namespace knead

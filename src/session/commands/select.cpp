@@ -40,8 +40,9 @@ Expected<std::vector<int>> connected(std::vector<int> chosen, SessionState& stat
 Expected<void> select_body(const std::string& id, const Document& document, SessionState& state) {
   std::string known;
   for (std::size_t k = 0; k < state.bodies.size(); ++k) {
-    known += (known.empty() ? "" : ", ") + state.bodies[k].id;
-    if (state.bodies[k].id != id) continue;
+    const std::string& known_id = common_of(state.bodies[k]).id;
+    known += (known.empty() ? "" : ", ") + known_id;
+    if (known_id != id) continue;
     state.body = static_cast<int>(k);
     state.selected.reset();
     state.together.clear();

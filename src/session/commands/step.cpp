@@ -31,16 +31,13 @@ Expected<void> Executor::execute(const StepCommand& c) {
   EvolutionPolicy evolution = state.evolution;
   if (c.lambda) evolution.lambda = *c.lambda;
   if (c.weight) evolution.weight = *c.weight;
-  if (const SceneBody* const b = body()) {
-    if (!c.increments) return run_body(c.count, evolution);
-    return input_error(fmt::format("a {} has no increments", kind_of(*b)), "increments", "leave it out");
-  }
+  if (state.body && c.increments) return of_surfaces("increments");
   if (c.increments) {
     if (auto few = check_steps(*c.increments, "increments", 1); !few) return few;
   }
   increments = c.increments;
   allow_held = c.allow == StepAllowance::held || c.allow == StepAllowance::all;
-  may_stop = true;
+  may_stop = !state.body;
   return run(c.count, evolution);
 }
 

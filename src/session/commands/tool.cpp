@@ -118,9 +118,7 @@ void describe(ToolCommand& c, Fields& fields) {
 
 template <>
 Expected<void> Executor::execute(const ToolCommand& c) {
-  if (!state.body) {
-    if (auto surface = selected(); !surface) return std::unexpected(surface.error());
-  }
+  if (auto some = some_selected(); !some) return some;
   const bool on_surface = c.at || c.middle.value_or(false);
   const bool own_place = c.shape == "surface" && !c.position && !on_surface;  // a surface stays in place
   if (!own_place && c.position.has_value() == on_surface) {

@@ -1,4 +1,4 @@
-#include "knead/scene/body.hpp"
+#include "knead/scene/shape.hpp"
 
 #include <fmt/format.h>
 
@@ -41,33 +41,30 @@ Expected<std::shared_ptr<const Spline<D>>> halved(const Spline<D>& spline) {
 }
 
 template <int D>
-Expected<void> halve(SceneBody& body, BodyShapes<D>& shapes) {
-  const auto net = shapes.current;
-  const auto points_on_finer = [&](Points& points) -> Expected<void> {
-    auto field = net->with_control_points(points);
+Expected<void> halve(SceneShape<D>& s) {
+  if (!s.pins.empty()) {
+    return input_error("control points are pinned by their numbers, which change with the net", s.id,
+                       "release them first, or pin points (at) instead");
+  }
+  if (s.velocity.rows() > 0) {  // a spline on the present basis, as the shapes are
+    auto field = s.current->with_control_points(s.velocity);
     if (!field) return std::unexpected(field.error());
     const auto finer = halved<D>(*field);
     if (!finer) return std::unexpected(finer.error());
-    points = (*finer)->control_points();
-    return {};
-  };
-  // The velocity and what is held are splines on the present basis, as the shapes are.
-  if (body.velocity.rows() > 0) {
-    if (auto done = points_on_finer(body.velocity); !done) return done;
+    s.velocity = (*finer)->control_points();
   }
-  for (KeptBodyHold& kept : body.holds) {
-    if (auto done = points_on_finer(kept.where); !done) return done;
-  }
-  std::vector<std::pair<const Spline<D>*, std::shared_ptr<const Spline<D>>>> made;
-  for (auto* shape : {&shapes.opened, &shapes.reference, &shapes.rest, &shapes.current}) {
-    const auto known = std::ranges::find(made, shape->get(), [](const auto& pair) { return pair.first; });
+  std::vector<std::shared_ptr<const Spline<D>>*> shapes = {&s.opened, &s.reference, &s.rest, &s.current};
+  for (KeptConstraintOf<D>& kept : s.constraints) shapes.push_back(&kept.where);
+  std::vector<std::pair<std::shared_ptr<const Spline<D>>, std::shared_ptr<const Spline<D>>>> made;
+  for (auto* shape : shapes) {
+    const auto known = std::ranges::find(made, *shape, [](const auto& pair) { return pair.first; });
     if (known != made.end()) {
       *shape = known->second;
       continue;
     }
     auto finer = halved<D>(**shape);
     if (!finer) return std::unexpected(finer.error());
-    made.emplace_back(shape->get(), *finer);
+    made.emplace_back(*shape, *finer);
     *shape = *std::move(finer);
   }
   return {};
@@ -75,16 +72,24 @@ Expected<void> halve(SceneBody& body, BodyShapes<D>& shapes) {
 
 }  // namespace
 
-const char* kind_of(const SceneBody& body) { return body.is_curve() ? "curve" : "volume"; }
+const char* kind_of(int directions) { return directions == 1 ? "curve" : directions == 2 ? "surface" : "volume"; }
+
+const char* kind_of(const SceneBody& body) {
+  return std::visit([]<int D>(const SceneShape<D>&) { return kind_of(D); }, body);
+}
+
+const ShapeCommon& common_of(const SceneBody& body) {
+  return std::visit([](const auto& shape) -> const ShapeCommon& { return shape; }, body);
+}
 
 std::vector<int> degrees_of(const SceneBody& body) {
   return std::visit(
-      [](const auto& shapes) {
+      [](const auto& shape) {
         std::vector<int> degrees;
-        for (const KnotVector& knots : shapes.current->knots()) degrees.push_back(knots.degree());
+        for (const KnotVector& knots : shape.current->knots()) degrees.push_back(knots.degree());
         return degrees;
       },
-      body.shapes);
+      body);
 }
 
 std::vector<int> net_of(const SceneBody& body) {
@@ -93,11 +98,11 @@ std::vector<int> net_of(const SceneBody& body) {
         const auto net = shapes.current->net();
         return std::vector<int>(net.begin(), net.end());
       },
-      body.shapes);
+      body);
 }
 
 const Points& control_points_of(const SceneBody& body) {
-  return std::visit([](const auto& shapes) -> const Points& { return shapes.current->control_points(); }, body.shapes);
+  return std::visit([](const auto& shapes) -> const Points& { return shapes.current->control_points(); }, body);
 }
 
 double diagonal_of(const SceneBody& body) {
@@ -106,7 +111,7 @@ double diagonal_of(const SceneBody& body) {
         const Points& points = shapes.reference->control_points();
         return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
       },
-      body.shapes);
+      body);
 }
 
 double largest_displacement(const SceneBody& body) {
@@ -117,7 +122,7 @@ double largest_displacement(const SceneBody& body) {
             shapes.current->with_control_points(shapes.current->control_points() - shapes.opened->control_points());
         return field ? largest_norm_at_samples(*field) : std::numeric_limits<double>::quiet_NaN();
       },
-      body.shapes);
+      body);
 }
 
 int moved_control_points(const SceneBody& body) {
@@ -130,15 +135,11 @@ int moved_control_points(const SceneBody& body) {
         }
         return moved;
       },
-      body.shapes);
+      body);
 }
 
 Expected<void> halve_spans(SceneBody& body) {
-  if (!body.pins.empty()) {
-    return input_error("control points are pinned by their numbers, which change with the net", body.id,
-                       "release them first, or pin points (at) instead");
-  }
-  return std::visit([&](auto& shapes) { return halve(body, shapes); }, body.shapes);
+  return std::visit([](auto& shape) { return halve(shape); }, body);
 }
 
 Expected<std::vector<Surface>> sides_of(const Volume& volume) {

@@ -1,7 +1,8 @@
-#include "body_forms.hpp"
+#include "form_model.hpp"
 
 #include <fmt/format.h>
 
+#include "joined_shapes.hpp"
 #include "knead/sculpt/active_form.hpp"
 #include "knead/sculpt/loads.hpp"
 #include "shell_model.hpp"
@@ -9,9 +10,19 @@
 namespace knead {
 namespace {
 
-std::unexpected<Error> has_none(const SceneBody& body, const char* what, const char* field, const char* remedy) {
-  return input_error(fmt::format("a {} that keeps its fundamental forms has no {}", kind_of(body), what), field,
-                     remedy);
+template <int D>
+std::unexpected<Error> has_none(const char* what, const char* field, const char* remedy) {
+  return input_error(fmt::format("a {} that keeps its fundamental forms has no {}", kind_of(D), what), field, remedy);
+}
+
+/// What holds the shape at this place.
+template <int D>
+Expected<std::vector<LinearConstraint>> conditions_at(const ModelInputOf<D>& input, const Points& present,
+                                                      std::vector<std::string>& notes) {
+  auto joined = join_shapes(input);
+  if (!joined) return std::unexpected(joined.error());
+  notes = std::move(joined->notes);
+  return conditions_of(*joined, present - input.shapes.front().rest->control_points());
 }
 
 /// The forces that keep their direction.
@@ -28,47 +39,44 @@ Expected<Points> dead_forces_on(const Spline<D>& rest, const ActiveLoads& loads)
 template <int D>
 class FormModel final : public Model {
  public:
-  static Expected<std::unique_ptr<Model>> create(BodyInput<D> input, const Points& present) {
+  static Expected<std::unique_ptr<Model>> create(ModelInputOf<D> input, const Points& present) {
     std::vector<std::string> notes;
-    auto conditions = body_conditions<D>(input, present, notes);
+    const ShapeInput<D>& shape = input.shapes.front();
+    auto conditions = conditions_at(input, present, notes);
     if (!conditions) return std::unexpected(conditions.error());
-    auto energy = FormEnergy<D>::create(*input.rest, std::get<FormWeights>(input.elasticity));
+    auto energy = FormEnergy<D>::create(*shape.rest, std::get<FormWeights>(shape.elasticity));
     if (!energy) return std::unexpected(energy.error());
+    const double mass = std::get<double>(shape.material.mass), damping = std::get<double>(shape.material.damping);
     ActiveShellSettings settings{.evolution = input.evolution.mode,
                                  .lambda = input.evolution.lambda,
                                  .time_step = input.evolution.time_step,
-                                 .damping = input.mass > 0 ? input.damping / input.mass : 0,
-                                 .mass = input.mass,
+                                 .damping = mass > 0 ? damping / mass : 0,
+                                 .mass = mass,
                                  .constraints = *conditions,
                                  .detail = input.detail,
                                  .accuracy = input.evolution.accuracy};
-    auto model = ActiveForm<D>::create(*input.rest, *energy, std::move(settings));
+    auto model = ActiveForm<D>::create(*shape.rest, *energy, std::move(settings));
     if (!model) return std::unexpected(model.error());
     return std::unique_ptr<Model>(new FormModel(std::move(input), *std::move(conditions), *std::move(energy),
                                                 *std::move(model), std::move(notes)));
   }
 
   [[nodiscard]] bool serves(const Scene& scene, const EvolutionPolicy& evolution) const override {
-    const SceneBody* body = selected_body<D>(scene);
-    if (body == nullptr || !(input_ == body_input<D>(scene, *body, evolution))) return false;
+    if (!(input_ == model_input<D>(scene, evolution))) return false;
     std::vector<std::string> notes;
-    const auto conditions = body_conditions<D>(input_, control_points_of(*body), notes);
+    const auto conditions = conditions_at(input_, active_state(scene).control_points, notes);
     return conditions && *conditions == conditions_;
   }
   [[nodiscard]] bool measures(const Scene& scene) const override {
-    const SceneBody* body = selected_body<D>(scene);
-    if (body == nullptr) return false;
-    const auto& shapes = std::get<BodyShapes<D>>(body->shapes);
-    return shapes.rest == input_.rest && shapes.elasticity == input_.elasticity;
+    const auto shapes = selected_shapes<D>(scene);
+    return !shapes.empty() && shapes.front()->rest == shape().rest && shapes.front()->elasticity == shape().elasticity;
   }
   [[nodiscard]] Expected<ActiveLoads> loads(const Scene& scene,
                                             const std::vector<PointForce>& /*grips*/) const override {
-    auto loads = body_loads(scene, *scene.body);
+    auto loads = body_loads<D>(scene);
     if (!loads) return loads;
-    if (loads->gravity != Point::Zero()) {
-      return has_none(scene.bodies[static_cast<std::size_t>(*scene.body)], "weight", "gravity", "use vector");
-    }
-    auto forces = dead_forces_on<D>(*input_.rest, *loads);
+    if (loads->gravity != Point::Zero()) return has_none<D>("weight", "gravity", "use vector");
+    auto forces = dead_forces_on<D>(*shape().rest, *loads);
     if (!forces) return std::unexpected(forces.error());
     loads->nodal = *std::move(forces);
     loads->force = Point::Zero();
@@ -79,15 +87,17 @@ class FormModel final : public Model {
     auto step = model_.step(from, tools, loads);
     if (!step) return step;
     step->control_points = with_held_bits(std::move(step->control_points), from.control_points,
-                                          input_.rest->control_points(), conditions_);
+                                          shape().rest->control_points(), conditions_);
     return step;
   }
   [[nodiscard]] double energy(const ActiveState& of) const override { return energy_.energy(of.control_points).sum(); }
   [[nodiscard]] std::span<const std::string> notes() const override { return notes_; }
-  [[nodiscard]] Eigen::Index size() const override { return input_.rest->size(); }
+  [[nodiscard]] Eigen::Index size() const override { return shape().rest->size(); }
 
  private:
-  FormModel(BodyInput<D> input, std::vector<LinearConstraint> conditions, FormEnergy<D> energy, ActiveForm<D> model,
+  [[nodiscard]] const ShapeInput<D>& shape() const { return input_.shapes.front(); }
+
+  FormModel(ModelInputOf<D> input, std::vector<LinearConstraint> conditions, FormEnergy<D> energy, ActiveForm<D> model,
             std::vector<std::string> notes)
       : input_(std::move(input)),
         conditions_(std::move(conditions)),
@@ -95,7 +105,7 @@ class FormModel final : public Model {
         model_(std::move(model)),
         notes_(std::move(notes)) {}
 
-  BodyInput<D> input_;
+  ModelInputOf<D> input_;
   std::vector<LinearConstraint> conditions_;  // at the places of the first step
   FormEnergy<D> energy_;
   ActiveForm<D> model_;
@@ -105,15 +115,15 @@ class FormModel final : public Model {
 }  // namespace
 
 template <int D>
-Expected<std::unique_ptr<Model>> form_model(const Scene& scene, const SceneBody& body,
-                                            const EvolutionPolicy& evolution) {
-  if (body.mode == RestMode::none) {
-    return has_none(body, "place without a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
+Expected<std::unique_ptr<Model>> form_model(const Scene& scene, const EvolutionPolicy& evolution) {
+  const SceneShape<D>& shape = *selected_shapes<D>(scene).front();
+  if (shape.mode == RestMode::none) {
+    return has_none<D>("place without a rest shape", "rest", R"(use {"do":"rest","mode":"shape"})");
   }
-  return FormModel<D>::create(body_input<D>(scene, body, evolution), control_points_of(body));
+  return FormModel<D>::create(model_input<D>(scene, evolution), shape.current->control_points());
 }
 
-template Expected<std::unique_ptr<Model>> form_model<1>(const Scene&, const SceneBody&, const EvolutionPolicy&);
-template Expected<std::unique_ptr<Model>> form_model<3>(const Scene&, const SceneBody&, const EvolutionPolicy&);
+template Expected<std::unique_ptr<Model>> form_model<1>(const Scene&, const EvolutionPolicy&);
+template Expected<std::unique_ptr<Model>> form_model<3>(const Scene&, const EvolutionPolicy&);
 
 }  // namespace knead
