@@ -14,6 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int document_version = 3;
+
 std::string compact(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 /// Of what this text encodes in base64.
@@ -26,6 +28,7 @@ std::size_t bytes_in(const Json& text) {
 
 /// A member that is text, or nothing.
 std::string text_in(const Json& object, const char* member) {
+  if (!object.is_object()) return {};
   const auto found = object.find(member);
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
@@ -36,10 +39,10 @@ Json summary(const Json& document, const std::string& file) {
   Json source;
   if (has("source")) {
     const Json& given = document["source"];
-    const Json& bytes = given.is_object() && given.contains("bytes") ? given["bytes"] : given;
-    source = {{"kind", given.is_object() ? text_in(given, "kind") : "step"},
-              {"name", given.is_object() ? text_in(given, "name") : text_in(document, "name")},
-              {"bytes", bytes.is_string() ? Json(bytes_in(bytes)) : Json()}};
+    const bool bytes = given.is_object() && given.contains("bytes") && given["bytes"].is_string();
+    source = {{"kind", text_in(given, "kind")},
+              {"name", text_in(given, "name")},
+              {"bytes", bytes ? Json(bytes_in(given["bytes"])) : Json()}};
   }
   Json views = Json::array();
   if (has("views") && document["views"].is_array()) {
@@ -100,6 +103,12 @@ Expected<void> show_knead_document(std::string_view bytes, const std::string& na
                                  {},
                                  "save it again in the studio",
                                  name});
+  }
+  if (const Json& version = document["knead"]; version != document_version) {
+    return std::unexpected(
+        Error{ErrorKind::input,
+              fmt::format("the Knead document is of version {}, not {}", compact(version), document_version), "knead",
+              "\"Scripts of version 1\" in docs/scripts.md says how its commands are translated", name});
   }
   const Json about = summary(document, name);
   if (as_json) {

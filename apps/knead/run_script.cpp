@@ -16,7 +16,7 @@
 namespace knead::cli {
 namespace {
 
-/// ": commands[3]"; nothing of a command that the version implies.
+/// ": commands[3]"; nothing of a command that scripts begin with.
 std::string place_in(const Script& script, std::size_t command) {
   return command < script.implied ? std::string() : fmt::format(": commands[{}]", command - script.implied);
 }
@@ -103,6 +103,7 @@ Expected<Execution> execute(Session& session, const Script& script, bool stops) 
   const auto go_on = [&] { return !(stops && Interrupt::asked()); };
   Execution execution;
   for (const Command& command : script.commands) {
+    if (execution.commands == script.implied) session.begin_history();  // what a script begins with is not undone
     work_on(script.name + place_in(script, execution.commands));
     auto done = session.execute(command, progress, go_on);
     if (stops && Interrupt::asked()) return execution;

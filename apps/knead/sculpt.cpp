@@ -248,9 +248,8 @@ Action add_sculpt(CLI::App& app) {
   command->add_option("--report", options->report, "JSON file for the report, see below");
   command->add_option("--picture", options->picture, "SVG file for a picture of the displacement over (u, v)");
   command->footer(
-      R"(The script is {"knead": 2, "commands": [{"do": "...", ...}, ...]}. Lengths are in file units. The edges of faces are held;
-a script of version 1 holds nothing by itself. The commands, and under each
-its fields with their defaults (`knead commands NAME` explains them):
+      R"(The script is {"knead": 2, "commands": [{"do": "...", ...}, ...]}. Lengths are in file units. The edges of faces are held.
+The commands, and under each its fields with their defaults (`knead commands NAME` explains them):
 
 )" + command_help() +
       R"(

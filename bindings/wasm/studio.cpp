@@ -186,10 +186,10 @@ KNEAD_EXPORT(knead_begin_history) int knead_begin_history(int commands) {
   return held().session ? answer(std::to_string(begin_history(*held().session, commands))) : without_session();
 }
 
-/// The input is a script, which is rehearsed (`Session::rehearse`).
+/// The input is a list of commands, which is rehearsed (`Session::rehearse`).
 KNEAD_EXPORT(knead_rehearse) int knead_rehearse() {
   if (!held().session) return without_session();
-  const auto commands = parse_script(held().input, "");
+  const auto commands = parse_commands(held().input);
   if (!commands) return fail(commands.error());
   if (auto done = held().session->rehearse(*commands); !done) return fail(done.error());
   return answer("{}");

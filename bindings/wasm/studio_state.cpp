@@ -9,7 +9,7 @@
 namespace knead::studio {
 
 std::string state_json(const Session& session) { return session_json(session); }
-std::string journal_json(const Session& session) { return script_json(session.journal()); }
+std::string journal_json(const Session& session) { return commands_json(session.journal()); }
 
 Expected<void> carry_out(Session& session, std::string_view lines, const ActOptions& options,
                          const Session::Progress& progress) {

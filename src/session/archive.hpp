@@ -68,9 +68,8 @@ class Reader {
  public:
   static constexpr bool writing = false;
 
-  /// Reads bytes in the given version of the format.
-  Reader(std::string_view bytes, const std::vector<std::shared_ptr<const Surface>>& surfaces, int version)
-      : rest_(bytes), surfaces_(surfaces), version_(version) {}
+  Reader(std::string_view bytes, const std::vector<std::shared_ptr<const Surface>>& surfaces)
+      : rest_(bytes), surfaces_(surfaces) {}
 
   void bytes(void* to, std::size_t size) {
     if (size > rest_.size()) return fail();
@@ -127,12 +126,10 @@ class Reader {
   [[nodiscard]] bool bad() const { return bad_; }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   [[nodiscard]] std::string_view rest() const { return rest_; }
-  [[nodiscard]] int version() const { return version_; }
 
  private:
   std::string_view rest_;
   const std::vector<std::shared_ptr<const Surface>>& surfaces_;
-  int version_;
   bool bad_ = false;
 };
 

@@ -17,13 +17,6 @@ namespace knead::archive {
 template <class A, class T>
 using Of = std::conditional_t<A::writing, const T, T>;
 
-/// Whether bytes are read that a version before this one wrote.
-template <class A>
-bool older_than(const A& a, int version) {
-  if constexpr (!A::writing) return a.version() < version;
-  return false;
-}
-
 template <class A>
 void pass(A& a, Of<A, double>& x) {
   a.number(x);
@@ -145,11 +138,9 @@ void pass(A& a, Of<A, StepRecord>& s) {
     load_factor.reset();
     increments.clear();
     energy_error.reset();
-    if (a.version() < 7) return;  // which had no shells
   }
   optional(a, load_factor);
   list(a, increments);
-  if (older_than(a, 9)) return;  // which knew no error
   optional(a, energy_error);
 }
 

@@ -95,13 +95,11 @@ void pass(A& a, Of<A, SurfaceOwn>& s) {
     visible.reset();  // the document provides it
     plastic = {};
     mask.clear();
-    if (a.version() == 1) return;  // which had no plastic policy
   }
   auto& [along, share, yield, locality, in_radii] = plastic;
   pass(a, along);
   for (auto* x : {&share, &yield, &locality}) pass(a, *x);
   pass(a, in_radii);
-  if (older_than(a, 3)) return;  // which had no masks
   pass(a, mask);
 }
 
@@ -132,9 +130,7 @@ void pass_shape(A& a, Of<A, SceneShape<D>>& s) {
   }
   if constexpr (D == 2) {
     pass(a, static_cast<Of<A, SurfaceOwn>&>(s));
-    if (older_than(a, 7)) return;  // which had no shells
     alternative<ShellMaterial>(a, elasticity);
-    if (older_than(a, 8)) return;  // which had no fundamental forms
     alternative<FundamentalMaterial>(a, elasticity);
   } else {
     alternative<FormWeights>(a, elasticity);
@@ -148,9 +144,6 @@ void pass(A& a, Of<A, SceneSurface>& s) {
 
 template <class A>
 void pass(A& a, Of<A, SceneBody>& body) {
-  if constexpr (!A::writing) {
-    if (a.version() < 12) return a.fail();  // whose curves and volumes had a form of their own
-  }
   bool curve = body.index() == 0;
   pass(a, curve);
   if constexpr (!A::writing) {

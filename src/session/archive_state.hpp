@@ -95,7 +95,6 @@ void pass(A& a, Of<A, ShellMaterial>& m) {
     young_field.reset();
     thickness_field.reset();
   }
-  if (older_than(a, 10)) return;  // whose shells were the same everywhere
   pass(a, young_field);
   pass(a, thickness_field);
 }
@@ -109,7 +108,7 @@ inline void pass(Reader& a, SceneForce& f) {
   std::string json;
   a.text(json);
   a.integer(f.surface);
-  if (a.version() > 8) a.integer(f.body);  // before, there were no bodies
+  a.integer(f.body);
   if (a.bad()) return;
   const auto parsed = parse_command(json);
   const auto* fields = parsed ? fields_of<ForceCommand>(*parsed) : nullptr;
@@ -152,13 +151,6 @@ void pass(A& a, Of<A, OpenStroke>& s) {
   for (auto* x : {&lambda, &stiffness, &tension, &plasticity.share, &plasticity.yield}) pass(a, *x);
   list(a, before, 16);
   for (auto* x : {&history, &last}) pass(a, *x);
-  if constexpr (!A::writing) {
-    if (a.version() < 11) {  // which had that of the place before, too
-      Points before_last;
-      pass(a, before_last);
-    }
-  }
-  if (older_than(a, 6)) return;  // which had none
   pass(a, share);
 }
 
@@ -178,7 +170,6 @@ template <class A>
 void pass(A& a, Of<A, BrushPoint>& p) {
   pass(a, p.surface);
   pass(a, p.at);
-  if (older_than(a, 7)) return;  // which had no pens
   pass(a, p.pen.pressure);
   pass(a, p.pen.axis);
 }
@@ -186,14 +177,6 @@ void pass(A& a, Of<A, BrushPoint>& p) {
 inline void path(Writer& a, const SharedList<BrushPoint>& path) { list(a, path, 20); }
 inline void path(Reader& a, SharedList<BrushPoint>& path) {
   path = {};
-  if (a.version() < 5) {  // which had paths on one surface
-    int surface = 0;
-    std::vector<Fractions> points;
-    pass(a, surface);
-    list(a, points, 16);
-    for (const Fractions& at : points) path.push_back({surface, at, {}});
-    return;
-  }
   std::vector<BrushPoint> points;
   list(a, points, 20);
   for (const BrushPoint& at : points) path.push_back(at);
@@ -218,7 +201,6 @@ void pass(A& a, Of<A, OpenBrush>& b) {
   path(a, points);
   list(a, before, 16);
   list(a, masks, 8);
-  if (older_than(a, 7)) return;
   choice(a, pressure, PressureUse::none);
 }
 
@@ -285,7 +267,7 @@ inline std::optional<Tool> read_tool(Reader& a) {
   for (double* x : {&t.stiffness, &t.range, &t.friction, &t.plasticity}) a.number(*x);
   a.flag(t.rigid);
   choice(a, t.direction, ToolDirection::push);
-  if (a.version() > 4) choice(a, t.touches, ToolTouch::visible);
+  choice(a, t.touches, ToolTouch::visible);
   return t;
 }
 

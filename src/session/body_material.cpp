@@ -89,10 +89,14 @@ Expected<void> set_body_material(Executor& executor, const MaterialCommand& c) {
   for (const auto& [name, given] : fields) {
     if (given) return executor.of_surfaces(name, "use alpha, beta, mass and damping");
   }
-  if (!c.alpha && !c.beta && !c.mass && !c.damping && !c.model && !c.w1 && !c.w2) {
-    return input_error("no field is given", "alpha", "give alpha, beta, mass, damping, or a model");
+  if (!c.alpha && !c.beta && !c.mass && !c.damping && !c.model && !c.w1 && !c.w2 && !c.reset) {
+    return input_error("no field is given", "alpha", "give alpha, beta, mass, damping, a model, or reset");
   }
   const auto set = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
+    if (c.reset) {  // what resists is as of a new body
+      s.material = SceneShape<D>{}.material;
+      s.elasticity = SceneShape<D>{}.elasticity;
+    }
     if (auto done = set_elasticity<D>(c, s.elasticity); !done) return done;
     return set_material(s, c);
   };

@@ -32,60 +32,76 @@ Json spelled_out(Json json) {
   return json;
 }
 
-Expected<int> version_in(const Json& json, std::string_view what, const char* form) {
+/// The form of scripts that is read; older ones are translated by hand.
+constexpr int script_version = 2;
+
+Expected<void> check_version(const Json& json, const char* form) {
   const Json* version = json.find("knead");
-  if (version != nullptr && version->is(Json::Kind::number) && (version->number == 1 || version->number == 2)) {
-    return static_cast<int>(version->number);
+  const bool number = version != nullptr && version->is(Json::Kind::number);
+  if (number && version->number == script_version) return {};
+  if (number && version->number == 1) {
+    return input_error("scripts of version 1 are not read any more", "knead",
+                       "translate it to version 2: \"Scripts of version 1\" in docs/scripts.md says how");
   }
-  return input_error(fmt::format("the version of the {} is neither 1 nor 2", what), "knead", form);
+  return input_error("the version of the script is not 2", "knead", form);
 }
 
-/// Fields made meaningless by the rest of a command: errors, or notes in version 1.
+/// The error for a field made meaningless by the rest of a command.
 template <class C>
-Expected<void> leave_out(const Json& json, int version, const C& command, AnyCommand& any) {
+Expected<void> check_applicable(const Json& json, const C& command) {
   if constexpr (requires { inapplicable(command, std::string_view{}); }) {
-    Json rest = json;
     for (const auto& [name, value] : json.members) {
       const bool says_nothing = value.is(Json::Kind::null) || (value.is(Json::Kind::list) && value.list.empty());
-      const std::optional<Error> error = inapplicable(command, name);
-      if (!error || says_nothing) continue;
-      if (version > 1) return std::unexpected(*error);
-      any.notes.push_back(
-          fmt::format("{}: {}, and it was left out; {}", type_of<C>().name, error->what, error->remedy));
-      std::erase_if(rest.members, [&](const auto& member) { return member.first == name; });
+      if (says_nothing) continue;
+      if (const auto error = inapplicable(command, name)) return std::unexpected(*error);
     }
-    if (any.notes.empty()) return {};
-    CommandVariant without;
-    if (auto done = read_variant(rest, type_of<CommandVariant>(), &without, "command"); !done) return done;
-    any.without = std::move(without);
   }
   return {};
 }
 
-/// A command of this version, unless it states its own.
-Expected<Command> read_command(const Json& given, int version) {
-  Json json = spelled_out(given);
-  if (json.is(Json::Kind::object) && json.find("knead") != nullptr) {
-    const auto own = version_in(json, "command", "leave it out, or give 1 or 2");
-    if (!own) return std::unexpected(own.error());
-    version = *own;
-    std::erase_if(json.members, [](const auto& member) { return member.first == "knead"; });
-  }
+Expected<Command> read_command(const Json& given) {
+  const Json json = spelled_out(given);
   AnyCommand any;
   if (auto done = read_variant(json, type_of<CommandVariant>(), &any.fields, "command"); !done) {
     return std::unexpected(done.error());
   }
-  const auto complete = [&](auto& command) -> Expected<void> {
-    if constexpr (requires { read_as_version_1(command); }) {
-      if (version == 1) read_as_version_1(command);
-    }
-    if constexpr (requires { read_as_version_2(command); }) {
-      if (version == 2) read_as_version_2(command);
-    }
-    return leave_out(json, version, command, any);
-  };
-  if (auto done = std::visit(complete, any.fields); !done) return std::unexpected(done.error());
+  const auto check = [&](const auto& command) { return check_applicable(json, command); };
+  if (auto done = std::visit(check, any.fields); !done) return std::unexpected(done.error());
   return Command(std::move(any));
+}
+
+/// Appends the commands of a list.
+Expected<void> read_commands(const Json& list, std::vector<Command>& commands) {
+  for (std::size_t k = 0; k < list.list.size(); ++k) {
+    auto command = read_command(list.list[k]);
+    if (!command) {
+      Error error = command.error();
+      error.where = fmt::format("commands[{}]", k) + (error.where.empty() ? "" : "." + error.where);
+      return std::unexpected(std::move(error));
+    }
+    commands.push_back(std::move(*command));
+  }
+  return {};
+}
+
+bool is_default_hold(const Command& command) {
+  const auto* hold = fields_of<HoldCommand>(command);
+  return hold != nullptr && hold->mode == HoldMode::trim && hold->all.value_or(false);
+}
+
+/// Undoes what scripts begin with.
+Command hold_nothing() {
+  HoldCommand hold;
+  hold.rows = 0;
+  hold.all = true;
+  return make_command(hold);
+}
+
+/// One per line.
+std::string list_json(std::span<const Command> commands) {
+  std::string text = "[";
+  for (std::size_t k = 0; k < commands.size(); ++k) text += (k == 0 ? "\n  " : ",\n  ") + to_json(commands[k]);
+  return text + (commands.empty() ? "]" : "\n]");
 }
 
 }  // namespace
@@ -93,7 +109,17 @@ Expected<Command> read_command(const Json& given, int version) {
 Expected<Command> parse_command(std::string_view text) {
   const auto json = parse_json(text);
   if (!json) return std::unexpected(json.error());
-  return read_command(*json, 1);
+  return read_command(*json);
+}
+
+Expected<std::vector<Command>> parse_commands(std::string_view text) {
+  const auto json = parse_json(text);
+  if (!json) return std::unexpected(json.error());
+  if (!json->is(Json::Kind::list))
+    return input_error("this is no list of commands", "commands", R"(write [{"do": …}])");
+  std::vector<Command> commands;
+  if (auto done = read_commands(*json, commands); !done) return std::unexpected(done.error());
+  return commands;
 }
 
 std::string to_json(const Command& command) { return to_json(type_of<CommandVariant>(), &command.any().fields); }
@@ -118,31 +144,27 @@ Expected<std::vector<Command>> parse_script(std::string_view text, const std::st
       return fail({ErrorKind::input, "a script has no such field", member, "the fields are: knead, commands"});
     }
   }
-  const auto version = version_in(*json, "script", form);
-  if (!version) return fail(version.error());
+  if (auto version = check_version(*json, form); !version) return fail(version.error());
   const Json* list = json->find("commands");
   if (list == nullptr || !list->is(Json::Kind::list)) {
     return fail({ErrorKind::input, "the list of commands is missing", "commands", form});
   }
-  std::vector<Command> commands;
-  if (*version == 2) commands.push_back(default_hold());
+  std::vector<Command> commands = {default_hold()};
   if (before != nullptr) *before = commands.size();
-  for (std::size_t k = 0; k < list->list.size(); ++k) {
-    auto command = read_command(list->list[k], *version);
-    if (!command) {
-      Error error = command.error();
-      error.where = fmt::format("commands[{}]", k) + (error.where.empty() ? "" : "." + error.where);
-      return fail(std::move(error));
-    }
-    commands.push_back(std::move(*command));
-  }
+  if (auto done = read_commands(*list, commands); !done) return fail(done.error());
   return commands;
 }
 
+std::string commands_json(const std::vector<Command>& commands) { return list_json(commands) + "\n"; }
+
 std::string script_json(const std::vector<Command>& commands) {
-  std::string text = "{\"knead\": 1, \"commands\": [";
-  for (std::size_t k = 0; k < commands.size(); ++k) text += (k == 0 ? "\n  " : ",\n  ") + to_json(commands[k]);
-  return text + (commands.empty() ? "]}\n" : "\n]}\n");
+  std::vector<Command> listed = commands;
+  if (!listed.empty() && is_default_hold(listed.front())) {
+    listed.erase(listed.begin());
+  } else if (!listed.empty() && fields_of<NewCommand>(listed.front()) == nullptr) {
+    listed.insert(listed.begin(), hold_nothing());  // a document that begins with `new` has no faces to hold
+  }
+  return fmt::format("{{\"knead\": {}, \"commands\": {}}}\n", script_version, list_json(listed));
 }
 
 Command default_hold() {

@@ -64,9 +64,6 @@ const Type& type_of<CommandVariant>();
 
 struct AnyCommand {
   CommandVariant fields;
-  /// In version 1, where fields do not apply: what is executed and kept instead, and the note about it.
-  std::optional<CommandVariant> without = {};
-  std::vector<std::string> notes = {};
 };
 
 enum class Through;

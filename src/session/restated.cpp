@@ -33,7 +33,7 @@ struct Restate {
   Command operator()(const TrimEdgeHold& c) const {
     return make_command(EdgeCommand{SideChoice::all,
                                     c.follow      ? EdgeCondition::follow
-                                    : c.order < 0 ? EdgeCondition::free
+                                    : c.order < 0 ? EdgeCondition::open
                                                   : static_cast<EdgeCondition>(c.order),
                                     c.id});
   }
@@ -118,8 +118,8 @@ template <>
 std::optional<Constraint> constraint_of<2>(const Command& command) {
   if (const auto* c = fields_of<EdgeCommand>(command)) {
     if (c->edge) {
-      const bool follow = c->hold == EdgeCondition::follow;
-      return TrimEdgeHold{*c->edge, follow || c->hold == EdgeCondition::free ? -1 : static_cast<int>(c->hold), follow};
+      const bool held = c->hold <= EdgeCondition::curvature;
+      return TrimEdgeHold{*c->edge, held ? static_cast<int>(c->hold) : -1, !held && c->hold != EdgeCondition::open};
     }
   }
   if (const auto* c = fields_of<HoldCommand>(command)) {

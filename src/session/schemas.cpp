@@ -7,14 +7,14 @@ namespace knead {
 // The formats of files as written.
 
 struct ScriptForm {
-  int version = 1;
+  int version = 2;
   std::vector<CommandVariant> commands;
 };
 
 static void describe(ScriptForm& s, Fields& fields) {
   fields.name("script", "The commands of a session.");
   fields.add("knead", s.version,
-             {.help = "the version of the form", .range = between(1, 2), .presence = Presence::required});
+             {.help = "the version of the form", .range = between(2, 2), .presence = Presence::required});
   fields.add("commands", s.commands, {.help = "run in order", .presence = Presence::required});
 }
 
@@ -36,7 +36,7 @@ static void describe(SourceForm& s, Fields& fields) {
 }
 
 struct DocumentForm {
-  int version = 2;
+  int version = 3;
   std::string name;
   std::optional<SourceForm> source;
   std::vector<CommandVariant> commands;
@@ -46,7 +46,7 @@ struct DocumentForm {
 static void describe(DocumentForm& d, Fields& fields) {
   fields.name("document", "A session with the file that it began with.");
   fields.add("knead", d.version,
-             {.help = "the version of the form", .range = between(2, 2), .presence = Presence::required});
+             {.help = "the version of the form", .range = between(3, 3), .presence = Presence::required});
   fields.add("name", d.name, {.help = "what the studio calls it"});
   fields.add("source", d.source, {.help = "left out: the session began without a file"});
   fields.add("commands", d.commands, {.help = "run in order", .presence = Presence::required});

@@ -81,10 +81,8 @@ Expected<void> Session::carry_out(const Command& command, const Progress& progre
     ++position_;
     return {};
   }
-  const AnyCommand& any = command.any();
-  Command meant = any.without ? make_command(*any.without) : command;
+  Command meant = command;
   auto next = std::make_shared<SessionState>(state());
-  next->notes.insert(next->notes.end(), any.notes.begin(), any.notes.end());
   if (cache_->faces.document != state().document) cache_->faces = {state().document};
   Executor executor{document(),         cache_->models, cache_->stroke, cache_->brush,
                     cache_->conditions, cache_->faces,  *next,          progress};

@@ -11,17 +11,8 @@ using archive::pass;
 using archive::Reader;
 using archive::Writer;
 
-/// Of versions 1 to 12, in hexadecimal digits: without probes, open strokes and their results; without brushes, masks
-/// and edges that follow; without their tangent planes; without converted surfaces, brushes that pass from surface to
-/// surface, and tools that touch what is visible only; without stamps, and strokes that are kept from folding; without
-/// pens and shells; without fundamental forms and modes; without curves and volumes; without shells that vary, bodies
-/// that keep their forms and lattices that are pulled on; with two places of strokes; with curves and volumes in a form
-/// of their own; the present one.
-constexpr std::array<std::string_view, 12> magics = {"Knead snapshot 1\n", "Knead snapshot 2\n", "Knead snapshot 3\n",
-                                                     "Knead snapshot 4\n", "Knead snapshot 5\n", "Knead snapshot 6\n",
-                                                     "Knead snapshot 7\n", "Knead snapshot 8\n", "Knead snapshot 9\n",
-                                                     "Knead snapshot a\n", "Knead snapshot b\n", "Knead snapshot c\n"};
-constexpr std::string_view magic = magics.back();
+/// With the version of the form, in a hexadecimal digit; no other is read.
+constexpr std::string_view any_magic = "Knead snapshot ", magic = "Knead snapshot c\n";
 
 /// FNV-1a over words of eight bytes: detects damage, not tampering.
 std::uint64_t checksum(std::string_view bytes) {
@@ -161,7 +152,7 @@ bool fits(const OpenBrush& brush, const Scene& scene) {
 /// The document with these surfaces converted; that of the state before if they are the same.
 void read_converted(Reader& a, const Document& opened, SessionState& state) {
   std::vector<std::string> converted;
-  if (a.version() > 4) list(a, converted);
+  list(a, converted);
   if (a.bad() || converted == (state.document ? state.document->converted() : std::vector<std::string>{})) return;
   state.document.reset();
   if (converted.empty()) return;
@@ -203,24 +194,17 @@ void read_state(Reader& a, const Document& opened, SessionState& state) {
   probes.clear();
   stroke.reset();
   brush.reset();
-  if (a.version() > 1) {
-    list(a, probes);
-    archive::optional(a, stroke);
-  }
+  list(a, probes);
+  archive::optional(a, stroke);
   followed.clear();
+  followed.resize(a.length(4));
+  for (FollowedEdge& edge : followed) a.text(edge.id);
   coupling = Scene{}.coupling;
-  if (a.version() > 2) {
-    followed.resize(a.length(4));
-    for (FollowedEdge& edge : followed) a.text(edge.id);
-    a.number(coupling.position);
-    archive::optional(a, brush);
-  }
-  bend = asked_angle;
-  if (a.version() > 3) {
-    a.number(coupling.tangent);
-    a.number(bend);
-    if (!(bend >= asked_angle && bend <= accepted_angle)) a.fail();
-  }
+  a.number(coupling.position);
+  archive::optional(a, brush);
+  a.number(coupling.tangent);
+  a.number(bend);
+  if (!(bend >= asked_angle && bend <= accepted_angle)) a.fail();
   for (const double t : {coupling.position, coupling.tangent}) {
     if (!(t > 0 && t <= 1)) a.fail();
   }
@@ -241,18 +225,14 @@ void read_state(Reader& a, const Document& opened, SessionState& state) {
   read_converted(a, opened, state);
   modes.clear();
   buckling.clear();
-  if (a.version() > 7) {
-    list(a, modes, 20);
-    list(a, buckling, 20);
-  }
+  list(a, modes, 20);
+  list(a, buckling, 20);
   body.reset();
-  if (a.version() > 8) {
-    read_changed(a, bodies, archive::fits);
-    archive::optional(a, body);
-    if (body && (*body < 0 || *body >= static_cast<int>(bodies.size()) || selected)) a.fail();
-  }
+  read_changed(a, bodies, archive::fits);
+  archive::optional(a, body);
+  if (body && (*body < 0 || *body >= static_cast<int>(bodies.size()) || selected)) a.fail();
   lattice.reset();
-  if (a.version() > 9) archive::optional(a, lattice);
+  archive::optional(a, lattice);
   if (lattice && !a.bad() && !archive::is_whole(*lattice)) a.fail();
   for (int k : state.selection()) {
     if (k < 0 || k >= static_cast<int>(surfaces.size())) a.fail();
@@ -300,10 +280,10 @@ std::string Session::snapshot(std::size_t history_bytes) const {
   Writer a;
   std::vector<Command> earlier = earlier_;
   for (std::size_t k = 0; k < first; ++k) earlier.insert(earlier.end(), entries_[k].begin(), entries_[k].end());
-  a.text(script_json(earlier));
+  a.text(commands_json(earlier));
   a.count(position_ - first);
   a.count(entries_.size() - first);
-  for (std::size_t k = first; k < entries_.size(); ++k) a.text(script_json(entries_[k]));
+  for (std::size_t k = first; k < entries_.size(); ++k) a.text(commands_json(entries_[k]));
   Neighbour before;
   for (std::size_t k = first; k < states_.size(); ++k) write_state(a, *states_[k], before);
   const std::string body = a.take();
@@ -321,13 +301,14 @@ std::string Session::snapshot(std::size_t history_bytes) const {
 }
 
 Expected<Session> Session::restore(Document document, std::string_view bytes) {
-  const auto known = std::ranges::find_if(magics, [&](std::string_view m) { return bytes.starts_with(m); });
-  if (known == magics.end()) return damaged("these bytes are not a snapshot of this version");
-  const int version = static_cast<int>(known - magics.begin()) + 1;
+  if (!bytes.starts_with(magic)) {
+    return damaged(bytes.starts_with(any_magic) ? "the snapshot is of another version of the program"
+                                                : "these bytes are not a snapshot");
+  }
   bytes.remove_prefix(magic.size());
   std::uint64_t sum = 0;
   std::vector<std::shared_ptr<const Surface>> surfaces;
-  Reader head(bytes, surfaces, version);
+  Reader head(bytes, surfaces);
   head.bytes(&sum, sizeof sum);
   if (head.bad() || checksum(head.rest()) != sum) return damaged("the snapshot is damaged");
   std::size_t opened = 0;
@@ -338,14 +319,14 @@ Expected<Session> Session::restore(Document document, std::string_view bytes) {
     if (!surface) return damaged("the snapshot contains an invalid surface");
     surfaces.push_back(std::move(surface));
   }
-  Reader a(head.rest(), surfaces, version);
+  Reader a(head.rest(), surfaces);
   Session session(std::move(document));
   session.states_.clear();
   const auto commands = [&a]() -> std::vector<Command> {
-    std::string script;
-    a.text(script);
+    std::string listed;
+    a.text(listed);
     if (a.bad()) return {};
-    auto parsed = parse_script(script, "snapshot");
+    auto parsed = parse_commands(listed);
     if (!parsed) a.fail();
     return parsed ? std::move(*parsed) : std::vector<Command>{};
   };

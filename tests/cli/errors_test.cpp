@@ -22,19 +22,19 @@ namespace fs = std::filesystem;
 }
 
 ::testing::AssertionResult refused(const Json& commands, int code, const std::vector<std::string>& named) {
-  return refused(Json{{"knead", 1}, {"commands", commands}}.dump(), code, named);
+  return refused(Json{{"knead", 2}, {"commands", commands}}.dump(), code, named);
 }
 
 const Json skin = command("select", {{"surface", "#285"}});
 
 TEST(Errors, AScriptThatIsNoScript) {
   EXPECT_TRUE(refused(std::string("{"), 3, {":1:", "JSON"}));
-  EXPECT_TRUE(refused(std::string("{\"knead\": 1,\n\"commands\": [\n{\"do\" \"step\"}]}"), 3, {":3:", "JSON"}));
+  EXPECT_TRUE(refused(std::string("{\"knead\": 2,\n\"commands\": [\n{\"do\" \"step\"}]}"), 3, {":3:", "JSON"}));
   EXPECT_TRUE(refused(std::string("[]"), 3, {"\"commands\""}));
   EXPECT_TRUE(refused(std::string("{}"), 3, {"knead", "version"}));
   EXPECT_TRUE(refused(std::string(R"({"knead":3,"commands":[]})"), 3, {"knead", "version"}));
-  EXPECT_TRUE(refused(std::string(R"({"knead":1})"), 3, {"commands"}));
-  EXPECT_TRUE(refused(std::string(R"({"knead":1,"commands":[],"x":1})"), 3, {"x", "knead, commands"}));
+  EXPECT_TRUE(refused(std::string(R"({"knead":2})"), 3, {"commands"}));
+  EXPECT_TRUE(refused(std::string(R"({"knead":2,"commands":[],"x":1})"), 3, {"x", "knead, commands"}));
 }
 
 TEST(Errors, AnUnknownCommandOrFieldListsTheKnownOnes) {
@@ -77,8 +77,9 @@ TEST(Errors, ASingularStepIsANumericalFailure) {
 }
 
 TEST(Errors, ABalanceThatNothingHoldsIsANumericalFailure) {
-  const Json loose = {skin, command("load", {{"vector", {0, 0, 1}}}), command("evolve", {{"mode", "static"}})};
-  EXPECT_TRUE(refused(loose, 4, {"commands[2]", "evolve", "hold an edge or pin points"}));
+  const Json loose = {command("hold", {{"rows", 0}, {"all", true}}), skin, command("load", {{"vector", {0, 0, 1}}}),
+                      command("evolve", {{"mode", "static"}})};
+  EXPECT_TRUE(refused(loose, 4, {"commands[3]", "evolve", "hold an edge or pin points"}));
 }
 
 TEST(Errors, AFileOrNewIsNeeded) {

@@ -120,11 +120,11 @@ TEST(Hostile, ErrorsAboutASurfaceNameTheCadFile) {
       workshop.script(Json::array({command("new", {{"size", {15, 15.5}}, {"degree", {1, 4}}, {"net", {2, 5}}})}));
   ASSERT_EQ(knead({"sculpt", "--new", "-o", part, "--script", make}).code, 0);
   const std::string script =
-      workshop.script({command("limit", {{"distance", 1.7}}),
-                       command("force", {{"at", {0.9, 0.6}}, {"to", {6, -4, -5}}, {"strength", 1e10}}),
-                       command("edge", {{"which", "v0"}}), command("step")});
+      workshop.script_of_all({command("limit", {{"distance", 1.7}}),
+                              command("force", {{"at", {0.9, 0.6}}, {"to", {6, -4, -5}}, {"strength", 1e10}}),
+                              command("edge", {{"which", "v0"}}), command("step")});
   EXPECT_TRUE(fails_with(knead({"sculpt", part, "-o", workshop / "out.step", "--script", script}), 4,
-                         {script + ": commands[3]: " + part + ": #", "beyond the limit of 1.7"}));
+                         {script + ": commands[4]: " + part + ": #", "beyond the limit of 1.7"}));
 }
 
 }  // namespace

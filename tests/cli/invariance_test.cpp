@@ -116,7 +116,7 @@ Points sculpted(const Surface& s, const Press& press, bool hold = true) {
       command("move", {{"by", xyz(press.by)}}),
       command("step", {{"count", 3}, {"lambda", 5}, {"weight", press.weight}})};
   const std::string file = workshop.file("sheet.step", step_sheet(s)), out = workshop / "out.step";
-  const Outcome run = knead({"sculpt", file, "-o", out, "--script", workshop.script(commands)});
+  const Outcome run = knead({"sculpt", file, "-o", out, "--script", workshop.script_of_all(commands)});
   EXPECT_EQ(run.code, 0) << run.err;
   if (!run.err.empty()) {  // the ring's spans are five times the tool
     EXPECT_TRUE(run.err.starts_with("knead: warning: the net is too coarse to follow the tool")) << run.err;
@@ -205,7 +205,7 @@ TEST_P(ScaleFree, RelativeToolsOnCopiesOfEverySize) {
   const auto run = [&](double scale) {
     const Placement copy{scale};
     const std::string file = workshop.file("sheet.step", step_sheet(placed(rest_, copy))), out = workshop / "out.step";
-    EXPECT_EQ(knead({"sculpt", file, "-o", out, "--script", workshop.script(commands)}).code, 0);
+    EXPECT_EQ(knead({"sculpt", file, "-o", out, "--script", workshop.script_of_all(commands)}).code, 0);
     return copy.back(surface_of(out, sheet_id).control_points());
   };
   const Points expected = run(1);

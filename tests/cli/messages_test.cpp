@@ -81,7 +81,7 @@ TEST(Messages, ARadiusWhoseSquareVanishesIsRefused) {
 
 TEST(Messages, InfoShowsWhatIsInAKneadDocument) {
   const Workshop workshop;
-  const std::string document = workshop.file("a.knead", R"({"knead": 2,
+  const std::string document = workshop.file("a.knead", R"({"knead": 3,
 "name": "part.step",
 "source": {"kind": "step", "name": "part.step", "bytes": "SVNPLTEwMzAzLTIxOw=="},
 "commands": [
@@ -94,7 +94,7 @@ TEST(Messages, InfoShowsWhatIsInAKneadDocument) {
   const Outcome text = knead({"info", document});
   ASSERT_EQ(text.code, 0) << text.err;
   for (const char* part :
-       {"Knead document of version 2, \"part.step\"", "begins with the STEP file \"part.step\", 13 bytes",
+       {"Knead document of version 3, \"part.step\"", "begins with the STEP file \"part.step\", 13 bytes",
         "2 commands:", R"({"do":"hold","rows":2})", "view \"front\"", "a snapshot of 3 bytes"}) {
     EXPECT_NE(text.out.find(part), std::string::npos) << part << " in " << text.out;
   }
@@ -103,7 +103,9 @@ TEST(Messages, InfoShowsWhatIsInAKneadDocument) {
   EXPECT_EQ(about.at("source"), (Json{{"kind", "step"}, {"name", "part.step"}, {"bytes", 13}}));
   EXPECT_EQ(about.at("commands").size(), 2U);
   EXPECT_TRUE(fails_with(knead({"info", document, "--faces"}), 2, {"--faces"}));
-  const std::string half = workshop.file("half.knead", R"({"knead": 2, "name": "part.step", "comm)");
+  const std::string old = workshop.file("old.knead", R"({"knead": 2, "name": "part.step", "commands": []})");
+  EXPECT_TRUE(fails_with(knead({"info", old}), 3, {old, "of version 2", "docs/scripts.md"}));
+  const std::string half = workshop.file("half.knead", R"({"knead": 3, "name": "part.step", "comm)");
   EXPECT_TRUE(fails_with(knead({"info", half}), 3, {half, "not JSON"}));
   // Elsewhere it is no CAD file.
   EXPECT_TRUE(fails_with(knead({"mesh", document, "--out", workshop / "a.stl"}), 3,

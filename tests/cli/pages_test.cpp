@@ -36,7 +36,7 @@ TEST(Pages, EveryScriptShownSculptsTheSample) {
 }
 
 TEST(Pages, ThePlateShownHasTheDeflectionStated) {
-  const std::string text = page("docs/scripts.md"), begin = "\n    {\"knead\":1,", end = "\n    ]}";
+  const std::string text = page("docs/scripts.md"), begin = "\n    {\"knead\":2,", end = "\n    ]}";
   const std::size_t at = text.find(begin);
   ASSERT_NE(at, std::string::npos);
   const std::string script = text.substr(at, text.find(end, at) + end.size() - at);

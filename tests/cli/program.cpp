@@ -34,7 +34,16 @@ std::string Workshop::file(const std::string& name, const std::string& content) 
 }
 
 std::string Workshop::script(const Json& commands, const std::string& name) const {
-  return file(name, Json{{"knead", 1}, {"commands", commands}}.dump());
+  return file(name, Json{{"knead", 2}, {"commands", commands}}.dump());
+}
+
+std::string Workshop::script_of_all(const Json& commands, const std::string& name) const {
+  Json all = {command("hold", {{"rows", 0}, {"all", true}})};
+  for (Json each : commands) {
+    if (each.at("do") == "tool" && !each.contains("touches")) each["touches"] = "all";
+    all.push_back(std::move(each));
+  }
+  return script(all, name);
 }
 
 std::vector<std::string> Workshop::files() const {

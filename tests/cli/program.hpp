@@ -25,6 +25,8 @@ class Workshop {
   /// Writes a file and returns its path.
   [[nodiscard]] std::string file(const std::string& name, const std::string& content) const;
   [[nodiscard]] std::string script(const Json& commands, const std::string& name = "script.json") const;
+  /// The commands as such a script where nothing is held at first, and tools touch all of a surface.
+  [[nodiscard]] std::string script_of_all(const Json& commands, const std::string& name = "script.json") const;
   /// Names of all files, hidden ones too, sorted.
   [[nodiscard]] std::vector<std::string> files() const;
 

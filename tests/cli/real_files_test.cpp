@@ -28,7 +28,8 @@ TEST(RealFiles, TheReportHasTheAnglesAtASmoothEdgeThatFollows) {
   const std::string out = workshop / "out.step", report = workshop / "report.json";
   const Json commands = {command("select", {{"surfaces", {"#2649", "#2692"}}}), command("hold", {{"mode", "trim"}}),
                          command("edge", {{"which", "#1831"}, {"hold", "follow"}}), command("step")};
-  const Outcome run = knead({"sculpt", file, "-o", out, "--script", workshop.script(commands), "--report", report});
+  const Outcome run =
+      knead({"sculpt", file, "-o", out, "--script", workshop.script_of_all(commands), "--report", report});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("edge #1831 follows smoothly"), std::string::npos) << run.out;
   int found = 0;
@@ -83,7 +84,8 @@ TEST(RealFiles, APartOfAnAssemblyChangesInAllItsPlaces) {
                          command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
                          command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
                          command("step", {{"lambda", 10}})};
-  const Outcome run = knead({"sculpt", file, "-o", out, "--script", workshop.script(commands), "--report", report});
+  const Outcome run =
+      knead({"sculpt", file, "-o", out, "--script", workshop.script_of_all(commands), "--report", report});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("its part \"nut\" stands in 8 places of the assembly"), std::string::npos) << run.out;
   const Json places = Json::parse(content_of(report)).at("places");
@@ -107,7 +109,8 @@ TEST_P(StepFile, TakesADentInItsFirstSurface) {
                          command("tool", {{"radius", 0.1}, {"relative", true}, {"at", {0.4, 0.45}}}),
                          command("move", {{"by", {0.03, 0.04, 0.05}}, {"relative", true}}),
                          command("step", {{"lambda", 10}})};
-  const Outcome run = knead({"sculpt", file_, "-o", out, "--script", workshop.script(commands), "--report", report});
+  const Outcome run =
+      knead({"sculpt", file_, "-o", out, "--script", workshop.script_of_all(commands), "--report", report});
   ASSERT_EQ(run.code, 0) << run.err;
   const Json result = Json::parse(content_of(report));
   const bool all_held = s.at("net").at(0) <= 2 || s.at("net").at(1) <= 2;

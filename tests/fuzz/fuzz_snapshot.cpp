@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(session->largest_displacement(static_cast<int>(k)));
     static_cast<void>(session->moved_control_points(static_cast<int>(k)));
   }
-  fuzz::run(*session, R"({"knead": 1, "commands": [{"do": "step"}, {"do": "refine"}, {"do": "step"}]})", 3);
+  fuzz::run(*session, R"({"knead": 2, "commands": [{"do": "step"}, {"do": "refine"}, {"do": "step"}]})", 3);
   while (session->can_undo()) fuzz::check(session->execute(make_command(UndoCommand{})).has_value(), "undo");
   if (const auto saved = session->save(); !saved) fuzz::check_error(saved.error());
   return 0;

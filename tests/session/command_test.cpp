@@ -95,9 +95,9 @@ TEST(Command, MaterialInARegionIsSoftThereAndStiffElsewhere) {
                               lift, R"({"do":"evolve","mode":"static"})"});
   EXPECT_GT(moved(session, 0.1, 0.3, 0.2, 0.8), 3 * moved(session, 0.6, 0.9, 0.2, 0.8));
   for (const auto& [json, field] : std::vector<std::pair<std::string, std::string>>{
-           {R"({"do":"material","region":[[0.5,0.2],[0,1]]})", "region"},
-           {R"({"do":"material","region":[[0,2],[0,1]]})", "region"},
-           {R"({"do":"material","region":[[0,0.5],[0,1]],"falloff":-1})", "falloff"},
+           {R"({"do":"material","alpha":[1,0,1],"region":[[0.5,0.2],[0,1]]})", "region"},
+           {R"({"do":"material","alpha":[1,0,1],"region":[[0,2],[0,1]]})", "region"},
+           {R"({"do":"material","alpha":[1,0,1],"region":[[0,0.5],[0,1]],"falloff":-1})", "falloff"},
            {R"({"do":"material","mass":-1})", "mass"},
            {R"({"do":"material","damping":-1})", "damping"},
            {R"({"do":"material","alpha":[-1,0,1]})", "alpha"}}) {

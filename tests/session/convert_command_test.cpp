@@ -14,6 +14,7 @@ using testing::both;
 using testing::opened;
 using testing::press;
 using testing::run;
+using testing::run_on;
 using testing::two_sheets;
 using testing::TwoSheets;
 
@@ -34,11 +35,11 @@ TEST(Convert, TheSurfaceJoinsTheSceneWithItsEdgesHeld) {
   EXPECT_TRUE(holds_trims(s.constraints));
   EXPECT_EQ(session.document().surfaces().size(), 2U);
   EXPECT_EQ(session.state().selected, 0) << "it is not selected by itself";
-  ASSERT_TRUE(run(session, R"({"do":"undo"})", 1));
+  ASSERT_TRUE(run_on(session, R"({"do":"undo"})"));
   EXPECT_EQ(session.state().surfaces.size(), 1U);
   EXPECT_EQ(session.document().surfaces().size(), 1U);
   EXPECT_EQ(*session.save(), two_sheets(false, true).text) << "undone, it is written as it was";
-  ASSERT_TRUE(run(session, R"({"do":"redo"})", 1));
+  ASSERT_TRUE(run_on(session, R"({"do":"redo"})"));
   EXPECT_NE(session.save()->find("#20=B_SPLINE_SURFACE_WITH_KNOTS("), std::string::npos);
 }
 
@@ -110,7 +111,7 @@ TEST(Convert, ASnapshotKeepsIt) {
   EXPECT_EQ(*restored->save(), *session.save());
   EXPECT_TRUE(restored->state().followed.at(0).course);
   while (session.can_undo()) {
-    for (Session* s : {&session, &*restored}) ASSERT_TRUE(run(*s, R"({"do":"undo"})", 1));
+    for (Session* s : {&session, &*restored}) ASSERT_TRUE(run_on(*s, R"({"do":"undo"})"));
     EXPECT_EQ(restored->state().surfaces.size(), session.state().surfaces.size());
     EXPECT_EQ(*restored->save(), *session.save());
   }

@@ -103,7 +103,7 @@ TEST(Tool, TakesAnOrientation) {
   EXPECT_LE((tool_of(session).shape.placement().rotation * Point::UnitX() - Point::UnitY()).norm(), 1e-15);
 }
 
-TEST(Tool, FieldsThatTheShapeDoesNotHaveAreNotedInVersion1AndRefusedInVersion2) {
+TEST(Tool, FieldsThatTheShapeDoesNotHaveAreRefused) {
   struct Case {
     const char *shape, *field, *value, *has;
   };
@@ -111,32 +111,19 @@ TEST(Tool, FieldsThatTheShapeDoesNotHaveAreNotedInVersion1AndRefusedInVersion2) 
        {Case{"supertoroid", "sizes", "[1,1,1]", "radius, minor, exponents"}, Case{"sphere", "minor", "1", "radius"},
         Case{"plane", "radius", "1", ""}, Case{"capsule", "rounding", "0.1", "radius, height"},
         Case{"box", "surface", "\"#1\"", "radius, sizes, rounding"}}) {
-    const std::string plain = fmt::format(R"("do":"tool","shape":"{}","position":[5,5,9])", shape);
-    const std::string more = fmt::format(R"({},"{}":{})", plain, field, value);
-    Session session = on_sheet(), without = on_sheet({"{" + plain + "}"});
-    const Error error = refusal(session, R"({"knead":2,)" + more + "}");
+    Session session = on_sheet();
+    const Error error = refusal(
+        session, fmt::format(R"({{"do":"tool","shape":"{}","position":[5,5,9],"{}":{}}})", shape, field, value));
     EXPECT_EQ(error.where, field);
     EXPECT_NE(error.what.find(shape), std::string::npos) << error.what;
     EXPECT_NE(error.remedy.find(has), std::string::npos) << error.remedy;
-    run(session, {R"({"knead":1,)" + more + "}"});
-    EXPECT_EQ(tool_of(session).shape.shape(), tool_of(without).shape.shape());
-    ASSERT_EQ(session.state().notes.size(), 1U);
-    EXPECT_NE(session.state().notes.front().find(field), std::string::npos);
-    // The journal has what counts.
-    EXPECT_TRUE(parse_script(script_json(session.journal()), "journal"));
-    EXPECT_EQ(to_json(session.journal().back()), to_json(without.journal().back()));
-    run(session, {R"({"do":"undo"})"});
-    EXPECT_TRUE(session.state().notes.empty());
   }
 }
 
-TEST(New, FieldsThatTheShapeDoesNotHaveAreNotedInVersion1AndRefusedInVersion2) {
+TEST(New, FieldsThatTheShapeDoesNotHaveAreRefused) {
   Session session = fresh();
-  const Error error = refusal(session, R"({"knead":2,"do":"new","shape":"sphere","radius":2,"height":3})");
-  EXPECT_EQ(error.where, "height");
-  run(session, {R"({"do":"new","shape":"sphere","radius":2,"height":3})"});
-  EXPECT_NE(session.state().notes.at(0).find("height"), std::string::npos);
-  EXPECT_TRUE(parse_script(script_json(session.journal()), "journal"));
+  EXPECT_EQ(refusal(session, R"({"do":"new","shape":"sphere","radius":2,"height":3})").where, "height");
+  EXPECT_EQ(refusal(session, R"({"do":"new","shape":"sphere","radius":2,"size":[1,1]})").where, "size");
 }
 
 const char* const painted =
@@ -183,13 +170,42 @@ TEST(Material, ARegionKeepsRegionsPaintedBefore) {
   EXPECT_NEAR(value(material.beta[0], 0.9, 0.3), 0.01, 1e-2);
 }
 
-TEST(Material, ThatNamesNothingResetsInVersion1AndIsRefusedInVersion2) {
-  Session session = on_sheet({painted, R"({"do":"material","mass":3})"});
-  EXPECT_EQ(refusal(session, R"({"knead":2,"do":"material"})").where, "alpha");
-  run(session, {R"({"knead":1,"do":"material"})"});
-  MaterialFieldOf<2> initial;
-  initial.mass = 3.0;
-  EXPECT_EQ(first(session).material, initial);
+TEST(Material, ThatNamesNothingIsRefused) {
+  Session session = on_sheet({painted});
+  const Error error = refusal(session, R"({"do":"material"})");
+  EXPECT_EQ(error.where, "alpha");
+  EXPECT_NE(error.remedy.find("reset"), std::string::npos) << error.remedy;
+  EXPECT_EQ(refusal(session, R"({"do":"material","reset":false})").where, "alpha");
+}
+
+TEST(Material, AResetIsOfAllOfItAndComesFirst) {
+  const SceneSurface fresh_one = first(on_sheet());
+  for (const char* const more : {"", R"(,"mass":3,"beta":[1,1,1])"}) {
+    Session session = on_sheet({painted, R"({"do":"material","preset":"sheet metal","mass":7,"damping":2})",
+                                R"({"do":"material","model":"shell","young":210,"thickness":1})",
+                                R"({"do":"material","coefficient":"alpha11","formula":"1 + s"})"});
+    run(session, {fmt::format(R"({{"do":"material","reset":true{}}})", more)});
+    MaterialFieldOf<2> wanted = fresh_one.material;
+    if (*more != 0) {
+      wanted.mass = 3.0;
+      wanted.beta = {1.0, 1.0, 1.0};
+    }
+    EXPECT_EQ(first(session).material, wanted) << more;
+    EXPECT_EQ(first(session).elasticity, fresh_one.elasticity);
+    EXPECT_EQ(first(session).plastic, fresh_one.plastic);
+  }
+}
+
+TEST(Material, ACurveIsResetToo) {
+  Session session = fresh(), wanted = fresh();
+  for (Session* const s : {&session, &wanted}) run(*s, {R"({"do":"new","shape":"curve","form":"helix"})"});
+  run(session, {R"({"do":"material","alpha":[3],"beta":[2],"mass":4,"damping":1,"model":"fundamental"})",
+                R"({"do":"material","reset":true})"});
+  const SceneBody &curve = session.state().bodies.at(0), &other = wanted.state().bodies.at(0);
+  EXPECT_EQ(curve.mass, other.mass);
+  EXPECT_EQ(curve.damping, other.damping);
+  EXPECT_EQ(std::get<BodyShapes<1>>(curve.shapes).material, std::get<BodyShapes<1>>(other.shapes).material);
+  EXPECT_EQ(std::get<BodyShapes<1>>(curve.shapes).elasticity.index(), 0U);
 }
 
 TEST(Release, FreesWhatItNames) {

@@ -11,6 +11,7 @@ using testing::both;
 using testing::opened;
 using testing::press;
 using testing::run;
+using testing::run_on;
 using testing::two_sheets;
 using testing::TwoSheets;
 
@@ -106,7 +107,7 @@ TEST(FollowCommands, WhatWouldCreaseASmoothEdgeIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free")));
-  const auto done = run(session, R"({"do":"select","surface":"#10"},{"do":"points","which":[0,1],"by":[0,0,0.1]})", 1);
+  const auto done = run_on(session, R"({"do":"select","surface":"#10"},{"do":"points","which":[0,1],"by":[0,0,0.1]})");
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().kind, ErrorKind::numerical);
   EXPECT_NE(done.error().what.find("degrees"), std::string::npos) << done.error().message();
@@ -118,7 +119,7 @@ TEST(FollowCommands, AnEdgeHeldAgainIsStillWrittenWhereItWent) {
   Session session = opened(sheets);
   ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + press));
   const auto before = session.save();
-  ASSERT_TRUE(run(session, R"({"do":"hold","mode":"trim"})", 1));
+  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"trim"})"));
   EXPECT_EQ(*session.save(), *before);
 }
 
@@ -151,29 +152,37 @@ TEST(FollowCommands, WhatPartsTheFacesIsRefused) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
   ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + R"(,{"do":"select","surface":"#10"})"));
-  const auto done = run(session, R"({"do":"points","which":[2],"by":[0,0,0.1]})", 1);
+  const auto done = run_on(session, R"({"do":"points","which":[2],"by":[0,0,0.1]})");
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().kind, ErrorKind::numerical);
   EXPECT_NE(done.error().what.find("part by 0.1"), std::string::npos) << done.error().message();
   EXPECT_EQ(session.largest_displacement(0), 0);
 }
 
-TEST(FollowCommands, InVersion1AFreedEdgeOpensWhichIsNoted) {
+TEST(FollowCommands, AnEdgeThatMayOpenIsNoted) {
   const TwoSheets sheets = two_sheets();
   Session session = opened(sheets);
-  ASSERT_TRUE(run(session,
-                  R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" + edge_command(sheets, "free"), 1));
+  ASSERT_TRUE(run_on(session,
+                     R"({"do":"select","surface":"#10"},{"do":"hold","mode":"trim"},)" + edge_command(sheets, "open")));
   EXPECT_TRUE(session.state().followed.empty());
   ASSERT_EQ(session.state().notes.size(), 1U);
   EXPECT_NE(session.state().notes[0].find("#20"), std::string::npos);
 }
 
-TEST(FollowCommands, TheJournalOfVersion1SaysThatItFollows) {
+TEST(FollowCommands, AJournalSaysWhatFollowsAndWhatMayOpen) {
   const TwoSheets sheets = two_sheets();
-  Session session = opened(sheets);
-  ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free")));
-  EXPECT_NE(script_json(session.journal()).find(R"("hold":"follow")"), std::string::npos)
-      << script_json(session.journal());
+  for (const char* const hold : {"free", "follow", "open"}) {
+    Session session = opened(sheets), again = opened(sheets);
+    ASSERT_TRUE(run(session, both + "," + edge_command(sheets, hold)));
+    const std::string script = script_json(session.journal());
+    ASSERT_TRUE(testing::run_all(again, parse_script(script, "journal"))) << script;
+    EXPECT_EQ(script_json(again.journal()), script);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto &constraints = session.state().surfaces[k].constraints, &other = again.state().surfaces[k].constraints;
+      EXPECT_TRUE(std::ranges::equal(constraints, other, {}, &KeptConstraint::constraint, &KeptConstraint::constraint));
+    }
+    EXPECT_EQ(again.state().followed.size(), std::string_view(hold) == "open" ? 0U : 1U);
+  }
 }
 
 TEST(FollowCommands, ASnapshotKeepsWhatFollows) {
@@ -187,7 +196,7 @@ TEST(FollowCommands, ASnapshotKeepsWhatFollows) {
   ASSERT_EQ(restored->state().followed.size(), 1U);
   EXPECT_TRUE(restored->state().followed[0].course);
   EXPECT_EQ(*restored->save(), *session.save());
-  for (Session* s : {&session, &*restored}) ASSERT_TRUE(run(*s, R"({"do":"step"})", 1));
+  for (Session* s : {&session, &*restored}) ASSERT_TRUE(run_on(*s, R"({"do":"step"})"));
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_EQ(restored->state().surfaces[k].current->control_points(),
               session.state().surfaces[k].current->control_points());
@@ -212,7 +221,7 @@ TEST(FollowStrokes, AGrooveAcrossAnEdgeIsLeftOnBothSidesOfIt) {
     Session session = opened(sheets);
     ASSERT_TRUE(run(session, both + "," + edge_command(sheets, "free") + "," + seams + "," + clay));
     const std::size_t ready = session.journal().size();
-    const auto done = run(session, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})", 1);
+    const auto done = run_on(session, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})");
     ASSERT_TRUE(done) << done.error().message();
     const Parting apart = parted(session);
     EXPECT_LE(apart.distance, apart.tolerance);
@@ -224,7 +233,7 @@ TEST(FollowStrokes, AGrooveAcrossAnEdgeIsLeftOnBothSidesOfIt) {
       EXPECT_NEAR(displacement_at(*s.opened, *s.current, {s.id == "#10" ? 0.75 : 0.25, 0.5})->z(), -0.05, 0.006);
     }
     EXPECT_EQ(session.journal().size(), ready + 1);
-    ASSERT_TRUE(run(session, R"({"do":"undo"})", 1));
+    ASSERT_TRUE(run_on(session, R"({"do":"undo"})"));
     EXPECT_EQ(session.largest_displacement(0), 0);
   }
 }
@@ -235,13 +244,12 @@ TEST(FollowStrokes, AnOpenStrokeGoesOverAnEdgeInParts) {
   for (Session* s : {&whole, &parts}) {
     ASSERT_TRUE(run(*s, both + "," + edge_command(sheets, "free") + "," + no_seams + "," + clay));
   }
-  ASSERT_TRUE(run(whole, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})", 1));
-  ASSERT_TRUE(run(parts, R"({"do":"stroke","path":[[0.6,0.5,0.15],[0.9,0.5,0.15]],"open":true},
-    {"do":"stroke","path":[[1.1,0.5,0.15],[1.4,0.5,0.15]],"open":true})",
-                  1));
+  ASSERT_TRUE(run_on(whole, R"({"do":"stroke","path":[[0.6,0.5,0.15],[1.4,0.5,0.15]]})"));
+  ASSERT_TRUE(run_on(parts, R"({"do":"stroke","path":[[0.6,0.5,0.15],[0.9,0.5,0.15]],"open":true},
+    {"do":"stroke","path":[[1.1,0.5,0.15],[1.4,0.5,0.15]],"open":true})"));
   EXPECT_LE(parted(parts).distance, parted(parts).tolerance);
   EXPECT_LE(parted(parts).angle, asked_angle);
-  ASSERT_TRUE(run(parts, R"({"do":"stroke","path":[]})", 1));
+  ASSERT_TRUE(run_on(parts, R"({"do":"stroke","path":[]})"));
   EXPECT_LE(parted(parts).distance, parted(parts).tolerance);
   for (std::size_t k = 0; k < 2; ++k) {
     const Eigen::Vector2d at(0.6, 0.5);
@@ -267,7 +275,7 @@ TEST(FollowStrokes, ABrushOverAnEdgeMovesBothFaces) {
       for (const auto& s : session.state().surfaces) {
         EXPECT_GT(displacement_at(*s.opened, *s.current, sample.feet[s.id == "#10" ? 0 : 1])->norm(), 0.005) << kind;
       }
-      ASSERT_TRUE(run(session, R"({"do":"undo"})", 1));
+      ASSERT_TRUE(run_on(session, R"({"do":"undo"})"));
       for (const std::size_t k : {0U, 1U}) EXPECT_EQ(session.largest_displacement(static_cast<int>(k)), 0);
     }
   }

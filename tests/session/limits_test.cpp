@@ -195,7 +195,7 @@ TEST(Json, DepthIsLimited) {
 }
 
 TEST(Json, AFieldGivenTwiceIsAnErrorWithItsPlace) {
-  const auto twice = parse_script(R"({"knead":1,"commands":[{"do":"new"},{"do":"step","count":1,"count":2}]})", "s");
+  const auto twice = parse_script(R"({"knead":2,"commands":[{"do":"new"},{"do":"step","count":1,"count":2}]})", "s");
   ASSERT_FALSE(twice);
   EXPECT_EQ(twice.error().where, "commands[1].count");
   EXPECT_NE(twice.error().what.find("twice"), std::string::npos);

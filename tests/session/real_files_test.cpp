@@ -63,7 +63,7 @@ void bend(const std::vector<std::filesystem::path>& files, int& sculpted, int& l
       if (s.surface->size() > 600 || size == 0 || kinds.size() > 5 || !kinds.insert(kind).second) continue;
       SCOPED_TRACE(path.filename().string() + " " + s.id);
       run(session, {R"({"do":"select","surface":")" + s.id + R"("})", R"({"do":"hold","mode":"free"})",
-                    R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})",
+                    R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55],"touches":"all"})",
                     R"({"do":"move","by":[0.03,0.05,0.15],"relative":true})"});
       if (const auto done = session.execute(make_command(StepCommand{1, 3, {}})); !done) {
         EXPECT_NE(done.error().what.find("no area"), std::string::npos) << done.error().message();

@@ -9,15 +9,22 @@
 
 namespace knead::testing {
 
-/// Runs commands up to the first that fails.
-inline Expected<void> run(Session& session, const std::string& commands, int version = 2) {
-  const auto script =
-      parse_script("{\"knead\":" + std::to_string(version) + ",\"commands\":[" + commands + "]}", "script");
-  if (!script) return std::unexpected(script.error());
-  for (const Command& command : *script) {
+inline Expected<void> run_all(Session& session, const Expected<std::vector<Command>>& commands) {
+  if (!commands) return std::unexpected(commands.error());
+  for (const Command& command : *commands) {
     if (auto done = session.execute(command); !done) return done;
   }
   return {};
+}
+
+/// Runs a script of these commands up to the first that fails.
+inline Expected<void> run(Session& session, const std::string& commands) {
+  return run_all(session, parse_script(R"({"knead":2,"commands":[)" + commands + "]}", "script"));
+}
+
+/// Runs these commands alone: nothing is held that was not.
+inline Expected<void> run_on(Session& session, const std::string& commands) {
+  return run_all(session, parse_commands("[" + commands + "]"));
 }
 
 inline Session opened(const TwoSheets& sheets) {

@@ -243,7 +243,8 @@ TEST_P(SessionOnFile, EverySurfaceCanBeSculptedOrSaysWhyNot) {
     SCOPED_TRACE(s.id);
     ++tried;
     run(session, {R"({"do":"select","surface":")" + s.id + R"("})", R"({"do":"hold","mode":"free"})"});
-    const auto tool = session.execute(*parse_command(R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55]})"));
+    const auto tool = session.execute(
+        *parse_command(R"({"do":"tool","radius":0.2,"relative":true,"at":[0.45,0.55],"touches":"all"})"));
     if (!tool) {  // some are one point
       EXPECT_EQ(tool.error().kind, ErrorKind::numerical) << tool.error().message();
       continue;

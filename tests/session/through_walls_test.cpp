@@ -71,7 +71,7 @@ Session opened(const std::string& bytes) { return Session(Document::from(*open_s
 Session pressed_box(bool spline_floor, const std::vector<std::string>& press) {
   Session session = opened(thin_box(spline_floor));
   const std::string id = session.state().surfaces[0].id;
-  run(session, {fmt::format(R"({{"knead":2,"do":"select","surface":"{}"}})", id), R"({"do":"hold","mode":"trim"})",
+  run(session, {fmt::format(R"({{"do":"select","surface":"{}"}})", id), R"({"do":"hold","mode":"trim"})",
                 R"({"do":"material","preset":"clay"})", R"({"do":"tool","name":"b","radius":2,"position":[5,5,9]})"});
   run(session, press);
   return session;
@@ -153,7 +153,7 @@ TEST(ThroughWalls, APressThatEndsJustBeforeTheWallIsNoted) {
     const SceneSurface& s = session.state().surfaces[0];
     const auto top = [&](double by) {
       Session trial = opened(thin_box(false));
-      run(trial, {fmt::format(R"({{"knead":2,"do":"points","which":[119],"by":[0,0,{}],"allow":"through"}})", by)});
+      run(trial, {fmt::format(R"({{"do":"points","which":[119],"by":[0,0,{}],"allow":"through"}})", by)});
       double least = HUGE_VAL;
       const Surface& t = *trial.state().surfaces[0].current;
       double u = 0.5, v = 0.5;
@@ -173,7 +173,7 @@ TEST(ThroughWalls, APressThatEndsJustBeforeTheWallIsNoted) {
     };
     (void)s;
     const double per = 1 - top(-1);  // linear
-    run(session, {fmt::format(R"({{"knead":2,"do":"points","which":[119],"by":[0,0,{:.17g}]}})", -(1 - apart) / per)});
+    run(session, {fmt::format(R"({{"do":"points","which":[119],"by":[0,0,{:.17g}]}})", -(1 - apart) / per)});
     return note(session, beginning);
   };
   const double size = std::sqrt(201);
@@ -219,7 +219,7 @@ TEST(ThroughWalls, FacesThatMeetAtEdgesAreNotNoted) {
   Session session = opened(thin_box(true, 6));
   std::vector<std::string> faces;
   for (const auto& other : brep::other_surfaces(*session.document().model())) faces.push_back(other.id);
-  for (const std::string& id : faces) run(session, {fmt::format(R"({{"knead":2,"do":"convert","surface":"{}"}})", id)});
+  for (const std::string& id : faces) run(session, {fmt::format(R"({{"do":"convert","surface":"{}"}})", id)});
   ASSERT_EQ(session.state().surfaces.size(), 6U);
   for (std::size_t k = 0; k < 6; ++k) {
     const SceneSurface& s = session.state().surfaces[k];
@@ -245,7 +245,7 @@ TEST(ThroughWalls, ACurvedHullPressedIsNotNoted) {
   const auto press = [](const std::string& file, const Point& place, const Point& inward, double radius) {
     Session session = opened(file);
     const Point at = place - 0.6 * radius * inward, away = place - 3 * radius * inward;
-    run(session, {fmt::format(R"({{"knead":2,"do":"select","surface":"{}"}})", session.state().surfaces[0].id),
+    run(session, {fmt::format(R"({{"do":"select","surface":"{}"}})", session.state().surfaces[0].id),
                   R"({"do":"hold","mode":"trim"})", R"({"do":"material","preset":"clay"})",
                   R"({"do":"refine","permission":"auto"})",
                   fmt::format(R"({{"do":"tool","name":"t","radius":{},"position":[{},{},{}]}})", radius, away.x(),
@@ -286,7 +286,7 @@ TEST(ThroughWalls, ASpherePressedThroughItsFarSideIsNoted) {
   for (const auto& [deep, through] : {std::pair{1.8, false}, {2.3, true}}) {
     Session session = testing::fresh();
     run(session,
-        {R"({"knead":2,"do":"new","shape":"sphere","radius":1})", R"({"do":"refine","region":[[0,1],[0,1]]})",
+        {R"({"do":"new","shape":"sphere","radius":1})", R"({"do":"refine","region":[[0,1],[0,1]]})",
          R"({"do":"refine","region":[[0,1],[0,1]]})",
          fmt::format(R"({{"do":"brush","kind":"grab","path":[[0.5,0.99]],"radius":0.8,"by":[0,0,{}]}})", -deep)});
     EXPECT_GT(session.largest_displacement(0), 0.9 * deep);

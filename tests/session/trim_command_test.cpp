@@ -11,6 +11,7 @@ namespace {
 
 using testing::FaceBuilder;
 using testing::run;
+using testing::run_on;
 
 struct Disc {
   step::File file;
@@ -129,9 +130,9 @@ TEST(TrimCommands, AFoldBesideAHeldEdgeNamesIt) {
   EXPECT_EQ(freed.what.find(d.hole + ","), std::string::npos) << "it is not held";
 }
 
-TEST(TrimCommands, AScriptOfVersion1HoldsNothingByItself) {
+TEST(TrimCommands, HoldingNoRowsOfAllUndoesWhatAScriptBeginsWith) {
   Session session(document(disc().file));
-  const auto done = run(session, ball + R"(,{"do":"step"})", 1);
+  const auto done = run(session, R"({"do":"hold","rows":0,"all":true},)" + ball + R"(,{"do":"step"})");
   ASSERT_TRUE(done) << done.error().message();
   EXPECT_EQ(session.state().surfaces[0].current->net(), (std::array{2, 2}));
   EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
@@ -153,13 +154,13 @@ TEST(TrimCommands, AToolInAHoleTouchesNothing) {
   }
 }
 
-TEST(TrimCommands, AToolTouchesAllOfASurfaceWhereThatIsAskedAndInVersion1) {
+TEST(TrimCommands, AToolTouchesAllOfASurfaceWhereThatIsAsked) {
   const std::string step = R"(,{"do":"evolve","mode":"acm"},{"do":"step"})";
   Session asked(document(disc().file)), edited(document(disc().file)), first(document(disc().file));
   const std::string free = R"({"do":"hold","mode":"free"},)";
   ASSERT_TRUE(run(asked, free + in_hole + R"(,"touches":"all"})" + step));
   ASSERT_TRUE(run(edited, free + in_hole + R"(},{"do":"edit_tool","touches":"all"})" + step));
-  ASSERT_TRUE(run(first, in_hole + "}" + step, 1));
+  ASSERT_TRUE(run_on(first, in_hole + R"(,"touches":"all"})" + step));
   EXPECT_GT(first.largest_displacement(0), 0.01);
   for (const Session* other : {&asked, &edited}) {
     EXPECT_EQ(other->state().surfaces[0].current->control_points(),
@@ -226,9 +227,9 @@ TEST(TrimCommands, APlaceThatIsNotVisibleIsAnErrorThatNamesTheNearestOneThatIs) 
   EXPECT_NE(done.error().remedy.find("[0.5"), std::string::npos) << done.error().remedy;
 }
 
-TEST(TrimCommands, InAScriptOfVersion1ItIsNoted) {
+TEST(TrimCommands, WhereNoEdgesAreHeldItIsNoted) {
   Session session(document(disc().file));
-  ASSERT_TRUE(run(session, R"({"do":"tool","radius":0.1,"at":[0.58,0.5]})", 1));
+  ASSERT_TRUE(run_on(session, R"({"do":"tool","radius":0.1,"at":[0.58,0.5]})"));
   ASSERT_EQ(session.state().notes.size(), 1U);
   EXPECT_NE(session.state().notes[0].find("not visible"), std::string::npos);
 }
@@ -238,12 +239,12 @@ TEST(TrimCommands, EveryHoldReplacesTheOneBefore) {
   ASSERT_TRUE(run(session, R"({"do":"hold","mode":"trim-g2"})"));
   ASSERT_EQ(session.state().surfaces[0].constraints.size(), 1U);
   EXPECT_EQ(std::get<TrimHolds>(session.state().surfaces[0].constraints[0].constraint).order, 2);
-  ASSERT_TRUE(run(session, R"({"do":"hold","rows":1})", 1));
+  ASSERT_TRUE(run_on(session, R"({"do":"hold","rows":1})"));
   EXPECT_TRUE(session.state().surfaces[0].constraints.empty());
   EXPECT_EQ(session.state().surfaces[0].hold_rows, 1);
-  ASSERT_TRUE(run(session, R"({"do":"hold","mode":"trim"})", 1));
+  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"trim"})"));
   EXPECT_EQ(session.state().surfaces[0].hold_rows, 0);
-  ASSERT_TRUE(run(session, R"({"do":"hold","mode":"free"})", 1));
+  ASSERT_TRUE(run_on(session, R"({"do":"hold","mode":"free"})"));
   EXPECT_FALSE(holds_trims(session.state().surfaces[0].constraints));
 }
 

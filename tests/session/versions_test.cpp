@@ -1,7 +1,6 @@
-// What was written by programs before opens: scripts of version 1, and documents with the snapshot of that time.
+// Scripts: the one version that is read, and that what is written of a session does the same as the session.
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "sheet.hpp"
 
@@ -9,8 +8,10 @@ namespace knead {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 using testing::fresh;
+using testing::open_sample;
+using testing::run;
+using testing::same_state;
 
 const fs::path data = fs::path(KNEAD_SOURCE_DIR) / "tests/session/data";
 
@@ -19,113 +20,91 @@ std::string text_of(const std::string& name) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string bytes_of(const std::string& base64) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  unsigned bits = 0;
-  int count = 0;
-  for (char c : base64) {
-    if (c == '=') break;
-    bits = bits << 6U | static_cast<unsigned>(digits.find(c));
-    count += 6;
-    if (count >= 8) {
-      count -= 8;
-      bytes.push_back(static_cast<char>(bits >> static_cast<unsigned>(count) & 0xffU));
-    }
-  }
-  return bytes;
-}
-
-Session after(const std::vector<Command>& commands) {
-  Session session = fresh();
-  for (const Command& command : commands) {
+void run_all(Session& session, const Expected<std::vector<Command>>& commands) {
+  ASSERT_TRUE(commands) << commands.error().message();
+  for (const Command& command : *commands) {
     const auto done = session.execute(command);
-    EXPECT_TRUE(done) << to_json(command) << ": " << done.error().message();
+    ASSERT_TRUE(done) << to_json(command) << ": " << done.error().message();
   }
-  return session;
 }
 
-/// The surface on which a press of its time swung a fifth beyond its tool, which it does not any more: its shape is not
-/// that of its script; −1: none.
-int swung_in(std::string_view name) { return name == "symmetry_1" ? 1 : -1; }
+TEST(Script, OfVersion1IsRefusedWithThePageThatSaysHowToGoOn) {
+  const auto script = parse_script(R"({"knead": 1, "commands": [{"do": "step"}]})", "old.json");
+  ASSERT_FALSE(script);
+  const Error& error = script.error();
+  EXPECT_EQ(error.file, "old.json");
+  EXPECT_EQ(error.where, "knead");
+  EXPECT_NE(error.what.find("version 1"), std::string::npos) << error.what;
+  EXPECT_NE(error.remedy.find("docs/scripts.md"), std::string::npos) << error.remedy;
+  EXPECT_EQ(error.message().find('\n'), std::string::npos);
+}
 
-void expect_close(const SessionState& a, const SessionState& b, int swung = -1) {
-  ASSERT_EQ(a.surfaces.size(), b.surfaces.size());
-  for (std::size_t k = 0; k < a.surfaces.size(); ++k) {
-    const SceneSurface &s = a.surfaces[k], &t = b.surfaces[k];
-    ASSERT_EQ(s.current->net(), t.current->net());
-    for (const auto& shapes : {std::pair{s.current, t.current}, std::pair{s.rest, t.rest}}) {
-      if (static_cast<int>(k) == swung) continue;
-      const Points way = shapes.first->control_points() - shapes.second->control_points();
-      EXPECT_LE(way.cwiseAbs().maxCoeff(), 1e-9) << "surface " << k;
-    }
-    ASSERT_EQ(s.velocity.rows(), t.velocity.rows());
-    if (s.velocity.rows() > 0) {
-      EXPECT_LE((s.velocity - t.velocity).cwiseAbs().maxCoeff(), 1e-7);
-    }
-    EXPECT_EQ(s.pins, t.pins);
-    ASSERT_EQ(s.constraints.size(), t.constraints.size());
-    for (std::size_t c = 0; c < s.constraints.size(); ++c) {
-      EXPECT_EQ(s.constraints[c].constraint, t.constraints[c].constraint);
-    }
+TEST(Script, OfNoVersionThatThereIsIsRefused) {
+  for (const char* const version : {"0", "1.5", "3", "\"2\"", "null", "[2]", "true"}) {
+    const auto script = parse_script(std::string(R"({"commands":[],"knead":)") + version + "}", "s");
+    ASSERT_FALSE(script) << version;
+    EXPECT_EQ(script.error().where, "knead");
+    EXPECT_NE(script.error().remedy.find(R"({"knead": 2)"), std::string::npos) << script.error().remedy;
   }
-  EXPECT_EQ(a.load, b.load);
-  EXPECT_EQ(a.forces, b.forces);
-  EXPECT_EQ(a.evolution, b.evolution);
-  EXPECT_EQ(a.tools.size(), b.tools.size());
 }
 
-class OldDocument : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(OldDocument, OpensBySnapshotAndByCommandsWithOneResult) {
-  const Json document = Json::parse(text_of(std::string(GetParam()) + ".knead"));
-  ASSERT_EQ(document.at("knead"), 2);
-  auto restored = Session::restore(Document::fresh("old"), bytes_of(document.at("snapshot")));
-  ASSERT_TRUE(restored) << restored.error().message();
-  std::vector<Command> commands;
-  for (const Json& json : document.at("commands")) {
-    const auto command = parse_command(json.dump());
-    ASSERT_TRUE(command) << json << command.error().message();
-    commands.push_back(*command);
+TEST(Script, ACommandHasNoVersionOfItsOwn) {
+  for (const char* const version : {"1", "2"}) {
+    const auto command = parse_command(std::string(R"({"do":"step","knead":)") + version + "}");
+    ASSERT_FALSE(command);
+    EXPECT_EQ(command.error().where, "knead");
   }
-  const Session replayed = after(commands);
-  expect_close(replayed.state(), restored->state(), swung_in(GetParam()));
-  EXPECT_EQ(restored->journal().size(), replayed.journal().size());
-  // All of the history is there.
-  ASSERT_TRUE(restored->can_undo());
-  while (restored->can_undo()) testing::run(*restored, {R"({"do":"undo"})"});
-  EXPECT_TRUE(restored->state().surfaces.empty());
 }
 
-TEST_P(OldDocument, HasTheResultOfItsScript) {
-  const Json document = Json::parse(text_of(std::string(GetParam()) + ".knead"));
-  const auto restored = Session::restore(Document::fresh("old"), bytes_of(document.at("snapshot")));
-  ASSERT_TRUE(restored) << restored.error().message();
-  const auto commands = parse_script(text_of(std::string(GetParam()) + ".json"), GetParam());
-  ASSERT_TRUE(commands) << commands.error().message();
-  expect_close(after(*commands).state(), restored->state(), swung_in(GetParam()));
+TEST(Script, BeginsWithTheEdgesOfAllFacesHeld) {
+  const auto script = parse_script(R"({"knead": 2, "commands": []})", "s");
+  ASSERT_TRUE(script);
+  ASSERT_EQ(script->size(), 1U);
+  EXPECT_EQ(to_json(script->front()), to_json(default_hold()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Version1, OldDocument, ::testing::Values("holds_1", "symmetry_1"));
+TEST(Script, OfASessionDoesTheSame) {
+  for (const char* name : {"holds.json", "symmetry.json", "paint.json"}) {
+    Session session = fresh(), again = fresh();
+    run_all(session, parse_script(text_of(name), name));
+    run_all(again, parse_script(script_json(session.journal()), "journal"));
+    EXPECT_TRUE(same_state(again.state(), session.state())) << name;
+  }
+}
 
-TEST(OldScript, ThatResetsAPaintedMaterialHasTheEnergyOfItsTime) {
-  const auto commands = parse_script(text_of("paint_1.json"), "paint_1.json");
-  ASSERT_TRUE(commands) << commands.error().message();
-  const Session session = after(*commands);
+TEST(Script, OfAFileHoldsNothingWhereTheSessionDidNot) {
+  const std::vector<std::string> select = {R"({"do":"select","surface":"#285"})"};
+  Session session = open_sample(), again = open_sample();
+  run(session, select);
+  const std::string script = script_json(session.journal());
+  EXPECT_NE(script.find(R"("knead": 2)"), std::string::npos) << script;
+  run_all(again, parse_script(script, "journal"));
+  EXPECT_TRUE(same_state(again.state(), session.state())) << script;
+  // One that holds the edges at first says so by its version alone.
+  Session held = open_sample(), likewise = open_sample();
+  run(held, {to_json(default_hold()), select[0]});
+  const std::string shorter = script_json(held.journal());
+  EXPECT_EQ(shorter.find(R"("hold")"), std::string::npos) << shorter;
+  run_all(likewise, parse_script(shorter, "journal"));
+  EXPECT_TRUE(same_state(likewise.state(), held.state())) << shorter;
+}
+
+TEST(Script, ThatResetsAPaintedMaterialHasTheEnergyOfItsTime) {
+  Session session = fresh();
+  run_all(session, parse_script(text_of("paint.json"), "paint.json"));
   EXPECT_NEAR(session.state().steps.back().energy, 0.0024080287226643012, 1e-12);
   EXPECT_NEAR(session.state().steps.back().largest_displacement, 0.13526452927786894, 1e-10);
 }
 
-TEST(OldScript, IsWrittenWithTheSameResult) {
-  for (const char* name : {"holds_1.json", "symmetry_1.json", "paint_1.json"}) {
-    const auto commands = parse_script(text_of(name), name);
-    ASSERT_TRUE(commands);
-    const Session session = after(*commands);
-    const std::string journal = script_json(session.journal());
-    const auto again = parse_script(journal, "journal");
-    ASSERT_TRUE(again) << again.error().message();
-    expect_close(after(*again).state(), session.state());
-  }
+TEST(CommandList, IsReadWithNothingBeforeIt) {
+  const auto commands = parse_commands(R"([{"do":"step","count":2},{"do":"undo"}])");
+  ASSERT_TRUE(commands);
+  EXPECT_EQ(commands->size(), 2U);
+  EXPECT_EQ(commands_json(*parse_commands(commands_json(*commands))), commands_json(*commands));
+  EXPECT_TRUE(parse_commands("[]")->empty());
+  EXPECT_EQ(commands_json({}), "[]\n");
+  EXPECT_EQ(parse_commands(R"([{"do":"step"},{"do":"step","count":"x"}])").error().where, "commands[1].count");
+  EXPECT_EQ(parse_commands(R"({"knead":2,"commands":[]})").error().where, "commands");
 }
 
 }  // namespace

@@ -13,9 +13,9 @@ function desk(): { saving: Saving; saved: () => number; names: string[] } {
   vi.stubGlobal('URL', { createObjectURL: () => 'blob:', revokeObjectURL: () => undefined });
   const client = {
     save: async () => ({ bytes: new Uint8Array(1), edges: [] }),
-    snapshot: async () => ({ snapshot: new Uint8Array(1), journal: '{"knead":2,"commands":[]}' }),
+    snapshot: async () => ({ snapshot: new Uint8Array(1), journal: '[]' }),
     mesh: async () => new Uint8Array(1),
-    journal: async () => '{"knead":2,"commands":[]}',
+    journal: async () => '[]',
   };
   const host = {
     client, state: { tools: [], last: null, surfaces: [], fresh: false }, computedTime: 0, detail: 8,

@@ -81,7 +81,7 @@ describe('scenarios in WebAssembly', () => {
     try {
       const script = join(directory, 'script.json');
       const out = join(directory, 'native.step');
-      writeFileSync(script, JSON.stringify({ knead: 1, commands: steps.filter((s) => 'do' in s) }));
+      writeFileSync(script, JSON.stringify({ knead: 2, commands: [{ do: 'hold', rows: 0, all: true }, ...steps.filter((s) => 'do' in s)] }));
       execFileSync(native, ['sculpt', ...(open ? [join(root, open)] : ['--new']), '-o', out, '--script', script], { stdio: 'pipe' });
       const there = await Engine.load(wasm);
       there.openStep(new Uint8Array(readFileSync(out)), 'native.step');

@@ -18,22 +18,21 @@ async function run(script: string, file: Uint8Array | null): Promise<Float64Arra
   const engine = await Engine.load(wasm);
   if (file) engine.openStep(file, 'bonnet.step');
   else engine.fresh('again');
-  const { script: version, commands } = readKnead(script);
-  for (const command of version === 2 ? [defaultHold, ...commands] : commands) engine.execute(command);
+  for (const command of [defaultHold, ...readKnead(script).commands]) engine.execute(command);
   return engine.state().surfaces.map((_, k) => engine.controlPoints(k));
 }
 
 describe('a script that the studio saves', () => {
-  it.each(scenes.filter((s) => s.commands && !s.file))('of the scene $name, without a file, is of version 2, and does the same', async ({ commands }) => {
+  it.each(scenes.filter((s) => s.commands && !s.file))('of the scene $name, without a file, does the same', async ({ commands }) => {
     const engine = await Engine.load(wasm);
     engine.fresh('scene');
     for (const command of [...commands!, { do: 'step', count: 2 } as const]) engine.execute(command);
-    const script = scriptOf(engine.journal(), true);
-    expect(readKnead(script).script).toBe(2);
+    const script = scriptOf(engine.journal());
+    expect(readKnead(script).commands[0]).toMatchObject({ do: 'new' });
     expect(await run(script, null)).toEqual(engine.state().surfaces.map((_, k) => engine.controlPoints(k)));
   });
 
-  it('of a STEP file is of version 1, unless it begins with the hold that version 2 begins with', async () => {
+  it('of a STEP file lets go what scripts hold at first, unless it begins with that hold', async () => {
     for (const held of [false, true]) {
       const engine = await Engine.load(wasm);
       engine.openStep(bonnet, 'bonnet.step');
@@ -41,9 +40,8 @@ describe('a script that the studio saves', () => {
       engine.execute({ do: 'select', surface: engine.state().surfaces[0]!.id });
       if (!held) engine.execute({ do: 'hold', rows: 2 });
       engine.execute({ do: 'drag', at: [0.5, 0.5], by: [0, 0, 20], radius: 100, steps: 1 });
-      const script = scriptOf(engine.journal(), false);
-      expect(readKnead(script).script).toBe(held ? 2 : 1);
-      expect(readKnead(script).commands[0]).toMatchObject({ do: 'select' });
+      const script = scriptOf(engine.journal());
+      expect(readKnead(script).commands[0]).toMatchObject(held ? { do: 'select' } : { do: 'hold', rows: 0, all: true });
       expect(await run(script, bonnet)).toEqual(engine.state().surfaces.map((_, k) => engine.controlPoints(k)));
     }
   });

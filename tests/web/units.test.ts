@@ -5,6 +5,7 @@ import { fileURLToPath } from 'node:url';
 import { fromBase64, toBase64 } from '@studio/document/base64';
 import { readKnead, type Source, writeKnead } from '@studio/document/knead_file';
 import type { SavedView } from '@studio/document/saved_views';
+import { scriptOf } from '@studio/document/script';
 import { format, parseLength } from '@studio/document/units';
 import { roundStep } from '@studio/view/ground';
 
@@ -29,7 +30,7 @@ describe('numbers for people', () => {
 });
 
 describe('Knead documents', () => {
-  const journal = '{"knead": 1, "commands": [\n  {"do":"hold","rows":2},\n  {"do":"step","count":3}\n]}\n';
+  const journal = '[\n  {"do":"hold","rows":2},\n  {"do":"step","count":3}\n]\n';
 
   const bytes = Uint8Array.from({ length: 20_000 }, (_, k) => (k * 37) % 256);
   const commands = [{ do: 'hold', rows: 2 }, { do: 'step', count: 3 }];
@@ -38,7 +39,7 @@ describe('Knead documents', () => {
     'come back as they were written', (source) => {
       for (const snapshot of [null, bytes.slice(7)]) {
         const read = readKnead(writeKnead({ name: 'a "name"', source, journal, snapshot }));
-        expect(read).toEqual({ name: 'a "name"', source, commands, script: null, snapshot, views: [] });
+        expect(read).toEqual({ name: 'a "name"', source, commands, script: false, snapshot, views: [] });
       }
     });
 
@@ -54,23 +55,26 @@ describe('Knead documents', () => {
     }
   });
 
-  it('of version 1 are read: the source is a STEP file', () => {
-    const old = `{"knead": 1, "name": "old.step", "source": "${toBase64(bytes)}", "commands": [{"do": "hold", "rows": 2}, {"do": "step", "count": 3}]}`;
-    expect(readKnead(old)).toEqual({ name: 'old.step', source: { kind: 'step', name: 'old.step', bytes }, commands, script: null, snapshot: null, views: [] });
+  it('are told from scripts of the command line', () => {
+    expect(readKnead(scriptOf(journal))).toMatchObject({ commands: [{ do: 'hold', rows: 0, all: true }, ...commands], script: true });
+    expect(readKnead('{"knead": 3, "commands": []}')).toMatchObject({ commands: [], script: false });
   });
 
-  it('are scripts of the command line as well', () => expect(readKnead(journal)).toMatchObject({ commands, script: 1 }));
+  it.each([['{"knead": 1, "commands": []}', 'script'], ['{"knead": 1, "name": "a", "source": "abc", "commands": []}', 'Knead document'],
+    ['{"knead": 2, "name": "a", "commands": []}', 'Knead document'], ['{"knead": 2, "source": {}, "commands": []}', 'Knead document']])(
+    '%s, of an older version, is refused with what to do', (text, what) => {
+      expect(() => readKnead(text)).toThrow(new RegExp(`the ${what} is of version [12], .*docs/scripts.md says how`));
+    });
 
   it('may have no command yet', () => {
-    expect(readKnead(writeKnead({ name: 'n', source: null, journal: '{"knead": 1, "commands": []}' })).commands).toEqual([]);
+    expect(readKnead(writeKnead({ name: 'n', source: null, journal: '[]' })).commands).toEqual([]);
   });
 
-  const two = (fields: object) => JSON.stringify({ knead: 2, commands: [], ...fields });
+  const two = (fields: object) => JSON.stringify({ knead: 3, commands: [], ...fields });
   it.each([
-    ['', /not JSON/], ['[]', /version, is missing/], ['null', /version, is missing/], ['{"knead": 3}', /version 3; this studio reads 1 and 2/],
-    ['{"knead": 1}', /list of commands is missing/], ['{"knead": 2, "commands": [{"do": "step"}, {}]}', /commands\[1\]\.do/],
-    ['{"knead": 1, "commands": [7]}', /commands\[0\]/], ['{"knead": 1, "commands": [], "source": 3}', /"source": this is no text/],
-    ['{"knead": 1, "commands": [], "source": "%"}', /"source": this is not base64/], [two({ source: 'abc' }), /"source": write/],
+    ['', /not JSON/], ['[]', /version, is missing/], ['null', /version, is missing/], ['{"knead": 4}', /version 4, .*reload the page/],
+    ['{"knead": 2}', /list of commands is missing/], ['{"knead": 2, "commands": [{"do": "step"}, {}]}', /commands\[1\]\.do/],
+    ['{"knead": 2, "commands": [7]}', /commands\[0\]/], [two({ source: 'abc' }), /"source": write/],
     [two({ source: { kind: 'iges', name: 'a', bytes: '' } }), /source\.kind: "iges"/], [two({ source: { kind: 'step', bytes: '' } }), /source\.name/],
     [two({ source: { kind: 'step', name: 'a', bytes: '*' } }), /source\.bytes/], [two({ snapshot: 1 }), /"snapshot"/], [two({ name: 1 }), /"name"/],
     [two({ views: {} }), /"views"/], [two({ undo: [] }), /"undo": a Knead document has no such field/],

@@ -10,13 +10,14 @@
 
 namespace knead {
 
-// The command language has two versions. In version 1, fields that the shape of a tool or a new surface does not have
-// are ignored with a note, and a `material` that names nothing resets stretch and bend; in version 2
-// both are errors, and scripts begin with `default_hold`.
-
-/// One command from its JSON form, in version 1 unless it says otherwise ("knead": 2). Errors (input) name the field;
-/// an unknown command or field lists the known ones.
+/// One command from its JSON form. Errors (input) name the field; an unknown command or field lists the known ones.
 [[nodiscard]] Expected<Command> parse_command(std::string_view json);
+
+/// The commands of a list [...], and of nothing else. Errors (input) name the place, as "commands[2].radius".
+[[nodiscard]] Expected<std::vector<Command>> parse_commands(std::string_view json);
+
+/// Such a list, one command per line.
+[[nodiscard]] std::string commands_json(const std::vector<Command>& commands);
 
 /// The JSON form of a command, every field written out, numbers to 17 significant digits; parsing it gives back the
 /// same command.
@@ -33,14 +34,14 @@ namespace knead {
 /// fits its neighbours.
 [[nodiscard]] Command default_hold();
 
-/// The commands of a script {"knead": 2, "commands": [...]}, the first of them `default_hold`; a script of version 1
-/// begins without it. `name` stands for the file in errors, which give the line
-/// of a syntax error, or the path of a wrong value ("commands[2].radius").
+/// The commands of a script {"knead": 2, "commands": [...]}, the first of them `default_hold`. `name` stands for the
+/// file in errors, which give the line of a syntax error, or the path of a wrong value ("commands[2].radius").
 /// \param before number of commands before those that the script lists; may be null
 [[nodiscard]] Expected<std::vector<Command>> parse_script(std::string_view json, const std::string& name,
                                                           std::size_t* before = nullptr);
 
-/// A script of these commands, one per line, in version 1, so that no command precedes them.
+/// A script that does the same as these commands, one per line: without a `default_hold` at their beginning; where
+/// they begin with neither that nor `new`, it first holds nothing.
 [[nodiscard]] std::string script_json(const std::vector<Command>& commands);
 
 /// All commands, in the order of the help.

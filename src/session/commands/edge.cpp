@@ -31,7 +31,7 @@ void forget(SceneSurface& s, const std::string& id) {
 
 /// Holds or frees one edge of the faces on those selected surfaces that have it.
 Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
-  const bool follow = c.hold == EdgeCondition::follow;
+  const bool follow = c.hold == EdgeCondition::follow || c.hold == EdgeCondition::free;
   const int order = c.hold > EdgeCondition::curvature ? -1 : static_cast<int>(c.hold);
   bool follows = false;
   std::string known;
@@ -47,7 +47,7 @@ Expected<void> hold_face_edge(Executor& executor, const EdgeCommand& c) {
       if (changed.empty() || changed.back() != static_cast<int>(k)) changed.push_back(static_cast<int>(k));
       forget(s, edge.id);
       const bool side = edge.neighbours.empty();  // of a surface without faces: there is nothing to follow
-      if (c.hold == EdgeCondition::free) note_opening(executor.state, s, edge);
+      if (c.hold == EdgeCondition::open) note_opening(executor.state, s, edge);
       s.constraints.push_back({TrimEdgeHold{edge.id, order, follow && !side}, s.current});
       follows = follows || (follow && !side);
     }
@@ -99,13 +99,10 @@ std::span<const Choice> choices(EdgeCondition) {
       {"position", EdgeCondition::position},
       {"clamped", EdgeCondition::clamped, "with its tangent planes"},
       {"curvature", EdgeCondition::curvature, "with its curvatures too"},
-      {"free", EdgeCondition::free, "not held"},
-      {"follow", EdgeCondition::follow, "an edge of faces that all move together; in version 2 `free` means this"}};
+      {"free", EdgeCondition::free, "not held; an edge of a face follows"},
+      {"follow", EdgeCondition::follow, "an edge of faces that all move together"},
+      {"open", EdgeCondition::open, "an edge of a face, which may part from its neighbours"}};
   return list;
-}
-
-void read_as_version_2(EdgeCommand& c) {
-  if (c.edge && c.hold == EdgeCondition::free) c.hold = EdgeCondition::follow;
 }
 
 void describe(EdgeCommand& c, Fields& fields) {
@@ -154,7 +151,7 @@ std::vector<DomainSide> sides_of(SideChoice which, int directions) {
 
 Expected<void> hold_body_sides(Executor& executor, const EdgeCommand& c) {
   if (c.edge) return executor.of_surfaces("faces", "give which, one of its sides");
-  if (c.hold == EdgeCondition::follow) return executor.of_surfaces("faces", R"(use "hold":"free")");
+  if (c.hold > EdgeCondition::free) return executor.of_surfaces("faces", R"(use "hold":"free")");
   const auto components = components_of(c.components);
   if (!components) return std::unexpected(components.error());
   const auto hold = [&]<int D>(SceneShape<D>& s) -> Expected<void> {
@@ -179,9 +176,9 @@ Expected<void> Executor::execute(const EdgeCommand& c) {
     return input_error("edges of faces are held in all coordinates", "components",
                        "leave it out, or hold a boundary isocurve by which");
   }
-  if (c.hold == EdgeCondition::follow) {
-    return input_error("boundary isocurves do not follow", "hold",
-                       R"(name an edge of a face, "which":"#456", or use "free")");
+  if (c.hold > EdgeCondition::free) {
+    return input_error(fmt::format("boundary isocurves do not {}", c.hold == EdgeCondition::open ? "open" : "follow"),
+                       "hold", R"(name an edge of a face, "which":"#456", or use "free")");
   }
   if (c.which > SideChoice::v1) {
     return input_error("a surface has no such edge", "which", "use u0, u1, v0, v1 or all");

@@ -4,7 +4,7 @@
 
 namespace knead {
 
-enum class EdgeCondition { position, clamped, curvature, free, follow };
+enum class EdgeCondition { position, clamped, curvature, free, follow, open };
 /// Sides of a domain: edges of a surface, the first ones in the order of `EdgeChoice`; ends of a curve; faces of a
 /// volume.
 enum class SideChoice { all, u0, u1, v0, v1, w0, w1 };
@@ -12,7 +12,8 @@ enum class SideChoice { all, u0, u1, v0, v1, w0, w1 };
 /// The edges of a surface that a choice up to v1 stands for.
 [[nodiscard]] inline EdgeChoice edge_choice(SideChoice side) { return static_cast<EdgeChoice>(side); }
 
-/// Holds edges, with the first or the first two derivatives across them.
+/// Holds edges, with the first or the first two derivatives across them. An edge of a face that is free follows its
+/// faces, unless it may open.
 struct EdgeCommand {
   static constexpr ActsOn acts_on = ActsOn::shapes;
   SideChoice which = SideChoice::all;
@@ -23,9 +24,6 @@ struct EdgeCommand {
 
 std::span<const Choice> choices(EdgeCondition);
 std::span<const Choice> choices(SideChoice);
-
-/// In version 2 an edge of a face that is freed follows its faces.
-void read_as_version_2(EdgeCommand& c);
 
 template <>
 Expected<void> Executor::execute(const EdgeCommand& c);

@@ -114,7 +114,7 @@ bool names_shell(const MaterialCommand& c) {
 
 bool names_something(const MaterialCommand& c) {
   return c.alpha || c.beta || c.mass || c.damping || c.coefficient || c.preset || c.plasticity || c.yield ||
-         c.locality || c.model || names_shell(c) || c.w1 || c.w2;
+         c.locality || c.model || names_shell(c) || c.w1 || c.w2 || c.reset || c.formula || !c.samples.empty();
 }
 
 /// The model that a surface has after the command.
@@ -211,6 +211,13 @@ PlasticPolicy plastic_of(const MaterialCommand& c, const Preset* preset, Plastic
   if (c.locality) before.locality = *c.locality;
   if (c.yield || c.locality) before.in_radii = c.lengths.value_or(LengthUnit::radii) == LengthUnit::radii;
   return before;
+}
+
+/// What resists, and what strokes leave, are as of a new surface.
+void make_new(SceneSurface& s) {
+  s.material = SceneSurface{}.material;
+  s.elasticity = SceneSurface{}.elasticity;
+  s.plastic = SceneSurface{}.plastic;
 }
 
 }  // namespace
@@ -331,12 +338,9 @@ void describe(MaterialCommand& c, Fields& fields) {
               .range = at_least(0),
               .fallback = "as it was, at first 1",
               .uniform = true});
-}
-
-void read_as_version_1(MaterialCommand& c) {
-  if (names_something(c)) return;
-  c.alpha = list_of(Material{}.alpha);
-  c.beta = list_of(Material{}.beta);
+  fields.add("reset", c.reset,
+             {.help = "first all of it is as of a new surface, everywhere: stretch, bend, mass, damping, the model and "
+                      "what strokes leave"});
 }
 
 template <>
@@ -344,8 +348,9 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
   if (state.body) return set_body_material(*this, given);
   if (auto surface = selected(); !surface) return std::unexpected(surface.error());
   if (!names_something(given)) {
-    return input_error("no field is given", "alpha",
-                       "give a preset, alpha, beta, mass, damping, plasticity, yield, locality, coefficient, or model");
+    return input_error(
+        "no field is given", "alpha",
+        "give a preset, alpha, beta, mass, damping, plasticity, yield, locality, coefficient, model, or reset");
   }
   if (auto checked = check_fields(given); !checked) return checked;
   MaterialCommand c = given;
@@ -362,6 +367,7 @@ Expected<void> Executor::execute(const MaterialCommand& given) {
   if (auto material = validated(constants); !material) return std::unexpected(material.error());
   for (int k : state.selection()) {
     SceneSurface& s = state.surfaces[static_cast<std::size_t>(k)];
+    if (c.reset) make_new(s);
     auto next = c.coefficient && !varies_shell(c) ? varied(c, s) : c.region ? painted(c, s) : everywhere(c, s);
     if (!next) return std::unexpected(next.error());
     if (auto checked = validated<2>(*next); !checked) return std::unexpected(checked.error());

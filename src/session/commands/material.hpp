@@ -50,6 +50,7 @@ struct MaterialCommand {
   std::optional<MaterialModel> model;
   std::optional<double> young, poisson, thickness, density;  ///< of a shell, in units of the file
   std::optional<std::array<double, 3>> w1, w2;               ///< of the fundamental forms, in the order 11, 12, 22
+  bool reset = false;                                        ///< first, all is as of a new surface
 };
 
 /// What it does to the selected curve or volume: fields that only surfaces have are errors.
@@ -58,8 +59,5 @@ struct MaterialCommand {
 template <>
 Expected<void> Executor::execute(const MaterialCommand& c);
 void describe(MaterialCommand& c, Fields& fields);
-
-/// Version 1: a `material` that names nothing sets stretch and bend to what they are at first.
-void read_as_version_1(MaterialCommand& c);
 
 }  // namespace knead

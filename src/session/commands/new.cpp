@@ -143,10 +143,6 @@ struct Measures {
 
 }  // namespace
 
-void read_as_version_1(NewCommand& c) {
-  if (c.shape != "plane" && c.size == std::vector<double>{1, 1}) c.size.reset();
-}
-
 std::optional<Error> inapplicable(const NewCommand& c, std::string_view field) {
   static const std::vector<Measures> shapes = {{"plane", {"size"}},
                                                {"cylinder", {"radius", "height"}},

@@ -42,9 +42,6 @@ template <>
 Expected<void> Executor::execute(const NewCommand& c);
 void describe(NewCommand& c, Fields& fields);
 
-/// Version 1: programs wrote the size of a plane for every shape; elsewhere it is ignored.
-void read_as_version_1(NewCommand& c);
-
 /// The error for a measure that the shape of the command does not have; nothing for other fields.
 [[nodiscard]] std::optional<Error> inapplicable(const NewCommand& c, std::string_view field);
 

@@ -82,8 +82,6 @@ std::span<const Choice> choices(ToolTouch) {
   return list;
 }
 
-void read_as_version_2(ToolCommand& c) { c.touches = c.touches.value_or(ToolTouch::visible); }
-
 void describe(ToolCommand& c, Fields& fields) {
   fields.name("tool", "add a tool to the scene, or replace the one of that name");
   fields.add("name", c.name, {.help = "what `move` and `remove` call it"});
@@ -106,8 +104,7 @@ void describe(ToolCommand& c, Fields& fields) {
   fields.add("range", c.range,
              {.help = "how far proximity reaches", .unit = Unit::length, .fallback = "half the size"});
   fields.add("direction", c.direction, {.help = "of proximity"});
-  fields.add("touches", c.touches,
-             {.help = "of surfaces that edges of faces bound", .fallback = "`\"visible\"`; in version 1 `\"all\"`"});
+  fields.add("touches", c.touches, {.help = "of surfaces that edges of faces bound"});
   fields.add("rigid", c.rigid, {.help = "raise k until nothing enters by more than 1e-4 of the tool's size"});
   fields.add("friction", c.friction, {.help = "Coulomb's coefficient"});
   fields.add(
@@ -152,7 +149,7 @@ Expected<void> Executor::execute(const ToolCommand& c) {
   made.friction = c.friction;
   made.plasticity = c.plasticity;
   made.direction = c.direction;
-  made.touches = c.touches.value_or(ToolTouch::all);
+  made.touches = c.touches;
   if (auto tool = validated(made); !tool) return std::unexpected(tool.error());
   const auto same = std::ranges::find(state.tools, c.name, [](const Tool& t) { return t.name; });
   if (same != state.tools.end()) {

@@ -22,9 +22,9 @@ struct ToolCommand {
   bool rigid = false;
   double friction = 0;
   double plasticity = 0;
-  std::optional<ToolTouch> touches = {};  ///< default: what is visible; in version 1 all
-  std::optional<bool> middle = {};        ///< of the visible part, instead of `at`
-  bool relative = false;                  ///< lengths and position are fractions of the bounding-box diagonal
+  ToolTouch touches = ToolTouch::visible;
+  std::optional<bool> middle = {};  ///< of the visible part, instead of `at`
+  bool relative = false;            ///< lengths and position are fractions of the bounding-box diagonal
 };
 
 std::span<const Choice> choices(ToolMode);
@@ -32,8 +32,6 @@ std::span<const Choice> choices(ToolMode);
 std::span<const Choice> choices(ToolDirection);
 
 std::span<const Choice> choices(ToolTouch);
-
-void read_as_version_2(ToolCommand& c);
 
 template <>
 Expected<void> Executor::execute(const ToolCommand& c);

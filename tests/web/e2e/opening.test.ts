@@ -115,7 +115,7 @@ describe('undo', () => {
 });
 
 describe('a script that is opened', () => {
-  const bump = { knead: 1, commands: [{ do: 'drag', at: [0.5, 0.5], by: [0, 0, 12], radius: 30 }] };
+  const bump = { knead: 2, commands: [{ do: 'drag', at: [0.5, 0.5], by: [0, 0, 12], radius: 30 }] };
 
   it('is applied to the document that is open, as one entry of the history', async () => {
     const { page } = studio;
@@ -123,7 +123,7 @@ describe('a script that is opened', () => {
     const before = await commands(page);
     const flat = await positions(page);
     await openFile(page, file('bump.json', bump), 'Apply');
-    expect((await commands(page)).slice(before.length)).toMatchObject(bump.commands);
+    expect((await commands(page)).slice(before.length)).toMatchObject([{ do: 'hold', mode: 'trim', all: true }, ...bump.commands]);
     expect(distance(await positions(page), flat)).toBeGreaterThan(5);
     await expect.poll(() => page.locator('.document-name').textContent()).toBe('sheet');
     await undo(1);

@@ -177,7 +177,7 @@ export const screen = (page: Page): Promise<JSHandle<ImageData>> => page.evaluat
 
 /** Number of commands that stand. */
 export const commands = (page: Page): Promise<Command[]> =>
-  page.evaluate(async () => (JSON.parse(await (window as never as { studio: { client: { journal(): Promise<string> } } }).studio.client.journal()) as { commands: Command[] }).commands);
+  page.evaluate(async () => (JSON.parse(await (window as never as { studio: { client: { journal(): Promise<string> } } }).studio.client.journal()) as Command[]));
 
 interface App {
   frame: { origin: number[]; pictures: { positions: Float32Array; normals: Float32Array }[]; state: { selection: number[]; undo: boolean }; memory: number };

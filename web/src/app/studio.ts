@@ -179,7 +179,7 @@ export class Studio implements App {
 
   /** The last act again, changed, after other commands. */
   private async again(before: Command[], change: (command: Command) => Command = (command) => command): Promise<void> {
-    const { commands } = JSON.parse(await this.client.journal()) as { commands: Command[] };
+    const commands = JSON.parse(await this.client.journal()) as Command[];
     // What is done with a ball is a tool, its strokes and its removal.
     const first = commands.at(-1)?.do === 'remove' ? commands.map((c) => c.do).lastIndexOf('tool') : commands.length - 1;
     if (!(await this.execute([{ do: 'undo' }])) || (before.length > 0 && !(await this.execute(before)))) return;

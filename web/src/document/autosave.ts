@@ -1,20 +1,32 @@
-import type { Source } from './knead_file';
+import type { Command } from '../engine/session_types';
+import { documentOf, type Source } from './knead_file';
 import type { SavedView } from './saved_views';
 
 /** A session as it is kept in the browser: what a closed tab or a crash leaves behind. */
 export interface Kept {
+  /** What the rest is written in; sessions of the first studios do not say. */
+  form?: number;
   id: string;
   name: string;
   when: number;
   /** Number of commands in effect. */
   commands: number;
-  /** How many of them belong to the opened document. Sessions of older versions do not say. */
-  opened?: number;
+  /** How many of them belong to the opened document. */
+  opened: number;
   journal: string;
   snapshot: Uint8Array;
   hasSource: boolean;
-  /** Sessions of older versions have none. */
-  views?: SavedView[];
+  views: SavedView[];
+}
+
+/** What is written, and the only form that is read. */
+export const keptForm = 2;
+export const isReadable = (kept: Kept): boolean => kept.form === keptForm;
+
+/** A session of an older studio as that one saved documents, so that nothing of it is lost. */
+export function olderDocument(kept: Kept, source: Source | null): string {
+  const { commands } = JSON.parse(kept.journal) as { commands: Command[] };
+  return documentOf({ ...kept, source, commands }, 2);
 }
 
 const stores = ['sessions', 'sources'] as const;

@@ -1,8 +1,9 @@
 import type { End } from '../engine/client';
 import { type Command, EngineError } from '../engine/session_types';
-import { autosave, type Kept } from './autosave';
+import { autosave, isReadable, type Kept, olderDocument } from './autosave';
 import { loadContext } from './context';
 import type { OnDisk } from './disk';
+import { download } from './download';
 import { cadFormat, isCompressed, readFormats } from './formats';
 import type { Host } from './host';
 import { Keeper } from './keeper';
@@ -104,7 +105,7 @@ export class Documents {
     if (!net && /\.(knead|json)$/i.test(file.name)) {
       await host.attempt(async () => {
         const document = readKnead(await file.text());
-        if (document.script) await this.openScript(document.commands, document.script, file.name);
+        if (document.script) await this.openScript(document.commands, file.name);
         else if (await this.mayLeave()) await this.openDocument(document);
       });
     } else if (cadFormat(file.name)) {
@@ -120,7 +121,7 @@ export class Documents {
   }
 
   /** Commands alone: only the user knows what they are meant for. */
-  private async openScript(commands: Command[], version: 1 | 2, name: string): Promise<void> {
+  private async openScript(commands: Command[], name: string): Promise<void> {
     const { host } = this;
     const lost = this.worked && host.state?.undo ? `; “${this.name}” stays in the list of recent sessions` : '';
     const choice = !host.state ? 'fresh' : await host.ask({
@@ -133,9 +134,7 @@ export class Documents {
     });
     if (choice === 'fresh') await this.replay(name, null, commands);
     if (choice !== 'apply') return;
-    // What a script of version 2 begins with.
-    const held: Command[] = version === 2 ? [{ do: 'hold', mode: 'trim', all: true }] : [];
-    await host.client.execute([...held, ...commands]);
+    await host.client.execute([{ do: 'hold', mode: 'trim', all: true }, ...commands]); // what a script begins with
     this.work(commands);
   }
 
@@ -202,7 +201,7 @@ export class Documents {
   private async begunDocument({ name, source, commands, snapshot }: KneadDocument): Promise<void> {
     if (snapshot && (await this.restored(name, source, snapshot, preparation(commands)))) {
       // What the snapshot holds must be what the commands say.
-      const same = canonical((JSON.parse(await this.host.client.journal()) as { commands: Command[] }).commands) === canonical(commands);
+      const same = canonical(JSON.parse(await this.host.client.journal()) as Command[]) === canonical(commands);
       if (same) return;
     }
     await this.replay(name, source, commands);
@@ -227,20 +226,32 @@ export class Documents {
 
   /** What a tab left behind continues here, as the same session. */
   async recover(kept: Kept): Promise<void> {
-    if (await this.mayLeave()) await this.host.attempt(() => this.goOn(kept));
+    if (!isReadable(kept)) this.sayUnreadable(kept);
+    else if (await this.mayLeave()) await this.host.attempt(() => this.goOn(kept));
+  }
+
+  /** It stays where it is kept, and can be taken out of the browser. */
+  private sayUnreadable(kept: Kept): void {
+    const take = async () => {
+      const source = kept.hasSource ? ((await autosave.source(kept.id)) ?? null) : null;
+      download(olderDocument(kept, source), `${kept.name.replace(/\.[^.]*$/, '')}.knead`, 'application/json');
+    };
+    this.host.notify({ kind: 'error', text: `“${kept.name}” was kept by an older studio, whose sessions this one does not read. It stays in the list of recent ones.`,
+      remedy: 'Download it: the studio that kept it opens it, and docs/scripts.md says how its commands are translated.',
+      actions: [{ label: 'Download', act: () => void this.host.attempt(take) }] });
   }
 
   private async goOn(kept: Kept, again = false): Promise<void> {
     const { host } = this;
     const mine = again || (await this.keeper.claim(kept.id));
-    const { commands } = JSON.parse(kept.journal) as { commands: Command[] };
+    const commands = JSON.parse(kept.journal) as Command[];
     const source = kept.hasSource ? ((await autosave.source(kept.id)) ?? null) : null;
-    if (!(await this.restored(kept.name, source, kept.snapshot, kept.opened ?? preparation(commands), again))) {
+    if (!(await this.restored(kept.name, source, kept.snapshot, kept.opened, again))) {
       await this.replay(kept.name, source, commands);
       host.notify({ kind: 'info', text: 'The snapshot is of another version of the studio: the commands were done again.' });
     }
     this.pick();
-    this.views = kept.views ?? [];
+    this.views = kept.views;
     if (mine) this.keeper.begin(kept.id, true);
     else {
       this.keeper.touch(); // under an id of its own
@@ -254,7 +265,7 @@ export class Documents {
   private async endStroke(): Promise<void> {
     const { client } = this.host;
     // Asked of the engine: the frame on the screen may be an earlier one.
-    const { commands } = JSON.parse(await client.journal()) as { commands: Command[] };
+    const commands = JSON.parse(await client.journal()) as Command[];
     const last = commands.filter((c) => (c.do === 'tool' && c.name === 'brush') || (c.do === 'remove' && c.tool === 'brush')).at(-1);
     if (last?.do === 'tool') await client.execute([{ do: 'remove', tool: 'brush' }], true);
   }

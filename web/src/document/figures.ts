@@ -30,6 +30,6 @@ export const figureScenes: Scene[] = figures.map(([file, name, about]) => {
   const { commands } = scripts[`../../../examples/figures/figure_${file}.json`]!;
   return {
     name, about, document: name.toLowerCase(), commands: prepared(commands),
-    ...(commands[0]!.do === 'select' ? { file: patchesUrl } : {}), // of patches in a file
+    ...(commands.some((c) => c.do === 'new') ? {} : { file: patchesUrl }), // of patches in a file
   };
 });

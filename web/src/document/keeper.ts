@@ -1,5 +1,5 @@
 import { type Command, EngineError } from '../engine/session_types';
-import { autosave, claim, heldIds, hold, type Kept } from './autosave';
+import { autosave, claim, heldIds, hold, isReadable, type Kept, keptForm } from './autosave';
 import type { Host } from './host';
 import type { Source } from './knead_file';
 import type { SavedView } from './saved_views';
@@ -108,9 +108,9 @@ export class Keeper {
     try {
       const { snapshot, journal, opened, mark } = await host.client.snapshot(historyBytes, true);
       if (id !== this.id) return; // another document since
-      const commands = (JSON.parse(journal) as { commands: Command[] }).commands.length;
+      const commands = (JSON.parse(journal) as Command[]).length;
       const { file, name, views } = this.documents;
-      const kept: Kept = { id, name, when: Date.now(), commands, opened, journal, snapshot, hasSource: file !== null, views: [...views] };
+      const kept: Kept = { form: keptForm, id, name, when: Date.now(), commands, opened, journal, snapshot, hasSource: file !== null, views: [...views] };
       await autosave.write(kept, this.sourceKept ? null : file);
       this.sourceKept = true;
       host.client.acts.kept(mark);
@@ -131,11 +131,12 @@ export class Keeper {
     }
   }
 
-  /** Sessions that no tab has open, newest first; those that are too old are dropped. */
+  /** Sessions that no tab has open, newest first; those that are too old are dropped, but none that cannot be read. */
   async left(): Promise<Kept[]> {
     const held = await heldIds();
     const all = (await autosave.all()).filter((k) => k.id !== this.id && !held.has(k.id) && k.commands > 0).sort((a, b) => b.when - a.when);
-    for (const old of all.slice(mostSessions)) await autosave.forget(old.id);
-    return all.slice(0, mostSessions);
+    const old = all.filter(isReadable).slice(mostSessions);
+    for (const { id } of old) await autosave.forget(id);
+    return all.filter((k) => !old.includes(k));
   }
 }

@@ -14,21 +14,29 @@ export interface KneadDocument {
   name: string;
   source: Source | null;
   commands: Command[];
-  /** Commands alone, of this version: a document has a name or a source as well. */
-  script: 1 | 2 | null;
+  /** Commands alone. */
+  script: boolean;
   /** The session as bytes; what it holds follows from source and commands, but takes no computing. */
   snapshot: Uint8Array | null;
   /** What the user wants to see again. */
   views: SavedView[];
 }
 
-export function writeKnead(document: { name: string; source: Source | null; journal: string; snapshot?: Uint8Array | null; views?: readonly SavedView[] }): string {
-  const { commands } = JSON.parse(document.journal) as { commands: Command[] };
+/** The versions that are read and written: of documents, and of scripts. */
+const documentVersion = 3, scriptVersion = 2;
+
+export function writeKnead({ journal, ...rest }: { name: string; source: Source | null; journal: string; snapshot?: Uint8Array | null; views?: readonly SavedView[] }): string {
+  return documentOf({ ...rest, commands: JSON.parse(journal) as Command[] }, documentVersion);
+}
+
+export function documentOf(
+  { name, source, commands, snapshot, views = [] }: { name: string; source: Source | null; commands: readonly Command[]; snapshot?: Uint8Array | null; views?: readonly SavedView[] },
+  version: number,
+): string {
   const lines = commands.map((c) => `  ${JSON.stringify(c)}`).join(',\n');
-  const { source, snapshot, views = [] } = document;
   return [
-    '{"knead": 2',
-    `"name": ${JSON.stringify(document.name)}`,
+    `{"knead": ${version}`,
+    `"name": ${JSON.stringify(name)}`,
     ...(source ? [`"source": {"kind": "${source.kind}", "name": ${JSON.stringify(source.name)}, "bytes": "${toBase64(source.bytes)}"}`] : []),
     `"commands": [${lines && `\n${lines}\n`}]`,
     ...(views.length > 0 ? [`"views": [\n${views.map((v) => `  ${JSON.stringify(v)}`).join(',\n')}\n]`] : []),
@@ -58,11 +66,10 @@ export function readKnead(text: string): KneadDocument {
     throw new Error(`this is no Knead document: it is not JSON (${(error as Error).message})`);
   }
   if (!isObject(json) || json.knead === undefined) throw new Error('this is no Knead document: its "knead", the version, is missing');
-  if (json.knead !== 1 && json.knead !== 2) {
-    throw new Error(`"knead": the document is of version ${JSON.stringify(json.knead)}; this studio reads 1 and 2: reload the page for a newer one`);
-  }
+  const script = json.knead !== documentVersion && json.name === undefined && json.source === undefined;
+  checkVersion(json.knead, script);
   const unknown = Object.keys(json).find((key) => !fields.includes(key));
-  if (unknown !== undefined && json.knead === 2) throw new Error(`"${unknown}": a Knead document has no such field; they are ${fields.join(', ')}`);
+  if (unknown !== undefined) throw new Error(`"${unknown}": a Knead document has no such field; they are ${fields.join(', ')}`);
   if (!Array.isArray(json.commands)) throw new Error('"commands": the list of commands is missing');
   const commands = json.commands.map((c: unknown, k): Command => {
     if (!isObject(c)) throw new Error(`commands[${k}]: a command is an object like {"do": "step"}`);
@@ -71,16 +78,18 @@ export function readKnead(text: string): KneadDocument {
   });
   if (json.name !== undefined && typeof json.name !== 'string') throw new Error('"name": this is no text');
   const name = json.name ?? 'document';
-  const source = json.source === undefined ? null : json.knead === 1 ? oldSource(json.source, name) : readSource(json.source);
+  const source = json.source === undefined ? null : readSource(json.source);
   const snapshot = json.snapshot === undefined ? null : bytesOf(json.snapshot, '"snapshot"');
   const views = json.views === undefined ? [] : readViews(json.views);
-  const script = json.name === undefined && json.source === undefined ? json.knead : null;
   return { name, source, commands, script, snapshot, views };
 }
 
-/** Of version 1: the bytes of a STEP file. */
-function oldSource(source: unknown, name: string): Source {
-  return { kind: 'step', name, bytes: bytesOf(source, '"source"') };
+function checkVersion(version: unknown, script: boolean): void {
+  const [what, read] = script ? ['script', scriptVersion] : ['Knead document', documentVersion];
+  if (version === read) return;
+  const older = typeof version === 'number' && version < read;
+  throw new Error(`"knead": the ${what} is of version ${JSON.stringify(version)}, and this studio reads ${read}: ${
+    older ? 'docs/scripts.md says how its commands are translated' : 'reload the page for a newer one'}`);
 }
 
 function readSource(source: unknown): Source {

@@ -3,6 +3,7 @@ import type { MeshFormat } from '../engine/session_types';
 import { closedEdges } from './closed_edges';
 import type { Documents } from './documents';
 import { changedSince, replaceFile } from './disk';
+import { download } from './download';
 import { cadFormat, isCompressed, uncompressedName } from './formats';
 import type { Host } from './host';
 import { writeKnead } from './knead_file';
@@ -97,7 +98,7 @@ export class Saving {
   });
 
   script = () => this.save(async (stem) => {
-    download(scriptOf(await this.host.client.journal(), this.host.state!.fresh), `${stem}.json`, 'application/json');
+    download(scriptOf(await this.host.client.journal()), `${stem}.json`, 'application/json');
   }, false);
 
   picture = (scale: number) => this.save(async (stem) => {
@@ -122,13 +123,4 @@ export class Saving {
       host.notify({ kind: 'info', text: [shape && touched ? contact : '', said ?? ''].filter(Boolean).join(' ') || 'Saved.' });
     });
   }
-}
-
-function download(content: Blob | Uint8Array | string, name: string, type: string): void {
-  const blob = content instanceof Blob ? content : new Blob([content instanceof Uint8Array ? (content.slice().buffer as ArrayBuffer) : content], { type });
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

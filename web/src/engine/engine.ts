@@ -121,7 +121,7 @@ export class Engine {
 
   /** Carries out commands and leaves the session as it is; what was made for them is kept, so that they take less time later. */
   rehearse(commands: readonly Command[]): void {
-    this.give(new TextEncoder().encode(JSON.stringify({ knead: 1, commands })));
+    this.give(new TextEncoder().encode(JSON.stringify(commands)));
     this.json(this.wasm.knead_rehearse());
   }
 
@@ -149,7 +149,7 @@ export class Engine {
     this.json(this.wasm.knead_restore(sourceSize, nameBytes.length));
   }
 
-  /** The script of all commands in effect, one per line. */
+  /** The list of all commands in effect, one per line. */
   journal(): string {
     return new TextDecoder().decode(this.bytes(this.wasm.knead_journal()));
   }

@@ -52,7 +52,7 @@ export function listenToEdges(app: App): void {
 
 function asking(app: App, surface: number, edge: Edge, continuity: Continuity): Command[] {
   const info = app.state!.surfaces[surface]!;
-  if (!isSide(edge)) return [{ do: 'edge', edge, hold: continuity === 'symmetry' ? 'position' : continuity }];
+  if (!isSide(edge)) return [{ do: 'edge', edge, hold: continuity === 'symmetry' ? 'position' : continuity === 'free' ? 'open' : continuity }];
   const wish: Command[] = continuity === 'symmetry' ? [{ do: 'symmetry', edge, ...app.hand.edges.plane(edge) }]
     : [{ do: 'edge', which: edge, hold: continuity }];
   const symmetric = info.constraints.some((c) => c.do === 'symmetry' && c.edge === edge);

@@ -89,7 +89,7 @@ export function historyPanel(app: App): HTMLElement {
     if (app.playing() || app.hand.active) return [note('…')];
     const list = h('ol', { class: 'history' });
     void app.client.journal().then((text) => {
-      const { commands } = JSON.parse(text) as { commands: Command[] };
+      const commands = JSON.parse(text) as Command[];
       list.replaceChildren(...commands.slice(-40).reverse().map((c) => {
         const { do: name, ...rest } = c;
         const details = Object.entries(rest).map(([k, v]) => `${k} ${typeof v === 'string' ? v : JSON.stringify(v)}`).join(', ');

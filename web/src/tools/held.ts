@@ -14,6 +14,9 @@ export const edgeTitle = (edge: Edge): string => (isSide(edge) ? sides[edge] : `
 
 const ofMode: Partial<Record<string, Continuity>> = { trim: 'position', 'trim-g1': 'clamped', 'trim-g2': 'curvature' };
 
+/** An edge that may open is free. */
+const asked = (hold: Extract<Command, { do: 'edge' }>['hold']): Continuity => (hold === 'open' ? 'free' : hold ?? 'position');
+
 /** What is asked of an edge. The rows that a surface is held by are another matter. */
 export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
   let all: Continuity = 'free';
@@ -21,7 +24,7 @@ export function continuityOf(info: SurfaceInfo, edge: Edge): Continuity {
   for (const c of info.constraints) {
     const side = isSide(edge);
     if (c.do === 'hold' && (!side || info.bare)) all = ofMode[c.mode ?? 'rows'] ?? all;
-    if (c.do === 'edge' && (c.edge === edge || (side && c.edge === undefined && (c.which === edge || c.which === 'all')))) own = c.hold ?? 'position';
+    if (c.do === 'edge' && (c.edge === edge || (side && c.edge === undefined && (c.which === edge || c.which === 'all')))) own = asked(c.hold);
     if (c.do === 'symmetry' && side && c.edge === edge) own = 'symmetry';
   }
   return own ?? all;
@@ -90,14 +93,14 @@ export function heldTogether(faces: readonly HeldFace[]): string {
   const name = ({ info }: HeldFace, edge: Edge) => (isSide(edge) ? `${info.id} ${edge}` : edge);
   const all = new Set(faces.flatMap((face) => face.edges.map((e) => name(face, e))));
   const gone = new Set(faces.flatMap((face) => face.edges.filter((e) => loose(face, e)).map((e) => name(face, e))));
-  const asked = all.size > 0 && any((info) => info.constraints.some((c) => c.do === 'hold' || (c.do === 'edge' && c.edge !== undefined)));
+  const some = all.size > 0 && any((info) => info.constraints.some((c) => c.do === 'hold' || (c.do === 'edge' && c.edge !== undefined)));
   const count = all.size - gone.size;
-  if (asked) parts.push(count === all.size ? counted(count, 'edge') : `${count} of ${all.size} edges`);
+  if (some) parts.push(count === all.size ? counted(count, 'edge') : `${count} of ${all.size} edges`);
   // A closed surface without edges is held in its place.
   if (all.size === 0 && faces.every(({ info }) => hasEdges(info) && info.constraints.some((c) => c.do === 'hold' && c.mode !== 'free'))) parts.push('its place');
   const alone = (face: HeldFace): HeldFace => ({ ...face, info: { ...face.info, bare: false } }); // a side that is no edge is held by itself alone
   const sideCount = faces.reduce((sum, face) => sum + edgeNames.filter((e) => !face.edges.includes(e) && !loose(alone(face), e)).length, 0);
-  if (sideCount > 0) parts.push(counted(sideCount, asked ? 'side' : 'edge'));
+  if (sideCount > 0) parts.push(counted(sideCount, some ? 'side' : 'edge'));
   const pins = faces.reduce((sum, { info }) => sum + info.pins, 0);
   if (pins > 0) parts.push(counted(pins, 'point'));
   if (any((info) => info.constraints.some((c) => c.do === 'freeze'))) parts.push('frozen spans');
@@ -114,7 +117,7 @@ export function constraintInWords(c: Command): string {
   switch (c.do) {
     case 'edge': {
       const edge = c.edge ?? c.which ?? 'all';
-      return `${edge === 'all' ? 'All edges' : edgeTitle(edge as Edge)}: ${continuityTitles[c.hold ?? 'position'].toLowerCase()}`;
+      return `${edge === 'all' ? 'All edges' : edgeTitle(edge as Edge)}: ${continuityTitles[asked(c.hold)].toLowerCase()}`;
     }
     case 'hold': return `Edges of the faces: ${continuityTitles[c.mode === 'free' ? 'free' : ofMode[c.mode ?? ''] ?? 'position'].toLowerCase()}`;
     case 'freeze': {
