@@ -1,5 +1,7 @@
 #include "knead/base/error.hpp"
 
+#include <utility>
+
 #include "knead/base/printable.hpp"
 
 namespace knead {
@@ -8,7 +10,30 @@ namespace {
 // A clause may list all commands or fields; anything longer quotes what was given.
 constexpr std::size_t longest_clause = 2000, longest_path = 4096;
 
+std::unexpected<Error> error_of(ErrorKind kind, std::string_view what, std::string_view where,
+                                std::string_view remedy) {
+  return std::unexpected(Error(kind, std::string(what), std::string(where), std::string(remedy)));
+}
+
 }  // namespace
+
+NamedValue::NamedValue(std::string_view of, double number) : name(of), value(number) {}
+NamedValue::NamedValue(std::string_view of, std::string text) : name(of), value(std::move(text)) {}
+NamedValue::NamedValue(std::string_view of, std::vector<std::string> ids) : name(of), value(std::move(ids)) {}
+
+Error::Error() = default;
+Error::Error(ErrorKind of, std::string is, std::string at, std::string helps, std::string in, int in_line)
+    : kind(of),
+      what(std::move(is)),
+      where(std::move(at)),
+      remedy(std::move(helps)),
+      file(std::move(in)),
+      line(in_line) {}
+Error::Error(const Error& other) = default;
+Error::Error(Error&& other) noexcept = default;
+Error& Error::operator=(const Error& other) = default;
+Error& Error::operator=(Error&& other) noexcept = default;
+Error::~Error() = default;
 
 std::string Error::message() const {
   std::string text;
@@ -29,6 +54,35 @@ Error Error::within(const std::string& outer) const {
   Error error = *this;
   error.where = where.empty() ? outer : outer + ": " + where;
   return error;
+}
+
+Error Error::with(Diagnostic read) && {
+  diagnostic = std::make_shared<const Diagnostic>(std::move(read));
+  return std::move(*this);
+}
+
+std::unexpected<Error> input_error(std::string_view what, std::string_view where, std::string_view remedy) {
+  return error_of(ErrorKind::input, what, where, remedy);
+}
+
+std::unexpected<Error> input_error(std::string_view what, std::string_view where, std::string_view remedy,
+                                   Diagnostic diagnostic) {
+  return std::unexpected(
+      std::move(error_of(ErrorKind::input, what, where, remedy).error()).with(std::move(diagnostic)));
+}
+
+std::unexpected<Error> numerical_error(std::string_view what, std::string_view where, std::string_view remedy) {
+  return error_of(ErrorKind::numerical, what, where, remedy);
+}
+
+std::unexpected<Error> numerical_error(std::string_view what, std::string_view where, std::string_view remedy,
+                                       Diagnostic diagnostic) {
+  return std::unexpected(
+      std::move(error_of(ErrorKind::numerical, what, where, remedy).error()).with(std::move(diagnostic)));
+}
+
+std::unexpected<Error> usage_error(std::string_view what, std::string_view where, std::string_view remedy) {
+  return error_of(ErrorKind::usage, what, where, remedy);
 }
 
 }  // namespace knead

@@ -11,11 +11,11 @@ TEST(Error, MessageNamesFileLinePlaceCauseAndRemedy) {
 }
 
 TEST(Error, MessageLeavesOutWhatIsUnknown) {
-  EXPECT_EQ((Error{.what = "it is empty"}).message(), "it is empty");
-  EXPECT_EQ((Error{.what = "it is empty", .where = "list"}).message(), "list: it is empty");
-  EXPECT_EQ((Error{.what = "it is empty", .remedy = "fill it"}).message(), "it is empty; fill it");
-  EXPECT_EQ((Error{.what = "it is empty", .file = "a.step"}).message(), "a.step: it is empty");
-  EXPECT_EQ((Error{.what = "it is empty", .line = 3}).message(), "line 3: it is empty");
+  EXPECT_EQ(Error(ErrorKind::input, "it is empty").message(), "it is empty");
+  EXPECT_EQ(Error(ErrorKind::input, "it is empty", "list").message(), "list: it is empty");
+  EXPECT_EQ(Error(ErrorKind::input, "it is empty", {}, "fill it").message(), "it is empty; fill it");
+  EXPECT_EQ(Error(ErrorKind::input, "it is empty", {}, {}, "a.step").message(), "a.step: it is empty");
+  EXPECT_EQ(Error(ErrorKind::input, "it is empty", {}, {}, {}, 3).message(), "line 3: it is empty");
 }
 
 TEST(Error, MessageIsOneLine) {
@@ -32,7 +32,7 @@ TEST(Error, WithinPutsThePlaceInsideALargerOneAndKeepsTheRest) {
   EXPECT_EQ(outer.remedy, inner.remedy);
   EXPECT_EQ(outer.file, inner.file);
   EXPECT_EQ(outer.line, inner.line);
-  EXPECT_EQ((Error{.what = "it is singular"}).within("step").where, "step");
+  EXPECT_EQ(Error(ErrorKind::input, "it is singular").within("step").where, "step");
 }
 
 TEST(Error, ShorthandsSayWhoseFaultItIs) {
